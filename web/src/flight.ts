@@ -1,0 +1,270 @@
+/**
+ * What the display knows of a flight, as signals: the ticks of the stream go in, the picture reads out.
+ *
+ * No DOM and no clock of its own: every wall-clock instant [ms, performance.now()] is handed in.
+ */
+
+import { batch, type Signal, signal } from "@preact/signals";
+import { type FlightClock, readClock, setClock } from "./clock";
+import { blend, type Gap, gap, moveSample, NO_GAP } from "./motion";
+import { appendTrail, type TrailPoint } from "./trail";
+import { formatClock } from "./units";
+import type {
+  Document,
+  FlightEnded,
+  FlightStarted,
+  LeaderRoute,
+  ModeChanged,
+  PlanChanged,
+  PlanUnavailable,
+  Sample,
+  Tick,
+} from "./wire";
+
+export type { TrailPoint } from "./trail";
+
+/** connecting: no data yet; live; stale: data older than 2 s; lost: no link, or data older than 5 s. */
+export type Connection = "connecting" | "live" | "stale" | "lost";
+/** The state of the socket, as the stream reports it. */
+export type Link = "connecting" | "open" | "closed";
+
+/** One line of the log: what happened, and the flight time [s] it happened at. */
+export interface Message {
+  readonly t: number;
+  readonly kind: "plan" | "no_plan" | "leader" | "mode" | "end";
+  readonly text: string;
+}
+
+/** What the display knows. Wall-clock instants are performance.now() [ms]. */
+export interface Flight {
+  readonly id: Signal<string | null>;
+  readonly started: Signal<FlightStarted | null>;
+  readonly route: Signal<LeaderRoute | null>;
+  /** The plan flown now. */
+  readonly plan: Signal<PlanChanged | null>;
+  /** The plan before, shown until `until` [ms]. */
+  readonly superseded: Signal<{ plan: PlanChanged; until: number } | null>;
+  /** Set while the last answer was "no plan". */
+  readonly unavailable: Signal<PlanUnavailable | null>;
+  readonly mode: Signal<ModeChanged | null>;
+  /** When the mode last changed [ms]: the new mode is boxed for 10 s. */
+  readonly modeSince: Signal<number>;
+  /** The newest sample, as it came. */
+  readonly sample: Signal<Sample | null>;
+  /** The newest sample carried on to this animation frame, at most 2 s of wall time ahead. */
+  readonly now: Signal<Sample | null>;
+  /** Flight time at this animation frame [s]. */
+  readonly simTime: Signal<number>;
+  /** Wall time since the newest sample arrived [s]; while paused, since the newest tick. */
+  readonly dataAge: Signal<number>;
+  readonly trail: {
+    readonly pursuer: Signal<readonly TrailPoint[]>;
+    readonly leader: Signal<readonly TrailPoint[]>;
+  };
+  readonly ended: Signal<FlightEnded | null>;
+  readonly clock: Signal<{ rate: number; paused: boolean; ended: boolean }>;
+  readonly connection: Signal<Connection>;
+  /** Newest first. */
+  readonly messages: Signal<readonly Message[]>;
+}
+
+/** A flight's signals and the three things that happen to them. */
+export interface FlightStore {
+  readonly flight: Flight;
+  /** Takes in one tick that arrived at `wall` [ms]. */
+  receive(tick: Tick, wall: number): void;
+  /** Carries the picture on to the animation frame at `wall` [ms]. */
+  advance(wall: number): void;
+  /** Notes what became of the socket. */
+  link(state: Link): void;
+}
+
+/** The previous plan stays visible this long [ms]. */
+const SUPERSEDED_SHOWN = 3000;
+/** The picture runs at most this far ahead of the newest sample [wall s]. */
+const AHEAD_LIMIT = 2;
+/** Data older than this is flagged [s]. */
+export const STALE_AGE = 2;
+/** Data older than this counts as lost [s]. */
+export const LOST_AGE = 5;
+const MESSAGES_KEPT = 200;
+
+export function createFlightStore(): FlightStore {
+  const flight = emptyFlight();
+  let clock: FlightClock | null = null;
+  let fresh = -Infinity; // wall time at which the data were last known to be new [ms]
+  let linked: Link = "connecting";
+  let offset: { gap: Gap; wall: number } = { gap: NO_GAP, wall: 0 };
+
+  function receive(tick: Tick, wall: number): void {
+    batch(() => {
+      const joining =
+        flight.id.value !== tick.flight_id ||
+        tick.documents.some((document) => document.kind === "flight_started");
+      if (flight.id.value !== tick.flight_id) {
+        clear(flight);
+        flight.id.value = tick.flight_id;
+        clock = null;
+      }
+      const running = tick.paused || tick.ended ? 0 : tick.rate;
+      clock = setClock(clock, { t: tick.t_s, rate: running, wall });
+      flight.clock.value = { rate: tick.rate, paused: tick.paused, ended: tick.ended };
+      const before = flight.sample.value;
+      for (const document of tick.documents) {
+        const since = wall - ((tick.t_s - document.t_s) / tick.rate) * 1000;
+        take(flight, document, { joining, wall, since });
+      }
+      const newest = flight.sample.value;
+      if (newest !== before || running === 0) fresh = wall;
+      if (newest !== null && newest !== before) {
+        const shown = flight.now.value;
+        const predicted = moveSample(newest, (shown?.t_s ?? newest.t_s) - newest.t_s);
+        offset = { gap: shown === null || joining ? NO_GAP : gap(shown, predicted), wall };
+      }
+    });
+    advance(wall);
+  }
+
+  function advance(wall: number): void {
+    batch(() => {
+      flight.dataAge.value = Number.isFinite(fresh) ? Math.max(0, (wall - fresh) / 1000) : 0;
+      flight.connection.value = connection(flight, linked);
+      const superseded = flight.superseded.value;
+      if (superseded !== null && wall >= superseded.until) flight.superseded.value = null;
+      const sample = flight.sample.value;
+      if (sample === null || clock === null) return;
+      const limit = sample.t_s + AHEAD_LIMIT * flight.clock.value.rate;
+      const t = Math.max(flight.simTime.value, Math.min(readClock(clock, wall), limit));
+      flight.simTime.value = t;
+      const moved = moveSample(sample, t - sample.t_s);
+      flight.now.value = blend(moved, offset.gap, wall - offset.wall);
+    });
+  }
+
+  function link(state: Link): void {
+    linked = state;
+    flight.connection.value = connection(flight, linked);
+  }
+
+  return { flight, receive, advance, link };
+}
+
+function emptyFlight(): Flight {
+  return {
+    id: signal(null),
+    started: signal(null),
+    route: signal(null),
+    plan: signal(null),
+    superseded: signal(null),
+    unavailable: signal(null),
+    mode: signal(null),
+    modeSince: signal(-Infinity),
+    sample: signal(null),
+    now: signal(null),
+    simTime: signal(0),
+    dataAge: signal(0),
+    trail: { pursuer: signal([]), leader: signal([]) },
+    ended: signal(null),
+    clock: signal({ rate: 1, paused: false, ended: false }),
+    connection: signal("connecting"),
+    messages: signal([]),
+  };
+}
+
+function clear(flight: Flight): void {
+  const empty = emptyFlight();
+  flight.started.value = null;
+  flight.route.value = null;
+  flight.plan.value = null;
+  flight.superseded.value = null;
+  flight.unavailable.value = null;
+  flight.mode.value = null;
+  flight.modeSince.value = -Infinity;
+  flight.sample.value = null;
+  flight.now.value = null;
+  flight.simTime.value = 0;
+  flight.trail.pursuer.value = [];
+  flight.trail.leader.value = [];
+  flight.ended.value = null;
+  flight.clock.value = empty.clock.value;
+  flight.messages.value = [];
+}
+
+function connection(flight: Flight, linked: Link): Connection {
+  const age = flight.dataAge.value;
+  if (linked === "closed" || age > LOST_AGE) return "lost";
+  if (flight.sample.value === null || linked === "connecting") return "connecting";
+  return age > STALE_AGE ? "stale" : "live";
+}
+
+/** Reduces one document. `since` [ms]: the wall time at which it happened, going by the tick's rate. */
+function take(
+  flight: Flight,
+  document: Document,
+  { joining, wall, since }: { joining: boolean; wall: number; since: number },
+): void {
+  switch (document.kind) {
+    case "flight_started":
+      // Also the head of what a late joiner or a reconnected page is told: the trails come anew.
+      flight.started.value = document;
+      flight.trail.pursuer.value = [];
+      flight.trail.leader.value = [];
+      flight.ended.value = null;
+      return;
+    case "leader_route":
+      flight.route.value = document;
+      return;
+    case "leader_changed":
+      log(flight, { t: document.t_s, kind: "leader", text: document.message });
+      return;
+    case "plan_changed": {
+      const previous = flight.plan.value;
+      if (previous !== null && !joining && flight.unavailable.value === null) {
+        flight.superseded.value = { plan: previous, until: wall + SUPERSEDED_SHOWN };
+      }
+      flight.plan.value = document;
+      flight.unavailable.value = null;
+      log(flight, { t: document.t_s, kind: "plan", text: document.message });
+      return;
+    }
+    case "plan_unavailable":
+      flight.unavailable.value = document;
+      log(flight, { t: document.t_s, kind: "no_plan", text: document.answer.message });
+      return;
+    case "mode_changed":
+      flight.mode.value = document;
+      flight.modeSince.value = since;
+      log(flight, { t: document.t_s, kind: "mode", text: document.message });
+      return;
+    case "sample":
+      flight.sample.value = document;
+      flight.trail.pursuer.value = appendTrail(
+        flight.trail.pursuer.value,
+        document.t_s,
+        document.pursuer,
+      );
+      flight.trail.leader.value = appendTrail(
+        flight.trail.leader.value,
+        document.t_s,
+        document.leader,
+      );
+      return;
+    case "flight_ended":
+      flight.ended.value = document;
+      log(flight, { t: document.t_s, kind: "end", text: endSentence(document) });
+      return;
+  }
+}
+
+function endSentence(ended: FlightEnded): string {
+  return ended.joined
+    ? `Flight ended: joined at ${formatClock(ended.join_time_s)}.`
+    : "Flight ended without joining.";
+}
+
+function log(flight: Flight, message: Message): void {
+  const known = flight.messages.value;
+  // A reconnected page is told the last documents again.
+  if (known.some((each) => each.t === message.t && each.text === message.text)) return;
+  flight.messages.value = [message, ...known].slice(0, MESSAGES_KEPT);
+}

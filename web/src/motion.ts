@@ -1,0 +1,116 @@
+/** Where two aircraft are a little later (or earlier) than a sample says: constant turn rate, constant wind. */
+
+import { CALM, type Vector, velocity } from "./geometry";
+import { DEG, wrap180, wrap360 } from "./units";
+import type { AircraftSample, PathPoint, Sample } from "./wire";
+
+/** The wind an aircraft flies in [m/s]: its velocity over the ground less that through the air. */
+export function windOf(aircraft: AircraftSample): Vector {
+  const ground = velocity(aircraft.ground_speed_mps, aircraft.track_deg);
+  const air = velocity(aircraft.tas_mps, aircraft.heading_deg);
+  return { x: ground.x - air.x, y: ground.y - air.y };
+}
+
+/** One aircraft `dt` [s] later, turning on at its present rate. */
+export function moveAircraft(aircraft: AircraftSample, dt: number): AircraftSample {
+  const wind = windOf(aircraft);
+  const rate = aircraft.turn_rate_degps * DEG;
+  const heading = aircraft.heading_deg + aircraft.turn_rate_degps * dt;
+  // The chord of the arc flown: mean heading, length V·dt·sin(h)/h with h half the turn.
+  const half = (rate * dt) / 2;
+  const shrink = Math.abs(half) < 1e-6 ? 1 : Math.sin(half) / half; // series error < 1e-12
+  const chord = velocity(aircraft.tas_mps * dt * shrink, aircraft.heading_deg + half / DEG);
+  const air = velocity(aircraft.tas_mps, heading);
+  const ground = { x: air.x + wind.x, y: air.y + wind.y };
+  return {
+    ...aircraft,
+    x_m: aircraft.x_m + chord.x + wind.x * dt,
+    y_m: aircraft.y_m + chord.y + wind.y * dt,
+    heading_deg: wrap360(heading),
+    track_deg: wrap360(Math.atan2(ground.x, ground.y) / DEG),
+    ground_speed_mps: Math.hypot(ground.x, ground.y),
+  };
+}
+
+/** The slot `dt` [s] later: it moves as the leader would on its final leg. */
+function moveSlot(slot: PathPoint, leader: AircraftSample, dt: number): PathPoint {
+  const air = velocity(leader.tas_mps, slot.heading_deg);
+  const wind = leader.ground_speed_mps > 0 ? windOf(leader) : CALM;
+  return {
+    t_s: slot.t_s + dt,
+    x_m: slot.x_m + (air.x + wind.x) * dt,
+    y_m: slot.y_m + (air.y + wind.y) * dt,
+    heading_deg: slot.heading_deg,
+  };
+}
+
+/** The whole sample `dt` [s] later: what moves is moved, what is decided stays as it was. */
+export function moveSample(sample: Sample, dt: number): Sample {
+  if (dt === 0) return sample;
+  const pursuer = moveAircraft(sample.pursuer, dt);
+  const leader = moveAircraft(sample.leader, dt);
+  return {
+    ...sample,
+    t_s: sample.t_s + dt,
+    pursuer,
+    leader,
+    separation_m: Math.hypot(pursuer.x_m - leader.x_m, pursuer.y_m - leader.y_m),
+    slot: moveSlot(sample.slot, sample.leader, dt),
+    time_to_go_s: Math.max(0, sample.time_to_go_s - dt),
+  };
+}
+
+/** How far the picture stood from what a new sample says: it is closed gently, not in one jump. */
+export interface Gap {
+  readonly pursuer: AircraftGap;
+  readonly leader: AircraftGap;
+}
+
+interface AircraftGap {
+  readonly x: number;
+  readonly y: number;
+  readonly heading: number;
+}
+
+const CLOSED: AircraftGap = { x: 0, y: 0, heading: 0 };
+export const NO_GAP: Gap = { pursuer: CLOSED, leader: CLOSED };
+
+/** Time constant with which a gap closes [wall ms]: three ticks. */
+const CLOSING = 150;
+/** A gap wider than this is no prediction error but a new place: the picture goes there at once [m]. */
+const WIDEST = 2000;
+
+/** The gap between what is shown and what is true, both at the same flight time. */
+export function gap(shown: Sample, truth: Sample): Gap {
+  return {
+    pursuer: aircraftGap(shown.pursuer, truth.pursuer),
+    leader: aircraftGap(shown.leader, truth.leader),
+  };
+}
+
+function aircraftGap(shown: AircraftSample, truth: AircraftSample): AircraftGap {
+  const x = shown.x_m - truth.x_m;
+  const y = shown.y_m - truth.y_m;
+  if (Math.hypot(x, y) > WIDEST) return CLOSED;
+  return { x, y, heading: wrap180(shown.heading_deg - truth.heading_deg) };
+}
+
+/** A sample with what is left of a gap `age` [ms] after it was found. */
+export function blend(sample: Sample, found: Gap, age: number): Sample {
+  const left = Math.exp(-Math.max(0, age) / CLOSING);
+  if (found === NO_GAP || left < 1e-3) return sample;
+  return {
+    ...sample,
+    pursuer: nudge(sample.pursuer, found.pursuer, left),
+    leader: nudge(sample.leader, found.leader, left),
+  };
+}
+
+function nudge(aircraft: AircraftSample, found: AircraftGap, left: number): AircraftSample {
+  return {
+    ...aircraft,
+    x_m: aircraft.x_m + found.x * left,
+    y_m: aircraft.y_m + found.y * left,
+    heading_deg: wrap360(aircraft.heading_deg + found.heading * left),
+  };
+}

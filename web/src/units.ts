@@ -1,0 +1,69 @@
+/** The display units of aviation and how numbers are written: the only non-SI file of the cockpit. */
+
+/** International nautical mile [m]. */
+export const NM = 1852;
+/** Knot [m/s]. */
+export const KT = NM / 3600;
+/** International foot [m]. */
+export const FT = 0.3048;
+/** Degree of arc [rad]. */
+export const DEG = Math.PI / 180;
+
+/** An angle brought into [0, 360) [deg]. */
+export function wrap360(angle: number): number {
+  return ((angle % 360) + 360) % 360;
+}
+
+/** An angle brought into [−180, 180) [deg]. */
+export function wrap180(angle: number): number {
+  return wrap360(angle + 180) - 180;
+}
+
+/** A heading as pilots write it: three digits, north is 360. `heading` [deg] */
+export function formatHeading(heading: number): string {
+  const whole = Math.round(wrap360(heading)) % 360;
+  return String(whole === 0 ? 360 : whole).padStart(3, "0");
+}
+
+/** A speed in whole knots. `speed` [m/s] */
+export function formatKnots(speed: number): string {
+  return String(nearestInteger(speed / KT));
+}
+
+/** A speed in whole knots with its sign. `speed` [m/s] */
+export function formatSignedKnots(speed: number): string {
+  const knots = nearestInteger(speed / KT);
+  return knots > 0 ? `+${knots}` : knots < 0 ? `−${-knots}` : "0";
+}
+
+/** A distance in nautical miles with `decimals` decimals. `distance` [m] */
+export function formatMiles(distance: number, decimals = 1): string {
+  return (distance / NM)
+    .toFixed(decimals)
+    .replace(/^-(?=0(\.0*)?$)/, "")
+    .replace("-", "−");
+}
+
+/** A duration or clock time as mm:ss (minutes may pass 99). `time` [s] */
+export function formatClock(time: number): string {
+  const seconds = Math.round(Math.abs(time));
+  const sign = time < 0 && seconds > 0 ? "−" : "";
+  const minutes = String(Math.floor(seconds / 60)).padStart(2, "0");
+  return `${sign}${minutes}:${String(seconds % 60).padStart(2, "0")}`;
+}
+
+/** A flight level, e.g. "FL350". `altitude` [m] */
+export function formatLevel(altitude: number): string {
+  return `FL${String(nearestInteger(altitude / FT / 100)).padStart(3, "0")}`;
+}
+
+/** A bank as magnitude and side, e.g. "25 R". `bank` [deg], positive right wing down. */
+export function formatBank(bank: number): string {
+  const whole = nearestInteger(bank);
+  return whole === 0 ? "0" : `${Math.abs(whole)} ${whole > 0 ? "R" : "L"}`;
+}
+
+/** Math.round without a negative zero. */
+function nearestInteger(value: number): number {
+  return Math.round(value) + 0;
+}
