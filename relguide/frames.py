@@ -1,0 +1,130 @@
+"""World ↔ air mass ↔ slot frame, and latitude/longitude ↔ the local plane.
+
+Air mass. In a uniform wind both aircraft drift alike: planning is done in the frame that moves with
+the air, which is the world frame at t = 0. A point of the air mass is over the ground at
+p + wind·t.
+
+Slot frame. Extend the leader's final leg backward: from t = 0 on, the slot is a point in uniform
+straight motion. Put the origin there at t = 0, the x axis along the leader's final heading, count
+angles counter-clockwise from it, lengths in R and times in R/V_P. What remains of a situation is
+(x, y, h, α) and the time t_open before which the slot may not be taken.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import cos, hypot, pi, sin
+from typing import TYPE_CHECKING, Any
+
+from relguide.trajectory import Arc, Pose, Trajectory
+
+if TYPE_CHECKING:
+    from relguide.situation import Situation, Wind
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SlotFrame:
+    """A situation without its dimensions."""
+
+    x: float
+    """Pursuer along the leader's final heading, relative to the slot at t = 0 [R]."""
+    y: float
+    """Pursuer to the left of it [R]."""
+    h: float
+    """Pursuer's heading, counter-clockwise from the leader's final heading [rad], in [0, 2π)."""
+    alpha: float
+    """Speed ratio V_L/V_P."""
+    t_open: float
+    """When the slot opens [R/V_P]; 0 when it is open from the start."""
+    radius: float
+    """R [m]."""
+    heading: float
+    """The leader's final heading, clockwise from north [rad]."""
+    origin_x: float
+    """The slot at t = 0, east [m]."""
+    origin_y: float
+    """The slot at t = 0, north [m]."""
+
+
+def slot_frame(situation: "Situation", leader: Trajectory) -> SlotFrame:
+    """Reduce a situation to its slot frame.
+
+    Args:
+        situation: what is to be planned.
+        leader: `situation.leader.trajectory`, which callers have at hand.
+    """
+    pursuer = situation.pursuer
+    radius = pursuer.turn_radius
+    if leader.segments:
+        end, flown = leader.breakpoints()[-1], leader.duration
+        turns = any(isinstance(s, Arc) and s.turn_angle > 0.0 for s in leader.segments)
+    else:
+        end, flown, turns = Pose(x=leader.x, y=leader.y, heading=leader.heading), 0.0, False
+    along_x, along_y = sin(end.heading), cos(end.heading)
+    offset_x, offset_y, ground_speed = slot_offset(end.heading, leader.tas, situation)
+    t_open = flown + situation.slot_distance / ground_speed if turns else 0.0
+    origin_x = end.x - leader.tas * flown * along_x + offset_x
+    origin_y = end.y - leader.tas * flown * along_y + offset_y
+    dx, dy = pursuer.x - origin_x, pursuer.y - origin_y
+    return SlotFrame(
+        x=(dx * along_x + dy * along_y) / radius,
+        y=(dy * along_x - dx * along_y) / radius,
+        h=(end.heading - pursuer.heading) % (2.0 * pi),
+        alpha=leader.tas / pursuer.tas,
+        t_open=t_open * pursuer.tas / radius,
+        radius=radius,
+        heading=end.heading,
+        origin_x=origin_x,
+        origin_y=origin_y,
+    )
+
+
+def slot_offset(heading: float, tas: float, situation: "Situation") -> tuple[float, float, float]:
+    """From the leader to the slot: D back along the leader's ground track.
+
+    Args:
+        heading: the leader's heading on the final leg, clockwise from north [rad].
+        tas: its true airspeed [m/s].
+        situation: gives D and the wind.
+
+    Returns:
+        offset east and north [m], and the leader's ground speed [m/s].
+    """
+    east = tas * sin(heading) + situation.wind.east
+    north = tas * cos(heading) + situation.wind.north
+    ground_speed = hypot(east, north)
+    back = -situation.slot_distance / ground_speed
+    return back * east, back * north, ground_speed
+
+
+def over_ground(pose: Pose, t: float, wind: "Wind") -> Pose:
+    """A pose of the air mass, seen over the ground at time t [s]."""
+    return Pose(x=pose.x + wind.east * t, y=pose.y + wind.north * t, heading=pose.heading)
+
+
+@dataclass(frozen=True)
+class LocalPlane:
+    """A plane that touches the WGS84 ellipsoid at a point: azimuthal equidistant, x east, y north.
+
+    Distances and directions from the point itself are true; 500 km away scale is off by 0.1 %.
+    """
+
+    lat_deg: float
+    """Latitude of the point [°]."""
+    lon_deg: float
+    """Longitude of the point [°]."""
+
+    @cached_property
+    def _projection(self) -> Any:
+        from pyproj import Proj  # 0.2 s to import, and only geographic input needs it
+
+        return Proj(proj="aeqd", lat_0=self.lat_deg, lon_0=self.lon_deg, ellps="WGS84")
+
+    def to_local(self, lat_deg: float, lon_deg: float) -> tuple[float, float]:
+        """Latitude, longitude [°] → x, y [m]."""
+        x, y = self._projection(lon_deg, lat_deg)
+        return float(x), float(y)
+
+    def to_geodetic(self, x: float, y: float) -> tuple[float, float]:
+        """x, y [m] → latitude, longitude [°]."""
+        lon, lat = self._projection(x, y, inverse=True)
+        return float(lat), float(lon)

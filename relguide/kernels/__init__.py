@@ -1,0 +1,1 @@
+"""Numbers in, numbers out: the compiled kernels. The files above give these numbers names."""

@@ -1,0 +1,39 @@
+"""Angles: wrapping, and compass ↔ mathematical."""
+
+from math import pi
+
+from numba import njit
+
+TWO_PI = 2.0 * pi
+FULL_TURN_SLACK = 1e-9
+"""An arc this close to a full turn is rounding of no turn at all [rad]; ≈ 1e-5 m at R = 12 km."""
+
+
+@njit(cache=True, nogil=True)
+def wrap(angle: float) -> float:
+    """An angle in [0, 2π)."""
+    wrapped = angle % TWO_PI
+    if wrapped >= TWO_PI:  # −1e-17 % 2π rounds up to 2π itself
+        return 0.0
+    return wrapped
+
+
+@njit(cache=True, nogil=True)
+def wrap_signed(angle: float) -> float:
+    """An angle in [−π, π)."""
+    return (angle + pi) % TWO_PI - pi
+
+
+@njit(cache=True, nogil=True)
+def turn_to(angle: float) -> float:
+    """The angle of an arc, in [0, 2π): as `wrap`, but a full turn that is only rounding is none."""
+    wrapped = angle % TWO_PI
+    if wrapped > TWO_PI - FULL_TURN_SLACK:
+        return 0.0
+    return wrapped
+
+
+@njit(cache=True, nogil=True)
+def heading_from_math(angle: float) -> float:
+    """Counter-clockwise from east → clockwise from north, in [0, 2π)."""
+    return wrap(0.5 * pi - angle)

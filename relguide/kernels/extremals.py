@@ -1,0 +1,94 @@
+"""Every extremal without the separation limit: all six words, all their roots, in order of time.
+
+Pontryagin's principle leaves these words only (a turn, a straight or a turn, a turn), and all their
+roots are found, so the first row is the global optimum of the unlimited problem.
+"""
+
+from math import cos, hypot, sin
+
+import numpy as np
+from numba import njit
+
+from relguide.kernels.angles import TWO_PI
+from relguide.kernels.ccc import lrl
+from relguide.kernels.csc import lsl, lsr
+from relguide.kernels.roots import FloatArray
+
+WORDS = ("LSL", "RSR", "LSR", "RSL", "LRL", "RLR")
+"""The words by their number in `solve`."""
+SIGNS = np.array([[1.0, 0.0, 1.0], [-1.0, 0.0, -1.0], [1.0, 0.0, -1.0], [-1.0, 0.0, 1.0],
+                  [1.0, -1.0, 1.0], [-1.0, 1.0, -1.0]])  # fmt: skip
+"""ε of each piece of each word: +1 left, −1 right, 0 straight. shape (6, 3)"""
+MAX_ROWS = 96
+"""Room for all roots of all words: at most 8 + 2·16 + 2·24."""
+CLOSURE = 1e-7
+"""Largest end error of an accepted path [R]; ≈ 1 mm at R = 12 km."""
+
+
+@njit(cache=True, nogil=True)
+def fly_piece(
+    x: float, y: float, h: float, sign: float, amount: float
+) -> tuple[float, float, float]:
+    """The end of one piece in the slot frame: a turn (sign ±1) or a straight (sign 0)."""
+    if sign == 0.0:
+        return x + amount * cos(h), y + amount * sin(h), h
+    end = h + sign * amount
+    return x + sign * (sin(end) - sin(h)), y - sign * (cos(end) - cos(h)), end
+
+
+@njit(cache=True, nogil=True)
+def solve(x: float, y: float, h: float, alpha: float, t_open: float, rows: FloatArray) -> int:
+    """All extremals that reach the slot at or after t_open, by time.
+
+    Args:
+        x: pursuer ahead of the slot [R].
+        y: pursuer left of it [R].
+        h: its heading, counter-clockwise from the leader's [rad], in [0, 2π).
+        alpha: V_L/V_P, ≥ 0; 0 is a slot at rest, and the first row then Dubins' shortest path.
+        t_open: earliest arrival [R/V_P].
+        rows: takes (τ, word number, first, middle, last) [R/V_P; rad or R]. shape (MAX_ROWS, 5)
+
+    Returns:
+        how many rows.
+    """
+    found = np.empty((MAX_ROWS, 4))
+    mirrored_h = TWO_PI - h if h > 0.0 else 0.0
+    n = 0
+    for word in range(6):
+        start = 0
+        if word == 0:
+            end = lsl(x, y, h, alpha, found, 0)
+        elif word == 1:
+            end = lsl(x, -y, mirrored_h, alpha, found, 0)
+        elif word == 2:
+            end = lsr(x, y, h, alpha, found, 0)
+        elif word == 3:
+            end = lsr(x, -y, mirrored_h, alpha, found, 0)
+        elif word == 4:
+            end = lrl(x, y, h, alpha, found, 0)
+        else:
+            end = lrl(x, -y, mirrored_h, alpha, found, 0)
+        for i in range(start, end):
+            time = found[i, 0]
+            if time < t_open - 1e-9 or not _closes(x, y, h, alpha, word, found[i]):
+                continue
+            at = n
+            while at > 0 and rows[at - 1, 0] > time:
+                rows[at] = rows[at - 1]
+                at -= 1
+            rows[at, 0] = time
+            rows[at, 1] = word
+            rows[at, 2] = found[i, 1]
+            rows[at, 3] = found[i, 2]
+            rows[at, 4] = found[i, 3]
+            n += 1
+    return n
+
+
+@njit(cache=True, nogil=True)
+def _closes(x: float, y: float, h: float, alpha: float, word: int, row: FloatArray) -> bool:
+    """Does the path really end at the slot? A root found next to a tangency may not."""
+    for piece in range(3):
+        x, y, h = fly_piece(x, y, h, SIGNS[word, piece], row[piece + 1])
+    # far away the last digits of τ are worth more than CLOSURE
+    return bool(hypot(x - alpha * row[0], y) <= CLOSURE + 1e-12 * row[0])

@@ -1,0 +1,218 @@
+"""plan(situation) → Plan | NoPlan: the fastest candidate that certifies, and what is proved."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import StrEnum
+from math import hypot
+from time import perf_counter_ns
+from typing import Literal
+
+from relguide.certificate import SLACK, Certificate, certify
+from relguide.situation import Situation
+from relguide.trajectory import Trajectory
+from relguide.units import KT, NM, Metre, Millisecond, Second
+from relguide.words import Candidate, Candidates, all_candidates, detours_at_opening
+
+HORIZON: Second = 43_200.0
+"""Plans longer than this are not given: 12 hours, longer than any aircraft's fuel lasts [s]."""
+
+Proof = Literal["relaxation", "bound", "none"]
+"""Why a plan is optimal: the best plan without the limit keeps it; a lower bound; not shown."""
+PlannerName = Literal["exact", "network", "regular_dp"]
+"""Who made the plan."""
+
+
+class Reason(StrEnum):
+    """Why there is no plan."""
+
+    SLOT_UNREACHABLE = "slot_unreachable"
+    SEPARATION_ALREADY_LOST = "separation_already_lost"
+    SEPARATION_UNAVOIDABLE = "separation_unavoidable"
+    BEYOND_HORIZON = "beyond_horizon"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Optimality:
+    """What is proved of a plan's time."""
+
+    proof: Proof
+    lower_bound: Second
+    """No plan that keeps d_min is faster than this [s]."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Plan:
+    """A certified trajectory to the slot."""
+
+    situation: Situation
+    trajectory: Trajectory
+    """In the air mass, from the pursuer's present state to the slot."""
+    word: str
+    """Its letters, e.g. `"LSR"`."""
+    certificate: Certificate
+    optimality: Optimality
+    planner: PlannerName
+    compute_time: Millisecond
+    """Wall time it took to find [ms]."""
+    status: Literal["planned"] = "planned"
+
+    @property
+    def time_to_converge(self) -> Second:
+        """T: when the pursuer is at the slot, on the leader's heading [s]."""
+        return self.trajectory.duration
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NoPlan:
+    """Why there is no plan, and what would help."""
+
+    reason: Reason
+    message: str
+    """A sentence for people."""
+    status: Literal["no_plan"] = "no_plan"
+
+
+Planner = Callable[[Situation], Plan | NoPlan]
+"""The one protocol of all planners."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Slower:
+    """An alternative that certifies or not, but arrives later than the plan."""
+
+    kind: Literal["slower"] = "slower"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LosesSeparation:
+    """An alternative that would come too close."""
+
+    least_separation: Metre
+    at_time: Second
+    kind: Literal["separation"] = "separation"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Alternative:
+    """A candidate that is not the plan, and why."""
+
+    word: str
+    time_to_converge: Second
+    rejected: Slower | LosesSeparation
+
+
+def plan(situation: Situation) -> Plan | NoPlan:
+    """The fastest candidate that keeps d_min, with what is proved of it.
+
+    Without the limit the candidates are all the extremals there are, so if the fastest of them
+    keeps the limit it is the global optimum (`proof="relaxation"`). If it does not, the next that
+    does is given with `proof="none"`: detours made of more pieces may be faster.
+    """
+    started = perf_counter_ns()
+    radius = situation.pursuer.turn_radius
+    pursuer, leader = situation.pursuer, situation.leader
+    separation = hypot(pursuer.x - leader.x, pursuer.y - leader.y)
+    if separation < situation.min_separation - SLACK * radius:
+        return NoPlan(
+            reason=Reason.SEPARATION_ALREADY_LOST,
+            message=f"The aircraft are {_nm(separation)} apart, closer than the minimum of "
+            f"{_nm(situation.min_separation)}: restore separation first, or lower the minimum.",
+        )
+    found = all_candidates(situation)
+    if not found.in_order:
+        return NoPlan(reason=Reason.SLOT_UNREACHABLE, message=_unreachable(situation))
+    chosen = _first_that_holds(found, situation)
+    if chosen is None:
+        return NoPlan(
+            reason=Reason.SEPARATION_UNAVOIDABLE,
+            message=f"Each of the {len(found.in_order)} direct trajectories to the slot comes "
+            f"closer than {_nm(situation.min_separation)} to the leader; detours of more pieces "
+            "were not searched. A smaller minimum separation or a larger slot distance would help.",
+        )
+    candidate, certificate, optimality = chosen
+    if candidate.time_to_converge > HORIZON:
+        return NoPlan(
+            reason=Reason.BEYOND_HORIZON,
+            message=f"The slot is reached only after {candidate.time_to_converge / 3600.0:.0f} h, "
+            f"beyond the horizon of {HORIZON / 3600.0:.0f} h: a larger speed difference helps.",
+        )
+    return Plan(
+        situation=situation,
+        trajectory=candidate.trajectory,
+        word=candidate.word,
+        certificate=certificate,
+        optimality=optimality,
+        planner="exact",
+        compute_time=(perf_counter_ns() - started) * 1e-6,
+    )
+
+
+def alternatives(plan: Plan) -> tuple[Alternative, ...]:
+    """What else was there, and why it lost: all that is faster, and the best of each other word."""
+    listed: list[Alternative] = []
+    seen = {plan.word}
+    found = all_candidates(plan.situation)
+    for candidate in found.at_opening[:1] + found.later:
+        time = candidate.time_to_converge
+        if time < plan.time_to_converge - 1e-6:  # a microsecond: the same path found twice
+            certificate = certify(candidate.trajectory, plan.situation)
+            rejected: Slower | LosesSeparation = LosesSeparation(
+                least_separation=certificate.least_separation, at_time=certificate.at_time
+            )
+        elif candidate.word not in seen:
+            rejected = Slower()
+        else:
+            continue
+        seen.add(candidate.word)
+        listed.append(Alternative(word=candidate.word, time_to_converge=time, rejected=rejected))
+    return tuple(listed)
+
+
+def _first_that_holds(
+    found: Candidates, situation: Situation
+) -> tuple[Candidate, Certificate, Optimality] | None:
+    if found.reachable_at_opening:
+        bound = found.slot_opens
+        best = _canonical(found.at_opening, situation) or _canonical(
+            detours_at_opening(situation), situation
+        )
+        if best is not None:
+            return *best, Optimality(proof="relaxation", lower_bound=bound)
+    else:
+        bound = found.later[0].time_to_converge
+    for candidate in found.later:
+        certificate = certify(candidate.trajectory, situation)
+        if certificate.holds:
+            proved = candidate.time_to_converge <= bound
+            proof: Proof = "relaxation" if proved else "none"
+            return candidate, certificate, Optimality(proof=proof, lower_bound=bound)
+    return None
+
+
+def _canonical(
+    equally_fast: tuple[Candidate, ...], situation: Situation
+) -> tuple[Candidate, Certificate] | None:
+    """Of candidates that arrive together: fewest turns, then separation, then least turning."""
+    best: tuple[Candidate, Certificate] | None = None
+    for candidate in equally_fast:
+        if best is not None and candidate.trajectory.turns > best[0].trajectory.turns:
+            break
+        certificate = certify(candidate.trajectory, situation)
+        # 1 m: separations this close count as equal, and the one with less turning stays
+        if certificate.holds and (
+            best is None or certificate.least_separation > best[1].least_separation + 1.0
+        ):
+            best = candidate, certificate
+    return best
+
+
+def _unreachable(situation: Situation) -> str:
+    pursuer, leader = situation.pursuer.tas / KT, situation.leader.tas / KT
+    return (
+        f"The leader flies {leader:.0f} kt and the pursuer {pursuer:.0f} kt, and from here the "
+        "slot cannot be caught: a pursuer faster than the leader always can."
+    )
+
+
+def _nm(distance: float) -> str:
+    return f"{distance / NM:.2f} NM"
