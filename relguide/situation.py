@@ -6,9 +6,10 @@ y north, heading clockwise from north), at t = 0, over the ground.
 """
 
 from dataclasses import dataclass
-from math import cos, hypot, isfinite, pi, sin
+from math import cos, hypot, isfinite, sin
 from typing import Literal
 
+from relguide.kernels.angles import turn_to
 from relguide.kernels.turn import turn_radius
 from relguide.trajectory import Arc, Straight, Trajectory, Turn
 from relguide.units import DEG, Metre, MetrePerSecond, Radian, Second
@@ -23,6 +24,8 @@ MAX_SLOT_DISTANCE = 200_000.0
 """Largest accepted D [m]."""
 MAX_WIND = 150.0
 """Largest accepted wind speed [m/s]: above the strongest jet streams on record."""
+MIN_HEADWAY = 1.0
+"""Least ground speed of the leader on its final leg [m/s]: below it has no ground track."""
 MAX_PIECE = 86_400.0
 """Longest straight piece of an intent [s]."""
 MAX_PIECES = 20
@@ -137,6 +140,12 @@ class Leader:
             )
 
     @property
+    def final_heading(self) -> float:
+        """Heading of the final leg, clockwise from north [rad]."""
+        turns = [piece.heading for piece in self.intent if isinstance(piece, TurnTo)]
+        return turns[-1] if turns else self.heading
+
+    @property
     def trajectory(self) -> Trajectory:
         """What the leader flies in the air mass; its last heading goes on for ever."""
         segments: list[Arc | Straight] = []
@@ -146,8 +155,8 @@ class Leader:
                 case FlyStraight():
                     segments.append(Straight(length=self.tas * piece.duration))
                 case TurnTo():
-                    # LEFT (+1) lowers the compass heading
-                    angle = (-piece.turn * (piece.heading - heading)) % (2.0 * pi)
+                    # LEFT (+1) lowers the compass heading; to the present heading is no turn
+                    angle = turn_to(-piece.turn * (piece.heading - heading))
                     segments.append(
                         Arc(
                             turn=piece.turn,
@@ -223,4 +232,14 @@ class Situation:
             raise ValueError(
                 f"slot_distance must be at most {MAX_SLOT_DISTANCE:g} m, "
                 f"not {self.slot_distance:g} m."
+            )
+        heading = self.leader.final_heading
+        headway = hypot(
+            self.leader.tas * sin(heading) + self.wind.east,
+            self.leader.tas * cos(heading) + self.wind.north,
+        )
+        if headway < MIN_HEADWAY:
+            raise ValueError(
+                f"In this wind the leader makes no headway on its final leg ({headway:.1f} m/s "
+                f"over the ground; at least {MIN_HEADWAY:g} m/s is needed): it has no behind."
             )

@@ -16,8 +16,8 @@ FloatArray = np.ndarray[tuple[int, ...], np.dtype[np.float64]]
 
 MAX_CUTS = 12
 """Room for the cuts of one equation, its two ends included."""
-TOUCH = 1e-10
-"""|f| at an extremum that still counts as a (double) root: ≈ 1e-6 m at R = 12 km."""
+TOUCH = 1e-12
+"""|f| at an extremum that still counts as a (double) root: some hundred roundings of f's terms."""
 
 
 @njit(cache=True, nogil=True)

@@ -1,0 +1,106 @@
+"""Situations judge themselves: every refusal is a sentence that says what would be right."""
+
+from dataclasses import replace
+from math import cos, inf, nan, pi, sin
+
+import pytest
+from hypothesis import given
+
+from relguide import (
+    LEFT,
+    RIGHT,
+    Arc,
+    FlyStraight,
+    Leader,
+    Pursuer,
+    Situation,
+    TurnTo,
+    Wind,
+    wind_from,
+)
+from relguide.units import DEG
+from tests.situations import headings, numbers
+
+PURSUER = Pursuer(x=0.0, y=0.0, heading=0.0, tas=200.0, max_bank=25 * DEG)
+LEADER = Leader(x=20_000.0, y=0.0, heading=0.0, tas=180.0)
+SITUATION = Situation(
+    pursuer=PURSUER, leader=LEADER, slot_distance=12_000.0, min_separation=9_000.0
+)
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"tas": 29.0}, r"pursuer\.tas must lie in 30 … 400 m/s, not 29 m/s\."),
+        ({"tas": 401.0}, r"pursuer\.tas must lie in"),
+        ({"max_bank": 0.5 * DEG}, r"pursuer\.max_bank must lie in 1 … 60 °, not 0\.5 °\."),
+        ({"max_bank": 61.0 * DEG}, r"pursuer\.max_bank must lie in"),
+        ({"x": 1.1e6}, r"pursuer\.x must lie in -1e\+06 … 1e\+06 m"),
+        ({"y": nan}, r"pursuer\.y must be a finite number, not nan\."),
+        ({"heading": inf}, r"pursuer\.heading must be a finite number, not inf\."),
+    ],
+)
+def test_a_pursuer_that_cannot_be(changes: dict[str, float], sentence: str) -> None:
+    with pytest.raises(ValueError, match=sentence):
+        replace(PURSUER, **changes)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"min_separation": -1.0}, "min_separation must be 0 m or more"),
+        ({"slot_distance": 8_000.0}, "must be at least min_separation"),
+        ({"slot_distance": 200_001.0}, "at most 200000 m"),
+        ({"slot_distance": nan}, "slot_distance must be a finite number"),
+    ],
+)
+def test_distances_that_contradict_each_other(changes: dict[str, float], sentence: str) -> None:
+    with pytest.raises(ValueError, match=sentence):
+        replace(SITUATION, **changes)  # type: ignore[arg-type]
+
+
+def test_bounds_in_degrees_survive_radians() -> None:
+    for bank in (1.0, 60.0):
+        replace(PURSUER, max_bank=bank / 180.0 * pi)
+
+
+def test_an_intent_that_cannot_be() -> None:
+    with pytest.raises(ValueError, match="at most 20 pieces, not 21"):
+        replace(LEADER, intent=(FlyStraight(duration=1.0),) * 21)
+    with pytest.raises(ValueError, match=r"straight\.duration must lie in"):
+        FlyStraight(duration=-1.0)
+    with pytest.raises(ValueError, match="LEFT"):
+        TurnTo(heading=0.0, turn=0, bank=0.3)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match=r"turn\.bank must lie in"):
+        TurnTo(heading=0.0, turn=LEFT, bank=1.2)
+
+
+def test_a_wind_that_holds_the_leader_over_one_spot() -> None:
+    with pytest.raises(ValueError, match="no headway"):
+        replace(SITUATION, leader=replace(LEADER, tas=100.0), wind=Wind(east=0.0, north=-100.0))
+    with pytest.raises(ValueError, match=r"wind\.speed must lie in"):
+        Wind(east=200.0)
+
+
+@given(direction=headings, speed=numbers(0.0, 100.0))
+def test_wind_blows_from_where_it_comes(direction: float, speed: float) -> None:
+    wind = wind_from(direction, speed)
+    assert wind.east == pytest.approx(-speed * sin(direction))
+    assert wind.north == pytest.approx(-speed * cos(direction))
+    assert wind.speed == pytest.approx(speed)
+
+
+@given(start=headings, end=headings)
+def test_a_turn_ends_on_its_heading_and_both_ways_make_a_full_one(start: float, end: float) -> None:
+    angles = []
+    for turn in (LEFT, RIGHT):
+        leader = replace(LEADER, heading=start, intent=(TurnTo(heading=end, turn=turn, bank=0.4),))
+        arc = leader.trajectory.segments[0]
+        assert isinstance(arc, Arc)
+        assert arc.turn == turn
+        off = (leader.trajectory.breakpoints()[-1].heading - end) % (2.0 * pi)
+        assert min(off, 2.0 * pi - off) < 1e-9
+        angles.append(arc.turn_angle)
+    apart = (start - end) % (2.0 * pi)
+    if 1e-8 < apart < 2.0 * pi - 1e-8:  # to the present heading is no turn, either way
+        assert sum(angles) == pytest.approx(2.0 * pi, abs=1e-9)
