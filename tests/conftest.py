@@ -1,0 +1,30 @@
+"""Strictness for every test: float errors raise, examples and seeds are the same each run.
+
+Warnings are errors by `pyproject.toml`. Fresh examples: `pytest --hypothesis-profile=explore`.
+"""
+
+import random
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, settings
+
+# The first call of a kernel compiles it, so no example has a deadline.
+settings.register_profile(
+    "same", derandomize=True, deadline=None, suppress_health_check=[HealthCheck.too_slow]
+)
+settings.register_profile("explore", settings.get_profile("same"), derandomize=False)
+settings.load_profile("same")
+
+
+@pytest.fixture(autouse=True)
+def _floats_raise() -> Iterator[None]:
+    # underflow to zero is what we want of a tiny number
+    with np.errstate(all="raise", under="ignore"):
+        yield
+
+
+@pytest.fixture(autouse=True)
+def _seeds() -> None:
+    random.seed(0)
