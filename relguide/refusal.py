@@ -1,0 +1,207 @@
+"""Saying no to what comes from outside: every defect as a path and a sentence."""
+
+import json
+from collections.abc import Mapping, Sequence
+from typing import Any, TypeVar
+
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+MAX_LISTED = 8
+"""How many defects one refusal spells out."""
+MAX_QUOTED = 40
+"""How many characters of a refused value are quoted back."""
+TAG = "#"
+"""What tags of `Discriminator`s begin with, so that they can be told from field names."""
+
+
+class Strict(BaseModel):
+    """What all outside shapes have in common: nothing is converted, added or left unsaid."""
+
+    model_config = ConfigDict(
+        strict=True,
+        extra="forbid",
+        allow_inf_nan=False,
+        frozen=True,
+        use_attribute_docstrings=True,
+    )
+
+
+class ContractError(ValueError):
+    """Something from outside is not what the contract says.
+
+    Attributes:
+        problems: (path of the field, sentence), at least one; the path is empty for the whole.
+    """
+
+    def __init__(self, problems: Sequence[tuple[str, str]]) -> None:
+        self.problems = tuple((_printable(path), _printable(message)) for path, message in problems)
+        listed = [f"{path}: {message}" if path else message for path, message in self.problems]
+        more = len(listed) - MAX_LISTED
+        if more > 0:
+            listed[MAX_LISTED:] = [f"and {more} more"]
+        super().__init__("; ".join(listed))
+
+
+def loads(text: bytes | str) -> object:
+    """Parse JSON text, refusing what JSON does not have: NaN, infinities, a key given twice.
+
+    Raises:
+        ContractError: with the line and column where the text stops being JSON.
+    """
+    try:
+        if isinstance(text, bytes):
+            text = text.decode("utf-8")
+        parsed: object = json.loads(
+            text, object_pairs_hook=_unique_keys, parse_constant=_refuse_constant
+        )
+    except ContractError:
+        raise
+    except RecursionError:
+        raise ContractError([("", "This is nested too deeply to be read.")]) from None
+    except UnicodeDecodeError as error:
+        message = f"This is not UTF-8 text: byte {error.start} cannot be read."
+        raise ContractError([("", message)]) from None
+    except json.JSONDecodeError as error:
+        message = f"This is not JSON: {error.msg} at line {error.lineno}, column {error.colno}."
+        raise ContractError([("", message)]) from None
+    except ValueError:  # Python refuses to read an integer of thousands of digits
+        raise ContractError([("", "A number in this has too many digits.")]) from None
+    return parsed
+
+
+M = TypeVar("M", bound=BaseModel)
+
+
+def parse(model: type[M], source: bytes | str | Mapping[str, object]) -> M:
+    """Read one outside shape from JSON text, or from JSON already parsed.
+
+    Raises:
+        ContractError: naming each field that is wrong.
+    """
+    content = loads(source) if isinstance(source, bytes | str) else source
+    try:
+        return model.model_validate(content)
+    except ValidationError as error:
+        raise refusal(error, content) from None
+
+
+def refusal(error: ValidationError, content: object) -> ContractError:
+    """Pydantic's findings about `content`, in our words."""
+    found: list[Any] = error.errors(include_url=False)
+    return ContractError([(_path(e, content), _sentence(e)) for e in found])
+
+
+def _unique_keys(pairs: list[tuple[str, object]]) -> dict[str, object]:
+    members = dict(pairs)
+    if len(members) < len(pairs):
+        seen: set[str] = set()
+        for key, _ in pairs:
+            if key in seen:
+                raise ContractError([(_cut(key), "is given more than once.")])
+            seen.add(key)
+    return members
+
+
+def _refuse_constant(name: str) -> object:
+    raise ContractError([("", f"{name} is not a number that JSON has.")])
+
+
+def _path(error: Any, content: object) -> str:
+    """Where in `content` it is, e.g. `leader.intent[1].bank_deg`, without the unions' tags."""
+    path, here = "", content
+    for step in error["loc"]:
+        if isinstance(step, int):
+            path += f"[{step}]"
+            here = here[step] if isinstance(here, list) and step < len(here) else None
+        elif not _is_tag(step, here):
+            path += f".{_cut(step)}" if path else _cut(step)
+            here = here.get(step) if isinstance(here, Mapping) else None
+    if error["type"] in ("union_tag_invalid", "union_tag_not_found"):
+        field = error["ctx"]["discriminator"].strip("'")
+        path += f".{field}" if path else field
+    return path
+
+
+def _is_tag(step: str, here: object) -> bool:
+    # pydantic puts the tag of the chosen member of a union into the path
+    if step.startswith(TAG):
+        return True
+    return isinstance(here, Mapping) and step not in here and step in _texts(here)
+
+
+def _texts(members: Mapping[str, object]) -> list[str]:
+    return [value for value in members.values() if isinstance(value, str)]
+
+
+def _sentence(error: Any) -> str:
+    context, given = error.get("ctx", {}), _quoted(error["input"])
+    match error["type"]:
+        case "string_unicode":
+            return f"must be text without lone surrogates, not {given}."
+        case "missing":
+            return "is missing."
+        case "extra_forbidden":
+            return "is not a field of the contract."
+        case "float_type" | "int_type" | "int_from_float" | "int_parsing_size" as kind:
+            noun = "a number" if kind == "float_type" else "a whole number"
+            return f"must be {noun}, not {given}."
+        case "finite_number":
+            return f"must be a finite number, not {given}."
+        case "string_type":
+            return f"must be a text, not {given}."
+        case "bool_type":
+            return f"must be true or false, not {given}."
+        case "list_type":
+            return f"must be a list, not {given}."
+        case "model_type" | "model_attributes_type" | "dict_type":
+            return f"must be an object with fields, not {given}."
+        case "greater_than_equal":
+            return f"must be at least {context['ge']:.12g}, not {given}."
+        case "less_than_equal":
+            return f"must be at most {context['le']:.12g}, not {given}."
+        case "literal_error":
+            return f"must be {context['expected']}, not {given}."
+        case "union_tag_invalid":
+            return f"must be one of {context['expected_tags']}, not {_quoted(context['tag'])}."
+        case "union_tag_not_found":
+            return "is missing: it says what this is."
+        case "too_long":
+            most, actual = context["max_length"], context["actual_length"]
+            return f"must have at most {most} entries, not {actual}."
+        case "too_short":
+            return f"must have at least {context['min_length']} entries."
+        case "string_too_long":
+            return f"must have at most {context['max_length']} characters."
+        case "string_too_short":
+            return f"must have at least {context['min_length']} characters."
+        case _:
+            return f"{error['msg']} (given: {given})."
+
+
+def _quoted(value: object) -> str:
+    match value:
+        case None:
+            return "null"
+        case bool():
+            return "true" if value else "false"
+        case int() if abs(value) >= 10**MAX_QUOTED:
+            return "a number of that size"
+        case int() | float():
+            return f"{value}"
+        case str():
+            return f'the text "{_cut(value)}"'
+        case Mapping():
+            return "an object"
+        case list() | tuple():
+            return "a list"
+        case _:
+            return f"a Python {type(value).__name__}"
+
+
+def _cut(text: str) -> str:
+    return text if len(text) <= MAX_QUOTED else text[: MAX_QUOTED - 1] + "…"
+
+
+def _printable(text: str) -> str:
+    # A lone surrogate can be written in JSON, but not to a terminal or a socket.
+    return text.encode("utf-8", "backslashreplace").decode("utf-8")

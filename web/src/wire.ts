@@ -1,0 +1,522 @@
+// Made by `python -m server.emit_types` from relguide/contract.py: do not edit.
+
+/** Sub-protocol of the stream: a server of another version refuses it. */
+export const PROTOCOL = "relguide-9b92de69187d";
+
+/** Which way round. */
+export type Direction = "left" | "right";
+
+/**
+ * heading: nothing to fly, holds its heading; converge: flies the plan; capture: closes
+ * onto the leader's route at its own speed; follow: on the route at D, speed matched.
+ */
+export type Mode = "heading" | "converge" | "capture" | "follow";
+
+/** Who made the plan. */
+export type PlannerName = "exact" | "network" | "regular_dp";
+
+/** Why a plan is optimal. */
+export type Proof = "relaxation" | "bound" | "none";
+
+/** Why a new plan was made. */
+export type PlanReason =
+  | "engaged"
+  | "better_plan"
+  | "deviation"
+  | "separation"
+  | "leader_turned"
+  | "leader_changed_speed"
+  | "intent_received"
+  | "intent_withdrawn";
+
+/** What the leader does anew. */
+export type LeaderChange = "heading" | "speed" | "intent_received" | "intent_withdrawn";
+
+/** Why there is no plan. */
+export type Reason =
+  | "slot_unreachable"
+  | "separation_already_lost"
+  | "separation_unavoidable"
+  | "beyond_horizon";
+
+/** A piece of a path over the ground. */
+export type PathSegment = TurnSegment | StraightSegment;
+
+/** What guidance asks of the autopilot. */
+export type ReferenceCard = HeadingReference | TurnRateReference;
+
+/** What a flight says of itself. */
+export type Document =
+  | FlightStarted
+  | LeaderRoute
+  | LeaderChanged
+  | PlanChanged
+  | PlanUnavailable
+  | ModeChanged
+  | Sample
+  | FlightEnded;
+
+/** The answer to a situation. */
+export type PlanAnswer = PlanCard | NoPlanCard;
+
+/** A piece of the leader's intent. */
+export type IntentPiece = StraightPiece | TurnPiece;
+
+/** What starts a flight. */
+export type FlightRequest = ScenarioFlightRequest | SituationFlightRequest;
+
+/** What a flight can be told. */
+export type Command =
+  | PlayCommand
+  | PauseCommand
+  | SetRateCommand
+  | LeaderHeadingCommand
+  | LeaderSpeedCommand
+  | SetIntentKnownCommand;
+
+/** Who an aircraft is. */
+export interface AircraftCard {
+  ident: string;
+  aircraft_type: string;
+  max_bank_deg: number;
+}
+
+/** One aircraft at one instant, as it flies (roll dynamics included). */
+export interface AircraftSample {
+  x_m: number;
+  y_m: number;
+  heading_deg: number;
+  /** Direction of the ground velocity. */
+  track_deg: number;
+  /** Positive right wing down. */
+  bank_deg: number;
+  /** Positive to the right. */
+  turn_rate_degps: number;
+  tas_mps: number;
+  ground_speed_mps: number;
+  altitude_m: number;
+}
+
+/** A candidate that lost because it is slower. */
+export interface AlternativeCard {
+  word: string;
+  time_to_converge_s: number;
+  rejected: "slower";
+}
+
+/** How the flight went: the last document. */
+export interface FlightEnded {
+  kind: "flight_ended";
+  t_s: number;
+  joined: boolean;
+  /** When eq. (7) first held within tolerance; the flight's duration if it never did. */
+  join_time_s: number;
+  /** Time to converge of the plan at engagement; 0 if there was none. */
+  planned_time_s: number;
+  least_separation_m: number;
+  /** Total variation of the pursuer's heading until joined. */
+  heading_swing_deg: number;
+  bank_reversals: number;
+  replans: number;
+  fallbacks: number;
+  /** Distance flown over the ground until joined. */
+  track_m: number;
+}
+
+/** All flights. */
+export interface FlightList {
+  flights: FlightStatus[];
+}
+
+/** All that is known before the flight: the first document. */
+export interface FlightStarted {
+  kind: "flight_started";
+  t_s: number;
+  scenario: string;
+  title: string;
+  planner: PlannerName;
+  pursuer: AircraftCard;
+  leader: AircraftCard;
+  slot_distance_m: number;
+  min_separation_m: number;
+  wind: WindCard;
+  /** Integration step [s]. */
+  step_s: number;
+  seed: number;
+}
+
+/** Where a flight stands. */
+export interface FlightStatus {
+  id: string;
+  /** Its name; empty for a situation of one's own. */
+  scenario: string;
+  title: string;
+  /** Flight time. */
+  t_s: number;
+  /** Simulated seconds per second. */
+  rate: number;
+  paused: boolean;
+  ended: boolean;
+  mode: Mode;
+  joined: boolean;
+  separation_m: number;
+  /** Path of its WebSocket. */
+  stream_url: string;
+  /** Path of its 3D scene. */
+  scene_url: string;
+}
+
+/** The aircraft to be joined, at t = 0, placed on the earth (WGS84). */
+export interface GeodeticLeader {
+  lat_deg: number;
+  lon_deg: number;
+  /** Clockwise from true north. */
+  heading_deg: number;
+  /** True airspeed, kept constant. */
+  tas_mps: number;
+  /** Pieces to come; what follows the last is flown for ever. */
+  intent?: IntentPiece[];
+}
+
+/** The aircraft that is guided, at t = 0, placed on the earth (WGS84). */
+export interface GeodeticPursuer {
+  lat_deg: number;
+  lon_deg: number;
+  /** Clockwise from true north. */
+  heading_deg: number;
+  /** True airspeed, kept constant. */
+  tas_mps: number;
+  /** Bank of its turns. */
+  max_bank_deg: number;
+}
+
+/** Guidance asks the autopilot to hold a heading. */
+export interface HeadingReference {
+  kind: "hold_heading";
+  heading_deg: number;
+}
+
+/** The leader does something new, or its intent was received or withdrawn. */
+export interface LeaderChanged {
+  kind: "leader_changed";
+  t_s: number;
+  change: LeaderChange;
+  message: string;
+}
+
+/** Give the leader a heading. */
+export interface LeaderHeadingCommand {
+  command: "leader_heading";
+  /** Clockwise from true north. */
+  heading_deg: number;
+  /** Which way round; left out: the shorter. */
+  direction?: Direction | null;
+}
+
+/**
+ * What guidance expects the leader to fly from now on: its declared intent, or straight ahead.
+ *
+ * Times in the segments are flight times. The last segment is the final leg, cut short.
+ */
+export interface LeaderRoute {
+  kind: "leader_route";
+  t_s: number;
+  intent_known: boolean;
+  segments: PathSegment[];
+}
+
+/** Give the leader a speed. */
+export interface LeaderSpeedCommand {
+  command: "leader_speed";
+  /** True airspeed. */
+  tas_mps: number;
+}
+
+/** The aircraft to be joined, at t = 0, with what it has declared it will do. */
+export interface LocalLeader {
+  /** East. */
+  x_m: number;
+  /** North. */
+  y_m: number;
+  /** Clockwise from true north. */
+  heading_deg: number;
+  /** True airspeed, kept constant. */
+  tas_mps: number;
+  /** Pieces to come; what follows the last is flown for ever. */
+  intent?: IntentPiece[];
+}
+
+/** The aircraft that is guided, at t = 0. */
+export interface LocalPursuer {
+  /** East. */
+  x_m: number;
+  /** North. */
+  y_m: number;
+  /** Clockwise from true north. */
+  heading_deg: number;
+  /** True airspeed, kept constant. */
+  tas_mps: number;
+  /** Bank of its turns. */
+  max_bank_deg: number;
+}
+
+/** Guidance went from one mode to another. */
+export interface ModeChanged {
+  kind: "mode_changed";
+  t_s: number;
+  mode: Mode;
+  previous: Mode;
+  message: string;
+}
+
+/** No plan, why, and what would help. */
+export interface NoPlanCard {
+  status: "no_plan";
+  reason: Reason;
+  message: string;
+}
+
+/** What is proved of a plan's time. */
+export interface OptimalityCard {
+  proof: Proof;
+  lower_bound_s: number;
+}
+
+/** A place and a heading along a path, over the ground. */
+export interface PathPoint {
+  t_s: number;
+  x_m: number;
+  y_m: number;
+  heading_deg: number;
+  /** WGS84; there if the situation came with latitudes. */
+  lat_deg?: number;
+  /** WGS84; there if the situation came with latitudes. */
+  lon_deg?: number;
+}
+
+/** Stop the flight where it is. */
+export interface PauseCommand {
+  command: "pause";
+}
+
+/** A plan as outsiders read it: the answer of REST, of the command line, and of the display. */
+export interface PlanCard {
+  status: "planned";
+  planner: PlannerName;
+  word: string;
+  time_to_converge_s: number;
+  /** Path length in the air mass [m]. */
+  length_m: number;
+  segments: PathSegment[];
+  separation: Separation;
+  optimality: OptimalityCard;
+  alternatives: (AlternativeCard | UnsafeAlternativeCard)[];
+  compute_ms: number;
+}
+
+/** A new plan is flown. */
+export interface PlanChanged {
+  kind: "plan_changed";
+  t_s: number;
+  reason: PlanReason;
+  message: string;
+  plan: PlanCard;
+  /** Where the leader is when the separation is least; its t counts from the plan's start. */
+  leader_at_closest: PathPoint;
+  /** Where the pursuer is then. */
+  pursuer_at_closest: PathPoint;
+}
+
+/** Guidance asked for a plan and there is none. */
+export interface PlanUnavailable {
+  kind: "plan_unavailable";
+  t_s: number;
+  answer: NoPlanCard;
+}
+
+/** Let the flight go on. */
+export interface PlayCommand {
+  command: "play";
+}
+
+/** The flight at one instant. */
+export interface Sample {
+  kind: "sample";
+  t_s: number;
+  pursuer: AircraftSample;
+  leader: AircraftSample;
+  mode: Mode;
+  reference: ReferenceCard;
+  /** What guidance asks of the autothrust. */
+  commanded_tas_mps: number;
+  separation_m: number;
+  /** Rate at which the separation shrinks, positive when closing. */
+  closure_mps: number;
+  /** Least separation so far. */
+  least_separation_m: number;
+  /** The slot now (with turns to come: on the backward extension of the leader's final leg). */
+  slot: PathPoint;
+  slot_open: boolean;
+  /** Distance still to close along the leader's route to be at D: positive when too far behind. */
+  spacing_error_m: number;
+  /** Offset from the leader's final route, positive to its right. */
+  cross_track_m: number;
+  /** Until the slot is reached by the plan flown; 0 when there is none or it is joined. */
+  time_to_go_s: number;
+  joined: boolean;
+}
+
+/** Start a flight of a scenario. */
+export interface ScenarioFlightRequest {
+  /** Its name. */
+  scenario: string;
+  /** Simulated seconds per second. */
+  rate?: number;
+  /** Whether it waits for `play`. */
+  paused?: boolean;
+  /** Whether the pursuer knows the leader's intent; left out: as the scenario says. */
+  intent_known?: boolean | null;
+  seed?: number;
+}
+
+/** A scenario that can be flown. */
+export interface ScenarioInfo {
+  name: string;
+  title: string;
+  description: string;
+  /** Whether what it needs is installed. */
+  available: boolean;
+  /** If not, what to install. */
+  message: string;
+}
+
+/** All scenarios. */
+export interface ScenarioList {
+  scenarios: ScenarioInfo[];
+}
+
+/** Least separation along a plan, and what is proved of it. */
+export interface Separation {
+  least_m: number;
+  at_s: number;
+  proved_above_m: number;
+}
+
+/** Tell the pursuer the leader's intent, or withdraw it. */
+export interface SetIntentKnownCommand {
+  command: "set_intent_known";
+  known: boolean;
+}
+
+/** Let simulated time go faster or slower. */
+export interface SetRateCommand {
+  command: "set_rate";
+  /** Simulated seconds per second. */
+  rate: number;
+}
+
+/** Everything a plan depends on, at one instant. */
+export interface SituationBody {
+  pursuer: LocalPursuer | GeodeticPursuer;
+  leader: LocalLeader | GeodeticLeader;
+  /** D: how far behind the leader the pursuer is to be. */
+  slot_distance_m: number;
+  /** d_min: how close the two may come; at most D. */
+  min_separation_m: number;
+  /** Left out: calm. */
+  wind?: WindBody;
+}
+
+/** Start a flight of a situation of one's own. */
+export interface SituationFlightRequest {
+  situation: SituationBody;
+  /** Simulated seconds per second. */
+  rate?: number;
+  /** Whether it waits for `play`. */
+  paused?: boolean;
+  /** Whether the pursuer knows the leader's intent; left out: it does. */
+  intent_known?: boolean | null;
+  seed?: number;
+}
+
+/** A piece of intent: keep the heading. */
+export interface StraightPiece {
+  /** For how long. */
+  straight_s: number;
+}
+
+/** A piece at constant heading. */
+export interface StraightSegment {
+  kind: "straight";
+  /** In the air mass [m]. */
+  length_m: number;
+  duration_s: number;
+  start: PathPoint;
+  end: PathPoint;
+}
+
+/** A frame of the stream: what happened in a flight since the last one. */
+export interface Tick {
+  kind: "tick";
+  flight_id: string;
+  /** Flight time now. */
+  t_s: number;
+  /** Simulated seconds per second. */
+  rate: number;
+  paused: boolean;
+  ended: boolean;
+  /** Since the last tick, in order; of several samples only the newest. */
+  documents: Document[];
+}
+
+/** A piece of intent: turn at constant bank. */
+export interface TurnPiece {
+  /** Heading to roll out on, clockwise from true north. */
+  turn_to_heading_deg: number;
+  /** Which way round. */
+  direction: Direction;
+  /** Bank of the turn. */
+  bank_deg: number;
+}
+
+/** Guidance asks the autopilot for a turn rate. */
+export interface TurnRateReference {
+  kind: "turn_rate";
+  turn_rate_degps: number;
+}
+
+/** A turn at constant bank. In wind its ground path is a trochoid: air-mass arc + wind × t. */
+export interface TurnSegment {
+  kind: "turn";
+  direction: Direction;
+  angle_deg: number;
+  /** |φ| [rad]. */
+  bank_deg: number;
+  radius_m: number;
+  duration_s: number;
+  start: PathPoint;
+  end: PathPoint;
+}
+
+/** A candidate that lost because it comes too close. */
+export interface UnsafeAlternativeCard {
+  word: string;
+  time_to_converge_s: number;
+  least_separation_m: number;
+  at_s: number;
+  rejected: "separation";
+}
+
+/** Uniform wind as reports give it. */
+export interface WindBody {
+  /** Where it comes from, clockwise from true north. */
+  from_deg: number;
+  speed_mps: number;
+}
+
+/** Uniform wind as reports give it. */
+export interface WindCard {
+  /** Where it comes from, clockwise from north [rad]. JSON name: from_deg. */
+  from_deg: number;
+  speed_mps: number;
+}
