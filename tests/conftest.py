@@ -5,10 +5,13 @@ Warnings are errors by `pyproject.toml`. Fresh examples: `pytest --hypothesis-pr
 
 import random
 from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, settings
+
+APART = ("bench", "browser")
 
 # The first call of a kernel compiles it, so no example has a deadline.
 settings.register_profile(
@@ -28,3 +31,9 @@ def _floats_raise() -> Iterator[None]:
 @pytest.fixture(autouse=True)
 def _seeds() -> None:
     random.seed(0)
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """`tests/bench` and `tests/browser` run only when named: `make bench`, `make test`."""
+    apart = collection_path.parent == Path(__file__).parent and collection_path.name in APART
+    return True if apart and not any(collection_path.name in arg for arg in config.args) else None
