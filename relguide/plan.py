@@ -11,7 +11,7 @@ from relguide.certificate import SLACK, Certificate, certify
 from relguide.situation import Situation
 from relguide.trajectory import Trajectory
 from relguide.units import KT, NM, Metre, Millisecond, Second
-from relguide.words import Candidate, Candidates, all_candidates, detours_at_opening
+from relguide.words import Candidate, Candidates, candidates, detours_at_opening
 
 HORIZON: Second = 43_200.0
 """Plans longer than this are not given: 12 hours, longer than any aircraft's fuel lasts [s]."""
@@ -118,14 +118,14 @@ def plan(situation: Situation) -> Plan | NoPlan:
             message=f"The aircraft are {_nm(separation)} apart, closer than the minimum of "
             f"{_nm(situation.min_separation)}: restore separation first, or lower the minimum.",
         )
-    found = all_candidates(situation)
-    if not found.in_order:
+    found = candidates(situation)
+    if len(found) == 0:
         return NoPlan(reason=Reason.SLOT_UNREACHABLE, message=_unreachable(situation))
     chosen = _first_that_holds(found, situation)
     if chosen is None:
         return NoPlan(
             reason=Reason.SEPARATION_UNAVOIDABLE,
-            message=f"Each of the {len(found.in_order)} direct trajectories to the slot comes "
+            message=f"Each of the {len(found)} direct trajectories to the slot comes "
             f"closer than {_nm(situation.min_separation)} to the leader; detours of more pieces "
             "were not searched. A smaller minimum separation or a larger slot distance would help.",
         )
@@ -151,8 +151,8 @@ def alternatives(plan: Plan) -> tuple[Alternative, ...]:
     """What else was there, and why it lost: all that is faster, and the best of each other word."""
     listed: list[Alternative] = []
     seen = {plan.word}
-    found = all_candidates(plan.situation)
-    for candidate in found.at_opening[:1] + found.later:
+    found = candidates(plan.situation)
+    for candidate in (*found.at_opening[:1], *found.later):
         time = candidate.time_to_converge
         if time < plan.time_to_converge - 1e-6:  # a microsecond: the same path found twice
             certificate = certify(candidate.trajectory, plan.situation)
@@ -171,19 +171,17 @@ def alternatives(plan: Plan) -> tuple[Alternative, ...]:
 def _first_that_holds(
     found: Candidates, situation: Situation
 ) -> tuple[Candidate, Certificate, Optimality] | None:
+    bound = found.bound
     if found.reachable_at_opening:
-        bound = found.slot_opens
         best = _canonical(found.at_opening, situation) or _canonical(
             detours_at_opening(situation), situation
         )
         if best is not None:
             return *best, Optimality(proof="relaxation", lower_bound=bound)
-    else:
-        bound = found.later[0].time_to_converge
-    for candidate in found.later:
+    for i, candidate in enumerate(found.later):
         certificate = certify(candidate.trajectory, situation)
         if certificate.holds:
-            proved = candidate.time_to_converge <= bound
+            proved = i == 0 and not found.reachable_at_opening
             proof: Proof = "relaxation" if proved else "none"
             return candidate, certificate, Optimality(proof=proof, lower_bound=bound)
     return None

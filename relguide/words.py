@@ -1,5 +1,6 @@
 """candidates(situation): every extremal that reaches the slot, whether or not it keeps d_min."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from math import hypot
 
@@ -14,6 +15,8 @@ from relguide.units import Second
 
 NO_TURN = 1e-9
 """A turn below this is rounding [rad]; likewise a straight, in R."""
+SIGN_ROWS: list[list[float]] = SIGNS.tolist()
+"""`SIGNS` as lists."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,49 +38,51 @@ class Candidate:
 class Candidates:
     """All candidates of a situation, and what is known without the separation limit."""
 
+    situation: Situation
+    frame: SlotFrame
+    rows: np.ndarray
+    """The extremals that arrive after the slot opens, fastest first, as `solve` gives them."""
     at_opening: tuple[Candidate, ...]
     """Paths that arrive exactly when the slot opens, all equally fast; fewest turns first."""
-    later: tuple[Candidate, ...]
-    """Extremals that arrive after it opens, fastest first; the first is the best, proved."""
-    slot_opens: Second
-    """t_open: no arrival before this counts [s]."""
     reachable_at_opening: bool
     """Whether the shortest way to the slot's place at t_open is short enough to be there then."""
 
     @property
-    def in_order(self) -> tuple[Candidate, ...]:
-        """All of them, fastest first."""
-        return self.at_opening + self.later
+    def bound(self) -> Second:
+        """No way to the slot is faster than this, with or without the separation limit [s]."""
+        time = self.frame.t_open if self.reachable_at_opening else self.rows[0, 0]
+        return float(time) * self.frame.radius / self.situation.pursuer.tas
+
+    @property
+    def later(self) -> Iterator[Candidate]:
+        """Extremals that arrive after the slot opens, fastest first, each made when asked for."""
+        for _, word, *amounts in self.rows.tolist():
+            signs = SIGN_ROWS[int(word)]
+            yield _candidate(self.situation, self.frame, signs, amounts, WORDS[int(word)])
+
+    def __len__(self) -> int:
+        return len(self.at_opening) + len(self.rows)
+
+    def __iter__(self) -> Iterator[Candidate]:
+        yield from self.at_opening
+        yield from self.later
 
 
-def candidates(situation: Situation) -> tuple[Candidate, ...]:
+def candidates(situation: Situation) -> Candidates:
     """Every extremal that reaches the slot, fastest first.
 
     With no separation limit the first is the global optimum; an empty answer means that the slot
     cannot be reached (possible only for V_L ≥ V_P).
     """
-    return all_candidates(situation).in_order
-
-
-def all_candidates(situation: Situation) -> Candidates:
-    """As `candidates`, with what is known of the slot's opening."""
     frame = slot_frame(situation, situation.leader.trajectory)
-    scale = frame.radius / situation.pursuer.tas
     rows = np.empty((MAX_ROWS, 5))
-    later = tuple(
-        _candidate(situation, frame, SIGNS[int(row[1])], row[2:], WORDS[int(row[1])])
-        for row in rows[: solve(frame.x, frame.y, frame.h, frame.alpha, frame.t_open, rows)]
-    )
-    at_opening: tuple[Candidate, ...] = ()
-    reachable = False
-    if frame.t_open > 0.0:
-        reachable = _dubins_length(frame) <= frame.t_open + NO_TURN
-        if reachable:
-            at_opening = _at_opening(situation, frame, first_turns=False)
+    n = solve(frame.x, frame.y, frame.h, frame.alpha, frame.t_open, rows)
+    reachable = frame.t_open > 0.0 and _dubins_length(frame) <= frame.t_open + NO_TURN
     return Candidates(
-        at_opening=at_opening,
-        later=later,
-        slot_opens=frame.t_open * scale,
+        situation=situation,
+        frame=frame,
+        rows=rows[:n],
+        at_opening=_at_opening(situation, frame, first_turns=False) if reachable else (),
         reachable_at_opening=reachable,
     )
 
@@ -98,7 +103,8 @@ def _at_opening(
     signs = np.empty((MAX_HOLDS, HOLD_PIECES))
     amounts = np.empty((MAX_HOLDS, HOLD_PIECES))
     n = holds(frame.x, frame.y, frame.h, frame.alpha, frame.t_open, first_turns, signs, amounts)
-    found = [_candidate(situation, frame, signs[i], amounts[i], "") for i in range(n)]
+    pieces = zip(signs[:n].tolist(), amounts[:n].tolist(), strict=True)
+    found = [_candidate(situation, frame, *piece, "") for piece in pieces]
     return tuple(sorted(found, key=_canonical_order))
 
 
@@ -120,10 +126,10 @@ def _dubins_length(frame: SlotFrame) -> float:
 
 
 def _candidate(
-    situation: Situation, frame: SlotFrame, signs: np.ndarray, amounts: np.ndarray, word: str
+    situation: Situation, frame: SlotFrame, signs: list[float], amounts: list[float], word: str
 ) -> Candidate:
     segments: list[Segment] = []
-    for sign, amount in zip(signs.tolist(), amounts.tolist(), strict=True):
+    for sign, amount in zip(signs, amounts, strict=True):
         if amount <= NO_TURN:
             continue
         if sign == 0.0:
