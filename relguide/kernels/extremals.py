@@ -51,26 +51,43 @@ def solve(x: float, y: float, h: float, alpha: float, t_open: float, rows: Float
     Returns:
         how many rows.
     """
+    return solve_toward(x, y, h, alpha, 0.0, t_open, rows)
+
+
+@njit(cache=True, nogil=True)
+def solve_toward(
+    x: float, y: float, h: float, ax: float, ay: float, t_open: float, rows: FloatArray
+) -> int:
+    """As `solve`, for a target that moves any way.
+
+    Args:
+        x: pursuer ahead of the target's first place, along the heading to meet it on [R].
+        y: and left of it [R].
+        h: its heading, counter-clockwise from that heading [rad], in [0, 2π).
+        ax: the target's velocity along that heading [V_P].
+        ay: and to the left of it [V_P].
+        t_open: earliest arrival [R/V_P].
+        rows: as in `solve`.
+    """
     found = np.empty((MAX_ROWS, 4))
     mirrored_h = TWO_PI - h if h > 0.0 else 0.0
     n = 0
     for word in range(6):
-        start = 0
         if word == 0:
-            end = lsl(x, y, h, alpha, found, 0)
+            end = lsl(x, y, h, ax, ay, found, 0)
         elif word == 1:
-            end = lsl(x, -y, mirrored_h, alpha, found, 0)
+            end = lsl(x, -y, mirrored_h, ax, -ay, found, 0)
         elif word == 2:
-            end = lsr(x, y, h, alpha, found, 0)
+            end = lsr(x, y, h, ax, ay, found, 0)
         elif word == 3:
-            end = lsr(x, -y, mirrored_h, alpha, found, 0)
+            end = lsr(x, -y, mirrored_h, ax, -ay, found, 0)
         elif word == 4:
-            end = lrl(x, y, h, alpha, found, 0)
+            end = lrl(x, y, h, ax, ay, found, 0)
         else:
-            end = lrl(x, -y, mirrored_h, alpha, found, 0)
-        for i in range(start, end):
+            end = lrl(x, -y, mirrored_h, ax, -ay, found, 0)
+        for i in range(end):
             time = found[i, 0]
-            if time < t_open - 1e-9 or not _closes(x, y, h, alpha, word, found[i]):
+            if time < t_open - 1e-9 or not _closes(x, y, h, ax, ay, word, found[i]):
                 continue
             at = n
             while at > 0 and rows[at - 1, 0] > time:
@@ -86,9 +103,9 @@ def solve(x: float, y: float, h: float, alpha: float, t_open: float, rows: Float
 
 
 @njit(cache=True, nogil=True)
-def _closes(x: float, y: float, h: float, alpha: float, word: int, row: FloatArray) -> bool:
-    """Does the path really end at the slot? A root found next to a tangency may not."""
+def _closes(x: float, y: float, h: float, ax: float, ay: float, word: int, row: FloatArray) -> bool:
+    """Does the path really end at the target? A root found next to a tangency may not."""
     for piece in range(3):
         x, y, h = fly_piece(x, y, h, SIGNS[word, piece], row[piece + 1])
     # far away the last digits of τ are worth more than CLOSURE
-    return bool(hypot(x - alpha * row[0], y) <= CLOSURE + 1e-12 * row[0])
+    return bool(hypot(x - ax * row[0], y - ay * row[0]) <= CLOSURE + 1e-12 * row[0])

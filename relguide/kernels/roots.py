@@ -14,7 +14,7 @@ from numba import njit
 
 FloatArray = np.ndarray[tuple[int, ...], np.dtype[np.float64]]
 
-MAX_CUTS = 12
+MAX_CUTS = 16
 """Room for the cuts of one equation, its two ends included."""
 TOUCH = 1e-12
 """|f| at an extremum that still counts as a (double) root: some hundred roundings of f's terms."""

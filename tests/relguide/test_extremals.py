@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from relguide.kernels.extremals import MAX_ROWS, SIGNS, WORDS, fly_piece, solve
+from relguide.kernels.extremals import MAX_ROWS, SIGNS, WORDS, fly_piece, solve, solve_toward
 from tests.situations import numbers
 
 arcs = st.one_of(numbers(0.0, 2.0 * pi - 1e-6), st.sampled_from([0.0, 1e-7, pi, 2.0 * pi - 1e-5]))
@@ -49,6 +49,28 @@ def test_every_path_made_backward_is_found_forward(
     rows = rows_of(*start_of(word, first, middle, last, alpha), alpha)
     nearest = np.abs(rows[:, 0] - time).min() if len(rows) else np.inf
     # 1e-5 R/V: near a tangency the time is only known to the square root of rounding
+    assert nearest < 1e-5 * max(1.0, time), (WORDS[word], rows)
+
+
+@given(
+    word=st.integers(0, 5),
+    first=arcs,
+    last=arcs,
+    turn=middles,
+    straight=straights,
+    alpha=numbers(0.3, 0.98),
+    kappa=numbers(-pi, pi),
+)
+def test_a_target_that_moves_across_its_final_heading_is_met_too(
+    word: int, first: float, last: float, turn: float, straight: float, alpha: float, kappa: float
+) -> None:
+    middle = turn if word > 3 else straight
+    time = first + middle + last
+    x, y, h = start_of(word, first, middle, last, 0.0)
+    ax, ay = alpha * cos(kappa), alpha * sin(kappa)
+    rows = np.empty((MAX_ROWS, 5))
+    rows = rows[: solve_toward(x + ax * time, y + ay * time, h, ax, ay, 0.0, rows)]
+    nearest = np.abs(rows[:, 0] - time).min() if len(rows) else np.inf
     assert nearest < 1e-5 * max(1.0, time), (WORDS[word], rows)
 
 
