@@ -1,0 +1,154 @@
+/** What the buttons do: the one place where the page talks to the server. */
+
+import { type Answer, commandFlight, createFlight, listScenarios, readFlight } from "./api";
+import type { FlightStore } from "./flight";
+import type { Actions, Session } from "./session";
+import { OTHER_VERSION, openStream, type Stream } from "./stream";
+import { formatHeading, formatKnots } from "./units";
+import { type Command, type FlightStatus, PROTOCOL } from "./wire";
+
+/** What a page that is opened without a flight shows: the paper's figure, soon over. */
+const FIRST_SCENARIO = "fig_6b";
+const FIRST_RATE = 10;
+/** A server that does not answer is asked again this often [ms]. */
+const ASK_AGAIN = 3000;
+
+/** The actions of a page, and `open`, which begins: joins the flight of the address or starts one. */
+export function createActions(
+  session: Session,
+  store: FlightStore,
+): Actions & { open(joined: string | null): Promise<void> } {
+  let stream: Stream | null = null;
+  let again: ReturnType<typeof setTimeout> | null = null;
+  let attempt: () => void = () => undefined;
+
+  async function open(joined: string | null): Promise<void> {
+    void loadScenarios();
+    if (joined === null) {
+      await begin(FIRST_SCENARIO, FIRST_RATE);
+      return;
+    }
+    const answer = await readFlight(joined);
+    if (answer.kind === "done") {
+      show(answer.value);
+    } else if (answer.status === 404) {
+      await begin(FIRST_SCENARIO, FIRST_RATE);
+      say("done", `Flight ${joined} is no longer flown here, so a new one was started.`);
+    } else {
+      fail(answer, () => void open(joined));
+    }
+  }
+
+  async function loadScenarios(): Promise<void> {
+    const answer = await listScenarios();
+    if (answer.kind === "done") session.scenarios.value = answer.value;
+    else if (answer.status === 0) setTimeout(() => void loadScenarios(), ASK_AGAIN);
+  }
+
+  async function begin(scenario: string, rate: number): Promise<void> {
+    say("sending", "Starting the flight…");
+    const answer = await createFlight({ scenario, rate });
+    if (answer.kind === "done") {
+      show(answer.value);
+      say("done", `New flight: ${answer.value.title}.`);
+    } else if (session.status.value === null) {
+      fail(answer, () => void begin(scenario, rate));
+    } else {
+      say("refused", answer.sentence);
+    }
+  }
+
+  function show(status: FlightStatus): void {
+    stream?.close();
+    session.outage.value = null;
+    session.status.value = status;
+    const address = new URL(location.href);
+    address.searchParams.set("flight", status.id);
+    history.replaceState(null, "", address);
+    stream = openStream(status.stream_url, PROTOCOL, {
+      tick(tick) {
+        if (session.outage.value !== null) session.outage.value = null;
+        store.receive(tick, performance.now());
+      },
+      link: (state) => store.link(state),
+      broken(wait) {
+        session.outage.value = {
+          kind: "no_answer",
+          text: "The connection to the server is lost.",
+          nextTry: performance.now() + wait,
+        };
+      },
+      refused(code, sentence) {
+        session.outage.value =
+          code === OTHER_VERSION
+            ? { kind: "other_version", text: sentence || "The server is of another version." }
+            : {
+                kind: "flight_gone",
+                text: `This flight is over here. ${sentence}`,
+                scenario: status.scenario || FIRST_SCENARIO,
+              };
+      },
+    });
+  }
+
+  /** Nothing could be shown: says why, and tries again by itself if nobody answered. */
+  function fail(answer: Answer<unknown> & { kind: "refused" }, next: () => void): void {
+    session.feedback.value = { kind: "none" };
+    attempt = next;
+    if (answer.status === 0) {
+      const nextTry = performance.now() + ASK_AGAIN;
+      session.outage.value = { kind: "no_answer", text: answer.sentence, nextTry };
+      again = setTimeout(next, ASK_AGAIN);
+    } else {
+      session.outage.value = { kind: "refused", text: answer.sentence };
+    }
+  }
+
+  function say(kind: "sending" | "done" | "refused", text: string): void {
+    session.feedback.value = { kind, text };
+  }
+
+  async function command(body: Command, doing: string, done: string): Promise<void> {
+    const status = session.status.value;
+    if (status === null) {
+      say("refused", "There is no flight to command.");
+      return;
+    }
+    say("sending", doing);
+    const answer = await commandFlight(status.id, body);
+    if (answer.kind === "done") say("done", done);
+    else say("refused", answer.sentence);
+  }
+
+  return {
+    open,
+    start: (scenario) => void begin(scenario, session.flight.clock.value.rate || FIRST_RATE),
+    play: () => void command({ command: "play" }, "Playing…", "Playing."),
+    pause: () => void command({ command: "pause" }, "Pausing…", "Paused."),
+    setRate: (rate) =>
+      void command({ command: "set_rate", rate }, `Rate ×${rate}…`, `Rate ×${rate}.`),
+    leaderHeading(heading, direction) {
+      const way = direction === undefined ? "" : ` by the ${direction}`;
+      const text = `Leader to heading ${formatHeading(heading)}${way}`;
+      const body = { command: "leader_heading", heading_deg: heading } as const;
+      void command(direction === undefined ? body : { ...body, direction }, `${text}…`, `${text}.`);
+    },
+    leaderSpeed(tas) {
+      const text = `Leader to ${formatKnots(tas)} kt`;
+      void command({ command: "leader_speed", tas_mps: tas }, `${text}…`, `${text}.`);
+    },
+    setIntentKnown(known) {
+      const text = known ? "Leader's intent received" : "Leader's intent withdrawn";
+      void command({ command: "set_intent_known", known }, `${text}…`, `${text}.`);
+    },
+    retry() {
+      if (stream !== null) {
+        stream.retry();
+        return;
+      }
+      if (again !== null) clearTimeout(again);
+      attempt();
+    },
+    reload: () => location.reload(),
+  };
+}

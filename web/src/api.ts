@@ -1,0 +1,71 @@
+/** The REST service, as far as the cockpit uses it. A refusal is an answer with a sentence, not an exception. */
+
+import type { Command, FlightRequest, FlightStatus, ScenarioInfo, ScenarioList } from "./wire";
+
+/** What the server said. `status` is 0 when it did not answer at all. */
+export type Answer<T> =
+  | { readonly kind: "done"; readonly value: T }
+  | { readonly kind: "refused"; readonly status: number; readonly sentence: string };
+
+const ROOT = "/api/v1";
+/** The server answers in milliseconds; after this long [ms] nobody is there. */
+const PATIENCE = 8000;
+
+export async function listScenarios(): Promise<Answer<readonly ScenarioInfo[]>> {
+  const answer = await request<ScenarioList>("GET", `${ROOT}/scenarios`);
+  return answer.kind === "done" ? { kind: "done", value: answer.value.scenarios } : answer;
+}
+
+export function createFlight(wanted: FlightRequest): Promise<Answer<FlightStatus>> {
+  return request("POST", `${ROOT}/flights`, wanted);
+}
+
+export function readFlight(id: string): Promise<Answer<FlightStatus>> {
+  return request("GET", `${ROOT}/flights/${encodeURIComponent(id)}`);
+}
+
+export function commandFlight(id: string, command: Command): Promise<Answer<FlightStatus>> {
+  return request("POST", `${ROOT}/flights/${encodeURIComponent(id)}/commands`, command);
+}
+
+async function request<T>(method: string, path: string, body?: unknown): Promise<Answer<T>> {
+  const init: RequestInit = { method, signal: AbortSignal.timeout(PATIENCE) };
+  if (body !== undefined) {
+    init.body = JSON.stringify(body);
+    init.headers = { "content-type": "application/json" };
+  }
+  let response: Response;
+  let text: string;
+  try {
+    response = await fetch(path, init);
+    text = await response.text();
+  } catch {
+    return { kind: "refused", status: 0, sentence: "The server does not answer." };
+  }
+  const content = parse(text);
+  if (response.ok && content !== undefined) return { kind: "done", value: content as T };
+  return {
+    kind: "refused",
+    status: response.status,
+    sentence: sentenceOf(content, response.status),
+  };
+}
+
+function parse(text: string): unknown {
+  try {
+    return JSON.parse(text);
+  } catch {
+    return undefined;
+  }
+}
+
+/** The sentence of a problem document (RFC 9457): its detail, else its title. */
+export function sentenceOf(problem: unknown, status: number): string {
+  if (typeof problem === "object" && problem !== null) {
+    for (const member of ["detail", "title"]) {
+      const value: unknown = Reflect.get(problem, member);
+      if (typeof value === "string" && value !== "") return value;
+    }
+  }
+  return `The server refused, without saying why (status ${status}).`;
+}

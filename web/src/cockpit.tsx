@@ -1,0 +1,84 @@
+/** The page: the ND, the 3D scene, and the panels round them. */
+
+import { type Signal, useSignal } from "@preact/signals";
+import { useEffect } from "preact/hooks";
+import { NavigationDisplay } from "./nd/nd";
+import { Aircraft } from "./panels/aircraft";
+import { Alternatives } from "./panels/alternatives";
+import { Efis } from "./panels/efis";
+import { Announcer, Events } from "./panels/events";
+import { FlightControls } from "./panels/flight-controls";
+import { Header } from "./panels/header";
+import { Help } from "./panels/help";
+import { LeaderControls } from "./panels/leader-controls";
+import { OutageNotice } from "./panels/outage";
+import { PlanNumbers } from "./panels/plan";
+import { Scene } from "./panels/scene";
+import type { Actions, Session } from "./session";
+
+/** Where the panels stand in two columns instead of three: as in styles/layout.css. */
+const NARROW = "(max-width: 1279px)";
+
+export function Cockpit(props: { session: Session; actions: Actions }) {
+  const { session, actions } = props;
+  const narrow = useMedia(NARROW);
+  return (
+    <>
+      <Header session={session} />
+      <main class={session.sceneMaximised.value ? "maximised" : ""}>
+        <div class="instrument">
+          <Efis session={session} />
+          <div class="bezel">
+            <div class="glass">
+              <NavigationDisplay
+                flight={session.flight}
+                mode={session.ndMode}
+                range={session.ndRange}
+              />
+            </div>
+            <OutageNotice session={session} actions={actions} />
+          </div>
+          <div class="below">
+            <Events session={session} />
+            {narrow.value && <Aircraft session={session} />}
+          </div>
+        </div>
+        <div class="workstation">
+          <Scene session={session} />
+          <div class="panels">
+            <div class="column commands">
+              <FlightControls session={session} actions={actions} />
+              <LeaderControls key={session.status.value?.id} session={session} actions={actions} />
+            </div>
+            <div class="column numbers">
+              <PlanNumbers session={session} />
+              {narrow.value && <Alternatives session={session} />}
+            </div>
+            {!narrow.value && (
+              <div class="column lists">
+                <Aircraft session={session} />
+                <Alternatives session={session} />
+              </div>
+            )}
+          </div>
+        </div>
+      </main>
+      <Help session={session} />
+      <Announcer session={session} />
+    </>
+  );
+}
+
+/** Whether a media query holds, now and whenever that changes. */
+function useMedia(query: string): Signal<boolean> {
+  const holds = useSignal(matchMedia(query).matches);
+  useEffect(() => {
+    const media = matchMedia(query);
+    const note = () => {
+      holds.value = media.matches;
+    };
+    media.addEventListener("change", note);
+    return () => media.removeEventListener("change", note);
+  }, [query, holds]);
+  return holds;
+}

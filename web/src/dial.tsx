@@ -1,0 +1,93 @@
+/** A selector for one number: typed, stepped by 1 or 10, with arrow keys or the wheel. */
+
+import { useSignal } from "@preact/signals";
+
+const STEPS = [-10, -1, 1, 10] as const;
+
+export function Dial(props: {
+  label: string;
+  unit: string;
+  value: number;
+  digits: number;
+  /** Brings any number into the range of what is selected. */
+  correct: (value: number) => number;
+  change: (value: number) => void;
+  /** Enter: what is selected is commanded. */
+  commit: (value: number) => void;
+}) {
+  const { label, unit, value, digits, correct, change, commit } = props;
+  const typed = useSignal<string | null>(null);
+  const shown = String(value).padStart(digits, "0");
+  const step = (by: number) => {
+    typed.value = null;
+    change(correct(value + by));
+  };
+  const typedNumber = () => {
+    const number = Number.parseInt(typed.value ?? shown, 10);
+    return Number.isNaN(number) ? value : correct(number);
+  };
+  const take = () => {
+    const number = typedNumber();
+    if (typed.value !== null && number !== value) change(number);
+    typed.value = null;
+    return number;
+  };
+  const keys: Record<string, () => void> = {
+    ArrowUp: () => step(1),
+    ArrowDown: () => step(-1),
+    PageUp: () => step(10),
+    PageDown: () => step(-10),
+    Enter: () => commit(take()),
+    Escape: () => {
+      typed.value = null;
+    },
+  };
+  const button = (by: number) => (
+    <button
+      type="button"
+      key={by}
+      class="step"
+      aria-label={`${label}: ${by > 0 ? "plus" : "minus"} ${Math.abs(by)}`}
+      onClick={() => step(by)}
+    >
+      {by > 0 ? `+${by}` : `−${-by}`}
+    </button>
+  );
+  return (
+    <div class="dial">
+      {STEPS.filter((by) => by < 0).map(button)}
+      <span class="dial-window">
+        <input
+          type="text"
+          inputMode="numeric"
+          role="spinbutton"
+          aria-label={label}
+          aria-valuenow={value}
+          maxLength={3}
+          size={3}
+          value={typed.value ?? shown}
+          onFocus={(event) => event.currentTarget.select()}
+          onInput={(event) => {
+            typed.value = event.currentTarget.value.replace(/\D/g, "");
+          }}
+          onBlur={take}
+          onKeyDown={(event) => {
+            const act = keys[event.key];
+            if (act === undefined) return;
+            event.preventDefault();
+            act();
+          }}
+          onWheel={(event) => {
+            if (document.activeElement !== event.currentTarget) return;
+            event.preventDefault();
+            step(event.deltaY < 0 ? 1 : -1);
+          }}
+        />
+        <span class="unit" aria-hidden="true">
+          {unit}
+        </span>
+      </span>
+      {STEPS.filter((by) => by > 0).map(button)}
+    </div>
+  );
+}

@@ -1,0 +1,46 @@
+/** Puts the cockpit together: store, stream, page, and the one loop that moves the picture. */
+
+import "@fontsource/b612/latin-400.css";
+import "@fontsource/b612/latin-700.css";
+import "./styles/tokens.css";
+import "./styles/base.css";
+import "./styles/layout.css";
+import "./styles/panels.css";
+import { render } from "preact";
+import { createActions } from "./actions";
+import { Cockpit } from "./cockpit";
+import { createFlightStore } from "./flight";
+import { isTaken, keyAction } from "./keyboard";
+import { createSession } from "./session";
+
+/** Numbers are read, not watched: they change this often [ms]. */
+const READING_PERIOD = 200;
+
+const store = createFlightStore();
+const session = createSession(store.flight);
+const actions = createActions(session, store);
+
+const place = document.querySelector("#cockpit");
+if (place === null) throw new Error("The page has no place for the cockpit.");
+render(<Cockpit session={session} actions={actions} />, place);
+
+addEventListener("keydown", (event) => {
+  if (isTaken(event)) return;
+  const act = keyAction(event.key, session, actions);
+  if (act === null) return;
+  event.preventDefault();
+  act();
+});
+
+let readAt = -Infinity;
+function animate(wall: number): void {
+  store.advance(wall);
+  if (wall - readAt >= READING_PERIOD) {
+    readAt = wall;
+    session.reading.value = session.flight.now.value;
+  }
+  requestAnimationFrame(animate);
+}
+requestAnimationFrame(animate);
+
+void actions.open(new URL(location.href).searchParams.get("flight"));

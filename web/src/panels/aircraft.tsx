@@ -1,0 +1,58 @@
+/** Both aircraft side by side, and what guidance asks of the own one. */
+
+import { Panel } from "../parts";
+import { referenceText } from "../reading";
+import type { Session } from "../session";
+import { formatBank, formatHeading, formatKnots, formatLevel } from "../units";
+import type { AircraftSample } from "../wire";
+
+const ROWS: readonly (readonly [string, string, (aircraft: AircraftSample) => string])[] = [
+  ["Heading", "°", (aircraft) => formatHeading(aircraft.heading_deg)],
+  ["Track", "°", (aircraft) => formatHeading(aircraft.track_deg)],
+  ["Bank", "°", (aircraft) => formatBank(aircraft.bank_deg)],
+  ["TAS", "kt", (aircraft) => formatKnots(aircraft.tas_mps)],
+  ["GS", "kt", (aircraft) => formatKnots(aircraft.ground_speed_mps)],
+  ["Level", "", (aircraft) => formatLevel(aircraft.altitude_m)],
+];
+
+export function Aircraft(props: { session: Session }) {
+  const sample = props.session.reading.value;
+  const started = props.session.flight.started.value;
+  const idents = [started?.pursuer.ident ?? "Own", started?.leader.ident ?? "Leader"] as const;
+  const heads = (
+    <span class="idents" aria-hidden="true">
+      <b class="key-pursuer">{idents[0]}</b>
+      <b class="key-leader">{idents[1]}</b>
+    </span>
+  );
+  return (
+    <Panel name="aircraft" title="Aircraft" aside={heads}>
+      <table class="states">
+        <thead class="visually-hidden">
+          <tr>
+            <td />
+            <th scope="col">{idents[0]}</th>
+            <th scope="col">{idents[1]}</th>
+          </tr>
+        </thead>
+        <tbody>
+          {ROWS.map(([name, unit, text]) => (
+            <tr key={name}>
+              <th scope="row">
+                {name}
+                {unit !== "" && <span class="unit">{unit}</span>}
+              </th>
+              <td>{sample === null ? "––" : text(sample.pursuer)}</td>
+              <td>{sample === null ? "––" : text(sample.leader)}</td>
+            </tr>
+          ))}
+        </tbody>
+      </table>
+      <p class="commanded">
+        <span>Guidance</span>
+        <b>{sample === null ? "––" : referenceText(sample.reference)}</b>
+        <b>{sample === null ? "" : `${formatKnots(sample.commanded_tas_mps)} kt`}</b>
+      </p>
+    </Panel>
+  );
+}

@@ -1,0 +1,98 @@
+/** Which flight, and how fast: scenario, restart, play or pause, rate. */
+
+import { Choice, Icon, Panel } from "../parts";
+import { type Actions, type Feedback, RATES, type Session } from "../session";
+
+export function FlightControls(props: { session: Session; actions: Actions }) {
+  const { session, actions } = props;
+  const { scenarios, status, flight, feedback } = session;
+  const { rate, paused, ended } = flight.clock.value;
+  const flown = status.value?.scenario || null; // empty for a situation of one's own
+  const missing = scenarios.value.filter((scenario) => !scenario.available);
+  return (
+    <Panel name="controls" title="Flight">
+      <div class="row">
+        <label class="grow">
+          <span class="visually-hidden">Scenario</span>
+          <select
+            value={flown ?? ""}
+            onChange={(event) => actions.start(event.currentTarget.value)}
+          >
+            {scenarios.value.every((scenario) => scenario.name !== flown) && (
+              <option value={flown ?? ""}>{status.value?.title ?? "Scenario"}</option>
+            )}
+            {scenarios.value.map((scenario) => (
+              <option key={scenario.name} value={scenario.name} disabled={!scenario.available}>
+                {scenario.title}
+                {scenario.available ? "" : " (not available)"}
+              </option>
+            ))}
+          </select>
+        </label>
+      </div>
+      {missing.length > 0 && (
+        <details class="missing">
+          <summary>
+            {missing.length} scenario{missing.length === 1 ? "" : "s"} not available: why?
+          </summary>
+          <div>
+            {missing.map((scenario) => (
+              <p key={scenario.name}>
+                <b>{scenario.title}</b> {scenario.message}
+              </p>
+            ))}
+          </div>
+        </details>
+      )}
+      <div class="row">
+        <button
+          type="button"
+          class="primary grow"
+          disabled={ended}
+          onClick={() => (paused ? actions.play() : actions.pause())}
+        >
+          <Icon name={paused ? "play" : "pause"} />
+          {paused ? "Play" : "Pause"}
+        </button>
+        <button
+          type="button"
+          class="grow"
+          disabled={flown === null}
+          onClick={() => flown !== null && actions.start(flown)}
+        >
+          <Icon name="restart" />
+          Restart
+        </button>
+      </div>
+      <Choice
+        label="Simulated seconds per second"
+        options={RATES}
+        chosen={RATES.find((offered) => offered === rate) ?? null}
+        text={(offered) => `×${offered}`}
+        choose={actions.setRate}
+      />
+      <FeedbackLine feedback={feedback.value} />
+    </Panel>
+  );
+}
+
+const FEEDBACK_SIGN: Record<Feedback["kind"], string> = {
+  none: "",
+  sending: "SENT",
+  done: "DONE",
+  refused: "REFUSED",
+};
+
+/** What became of the last command, said and shown. */
+function FeedbackLine(props: { feedback: Feedback }) {
+  const { feedback } = props;
+  return (
+    <p class={`feedback ${feedback.kind}`} role="status">
+      {feedback.kind !== "none" && (
+        <>
+          <b>{FEEDBACK_SIGN[feedback.kind]}</b> {feedback.text}
+        </>
+      )}
+    </p>
+  );
+}

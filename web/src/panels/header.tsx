@@ -1,0 +1,67 @@
+/** The strip on top: what is flown, simulated time and rate, the state of the connection. */
+
+import type { Connection } from "../flight";
+import { Icon } from "../parts";
+import type { Session } from "../session";
+import { formatClock } from "../units";
+
+const CONNECTION_TEXT: Record<Connection, string> = {
+  connecting: "Connecting",
+  live: "Live",
+  stale: "Data old",
+  lost: "Connection lost",
+};
+
+export function Header(props: { session: Session }) {
+  const { flight, status, helpOpen } = props.session;
+  return (
+    <header class="top">
+      <h1>
+        <img src={new URL("../icon.svg", import.meta.url).href} alt="" width="26" height="26" />
+        relguide
+      </h1>
+      <p class="top-title">{flight.started.value?.title ?? status.value?.title ?? ""}</p>
+      <SimClock session={props.session} />
+      <ConnectionState session={props.session} />
+      <button
+        type="button"
+        class="quiet"
+        aria-expanded={helpOpen.value}
+        aria-controls="help"
+        onClick={() => {
+          helpOpen.value = !helpOpen.value;
+        }}
+      >
+        <Icon name="help" />
+        Help
+      </button>
+    </header>
+  );
+}
+
+function SimClock(props: { session: Session }) {
+  const { flight, reading } = props.session;
+  const { rate, paused, ended } = flight.clock.value;
+  const t = reading.value?.t_s ?? 0;
+  return (
+    <p class="sim">
+      <span class="sim-label">SIM</span>
+      <span class="sim-time">{formatClock(t)}</span>
+      <span class="sim-rate">×{Number.isInteger(rate) ? rate : rate.toFixed(1)}</span>
+      <span class="sim-state">{ended ? "ENDED" : paused ? "PAUSED" : ""}</span>
+    </p>
+  );
+}
+
+function ConnectionState(props: { session: Session }) {
+  const { connection, dataAge } = props.session.flight;
+  const state = connection.value;
+  const age = state === "stale" || state === "lost" ? ` ${Math.floor(dataAge.value)} s` : "";
+  return (
+    <p class={`connection ${state}`}>
+      <span class="lamp" aria-hidden="true" />
+      {CONNECTION_TEXT[state]}
+      {age}
+    </p>
+  );
+}

@@ -1,0 +1,100 @@
+/** What the leader is told: a heading, a speed, and whether it declares its intent. */
+
+import { useSignal } from "@preact/signals";
+import { Dial } from "../dial";
+import { Choice, Icon, Panel } from "../parts";
+import type { Actions, Session } from "../session";
+import { formatHeading, KT, wrap360 } from "../units";
+
+export function LeaderControls(props: { session: Session; actions: Actions }) {
+  const { session, actions } = props;
+  const leader = session.reading.value?.leader;
+  const ident = session.flight.started.value?.leader.ident ?? "";
+  // Until the hand touches a dial it shows what the leader flies now.
+  const heading = useSignal<number | null>(null);
+  const knots = useSignal<number | null>(null);
+  const headingNow = leader === undefined ? 0 : Math.round(leader.heading_deg);
+  const knotsNow = leader === undefined ? 0 : Math.round(leader.tas_mps / KT);
+  const selectedHeading = Number(formatHeading(heading.value ?? headingNow));
+  const selectedKnots = knots.value ?? knotsNow;
+  const known = session.flight.route.value?.intent_known ?? null;
+  const absent = leader === undefined;
+  return (
+    <Panel name="leader" title="Leader" aside={<span class="ident">{ident}</span>}>
+      <p class="caption">
+        <span>Heading</span>
+        <span>now {absent ? "––" : `${formatHeading(headingNow)}°`}</span>
+      </p>
+      <Dial
+        label="Leader's heading"
+        unit="°"
+        value={selectedHeading}
+        digits={3}
+        correct={(value) => Number(formatHeading(wrap360(value)))}
+        change={(value) => {
+          heading.value = value;
+        }}
+        commit={(value) => actions.leaderHeading(wrap360(value))}
+      />
+      <div class="row">
+        <button
+          type="button"
+          class="grow"
+          disabled={absent}
+          onClick={() => actions.leaderHeading(wrap360(selectedHeading), "left")}
+        >
+          <Icon name="left" />
+          Left
+        </button>
+        <button
+          type="button"
+          class="grow"
+          disabled={absent}
+          onClick={() => actions.leaderHeading(wrap360(selectedHeading))}
+        >
+          Shorter
+        </button>
+        <button
+          type="button"
+          class="grow"
+          disabled={absent}
+          onClick={() => actions.leaderHeading(wrap360(selectedHeading), "right")}
+        >
+          Right
+          <Icon name="right" />
+        </button>
+      </div>
+      <p class="caption">
+        <span>TAS</span>
+        <span>now {absent ? "––" : `${knotsNow} kt`}</span>
+        <button
+          type="button"
+          disabled={absent}
+          onClick={() => actions.leaderSpeed(selectedKnots * KT)}
+        >
+          Set
+        </button>
+      </p>
+      <Dial
+        label="Leader's true airspeed in knots"
+        unit="kt"
+        value={selectedKnots}
+        digits={3}
+        correct={(value) => Math.max(0, value)}
+        change={(value) => {
+          knots.value = value;
+        }}
+        commit={(value) => actions.leaderSpeed(value * KT)}
+      />
+      <div class="row labelled">
+        <span>Intent</span>
+        <Choice
+          label="Leader's intent"
+          options={["known", "not known"]}
+          chosen={known === null ? null : known ? "known" : "not known"}
+          choose={(choice) => actions.setIntentKnown(choice === "known")}
+        />
+      </div>
+    </Panel>
+  );
+}

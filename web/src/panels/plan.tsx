@@ -1,0 +1,184 @@
+/** The plan in numbers: when, how far, which turns, how close, and what is proved of it. */
+
+import type { Flight } from "../flight";
+import { Panel, Reading } from "../parts";
+import {
+  closureText,
+  countTurns,
+  crossTrackText,
+  MODE_NAMES,
+  nextTurn,
+  PLANNER_NAMES,
+  proofSentence,
+  spacingText,
+} from "../reading";
+import type { Session } from "../session";
+import { formatClock, formatMiles } from "../units";
+import type { FlightEnded, PlanChanged, PlanUnavailable, Sample } from "../wire";
+
+export function PlanNumbers(props: { session: Session }) {
+  const { flight, reading } = props.session;
+  const sample = reading.value;
+  const plan = flight.plan.value;
+  const mode = sample?.mode ?? flight.mode.value?.mode ?? null;
+  const engaged = mode === "converge" && plan !== null;
+  return (
+    <Panel
+      name="plan"
+      title="Convergence"
+      aside={<span class={`mode-name ${mode ?? ""}`}>{mode === null ? "" : MODE_NAMES[mode]}</span>}
+    >
+      {flight.ended.value !== null ? (
+        <Outcome ended={flight.ended.value} />
+      ) : (
+        <Headline
+          sample={sample}
+          plan={plan}
+          engaged={engaged}
+          unavailable={flight.unavailable.value}
+        />
+      )}
+      <dl class="readings">
+        {plan !== null && engaged && <PathReadings plan={plan} t={sample?.t_s ?? plan.t_s} />}
+        {sample !== null && <SpacingReadings flight={flight} sample={sample} engaged={engaged} />}
+        {plan !== null && <SafetyReadings flight={flight} plan={plan} sample={sample} />}
+      </dl>
+      {plan !== null && (
+        <p class="proof">{proofSentence(plan.plan.optimality, plan.plan.time_to_converge_s)}</p>
+      )}
+    </Panel>
+  );
+}
+
+/** The one number that matters now. */
+function Headline(props: {
+  sample: Sample | null;
+  plan: PlanChanged | null;
+  engaged: boolean;
+  unavailable: PlanUnavailable | null;
+}) {
+  const { sample, plan, engaged, unavailable } = props;
+  if (unavailable !== null) {
+    return (
+      <div class="headline caution">
+        <span class="headline-label">No plan</span>
+        <p>{unavailable.answer.message}</p>
+      </div>
+    );
+  }
+  if (engaged && plan !== null) {
+    const join = plan.t_s + plan.plan.time_to_converge_s;
+    return (
+      <div class="headline">
+        <span class="headline-label">Time to converge</span>
+        <span class="headline-figure">{formatClock(sample?.time_to_go_s ?? 0)}</span>
+        <span class="headline-note">joins at {formatClock(join)}</span>
+      </div>
+    );
+  }
+  if (sample === null) return <p class="hint">The first position is awaited.</p>;
+  return (
+    <div class="headline">
+      <span class="headline-label">{sample.joined ? "Joined" : "Separation"}</span>
+      <span class="headline-figure">{formatMiles(sample.separation_m)}</span>
+      <span class="headline-note">NM to the leader</span>
+    </div>
+  );
+}
+
+function Outcome(props: { ended: FlightEnded }) {
+  const { ended } = props;
+  return (
+    <div class="headline">
+      <span class="headline-label">{ended.joined ? "Joined at" : "Ended, not joined"}</span>
+      <span class="headline-figure">{formatClock(ended.join_time_s)}</span>
+      <span class="headline-note">
+        planned {formatClock(ended.planned_time_s)}, flown {formatMiles(ended.track_m)} NM
+      </span>
+    </div>
+  );
+}
+
+function PathReadings(props: { plan: PlanChanged; t: number }) {
+  const { plan, t } = props;
+  const turns = countTurns(plan.plan);
+  const next = nextTurn(plan, t);
+  return (
+    <>
+      <Reading
+        label="Path"
+        value={plan.plan.word}
+        note={`${formatMiles(plan.plan.length_m)} NM, ${turns} turn${turns === 1 ? "" : "s"}`}
+      />
+      <Reading
+        label="Next turn"
+        value={
+          next === null
+            ? "none"
+            : `${next.direction === "left" ? "L" : "R"} ${Math.round(next.angle)}°`
+        }
+        {...(next !== null && { note: next.in === 0 ? "turning" : `in ${formatClock(next.in)}` })}
+      />
+    </>
+  );
+}
+
+function SpacingReadings(props: { flight: Flight; sample: Sample; engaged: boolean }) {
+  const { flight, sample, engaged } = props;
+  const required = flight.started.value?.slot_distance_m;
+  return (
+    <>
+      <Reading
+        label="D required"
+        value={required === undefined ? "––" : formatMiles(required)}
+        unit="NM"
+      />
+      <Reading
+        label="d now"
+        value={formatMiles(sample.separation_m)}
+        unit="NM"
+        note={closureText(sample.closure_mps)}
+      />
+      {!engaged && <Reading label="Spacing error" value={spacingText(sample.spacing_error_m)} />}
+      {!engaged && <Reading label="Cross-track" value={crossTrackText(sample.cross_track_m)} />}
+    </>
+  );
+}
+
+function SafetyReadings(props: { flight: Flight; plan: PlanChanged; sample: Sample | null }) {
+  const { flight, plan, sample } = props;
+  const { separation } = plan.plan;
+  const limit = flight.started.value?.min_separation_m ?? 0;
+  const flown = sample?.least_separation_m;
+  const known = flight.route.value?.intent_known ?? null;
+  return (
+    <>
+      <Reading
+        label="Least d planned"
+        value={formatMiles(separation.least_m)}
+        unit="NM"
+        note={`at ${formatClock(plan.t_s + separation.at_s)}`}
+      />
+      <Reading label="Proved above" value={formatMiles(separation.proved_above_m)} unit="NM" />
+      {flown !== undefined && (
+        <Reading
+          label="Least d so far"
+          value={formatMiles(flown)}
+          unit="NM"
+          tone={flown < limit ? "alert" : "value"}
+          note={flown < limit ? `LOST, limit ${formatMiles(limit)}` : `limit ${formatMiles(limit)}`}
+        />
+      )}
+      <Reading
+        label="Leader's intent"
+        value={known === null ? "––" : known ? "YES" : "NO"}
+        tone={known === false ? "plain" : "value"}
+      />
+      <Reading
+        label="Planner"
+        value={PLANNER_NAMES[plan.plan.planner]}
+        note={`${plan.plan.compute_ms.toFixed(2)} ms`}
+      />
+    </>
+  );
+}

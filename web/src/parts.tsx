@@ -1,0 +1,87 @@
+/** Small building blocks of the panels. */
+
+import type { ComponentChildren } from "preact";
+
+/** A titled panel. `name` is its place in the grid and its class. */
+export function Panel(props: {
+  name: string;
+  title: string;
+  aside?: ComponentChildren;
+  children: ComponentChildren;
+}) {
+  const id = `panel-${props.name}`;
+  return (
+    <section class={`panel ${props.name}`} aria-labelledby={id}>
+      <header>
+        <h2 id={id}>{props.title}</h2>
+        {props.aside}
+      </header>
+      <div class="panel-body">{props.children}</div>
+    </section>
+  );
+}
+
+/** One labelled number. `tone` says what it means; it is never the only sign of it. */
+export function Reading(props: {
+  label: string;
+  value: string;
+  unit?: string;
+  note?: string;
+  tone?: "value" | "caution" | "alert" | "plain";
+}) {
+  return (
+    <div class="reading">
+      <dt>{props.label}</dt>
+      <dd>
+        <span class={`figure ${props.tone ?? "value"}`}>{props.value}</span>
+        {props.unit !== undefined && <span class="unit">{props.unit}</span>}
+        {props.note !== undefined && <span class="note">{props.note}</span>}
+      </dd>
+    </div>
+  );
+}
+
+/** One choice of a few, all visible: a row of buttons of which one is down. */
+export function Choice<T extends string | number>(props: {
+  label: string;
+  options: readonly T[];
+  chosen: T | null;
+  text?: (option: T) => string;
+  choose: (option: T) => void;
+}) {
+  return (
+    <fieldset class="choice">
+      <legend class="visually-hidden">{props.label}</legend>
+      {props.options.map((option) => (
+        <button
+          type="button"
+          key={option}
+          aria-pressed={option === props.chosen}
+          onClick={() => props.choose(option)}
+        >
+          {props.text?.(option) ?? option}
+        </button>
+      ))}
+    </fieldset>
+  );
+}
+
+const ICONS = {
+  play: "M7 4.5v15l12.5-7.5z",
+  pause: "M6.5 4.5h4v15h-4zM13.5 4.5h4v15h-4z",
+  restart: "M12 5V1.5L6.5 6 12 10.5V7a6 6 0 1 1-6 6H4a8 8 0 1 0 8-8z",
+  maximise: "M4 4h7v2H7.4l4 4L10 11.4l-4-4V11H4zM20 20h-7v-2h3.6l-4-4L14 12.6l4 4V13h2z",
+  restore: "M11 11H4V9h3.6l-4-4L5 3.6l4 4V4h2zM13 13h7v2h-3.6l4 4-1.4 1.4-4-4V20h-2z",
+  left: "M9 4 3 10l6 6v-4h5a4 4 0 0 1 4 4v3h2.5v-3A6.5 6.5 0 0 0 14 9.5H9z",
+  right: "M15 4l6 6-6 6v-4h-5a4 4 0 0 0-4 4v3H3.5v-3A6.5 6.5 0 0 1 10 9.5h5z",
+  help: "M12 2a10 10 0 1 0 0 20 10 10 0 0 0 0-20zm-1 15h2v2h-2zm1-12a4 4 0 0 0-4 4h2a2 2 0 1 1 3.4 1.4C12 11.8 11 12.6 11 15h2c0-1.6.7-2.200 1.800-3.300A4 4 0 0 0 12 5z",
+} as const;
+
+/** A decorative icon: the button that holds it carries the words. */
+export function Icon(props: { name: keyof typeof ICONS }) {
+  return (
+    <svg class="icon" viewBox="0 0 24 24" aria-hidden="true" focusable="false">
+      <path d={ICONS[props.name]} fill="currentColor" fill-rule="evenodd" />
+    </svg>
+  );
+}

@@ -1,0 +1,115 @@
+/** What the numbers beside the picture say, worked out from plan and sample: plain functions, no DOM. */
+
+import { formatClock, formatHeading, formatKnots, formatMiles, NM } from "./units";
+import type {
+  AlternativeCard,
+  Direction,
+  Mode,
+  OptimalityCard,
+  PlanCard,
+  PlanChanged,
+  PlannerName,
+  ReferenceCard,
+  UnsafeAlternativeCard,
+} from "./wire";
+
+/** The turn to come, or the one being flown. */
+export interface NextTurn {
+  readonly direction: Direction;
+  /** Heading still to change [deg]. */
+  readonly angle: number;
+  /** Until it begins [s]; 0 while it is flown. */
+  readonly in: number;
+}
+
+/** The next turn of a plan at flight time `t` [s]; null when no turn is left. */
+export function nextTurn(changed: PlanChanged, t: number): NextTurn | null {
+  const elapsed = t - changed.t_s;
+  for (const segment of changed.plan.segments) {
+    if (segment.kind !== "turn" || segment.end.t_s <= elapsed) continue;
+    const left = (segment.end.t_s - Math.max(elapsed, segment.start.t_s)) / segment.duration_s;
+    return {
+      direction: segment.direction,
+      angle: segment.angle_deg * left,
+      in: Math.max(0, segment.start.t_s - elapsed),
+    };
+  }
+  return null;
+}
+
+export function countTurns(plan: PlanCard): number {
+  return plan.segments.filter((segment) => segment.kind === "turn").length;
+}
+
+export const MODE_NAMES: Record<Mode, string> = {
+  heading: "Heading hold",
+  converge: "Converge",
+  capture: "Capture",
+  follow: "Follow",
+};
+
+export const PLANNER_NAMES: Record<PlannerName, string> = {
+  exact: "Exact",
+  network: "Network",
+  regular_dp: "Regular DP",
+};
+
+/** What is proved of the plan's time, in plain words. */
+export function proofSentence(optimality: OptimalityCard, time: number): string {
+  switch (optimality.proof) {
+    case "relaxation":
+      return "Optimal: even without the separation limit no path is faster.";
+    case "bound":
+      return `At most ${formatClock(time - optimality.lower_bound_s)} above the optimum: nothing is faster than ${formatClock(optimality.lower_bound_s)}.`;
+    case "none":
+      return `Keeps the limit, optimum not proved: nothing is faster than ${formatClock(optimality.lower_bound_s)}.`;
+  }
+}
+
+/** Why an alternative is not flown: how much slower it is, or where it comes too close. */
+export function alternativeSentence(
+  alternative: AlternativeCard | UnsafeAlternativeCard,
+  plan: PlanCard,
+): string {
+  if (alternative.rejected === "separation") {
+    const least = belowLimit(alternative.least_separation_m);
+    return `loses separation: ${least} NM at ${formatClock(alternative.at_s)}`;
+  }
+  return `+${formatSeconds(alternative.time_to_converge_s - plan.time_to_converge_s)} s`;
+}
+
+/** A distance below a limit never rounds up to it [NM]. */
+function belowLimit(distance: number): string {
+  return (Math.floor((distance / NM) * 10) / 10).toFixed(1);
+}
+
+function formatSeconds(time: number): string {
+  return time < 10 ? time.toFixed(1) : String(Math.round(time));
+}
+
+/** What guidance asks of the autopilot. */
+export function referenceText(reference: ReferenceCard): string {
+  if (reference.kind === "hold_heading") return `HDG ${formatHeading(reference.heading_deg)}`;
+  const rate = reference.turn_rate_degps;
+  if (Math.abs(rate) < 0.05) return "TURN 0";
+  return `TURN ${Math.abs(rate).toFixed(1)}°/s ${rate > 0 ? "R" : "L"}`;
+}
+
+/** Distance to the slot along the route: what is still to close, or how far ahead. `error` [m] */
+export function spacingText(error: number): string {
+  const miles = formatMiles(Math.abs(error), 2);
+  return miles === "0.00" ? "0.00 NM" : `${miles} NM ${error > 0 ? "behind" : "ahead"}`;
+}
+
+/** Offset from the leader's route [m], positive to its right. */
+export function crossTrackText(offset: number): string {
+  const miles = formatMiles(Math.abs(offset), 2);
+  return miles === "0.00" ? "0.00 NM" : `${miles} NM ${offset > 0 ? "R" : "L"}`;
+}
+
+/** How fast the separation shrinks or grows. `closure` [m/s], positive when it shrinks. */
+export function closureText(closure: number): string {
+  const knots = formatKnots(Math.abs(closure));
+  if (knots === "0") return "steady";
+  return `${closure > 0 ? "closing" : "opening"} ${knots} kt`;
+}

@@ -1,0 +1,78 @@
+/** What the page around the instruments knows, and what its buttons can do: signals and types, no network. */
+
+import { type Signal, signal } from "@preact/signals";
+import type { Flight } from "./flight";
+import type { Direction, FlightStatus, Sample, ScenarioInfo } from "./wire";
+
+export type NdMode = "ROSE" | "ARC";
+export const ND_RANGES = [10, 20, 40, 80, 160, 320] as const;
+/** Range of the navigation display [NM]. */
+export type NdRange = (typeof ND_RANGES)[number];
+/** Simulated seconds per wall-clock second, as offered. */
+export const RATES = [1, 2, 5, 10, 20, 60] as const;
+
+/** What became of the last command. */
+export type Feedback =
+  | { readonly kind: "none" }
+  | { readonly kind: "sending"; readonly text: string }
+  | { readonly kind: "done"; readonly text: string }
+  | { readonly kind: "refused"; readonly text: string };
+
+/** Why nothing flies on the screen, in a sentence, and what can be done. */
+export type Outage =
+  | { readonly kind: "no_answer"; readonly text: string; readonly nextTry: number }
+  | { readonly kind: "flight_gone"; readonly text: string; readonly scenario: string }
+  | { readonly kind: "refused"; readonly text: string }
+  | { readonly kind: "other_version"; readonly text: string };
+
+export interface Session {
+  readonly flight: Flight;
+  /** The newest sample for numbers to be read: changes 5 times a second, unlike `flight.now`. */
+  readonly reading: Signal<Sample | null>;
+  readonly scenarios: Signal<readonly ScenarioInfo[]>;
+  readonly status: Signal<FlightStatus | null>;
+  readonly feedback: Signal<Feedback>;
+  readonly outage: Signal<Outage | null>;
+  readonly ndMode: Signal<NdMode>;
+  readonly ndRange: Signal<NdRange>;
+  readonly sceneMaximised: Signal<boolean>;
+  readonly helpOpen: Signal<boolean>;
+}
+
+/** What the buttons do. Each ends in `session.feedback`. */
+export interface Actions {
+  /** Starts a new flight of a scenario and shows it. */
+  start(scenario: string): void;
+  play(): void;
+  pause(): void;
+  setRate(rate: number): void;
+  /** Turns the leader to a heading [deg], by the shorter way if no side is given. */
+  leaderHeading(heading: number, direction?: Direction): void;
+  /** Changes the leader's true airspeed [m/s]. */
+  leaderSpeed(tas: number): void;
+  setIntentKnown(known: boolean): void;
+  /** Tries the lost connection again, now. */
+  retry(): void;
+  /** Loads the page anew. */
+  reload(): void;
+}
+
+export function createSession(flight: Flight): Session {
+  return {
+    flight,
+    reading: signal(null),
+    scenarios: signal([]),
+    status: signal(null),
+    feedback: signal({ kind: "none" }),
+    outage: signal(null),
+    ndMode: signal("ARC"),
+    ndRange: signal(40),
+    sceneMaximised: signal(false),
+    helpOpen: signal(false),
+  };
+}
+
+/** The next range outward (+1) or inward (−1), held to the ends of the selector. */
+export function stepRange(range: NdRange, step: 1 | -1): NdRange {
+  return ND_RANGES[ND_RANGES.indexOf(range) + step] ?? range;
+}

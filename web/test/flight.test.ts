@@ -1,0 +1,165 @@
+import { describe, expect, test } from "vitest";
+import { createFlightStore } from "../src/flight";
+import { aircraft, modeChanged, noPlan, planChanged, STARTED, sample, tick } from "./samples";
+
+/** A store that has joined a flight at time `t`, at wall time 1000 ms. */
+function joined(t = 0, rate = 1) {
+  const store = createFlightStore();
+  store.link("open");
+  store.receive(tick(t, [STARTED, modeChanged(0), planChanged(0), sample(t)], { rate }), 1000);
+  return store;
+}
+
+describe("what the ticks say", () => {
+  test("a late joiner gets flight, plan, mode, trail and the newest sample, and no old news as new", () => {
+    const store = createFlightStore();
+    const past = [0, 10, 20, 30].map((t) => sample(t));
+    store.receive(
+      tick(34, [STARTED, planChanged(3), modeChanged(3), ...past, sample(34)], { rate: 2 }),
+      50_000,
+    );
+    const { flight } = store;
+    expect(flight.started.value?.title).toBe("Fig. 6b");
+    expect(flight.plan.value?.t_s).toBe(3);
+    expect(flight.superseded.value).toBeNull();
+    expect(flight.trail.pursuer.value.map((p) => p.t)).toEqual([0, 10, 20, 30]);
+    expect(flight.sample.value?.t_s).toBe(34);
+    expect(flight.modeSince.value).toBeCloseTo(50_000 - 15_500, 6); // 31 s ago at rate 2
+  });
+
+  test("a new plan replaces the old one, which stays visible for three seconds", () => {
+    const store = joined();
+    store.receive(tick(1, [planChanged(1), sample(1)]), 2000);
+    expect(store.flight.plan.value?.t_s).toBe(1);
+    expect(store.flight.superseded.value?.plan.t_s).toBe(0);
+    store.advance(4999);
+    expect(store.flight.superseded.value).not.toBeNull();
+    store.advance(5000);
+    expect(store.flight.superseded.value).toBeNull();
+  });
+
+  test("no plan is told until there is one again", () => {
+    const store = joined();
+    store.receive(tick(1, [noPlan(1), sample(1)]), 2000);
+    expect(store.flight.unavailable.value?.answer.reason).toBe("slot_unreachable");
+    store.receive(tick(2, [planChanged(2), sample(2)]), 3000);
+    expect(store.flight.unavailable.value).toBeNull();
+  });
+
+  test("several documents of one tick are taken in order; the log is newest first", () => {
+    const store = joined();
+    store.receive(tick(3, [planChanged(1), noPlan(2), planChanged(3), sample(3)]), 2000);
+    expect(store.flight.plan.value?.t_s).toBe(3);
+    expect(store.flight.messages.value.map((m) => m.t)).toEqual([3, 2, 1, 0, 0]);
+  });
+
+  test("being told the same again, after a broken link, adds nothing to the log", () => {
+    const store = joined();
+    const before = store.flight.messages.value;
+    store.receive(tick(9, [STARTED, modeChanged(0), planChanged(0), sample(0), sample(9)]), 9000);
+    expect(store.flight.messages.value).toEqual(before);
+    expect(store.flight.superseded.value).toBeNull();
+  });
+
+  test("another flight begins with nothing of the first", () => {
+    const store = joined(500);
+    store.receive(tick(0, [STARTED, sample(0)], { flight_id: "two" }), 2000);
+    expect(store.flight.simTime.value).toBe(0);
+    expect(store.flight.plan.value).toBeNull();
+    expect(store.flight.messages.value).toEqual([]);
+    expect(store.flight.trail.leader.value).toHaveLength(1);
+  });
+
+  test("the trail keeps ten minutes at 10 s and thins what is older", () => {
+    const store = joined();
+    for (let t = 1; t <= 1800; t += 1) store.receive(tick(t, [sample(t)]), 1000 + 1000 * t);
+    const times = store.flight.trail.pursuer.value.map((p) => p.t);
+    expect(times.filter((t) => t > 1200)).toHaveLength(60);
+    expect(times.filter((t) => t <= 1180)).toHaveLength(20);
+    expect(times[0]).toBe(0);
+  });
+});
+
+describe("the picture between ticks", () => {
+  test("moves on along the turn", () => {
+    const store = createFlightStore();
+    const turning = sample(0, { pursuer: aircraft({ turn_rate_degps: 3 }) });
+    store.receive(tick(0, [STARTED, turning]), 0);
+    store.advance(1000);
+    expect(store.flight.now.value?.pursuer.heading_deg).toBeCloseTo(93, 6);
+    expect(store.flight.now.value?.pursuer.y_m).toBeLessThan(0);
+    expect(store.flight.simTime.value).toBeCloseTo(1, 9);
+  });
+
+  test("stops two seconds of wall time ahead of the newest sample", () => {
+    const store = joined(0, 10);
+    store.advance(61_000);
+    expect(store.flight.now.value?.t_s).toBeCloseTo(20, 9);
+  });
+
+  test("never runs backward, whatever the jitter", () => {
+    const store = joined(0, 10);
+    let last = 0;
+    for (let i = 1; i <= 400; i += 1) {
+      const jitter = ((i * 7919) % 97) - 20; // deterministic, −20 to 76 ms
+      store.receive(tick(i / 2, [sample(i / 2)], { rate: 10 }), 1000 + i * 50 + jitter);
+      for (const ms of [1000 + i * 50 + jitter + 5, 1000 + i * 50 + jitter + 16]) {
+        store.advance(ms);
+        const now = store.flight.now.value?.t_s ?? 0;
+        expect(now).toBeGreaterThanOrEqual(last);
+        last = now;
+      }
+    }
+    expect(last).toBeGreaterThan(199);
+    expect(last).toBeLessThan(201.5);
+  });
+
+  test("stands still while paused, and the data do not age while ticks come", () => {
+    const store = joined(100);
+    store.receive(tick(100.05, [], { paused: true }), 1050);
+    store.advance(4000);
+    const still = store.flight.now.value?.t_s;
+    store.receive(tick(100.05, [], { paused: true }), 9000);
+    store.advance(9010);
+    expect(store.flight.now.value?.t_s).toBe(still);
+    expect(store.flight.dataAge.value).toBeCloseTo(0.01, 6);
+    expect(store.flight.connection.value).toBe("live");
+  });
+
+  test("does not leap when a new sample contradicts the old one a little", () => {
+    const store = joined(0);
+    store.advance(1050);
+    const before = store.flight.now.value?.pursuer.x_m ?? 0;
+    store.receive(tick(0.05, [sample(0.05, { pursuer: aircraft({ x_m: 200 }) })]), 1050);
+    expect(store.flight.now.value?.pursuer.x_m).toBeCloseTo(before, 3);
+    for (let ms = 1060; ms <= 2000; ms += 10) store.advance(ms);
+    expect(store.flight.now.value?.pursuer.x_m).toBeGreaterThan(400);
+  });
+});
+
+describe("the age of the data", () => {
+  test("flags old data after 2 s and calls them lost after 5 s", () => {
+    const store = joined();
+    store.advance(2900);
+    expect(store.flight.connection.value).toBe("live");
+    store.advance(3100);
+    expect(store.flight.connection.value).toBe("stale");
+    store.advance(6100);
+    expect(store.flight.connection.value).toBe("lost");
+    expect(store.flight.dataAge.value).toBeCloseTo(5.1, 9);
+  });
+
+  test("ticks without samples are no fresh data while the flight runs", () => {
+    const store = joined();
+    store.receive(tick(3, []), 4000);
+    expect(store.flight.connection.value).toBe("stale");
+  });
+
+  test("a closed link is lost at once, a new one connecting", () => {
+    const store = joined();
+    store.link("closed");
+    expect(store.flight.connection.value).toBe("lost");
+    store.link("connecting");
+    expect(store.flight.connection.value).toBe("connecting");
+  });
+});

@@ -1,0 +1,55 @@
+import { describe, expect, test } from "vitest";
+import { createFlightStore } from "../src/flight";
+import { isTaken, keyAction } from "../src/keyboard";
+import { createSession, stepRange } from "../src/session";
+import { silentActions } from "./silence";
+
+describe("the keys", () => {
+  test("space plays and pauses", () => {
+    const session = createSession(createFlightStore().flight);
+    const actions = silentActions();
+    keyAction(" ", session, actions)?.();
+    expect(actions.pause).toHaveBeenCalledOnce();
+    session.flight.clock.value = { rate: 1, paused: true, ended: false };
+    keyAction(" ", session, actions)?.();
+    expect(actions.play).toHaveBeenCalledOnce();
+  });
+
+  test("mode, range and scene", () => {
+    const session = createSession(createFlightStore().flight);
+    const press = (key: string) => keyAction(key, session, silentActions())?.();
+    press("r");
+    expect(session.ndMode.value).toBe("ROSE");
+    press("A");
+    expect(session.ndMode.value).toBe("ARC");
+    press("+");
+    expect(session.ndRange.value).toBe(80);
+    press("-");
+    expect(session.ndRange.value).toBe(40);
+    press("m");
+    expect(session.sceneMaximised.value).toBe(true);
+    press("?");
+    press("Escape");
+    expect([session.sceneMaximised.value, session.helpOpen.value]).toEqual([false, false]);
+    expect(keyAction("x", session, silentActions())).toBeNull();
+  });
+
+  test("the range stops at its ends", () => {
+    expect(stepRange(320, 1)).toBe(320);
+    expect(stepRange(10, -1)).toBe(10);
+  });
+
+  test("what is typed into a field stays there, and space on a button presses it", () => {
+    const from = (tag: string, key: string, init: KeyboardEventInit = {}) => {
+      const event = new KeyboardEvent("keydown", { key, ...init });
+      const target = document.body.appendChild(document.createElement(tag));
+      target.dispatchEvent(event);
+      return isTaken(event);
+    };
+    expect(from("input", "a")).toBe(true);
+    expect(from("input", "Escape")).toBe(false);
+    expect(from("button", " ")).toBe(true);
+    expect(from("button", "a")).toBe(false);
+    expect(from("div", "a", { ctrlKey: true })).toBe(true);
+  });
+});

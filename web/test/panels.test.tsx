@@ -1,0 +1,200 @@
+import { render } from "preact";
+import { act } from "preact/test-utils";
+import { afterEach, describe, expect, test, vi } from "vitest";
+import { createFlightStore } from "../src/flight";
+import { Aircraft } from "../src/panels/aircraft";
+import { Alternatives } from "../src/panels/alternatives";
+import { Announcer, Events } from "../src/panels/events";
+import { FlightControls } from "../src/panels/flight-controls";
+import { Header } from "../src/panels/header";
+import { LeaderControls } from "../src/panels/leader-controls";
+import { OutageNotice } from "../src/panels/outage";
+import { PlanNumbers } from "../src/panels/plan";
+import { Scene } from "../src/panels/scene";
+import { createSession } from "../src/session";
+import { NM } from "../src/units";
+import { modeChanged, noPlan, planChanged, STARTED, sample, tick } from "./samples";
+import { silentActions } from "./silence";
+
+const place = document.body.appendChild(document.createElement("div"));
+
+afterEach(() => render(null, place));
+
+function flying() {
+  const store = createFlightStore();
+  store.link("open");
+  const slower = { word: "LSR", time_to_converge_s: 260, rejected: "slower" } as const;
+  store.receive(
+    tick(0, [STARTED, modeChanged(0), planChanged(0, { alternatives: [slower] }), sample(0)]),
+    0,
+  );
+  const session = createSession(store.flight);
+  session.reading.value = store.flight.now.value;
+  session.status.value = {
+    id: "one",
+    scenario: "fig_6b",
+    title: "Fig. 6b",
+    t_s: 0,
+    rate: 1,
+    paused: false,
+    ended: false,
+    mode: "converge",
+    joined: false,
+    separation_m: 20000,
+    stream_url: "/api/v1/flights/one/stream",
+    scene_url: "/scene/one/",
+  };
+  return { store, session, actions: silentActions() };
+}
+
+function button(name: string): HTMLButtonElement {
+  const found = [...place.querySelectorAll("button")].find(
+    (each) => (each.getAttribute("aria-label") ?? each.textContent) === name,
+  );
+  if (found === undefined) throw new Error(`no button ${name} in ${place.innerHTML}`);
+  return found;
+}
+
+describe("panels", () => {
+  test("nothing flies yet: no panel invents a number", () => {
+    const session = createSession(createFlightStore().flight);
+    render(
+      <>
+        <Header session={session} />
+        <PlanNumbers session={session} />
+        <Aircraft session={session} />
+        <Alternatives session={session} />
+        <Events session={session} />
+        <Scene session={session} />
+      </>,
+      place,
+    );
+    expect(place.textContent).not.toMatch(/NaN|undefined|Infinity|FL\d/);
+    expect(place.querySelector("iframe")).toBeNull();
+  });
+
+  test("the numbers of a plan", () => {
+    const { session } = flying();
+    render(<PlanNumbers session={session} />, place);
+    const text = place.textContent ?? "";
+    for (const part of ["04:10", "joins at 04:10", "RS", "R 90°", "closing 78 kt", "Optimal"]) {
+      expect(text).toContain(part);
+    }
+  });
+
+  test("lost separation is told in words, not only in red", () => {
+    const { session } = flying();
+    session.reading.value = sample(0, { least_separation_m: 4 * NM });
+    render(<PlanNumbers session={session} />, place);
+    expect(place.querySelector(".figure.alert")?.textContent).toBe("4.0");
+    expect(place.textContent).toContain("LOST");
+  });
+
+  test("without a plan the reason is shown and announced", () => {
+    const { store, session } = flying();
+    store.receive(tick(1, [noPlan(1), sample(1)]), 1000);
+    render(
+      <>
+        <PlanNumbers session={session} />
+        <Announcer session={session} />
+      </>,
+      place,
+    );
+    expect(place.querySelector(".headline")?.textContent).toContain("The leader is faster.");
+    expect(place.querySelector("[role=status]")?.textContent).toContain("The leader is faster.");
+  });
+
+  test("scenarios: a missing one says why and cannot be chosen", () => {
+    const { session, actions } = flying();
+    session.scenarios.value = [
+      { name: "fig_6b", title: "Fig. 6b", description: "", available: true, message: "" },
+      { name: "rec", title: "Recorded", description: "", available: false, message: "Install it." },
+    ];
+    render(<FlightControls session={session} actions={actions} />, place);
+    const options = [...place.querySelectorAll("option")];
+    expect(options.map((each) => each.disabled)).toEqual([false, true]);
+    expect(place.textContent).toContain("Install it.");
+    act(() => button("×20").click());
+    expect(actions.setRate).toHaveBeenCalledWith(20);
+    act(() => button("Pause").click());
+    expect(actions.pause).toHaveBeenCalled();
+    act(() => button("Restart").click());
+    expect(actions.start).toHaveBeenCalledWith("fig_6b");
+  });
+
+  test("feedback is a live region with the server's sentence", () => {
+    const { session, actions } = flying();
+    session.feedback.value = { kind: "refused", text: "Too fast." };
+    render(<FlightControls session={session} actions={actions} />, place);
+    expect(place.querySelector("[role=status]")?.textContent).toBe("REFUSED Too fast.");
+  });
+
+  test("the leader's heading is selected, then commanded with its side", () => {
+    const { session, actions } = flying();
+    render(<LeaderControls session={session} actions={actions} />, place);
+    act(() => button("Leader's heading: plus 10").click());
+    act(() => button("Leader's heading: minus 1").click());
+    act(() => button("Left").click());
+    expect(actions.leaderHeading).toHaveBeenLastCalledWith(99, "left");
+    act(() => button("Shorter").click());
+    expect(actions.leaderHeading).toHaveBeenLastCalledWith(99);
+  });
+
+  test("a typed heading is taken with Enter, and beyond north it wraps", () => {
+    const { session, actions } = flying();
+    render(<LeaderControls session={session} actions={actions} />, place);
+    const input = place.querySelector<HTMLInputElement>('[aria-label="Leader\'s heading"]');
+    if (input === null) throw new Error("no heading field");
+    act(() => {
+      input.value = "355";
+      input.dispatchEvent(new Event("input", { bubbles: true }));
+    });
+    act(() => {
+      input.dispatchEvent(new KeyboardEvent("keydown", { key: "Enter", bubbles: true }));
+    });
+    expect(actions.leaderHeading).toHaveBeenLastCalledWith(355);
+    act(() => button("Leader's heading: plus 10").click());
+    expect(input.value).toBe("005");
+  });
+
+  test("the speed is commanded in metres per second", () => {
+    const { session, actions } = flying();
+    render(<LeaderControls session={session} actions={actions} />, place);
+    act(() => button("Set").click());
+    expect(vi.mocked(actions.leaderSpeed).mock.calls[0]?.[0]).toBeCloseTo(200, 0);
+  });
+
+  test("an outage is an alert with the button that helps", () => {
+    const { session, actions } = flying();
+    session.outage.value = { kind: "flight_gone", text: "Gone.", scenario: "fig_6a" };
+    render(<OutageNotice session={session} actions={actions} />, place);
+    expect(place.querySelector("[role=alert]")?.textContent).toContain("Gone.");
+    act(() => button("Start a new flight").click());
+    expect(actions.start).toHaveBeenCalledWith("fig_6a");
+  });
+
+  test("the header tells old data by word and age", () => {
+    const { store, session } = flying();
+    render(<Header session={session} />, place);
+    expect(place.textContent).toContain("Live");
+    act(() => store.advance(3200));
+    expect(place.textContent).toContain("Data old 3 s");
+  });
+
+  test("the scene is asked for once there is a position, and every button has a name", () => {
+    const { session, actions } = flying();
+    render(
+      <>
+        <Scene session={session} />
+        <FlightControls session={session} actions={actions} />
+        <LeaderControls session={session} actions={actions} />
+      </>,
+      place,
+    );
+    expect(place.querySelector("iframe")?.getAttribute("src")).toBe("/scene/one/");
+    expect(place.querySelector("iframe")?.title).not.toBe("");
+    for (const each of place.querySelectorAll("button")) {
+      expect((each.getAttribute("aria-label") ?? each.textContent)?.trim()).toBeTruthy();
+    }
+  });
+});

@@ -1,0 +1,18 @@
+/** Buttons that are wired to nothing and remember what was pressed. */
+
+import { vi } from "vitest";
+import type { Actions } from "../src/session";
+
+export function silentActions(): Actions {
+  return {
+    start: vi.fn(),
+    play: vi.fn(),
+    pause: vi.fn(),
+    setRate: vi.fn(),
+    leaderHeading: vi.fn(),
+    leaderSpeed: vi.fn(),
+    setIntentKnown: vi.fn(),
+    retry: vi.fn(),
+    reload: vi.fn(),
+  };
+}

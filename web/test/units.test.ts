@@ -1,0 +1,57 @@
+import { describe, expect, test } from "vitest";
+import {
+  FT,
+  formatBank,
+  formatClock,
+  formatHeading,
+  formatKnots,
+  formatLevel,
+  formatMiles,
+  formatSignedKnots,
+  KT,
+  NM,
+  wrap180,
+  wrap360,
+} from "../src/units";
+
+describe("units", () => {
+  test("angles wrap to one turn, from both sides", () => {
+    expect([-90, 0, 360, 725].map(wrap360)).toEqual([270, 0, 0, 5]);
+    expect([-181, 180, 90, 359].map(wrap180)).toEqual([179, -180, 90, -1]);
+  });
+
+  test("headings have three digits and north is 360", () => {
+    expect([0, 5, 90.4, 359.6, -10].map(formatHeading)).toEqual([
+      "360",
+      "005",
+      "090",
+      "360",
+      "350",
+    ]);
+  });
+
+  test("speeds and distances", () => {
+    expect(formatKnots(240)).toBe("467");
+    expect(formatKnots(-0.1)).toBe("0");
+    expect([35 * KT, -35 * KT, 0.1].map(formatSignedKnots)).toEqual(["+35", "−35", "0"]);
+    expect(formatMiles(5 * NM)).toBe("5.0");
+    expect(formatMiles(-0.4 * NM)).toBe("−0.4");
+    expect(formatMiles(-1)).toBe("0.0");
+    expect(formatLevel(35000 * FT)).toBe("FL350");
+  });
+
+  test("times carry seconds into minutes", () => {
+    expect([0, 59.6, 61, 3725, -5, -0.2].map(formatClock)).toEqual([
+      "00:00",
+      "01:00",
+      "01:01",
+      "62:05",
+      "−00:05",
+      "00:00",
+    ]);
+  });
+
+  test("bank names its side", () => {
+    expect([24.6, -25, 0.2].map(formatBank)).toEqual(["25 R", "25 L", "0"]);
+  });
+});
