@@ -36,7 +36,6 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
                 range={session.ndRange}
               />
             </div>
-            <OutageNotice session={session} actions={actions} />
           </div>
           <div class="below">
             <Events session={session} />
@@ -44,7 +43,10 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
           </div>
         </div>
         <div class="workstation">
-          <Scene session={session} />
+          <div class="beside">
+            <Scene session={session} />
+            <OutageNotice session={session} actions={actions} />
+          </div>
           <div class="panels">
             <div class="column commands">
               <FlightControls session={session} actions={actions} />

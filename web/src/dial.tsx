@@ -22,22 +22,15 @@ export function Dial(props: {
     typed.value = null;
     change(correct(value + by));
   };
-  const typedNumber = () => {
-    const number = Number.parseInt(typed.value ?? shown, 10);
-    return Number.isNaN(number) ? value : correct(number);
-  };
-  const take = () => {
-    const number = typedNumber();
-    if (typed.value !== null && number !== value) change(number);
-    typed.value = null;
-    return number;
-  };
   const keys: Record<string, () => void> = {
     ArrowUp: () => step(1),
     ArrowDown: () => step(-1),
     PageUp: () => step(10),
     PageDown: () => step(-10),
-    Enter: () => commit(take()),
+    Enter: () => {
+      typed.value = null;
+      commit(value);
+    },
     Escape: () => {
       typed.value = null;
     },
@@ -68,9 +61,13 @@ export function Dial(props: {
           value={typed.value ?? shown}
           onFocus={(event) => event.currentTarget.select()}
           onInput={(event) => {
-            typed.value = event.currentTarget.value.replace(/\D/g, "");
+            const digitsOnly = event.currentTarget.value.replace(/\D/g, "");
+            typed.value = digitsOnly;
+            if (digitsOnly !== "") change(correct(Number(digitsOnly)));
           }}
-          onBlur={take}
+          onBlur={() => {
+            typed.value = null;
+          }}
           onKeyDown={(event) => {
             const act = keys[event.key];
             if (act === undefined) return;

@@ -11,7 +11,7 @@ import { createActions } from "./actions";
 import { Cockpit } from "./cockpit";
 import { createFlightStore } from "./flight";
 import { isTaken, keyAction } from "./keyboard";
-import { createSession } from "./session";
+import { createSession, takeReading } from "./session";
 
 /** Numbers are read, not watched: they change this often [ms]. */
 const READING_PERIOD = 200;
@@ -34,12 +34,12 @@ addEventListener("keydown", (event) => {
 
 let readAt = -Infinity;
 function animate(wall: number): void {
+  requestAnimationFrame(animate);
   store.advance(wall);
   if (wall - readAt >= READING_PERIOD) {
     readAt = wall;
-    session.reading.value = session.flight.now.value;
+    takeReading(session);
   }
-  requestAnimationFrame(animate);
 }
 requestAnimationFrame(animate);
 

@@ -1,7 +1,7 @@
 /** What the page around the instruments knows, and what its buttons can do: signals and types, no network. */
 
 import { type Signal, signal } from "@preact/signals";
-import type { Flight } from "./flight";
+import { type Flight, LOST_AGE } from "./flight";
 import type { Direction, FlightStatus, Sample, ScenarioInfo } from "./wire";
 
 export type NdMode = "ROSE" | "ARC";
@@ -27,7 +27,10 @@ export type Outage =
 
 export interface Session {
   readonly flight: Flight;
-  /** The newest sample for numbers to be read: changes 5 times a second, unlike `flight.now`. */
+  /**
+   * The newest sample for numbers to be read: changes 5 times a second, unlike `flight.now`.
+   * Null when data are lost: an old number is blanked, never left standing.
+   */
   readonly reading: Signal<Sample | null>;
   readonly scenarios: Signal<readonly ScenarioInfo[]>;
   readonly status: Signal<FlightStatus | null>;
@@ -70,6 +73,12 @@ export function createSession(flight: Flight): Session {
     sceneMaximised: signal(false),
     helpOpen: signal(false),
   };
+}
+
+/** Takes the numbers to be read from the picture of this instant. */
+export function takeReading(session: Session): void {
+  const { now, dataAge } = session.flight;
+  session.reading.value = dataAge.value > LOST_AGE ? null : now.value;
 }
 
 /** The next range outward (+1) or inward (−1), held to the ends of the selector. */

@@ -17,7 +17,7 @@ export function Header(props: { session: Session }) {
   return (
     <header class="top">
       <h1>
-        <img src={new URL("../icon.svg", import.meta.url).href} alt="" width="26" height="26" />
+        <img src="/favicon.svg" alt="" width="26" height="26" />
         relguide
       </h1>
       <p class="top-title">{flight.started.value?.title ?? status.value?.title ?? ""}</p>
@@ -42,11 +42,11 @@ export function Header(props: { session: Session }) {
 function SimClock(props: { session: Session }) {
   const { flight, reading } = props.session;
   const { rate, paused, ended } = flight.clock.value;
-  const t = reading.value?.t_s ?? 0;
+  const t = reading.value?.t_s;
   return (
     <p class="sim">
       <span class="sim-label">SIM</span>
-      <span class="sim-time">{formatClock(t)}</span>
+      <span class="sim-time">{t === undefined ? "––:––" : formatClock(t)}</span>
       <span class="sim-rate">×{Number.isInteger(rate) ? rate : rate.toFixed(1)}</span>
       <span class="sim-state">{ended ? "ENDED" : paused ? "PAUSED" : ""}</span>
     </p>

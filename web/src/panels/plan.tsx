@@ -20,13 +20,21 @@ export function PlanNumbers(props: { session: Session }) {
   const { flight, reading } = props.session;
   const sample = reading.value;
   const plan = flight.plan.value;
-  const mode = sample?.mode ?? flight.mode.value?.mode ?? null;
-  const engaged = mode === "converge" && plan !== null;
+  if (sample === null) {
+    return (
+      <Panel name="plan" title="Convergence">
+        <p class="hint">
+          {flight.sample.value === null ? "The first position is awaited." : "The data are lost."}
+        </p>
+      </Panel>
+    );
+  }
+  const engaged = sample.mode === "converge" && plan !== null;
   return (
     <Panel
       name="plan"
       title="Convergence"
-      aside={<span class={`mode-name ${mode ?? ""}`}>{mode === null ? "" : MODE_NAMES[mode]}</span>}
+      aside={<span class={`mode-name ${sample.mode}`}>{MODE_NAMES[sample.mode]}</span>}
     >
       {flight.ended.value !== null ? (
         <Outcome ended={flight.ended.value} />
@@ -39,8 +47,8 @@ export function PlanNumbers(props: { session: Session }) {
         />
       )}
       <dl class="readings">
-        {plan !== null && engaged && <PathReadings plan={plan} t={sample?.t_s ?? plan.t_s} />}
-        {sample !== null && <SpacingReadings flight={flight} sample={sample} engaged={engaged} />}
+        {plan !== null && engaged && <PathReadings plan={plan} t={sample.t_s} />}
+        <SpacingReadings flight={flight} sample={sample} engaged={engaged} />
         {plan !== null && <SafetyReadings flight={flight} plan={plan} sample={sample} />}
       </dl>
       {plan !== null && (
@@ -52,7 +60,7 @@ export function PlanNumbers(props: { session: Session }) {
 
 /** The one number that matters now. */
 function Headline(props: {
-  sample: Sample | null;
+  sample: Sample;
   plan: PlanChanged | null;
   engaged: boolean;
   unavailable: PlanUnavailable | null;
@@ -71,12 +79,11 @@ function Headline(props: {
     return (
       <div class="headline">
         <span class="headline-label">Time to converge</span>
-        <span class="headline-figure">{formatClock(sample?.time_to_go_s ?? 0)}</span>
+        <span class="headline-figure">{formatClock(sample.time_to_go_s)}</span>
         <span class="headline-note">joins at {formatClock(join)}</span>
       </div>
     );
   }
-  if (sample === null) return <p class="hint">The first position is awaited.</p>;
   return (
     <div class="headline">
       <span class="headline-label">{sample.joined ? "Joined" : "Separation"}</span>
@@ -145,11 +152,11 @@ function SpacingReadings(props: { flight: Flight; sample: Sample; engaged: boole
   );
 }
 
-function SafetyReadings(props: { flight: Flight; plan: PlanChanged; sample: Sample | null }) {
+function SafetyReadings(props: { flight: Flight; plan: PlanChanged; sample: Sample }) {
   const { flight, plan, sample } = props;
   const { separation } = plan.plan;
   const limit = flight.started.value?.min_separation_m ?? 0;
-  const flown = sample?.least_separation_m;
+  const flown = sample.least_separation_m;
   const known = flight.route.value?.intent_known ?? null;
   return (
     <>
@@ -160,15 +167,13 @@ function SafetyReadings(props: { flight: Flight; plan: PlanChanged; sample: Samp
         note={`at ${formatClock(plan.t_s + separation.at_s)}`}
       />
       <Reading label="Proved above" value={formatMiles(separation.proved_above_m)} unit="NM" />
-      {flown !== undefined && (
-        <Reading
-          label="Least d so far"
-          value={formatMiles(flown)}
-          unit="NM"
-          tone={flown < limit ? "alert" : "value"}
-          note={flown < limit ? `LOST, limit ${formatMiles(limit)}` : `limit ${formatMiles(limit)}`}
-        />
-      )}
+      <Reading
+        label="Least d so far"
+        value={formatMiles(flown)}
+        unit="NM"
+        tone={flown < limit ? "alert" : "value"}
+        note={flown < limit ? `LOST, limit ${formatMiles(limit)}` : `limit ${formatMiles(limit)}`}
+      />
       <Reading
         label="Leader's intent"
         value={known === null ? "––" : known ? "YES" : "NO"}
