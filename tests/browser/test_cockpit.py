@@ -1,0 +1,152 @@
+"""The cockpit in a real browser, served by the real service: what a person sees and does."""
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+from time import monotonic
+from urllib.request import Request, urlopen
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.browser.service import Service, Watch
+
+CUT = (Path(__file__).parent / "cut.js").read_text()
+"""Lists everything on the page that does not fit where it stands."""
+MOVED = 700
+"""Long enough for a picture to have moved [ms]."""
+
+
+@pytest.fixture(autouse=True)
+def _opened(page: Page, watched: Watch, service: Service) -> None:
+    page.goto(service.url)
+    expect(page.locator(".connection")).to_have_text("Live")
+    expect(page.locator("g.nd-map")).to_be_attached()
+
+
+def test_both_pictures_fly(page: Page, watched: Watch) -> None:
+    """The page that opens already flies Fig. 6b, on the ND and in the scene."""
+    expect(page.locator(".top-title")).to_contain_text("6b")
+    assert changes(page, lambda: map_transform(page))
+    scene = page.locator("iframe")
+    expect(scene.content_frame.locator("canvas").first).to_be_visible()
+    until(page, lambda: watched.frames["scene"] > 20, "the scene's socket brings the flight")
+    before = watched.frames["scene"]
+    until(page, lambda: watched.frames["scene"] > before + 10, "the scene goes on")
+    # software WebGL: the first picture takes seconds
+    picture = scene.screenshot()
+    until(page, lambda: scene.screenshot() != picture, "the scene's picture changes")
+    assert watched.complaints == []
+
+
+def test_a_turn_of_the_leader_is_answered_by_a_new_plan(page: Page, watched: Watch) -> None:
+    plans = page.locator(".log li.plan")
+    expect(plans.first).to_be_visible()
+    page.get_by_role("button", name="×1", exact=True).click()
+    expect(page.locator(".sim-rate")).to_have_text("×1")
+    before = plans.first.inner_text()
+    heading = page.get_by_role("spinbutton", name="Leader's heading")
+    heading.fill("180")
+    heading.press("Enter")
+    started = monotonic()
+    until(page, lambda: plans.first.inner_text() != before, "a new plan within 2 s", seconds=2.0)
+    assert monotonic() - started < 2.0
+    expect(page.locator(".feedback")).to_contain_text("Leader to heading 180")
+    expect(page.locator(".log li.leader").first).to_be_visible()
+    assert watched.complaints == []
+
+
+def test_pause_holds_the_picture_and_play_frees_it(page: Page, watched: Watch) -> None:
+    page.get_by_role("button", name="Pause").click()
+    expect(page.locator(".sim-state")).to_have_text("PAUSED")
+    page.wait_for_timeout(300)
+    held, time = map_transform(page), page.locator(".sim-time").inner_text()
+    page.wait_for_timeout(MOVED)
+    assert (map_transform(page), page.locator(".sim-time").inner_text()) == (held, time)
+    expect(page.locator(".connection")).to_have_text("Live")  # paused is not old
+    page.get_by_role("button", name="Play").click()
+    expect(page.locator(".sim-state")).to_have_text("")
+    assert changes(page, lambda: map_transform(page))
+    assert watched.complaints == []
+
+
+@pytest.mark.parametrize("mode", ["ROSE", "ARC"])
+def test_mode_and_range_of_the_nd(page: Page, watched: Watch, mode: str) -> None:
+    other = page.get_by_role("button", name="ARC" if mode == "ROSE" else "ROSE", exact=True)
+    other.click()
+    layers = page.locator("svg.nd .nd-rings")
+    was = layers.inner_html()
+    chosen = page.get_by_role("button", name=mode, exact=True)
+    chosen.click()
+    expect(chosen).to_have_attribute("aria-pressed", "true")
+    expect(other).to_have_attribute("aria-pressed", "false")
+    assert layers.inner_html() != was
+    for nautical_miles in (10, 160):
+        page.get_by_role("button", name=str(nautical_miles), exact=True).click()
+        expect(layers).to_contain_text(str(nautical_miles // 2))
+    assert watched.complaints == []
+
+
+def test_intent_withdrawn_is_shown(page: Page, watched: Watch) -> None:
+    page.get_by_role("button", name="not known", exact=True).click()
+    expect(page.locator(".reading", has_text="Leader's intent").locator(".figure")).to_have_text(
+        "NO"
+    )
+    page.get_by_role("button", name="known", exact=True).click()
+    expect(page.locator(".reading", has_text="Leader's intent").locator(".figure")).to_have_text(
+        "YES"
+    )
+    assert watched.complaints == []
+
+
+def test_another_scenario_starts_a_new_flight(page: Page, watched: Watch) -> None:
+    first = page.url
+    page.get_by_role("combobox", name="Scenario").select_option("fig_6a")
+    expect(page.locator(".top-title")).to_contain_text("6a")
+    expect(page).not_to_have_url(first)
+    expect(page.locator(".connection")).to_have_text("Live")
+    assert changes(page, lambda: map_transform(page))
+    assert watched.complaints == []
+
+
+@pytest.mark.parametrize("size", [(1440, 900), (1024, 768)], ids=["1440x900", "1024x768"])
+def test_nothing_is_cut(page: Page, watched: Watch, size: tuple[int, int]) -> None:
+    page.set_viewport_size({"width": size[0], "height": size[1]})
+    page.wait_for_timeout(MOVED)
+    assert page.evaluate(CUT) == []
+    assert watched.complaints == []
+
+
+def test_the_api_has_its_page(page: Page, watched: Watch, service: Service) -> None:
+    page.goto(f"{service.url}/docs")
+    expect(page.get_by_text("/api/v1/plans", exact=True).first).to_be_visible()
+    assert watched.complaints == []
+
+
+def test_a_flight_that_was_removed_says_so(page: Page, service: Service) -> None:
+    flight = re.search(r"flight=([\w-]+)", page.url)
+    assert flight is not None
+    address = f"{service.url}/api/v1/flights/{flight[1]}"
+    with urlopen(Request(address, method="DELETE")) as answer:
+        assert answer.status == 204
+    expect(page.get_by_role("alert")).to_contain_text("over")
+    page.get_by_role("button", name="Start a new flight").click()
+    expect(page.locator(".connection")).to_have_text("Live")
+    assert changes(page, lambda: map_transform(page))
+
+
+def map_transform(page: Page) -> str:
+    return page.locator("g.nd-map").get_attribute("transform") or ""
+
+
+def changes(page: Page, read: Callable[[], str]) -> bool:
+    before = read()
+    page.wait_for_timeout(MOVED)
+    return read() != before
+
+
+def until(page: Page, holds: Callable[[], bool], what: str, *, seconds: float = 30.0) -> None:
+    give_up = monotonic() + seconds
+    while not holds():
+        assert monotonic() < give_up, f"not seen in {seconds:g} s: {what}"
+        page.wait_for_timeout(50)

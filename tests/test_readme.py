@@ -1,0 +1,80 @@
+"""What the README shows is what happens."""
+
+import io
+import json
+import re
+from contextlib import redirect_stdout
+from pathlib import Path
+
+import pytest
+from fastapi.testclient import TestClient
+
+from relguide.__main__ import main
+from server.app import create_app
+
+ROOT = Path(__file__).parents[1]
+README = (ROOT / "README.md").read_text()
+
+
+def blocks(language: str) -> list[str]:
+    return re.findall(rf"^```{language}\n(.*?)^```", README, re.DOTALL | re.MULTILINE)
+
+
+def test_twelve_lines_of_python() -> None:
+    (code,) = blocks("python")
+    shown = blocks("text")[0]
+    assert len([line for line in code.splitlines() if line.strip()]) == 12
+    printed = io.StringIO()
+    with redirect_stdout(printed):
+        exec(compile(code, "README.md", "exec"), {})
+    assert printed.getvalue() == shown
+
+
+def test_one_request() -> None:
+    (curl,) = [block for block in blocks("sh") if block.startswith("curl")]
+    body = json.loads(curl[curl.index("'{") + 1 : curl.rindex("}'") + 1])
+    path = re.search(r":8000(\S+)", curl)
+    assert path is not None
+    with TestClient(create_app()) as client:
+        answer = client.post(path[1], json=body)
+    assert answer.status_code == 200
+    assert answer.json()["status"] == "planned"
+
+
+def test_commands_are_there(capsys: pytest.CaptureFixture[str]) -> None:
+    listed = re.findall(r"^relguide (\w+)", README, re.MULTILINE)
+    assert set(listed) == {"plan", "fly", "replay", "serve"}
+    for command in listed:
+        with pytest.raises(SystemExit) as end:
+            main([command, "--help"])
+        assert end.value.code == 0
+        assert f"relguide {command}" in capsys.readouterr().out
+
+
+def test_make_targets_are_there() -> None:
+    makefile = (ROOT / "Makefile").read_text()
+    for target in re.findall(r"`?\bmake (\w+)", README):
+        assert f"\n{target}:" in makefile, f"make {target}"
+
+
+def test_map_and_links_lead_somewhere() -> None:
+    (tree,) = [block for block in blocks("text") if block.startswith("relguide/")]
+    folder = ROOT
+    for line in tree.splitlines():
+        names = re.match(r"( *)((?:[\w.]+/?(?:, )?)+)", line)
+        assert names is not None, line
+        if not names[1]:
+            folder = ROOT
+        for name in names[2].strip().split(", "):
+            assert (folder / name).exists(), name
+        if not names[1] and names[2].strip().endswith("/"):
+            folder = ROOT / names[2].strip()
+    for link in re.findall(r"\]\((?!http|#)([^)]+)\)", README):
+        assert (ROOT / link).exists(), link
+
+
+def test_errata_name_tests_that_exist() -> None:
+    for file, name in re.findall(r"`(\w+\.py)::(\w+)`", README):
+        found = list((ROOT / "tests").rglob(file))
+        assert found, file
+        assert any(f"def {name}(" in path.read_text() for path in found), f"{file}::{name}"
