@@ -44,6 +44,15 @@ class SlotFrame:
     origin_y: float
     """The slot at t = 0, north [m]."""
 
+    def to_slot(self, x: float, y: float) -> tuple[float, float]:
+        """A point of the air mass [m] in this frame [R]."""
+        dx, dy = x - self.origin_x, y - self.origin_y
+        along_x, along_y = sin(self.heading), cos(self.heading)
+        return (
+            (dx * along_x + dy * along_y) / self.radius,
+            (dy * along_x - dx * along_y) / self.radius,
+        )
+
 
 def slot_frame(situation: "Situation", leader: Trajectory) -> SlotFrame:
     """Reduce a situation to its slot frame.

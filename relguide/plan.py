@@ -8,6 +8,7 @@ from time import perf_counter_ns
 from typing import Literal
 
 from relguide.certificate import SLACK, Certificate, certify
+from relguide.detour import detour
 from relguide.situation import Situation
 from relguide.trajectory import Trajectory
 from relguide.units import KT, NM, Metre, Millisecond, Second
@@ -105,8 +106,9 @@ def plan(situation: Situation) -> Plan | NoPlan:
     """The fastest candidate that keeps d_min, with what is proved of it.
 
     Without the limit the candidates are all the extremals there are, so if the fastest of them
-    keeps the limit it is the global optimum (`proof="relaxation"`). If it does not, the next that
-    does is given with `proof="none"`: detours made of more pieces may be faster.
+    keeps the limit it is the global optimum (`proof="relaxation"`). If it does not, the ways that
+    touch d_min once are searched too, and the fastest of all that certify is given with the time of
+    the fastest candidate as the bound it is proved to within (`proof="bound"`).
     """
     started = perf_counter_ns()
     radius = situation.pursuer.turn_radius
@@ -126,8 +128,8 @@ def plan(situation: Situation) -> Plan | NoPlan:
         return NoPlan(
             reason=Reason.SEPARATION_UNAVOIDABLE,
             message=f"Each of the {len(found)} direct trajectories to the slot comes "
-            f"closer than {_nm(situation.min_separation)} to the leader; detours of more pieces "
-            "were not searched. A smaller minimum separation or a larger slot distance would help.",
+            f"closer than {_nm(situation.min_separation)} to the leader, and no way round it was "
+            "found. A smaller minimum separation or a larger slot distance would help.",
         )
     candidate, certificate, optimality = chosen
     if candidate.time_to_converge > HORIZON:
@@ -178,13 +180,22 @@ def _first_that_holds(
         )
         if best is not None:
             return *best, Optimality(proof="relaxation", lower_bound=bound)
+    chosen: tuple[Candidate, Certificate] | None = None
     for i, candidate in enumerate(found.later):
         certificate = certify(candidate.trajectory, situation)
         if certificate.holds:
-            proved = i == 0 and not found.reachable_at_opening
-            proof: Proof = "relaxation" if proved else "none"
-            return candidate, certificate, Optimality(proof=proof, lower_bound=bound)
-    return None
+            chosen = candidate, certificate
+            if i == 0 and not found.reachable_at_opening:
+                return *chosen, Optimality(proof="relaxation", lower_bound=bound)
+            break
+    around = detour(found, beat=chosen[0].time_to_converge if chosen else HORIZON)
+    if around is not None:
+        certificate = certify(around.trajectory, situation)
+        if certificate.holds:
+            chosen = around, certificate
+    if chosen is None:
+        return None
+    return *chosen, Optimality(proof="bound", lower_bound=bound)
 
 
 def _canonical(

@@ -58,7 +58,7 @@ class Candidates:
         """Extremals that arrive after the slot opens, fastest first, each made when asked for."""
         for _, word, *amounts in self.rows.tolist():
             signs = SIGN_ROWS[int(word)]
-            yield _candidate(self.situation, self.frame, signs, amounts, WORDS[int(word)])
+            yield assemble(self.situation, self.frame, signs, amounts, WORDS[int(word)])
 
     def __len__(self) -> int:
         return len(self.at_opening) + len(self.rows)
@@ -104,7 +104,7 @@ def _at_opening(
     amounts = np.empty((MAX_HOLDS, HOLD_PIECES))
     n = holds(frame.x, frame.y, frame.h, frame.alpha, frame.t_open, first_turns, signs, amounts)
     pieces = zip(signs[:n].tolist(), amounts[:n].tolist(), strict=True)
-    found = [_candidate(situation, frame, *piece, "") for piece in pieces]
+    found = [assemble(situation, frame, *piece, "") for piece in pieces]
     return tuple(sorted(found, key=_canonical_order))
 
 
@@ -125,18 +125,31 @@ def _dubins_length(frame: SlotFrame) -> float:
     return float(rows[0, 0])
 
 
-def _candidate(
+def assemble(
     situation: Situation, frame: SlotFrame, signs: list[float], amounts: list[float], word: str
 ) -> Candidate:
+    """A path of the slot frame as the pursuer's trajectory.
+
+    Args:
+        situation: gives the pursuer.
+        frame: its slot frame.
+        signs: ε of each piece, 0 for straights.
+        amounts: turn angles [rad] and lengths [R].
+        word: its name; the letters of its segments if empty.
+    """
     segments: list[Segment] = []
+    last = 2.0
     for sign, amount in zip(signs, amounts, strict=True):
         if amount <= NO_TURN:
             continue
+        if sign == last:  # two pieces that meet in a contact may be one turn, or one straight
+            amount += segments.pop().length / frame.radius
         if sign == 0.0:
             segments.append(Straight(length=amount * frame.radius))
         else:
             turn = LEFT if sign > 0.0 else RIGHT
             segments.append(Arc(turn=turn, turn_angle=amount, radius=frame.radius))
+        last = sign
     pursuer = situation.pursuer
     trajectory = Trajectory(
         x=pursuer.x,
