@@ -1,0 +1,91 @@
+import { useComputed } from "@preact/signals";
+import { formatClock, formatMiles } from "../units";
+import type { PlanChanged } from "../wire";
+import type { Label } from "./labels";
+import { line } from "./path";
+import { type LayerProps, planTime, shownPlan } from "./picture";
+import { GRAZE } from "./states";
+import { Stroke } from "./stroke";
+import { LINES } from "./style";
+import { offNose, onMap, placeAt, project, toMap } from "./view";
+
+const GHOST = { pursuer: "M0 -9V10M-10 0H10M-4 8H4", leader: "M0 -10L8 9L0 4L-8 9Z" } as const;
+
+/** Where both will be when they are closest, tied together. */
+export function ClosestApproach({ flight, view }: LayerProps) {
+  const pair = useComputed(() => closest(flight));
+  const shown = useComputed(() => pair.value !== null);
+  const tie = useComputed(() =>
+    pair.value === null ? "" : line(view.layout.value, pair.value.pursuer, pair.value.leader),
+  );
+  if (!shown.value) return null;
+  return (
+    <g class="nd-closest">
+      <Stroke d={tie} line={{ ...LINES.closest, colour: closestColour(flight) }} />
+      <Ghost flight={flight} view={view} who="pursuer" />
+      <Ghost flight={flight} view={view} who="leader" />
+    </g>
+  );
+}
+
+function Ghost({ flight, view, who }: LayerProps & { who: "pursuer" | "leader" }) {
+  const place = useComputed(() => {
+    const point = closest(flight)?.[who];
+    return point === undefined ? "" : placeAt(toMap(view.layout.value, point), point.heading_deg);
+  });
+  return (
+    <g transform={place}>
+      <Stroke d={GHOST[who]} line={{ colour: closestColour(flight), width: 2, dash: "" }} />
+    </g>
+  );
+}
+
+function closestColour(flight: LayerProps["flight"]) {
+  const least = flight.plan.value?.plan.separation.least_m ?? Number.POSITIVE_INFINITY;
+  const limit = flight.started.value?.min_separation_m ?? 0;
+  return least < limit - GRAZE ? "caution" : "label";
+}
+
+/** The closest approach of the plan flown, while it is still to come. */
+function closest(flight: LayerProps["flight"]) {
+  const plan = shownPlan(flight);
+  if (plan === null || planTime(flight, plan) >= plan.plan.separation.at_s) return null;
+  return { pursuer: plan.pursuer_at_closest, leader: plan.leader_at_closest, plan };
+}
+
+/** Whether the two come no closer than they are at the slot: then the capture point's label says it. */
+export function closestAtEnd({ plan }: PlanChanged): boolean {
+  return plan.time_to_converge_s - plan.separation.at_s < 1;
+}
+
+/** How close they come. */
+export function closestText({ plan }: PlanChanged): string {
+  return `${formatMiles(plan.separation.least_m)} NM`;
+}
+
+/** How close, and how long until then. */
+export function closestLabel({ flight, view }: LayerProps): Label | null {
+  const [pair, pose] = [closest(flight), view.pose.value];
+  if (pair === null || pose === null || closestAtEnd(pair.plan)) return null;
+  const { separation } = pair.plan.plan;
+  const at = project(view.layout.value, pose, {
+    x_m: (pair.pursuer.x_m + pair.leader.x_m) / 2,
+    y_m: (pair.pursuer.y_m + pair.leader.y_m) / 2,
+  });
+  if (!onMap(view.layout.value, at)) return null;
+  const left = separation.at_s - planTime(flight, pair.plan);
+  return {
+    id: "closest",
+    at,
+    lines: [
+      {
+        text: `${closestText(pair.plan)} ${formatClock(left)}`,
+        colour: closestColour(flight),
+      },
+    ],
+    side: offNose(pose, pair.leader.heading_deg - 90),
+    gap: 10,
+    size: 18,
+    optional: false,
+  };
+}

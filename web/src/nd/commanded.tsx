@@ -1,0 +1,48 @@
+import { useComputed } from "@preact/signals";
+import { type LayerProps, shownGuidance } from "./picture";
+import { Stroke } from "./stroke";
+import { ink, LINES } from "./style";
+import { offNose, placeAt, polar, round } from "./view";
+
+/** The arrow shows the turn of the next so many seconds. */
+const ARROW_TIME = 10;
+
+/** What guidance asks for: a pip on the tape at the commanded heading, or a curved arrow into the turn. */
+export function Commanded({ flight, view }: LayerProps) {
+  const pip = useComputed(() => {
+    const shown = shownGuidance(flight);
+    if (shown?.now.reference.kind !== "hold_heading") return "";
+    const direction = offNose(shown.now.pursuer, shown.now.reference.heading_deg);
+    const { layout } = view;
+    return placeAt(polar(layout.value, direction, layout.value.tape), direction);
+  });
+  const arrow = useComputed(() => {
+    const shown = shownGuidance(flight);
+    if (shown?.now.reference.kind !== "turn_rate") return "";
+    const layout = view.layout.value;
+    const sweep = shown.now.reference.turn_rate_degps * ARROW_TIME;
+    if (Math.abs(sweep) < 1) return "";
+    const radius = layout.tape - 26;
+    const [from, to] = [polar(layout, 0, radius), polar(layout, sweep, radius)];
+    const side = Math.sign(sweep);
+    const [outer, inner, tip] = [9, -9, 0].map((off) =>
+      polar(layout, sweep + (off === 0 ? (side * 800) / radius : 0), radius + off),
+    );
+    if (outer === undefined || inner === undefined || tip === undefined) return "";
+    return (
+      `M${round(from.x)} ${round(from.y)}` +
+      `A${radius} ${radius} 0 0 ${side > 0 ? 1 : 0} ${round(to.x)} ${round(to.y)}` +
+      `M${round(outer.x)} ${round(outer.y)}L${round(tip.x)} ${round(tip.y)}` +
+      `L${round(inner.x)} ${round(inner.y)}Z`
+    );
+  });
+  const pipShown = useComputed(() => pip.value !== "");
+  return (
+    <g class="nd-commanded">
+      {pipShown.value && (
+        <path class="nd-solid" d="M0 2L-11 -16H11Z" fill={ink("managed")} transform={pip} />
+      )}
+      <Stroke d={arrow} line={LINES.turn} />
+    </g>
+  );
+}

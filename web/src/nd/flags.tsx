@@ -1,0 +1,22 @@
+import { useComputed } from "@preact/signals";
+import type { LayerProps } from "./picture";
+import { age } from "./states";
+import { AGE, type Colour, ink } from "./style";
+import { flagPoint } from "./view";
+
+/** What is missing, in large letters over the map. */
+export function Flags({ flight, view }: LayerProps) {
+  const flag = useComputed(() => AGE[age(flight)].flag);
+  const layout = view.layout.value;
+  if (flag.value === "") return null;
+  const map = flag.value === "MAP NOT AVAIL";
+  const { x, y } = flagPoint(layout, map);
+  const colour: Colour = map ? "alert" : "caution";
+  return (
+    <g class="nd-flag nd-flash" key={flag.value}>
+      <text class="nd-text" x={x} y={y} font-size={30} text-anchor="middle" fill={ink(colour)}>
+        {flag.value}
+      </text>
+    </g>
+  );
+}

@@ -1,0 +1,95 @@
+import { useComputed } from "@preact/signals";
+import { formatHeading } from "../units";
+import type { PathSegment, TurnSegment } from "../wire";
+import { PathAhead } from "./ahead";
+import type { Label } from "./labels";
+import { type LayerProps, shownNow } from "./picture";
+import { ink, LINES } from "./style";
+import { offNose, onMap, placeAt, project, toMap } from "./view";
+
+/** An undeclared future is shown this far ahead, and no further [s]. */
+const GUESS = 180;
+
+/** What the leader said it will fly (dash-dot, new legs marked), or straight on if it said nothing (dots). */
+export function LeaderIntent({ flight, view }: LayerProps) {
+  const path = useComputed(() => {
+    const route = flight.route.value;
+    if (route === null || shownNow(flight) === null) return null;
+    return { segments: route.segments, start: 0 };
+  });
+  const known = useComputed(() => flight.route.value?.intent_known ?? false);
+  const legs = useComputed(() => (known.value ? (path.value?.segments ?? []).filter(isTurn) : []));
+  if (!known.value) {
+    return (
+      <PathAhead
+        flight={flight}
+        view={view}
+        path={path}
+        line={LINES.extrapolated}
+        horizon={GUESS}
+      />
+    );
+  }
+  return (
+    <g class="nd-intent">
+      <PathAhead flight={flight} view={view} path={path} line={LINES.declared} />
+      {legs.value.map((leg) => (
+        <NewLeg key={leg.start.t_s} flight={flight} view={view} leg={leg} />
+      ))}
+    </g>
+  );
+}
+
+function NewLeg({ flight, view, leg }: LayerProps & { leg: TurnSegment }) {
+  const shown = useComputed(() => flight.simTime.value < leg.end.t_s);
+  const place = useComputed(() => placeAt(toMap(view.layout.value, leg.end)));
+  if (!shown.value) return null;
+  return (
+    <path
+      class="nd-hollow"
+      d="M0 -9L7 0L0 9L-7 0Z"
+      stroke={ink("leader")}
+      stroke-width={2}
+      transform={place}
+    />
+  );
+}
+
+function isTurn(segment: PathSegment): segment is TurnSegment {
+  return segment.kind === "turn";
+}
+
+/** The heading of each new leg, or that nothing was declared. */
+export function intentLabels({ flight, view }: LayerProps): Label[] {
+  const [now, pose, route] = [shownNow(flight), view.pose.value, flight.route.value];
+  if (now === null || pose === null || route === null) return [];
+  const layout = view.layout.value;
+  const base = { gap: 14, size: 18, optional: true };
+  if (!route.intent_known) {
+    // Half-way along the dots.
+    const ahead = now.leader.ground_speed_mps * GUESS * 0.5;
+    const track = (now.leader.track_deg * Math.PI) / 180;
+    const at = project(layout, pose, {
+      x_m: now.leader.x_m + ahead * Math.sin(track),
+      y_m: now.leader.y_m + ahead * Math.cos(track),
+    });
+    const side = offNose(pose, now.leader.track_deg) - 90;
+    const lines = [{ text: "NO INTENT", colour: "leader" as const }];
+    return onMap(layout, at) ? [{ ...base, id: "intent", at, lines, side, optional: false }] : [];
+  }
+  return route.segments
+    .filter(isTurn)
+    .filter((leg) => flight.simTime.value < leg.end.t_s)
+    .slice(0, 3)
+    .map((leg, i) => {
+      const outside = leg.direction === "right" ? -90 : 90;
+      return {
+        ...base,
+        id: `leg ${i}`,
+        at: project(layout, pose, leg.end),
+        lines: [{ text: `${formatHeading(leg.end.heading_deg)}°`, colour: "leader" as const }],
+        side: offNose(pose, leg.end.heading_deg + outside),
+      };
+    })
+    .filter(({ at }) => onMap(layout, at));
+}

@@ -1,0 +1,177 @@
+import { computed, type ReadonlySignal, untracked, useComputed } from "@preact/signals";
+import { useMemo } from "preact/hooks";
+import { samplePath } from "../geometry";
+import { captureLabel } from "./capture";
+import { circleLabel } from "./circle";
+import { closestLabel } from "./closest";
+import { intentLabels } from "./intent";
+import { type Label, LINE_HEIGHT, type Placement, placeLabels } from "./labels";
+import { leaderOnMap, leaderTag } from "./leader";
+import { minuteLabels } from "./minutes";
+import { offScaleTag } from "./offscale";
+import { type LayerProps, planTime, shownPlan, windNow } from "./picture";
+import { ringLabelPoints } from "./rings";
+import { ink } from "./style";
+import { turnLabels } from "./turns";
+import { type Box, type Point, placeAt, project, READOUTS } from "./view";
+
+/** All labels of the map, the most important first. */
+function labelsOf(props: LayerProps): Label[] {
+  return [
+    leaderTag(props),
+    offScaleTag(props),
+    captureLabel(props),
+    closestLabel(props),
+    circleLabel(props),
+    ...turnLabels(props),
+    ...intentLabels(props),
+    ...minuteLabels(props),
+  ].filter((label) => label !== null);
+}
+
+/** Every label that can be: each has its own element, so that a frame moves it and builds nothing. */
+const IDS = [
+  "leader",
+  "offscale",
+  "capture",
+  "closest",
+  "circle",
+  ...[1, 2, 3, 4, 5, 6, 7, 8].map((i) => `T${i}`),
+  "intent",
+  ...[0, 1, 2].map((i) => `leg ${i}`),
+  ...[5, 10, 15, 20, 25, 30, 35, 40].flatMap((i) => [`minute ${i} plan`, `minute ${i} leader`]),
+];
+
+/** The map's labels, clear of each other. They stand upright: outside the turning map. */
+export function Labels({ flight, view }: LayerProps) {
+  const labels = useComputed(
+    () => new Map(labelsOf({ flight, view }).map((each) => [each.id, each])),
+  );
+  const placements = useMemo(() => {
+    let before: ReadonlyMap<string, Placement> = new Map();
+    return computed(() => {
+      void view.beat.value;
+      void flight.plan.value;
+      // Sides are chosen at the pace of reading; between, each label moves with its point.
+      before = untracked(() => choose({ flight, view }, [...labels.peek().values()], before));
+      return before;
+    });
+  }, [flight, view, labels]);
+  return (
+    <g class="nd-labels">
+      {IDS.map((id) => (
+        <LabelText key={id} id={id} labels={labels} placements={placements} />
+      ))}
+    </g>
+  );
+}
+
+/** The labels of this moment that have a place, and where. */
+export function chooseLabels(props: LayerProps): { label: Label; placement: Placement }[] {
+  const labels = labelsOf(props);
+  const placements = choose(props, labels, new Map());
+  return labels.flatMap((label) => {
+    const placement = placements.get(label.id);
+    return placement === undefined ? [] : [{ label, placement }];
+  });
+}
+
+interface LabelTextProps {
+  readonly id: string;
+  readonly labels: ReadonlySignal<ReadonlyMap<string, Label>>;
+  readonly placements: ReadonlySignal<ReadonlyMap<string, Placement>>;
+}
+
+function LabelText({ id, labels, placements }: LabelTextProps) {
+  const count = useComputed(() =>
+    placements.value.has(id) ? (labels.value.get(id)?.lines.length ?? 0) : 0,
+  );
+  const place = useComputed(() => {
+    const [label, box] = [labels.value.get(id), placements.value.get(id)?.box];
+    if (label === undefined || box === undefined) return "";
+    return placeAt({ x: label.at.x + box.x + box.width / 2, y: label.at.y + box.y });
+  });
+  const size = useComputed(() => labels.value.get(id)?.size ?? 0);
+  if (count.value === 0) return null;
+  return (
+    <g class="nd-label" font-size={size} text-anchor="middle" transform={place}>
+      {Array.from({ length: count.value }, (_, i) => (
+        <LabelRow key={i} id={id} row={i} labels={labels} />
+      ))}
+    </g>
+  );
+}
+
+function LabelRow({
+  id,
+  row,
+  labels,
+}: {
+  id: string;
+  row: number;
+  labels: LabelTextProps["labels"];
+}) {
+  const text = useComputed(() => labels.value.get(id)?.lines[row]?.text ?? "");
+  const fill = useComputed(() => ink(labels.value.get(id)?.lines[row]?.colour ?? "label"));
+  return (
+    <text class="nd-text" y={`${0.84 + LINE_HEIGHT * row}em`} fill={fill}>
+      {text}
+    </text>
+  );
+}
+
+function choose(props: LayerProps, labels: Label[], before: ReadonlyMap<string, Placement>) {
+  const around = {
+    layout: props.view.layout.value,
+    boxes: [...Object.values(READOUTS), ...symbols(props)],
+    points: linePoints(props),
+  };
+  return placeLabels(labels, around, before);
+}
+
+/** The symbols that no label may cover. */
+function symbols({ flight, view }: LayerProps): Box[] {
+  const [now, pose] = [flight.now.value, view.pose.value];
+  const layout = view.layout.value;
+  if (now === null || pose === null) return [];
+  const boxes = [square(layout.centre, 28), square(project(layout, pose, now.slot), 20)];
+  if (leaderOnMap({ flight, view }) !== null)
+    boxes.push(square(project(layout, pose, now.leader), 24));
+  const plan = shownPlan(flight);
+  if (plan !== null) {
+    const end = plan.plan.segments.at(-1)?.end;
+    const points = [plan.pursuer_at_closest, plan.leader_at_closest, ...(end ? [end] : [])];
+    boxes.push(...points.map((point) => square(project(layout, pose, point), 11)));
+  }
+  for (const { radius } of layout.rings)
+    boxes.push(...ringLabelPoints(layout, radius).map((point) => square(point, 14)));
+  return boxes;
+}
+
+function square({ x, y }: Point, half: number): Box {
+  return { x: x - half, y: y - half, width: 2 * half, height: 2 * half };
+}
+
+/** Points along both paths, close enough that no label can stand between two of them. */
+function linePoints({ flight, view }: LayerProps): Point[] {
+  const [plan, route, pose] = [shownPlan(flight), flight.route.value, view.pose.value];
+  if (pose === null) return [];
+  const layout = view.layout.value;
+  const wind = windNow(flight);
+  const own = plan === null ? [] : samplePath(plan.plan.segments, wind, planTime(flight, plan));
+  const leader = route === null ? [] : samplePath(route.segments, wind, flight.simTime.value);
+  return [own, leader].flatMap((path) => dense(path.map((point) => project(layout, pose, point))));
+}
+
+/** Fills in what is further apart than a line of text is high [px]. */
+function dense(points: readonly Point[]): Point[] {
+  return points.flatMap((point, i) => {
+    const next = points[i + 1];
+    if (next === undefined) return [point];
+    const count = Math.min(200, Math.ceil(Math.hypot(next.x - point.x, next.y - point.y) / 12));
+    return Array.from({ length: Math.max(1, count) }, (_, k) => ({
+      x: point.x + ((next.x - point.x) * k) / Math.max(1, count),
+      y: point.y + ((next.y - point.y) * k) / Math.max(1, count),
+    }));
+  });
+}

@@ -1,0 +1,98 @@
+/** What the message line says: warnings before cautions before advice, one at a time. */
+
+import { computed, type ReadonlySignal } from "@preact/signals";
+import type { Flight } from "../flight";
+import { formatMiles } from "../units";
+import type { Mode, PlanReason, Reason } from "../wire";
+import { shownGuidance, shownNow } from "./picture";
+import { age, separation, wallNow } from "./states";
+import type { Colour } from "./style";
+
+export interface Notice {
+  readonly level: "warning" | "caution" | "advice";
+  readonly text: string;
+}
+
+export const NOTICE_COLOUR: Record<Notice["level"], Colour> = {
+  warning: "alert",
+  caution: "caution",
+  advice: "label",
+};
+
+/** Why guidance is unable, in the words of the panel. */
+export const UNABLE: Record<Reason, string> = {
+  slot_unreachable: "SPEED",
+  separation_already_lost: "SEP",
+  separation_unavoidable: "SEP",
+  beyond_horizon: "TIME",
+};
+
+export const REPLANNED: Record<PlanReason, string> = {
+  engaged: "CONV ACTIVE",
+  better_plan: "SHORTER PATH",
+  deviation: "OFF PATH – REPLAN",
+  separation: "SEP – REPLAN",
+  leader_turned: "LDR TURN – REPLAN",
+  leader_changed_speed: "LDR SPEED – REPLAN",
+  intent_received: "LDR INTENT – REPLAN",
+  intent_withdrawn: "LDR INTENT LOST – REPLAN",
+};
+
+export const ENTERED: Record<Mode, string> = {
+  heading: "RG OFF – HDG",
+  converge: "CONV ACTIVE",
+  capture: "CAPTURE",
+  follow: "FOLLOWING",
+};
+
+/** Advice stands this long [ms]. */
+const SHOWN = 10_000;
+/** A warning stays this long after its cause is gone, so that it does not blink on the edge [ms]. */
+const HELD = 3_000;
+
+/** All that is to be said now, the most urgent first. */
+export function createNotices(flight: Flight): ReadonlySignal<readonly Notice[]> {
+  // When the plan and the end of the join were first seen; the flight tells its own time, not the wall's.
+  const planned = computed(() => ({ plan: flight.plan.value, wall: performance.now() }));
+  const joined = computed(() => ({
+    joined: flight.sample.value?.joined ?? false,
+    wall: performance.now(),
+  }));
+  let lost = Number.NEGATIVE_INFINITY;
+  return computed(() => {
+    const wall = wallNow(flight);
+    const notices: Notice[] = [];
+    const outlook = separation(flight);
+    const now = shownNow(flight);
+    if (outlook.state === "lost") lost = wall;
+    if (now !== null && wall - lost < HELD) notices.push({ level: "warning", text: "SEPARATION" });
+    if (outlook.state === "predicted" && now !== null)
+      notices.push({ level: "caution", text: `SEP IN ${outlook.within} S` });
+    const old = age(flight);
+    if (old === "old" || old === "dropped")
+      notices.push({ level: "caution", text: `LDR DATA ${Math.floor(flight.dataAge.value)} S` });
+    if (shownGuidance(flight) === null) return notices;
+    const unavailable = flight.unavailable.value;
+    if (unavailable !== null)
+      notices.push({ level: "caution", text: `RG UNABLE: ${UNABLE[unavailable.answer.reason]}` });
+    if (flight.sample.value?.joined === true) {
+      const spacing = formatMiles(flight.started.value?.slot_distance_m ?? 0);
+      const text = wall - joined.value.wall < SHOWN ? "JOINED" : `SPACING ${spacing} NM`;
+      notices.push({ level: "advice", text });
+    }
+    const { plan, wall: seen } = planned.value;
+    if (plan !== null && unavailable === null && isRecent(flight, plan.t_s, wall - seen))
+      notices.push({ level: "advice", text: REPLANNED[plan.reason] });
+    const mode = flight.mode.value;
+    const since = wall - flight.modeSince.value;
+    if (mode !== null && since < SHOWN && !(mode.mode === "converge" && notices.length > 0))
+      notices.push({ level: "advice", text: ENTERED[mode.mode] });
+    return notices;
+  });
+}
+
+/** Seen a short while ago, and not already old when it was seen (a late joiner is told of old plans too). */
+function isRecent(flight: Flight, t: number, seen: number): boolean {
+  const wall = ((flight.simTime.value - t) / flight.clock.value.rate) * 1000;
+  return seen < SHOWN && wall < SHOWN;
+}

@@ -1,0 +1,101 @@
+import { useComputed } from "@preact/signals";
+import { pathPointAt } from "../geometry";
+import type { PathPoint, PathSegment } from "../wire";
+import type { Label } from "./labels";
+import { type LayerProps, planTime, shownPlan, windNow } from "./picture";
+import { Stroke } from "./stroke";
+import { LINES, type Line } from "./style";
+import { offNose, onMap, project, toMap } from "./view";
+
+/** Beyond this range the ticks would run together [NM]. */
+const TICKS_TO = 80;
+
+/** Half the length of a tick [px]. */
+const HALF = 5;
+
+/** A minute mark on both paths is the same minute: how the two stand to each other in time. */
+export function TimeTicks({ flight, view }: LayerProps) {
+  const plan = useComputed(() => shownPlan(flight));
+  const shown = useComputed(() => view.layout.value.range <= TICKS_TO);
+  const own = useComputed(() =>
+    plan.value === null ? "" : ticks({ flight, view }, plan.value.plan.segments, plan.value.t_s),
+  );
+  const leader = useComputed(() =>
+    plan.value === null ? "" : ticks({ flight, view }, flight.route.value?.segments ?? [], 0),
+  );
+  if (plan.value === null || !shown.value) return null;
+  return (
+    <g class="nd-minutes">
+      <Stroke d={own} line={thin(LINES.mark)} />
+      <Stroke d={leader} line={thin(LINES.leaderMark)} />
+    </g>
+  );
+}
+
+function thin(line: Line): Line {
+  return { ...line, width: 1.75 };
+}
+
+function ticks(
+  { flight, view }: LayerProps,
+  segments: readonly PathSegment[],
+  start: number,
+): string {
+  return minutes({ flight, view })
+    .map((minute) => minutePoint({ flight, view }, segments, minute, start))
+    .filter((point) => point !== null)
+    .map((point) => {
+      const { x, y } = toMap(view.layout.value, point);
+      const [dx, dy] = [Math.cos, Math.sin].map(
+        (f) => HALF * f((point.heading_deg * Math.PI) / 180),
+      ) as [number, number];
+      return `M${(x - dx).toFixed(2)} ${(y - dy).toFixed(2)}l${(2 * dx).toFixed(2)} ${(2 * dy).toFixed(2)}`;
+    })
+    .join("");
+}
+
+/** The minutes of the plan still to come. */
+function minutes({ flight }: LayerProps): number[] {
+  const plan = shownPlan(flight);
+  if (plan === null) return [];
+  const last = Math.floor((plan.plan.time_to_converge_s - 1) / 60);
+  const next = Math.max(1, Math.floor(planTime(flight, plan) / 60) + 1);
+  return Array.from({ length: Math.max(0, last - next + 1) }, (_, i) => next + i);
+}
+
+function minutePoint(
+  { flight }: LayerProps,
+  segments: readonly PathSegment[],
+  minute: number,
+  start: number,
+): PathPoint | null {
+  const plan = shownPlan(flight);
+  if (plan === null) return null;
+  const t = plan.t_s + 60 * minute - start;
+  const [from, to] = [segments[0]?.start.t_s ?? 0, segments.at(-1)?.end.t_s ?? 0];
+  return t < from || t > to ? null : pathPointAt(segments, t, windNow(flight));
+}
+
+/** The numbers of every fifth minute, and of the next one, on both paths. */
+export function minuteLabels({ flight, view }: LayerProps): Label[] {
+  const [plan, pose] = [shownPlan(flight), view.pose.value];
+  const layout = view.layout.value;
+  if (plan === null || pose === null || layout.range > TICKS_TO) return [];
+  const own = { segments: plan.plan.segments, start: plan.t_s, colour: "plan" as const };
+  const route = flight.route.value?.segments ?? [];
+  const leader = { segments: route, start: 0, colour: "leader" as const };
+  const labels: Label[] = [];
+  for (const minute of minutes({ flight, view }).filter((each) => each % 5 === 0)) {
+    for (const { segments, start, colour } of [own, leader]) {
+      const point = minutePoint({ flight, view }, segments, minute, start);
+      if (point === null) continue;
+      const at = project(layout, pose, point);
+      if (!onMap(layout, at)) continue;
+      const lines = [{ text: String(minute), colour }];
+      const side = offNose(pose, point.heading_deg + 90);
+      const id = `minute ${minute} ${colour}`;
+      labels.push({ id, at, lines, side, gap: 8, size: 18, optional: true });
+    }
+  }
+  return labels;
+}

@@ -1,0 +1,118 @@
+/** The navigation display: all layers, bottom to top, round one projection. */
+
+import { type Signal, useComputed } from "@preact/signals";
+import { useId, useMemo } from "preact/hooks";
+import type { Flight } from "../flight";
+import { AirData } from "./air";
+import { CapturePoint } from "./capture";
+import { SeparationCircle } from "./circle";
+import { ClosestApproach } from "./closest";
+import { Commanded } from "./commanded";
+import { CrossTrack } from "./crosstrack";
+import { describe } from "./describe";
+import { FinalTrack } from "./final";
+import { Flags } from "./flags";
+import { ModeStrip } from "./fma";
+import { LeaderHistory } from "./history";
+import { LeaderIntent } from "./intent";
+import { Labels } from "./labelled";
+import { Leader } from "./leader";
+import { MessageLine } from "./message";
+import { TimeTicks } from "./minutes";
+import { NextPoint } from "./next";
+import { OffScaleLeader } from "./offscale";
+import { OwnShip } from "./ownship";
+import { type LayerProps, shownNow } from "./picture";
+import { ActivePath, SupersededPath } from "./plan";
+import { RangeRings } from "./rings";
+import { Slot } from "./slot";
+import { Spacing } from "./spacing";
+import { HeadingTape, LubberLine } from "./tape";
+import { TrackDiamond, TrackLine } from "./track";
+import { TrendVector } from "./trend";
+import { TurnPoints } from "./turns";
+import "./nd.css";
+import { createView, type DisplayMode, SIZE } from "./view";
+
+/** What lies under the map: no path is ever covered by it. */
+export const GROUND_LAYERS = [RangeRings, TrackLine, TrendVector] as const;
+
+/** What turns and moves with the world, bottom to top. */
+export const MAP_LAYERS = [
+  LeaderIntent,
+  LeaderHistory,
+  SeparationCircle,
+  FinalTrack,
+  SupersededPath,
+  ActivePath,
+  TimeTicks,
+  TurnPoints,
+  Slot,
+  CapturePoint,
+  ClosestApproach,
+  Leader,
+] as const;
+
+/** What stands on the glass over the map, bottom to top. */
+export const GLASS_LAYERS = [
+  OwnShip,
+  OffScaleLeader,
+  HeadingTape,
+  Commanded,
+  LubberLine,
+  TrackDiamond,
+  Labels,
+  CrossTrack,
+  AirData,
+  NextPoint,
+  Spacing,
+  ModeStrip,
+  Flags,
+  MessageLine,
+] as const;
+
+interface Props {
+  readonly flight: Flight;
+  readonly mode: Signal<DisplayMode>;
+  /** NM. */
+  readonly range: Signal<number>;
+}
+
+export function NavigationDisplay({ flight, mode, range }: Props) {
+  const view = useMemo(() => createView(flight, mode, range), [flight, mode, range]);
+  const label = useComputed(() => {
+    void view.beat.value;
+    return describe({ flight, view });
+  });
+  return (
+    <svg class="nd" viewBox={`0 0 ${SIZE} ${SIZE}`} role="img" aria-label={label}>
+      {GROUND_LAYERS.map((Layer) => (
+        <Layer key={Layer.name} flight={flight} view={view} />
+      ))}
+      <WorldMap flight={flight} view={view} />
+      {GLASS_LAYERS.map((Layer) => (
+        <Layer key={Layer.name} flight={flight} view={view} />
+      ))}
+    </svg>
+  );
+}
+
+/** The world, cut to the tape, carried by one transform a frame. */
+function WorldMap({ flight, view }: LayerProps) {
+  const clip = useId();
+  const shown = useComputed(() => shownNow(flight) !== null);
+  const { centre, tape } = view.layout.value;
+  if (!shown.value) return null;
+  return (
+    <g clip-path={`url(#${clip})`}>
+      <clipPath id={clip}>
+        <circle cx={centre.x} cy={centre.y} r={tape} />
+      </clipPath>
+      <g class="nd-map" transform={view.mapTransform}>
+        {MAP_LAYERS.map((Layer) => (
+          <Layer key={Layer.name} flight={flight} view={view} />
+        ))}
+      </g>
+    </g>
+  );
+}

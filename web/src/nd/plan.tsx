@@ -1,0 +1,48 @@
+import { useComputed } from "@preact/signals";
+import { PathAhead, WholePath } from "./ahead";
+import { line } from "./path";
+import { type LayerProps, shownGuidance, slotTrack } from "./picture";
+import { Stroke } from "./stroke";
+import { LINES } from "./style";
+import { onwards } from "./view";
+
+/** The path being flown, solid: what is left of the plan, or the leader's route once behind it. */
+export function ActivePath({ flight, view }: LayerProps) {
+  const kind = useComputed(() => shownGuidance(flight)?.look.path ?? "none");
+  const path = useComputed(() => {
+    const plan = flight.plan.value;
+    return plan === null ? null : { segments: plan.plan.segments, start: plan.t_s };
+  });
+  const route = useComputed(() => {
+    const now = shownGuidance(flight)?.now;
+    const length = flight.started.value?.slot_distance_m;
+    if (now === undefined || length === undefined) return "";
+    return line(view.layout.value, now.slot, onwards(now.slot, slotTrack(flight), length));
+  });
+  switch (kind.value) {
+    case "none":
+      return null;
+    case "plan":
+      return <PathAhead flight={flight} view={view} path={path} line={LINES.active} />;
+    case "old_plan":
+      return <PathAhead flight={flight} view={view} path={path} line={LINES.superseded} />;
+    case "route":
+      return <Stroke d={route} line={LINES.active} />;
+  }
+}
+
+/** The plan before, dotted and fading while the new one is taken in. */
+export function SupersededPath({ flight, view }: LayerProps) {
+  const path = useComputed(() => {
+    const plan = flight.superseded.value?.plan;
+    if (plan === undefined || shownGuidance(flight) === null) return null;
+    return { segments: plan.plan.segments, start: plan.t_s };
+  });
+  const shown = useComputed(() => path.value !== null);
+  if (!shown.value) return null;
+  return (
+    <g class="nd-fading">
+      <WholePath flight={flight} view={view} path={path} line={LINES.superseded} />
+    </g>
+  );
+}

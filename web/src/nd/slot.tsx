@@ -1,0 +1,37 @@
+import { useComputed } from "@preact/signals";
+import { type LayerProps, shownGuidance } from "./picture";
+import { Stroke } from "./stroke";
+import { ink } from "./style";
+import { placeAt, toMap } from "./view";
+
+/** The gate that own ship is to sit in: a little wider than its symbol. */
+const GATE = "M-28 -15H28V15H-28Z";
+const PENNANT = "M28 -15V-42L47 -35L28 -28";
+
+/** The slot: a pennant over a gate across the leader's route; filled once own ship is in it. */
+export function Slot({ flight, view }: LayerProps) {
+  const shown = useComputed(() => shownGuidance(flight));
+  const place = useComputed(() => {
+    const slot = shown.value?.now.slot;
+    return slot === undefined ? "" : placeAt(toMap(view.layout.value, slot), slot.heading_deg);
+  });
+  const look = useComputed(() => shown.value?.look ?? null);
+  const joined = useComputed(() => shown.value?.now.joined ?? false);
+  const open = useComputed(() => shown.value?.now.slot_open ?? false);
+  if (look.value === null) return null;
+  const colour = look.value.slotColour;
+  // Until the leader is on its final leg the slot is only a place in the making: broken lines.
+  const strokeLine = { colour, width: 2.5, dash: open.value ? "" : "5 4" };
+  const fill = joined.value ? ink(colour) : "none";
+  return (
+    <g class="nd-slot" transform={place}>
+      <path d={GATE} fill={fill} fill-opacity={0.5} />
+      <Stroke d={GATE} line={strokeLine} />
+      <Stroke d={PENNANT} line={strokeLine} />
+      <path d={`${PENNANT}Z`} fill={fill} />
+      {look.value.slot === "crossed" && (
+        <Stroke d="M-28 -15L28 15M28 -15L-28 15" line={strokeLine} />
+      )}
+    </g>
+  );
+}

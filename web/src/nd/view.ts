@@ -1,0 +1,232 @@
+/**
+ * The projection: the only file that knows where things are in the 768 × 768 box [px].
+ *
+ * Heading-up: the nose of the own ship points to the top of the glass. World: x east, y north [m].
+ * The *map* is the world north-up in pixels (y down), carried by one transform a frame.
+ */
+
+import { computed, type ReadonlySignal, type Signal } from "@preact/signals";
+import type { Flight } from "../flight";
+import { DEG, NM, wrap180 } from "../units";
+
+export const SIZE = 768;
+export const RANGES = [10, 20, 40, 80, 160, 320] as const;
+
+export type DisplayMode = "ROSE" | "ARC";
+
+export interface Point {
+  readonly x: number;
+  readonly y: number;
+}
+
+export interface Box extends Point {
+  readonly width: number;
+  readonly height: number;
+}
+
+/** A place over the ground [m]; samples and path points are places too. */
+export interface Place {
+  readonly x_m: number;
+  readonly y_m: number;
+}
+
+export interface Pose extends Place {
+  readonly heading_deg: number;
+}
+
+/** One range ring: its radius [px] and what it says [NM]. */
+export interface Ring {
+  readonly radius: number;
+  readonly label: string;
+}
+
+/** Where everything is for one mode and range. */
+export interface Layout {
+  readonly mode: DisplayMode;
+  /** As selected [NM]. */
+  readonly range: number;
+  readonly scale: number;
+  /** The own ship, and the middle of tape and rings. */
+  readonly centre: Point;
+  /** Radius of the tape, which also bounds the map. */
+  readonly tape: number;
+  readonly rings: readonly Ring[];
+  /** On which clock positions the rings are labelled [deg right of the nose]. */
+  readonly ringLabels: readonly number[];
+}
+
+export interface View {
+  readonly layout: ReadonlySignal<Layout>;
+  /** The own ship; null while nothing is known of it. */
+  readonly pose: ReadonlySignal<Pose | null>;
+  /** Carries the map under the own ship. */
+  readonly mapTransform: ReadonlySignal<string>;
+  /** Turns what is drawn round north at the top. */
+  readonly tapeTransform: ReadonlySignal<string>;
+  /** Changes five times a second: what is read, not watched, follows it. */
+  readonly beat: ReadonlySignal<string>;
+}
+
+/** Both modes show 500 px for the selected range: ARC ahead, ROSE across (250 px each way). */
+const RANGE_PX = 500;
+const CENTRE = { ROSE: { x: 384, y: 384 }, ARC: { x: 384, y: 620 } } as const;
+const TAPE = { ROSE: 250, ARC: 492 } as const;
+
+/** The readouts round the map. Labels and edge symbols keep clear of them. */
+export const READOUTS = {
+  fma: { x: 0, y: 0, width: 768, height: 58 },
+  air: { x: 10, y: 66, width: 212, height: 62 },
+  next: { x: 596, y: 66, width: 164, height: 88 },
+  spacing: { x: 10, y: 582, width: 150, height: 138 },
+  flag: { x: 234, y: 690, width: 300, height: 32 },
+  message: { x: 184, y: 728, width: 400, height: 34 },
+} as const satisfies Record<string, Box>;
+
+/** Where the large flags stand: that of the map over its middle, the leader's over the message line. */
+export function flagPoint(layout: Layout, whole: boolean): Point {
+  const { flag } = READOUTS;
+  return whole
+    ? polar(layout, 0, layout.tape * 0.45)
+    : { x: flag.x + flag.width / 2, y: flag.y + 26 };
+}
+
+export function layoutOf(mode: DisplayMode, range: number): Layout {
+  const scale = RANGE_PX / (range * NM);
+  const parts = mode === "ARC" ? [0.75, 0.5, 0.25] : [0.25];
+  return {
+    mode,
+    range,
+    scale,
+    centre: CENTRE[mode],
+    tape: TAPE[mode],
+    rings: parts.map((part) => ({ radius: RANGE_PX * part, label: String(range * part) })),
+    ringLabels: mode === "ARC" ? [-56, 56] : [-135],
+  };
+}
+
+export function createView(flight: Flight, mode: Signal<DisplayMode>, range: Signal<number>): View {
+  const layout = computed(() => layoutOf(mode.value, range.value));
+  const pose = computed(() => flight.now.value?.pursuer ?? null);
+  return {
+    layout,
+    pose,
+    mapTransform: computed(() =>
+      pose.value === null ? "" : mapTransform(layout.value, pose.value),
+    ),
+    tapeTransform: computed(() => {
+      const { centre } = layout.value;
+      return `translate(${centre.x} ${centre.y}) rotate(${round(-(pose.value?.heading_deg ?? 0))})`;
+    }),
+    beat: computed(() => {
+      const tick = Math.floor((flight.simTime.value * 5) / flight.clock.value.rate);
+      return `${tick} ${flight.now.value === null} ${mode.value} ${range.value}`;
+    }),
+  };
+}
+
+/** A place on the map [px], before the map is carried to the own ship. */
+export function toMap({ scale }: Layout, { x_m, y_m }: Place): Point {
+  return { x: x_m * scale, y: -y_m * scale };
+}
+
+export function mapTransform(layout: Layout, pose: Pose): string {
+  const own = toMap(layout, pose);
+  const { x, y } = layout.centre;
+  return (
+    `translate(${x} ${y}) rotate(${round(-pose.heading_deg)})` +
+    ` translate(${round(-own.x)} ${round(-own.y)})`
+  );
+}
+
+/** A place on the glass [px]. */
+export function project(layout: Layout, pose: Pose, { x_m, y_m }: Place): Point {
+  const east = (x_m - pose.x_m) * layout.scale;
+  const north = (y_m - pose.y_m) * layout.scale;
+  const sin = Math.sin(pose.heading_deg * DEG);
+  const cos = Math.cos(pose.heading_deg * DEG);
+  return {
+    x: layout.centre.x + east * cos - north * sin,
+    y: layout.centre.y - east * sin - north * cos,
+  };
+}
+
+/** A point `radius` [px] from the own ship, `bearing` [deg] right of its nose. */
+export function polar({ centre }: Layout, bearing: number, radius: number): Point {
+  return {
+    x: centre.x + radius * Math.sin(bearing * DEG),
+    y: centre.y - radius * Math.cos(bearing * DEG),
+  };
+}
+
+/** The direction from one place to another [deg clockwise from north]. */
+export function bearing(from: Place, to: Place): number {
+  return Math.atan2(to.x_m - from.x_m, to.y_m - from.y_m) / DEG;
+}
+
+export function distance(from: Place, to: Place): number {
+  return Math.hypot(to.x_m - from.x_m, to.y_m - from.y_m);
+}
+
+/** The place `length` [m] from another, in the direction of a unit vector. */
+export function onwards(from: Place, direction: Point, length: number): Place {
+  return { x_m: from.x_m + direction.x * length, y_m: from.y_m + direction.y * length };
+}
+
+/** Whether a symbol at this point is seen whole: on the map and beside the readouts. */
+export function onMap(layout: Layout, { x, y }: Point, margin = 18): boolean {
+  const { centre, tape } = layout;
+  if (Math.hypot(x - centre.x, y - centre.y) > tape - margin) return false;
+  if (x < margin || x > SIZE - margin || y > READOUTS.message.y - margin) return false;
+  return !within(READOUTS.spacing, { x, y }, margin);
+}
+
+/** The last point on the map in a direction [deg right of the nose]: where an off-scale symbol sits. */
+export function edge(layout: Layout, direction: number): Point {
+  let radius = 0;
+  while (onMap(layout, polar(layout, direction, radius + 1))) radius += 1;
+  return polar(layout, direction, radius);
+}
+
+/** What to select to see a place that is off the map; null if nothing shows it. */
+export function remedy(layout: Layout, pose: Pose, place: Place): string | null {
+  for (const range of RANGES) {
+    if (range < layout.range) continue;
+    for (const mode of [layout.mode, "ROSE"] as const) {
+      const other = layoutOf(mode, range);
+      if (!onMap(other, project(other, pose, place))) continue;
+      return range === layout.range ? "→ ROSE" : `→ RANGE ${range}`;
+    }
+  }
+  return null;
+}
+
+export function within(box: Box, { x, y }: Point, margin = 0): boolean {
+  return (
+    x > box.x - margin &&
+    x < box.x + box.width + margin &&
+    y > box.y - margin &&
+    y < box.y + box.height + margin
+  );
+}
+
+export function overlap(a: Box, b: Box): number {
+  const width = Math.min(a.x + a.width, b.x + b.width) - Math.max(a.x, b.x);
+  const height = Math.min(a.y + a.height, b.y + b.height) - Math.max(a.y, b.y);
+  return Math.max(0, width) * Math.max(0, height);
+}
+
+/** How far right of the nose a compass direction is [deg], in [−180, 180). */
+export function offNose(pose: Pose, direction: number): number {
+  return wrap180(direction - pose.heading_deg);
+}
+
+/** A number for an attribute: a hundredth of a pixel is enough, and text stays short. */
+export function round(value: number): number {
+  return Math.round(value * 100) / 100 + 0;
+}
+
+/** Puts a symbol at a point, turned `angle` [deg] clockwise. */
+export function placeAt({ x, y }: Point, angle = 0): string {
+  const turn = angle === 0 ? "" : ` rotate(${round(angle)})`;
+  return `translate(${round(x)} ${round(y)})${turn}`;
+}

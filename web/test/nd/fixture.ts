@@ -1,0 +1,180 @@
+/** Flights as the display gets them: documents made by the exact planner, samples where both would be. */
+
+import { signal } from "@preact/signals";
+import type { Flight } from "../../src/flight";
+import { cutPath, pathPointAt, velocity, windVector } from "../../src/geometry";
+import { wrap360 } from "../../src/units";
+import type {
+  AircraftSample,
+  FlightStarted,
+  LeaderRoute,
+  Mode,
+  PathPoint,
+  PathSegment,
+  PlanChanged,
+  Sample,
+} from "../../src/wire";
+import crossing from "./flights/crossing.json" with { type: "json" };
+import fig6a from "./flights/fig_6a.json" with { type: "json" };
+import fig6b from "./flights/fig_6b.json" with { type: "json" };
+import fig6bWind from "./flights/fig_6b_wind.json" with { type: "json" };
+import left from "./flights/left.json" with { type: "json" };
+
+const FLIGHTS = { crossing, fig_6a: fig6a, fig_6b: fig6b, fig_6b_wind: fig6bWind, left };
+export type FlightName = keyof typeof FLIGHTS;
+
+interface Documents {
+  readonly started: FlightStarted;
+  readonly route: LeaderRoute;
+  readonly plan: PlanChanged;
+}
+
+export function documentsOf(name: FlightName): Documents {
+  const [started, route, plan] = FLIGHTS[name] as unknown as [
+    FlightStarted,
+    LeaderRoute,
+    PlanChanged,
+  ];
+  return { started, route, plan };
+}
+
+/** An empty store, as before the first tick. */
+export function emptyFlight(): Flight {
+  return {
+    id: signal(null),
+    started: signal(null),
+    route: signal(null),
+    plan: signal(null),
+    superseded: signal(null),
+    unavailable: signal(null),
+    mode: signal(null),
+    modeSince: signal(-Infinity),
+    sample: signal(null),
+    now: signal(null),
+    simTime: signal(0),
+    dataAge: signal(0),
+    trail: { pursuer: signal([]), leader: signal([]) },
+    ended: signal(null),
+    clock: signal({ rate: 1, paused: false, ended: false }),
+    connection: signal("connecting"),
+    messages: signal([]),
+  };
+}
+
+/** The flight `t` [s] after its plan was made, everything flown as planned. */
+export function flightAt(name: FlightName, t: number, mode: Mode = "converge"): Flight {
+  const documents = documentsOf(name);
+  const flight = emptyFlight();
+  flight.id.value = name;
+  flight.started.value = documents.started;
+  flight.route.value = documents.route;
+  flight.plan.value = documents.plan;
+  flight.mode.value = { kind: "mode_changed", t_s: 0, mode, previous: "heading", message: "" };
+  flight.connection.value = "live";
+  setTime(flight, t, mode);
+  return flight;
+}
+
+export function setTime(flight: Flight, t: number, mode: Mode): void {
+  const [started, route, plan] = [flight.started.value, flight.route.value, flight.plan.value];
+  if (started === null || route === null || plan === null) throw new Error("An empty flight.");
+  const sample = sampleAt({ started, route, plan }, t, mode);
+  flight.simTime.value = t;
+  flight.sample.value = sample;
+  flight.now.value = sample;
+  const wind = windVector(started.wind);
+  const times = Array.from({ length: 61 }, (_, i) => t - 600 + 10 * i).filter((each) => each >= 0);
+  flight.trail.leader.value = times.map((each) => {
+    const point = pathPointAt(route.segments, each, wind);
+    return { t: each, x: point?.x_m ?? 0, y: point?.y_m ?? 0 };
+  });
+}
+
+function sampleAt({ started, route, plan }: Documents, t: number, mode: Mode): Sample {
+  const wind = windVector(started.wind);
+  const end = plan.plan.time_to_converge_s;
+  const final = route.segments.at(-1);
+  if (final === undefined) throw new Error("A route without segments.");
+  const leader = aircraft(route.segments, t, wind, 10_668);
+  const along = velocity(
+    1,
+    Math.atan2(leaderVelocity(final).x, leaderVelocity(final).y) / (Math.PI / 180),
+  );
+  const since = t - final.start.t_s;
+  const slot: PathPoint = {
+    t_s: t,
+    x_m: final.start.x_m + leaderVelocity(final).x * since - started.slot_distance_m * along.x,
+    y_m: final.start.y_m + leaderVelocity(final).y * since - started.slot_distance_m * along.y,
+    heading_deg: final.start.heading_deg,
+  };
+  const pursuer =
+    t <= end
+      ? aircraft(plan.plan.segments, t, wind, 10_668)
+      : { ...leader, x_m: slot.x_m, y_m: slot.y_m };
+  const dx = leader.x_m - pursuer.x_m;
+  const dy = leader.y_m - pursuer.y_m;
+  const separation = Math.hypot(dx, dy);
+  const [v, w] = [pursuer, leader].map((each) => velocity(each.ground_speed_mps, each.track_deg));
+  const closure =
+    (((v?.x ?? 0) - (w?.x ?? 0)) * dx + ((v?.y ?? 0) - (w?.y ?? 0)) * dy) / separation;
+  return {
+    kind: "sample",
+    t_s: t,
+    pursuer,
+    leader,
+    mode,
+    reference:
+      Math.abs(pursuer.turn_rate_degps) > 0.01
+        ? { kind: "turn_rate", turn_rate_degps: pursuer.turn_rate_degps }
+        : { kind: "hold_heading", heading_deg: pursuer.heading_deg },
+    commanded_tas_mps: pursuer.tas_mps,
+    separation_m: separation,
+    closure_mps: closure,
+    least_separation_m: separation,
+    slot,
+    slot_open:
+      since >
+      started.slot_distance_m / Math.hypot(leaderVelocity(final).x, leaderVelocity(final).y),
+    spacing_error_m: (slot.x_m - pursuer.x_m) * along.x + (slot.y_m - pursuer.y_m) * along.y,
+    cross_track_m: (pursuer.x_m - slot.x_m) * along.y - (pursuer.y_m - slot.y_m) * along.x,
+    time_to_go_s: Math.max(0, end - t),
+    joined: t >= end,
+  };
+}
+
+function leaderVelocity(leg: PathSegment): { x: number; y: number } {
+  const duration = leg.end.t_s - leg.start.t_s;
+  return {
+    x: (leg.end.x_m - leg.start.x_m) / duration,
+    y: (leg.end.y_m - leg.start.y_m) / duration,
+  };
+}
+
+function aircraft(
+  segments: readonly PathSegment[],
+  t: number,
+  wind: { x: number; y: number },
+  altitude: number,
+): AircraftSample {
+  const point = pathPointAt(segments, t, wind);
+  const segment = cutPath(segments, wind, t)[0] ?? segments.at(-1);
+  if (point === null || segment === undefined) throw new Error("An empty path.");
+  const straight = segments.find((each) => each.kind === "straight");
+  if (straight === undefined) throw new Error("A path without a straight segment.");
+  const tas = straight.length_m / straight.duration_s;
+  const air = velocity(tas, point.heading_deg);
+  const ground = { x: air.x + wind.x, y: air.y + wind.y };
+  const side = segment.kind === "turn" && segment.direction === "left" ? -1 : 1;
+  const turning = segment.kind === "turn" ? segment.angle_deg / segment.duration_s : 0;
+  return {
+    x_m: point.x_m,
+    y_m: point.y_m,
+    heading_deg: point.heading_deg,
+    track_deg: wrap360((Math.atan2(ground.x, ground.y) * 180) / Math.PI),
+    bank_deg: segment.kind === "turn" ? side * segment.bank_deg : 0,
+    turn_rate_degps: side * turning,
+    tas_mps: tas,
+    ground_speed_mps: Math.hypot(ground.x, ground.y),
+    altitude_m: altitude,
+  };
+}

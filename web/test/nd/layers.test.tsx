@@ -1,0 +1,21 @@
+import { describe, expect, test } from "vitest";
+import { GLASS_LAYERS, GROUND_LAYERS, MAP_LAYERS } from "../../src/nd/nd";
+import { drawLayer, screenOf } from "./draw";
+import { flightAt } from "./fixture";
+
+const LAYERS = [...GROUND_LAYERS, ...MAP_LAYERS, ...GLASS_LAYERS];
+
+const CASES = [
+  { name: "converging", flight: flightAt("crossing", 60), mode: "ROSE", range: 40 },
+  { name: "following", flight: flightAt("fig_6b", 900, "follow"), mode: "ARC", range: 20 },
+  { name: "no_intent", flight: flightAt("fig_6a", 300), mode: "ARC", range: 80 },
+] as const;
+
+describe.each(CASES)("$name", ({ name, flight, mode, range }) => {
+  test.each(LAYERS.map((layer) => [layer.name, layer] as const))("%s", async (title, layer) => {
+    const { view } = screenOf(flight, mode, range);
+    await expect(drawLayer(layer, flight, view)).toMatchFileSnapshot(
+      `snapshots/${name}/${title}.svg`,
+    );
+  });
+});
