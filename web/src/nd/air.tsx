@@ -1,6 +1,6 @@
 import { useComputed } from "@preact/signals";
 import { windOf } from "../motion";
-import { formatHeading, formatKnots, KT, wrap360 } from "../units";
+import { DEG, formatHeading, formatKnots, KT, wrap360 } from "../units";
 import { Cell } from "./cell";
 import { type LayerProps, shownGuidance } from "./picture";
 import { Stroke } from "./stroke";
@@ -62,5 +62,5 @@ function windAt(flight: LayerProps["flight"]): { from: number; speed: number } |
   const own = shownGuidance(flight)?.now.pursuer;
   if (own === undefined) return null;
   const { x, y } = windOf(own);
-  return { from: (Math.atan2(-x, -y) * 180) / Math.PI, speed: Math.hypot(x, y) };
+  return { from: Math.atan2(-x, -y) / DEG, speed: Math.hypot(x, y) };
 }

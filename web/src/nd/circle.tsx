@@ -1,5 +1,5 @@
 import { useComputed } from "@preact/signals";
-import { formatMiles } from "../units";
+import { DEG, formatMiles } from "../units";
 import type { Label } from "./labels";
 import { type LayerProps, shownNow } from "./picture";
 import { separation } from "./states";
@@ -44,8 +44,8 @@ export function circleLabel({ flight, view }: LayerProps): Label | null {
   const { colour } = SEPARATION[separation(flight).state];
   for (const side of [away(layout.centre, centre), 90, -90, 0, 180]) {
     const at = {
-      x: centre.x + radius * Math.sin((side * Math.PI) / 180),
-      y: centre.y - radius * Math.cos((side * Math.PI) / 180),
+      x: centre.x + radius * Math.sin(side * DEG),
+      y: centre.y - radius * Math.cos(side * DEG),
     };
     if (!onMap(layout, at, 30)) continue;
     const lines = [{ text: `MIN ${formatMiles(limit)}`, colour }];
@@ -56,6 +56,6 @@ export function circleLabel({ flight, view }: LayerProps): Label | null {
 
 /** The direction from one point on the glass to another [deg right of up], to whole steps of 45°. */
 function away(from: { x: number; y: number }, to: { x: number; y: number }): number {
-  const direction = (Math.atan2(to.x - from.x, from.y - to.y) * 180) / Math.PI;
+  const direction = Math.atan2(to.x - from.x, from.y - to.y) / DEG;
   return Math.round(direction / 45) * 45;
 }

@@ -1,4 +1,5 @@
 import { useComputed } from "@preact/signals";
+import { DEG } from "../units";
 import { type LayerProps, shownGuidance } from "./picture";
 import { Stroke } from "./stroke";
 import { ink, LINES } from "./style";
@@ -6,6 +7,8 @@ import { offNose, placeAt, polar, round } from "./view";
 
 /** The arrow shows the turn of the next so many seconds. */
 const ARROW_TIME = 10;
+/** Length of its head [px]. */
+const HEAD = 14;
 
 /** What guidance asks for: a pip on the tape at the commanded heading, or a curved arrow into the turn. */
 export function Commanded({ flight, view }: LayerProps) {
@@ -25,10 +28,8 @@ export function Commanded({ flight, view }: LayerProps) {
     const radius = layout.tape - 26;
     const [from, to] = [polar(layout, 0, radius), polar(layout, sweep, radius)];
     const side = Math.sign(sweep);
-    const [outer, inner, tip] = [9, -9, 0].map((off) =>
-      polar(layout, sweep + (off === 0 ? (side * 800) / radius : 0), radius + off),
-    );
-    if (outer === undefined || inner === undefined || tip === undefined) return "";
+    const [outer, inner] = [polar(layout, sweep, radius + 9), polar(layout, sweep, radius - 9)];
+    const tip = polar(layout, sweep + (side * HEAD) / DEG / radius, radius);
     return (
       `M${round(from.x)} ${round(from.y)}` +
       `A${radius} ${radius} 0 0 ${side > 0 ? 1 : 0} ${round(to.x)} ${round(to.y)}` +

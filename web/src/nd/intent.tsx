@@ -1,5 +1,5 @@
 import { useComputed } from "@preact/signals";
-import { formatHeading } from "../units";
+import { DEG, formatHeading } from "../units";
 import type { PathSegment, TurnSegment } from "../wire";
 import { PathAhead } from "./ahead";
 import type { Label } from "./labels";
@@ -68,7 +68,7 @@ export function intentLabels({ flight, view }: LayerProps): Label[] {
   if (!route.intent_known) {
     // Half-way along the dots.
     const ahead = now.leader.ground_speed_mps * GUESS * 0.5;
-    const track = (now.leader.track_deg * Math.PI) / 180;
+    const track = now.leader.track_deg * DEG;
     const at = project(layout, pose, {
       x_m: now.leader.x_m + ahead * Math.sin(track),
       y_m: now.leader.y_m + ahead * Math.cos(track),

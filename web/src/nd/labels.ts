@@ -5,6 +5,7 @@
  * best one, so that it does not hop; one that finds no room at all and may be left out is left out.
  */
 
+import { DEG } from "../units";
 import type { Colour } from "./style";
 import { type Box, type Layout, onMap, overlap, type Point, SIZE, within } from "./view";
 
@@ -94,7 +95,7 @@ function* candidates(label: Label): Generator<Placement> {
 function boxOf(label: Label, side: number, gap: number): Box {
   const width = Math.max(...label.lines.map((each) => each.text.length)) * label.size * CHARACTER;
   const height = label.lines.length * label.size * LINE_HEIGHT;
-  const [x, y] = [Math.sin((side * Math.PI) / 180), -Math.cos((side * Math.PI) / 180)];
+  const [x, y] = [Math.sin(side * DEG), -Math.cos(side * DEG)];
   // From the middle of the box to its own edge in this direction, so that the gap is the same all round.
   const reach = Math.min(
     width / 2 / Math.max(Math.abs(x), 1e-9),

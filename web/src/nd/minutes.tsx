@@ -1,11 +1,12 @@
 import { useComputed } from "@preact/signals";
 import { pathPointAt } from "../geometry";
+import { DEG } from "../units";
 import type { PathPoint, PathSegment } from "../wire";
 import type { Label } from "./labels";
 import { type LayerProps, planTime, shownPlan, windNow } from "./picture";
 import { Stroke } from "./stroke";
 import { LINES, type Line } from "./style";
-import { offNose, onMap, project, toMap } from "./view";
+import { offNose, onMap, project, round, toMap } from "./view";
 
 /** Beyond this range the ticks would run together [NM]. */
 const TICKS_TO = 80;
@@ -46,10 +47,9 @@ function ticks(
     .filter((point) => point !== null)
     .map((point) => {
       const { x, y } = toMap(view.layout.value, point);
-      const [dx, dy] = [Math.cos, Math.sin].map(
-        (f) => HALF * f((point.heading_deg * Math.PI) / 180),
-      ) as [number, number];
-      return `M${(x - dx).toFixed(2)} ${(y - dy).toFixed(2)}l${(2 * dx).toFixed(2)} ${(2 * dy).toFixed(2)}`;
+      const across = point.heading_deg * DEG;
+      const [dx, dy] = [HALF * Math.cos(across), HALF * Math.sin(across)];
+      return `M${round(x - dx)} ${round(y - dy)}l${round(2 * dx)} ${round(2 * dy)}`;
     })
     .join("");
 }
@@ -76,7 +76,7 @@ function minutePoint(
   return t < from || t > to ? null : pathPointAt(segments, t, windNow(flight));
 }
 
-/** The numbers of every fifth minute, and of the next one, on both paths. */
+/** The numbers of every fifth minute, on both paths. */
 export function minuteLabels({ flight, view }: LayerProps): Label[] {
   const [plan, pose] = [shownPlan(flight), view.pose.value];
   const layout = view.layout.value;

@@ -1,4 +1,5 @@
 import { useComputed } from "@preact/signals";
+import { DEG } from "../units";
 import { type LayerProps, shownNow } from "./picture";
 import { Stroke } from "./stroke";
 import { ink, LINES } from "./style";
@@ -41,7 +42,7 @@ export function HeadingTape({ flight, view }: LayerProps) {
 function ticks(radius: number): string {
   return HEADINGS.map((heading) => {
     const length = heading % 10 === 0 ? TICK.long : TICK.short;
-    const [x, y] = [Math.sin((heading * Math.PI) / 180), -Math.cos((heading * Math.PI) / 180)];
+    const [x, y] = [Math.sin(heading * DEG), -Math.cos(heading * DEG)];
     const end = radius + length;
     return `M${round(x * radius)} ${round(y * radius)}L${round(x * end)} ${round(y * end)}`;
   }).join("");

@@ -1,12 +1,16 @@
 import { useComputed } from "@preact/signals";
 import { moveAircraft } from "../motion";
-import { KT } from "../units";
+import { DEG, KT } from "../units";
 import { type LayerProps, shownNow } from "./picture";
 import { Stroke } from "./stroke";
 import { LINES } from "./style";
 import { offNose, project, round } from "./view";
 
+/** The line is bent every so many seconds, and has a tick every `PIECE`. */
 const STEP = 5;
+const PIECE = 30;
+/** Half the length of a tick [px]. */
+const TICK = 7;
 /** Below this there is no trend worth showing. */
 const SLOWEST = 100 * KT;
 
@@ -17,24 +21,18 @@ export function TrendVector({ flight, view }: LayerProps) {
     const layout = view.layout.value;
     if (own === undefined || own.ground_speed_mps < SLOWEST) return "";
     const pieces = layout.range < 20 ? 1 : layout.range <= 40 ? 2 : 3;
-    let data = placeM(layout.centre);
-    for (let t = STEP; t <= 30 * pieces; t += STEP) {
+    let data = `M${layout.centre.x} ${layout.centre.y}`;
+    for (let t = STEP; t <= PIECE * pieces; t += STEP) {
       const then = moveAircraft(own, t);
       const point = project(layout, own, then);
       data += `L${round(point.x)} ${round(point.y)}`;
-      if (t % 30 === 0) {
-        const [sin, cos] = [Math.sin, Math.cos].map((f) =>
-          f((offNose(own, then.track_deg) * Math.PI) / 180),
-        );
-        const [x, y] = [(cos ?? 1) * 7, (sin ?? 0) * 7];
+      if (t % PIECE === 0) {
+        const across = offNose(own, then.track_deg) * DEG;
+        const [x, y] = [TICK * Math.cos(across), TICK * Math.sin(across)];
         data += `m${round(-x)} ${round(-y)}l${round(2 * x)} ${round(2 * y)}m${round(-x)} ${round(-y)}`;
       }
     }
     return data;
   });
   return <Stroke d={d} line={LINES.trend} />;
-}
-
-function placeM({ x, y }: { x: number; y: number }): string {
-  return `M${x} ${y}`;
 }
