@@ -1,0 +1,141 @@
+"""Every error as a problem document (RFC 9457), and the only place that catches `Exception`.
+
+- `Refusal`: a request we understood and do not serve; routes raise it with a sentence.
+- `HTTPException`: starlette's own 404 and 405; `RequestValidationError`: FastAPI's own findings.
+- `Exception`: a mistake of ours; the traceback goes to the log, a sentence to the client.
+"""
+
+import logging
+from collections.abc import Callable, Sequence
+from http import HTTPStatus
+
+import orjson
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from pydantic import BaseModel, Field
+from starlette.exceptions import HTTPException
+from starlette.responses import Response
+
+log = logging.getLogger("relguide.server")
+
+PROBLEM_JSON = "application/problem+json"
+
+
+class ProblemError(BaseModel):
+    """One thing wrong with a request, and where."""
+
+    path: str = Field(description="Where in the request, e.g. `leader.intent[1].bank_deg`.")
+    message: str = Field(description="What is wrong, and what would be right.")
+
+
+class Problem(BaseModel):
+    """A problem document, RFC 9457."""
+
+    type: str = "about:blank"
+    title: str
+    status: int
+    detail: str
+    instance: str
+    errors: list[ProblemError] = []
+
+
+class Refusal(HTTPException):
+    """A request that is understood and not served."""
+
+    def __init__(
+        self,
+        status: int,
+        detail: str,
+        *,
+        errors: Sequence[ProblemError] = (),
+        headers: dict[str, str] | None = None,
+    ) -> None:
+        super().__init__(status, detail, headers)
+        self.errors = tuple(errors)
+
+
+def problem(
+    instance: str,
+    status: int,
+    detail: str,
+    *,
+    errors: Sequence[ProblemError] = (),
+    headers: dict[str, str] | None = None,
+) -> Response:
+    """The answer that carries a problem document."""
+    document = Problem(
+        title=HTTPStatus(status).phrase,
+        status=status,
+        detail=detail,
+        instance=instance,
+        errors=list(errors),
+    )
+    return Response(
+        orjson.dumps(document.model_dump()),
+        status_code=status,
+        media_type=PROBLEM_JSON,
+        headers=headers,
+    )
+
+
+def install_handlers(app: FastAPI) -> None:
+    """Make every error of the app a problem document."""
+    app.add_exception_handler(HTTPException, _refused)
+    app.add_exception_handler(RequestValidationError, _invalid)
+    app.add_exception_handler(Exception, _broken)
+
+
+async def _refused(request: Request, error: Exception) -> Response:
+    assert isinstance(error, HTTPException)
+    path, status = request.url.path, error.status_code
+    errors = error.errors if isinstance(error, Refusal) else ()
+    detail = error.detail
+    if not isinstance(error, Refusal) and detail == HTTPStatus(status).phrase:
+        detail = _sentence(request, status)
+    return problem(
+        path, status, detail, errors=errors, headers=dict(error.headers) if error.headers else None
+    )
+
+
+def _sentence(request: Request, status: int) -> str:
+    match status:
+        case 404:
+            return f"There is nothing at {request.url.path}. The API is described at /docs."
+        case 405:
+            return f"{request.url.path} does not answer {request.method}."
+        case _:
+            return f"{HTTPStatus(status).description or HTTPStatus(status).phrase}."
+
+
+async def _invalid(request: Request, error: Exception) -> Response:
+    assert isinstance(error, RequestValidationError)
+    errors = [
+        ProblemError(path=".".join(map(str, item["loc"])), message=item["msg"])
+        for item in error.errors()
+    ]
+    detail = "; ".join(f"{e.path}: {e.message}" for e in errors)
+    return problem(request.url.path, 422, detail, errors=errors)
+
+
+async def _broken(request: Request, error: Exception) -> Response:
+    # Starlette raises the error again after this answer, so that the server logs its traceback.
+    del error
+    return problem(
+        request.url.path,
+        500,
+        "The server made a mistake here: it is in its log. The request may be right.",
+    )
+
+
+def survives(name: str, work: Callable[[], None]) -> bool:
+    """Run the work of a thread; a mistake in it goes to the log instead of ending the process.
+
+    Returns:
+        Whether it ran to its end.
+    """
+    try:
+        work()
+    except Exception:
+        log.exception("%s stopped by a mistake of ours", name)
+        return False
+    return True

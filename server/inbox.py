@@ -1,0 +1,44 @@
+"""Documents from one thread to another: only the newest sample waits, all other documents do."""
+
+import threading
+
+from relguide.documents import Document, Sample
+
+
+class Inbox:
+    """What a flight said since somebody last looked. Safe between threads."""
+
+    def __init__(self) -> None:
+        self._filled = threading.Condition()
+        self._documents: list[Document] = []
+        self._closed = False
+
+    def put(self, document: Document) -> None:
+        """Add a document. A sample takes the place of one that nobody has looked at."""
+        with self._filled:
+            if isinstance(document, Sample):
+                waiting = self._documents
+                self._documents = [d for d in waiting if not isinstance(d, Sample)]
+            self._documents.append(document)
+            self._filled.notify()
+
+    def drain(self) -> list[Document]:
+        """Take all that waits, in the order of the flight, without waiting."""
+        with self._filled:
+            documents, self._documents = self._documents, []
+            return documents
+
+    def wait(self) -> list[Document]:
+        """Take all that waits as soon as there is something; nothing once the inbox is closed."""
+        with self._filled:
+            self._filled.wait_for(lambda: self._documents or self._closed)
+            if self._closed:
+                return []
+            documents, self._documents = self._documents, []
+            return documents
+
+    def close(self) -> None:
+        """Let whoever waits go."""
+        with self._filled:
+            self._closed = True
+            self._filled.notify_all()

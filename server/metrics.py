@@ -1,0 +1,65 @@
+"""What the service counts of itself, as Prometheus reads it."""
+
+from bisect import bisect_left
+from dataclasses import dataclass, field
+
+BUCKETS = (0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005, 0.01, 0.1, 1.0)
+"""Upper ends of the histogram of planning times [s]: a plan takes about 0.1 ms."""
+
+
+@dataclass(slots=True, kw_only=True)
+class Metrics:
+    """Counters of one running service; they only grow."""
+
+    plans: dict[str, int] = field(default_factory=lambda: {"planned": 0, "no_plan": 0})
+    """Plans answered, by status."""
+    plan_counts: list[int] = field(default_factory=lambda: [0] * (len(BUCKETS) + 1))
+    """Plans in each bucket; the last is for all above."""
+    plan_seconds: float = 0.0
+    """Sum of all planning times [s]."""
+    flights_started: int = 0
+    """Flights started since the service is up."""
+    ticks_sent: int = 0
+    """Messages put on the streams."""
+    ticks_dropped: int = 0
+    """Messages that a slow client never got because newer ones took their place."""
+
+    def plan_answered(self, status: str, seconds: float) -> None:
+        """Count one plan."""
+        self.plans[status] += 1
+        self.plan_seconds += seconds
+        self.plan_counts[bisect_left(BUCKETS, seconds)] += 1
+
+    def text(self, *, flights_running: int, stream_clients: int, scene_clients: int) -> str:
+        """The whole page in the text format 0.0.4; the gauges are given by who knows them now."""
+        total = sum(self.plan_counts)
+        lines = [
+            *_header("relguide_plans_total", "counter", "Plans answered."),
+            *(f'relguide_plans_total{{status="{k}"}} {n}' for k, n in self.plans.items()),
+            *_header("relguide_plan_seconds", "histogram", "Time to make one plan."),
+            *(
+                f'relguide_plan_seconds_bucket{{le="{end:g}"}} {sum(self.plan_counts[: i + 1])}'
+                for i, end in enumerate(BUCKETS)
+            ),
+            f'relguide_plan_seconds_bucket{{le="+Inf"}} {total}',
+            f"relguide_plan_seconds_sum {self.plan_seconds:.6f}",
+            f"relguide_plan_seconds_count {total}",
+            *_single("relguide_flights_started_total", "counter", "Flights started.",
+                     self.flights_started),
+            *_single("relguide_stream_ticks_sent_total", "counter", "Ticks sent to clients.",
+                     self.ticks_sent),
+            *_single("relguide_stream_ticks_dropped_total", "counter",
+                     "Ticks a slow client missed.", self.ticks_dropped),
+            *_single("relguide_flights_running", "gauge", "Flights in the air.", flights_running),
+            *_single("relguide_stream_clients", "gauge", "Browsers on a stream.", stream_clients),
+            *_single("relguide_scene_clients", "gauge", "Browsers on a 3D scene.", scene_clients),
+        ]  # fmt: skip
+        return "\n".join(lines) + "\n"
+
+
+def _header(name: str, kind: str, text: str) -> tuple[str, str]:
+    return f"# HELP {name} {text}", f"# TYPE {name} {kind}"
+
+
+def _single(name: str, kind: str, text: str, value: int) -> tuple[str, str, str]:
+    return *_header(name, kind, text), f"{name} {value}"

@@ -1,0 +1,71 @@
+"""What an operator may set, each with its reason, and how uvicorn is started."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import isfinite
+from typing import Any
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Settings:
+    """Limits of the service. Each can be set by an environment variable `RELGUIDE_<NAME>`."""
+
+    max_flights: int = 16
+    """Flights that may be in the air at once: each is a thread that shares one interpreter."""
+    keep_unseen: float = 600.0
+    """A flight that nobody has watched or asked for in this time [s] is removed."""
+    spare_after: float = 15.0
+    """When the sky is full, a flight unseen for this long [s] makes room for a new one."""
+    max_body: int = 8 * 1024 * 1024
+    """Largest request body [bytes]: 1,000 situations with 20 pieces of intent each fit in 3 MB."""
+    stream_rate: float = 20.0
+    """Ticks a wall-clock second [1/s]."""
+
+    def __post_init__(self) -> None:
+        """Refuse limits under which nothing could run."""
+        for name in ("max_flights", "max_body"):
+            if getattr(self, name) < 1:
+                raise ValueError(f"{name} must be 1 or more, not {getattr(self, name)}.")
+        for name in ("keep_unseen", "spare_after", "stream_rate"):
+            value = getattr(self, name)
+            if not (isfinite(value) and value > 0.0):
+                raise ValueError(f"{name} must be a positive number, not {value}.")
+
+
+def settings_from(environment: Mapping[str, str]) -> Settings:
+    """Settings with what the environment overrides, e.g. `RELGUIDE_MAX_FLIGHTS=4`."""
+    defaults = Settings()
+    changed: dict[str, Any] = {}
+    for name in Settings.__dataclass_fields__:
+        variable = f"RELGUIDE_{name.upper()}"
+        if variable not in environment:
+            continue
+        kind = type(getattr(defaults, name))
+        try:
+            changed[name] = kind(environment[variable])
+        except ValueError as error:
+            noun = "a whole number" if kind is int else "a number"
+            raise ValueError(
+                f"{variable} must be {noun}, not {environment[variable]!r}."
+            ) from error
+    return Settings(**changed)
+
+
+def uvicorn_options(*, host: str, port: int) -> dict[str, Any]:
+    """How uvicorn is started: what `relguide serve` passes to `uvicorn.run`.
+
+    uvloop and httptools are taken when installed ("auto"). Compressing each of 20 messages a second
+    would cost more than the stream itself, so per-message deflate is off.
+    """
+    return {
+        "host": host,
+        "port": port,
+        "loop": "auto",
+        "http": "auto",
+        "ws_per_message_deflate": False,
+        "ws_max_size": 1024 * 1024,  # a browser sends us camera positions, nothing larger
+        "timeout_graceful_shutdown": 3,  # a stream never ends by itself
+        "log_level": "warning",
+        "access_log": False,
+        "server_header": False,
+    }

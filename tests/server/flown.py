@@ -1,0 +1,140 @@
+"""A short flight without a closed loop: both aircraft on their exact trajectories."""
+
+from collections.abc import Callable, Iterable, Iterator
+from math import hypot
+
+from relguide.cards import path_point, path_segments, plan_card, wind_card
+from relguide.documents import (
+    AircraftCard,
+    AircraftSample,
+    Document,
+    FlightEnded,
+    FlightStarted,
+    HeadingReference,
+    LeaderChanged,
+    LeaderRoute,
+    ModeChanged,
+    PathPoint,
+    PlanChanged,
+    Sample,
+)
+from relguide.plan import Plan, plan
+from relguide.situation import FlyStraight, Leader, Pursuer, Situation, TurnTo, Wind, wind_from
+from relguide.trajectory import RIGHT, Trajectory
+from relguide.units import DEG, FT
+
+SITUATION = Situation(
+    pursuer=Pursuer(x=-40_000.0, y=40_000.0, heading=90 * DEG, tas=240.0, max_bank=25 * DEG),
+    leader=Leader(
+        x=0.0,
+        y=0.0,
+        heading=90 * DEG,
+        tas=200.0,
+        intent=(
+            FlyStraight(duration=100.0),
+            TurnTo(heading=135 * DEG, turn=RIGHT, bank=20 * DEG),
+        ),
+    ),
+    slot_distance=10_000.0,
+    min_separation=9_260.0,
+    wind=wind_from(270 * DEG, 15.0),
+)
+
+
+def ideal_flight(
+    commands: Callable[[float], Iterable[object]] = lambda t: (),
+    *,
+    situation: Situation = SITUATION,
+    duration: float = 30.0,
+    step: float = 0.05,
+) -> Iterator[Document]:
+    """Documents of a flight that follows its first plan exactly; a command is only reported."""
+    answer = plan(situation)
+    assert isinstance(answer, Plan)
+    yield FlightStarted(
+        t=0.0,
+        scenario="ideal",
+        title="Two aircraft on their exact trajectories",
+        planner="exact",
+        pursuer=AircraftCard(ident="RG 06", aircraft_type="A300", max_bank=25 * DEG),
+        leader=AircraftCard(ident="LDR 01", aircraft_type="A300", max_bank=20 * DEG),
+        slot_distance=situation.slot_distance,
+        min_separation=situation.min_separation,
+        wind=wind_card(situation.wind),
+        step=step,
+        seed=0,
+    )
+    wind, route = situation.wind, situation.leader.trajectory
+    yield LeaderRoute(
+        t=0.0, intent_known=True, segments=path_segments(route, wind=wind, horizon=900.0)
+    )
+    at = answer.certificate.at_time
+    yield PlanChanged(
+        t=0.0,
+        reason="engaged",
+        message="Engaged.",
+        plan=plan_card(answer),
+        leader_at_closest=path_point(route.pose_at(at), at, wind),
+        pursuer_at_closest=path_point(answer.trajectory.pose_at(at), at, wind),
+    )
+    yield ModeChanged(t=0.0, mode="converge", previous="heading", message="Converging.")
+    for k in range(round(duration / step) + 1):
+        t = k * step
+        for command in commands(t):
+            yield LeaderChanged(t=t, change="heading", message=f"Told {command!r}.")
+        yield _sample(t, answer, route, wind)
+    yield FlightEnded(
+        t=duration,
+        joined=False,
+        join_time=duration,
+        planned_time=answer.time_to_converge,
+        least_separation=40_000.0,
+        heading_swing=0.0,
+        bank_reversals=0,
+        replans=1,
+        fallbacks=0,
+        track=240.0 * duration,
+    )
+
+
+def _sample(t: float, answer: Plan, route: Trajectory, wind: Wind) -> Sample:
+    pursuer, leader = _aircraft(answer.trajectory, t, wind), _aircraft(route, t, wind)
+    separation = hypot(pursuer.x - leader.x, pursuer.y - leader.y)
+    slot = route.pose_at(max(t - answer.situation.slot_distance / route.tas, 0.0))
+    ground = path_point(slot, t, wind)
+    return Sample(
+        t=t,
+        pursuer=pursuer,
+        leader=leader,
+        mode="converge",
+        reference=HeadingReference(heading=pursuer.heading),
+        commanded_tas=pursuer.tas,
+        separation=separation,
+        closure=0.0,
+        least_separation=separation,
+        slot=PathPoint(t=t, x=ground.x, y=ground.y, heading=ground.heading),
+        slot_open=t > 200.0,
+        spacing_error=separation - answer.situation.slot_distance,
+        cross_track=0.0,
+        time_to_go=max(answer.time_to_converge - t, 0.0),
+        joined=t > answer.time_to_converge,
+    )
+
+
+def _aircraft(trajectory: Trajectory, t: float, wind: Wind) -> AircraftSample:
+    pose, after = trajectory.pose_at(t), trajectory.pose_at(t + 0.1)
+    here, there = path_point(pose, t, wind), path_point(after, t + 0.1, wind)
+    turning = pose.heading != after.heading
+    return AircraftSample(
+        x=here.x,
+        y=here.y,
+        heading=pose.heading,
+        track=pose.heading,
+        bank=(
+            25 * DEG if turning and after.heading > pose.heading else -25 * DEG if turning else 0
+        ),
+        turn_rate=0.0,
+        tas=trajectory.tas,
+        ground_speed=hypot(there.x - here.x, there.y - here.y) / 0.1,
+        altitude=33_000 * FT,
+    )

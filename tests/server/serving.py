@@ -1,0 +1,69 @@
+"""The service on a real port for tests: real HTTP, real WebSocket frames."""
+
+import asyncio
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+import uvicorn
+from fastapi import FastAPI
+
+from relguide.contract import (
+    ContractError,
+    FlightRequest,
+    ScenarioFlightRequest,
+    ScenarioInfo,
+    ScenarioList,
+)
+from relguide.documents import Document
+from relguide.plan import plan
+from server.app import create_app
+from server.departures import Departure, Departures
+from server.settings import Settings, uvicorn_options
+from tests.server.flown import SITUATION, ideal_flight
+
+
+def ideal_departures(
+    source: Callable[..., Iterator[Document]] = ideal_flight, *, broken: bool = False
+) -> Departures:
+    """One scenario, "ideal", flown by a source that the test gives."""
+
+    def find(wanted: FlightRequest) -> Departure:
+        if isinstance(wanted, ScenarioFlightRequest) and wanted.scenario != "ideal":
+            raise ContractError([("scenario", 'must be "ideal".')])
+        return Departure(scenario="ideal", title="Exact trajectories", source=source)
+
+    info = ScenarioInfo(
+        name="ideal", title="Exact trajectories", description="", available=True, message=""
+    )
+    return Departures(
+        scenarios=lambda: ScenarioList(scenarios=[info]),
+        find=find,
+        rehearse=lambda: plan(SITUATION) and None,
+    )
+
+
+def ideal_app(
+    source: Callable[..., Iterator[Document]] = ideal_flight, **settings: float
+) -> FastAPI:
+    """The service with ideal flights."""
+    return create_app(Settings(**settings), departures=ideal_departures(source))  # type: ignore[arg-type]
+
+
+@contextmanager
+def served(app: FastAPI) -> Iterator[str]:
+    """Serve an app on a free port of this machine; gives `127.0.0.1:port`."""
+    options = uvicorn_options(host="127.0.0.1", port=0)
+    server = uvicorn.Server(uvicorn.Config(app, **options))
+    thread = threading.Thread(target=lambda: asyncio.run(server.serve()), name="service")
+    thread.start()
+    try:
+        while not server.started:
+            assert thread.is_alive(), "The service did not start."
+            thread.join(0.01)
+        port = server.servers[0].sockets[0].getsockname()[1]
+        yield f"127.0.0.1:{port}"
+    finally:
+        server.should_exit = True
+        thread.join(15.0)
+        assert not thread.is_alive(), "The service did not stop."

@@ -1,0 +1,238 @@
+"""REST: plans, flights, problem documents; garbage in, sentences out."""
+
+from collections.abc import Iterator
+
+import pytest
+from fastapi import FastAPI
+from starlette.testclient import TestClient
+
+from relguide.plan import NoPlan, Plan
+from relguide.situation import Situation
+from server.app import create_app
+from server.plans import EXAMPLE, MAX_BATCH
+from server.settings import Settings
+from tests.server.flown import ideal_flight
+from tests.server.serving import ideal_app, ideal_departures
+
+PROBLEM = {"type", "title", "status", "detail", "instance", "errors"}
+
+
+@pytest.fixture(scope="module")
+def client() -> Iterator[TestClient]:
+    with TestClient(ideal_app()) as client:
+        yield client
+
+
+def is_problem(answer, status: int, path: str) -> dict:
+    assert answer.status_code == status
+    assert answer.headers["content-type"] == "application/problem+json"
+    document = answer.json()
+    assert set(document) == PROBLEM
+    assert (document["status"], document["instance"]) == (status, path)
+    assert document["detail"]
+    assert "Traceback" not in answer.text
+    return document
+
+
+def test_a_situation_is_planned(client: TestClient) -> None:
+    answer = client.post("/api/v1/plans", json=EXAMPLE)
+    assert answer.status_code == 200
+    plan = answer.json()
+    assert plan["status"] == "planned"
+    assert plan["separation"]["proved_above_m"] >= EXAMPLE["min_separation_m"] - 1.0
+    assert plan["segments"][0]["start"]["x_m"] == EXAMPLE["pursuer"]["x_m"]
+
+
+def test_no_plan_is_an_answer(client: TestClient) -> None:
+    leader = {"x_m": 0.0, "y_m": 0.0, "heading_deg": 90.0, "tas_mps": 390.0}
+    answer = client.post("/api/v1/plans", json={**EXAMPLE, "leader": leader})
+    assert answer.status_code == 200
+    assert answer.json()["status"] == "no_plan"
+    assert answer.json()["message"]
+
+
+def test_a_batch_is_answered_in_order_with_its_ids(client: TestClient) -> None:
+    batch = [{**EXAMPLE, "id": f"case {k}"} for k in range(3)] + [EXAMPLE]
+    answer = client.post("/api/v1/plans/batch", json=batch)
+    assert answer.status_code == 200
+    assert [plan.get("id") for plan in answer.json()] == ["case 0", "case 1", "case 2", None]
+    assert all(plan["status"] == "planned" for plan in answer.json())
+
+
+def test_a_batch_says_which_situation_is_wrong(client: TestClient) -> None:
+    wrong = {**EXAMPLE, "pursuer": {**EXAMPLE["pursuer"], "max_bank_deg": 90.0}}
+    answer = client.post("/api/v1/plans/batch", json=[EXAMPLE, wrong])
+    document = is_problem(answer, 422, "/api/v1/plans/batch")
+    assert document["errors"][0]["path"] == "[1].pursuer.max_bank_deg"
+
+
+def test_a_batch_has_an_end(client: TestClient) -> None:
+    answer = client.post("/api/v1/plans/batch", json=[{}] * (MAX_BATCH + 1))
+    is_problem(answer, 422, "/api/v1/plans/batch")
+
+
+@pytest.mark.parametrize(
+    ("body", "status", "said"),
+    [
+        (b"{", 400, "not JSON"),
+        (b"\xff\xfe", 400, "UTF-8"),
+        (b"", 400, "not JSON"),
+        (b"null", 422, "must be an object"),
+        (b"[]", 422, "must be an object"),
+        (b"{}", 422, "is missing"),
+        (b'{"slot_distance_m": NaN}', 400, "NaN"),
+        (b'{"pursuer": 5, "pursuer": 6}', 400, "more than once"),
+        (b"[" * 100_000, 400, ""),
+    ],
+)
+def test_garbage_is_refused_with_a_sentence(
+    client: TestClient, body: bytes, status: int, said: str
+) -> None:
+    answer = client.post(
+        "/api/v1/plans", content=body, headers={"Content-Type": "application/json"}
+    )
+    assert said in is_problem(answer, status, "/api/v1/plans")["detail"]
+
+
+def test_a_wrong_field_is_named_by_its_path(client: TestClient) -> None:
+    leader = {**EXAMPLE["leader"], "intent": [{"straight_s": "long"}]}
+    answer = client.post("/api/v1/plans", json={**EXAMPLE, "leader": leader, "colour": "red"})
+    errors = is_problem(answer, 422, "/api/v1/plans")["errors"]
+    assert {error["path"] for error in errors} == {"leader.intent[0].straight_s", "colour"}
+
+
+def test_only_json_is_taken(client: TestClient) -> None:
+    answer = client.post("/api/v1/plans", content="{}", headers={"Content-Type": "text/plain"})
+    is_problem(answer, 415, "/api/v1/plans")
+
+
+def test_a_large_body_is_refused_whether_it_says_so_or_not() -> None:
+    with TestClient(ideal_app(max_body=2000)) as client:
+        headers = {"Content-Type": "application/json"}
+        declared = client.post("/api/v1/plans", content=b" " * 5000, headers=headers)
+        is_problem(declared, 413, "/api/v1/plans")
+        chunks = (b" " * 500 for _ in range(10))
+        streamed = client.post("/api/v1/plans", content=chunks, headers=headers)
+        is_problem(streamed, 413, "/api/v1/plans")
+        assert client.post("/api/v1/plans", json=EXAMPLE).status_code == 200
+
+
+def test_unknown_paths_and_methods(client: TestClient) -> None:
+    is_problem(client.get("/api/v1/nothing"), 404, "/api/v1/nothing")
+    is_problem(client.get("/api/v1/plans"), 405, "/api/v1/plans")
+    is_problem(client.get("/api/v1/flights/none"), 404, "/api/v1/flights/none")
+    is_problem(client.delete("/api/v1/flights/none"), 404, "/api/v1/flights/none")
+    is_problem(client.get("/scene/none/"), 404, "/scene/none/")
+    is_problem(client.get("/docs/passwords"), 404, "/docs/passwords")
+    command = client.post("/api/v1/flights/none/commands", json={"command": "play"})
+    is_problem(command, 404, "/api/v1/flights/none/commands")
+
+
+def test_a_mistake_of_ours_is_a_sentence_without_traceback() -> None:
+    def broken(situation: Situation) -> Plan | NoPlan:
+        raise ZeroDivisionError(f"secret of {situation.slot_distance}")
+
+    app = create_app(Settings(), planner=broken, departures=ideal_departures())
+    with TestClient(app, raise_server_exceptions=False) as client:
+        answer = client.post("/api/v1/plans", json=EXAMPLE)
+        is_problem(answer, 500, "/api/v1/plans")
+        assert "secret" not in answer.text
+
+
+def test_a_flight_is_started_found_told_and_ended(client: TestClient) -> None:
+    started = client.post("/api/v1/flights", json={"scenario": "ideal", "rate": 10.0})
+    assert started.status_code == 201
+    status = started.json()
+    where = started.headers["location"]
+    assert where == f"/api/v1/flights/{status['id']}"
+    assert status["stream_url"] == f"{where}/stream"
+    assert client.get(where).json()["id"] == status["id"]
+    assert status["id"] in [f["id"] for f in client.get("/api/v1/flights").json()["flights"]]
+
+    commands = f"{where}/commands"
+    paused = client.post(commands, json={"command": "pause"})
+    assert (paused.status_code, paused.json()["paused"]) == (202, True)
+    faster = client.post(commands, json={"command": "set_rate", "rate": 60.0})
+    assert faster.json()["rate"] == 60.0
+    assert client.post(commands, json={"command": "play"}).json()["paused"] is False
+    for wrong in ({"command": "explode"}, {"command": "set_rate", "rate": 61}, {}, []):
+        is_problem(client.post(commands, json=wrong), 422, commands)
+
+    assert client.delete(where).status_code == 204
+    is_problem(client.get(where), 404, where)
+
+
+def test_a_situation_of_ones_own_can_be_flown(client: TestClient) -> None:
+    started = client.post("/api/v1/flights", json={"situation": EXAMPLE, "paused": True})
+    assert started.status_code == 201
+    assert (started.json()["t_s"], started.json()["paused"]) == (0.0, True)
+    client.delete(started.headers["location"])
+
+
+@pytest.mark.parametrize(
+    "body",
+    [{"scenario": "fig_99"}, {"scenario": "ideal", "rate": 0.5}, {"rate": 1}, {"scenario": 6}],
+)
+def test_what_cannot_be_flown_is_refused(client: TestClient, body: dict) -> None:
+    is_problem(client.post("/api/v1/flights", json=body), 422, "/api/v1/flights")
+
+
+def test_scenarios_are_listed(client: TestClient) -> None:
+    (scenario,) = client.get("/api/v1/scenarios").json()["scenarios"]
+    assert scenario["name"] == "ideal"
+
+
+def test_the_sky_has_room_for_so_many_and_the_unwatched_make_room() -> None:
+    with TestClient(ideal_app(max_flights=2, spare_after=3600.0)) as client:
+        body = {"scenario": "ideal", "paused": True}
+        ids = [client.post("/api/v1/flights", json=body).json()["id"] for _ in range(2)]
+        full = client.post("/api/v1/flights", json=body)
+        assert "2 flights" in is_problem(full, 429, "/api/v1/flights")["detail"]
+        assert full.headers["retry-after"] == "3600"
+        client.delete(f"/api/v1/flights/{ids[0]}")
+        assert client.post("/api/v1/flights", json=body).status_code == 201
+    with TestClient(ideal_app(max_flights=2, spare_after=1e-6)) as client:
+        ids = [client.post("/api/v1/flights", json=body).json()["id"] for _ in range(3)]
+        left = [flight["id"] for flight in client.get("/api/v1/flights").json()["flights"]]
+        assert left == ids[1:]
+
+
+def test_a_flight_that_breaks_at_once_is_a_sentence() -> None:
+    def breaks(commands: object):
+        yield next(ideal_flight())
+        raise RuntimeError("secret")
+
+    with TestClient(ideal_app(breaks)) as client:
+        answer = client.post("/api/v1/flights", json={"scenario": "ideal"})
+        is_problem(answer, 500, "/api/v1/flights")
+        assert client.get("/api/v1/flights").json() == {"flights": []}
+
+
+def test_health_readiness_and_numbers(client: TestClient) -> None:
+    assert client.get("/healthz").json() == {"status": "ok"}
+    app = client.app
+    assert isinstance(app, FastAPI)
+    assert app.state.warm.wait(60.0)
+    assert client.get("/readyz").json() == {"status": "ready"}
+    client.post("/api/v1/plans", json=EXAMPLE)
+    page = client.get("/metrics")
+    assert page.headers["content-type"].startswith("text/plain; version=0.0.4")
+    assert "relguide_plan_seconds_count" in page.text
+
+
+def test_not_ready_is_a_problem_until_it_is() -> None:
+    client = TestClient(ideal_app())  # not started, so never warm
+    is_problem(client.get("/readyz"), 503, "/readyz")
+
+
+def test_answers_keep_browsers_strict(client: TestClient) -> None:
+    headers = client.get("/healthz").headers
+    assert headers["x-content-type-options"] == "nosniff"
+    assert "frame-ancestors 'self'" in headers["content-security-policy"]
+
+
+def test_the_docs_need_no_other_machine(client: TestClient) -> None:
+    page = client.get("/docs").text
+    assert "https://" not in page
+    assert client.get("/docs/swagger-ui-bundle.js").status_code == 200
+    assert client.get("/docs/swagger-ui.css").headers["content-type"].startswith("text/css")
