@@ -36,6 +36,11 @@ from relguide.wire import to_wire
 _BANK = Field(ge=round(limits.MIN_BANK / DEG, 9), le=round(limits.MAX_BANK / DEG, 9))
 _POSITION = Field(ge=-limits.MAX_POSITION, le=limits.MAX_POSITION)
 
+MAX_ID = 200
+"""Longest accepted `id` [characters]."""
+MAX_INTEGER = 2**53 - 1
+"""Largest integer that every reader of JSON keeps exact."""
+
 Tas = Annotated[float, Field(ge=limits.MIN_TAS, le=limits.MAX_TAS)]
 
 
@@ -170,10 +175,18 @@ class SituationBody(Strict):
     """Left out: calm."""
 
 
+def _which_id(value: Any) -> str:
+    return "#text" if isinstance(value, str) else "#number"
+
+
 class NamedSituationBody(SituationBody):
     """A situation of a batch."""
 
-    id: str | int = ""
+    id: Annotated[
+        Annotated[Annotated[str, Field(max_length=MAX_ID)], Tag("#text")]
+        | Annotated[Annotated[int, Field(ge=-MAX_INTEGER, le=MAX_INTEGER)], Tag("#number")],
+        Discriminator(_which_id),
+    ] = ""
     """Given back with the answer."""
 
 

@@ -34,7 +34,7 @@ class ContractError(ValueError):
     """
 
     def __init__(self, problems: Sequence[tuple[str, str]]) -> None:
-        self.problems = tuple((_printable(path), _printable(message)) for path, message in problems)
+        self.problems = tuple((printable(path), printable(message)) for path, message in problems)
         listed = [f"{path}: {message}" if path else message for path, message in self.problems]
         more = len(listed) - MAX_LISTED
         if more > 0:
@@ -88,7 +88,8 @@ def parse(model: type[M], source: bytes | str | Mapping[str, object]) -> M:
 def refusal(error: ValidationError, content: object) -> ContractError:
     """Pydantic's findings about `content`, in our words."""
     found: list[Any] = error.errors(include_url=False)
-    return ContractError([(_path(e, content), _sentence(e)) for e in found])
+    problems = [(_path(e, content), _sentence(e)) for e in found]
+    return ContractError([(path, text if path else f"This {text}") for path, text in problems])
 
 
 def _unique_keys(pairs: list[tuple[str, object]]) -> dict[str, object]:
@@ -143,6 +144,8 @@ def _sentence(error: Any) -> str:
         case "extra_forbidden":
             return "is not a field of the contract."
         case "float_type" | "int_type" | "int_from_float" | "int_parsing_size" as kind:
+            if isinstance(error["input"], int) and not isinstance(error["input"], bool):
+                return "is too large a number."
             noun = "a number" if kind == "float_type" else "a whole number"
             return f"must be {noun}, not {given}."
         case "finite_number":
@@ -202,6 +205,6 @@ def _cut(text: str) -> str:
     return text if len(text) <= MAX_QUOTED else text[: MAX_QUOTED - 1] + "…"
 
 
-def _printable(text: str) -> str:
-    # A lone surrogate can be written in JSON, but not to a terminal or a socket.
+def printable(text: str) -> str:
+    """Text without lone surrogates, which JSON can write but no terminal or socket."""
     return text.encode("utf-8", "backslashreplace").decode("utf-8")

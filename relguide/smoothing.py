@@ -1,9 +1,11 @@
-"""Recorded positions, noisy and with holes, made into a smooth motion on an even time grid.
+"""Recorded positions and velocities, noisy and with holes, made into a smooth motion.
 
-ADS-B positions come about once a second, stamped to the second (an error of up to 100 m along the
-track), repeat while nothing new was heard, and now and then are simply wrong. So: drop the repeats,
-keep the longest chain of points that one aircraft can have flown, and lay a smoothing spline
-through it, min Σ (xᵢ − f(tᵢ))² + λ ∫ f″², which passes motions slower than λ^¼ seconds.
+ADS-B positions come about once a second, are stamped late by something that wanders by half a
+second (50–100 m along the track, 10 kt in a speed made of them), repeat while nothing new was heard
+and now and then are simply wrong. Broadcast velocities are good to a knot and say nothing of where.
+So: keep the longest chain of points that one aircraft can have flown, integrate the velocities, and
+correct the result by a slow smoothing spline through what is left of the positions,
+min Σ (xᵢ − ∫v − f(tᵢ))² + λ ∫ f″², which passes what takes longer than λ^¼ seconds.
 """
 
 from dataclasses import dataclass
@@ -24,8 +26,16 @@ MAX_CLIMB = 60.0
 """Fastest believable climb or descent [m/s], 12,000 ft/min."""
 ALTITUDE_SLACK = 30.0
 """Quantum of 100 ft in old transponders [m]."""
-TRACK_SMOOTHING = 4.0
-"""λ^¼ for positions [s]: an airliner rolls into a turn in 7 s."""
+MAX_ACCELERATION = 20.0
+"""Fastest believable change of velocity [m/s²], 2 g."""
+VELOCITY_SLACK = 10.0
+"""What a broadcast velocity may be wrong by [m/s]: NACv 1."""
+VELOCITY_SMOOTHING = 2.0
+"""λ^¼ for velocities [s]: steps of 1 kt, and an airliner rolls into a turn in 7 s."""
+POSITION_SMOOTHING = 40.0
+"""λ^¼ for positions beside integrated velocities [s]: time stamps wander within 10–20 s."""
+BARE_SMOOTHING = 8.0
+"""λ^¼ for positions without velocities [s]: the best match to broadcast velocities on samples."""
 ALTITUDE_SMOOTHING = 10.0
 """λ^¼ for altitudes [s]: steps of 25 ft at 1,500 ft/min come every second."""
 MIN_POINTS = 30
@@ -50,52 +60,87 @@ class SmoothMotion:
     """[m]."""
 
 
-def smooth_motion(t: Array, x: Array, y: Array, altitude: Array, *, step: float) -> SmoothMotion:
+def smooth_motion(
+    t: Array, place: Array, velocity: Array, altitude: Array, *, step: float
+) -> SmoothMotion:
     """The longest believable stretch of a recording, smooth.
 
     Args:
         t: time stamps [s], in any order.
-        x: east [m].
-        y: north [m].
-        altitude: [m]; NaN where it is missing.
+        place: (n, 2), east and north [m]; NaN where it is missing.
+        velocity: (n, 2), over the ground toward the east and north [m/s]; NaN where it is missing.
+        altitude: (n,) [m]; NaN where it is missing.
         step: of the even grid [s].
 
     Raises:
         ValueError: if no stretch of the recording is long enough.
     """
-    t, x, y, altitude = _heard(t, x, y, altitude)
-    chain = believable(t, np.column_stack([x, y]), MAX_SPEED, POSITION_SLACK)
-    if len(chain) < MIN_POINTS:
+    order = np.argsort(t, kind="stable")
+    t, place, velocity, altitude = t[order], place[order], velocity[order], altitude[order]
+    at, heard = _chain(t, _fresh(place), MAX_SPEED, POSITION_SLACK)
+    if len(at) < MIN_POINTS:
         raise ValueError(
             f"has no stretch of {MIN_POINTS} positions without a gap of more than {MAX_GAP:g} s; "
-            f"its longest has {len(chain)}."
+            f"its longest has {len(at)}."
         )
-    at, x, y = t[chain], x[chain], y[chain]
     grid = np.arange(at[0], at[-1] + 1e-9, step)
-    # a residual this large is no noise: fit once more without those points
-    fit_x, fit_y = _spline(at, x, TRACK_SMOOTHING), _spline(at, y, TRACK_SMOOTHING)
-    near = np.hypot(fit_x(at) - x, fit_y(at) - y) < POSITION_SLACK
-    fit_x = _spline(at[near], x[near], TRACK_SMOOTHING)
-    fit_y = _spline(at[near], y[near], TRACK_SMOOTHING)
-    return SmoothMotion(
-        t=grid,
-        x=fit_x(grid),
-        y=fit_y(grid),
-        east=fit_x(grid, 1),
-        north=fit_y(grid, 1),
-        altitude=_smooth_altitude(t, altitude, grid),
-    )
+    flown, smoothing = _velocity_on(grid, t, velocity), POSITION_SMOOTHING
+    if flown is None:
+        flown, smoothing = np.zeros((len(grid), 2)), BARE_SMOOTHING
+    base = np.vstack([np.zeros(2), np.cumsum((flown[1:] + flown[:-1]) * (step / 2.0), axis=0)])
+    left = heard - np.column_stack([np.interp(at, grid, base[:, k]) for k in (0, 1)])
+    correction = _spline(at, left, smoothing)
+    # what is still far off is no noise: fit once more without it
+    near = np.hypot(*(correction(at) - left).T) < POSITION_SLACK
+    correction = _spline(at[near], left[near], smoothing)
+    x, y = (base + correction(grid)).T
+    east, north = (flown + correction(grid, 1)).T
+    level = _altitude_on(grid, t, altitude)
+    return SmoothMotion(t=grid, x=x, y=y, east=east, north=north, altitude=level)
+
+
+def _velocity_on(grid: Array, t: Array, velocity: Array) -> Array | None:
+    """Broadcast velocities on the grid; none if they leave a part of it out."""
+    at, heard = _chain(t, velocity, MAX_ACCELERATION, VELOCITY_SLACK)
+    if len(at) < MIN_POINTS or at[0] > grid[0] + MAX_GAP or at[-1] < grid[-1] - MAX_GAP:
+        return None
+    smooth: Array = _spline(at, heard, VELOCITY_SMOOTHING)(np.clip(grid, at[0], at[-1]))
+    return smooth
+
+
+def _altitude_on(grid: Array, t: Array, altitude: Array) -> Array:
+    inside = (t >= grid[0]) & (t <= grid[-1])
+    at, heard = _chain(t[inside], altitude[inside, None], MAX_CLIMB, ALTITUDE_SLACK)
+    if len(at) < MIN_POINTS:
+        raise ValueError(f"has only {len(at)} believable altitudes; {MIN_POINTS} are needed.")
+    # constant beyond the altitudes that were heard: a cubic would run away
+    smooth: Array = _spline(at, heard[:, 0], ALTITUDE_SMOOTHING)(np.clip(grid, at[0], at[-1]))
+    return smooth
+
+
+def _chain(t: Array, values: Array, max_rate: float, slack: float) -> tuple[Array, Array]:
+    """The longest believable chain of the values that are not missing."""
+    known = np.all(np.isfinite(values), axis=1)
+    t, values = t[known], values[known]
+    chain = believable(t, values, max_rate, slack)
+    return t[chain], values[chain]
+
+
+def _fresh(place: Array) -> Array:
+    """Places that are not held over from the row before; the others are missing."""
+    held = np.all(np.diff(place, axis=0, prepend=np.nan) == 0.0, axis=1)
+    return np.where(held[:, None], np.nan, place)
 
 
 def believable(t: Array, values: Array, max_rate: float, slack: float) -> NDArray[np.intp]:
     """Indices of the longest chain of points that one moving thing can have made.
 
-    Neighbours in the chain are at most `MAX_GAP` apart and differ by no more than
-    max_rate·Δt + slack. Dynamic programming: the longest chain that ends at i is one longer than
-    the longest that ends at a point i can follow.
+    Neighbours in the chain are at most `MAX_GAP` apart, not at the same time, and differ by no
+    more than max_rate·Δt + slack. Dynamic programming: the longest chain that ends at i is one
+    longer than the longest that ends at a point i can follow.
 
     Args:
-        t: rising [s].
+        t: rising [s], repeats allowed.
         values: (n, k), in units of their own.
         max_rate: largest rate of |values| [units/s].
         slack: what they may jump by besides [units].
@@ -106,7 +151,8 @@ def believable(t: Array, values: Array, max_rate: float, slack: float) -> NDArra
     for i in range(1, n):
         window = slice(int(first[i]), i)
         jump = np.sqrt(np.sum((values[window] - values[i]) ** 2, axis=1))
-        reachable = np.flatnonzero(jump <= max_rate * (t[i] - t[window]) + slack)
+        elapsed = t[i] - t[window]
+        reachable = np.flatnonzero((jump <= max_rate * elapsed + slack) & (elapsed > 0.0))
         if reachable.size:
             # the latest of the longest, so that chains do not skip points
             best = reachable[::-1][np.argmax(longest[window][reachable[::-1]])] + window.start
@@ -117,29 +163,6 @@ def believable(t: Array, values: Array, max_rate: float, slack: float) -> NDArra
         chain.append(i)
         i = int(before[i])
     return np.array(chain[::-1], dtype=np.intp)
-
-
-def _heard(t: Array, *columns: Array) -> tuple[Array, ...]:
-    """In order of time, without rows that repeat a time or, held, the position before."""
-    order = np.argsort(t, kind="stable")
-    t, x, y, altitude = t[order], *(column[order] for column in columns)
-    known = np.isfinite(t) & np.isfinite(x) & np.isfinite(y)
-    t, x, y, altitude = t[known], x[known], y[known], altitude[known]
-    moved = (np.diff(x, prepend=np.inf) != 0.0) | (np.diff(y, prepend=np.inf) != 0.0)
-    new = moved & (np.diff(t, prepend=-np.inf) > 0.0)
-    return t[new], x[new], y[new], altitude[new]
-
-
-def _smooth_altitude(t: Array, altitude: Array, grid: Array) -> Array:
-    near = (t >= grid[0]) & (t <= grid[-1]) & np.isfinite(altitude)
-    t, altitude = t[near], altitude[near]
-    chain = believable(t, altitude[:, None], MAX_CLIMB, ALTITUDE_SLACK)
-    if len(chain) < MIN_POINTS:
-        raise ValueError(f"has only {len(chain)} believable altitudes; {MIN_POINTS} are needed.")
-    at, altitude = t[chain], altitude[chain]
-    # constant beyond the altitudes that were heard: a cubic would run away
-    smooth: Array = _spline(at, altitude, ALTITUDE_SMOOTHING)(np.clip(grid, at[0], at[-1]))
-    return smooth
 
 
 def _spline(t: Array, values: Array, seconds: float) -> Any:

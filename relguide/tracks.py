@@ -21,24 +21,26 @@ from numpy.typing import NDArray
 
 from relguide.frames import LocalPlane
 from relguide.smoothing import MIN_POINTS, Array, smooth_motion
-from relguide.units import FT, Metre, MetrePerSecond, Radian, Second
+from relguide.units import DEG, FT, KT, Metre, MetrePerSecond, Radian, Second
 
 INSTALL = "pip install --no-deps traffic==2.13"
 """What brings the samples."""
 QUICKSTART = "collections/quickstart"
 """Arrivals and departures around Paris, one position a second."""
-DEFAULT_LEADER = "SVA127"
-"""A leader of QUICKSTART."""
+DEFAULT_LEADER = "TVF22LK"
+"""Of QUICKSTART: 12 minutes near 310 kt at 11,000 ft and above, with one clear turn, 35° to 84°."""
 STEP = 1.0
 """Grid of a `RecordedTrack` [s]."""
 AIRBORNE = 55.0
 """Slower than this over the ground it is taking off, landing or taxiing [m/s], 107 kt."""
-PLACE = ("timestamp", "latitude", "longitude", "altitude")
-"""What a track is made of, and a CSV file must have."""
-NUMBERS = ("latitude", "longitude", "altitude", "groundspeed", "track", "vertical_rate")
+NEEDED = ("timestamp", "latitude", "longitude", "altitude")
+"""What a CSV file must have."""
+ROW = (*NEEDED, "groundspeed", "track")
+"""What a track is made of."""
+NUMBERS = (*ROW[1:], "vertical_rate")
 """Columns that hold numbers, or nothing."""
-RANGES = {"latitude": (-90.0, 90.0), "longitude": (-180.0, 360.0), "altitude": (-2e3, 2e5)}
-"""What these can be [°, °, ft]."""
+RANGES = {"latitude": (-90.0, 90.0), "longitude": (-180.0, 360.0), "groundspeed": (0.0, 1e4)}
+"""What these can be [°, °, kt]."""
 
 
 class TrackState(NamedTuple):
@@ -142,7 +144,7 @@ def load_sample(callsign: str, collection: str = QUICKSTART) -> RecordedTrack:
             f"such as {', '.join(known[:8])}."
         )
     # as floats, a missing value (None) becomes NaN
-    numbers = np.array([[row.get(name) for name in PLACE] for row in rows], dtype=np.float64)
+    numbers = np.array([[row.get(name) for name in ROW] for row in rows], dtype=np.float64)
     numbers[:, 0] /= 1000.0  # from milliseconds
     aircraft_type = str(rows[0].get("typecode") or "")
     return _track(callsign, aircraft_type, numbers, f"{callsign} of {collection}")
@@ -197,21 +199,22 @@ def _sample(collection: str) -> list[dict[str, Any]]:
 
 
 def _csv_rows(path: Path) -> Iterator[tuple[str, str, list[float]]]:
-    """Callsign, type designator, and time, latitude, longitude, altitude of each row."""
+    """Callsign, type designator, and the numbers of `ROW`, of each row."""
     with path.open(encoding="utf-8-sig", newline="") as file:
         reader = csv.DictReader(file)
         try:
-            missing = [name for name in PLACE if name not in (reader.fieldnames or ())]
+            missing = [name for name in NEEDED if name not in (reader.fieldnames or ())]
             if missing:
                 raise ValueError(f"{path}, line 1: column {missing[0]} is missing.")
             for row in reader:
                 where = f"{path}, line {reader.line_num}"
                 if None in row or None in row.values():
                     raise ValueError(f"{where}: it has not as many columns as the header.")
-                numbers = [_timestamp(row["timestamp"], where)]
-                cells = [_number(row[name], name, where) for name in NUMBERS if name in row]
-                name = row.get("callsign", "").strip() or row.get("icao24", "").strip()
-                yield name, row.get("typecode", "").strip(), numbers + cells[: len(PLACE) - 1]
+                # all numbers are checked, also those that are not used
+                cells = {name: _number(row.get(name, ""), name, where) for name in NUMBERS}
+                cells["timestamp"] = _timestamp(row["timestamp"], where)
+                ident = row.get("callsign", "").strip() or row.get("icao24", "").strip()
+                yield ident, row.get("typecode", "").strip(), [cells[name] for name in ROW]
         except UnicodeDecodeError:
             raise ValueError(f"{path} is not UTF-8 text.") from None
         except csv.Error as error:
@@ -255,16 +258,18 @@ def _timestamp(cell: str, where: str) -> float:
 
 
 def _track(ident: str, aircraft_type: str, numbers: Array, source: str) -> RecordedTrack:
-    """Rows of time [s], latitude, longitude [°], altitude [ft] as a track."""
-    numbers = numbers[np.all(np.isfinite(numbers[:, :3]), axis=1)]
-    if not len(numbers):
+    """Rows of `ROW` (time in seconds) as a track."""
+    located = np.all(np.isfinite(numbers[:, 1:3]), axis=1)
+    if not np.any(located):
         raise ValueError(f"{source} has no positions.")
-    t, lat, lon, altitude = numbers.T
+    t, lat, lon, altitude, speed, track = numbers.T
     # the median, which a few wrong positions do not move
-    plane = LocalPlane(float(np.median(lat)), float(np.median(lon)))
-    places = np.array([plane.to_local(a, b) for a, b in zip(lat, lon, strict=True)])
+    plane = LocalPlane(float(np.median(lat[located])), float(np.median(lon[located])))
+    place = np.full((len(t), 2), nan)
+    place[located] = [plane.to_local(a, b) for a, b in zip(lat[located], lon[located], strict=True)]
+    velocity = (speed * KT)[:, None] * np.column_stack([np.sin(track * DEG), np.cos(track * DEG)])
     try:
-        motion = smooth_motion(t, places[:, 0], places[:, 1], altitude * FT, step=STEP)
+        motion = smooth_motion(t, place, velocity, altitude * FT, step=STEP)
     except ValueError as error:
         raise ValueError(f"{source} {error}") from None
     airborne = _longest_run(np.hypot(motion.east, motion.north) >= AIRBORNE)

@@ -1,0 +1,215 @@
+"""The command line: `relguide plan`, `fly`, `replay`, `serve`.
+
+What a command needs is loaded when it runs, so that `--help` answers at once.
+"""
+
+import argparse
+import os
+import sys
+from collections.abc import Callable, Sequence
+from textwrap import dedent
+
+from relguide import __version__
+
+DONE, FAILED, MISUSE, STOPPED = 0, 1, 2, 130
+"""Exit codes: done; no plan or a failed check; misuse; stopped by Ctrl-C, as shells number it."""
+PLANNERS = ("exact", "network", "regular_dp")
+"""Planners of the contract."""
+
+Run = Callable[[argparse.Namespace], int]
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run a command.
+
+    Args:
+        arguments: what follows the program's name; those of this process if left out.
+
+    Returns:
+        the exit code.
+    """
+    chosen = _parser().parse_args(arguments)
+    run: Run = chosen.run
+    try:
+        code = run(chosen)
+        sys.stdout.flush()
+    except BrokenPipeError:  # whoever read our output has seen enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return FAILED
+    except OSError as error:
+        where = error.filename if isinstance(error.filename, str) else "Reading or writing"
+        return _refuse(f"{where}: {error.strerror or error}.")
+    except ValueError as error:  # every refusal of the library is one, with a sentence
+        return _refuse(str(error))
+    except KeyboardInterrupt:
+        sys.stderr.write("\nrelguide: stopped.\n")
+        return STOPPED
+    return code
+
+
+def _refuse(sentence: str) -> int:
+    sys.stderr.write(f"relguide: {sentence}\n")
+    return MISUSE
+
+
+def _plan(chosen: argparse.Namespace) -> int:
+    from relguide.commands import plan_batch, plan_one
+
+    _only_exact(chosen.planner)
+    if chosen.batch:
+        return FAILED if plan_batch(chosen.file) else DONE
+    return DONE if plan_one(chosen.file, table=chosen.table) else FAILED
+
+
+def _fly(chosen: argparse.Namespace) -> int:
+    from relguide.commands import fly_one
+
+    _only_exact(chosen.planner)
+    passed = fly_one(
+        chosen.scenario, record_to=chosen.record, seed=chosen.seed, as_json=chosen.json
+    )
+    return DONE if passed else FAILED
+
+
+def _replay(chosen: argparse.Namespace) -> int:
+    from relguide.commands import replay_one
+
+    return DONE if replay_one(chosen.file, as_json=chosen.json) else FAILED
+
+
+def _serve(chosen: argparse.Namespace) -> int:
+    from relguide.commands import serve
+
+    serve(host=chosen.host, port=chosen.port)
+    return DONE
+
+
+def _only_exact(planner: str) -> None:
+    if planner != "exact":
+        raise ValueError(f"The planner {planner} is not part of this version: use exact.")
+
+
+def _seed(text: str) -> int:
+    if not (text.isascii() and text.isdigit() and int(text[:12]) < 2**32):
+        raise argparse.ArgumentTypeError(f"must be a whole number from 0 to 2³² − 1, not {text}")
+    return int(text)
+
+
+def _port(text: str) -> int:
+    if not (text.isascii() and text.isdigit() and 0 < int(text[:12]) < 2**16):
+        raise argparse.ArgumentTypeError(f"must be a whole number from 1 to 65535, not {text}")
+    return int(text)
+
+
+def _recording(text: str) -> str:
+    from relguide.recorder import check_name
+
+    try:
+        check_name(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+    return text
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="relguide",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        description="Minimum-time relative guidance: join a leader's track, never too close.",
+        epilog="exit codes: 0 done, 1 no plan or a failed check, 2 misuse\n\n"
+        "relguide COMMAND --help shows examples.",
+    )
+    parser.add_argument("--version", action="version", version=f"relguide {__version__}")
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+
+    plan = _command(
+        commands,
+        "plan",
+        _plan,
+        "plan a situation, or a file of them",
+        """
+        relguide plan situation.json              the plan as JSON
+        relguide plan situation.json --table      the same for people
+        cat situation.json | relguide plan -      from standard input
+        relguide plan --batch situations.jsonl    one plan a line, in order
+        """,
+    )
+    plan.add_argument("file", metavar="FILE", help="a situation in JSON; - for standard input")
+    plan.add_argument("--batch", action="store_true", help="FILE has a situation a line")
+    plan.add_argument("--table", action="store_true", help="print tables for people")
+    _add_planner(plan)
+
+    fly = _command(
+        commands,
+        "fly",
+        _fly,
+        "fly a scenario, a situation or behind a recorded track",
+        """
+        relguide fly fig_6b                          the paper's figure with intent
+        relguide fly fig_6a --json                   without; the figures as JSON
+        relguide fly situation.json --record a.jsonl your own situation, recorded
+        relguide fly track.csv                       behind a recorded ADS-B track
+        """,
+    )
+    fly.add_argument(
+        "scenario", metavar="SCENARIO|FILE", help="a scenario's name, a .json or a .csv file"
+    )
+    fly.add_argument(
+        "--record", metavar="FILE", type=_recording, help="write a .jsonl or .jsonl.gz recording"
+    )
+    fly.add_argument("--seed", metavar="N", type=_seed, default=0, help="default: 0")
+    fly.add_argument("--json", action="store_true", help="print one JSON object")
+    _add_planner(fly)
+
+    replay = _command(
+        commands,
+        "replay",
+        _replay,
+        "tell what a recording holds",
+        """
+        relguide replay flight.jsonl           what happened, when and why
+        relguide replay flight.jsonl --json    the figures as JSON
+        """,
+    )
+    replay.add_argument("file", metavar="FILE", help="made by relguide fly --record")
+    replay.add_argument("--json", action="store_true", help="print one JSON object")
+
+    serve = _command(
+        commands,
+        "serve",
+        _serve,
+        "start the service and the cockpit",
+        """
+        relguide serve                            on http://127.0.0.1:8000
+        relguide serve --host 0.0.0.0 --port 80   for other machines too
+        """,
+    )
+    serve.add_argument("--host", default="127.0.0.1", help="default: %(default)s")
+    serve.add_argument("--port", type=_port, default=8000, help="default: %(default)s")
+    return parser
+
+
+def _command(
+    commands: "argparse._SubParsersAction[argparse.ArgumentParser]",
+    name: str,
+    run: Run,
+    purpose: str,
+    examples: str,
+) -> argparse.ArgumentParser:
+    parser = commands.add_parser(
+        name,
+        help=purpose,
+        description=f"{purpose[0].upper()}{purpose[1:]}.",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog="examples:" + dedent(examples).replace("\n", "\n  ").rstrip(),
+    )
+    parser.set_defaults(run=run)
+    return parser
+
+
+def _add_planner(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--planner", choices=PLANNERS, default="exact", help="default: exact")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,184 @@
+"""Answers for people: plans and flights as tables in knots, nautical miles and degrees."""
+
+from collections.abc import Mapping
+from typing import Any, assert_never
+
+from rich.box import SIMPLE_HEAD
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from relguide.documents import (
+    LeaderChanged,
+    ModeChanged,
+    NoPlanCard,
+    PathPoint,
+    PathSegment,
+    PlanCard,
+    PlanChanged,
+    PlanUnavailable,
+    StraightSegment,
+    TurnSegment,
+)
+from relguide.story import Event, Story
+from relguide.units import DEG, NM
+
+PROOFS = {
+    "relaxation": "optimal: no faster plan exists, with or without the separation limit",
+    "bound": "proved to within the lower bound",
+    "none": "not proved optimal",
+}
+
+
+def print_answer(card: PlanCard | NoPlanCard, *, min_separation: float) -> None:
+    """Print a plan, or why there is none.
+
+    Args:
+        card: what to print.
+        min_separation: d_min [m].
+    """
+    console = Console(highlight=False)
+    match card:
+        case NoPlanCard():
+            console.print(Text("No plan", style="bold red") + f" ({card.reason.value})")
+            console.print(card.message)
+        case PlanCard():
+            _print_plan(console, card, min_separation=min_separation)
+
+
+def print_flight(flight: Story, figures: Mapping[str, Any]) -> None:
+    """Print what happened in a flight, then its figures as `fly --json` names them."""
+    console = Console(highlight=False)
+    for started in flight.started:
+        limits = f"D {miles(started.slot_distance)}, d_min {miles(started.min_separation)}"
+        who = f"{started.pursuer.ident} behind {started.leader.ident}, {limits}"
+        console.print(Text.assemble((started.title or started.scenario, "bold"), f"\n{who}"))
+    table = Table(box=SIMPLE_HEAD, pad_edge=False)
+    table.add_column("at [min:s]", justify="right")
+    table.add_column("what")
+    table.add_column("why", overflow="fold")
+    for event in flight.events:
+        table.add_row(*_event(event))
+    console.print(table)
+    summary = Table(box=None, show_header=False, pad_edge=False)
+    summary.add_column(style="dim")
+    summary.add_column()
+    for row in _figure_rows(figures).items():
+        summary.add_row(*row)
+    console.print(summary)
+
+
+def clock(seconds: float) -> str:
+    """A time as minutes and seconds: 9:03.4."""
+    tenths = round(seconds * 10.0)
+    return f"{tenths // 600}:{tenths % 600 / 10.0:04.1f}"
+
+
+def miles(metres: float) -> str:
+    """A length in nautical miles."""
+    return f"{metres / NM:.2f} NM"
+
+
+def _print_plan(console: Console, card: PlanCard, *, min_separation: float) -> None:
+    console.print(
+        Text.assemble(
+            ("Joins in ", ""),
+            (clock(card.time_to_converge), "bold green"),
+            f" by {card.word}, {miles(card.length)} through the air",
+        )
+    )
+    table = Table(box=SIMPLE_HEAD, pad_edge=False)
+    table.add_column("at [min:s]", justify="right")
+    table.add_column("piece")
+    table.add_column("turn [°]", justify="right")
+    table.add_column("bank [°]", justify="right")
+    table.add_column("length [NM]", justify="right")
+    table.add_column("lasts [min:s]", justify="right")
+    table.add_column("to heading [°]", justify="right")
+    table.add_column("ends east, north [NM]", justify="right")
+    for segment in card.segments:
+        table.add_row(*_row(segment))
+    console.print(table)
+    keeps = card.separation.least - min_separation
+    console.print(
+        f"Least separation {miles(card.separation.least)} after {clock(card.separation.at)}: "
+        f"{miles(keeps)} more than the limit; proved above {miles(card.separation.proved_above)}."
+    )
+    console.print(
+        f"{PROOFS[card.optimality.proof].capitalize()}"
+        f" (lower bound {clock(card.optimality.lower_bound)}). "
+        f"Planner {card.planner}, {card.compute:.2f} ms."
+    )
+    for other in card.alternatives:
+        line = f"{other.word} would take {clock(other.time_to_converge)}"
+        match other.rejected:
+            case "slower":
+                console.print(Text(f"  {line}: slower", style="dim"))
+            case "separation":
+                near = f"{miles(other.least_separation)} after {clock(other.at)}"
+                console.print(Text(f"  {line}: comes to {near}", style="dim"))
+            case _:
+                assert_never(other)
+
+
+def _row(segment: PathSegment) -> tuple[str, ...]:
+    match segment:
+        case TurnSegment():
+            piece, turn, bank = (
+                f"turn {segment.direction}",
+                f"{segment.angle / DEG:.1f}",
+                f"{segment.bank / DEG:.0f}",
+            )
+            length = segment.angle * segment.radius
+        case StraightSegment():
+            piece, turn, bank, length = "straight", "", "", segment.length
+        case _:
+            assert_never(segment)
+    return (
+        clock(segment.start.t),
+        piece,
+        turn,
+        bank,
+        f"{length / NM:.2f}",
+        clock(segment.duration),
+        _heading(segment.end),
+        f"{segment.end.x / NM:+.2f}, {segment.end.y / NM:+.2f}",
+    )
+
+
+def _heading(point: PathPoint) -> str:
+    return f"{round(point.heading / DEG) % 360 or 360:03d}"
+
+
+def _event(event: Event) -> tuple[str, str, str]:
+    match event:
+        case PlanChanged(plan=card):
+            what = f"plan {card.word}, joins in {clock(card.time_to_converge)}"
+        case PlanUnavailable(answer=answer):
+            return clock(event.t), "no plan", answer.message
+        case ModeChanged(mode=mode):
+            what = mode
+        case LeaderChanged(change=change):
+            what = f"leader: {change.replace('_', ' ')}"
+        case _:
+            assert_never(event)
+    return clock(event.t), what, event.message
+
+
+def _figure_rows(figures: Mapping[str, Any]) -> dict[str, str]:
+    rows = {"flight time": clock(figures["simulated_s"])}
+    if "joined" in figures:
+        rows |= {
+            "joined": f"after {clock(figures['join_time_s'])}" if figures["joined"] else "no",
+            "planned at engagement": clock(figures["planned_time_s"]),
+            "least separation": miles(figures["least_separation_m"]),
+            "heading swing": f"{figures['heading_swing_deg']:.0f}°",
+            "bank reversals": f"{figures['bank_reversals']}",
+            "new plans": f"{figures['replans']}",
+            "fallbacks": f"{figures['fallbacks']}",
+            "flown": f"{figures['track_nm']:.1f} NM over the ground",
+        }
+    if "wall_s" in figures:
+        speed = figures["simulated_s"] / max(figures["wall_s"], 1e-9)
+        rows["computed in"] = f"{figures['wall_s']:.2f} s, {speed:,.0f} times as fast as it flies"
+    return rows
