@@ -114,6 +114,14 @@ describe("the picture between ticks", () => {
     expect(last).toBeLessThan(201.5);
   });
 
+  test("never runs backward, not even when the flight stopped short of where it was shown", () => {
+    const store = joined(0, 10);
+    store.advance(2000);
+    store.receive(tick(8, [sample(8)], { rate: 10, paused: true }), 2010);
+    expect(store.flight.simTime.value).toBeCloseTo(10, 9);
+    expect(store.flight.now.value?.t_s).toBeCloseTo(10, 9);
+  });
+
   test("stands still while paused, and the data do not age while ticks come", () => {
     const store = joined(100);
     store.receive(tick(100.05, [], { paused: true }), 1050);
