@@ -1,6 +1,5 @@
 import { useComputed } from "@preact/signals";
-import { windOf } from "../motion";
-import { DEG, formatHeading, formatKnots, KT, wrap360 } from "../units";
+import { formatHeading, formatKnots, KT, wrap360 } from "../units";
 import { Cell } from "./cell";
 import { type LayerProps, shownGuidance } from "./picture";
 import { Stroke } from "./stroke";
@@ -17,17 +16,17 @@ export function AirData({ flight, view }: LayerProps) {
   });
   const gs = useComputed(() => (own.value === null ? "---" : knots(own.value.ground_speed_mps)));
   const tas = useComputed(() => (own.value === null ? "---" : knots(own.value.tas_mps)));
-  const wind = useComputed(() => (own.value === null ? null : windAt(flight)));
+  const wind = useComputed(() => (own.value === null ? null : flight.started.value?.wind) ?? null);
   const from = useComputed(() => {
     const value = wind.value;
     if (value === null) return "---";
-    return value.speed < ARROW_FROM / 2 ? "---" : formatHeading(value.from);
+    return value.speed_mps < ARROW_FROM / 2 ? "---" : formatHeading(value.from_deg);
   });
-  const speed = useComputed(() => (wind.value === null ? "---" : windKnots(wind.value.speed)));
+  const speed = useComputed(() => (wind.value === null ? "---" : windKnots(wind.value.speed_mps)));
   const arrow = useComputed(() => {
     const [value, pose] = [wind.value, view.pose.value];
-    if (value === null || pose === null || value.speed <= ARROW_FROM) return "";
-    return placeAt({ x: 122, y: 46 }, wrap360(value.from + 180 - pose.heading_deg));
+    if (value === null || pose === null || value.speed_mps <= ARROW_FROM) return "";
+    return placeAt({ x: 122, y: 46 }, wrap360(value.from_deg + 180 - pose.heading_deg));
   });
   const blowing = useComputed(() => arrow.value !== "");
   const { x, y } = READOUTS.air;
@@ -55,12 +54,4 @@ function knots(speed: number): string {
 
 function windKnots(speed: number): string {
   return formatKnots(speed).padStart(2, "0");
-}
-
-/** The wind the own ship flies in: where it comes from [deg] and how strong [m/s]. */
-function windAt(flight: LayerProps["flight"]): { from: number; speed: number } | null {
-  const own = shownGuidance(flight)?.now.pursuer;
-  if (own === undefined) return null;
-  const { x, y } = windOf(own);
-  return { from: Math.atan2(-x, -y) / DEG, speed: Math.hypot(x, y) };
 }

@@ -42,7 +42,8 @@ export function circleLabel({ flight, view }: LayerProps): Label | null {
   const centre = project(layout, pose, now.leader);
   const radius = limit * layout.scale;
   const { colour } = SEPARATION[separation(flight).state];
-  for (const side of [away(layout.centre, centre), 90, -90, 0, 180]) {
+  for (const turn of [0, 45, -45, 90, -90, 135, -135, 180]) {
+    const side = away(layout.centre, centre) + turn;
     const at = {
       x: centre.x + radius * Math.sin(side * DEG),
       y: centre.y - radius * Math.cos(side * DEG),

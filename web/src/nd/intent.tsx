@@ -5,7 +5,7 @@ import { PathAhead } from "./ahead";
 import type { Label } from "./labels";
 import { type LayerProps, shownNow } from "./picture";
 import { ink, LINES } from "./style";
-import { offNose, onMap, placeAt, project, toMap } from "./view";
+import { offNose, onMap, onwards, placeAt, project, toMap } from "./view";
 
 /** An undeclared future is shown this far ahead, and no further [s]. */
 const GUESS = 180;
@@ -66,16 +66,17 @@ export function intentLabels({ flight, view }: LayerProps): Label[] {
   const layout = view.layout.value;
   const base = { gap: 14, size: 18, optional: true };
   if (!route.intent_known) {
-    // Half-way along the dots.
-    const ahead = now.leader.ground_speed_mps * GUESS * 0.5;
     const track = now.leader.track_deg * DEG;
-    const at = project(layout, pose, {
-      x_m: now.leader.x_m + ahead * Math.sin(track),
-      y_m: now.leader.y_m + ahead * Math.cos(track),
-    });
+    const direction = { x: Math.sin(track), y: Math.cos(track) };
+    // Half-way along the dots, or nearer where that is off the map.
+    const at = [0.5, 0.3, 0.15, 0]
+      .map((part) => onwards(now.leader, direction, now.leader.ground_speed_mps * GUESS * part))
+      .map((place) => project(layout, pose, place))
+      .find((point) => onMap(layout, point));
+    if (at === undefined) return [];
     const side = offNose(pose, now.leader.track_deg) - 90;
     const lines = [{ text: "NO INTENT", colour: "leader" as const }];
-    return onMap(layout, at) ? [{ ...base, id: "intent", at, lines, side, optional: false }] : [];
+    return [{ ...base, id: "intent", at, lines, side, optional: false }];
   }
   return route.segments
     .filter(isTurn)

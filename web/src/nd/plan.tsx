@@ -38,10 +38,11 @@ export function SupersededPath({ flight, view }: LayerProps) {
     if (plan === undefined || shownGuidance(flight) === null) return null;
     return { segments: plan.plan.segments, start: plan.t_s };
   });
-  const shown = useComputed(() => path.value !== null);
-  if (!shown.value) return null;
+  // A plan that follows another at once begins to fade anew.
+  const made = useComputed(() => path.value?.start ?? null);
+  if (made.value === null) return null;
   return (
-    <g class="nd-fading">
+    <g class="nd-fading" key={made.value}>
       <WholePath flight={flight} view={view} path={path} line={LINES.superseded} />
     </g>
   );
