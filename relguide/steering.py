@@ -1,0 +1,101 @@
+"""From a planned trajectory to a reference for the autopilot, with the roll anticipated.
+
+A plan changes its bank at once, an aircraft takes seconds to roll. So each segment is left early by
+half the roll to the next one: the same turn is then flown, only with rounded ends. What the first
+roll-in costs, replanning makes good.
+"""
+
+from math import atan, pi
+from typing import NamedTuple
+
+from relguide.aircraft import AircraftModel, roll_lead
+from relguide.autopilot import HoldHeading, Reference, TurnRate
+from relguide.trajectory import Arc, Segment, Straight, Trajectory
+from relguide.units import DEG, G0, MetrePerSecond, Radian, RadianPerSecond, Second
+
+HEADING_CAPTURE = 15.0 * DEG
+"""A turn's last degrees are a heading to capture: the heading loop rolls out from 8° on [rad]."""
+HALF_TICK: Second = 0.5
+"""Guidance speaks once a second: on average a switch comes half a second late."""
+
+
+class Steering(NamedTuple):
+    """What to do now, and what is left after it."""
+
+    reference: Reference
+    segments: tuple[Segment, ...]
+    """From the one being flown on."""
+
+
+def rest(trajectory: Trajectory, elapsed: Second) -> Trajectory:
+    """What is left of a trajectory after a while [s]."""
+    pose = trajectory.pose_at(elapsed)
+    left, segments = elapsed * trajectory.tas, list[Segment]()
+    for segment in trajectory.segments:
+        if left >= segment.length:
+            left -= segment.length
+            continue
+        match segment:
+            case Arc():
+                segments.append(
+                    Arc(
+                        turn=segment.turn,
+                        turn_angle=segment.turn_angle - left / segment.radius,
+                        radius=segment.radius,
+                    )
+                )
+            case Straight():
+                segments.append(Straight(length=segment.length - left))
+        left = 0.0
+    return Trajectory(
+        x=pose.x, y=pose.y, heading=pose.heading, tas=trajectory.tas, segments=tuple(segments)
+    )
+
+
+def steer(trajectory: Trajectory, model: AircraftModel) -> Steering:
+    """The reference that flies a trajectory from its start.
+
+    Within the roll's lead of a turn to come, the mean turn rate over that lead is asked for. It
+    rolls in time; and when the exact path from here begins with a sliver of the opposite turn,
+    because the aircraft is a little inside its arc, the bank is eased in proportion and not
+    reversed. A segment too short to roll for is skipped when no turn follows.
+    """
+    tas, segments, heading = trajectory.tas, trajectory.segments, trajectory.heading
+    rates = trajectory.turn_rates()
+    for i, segment in enumerate(segments):
+        following = segments[i + 1 : i + 2]
+        rate_after = rates[i + 1] if following else 0.0
+        window = roll_lead(model, _bank(rates[i], tas), _bank(rate_after, tas)) + HALF_TICK
+        left = segment.length / tas
+        if left > window:
+            return Steering(_reference(segment, heading, rate_after, tas), segments[i:])
+        if following and rate_after != 0.0 and following[0].length / tas > window:
+            mean = (left * rates[i] + (window - left) * rate_after) / window
+            return Steering(TurnRate(mean), segments[i + 1 :])
+        heading = _heading_after(segment, heading)
+    return Steering(HoldHeading(heading % (2.0 * pi)), ())
+
+
+def _reference(
+    segment: Segment, heading: Radian, rate_after: RadianPerSecond, tas: MetrePerSecond
+) -> Reference:
+    match segment:
+        case Straight():
+            return HoldHeading(heading % (2.0 * pi))
+        case Arc() if rate_after == 0.0 and segment.turn_angle < HEADING_CAPTURE:
+            return HoldHeading(_heading_after(segment, heading) % (2.0 * pi))
+        case Arc():
+            return TurnRate(-segment.turn * tas / segment.radius)
+
+
+def _heading_after(segment: Segment, heading: Radian) -> Radian:
+    match segment:
+        case Straight():
+            return heading
+        case Arc():
+            return heading - segment.turn * segment.turn_angle
+
+
+def _bank(rate: RadianPerSecond, tas: MetrePerSecond) -> Radian:
+    """Bank of a turn rate, eq. (8)."""
+    return atan(tas * rate / G0)
