@@ -18,8 +18,8 @@ MOVED = 700
 
 
 @pytest.fixture(autouse=True)
-def _opened(page: Page, watched: Watch, service: Service) -> None:
-    page.goto(service.url)
+def _opened(page: Page, watched: Watch, sky: Service) -> None:
+    page.goto(sky.url)
     expect(page.locator(".connection")).to_have_text("Live")
     expect(page.locator("g.nd-map")).to_be_attached()
 

@@ -14,10 +14,10 @@ def test_the_service_dies_and_comes_back(page: Page, tmp_path: Path) -> None:
         expect(page.locator(".connection")).to_have_text("Live")
         expect(page.locator("g.nd-map")).to_be_attached()
         service.stop(at_once=True)
-    expect(page.locator(".connection")).to_contain_text("Connection lost", timeout=8_000)
+    expect(page.locator(".connection")).to_contain_text("Connection lost")
     expect(page.get_by_role("alert")).to_contain_text("connection to the server is lost")
-    expect(page.locator(".nd-flag")).to_contain_text("LDR DATA", timeout=8_000)
-    expect(page.locator(".nd-flag")).to_contain_text("MAP NOT AVAIL", timeout=30_000)
+    expect(page.locator(".nd-flag")).to_contain_text("LDR DATA")
+    expect(page.locator(".nd-flag")).to_contain_text("MAP NOT AVAIL")
     expect(page.locator("g.nd-map")).not_to_be_attached()
 
     with running_service(tmp_path, port=urlsplit(service.url).port):
