@@ -53,16 +53,18 @@ def _refuse(sentence: str) -> int:
 
 
 def _plan(chosen: argparse.Namespace) -> int:
-    from relguide.commands import plan_batch, plan_one
+    from relguide.command_line import plan_batch, plan_one
 
     _only_exact(chosen.planner)
+    if chosen.batch and chosen.table:
+        raise ValueError("A batch is answered in JSON, a plan a line: leave out --table.")
     if chosen.batch:
         return FAILED if plan_batch(chosen.file) else DONE
     return DONE if plan_one(chosen.file, table=chosen.table) else FAILED
 
 
 def _fly(chosen: argparse.Namespace) -> int:
-    from relguide.commands import fly_one
+    from relguide.command_line import fly_one
 
     _only_exact(chosen.planner)
     passed = fly_one(
@@ -72,13 +74,13 @@ def _fly(chosen: argparse.Namespace) -> int:
 
 
 def _replay(chosen: argparse.Namespace) -> int:
-    from relguide.commands import replay_one
+    from relguide.command_line import replay_one
 
     return DONE if replay_one(chosen.file, as_json=chosen.json) else FAILED
 
 
 def _serve(chosen: argparse.Namespace) -> int:
-    from relguide.commands import serve
+    from relguide.command_line import serve
 
     serve(host=chosen.host, port=chosen.port)
     return DONE

@@ -77,5 +77,10 @@ def typescript_body(*, docs: bool) -> str:
     return typescript(_ALIASES, _ROOTS, docs=docs)
 
 
-PROTOCOL = f"relguide-{sha256(typescript_body(docs=False).encode()).hexdigest()[:12]}"
+def protocol(body: str) -> str:
+    """The stream's sub-protocol for types written so."""
+    return f"relguide-{sha256(body.encode()).hexdigest()[:12]}"
+
+
+PROTOCOL = protocol(typescript_body(docs=False))
 """Sub-protocol of the stream: changes whenever a shape of the contract does."""

@@ -117,6 +117,6 @@ def _document(line: bytes, where: str) -> Document:
     except orjson.JSONDecodeError:
         content = line
     try:
-        return from_wire(content)
+        return from_wire(content if isinstance(content, dict) else line)
     except ContractError as error:
         raise RecordingError(f"{where}: {error} What comes before is good.") from None

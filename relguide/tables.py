@@ -54,7 +54,7 @@ def print_flight(flight: Story, figures: Mapping[str, Any]) -> None:
         who = f"{started.pursuer.ident} behind {started.leader.ident}, {limits}"
         console.print(Text.assemble((started.title or started.scenario, "bold"), f"\n{who}"))
     table = Table(box=SIMPLE_HEAD, pad_edge=False)
-    table.add_column("at [min:s]", justify="right")
+    table.add_column("at", justify="right")
     table.add_column("what")
     table.add_column("why", overflow="fold")
     for event in flight.events:
@@ -87,15 +87,10 @@ def _print_plan(console: Console, card: PlanCard, *, min_separation: float) -> N
             f" by {card.word}, {miles(card.length)} through the air",
         )
     )
-    table = Table(box=SIMPLE_HEAD, pad_edge=False)
-    table.add_column("at [min:s]", justify="right")
-    table.add_column("piece")
-    table.add_column("turn [°]", justify="right")
-    table.add_column("bank [°]", justify="right")
-    table.add_column("length [NM]", justify="right")
-    table.add_column("lasts [min:s]", justify="right")
-    table.add_column("to heading [°]", justify="right")
-    table.add_column("ends east, north [NM]", justify="right")
+    table = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
+    table.add_column("piece", no_wrap=True)
+    for heading in ("at", "lasts", "NM", "turn", "bank", "to", "east NM", "north NM"):
+        table.add_column(heading, justify="right", no_wrap=True)
     for segment in card.segments:
         table.add_row(*_row(segment))
     console.print(table)
@@ -125,9 +120,9 @@ def _row(segment: PathSegment) -> tuple[str, ...]:
     match segment:
         case TurnSegment():
             piece, turn, bank = (
-                f"turn {segment.direction}",
-                f"{segment.angle / DEG:.1f}",
-                f"{segment.bank / DEG:.0f}",
+                segment.direction,
+                f"{segment.angle / DEG:.1f}°",
+                f"{segment.bank / DEG:.0f}°",
             )
             length = segment.angle * segment.radius
         case StraightSegment():
@@ -135,25 +130,26 @@ def _row(segment: PathSegment) -> tuple[str, ...]:
         case _:
             assert_never(segment)
     return (
-        clock(segment.start.t),
         piece,
+        clock(segment.start.t),
+        clock(segment.duration),
+        f"{length / NM:.2f}",
         turn,
         bank,
-        f"{length / NM:.2f}",
-        clock(segment.duration),
         _heading(segment.end),
-        f"{segment.end.x / NM:+.2f}, {segment.end.y / NM:+.2f}",
+        f"{segment.end.x / NM:.2f}",
+        f"{segment.end.y / NM:.2f}",
     )
 
 
 def _heading(point: PathPoint) -> str:
-    return f"{round(point.heading / DEG) % 360 or 360:03d}"
+    return f"{round(point.heading / DEG) % 360 or 360:03d}°"
 
 
 def _event(event: Event) -> tuple[str, str, str]:
     match event:
-        case PlanChanged(plan=card):
-            what = f"plan {card.word}, joins in {clock(card.time_to_converge)}"
+        case PlanChanged(reason=reason):
+            what = f"plan: {reason.replace('_', ' ')}"
         case PlanUnavailable(answer=answer):
             return clock(event.t), "no plan", answer.message
         case ModeChanged(mode=mode):

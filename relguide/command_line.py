@@ -1,0 +1,214 @@
+"""What the commands do: files and streams around planning, flying, replaying and serving."""
+
+import os
+import socket
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from importlib import import_module
+from itertools import islice
+from pathlib import Path
+from time import perf_counter
+from typing import IO, TYPE_CHECKING, Any
+
+import orjson
+
+from relguide.answers import answer, answer_card, answer_line
+from relguide.bodies import NamedSituationBody, situation_from_body
+from relguide.plan import plan
+from relguide.progress import watched
+from relguide.recorder import record, replay
+from relguide.refusal import parse
+from relguide.story import figures, passed, told
+
+if TYPE_CHECKING:
+    from relguide.flight import Scenario
+
+_WARM_UP = 40
+"""Documents of a flight made for nothing, or a plan: it loads the compiled kernels, which takes
+seconds where planning takes a tenth of a millisecond, and is no part of what is measured."""
+
+
+def plan_one(file: str, *, table: bool) -> bool:
+    """Print the answer to a situation.
+
+    Args:
+        file: its path; - for standard input.
+        table: for people; JSON otherwise.
+
+    Returns:
+        whether there is a plan.
+    """
+    with _opened(file) as stream:
+        body = parse(NamedSituationBody, stream.read())
+    situation, anchor = situation_from_body(body)
+    if table:
+        from relguide.tables import print_answer
+
+        plan(situation)  # see `_WARM_UP`
+        card = answer_card(situation, plan)
+        print_answer(card, min_separation=situation.min_separation)
+        return card.status == "planned"
+    plan(situation)  # see `_WARM_UP`
+    reply = answer(situation, anchor, plan)
+    name = {"id": body.id} if "id" in body.model_fields_set else {}
+    _print_json(name | reply)
+    return bool(reply["status"] == "planned")
+
+
+def plan_batch(file: str) -> int:
+    """Print the answers to a file of situations, one a line.
+
+    Returns:
+        how many lines are no situations.
+    """
+    invalid: list[int] = []
+    read = 0
+    with _opened(file) as stream:
+        size = os.fstat(stream.fileno()).st_size if file != "-" else 0
+        lines = watched(
+            enumerate(stream, start=1), title="planning", total=size, done=lambda _: read
+        )
+        for number, line in lines:
+            read += len(line)
+            if not line.strip():
+                continue
+            reply = answer_line(line, plan)
+            if reply["status"] == "invalid":
+                invalid.append(number)
+            sys.stdout.write(orjson.dumps(reply).decode() + "\n")
+    if invalid:
+        noun = "line is" if len(invalid) == 1 else "lines are"
+        _say(f"{len(invalid)} {noun} no valid situation, the first is line {invalid[0]}.")
+    return len(invalid)
+
+
+def fly_one(name: str, *, record_to: str | None, seed: int, as_json: bool) -> bool:
+    """Fly a scenario, or a file, and print how it went.
+
+    Args:
+        name: of a scenario, or the path of a situation (.json) or a recorded track (.csv).
+        record_to: where to write the recording, if anywhere.
+        seed: of the flight's random numbers.
+        as_json: one JSON object; a table otherwise.
+
+    Returns:
+        whether it joined and kept d_min.
+    """
+    from relguide.flight import fly
+
+    scenario = _scenario(name)
+    for _ in islice(fly(scenario, plan, sample_period=1.0), _WARM_UP):
+        pass
+    started = perf_counter()
+    if record_to is None:
+        # nobody looks at the samples: one a second is enough for the progress bar
+        documents = fly(scenario, plan, seed=seed, sample_period=1.0)
+    else:
+        documents = record(fly(scenario, plan, seed=seed), record_to)
+    flight = told(
+        watched(
+            documents,
+            title=f"flying {scenario.name}",
+            total=scenario.duration_limit,
+            done=lambda document: document.t,
+        )
+    )
+    if flight.broken:
+        raise ValueError(flight.broken)
+    result = figures(flight.ended[0]) | {"wall_s": perf_counter() - started}
+    if as_json:
+        _print_json(result)
+    else:
+        from relguide.tables import print_flight
+
+        print_flight(flight, result)
+    return passed(flight)
+
+
+def replay_one(file: str, *, as_json: bool) -> bool:
+    """Print what a recording holds; of a damaged one, what is good.
+
+    Returns:
+        whether it is whole.
+    """
+    flight = told(watched(replay(file), title="reading", total=0.0, done=lambda _: 0.0))
+    whole = bool(flight.ended) and not flight.broken
+    result = figures(flight.ended[0]) if flight.ended else {"simulated_s": flight.last_time}
+    if as_json:
+        about = {
+            "scenario": "".join(started.scenario for started in flight.started),
+            "title": "".join(started.title for started in flight.started),
+            "documents": flight.documents,
+            "complete": whole,
+        }
+        _print_json(about | result)
+    else:
+        from relguide.tables import print_flight
+
+        print_flight(flight, result)
+    if not whole:
+        _say(flight.broken or f"{file} ends before its flight does; it may still be written.")
+    return whole
+
+
+def serve(*, host: str, port: int) -> None:
+    """Run the service until it is stopped.
+
+    Raises:
+        OSError: if the address cannot be used.
+    """
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    with socket.socket(family) as probe:  # uvicorn would say it in a log line, and exit
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind((host, port))
+        except OSError as error:
+            raise OSError(error.errno, error.strerror, f"{host}, port {port}") from None
+    # By name: the library knows nothing of the service that stands on it; its command starts it.
+    uvicorn, settings = import_module("uvicorn"), import_module("server.settings")
+    app = import_module("server.app").app
+    shown = f"[{host}]" if ":" in host else host
+    _write(f"relguide is on http://{shown}:{port} (Ctrl-C stops it)\n")
+    uvicorn.run(app, **settings.uvicorn_options(host=host, port=port))
+
+
+def _scenario(name: str) -> "Scenario":
+    from relguide.scenarios import own_scenario, recorded, scenario
+
+    path = Path(name)
+    if path.suffix == ".csv":
+        from relguide.tracks import load_csv
+
+        return recorded(load_csv(path))
+    if path.suffix == ".json" or name == "-" or path.is_file():
+        with _opened(name) as stream:
+            situation, _ = situation_from_body(parse(NamedSituationBody, stream.read()))
+        title = (
+            "The situation of standard input" if name == "-" else f"The situation of {path.name}"
+        )
+        return replace(own_scenario(situation), title=title)
+    return scenario(name)
+
+
+@contextmanager
+def _opened(file: str) -> Iterator[IO[bytes]]:
+    if file == "-":
+        yield sys.stdin.buffer
+    else:
+        with Path(file).open("rb") as stream:
+            yield stream
+
+
+def _print_json(content: dict[str, Any]) -> None:
+    _write(orjson.dumps(content, option=orjson.OPT_INDENT_2).decode() + "\n")
+
+
+def _write(text: str) -> None:
+    sys.stdout.write(text)
+    sys.stdout.flush()
+
+
+def _say(sentence: str) -> None:
+    sys.stderr.write(f"relguide: {sentence}\n")
