@@ -135,7 +135,11 @@ export function createActions(
     },
     leaderSpeed(tas) {
       const text = `Leader to ${formatKnots(tas)} kt`;
-      void command({ command: "leader_speed", tas_mps: tas }, `${text}…`, `${text}.`);
+      void command(
+        { command: "leader_speed", tas_mps: Number(tas.toFixed(3)) },
+        `${text}…`,
+        `${text}.`,
+      );
     },
     setIntentKnown(known) {
       const text = known ? "Leader's intent received" : "Leader's intent withdrawn";

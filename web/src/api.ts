@@ -10,6 +10,8 @@ export type Answer<T> =
 const ROOT = "/api/v1";
 /** The server answers in milliseconds; after this long [ms] nobody is there. */
 const PATIENCE = 8000;
+/** The first flight of a new installation waits until the planner is compiled. */
+const FIRST_FLIGHT_PATIENCE = 120_000;
 
 export async function listScenarios(): Promise<Answer<readonly ScenarioInfo[]>> {
   const answer = await request<ScenarioList>("GET", `${ROOT}/scenarios`);
@@ -17,7 +19,7 @@ export async function listScenarios(): Promise<Answer<readonly ScenarioInfo[]>> 
 }
 
 export function createFlight(wanted: FlightRequest): Promise<Answer<FlightStatus>> {
-  return request("POST", `${ROOT}/flights`, wanted);
+  return request("POST", `${ROOT}/flights`, wanted, FIRST_FLIGHT_PATIENCE);
 }
 
 export function readFlight(id: string): Promise<Answer<FlightStatus>> {
@@ -28,8 +30,13 @@ export function commandFlight(id: string, command: Command): Promise<Answer<Flig
   return request("POST", `${ROOT}/flights/${encodeURIComponent(id)}/commands`, command);
 }
 
-async function request<T>(method: string, path: string, body?: unknown): Promise<Answer<T>> {
-  const init: RequestInit = { method, signal: AbortSignal.timeout(PATIENCE) };
+async function request<T>(
+  method: string,
+  path: string,
+  body?: unknown,
+  patience = PATIENCE,
+): Promise<Answer<T>> {
+  const init: RequestInit = { method, signal: AbortSignal.timeout(patience) };
   if (body !== undefined) {
     init.body = JSON.stringify(body);
     init.headers = { "content-type": "application/json" };

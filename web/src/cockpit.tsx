@@ -13,6 +13,7 @@ import { Help } from "./panels/help";
 import { LeaderControls } from "./panels/leader-controls";
 import { OutageNotice } from "./panels/outage";
 import { PlanNumbers } from "./panels/plan";
+import { ScenarioPicker } from "./panels/scenario-picker";
 import { Scene } from "./panels/scene";
 import type { Actions, Session } from "./session";
 
@@ -24,7 +25,9 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
   const narrow = useMedia(NARROW);
   return (
     <>
-      <Header session={session} />
+      <Header session={session}>
+        <ScenarioPicker session={session} actions={actions} />
+      </Header>
       <main class={session.sceneMaximised.value ? "maximised" : ""}>
         <div class="instrument">
           <Efis session={session} />

@@ -62,6 +62,7 @@ export function proofSentence(optimality: OptimalityCard, time: number): string 
     case "bound":
       return `At most ${formatClock(time - optimality.lower_bound_s)} above the optimum: nothing is faster than ${formatClock(optimality.lower_bound_s)}.`;
     case "none":
+      if (optimality.lower_bound_s < 1) return "Keeps the limit, optimum not proved.";
       return `Keeps the limit, optimum not proved: nothing is faster than ${formatClock(optimality.lower_bound_s)}.`;
   }
 }
@@ -75,7 +76,7 @@ export function alternativeSentence(
     const least = belowLimit(alternative.least_separation_m);
     return `loses separation: ${least} NM at ${formatClock(alternative.at_s)}`;
   }
-  return `+${formatSeconds(alternative.time_to_converge_s - plan.time_to_converge_s)} s`;
+  return formatDelay(alternative.time_to_converge_s - plan.time_to_converge_s);
 }
 
 /** A distance below a limit never rounds up to it [NM]. */
@@ -83,15 +84,17 @@ function belowLimit(distance: number): string {
   return (Math.floor((distance / NM) * 10) / 10).toFixed(1);
 }
 
-function formatSeconds(time: number): string {
-  return time < 10 ? time.toFixed(1) : String(Math.round(time));
+/** How much later: in seconds while that says something, else in minutes. */
+function formatDelay(time: number): string {
+  if (time >= 120) return `+${formatClock(time)}`;
+  return `+${time < 10 ? time.toFixed(1) : Math.round(time)} s`;
 }
 
 /** What guidance asks of the autopilot. */
 export function referenceText(reference: ReferenceCard): string {
   if (reference.kind === "hold_heading") return `HDG ${formatHeading(reference.heading_deg)}`;
   const rate = reference.turn_rate_degps;
-  if (Math.abs(rate) < 0.05) return "TURN 0";
+  if (Math.abs(rate) < 0.05) return "TURN 0.0°/s";
   return `TURN ${Math.abs(rate).toFixed(1)}°/s ${rate > 0 ? "R" : "L"}`;
 }
 

@@ -10,6 +10,7 @@ import { Header } from "../src/panels/header";
 import { LeaderControls } from "../src/panels/leader-controls";
 import { OutageNotice } from "../src/panels/outage";
 import { PlanNumbers } from "../src/panels/plan";
+import { ScenarioPicker } from "../src/panels/scenario-picker";
 import { Scene } from "../src/panels/scene";
 import { createSession, takeReading } from "../src/session";
 import { NM } from "../src/units";
@@ -127,13 +128,23 @@ describe("panels", () => {
   test("scenarios: a missing one says why and cannot be chosen", () => {
     const { session, actions } = flying();
     session.scenarios.value = [
-      { name: "fig_6b", title: "Fig. 6b", description: "", available: true, message: "" },
+      { name: "fig_6b", title: "Fig. 6b", description: "Known.", available: true, message: "" },
       { name: "rec", title: "Recorded", description: "", available: false, message: "Install it." },
     ];
-    render(<FlightControls session={session} actions={actions} />, place);
+    render(<ScenarioPicker session={session} actions={actions} />, place);
     const options = [...place.querySelectorAll("option")];
     expect(options.map((each) => each.disabled)).toEqual([false, true]);
     expect(place.textContent).toContain("Install it.");
+    const picker = place.querySelector("select");
+    act(() => {
+      picker?.dispatchEvent(new Event("change", { bubbles: true }));
+    });
+    expect(actions.start).toHaveBeenCalledWith("fig_6b");
+  });
+
+  test("play, rate and restart", () => {
+    const { session, actions } = flying();
+    render(<FlightControls session={session} actions={actions} />, place);
     act(() => button("×20").click());
     expect(actions.setRate).toHaveBeenCalledWith(20);
     act(() => button("Pause").click());

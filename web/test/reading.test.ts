@@ -35,12 +35,15 @@ describe("numbers beside the picture", () => {
     expect(proofSentence({ proof: "relaxation", lower_bound_s: 250 }, 250)).toMatch(/^Optimal/);
     expect(proofSentence({ proof: "bound", lower_bound_s: 240 }, 250)).toContain("00:10");
     expect(proofSentence({ proof: "none", lower_bound_s: 240 }, 250)).toContain("not proved");
+    expect(proofSentence({ proof: "none", lower_bound_s: 0 }, 250)).not.toContain("00:00");
   });
 
   test("alternatives say why they are not flown", () => {
     const plan = planCard();
     const slower = { word: "LSR", time_to_converge_s: 256.2, rejected: "slower" } as const;
     expect(alternativeSentence(slower, plan)).toBe("+6.2 s");
+    expect(alternativeSentence({ ...slower, time_to_converge_s: 314 }, plan)).toBe("+64 s");
+    expect(alternativeSentence({ ...slower, time_to_converge_s: 1932 }, plan)).toBe("+28:02");
     const close = {
       word: "LSL",
       time_to_converge_s: 240,

@@ -1,4 +1,4 @@
-/** Which flight, and how fast: scenario, restart, play or pause, rate. */
+/** How the flight goes on: play or pause, restart, rate; and what became of the last command. */
 
 import { Choice, Icon, Panel } from "../parts";
 import { type Actions, type Feedback, RATES, type Session } from "../session";
@@ -8,42 +8,11 @@ export function FlightControls(props: { session: Session; actions: Actions }) {
   const { scenarios, status, flight, feedback } = session;
   const { rate, paused, ended } = flight.clock.value;
   const flown = status.value?.scenario || null; // empty for a situation of one's own
-  const missing = scenarios.value.filter((scenario) => !scenario.available);
+  const description =
+    scenarios.value.find((scenario) => scenario.name === flown)?.description ?? "";
   return (
     <Panel name="controls" title="Flight">
-      <div class="row">
-        <label class="grow">
-          <span class="visually-hidden">Scenario</span>
-          <select
-            value={flown ?? ""}
-            onChange={(event) => actions.start(event.currentTarget.value)}
-          >
-            {scenarios.value.every((scenario) => scenario.name !== flown) && (
-              <option value={flown ?? ""}>{status.value?.title ?? "Scenario"}</option>
-            )}
-            {scenarios.value.map((scenario) => (
-              <option key={scenario.name} value={scenario.name} disabled={!scenario.available}>
-                {scenario.title}
-                {scenario.available ? "" : " (not available)"}
-              </option>
-            ))}
-          </select>
-        </label>
-      </div>
-      {missing.length > 0 && (
-        <details class="missing">
-          <summary>
-            {missing.length} scenario{missing.length === 1 ? "" : "s"} not available: why?
-          </summary>
-          <div>
-            {missing.map((scenario) => (
-              <p key={scenario.name}>
-                <b>{scenario.title}</b> {scenario.message}
-              </p>
-            ))}
-          </div>
-        </details>
-      )}
+      {description !== "" && <p class="hint">{description}</p>}
       <div class="row">
         <button
           type="button"

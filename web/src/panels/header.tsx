@@ -1,5 +1,6 @@
-/** The strip on top: what is flown, simulated time and rate, the state of the connection. */
+/** The strip on top: the picker handed in, simulated time and rate, the state of the connection. */
 
+import type { ComponentChildren } from "preact";
 import type { Connection } from "../flight";
 import { Icon } from "../parts";
 import type { Session } from "../session";
@@ -12,15 +13,15 @@ const CONNECTION_TEXT: Record<Connection, string> = {
   lost: "Connection lost",
 };
 
-export function Header(props: { session: Session }) {
-  const { flight, status, helpOpen } = props.session;
+export function Header(props: { session: Session; children?: ComponentChildren }) {
+  const { helpOpen } = props.session;
   return (
     <header class="top">
       <h1>
         <img src="/favicon.svg" alt="" width="26" height="26" />
         relguide
       </h1>
-      <p class="top-title">{flight.started.value?.title ?? status.value?.title ?? ""}</p>
+      <div class="top-middle">{props.children}</div>
       <SimClock session={props.session} />
       <ConnectionState session={props.session} />
       <button

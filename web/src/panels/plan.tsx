@@ -100,7 +100,7 @@ function Outcome(props: { ended: FlightEnded }) {
       <span class="headline-label">{ended.joined ? "Joined at" : "Ended, not joined"}</span>
       <span class="headline-figure">{formatClock(ended.join_time_s)}</span>
       <span class="headline-note">
-        planned {formatClock(ended.planned_time_s)}, flown {formatMiles(ended.track_m)} NM
+        planned {formatClock(ended.planned_time_s)} · {formatMiles(ended.track_m)} NM
       </span>
     </div>
   );
