@@ -28,7 +28,7 @@ class AircraftModel:
     max_acceleration: MetrePerSecond
     """Along the path, at climb thrust [m/s²]."""
     max_deceleration: MetrePerSecond
-    """Along the path, at idle thrust [m/s²], > 0."""
+    """Along the path, at idle thrust with speed brakes [m/s²], > 0."""
     speed_time_constant: Second
     """Lag of the autothrust: how fast it goes for the commanded speed when not at a limit [s]."""
     min_tas: MetrePerSecond
@@ -60,7 +60,7 @@ A300 = AircraftModel(
     max_roll_rate=3.75 * DEG,  # median of recorded roll-ins from 5° to 20°, both types
     roll_time_constant=0.5,  # roll mode of a large transport in cruise: 0.4 … 0.8 s
     max_acceleration=0.4,  # thrust above drag left at climb thrust near FL310
-    max_deceleration=0.5,  # g / (L/D) ≈ 0.58 m/s² at L/D = 17, less the thrust of idle
+    max_deceleration=1.0,  # g / (L/D) = 0.58 m/s² clean at L/D = 17; speed brakes near double it
     speed_time_constant=5.0,  # engines spool in 3 … 6 s at altitude
     min_tas=120.0,  # 210 kt indicated at FL100 is 125 m/s: clean manoeuvring speed, rounded down
     max_tas=250.0,  # M 0.82 at FL310 is 247 m/s

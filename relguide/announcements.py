@@ -95,8 +95,10 @@ def because(reason: PlanReason, seen: Seen) -> str:
         case "separation":
             return "The plan no longer kept the separation"
         case "leader_turned":
-            heading = round(seen.leader.heading / DEG) % 360
-            return f"The leader's heading is {heading:03d}°"
+            heading = f"{round(seen.final_heading / DEG) % 360:03d}°"
+            if seen.turn_to_come:
+                return f"The leader will turn to {heading}"
+            return f"The leader's heading is {heading}"
         case "leader_changed_speed":
             return f"The leader flies {seen.leader.tas / KT:.0f} kt"
         case "intent_received":

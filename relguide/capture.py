@@ -49,8 +49,9 @@ CROSS_TRACK_GAIN = 5.0e-4  # [rad/m], with the next: ω = √(g·gain) = 0.07 ra
 TRACK_GAIN = 3.0  # damping 3·√g/(2·V·√gain) = 0.88 at 240 m/s: no overshoot to speak of
 TANGENT_ABOVE = 6.0 * DEG  # below it 1 − cos Δψ is 0.5 %: metres of offset would ask for any radius
 SPEED_LOOP: Second = 12.0  # twice the autothrust's lag: the spacing loop must be slower than it
-BRAKING_SHARE = 0.8  # of what idle thrust gives, so that the autothrust keeps a reserve
+BRAKING = 0.4  # [m/s²] what idle thrust gives without speed brakes: those stay in reserve
 FALL_BACK: MetrePerSecond = 20.0  # slower than the leader by 40 kt at most, to open the spacing
+CATCH_UP: MetrePerSecond = 5.0  # faster by 10 kt at least, or a leader as fast is never reached
 
 
 def offsets(state: AircraftState, slot: Slot) -> Offsets:
@@ -116,19 +117,17 @@ def spacing_tas(
     Args:
         to_slot: distance still to close, e [m]; negative when too close.
         slot_tas: the leader's true airspeed [m/s].
-        model: gives a: deceleration when closing, acceleration when falling back.
+        model: gives the speed range and the acceleration that ends falling back.
         fastest: the pursuer's V_P [m/s].
     """
-    available = model.max_deceleration if to_slot > 0.0 else model.max_acceleration
-    a = BRAKING_SHARE * available
+    a = BRAKING if to_slot > 0.0 else min(BRAKING, model.max_acceleration)
     v = sqrt((a * SPEED_LOOP) ** 2 + 2.0 * a * abs(to_slot)) - a * SPEED_LOOP
     if to_slot < 0.0:
         return max(slot_tas - min(v, FALL_BACK), model.min_tas)
-    return min(slot_tas + v, max(fastest, slot_tas), model.max_tas)
+    return min(slot_tas + v, max(fastest, slot_tas + CATCH_UP), model.max_tas)
 
 
-def braking_distance(tas: MetrePerSecond, slot_tas: MetrePerSecond, model: AircraftModel) -> Metre:
+def braking_distance(tas: MetrePerSecond, slot_tas: MetrePerSecond) -> Metre:
     """How far behind the slot `spacing_tas` begins to slow down [m]."""
     v = max(tas - slot_tas, 0.0)
-    a = BRAKING_SHARE * model.max_deceleration
-    return v * SPEED_LOOP + v * v / (2.0 * a)
+    return v * SPEED_LOOP + v * v / (2.0 * BRAKING)

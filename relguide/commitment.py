@@ -6,10 +6,11 @@ is, and given up only for a reason.
 """
 
 from dataclasses import dataclass
-from math import hypot
+from math import cos, hypot, sin
 from typing import Literal
 
 from relguide.certificate import certify
+from relguide.frames import slot_frame
 from relguide.plan import NoPlan, Optimality, Plan, Planner
 from relguide.plan import plan as exact_plan
 from relguide.situation import Situation
@@ -141,9 +142,11 @@ def _as_plan(candidate: Candidate, situation: Situation, bound: Second) -> Plan:
 
 
 def _followed_on(left: Trajectory, plan: Plan, situation: Situation) -> Plan | None:
-    """What is left, as it was planned, if the aircraft is on it and it certifies."""
+    """What is left, as it was planned, if the aircraft is on it, it leads there and certifies."""
     pursuer = situation.pursuer
     if hypot(pursuer.x - left.x, pursuer.y - left.y) > LEASH or left.duration == 0.0:
+        return None
+    if _misses(left, situation) > LEASH:
         return None
     certificate = certify(left, situation)
     if not certificate.holds:
@@ -159,14 +162,25 @@ def _followed_on(left: Trajectory, plan: Plan, situation: Situation) -> Plan | N
     )
 
 
+def _misses(left: Trajectory, situation: Situation) -> Metre:
+    """How far from the slot a path ends: the leader may not be where the plan had it."""
+    frame = slot_frame(situation, situation.leader.trajectory)
+    flown = situation.leader.tas * left.duration
+    end = left.pose_at(left.duration)
+    return hypot(
+        end.x - frame.origin_x - flown * sin(frame.heading),
+        end.y - frame.origin_y - flown * cos(frame.heading),
+    )
+
+
 def _same_way(left: Trajectory, other: Trajectory, share: float) -> bool:
     return _distance_between(left, other) <= SAME_WAY + share * other.length
 
 
 def _distance_between(left: Trajectory, other: Trajectory) -> Metre:
-    """How far apart two paths come, looked at a quarter, half and three quarters of the way."""
-    apart = 0.0
-    for share in (0.25, 0.5, 0.75, 1.0):
-        a, b = left.pose_at(share * left.duration), other.pose_at(share * other.duration)
+    """How far apart two paths come, looked at after each third of the way."""
+    apart, time, other_time = 0.0, left.duration, other.duration
+    for share in (0.33, 0.67, 1.0):
+        a, b = left.pose_at(share * time), other.pose_at(share * other_time)
         apart = max(apart, hypot(a.x - b.x, a.y - b.y))
     return apart

@@ -262,10 +262,16 @@ def _model(scenario: Scenario) -> AircraftModel:
 
 
 def _leader_model(scenario: Scenario) -> AircraftModel:
-    """The leader's: an A300 that can bank as its intent says."""
+    """The leader's: an A300 that can bank as its intent says, and slows down without brakes."""
     leader = scenario.situation.leader
     banks = [piece.bank for piece in leader.intent if isinstance(piece, TurnTo)]
-    return replace(A300, max_bank=max(A300.max_bank, *banks, 0.0), min_tas=MIN_TAS, max_tas=MAX_TAS)
+    return replace(
+        A300,
+        max_bank=max(A300.max_bank, *banks, 0.0),
+        max_deceleration=0.5 * A300.max_deceleration,
+        min_tas=MIN_TAS,
+        max_tas=MAX_TAS,
+    )
 
 
 def _limit(scenario: Scenario, leader: LeaderFlight) -> Second:

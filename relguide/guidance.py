@@ -222,14 +222,14 @@ def _final(steering: Steering, plan: Plan, slot: Slot, assignment: Assignment) -
     arcs = [segment for segment in steering.segments if isinstance(segment, Arc)]
     if len(arcs) == 0:
         closing = (assignment.tas - slot.tas) * plan.time_to_converge
-        return closing <= braking_distance(assignment.tas, slot.tas, assignment.model)
+        return closing <= braking_distance(assignment.tas, slot.tas)
     return len(steering.segments) == 1 and arcs[0].turn_angle < CAPTURE_TURN
 
 
 def _close_in(seen: Offsets, slot: Slot, assignment: Assignment) -> bool:
     """Whether the pursuer is so near the slot that capture beats any plan."""
     margin = assignment.slot_distance - assignment.min_separation
-    braking = braking_distance(assignment.tas, slot.tas, assignment.model)
+    braking = braking_distance(assignment.tas, slot.tas)
     return (
         abs(seen.right) < CAPTURE_ACROSS
         and abs(seen.heading) < CAPTURE_HEADING

@@ -41,7 +41,9 @@ class Pid:
         wanted = kp * error + ki * self.integral + kd * error_rate
         if abs(wanted) < limit or wanted * error < 0.0:
             self.integral += error * duration
-        return min(max(wanted, -limit), limit)
+        if wanted > limit:  # plain comparisons: this runs 80 times a simulated second
+            return limit
+        return wanted if wanted > -limit else -limit
 
     def reset(self) -> None:
         """Forget the past, e.g. when another loop takes over."""
