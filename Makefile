@@ -36,7 +36,7 @@ help:
 
 .PHONY: run
 run: .make/installed .make/kernels
-	@$(BIN)/relguide serve --host $(HOST) --port $(PORT)
+	@$(BIN)/relguide serve --host $(HOST) --port $(PORT) || test $$? = 130  # Ctrl-C
 
 .make/venv:
 	@mkdir -p .make
