@@ -6,8 +6,8 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
+from relguide.commands import Command
 from relguide.documents import Document, Sample
-from relguide.flight import Command
 from relguide.wire import tick
 from server.errors import survives
 from server.history import History

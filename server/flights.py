@@ -7,6 +7,7 @@ from fastapi import APIRouter, Request, WebSocket
 from pydantic import RootModel
 from starlette.responses import Response
 
+from relguide.commands import IntentKnown, LeaderHeading, LeaderSpeed
 from relguide.contract import (
     PROTOCOL,
     Command,
@@ -23,7 +24,6 @@ from relguide.contract import (
     SetRateCommand,
     parse,
 )
-from relguide.flight import IntentKnown, LeaderHeading, LeaderSpeed
 from server.airborne import Airborne
 from server.departures import DeparturesOf
 from server.fleet import FleetOf

@@ -6,11 +6,10 @@ camera, which belongs to the one who looks, then follows the flight without bein
 """
 
 from collections.abc import Sequence
-from math import cos, sin, tan
-from typing import Any
+from math import cos, sin
 
 import numpy as np
-from viser import GuiEvent, ViserServer
+from viser import ViserServer
 
 from relguide.documents import (
     Document,
@@ -23,23 +22,16 @@ from relguide.documents import (
     PlanUnavailable,
     Sample,
 )
-from relguide.units import DEG, NM
+from relguide.units import NM
 from server import scene_paint as paint
 from server import scene_shapes as shapes
 from server.scene_aircraft import ENLARGED, AircraftFigure, height_of
+from server.scene_camera import Cameras
 from server.scene_paint import label, lines
 from server.scene_shapes import ALTITUDE_SCALE, KM
 
 CELL = 5.0 * NM / KM
 """Cell of the ground grid [scene units]."""
-FOV = 45.0 * DEG
-"""Vertical field of view of the first picture [rad]."""
-VIEWS = {
-    "Overview": (0.0, -0.85, 0.53),
-    "From above": (0.0, -0.02, 1.0),
-    "From the side": (0.0, -1.0, 0.02),
-}
-"""Directions from the middle of the two aircraft to the camera; north is up or ahead in all."""
 WALL = 0.8
 """Half the height of the separation cylinder [scene units]: the limit itself is horizontal."""
 
@@ -52,7 +44,6 @@ class Scene:
         self._scene = server.scene
         self._wind = (0.0, 0.0)
         self._height = 0.0
-        self._separation = 0.0
         self._started: FlightStarted | None = None
         self._figures: dict[str, AircraftFigure] = {}
         self._limit_lost = False
@@ -64,7 +55,7 @@ class Scene:
         self._world = server.scene.add_frame("/world", show_axes=False)
         self._scale = server.scene.add_frame("/world/scale", show_axes=False)
         self._slot = server.scene.add_frame("/world/slot", show_axes=False)
-        self._offer_views()
+        self._cameras = Cameras(server)
 
     def draw(self, documents: Sequence[Document]) -> None:
         """Bring the picture up to date with documents in the order of the flight."""
@@ -145,12 +136,12 @@ class Scene:
     def _sample(self, sample: Sample) -> None:
         if self._started is None:
             return
-        self._separation = sample.separation
         if not self._figures:
             self._first(sample, self._started)
         self._figures["pursuer"].move(sample.pursuer, sample.t)
         self._figures["leader"].move(sample.leader, sample.t)
         self._centre(sample)
+        self._cameras.frame(sample.separation / KM, self._height)
         slot = sample.slot
         self._slot.position = (slot.x / KM, slot.y / KM, self._height)
         self._slot.wxyz = shapes.attitude(slot.heading, 0.0)
@@ -172,39 +163,6 @@ class Scene:
         }
         self._draw_limit(started.min_separation, lost=False)
         self._draw_gate(paint.SLOT, "SLOT")
-        camera = self._server.initial_camera
-        camera.fov = FOV
-        camera.far = 2000.0
-        camera.look_at = self._middle()
-        camera.position = self._eye(VIEWS["Overview"])
-
-    def _middle(self) -> tuple[float, float, float]:
-        return 0.0, 0.0, 0.6 * self._height
-
-    def _eye(self, direction: tuple[float, float, float]) -> tuple[float, float, float]:
-        """Where a camera must be to have both aircraft in the picture, with room around them."""
-        reach = max(0.6 * self._separation, 12_000.0) / KM
-        distance = reach / tan(FOV / 2.0)
-        x, y, z = (part * distance for part in direction)
-        return x, y, z + self._middle()[2]
-
-    def _offer_views(self) -> None:
-        """Buttons in viser's panel, which starts folded: one view each, for who presses it."""
-        gui = self._server.gui
-        gui.set_panel_label("VIEW")
-        for name, direction in VIEWS.items():
-            button = gui.add_button(name)
-
-            @button.on_click
-            def show(
-                event: GuiEvent[Any], direction: tuple[float, float, float] = direction
-            ) -> None:
-                if event.client is not None:
-                    with event.client.atomic():
-                        event.client.camera.look_at = self._middle()
-                        event.client.camera.position = self._eye(direction)
-
-        gui.main_panel.minimize()
 
     def _centre(self, sample: Sample) -> None:
         x = (sample.pursuer.x + sample.leader.x) / 2.0 / KM

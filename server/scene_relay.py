@@ -9,10 +9,10 @@ import asyncio
 import gzip
 from functools import cache
 from hashlib import sha256
+from importlib.util import find_spec
 from pathlib import Path
 
 import msgspec
-import viser
 from fastapi import APIRouter, Request, WebSocket, WebSocketDisconnect
 from starlette.responses import RedirectResponse, Response
 from websockets.asyncio.client import ClientConnection, connect
@@ -131,5 +131,9 @@ def may_pass(message: bytes) -> bool:
 
 @cache
 def _client_page() -> tuple[bytes, bytes, str]:
-    html = (Path(viser.__file__).parent / "client" / "build" / "index.html").read_bytes()
+    # Found without importing viser: the page of the cockpit need not wait for that.
+    viser = find_spec("viser")
+    assert viser is not None
+    assert viser.origin is not None
+    html = (Path(viser.origin).parent / "client" / "build" / "index.html").read_bytes()
     return html, gzip.compress(html, 9), f'"{sha256(html).hexdigest()[:20]}"'

@@ -4,12 +4,11 @@ import asyncio
 import threading
 from collections.abc import Sequence
 
-from viser import ViserServer
+import rich
 
 from relguide.documents import Document
 from server.errors import survives
 from server.inbox import Inbox
-from server.scene import Scene
 
 
 class SceneStage:
@@ -45,6 +44,12 @@ class SceneStage:
             self._answer(0)
 
     def _draw_all(self) -> None:
+        # Imported here because it takes a third of a second that the page need not wait for.
+        from viser import ViserServer
+
+        from server.scene import Scene
+
+        rich.get_console().quiet = True  # viser says goodbye there each time a scene closes
         server = ViserServer(host="127.0.0.1", port=0, verbose=False)
         try:
             scene = Scene(server)

@@ -12,9 +12,9 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed
 from websockets.typing import Subprotocol
 
+from relguide.commands import Command
 from relguide.contract import PROTOCOL, parse
 from relguide.documents import Document
-from relguide.flight import Command
 from relguide.messages import Tick
 from tests.server.flown import ideal_flight
 from tests.server.serving import ideal_app, served

@@ -1,0 +1,53 @@
+"""What can be flown for real: the library's scenarios and situations of one's own."""
+
+import time
+
+import pytest
+from starlette.testclient import TestClient
+
+from relguide.contract import PROTOCOL
+from server.app import create_app
+from server.plans import EXAMPLE
+from server.settings import Settings
+
+
+@pytest.mark.slow
+def test_a_real_flight_obeys_its_commands() -> None:
+    with TestClient(create_app(Settings())) as client:
+        started = client.post("/api/v1/flights", json={"scenario": "fig_6b", "rate": 60.0})
+        assert started.status_code == 201, started.text
+        where = started.headers["location"]
+        with client.websocket_connect(
+            started.json()["stream_url"], subprotocols=[PROTOCOL]
+        ) as socket:
+            first = socket.receive_json()
+            assert first["documents"][0]["kind"] == "flight_started"
+            command = {"command": "leader_heading", "heading_deg": 20.0, "direction": "left"}
+            assert client.post(f"{where}/commands", json=command).status_code == 202
+            told: list[str] = []
+            until = time.monotonic() + 10.0
+            while "plan_changed" not in told and time.monotonic() < until:
+                told += [document["kind"] for document in socket.receive_json()["documents"]]
+            assert "leader_changed" in told
+            assert "plan_changed" in told[told.index("leader_changed") :]
+
+
+@pytest.mark.slow
+def test_a_situation_of_ones_own_flies() -> None:
+    with TestClient(create_app(Settings())) as client:
+        body = {"situation": EXAMPLE, "rate": 60.0, "intent_known": False}
+        started = client.post("/api/v1/flights", json=body)
+        assert started.status_code == 201, started.text
+        assert started.json()["scenario"] == ""
+        wrong = {"situation": {**EXAMPLE, "slot_distance_m": 1.0}}
+        refused = client.post("/api/v1/flights", json=wrong)
+        assert refused.status_code == 422
+        assert refused.json()["errors"][0]["path"] == "situation.slot_distance_m"
+
+
+def test_scenarios_say_whether_they_can_be_flown() -> None:
+    client = TestClient(create_app(Settings()))
+    scenarios = client.get("/api/v1/scenarios").json()["scenarios"]
+    assert {"fig_6a", "fig_6b", "recorded_leader"} <= {s["name"] for s in scenarios}
+    for scenario in scenarios:
+        assert scenario["available"] == (scenario["message"] == "")
