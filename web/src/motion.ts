@@ -112,5 +112,6 @@ function nudge(aircraft: AircraftSample, found: AircraftGap, left: number): Airc
     x_m: aircraft.x_m + found.x * left,
     y_m: aircraft.y_m + found.y * left,
     heading_deg: wrap360(aircraft.heading_deg + found.heading * left),
+    track_deg: wrap360(aircraft.track_deg + found.heading * left),
   };
 }

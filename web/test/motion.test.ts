@@ -51,6 +51,7 @@ describe("motion from a sample", () => {
     const off = sample(1, { pursuer: aircraft({ x_m: 340, heading_deg: 350 }) });
     const found = gap(off, truth);
     expect(blend(truth, found, 0).pursuer.x_m).toBeCloseTo(340, 9);
+    expect(blend(truth, found, 0).pursuer).toMatchObject({ heading_deg: 350, track_deg: 350 });
     expect(blend(truth, found, 150).pursuer.x_m).toBeCloseTo(240 + 100 / Math.E, 9);
     expect(blend(truth, found, 5000)).toBe(truth);
     const far = gap(sample(1, { pursuer: aircraft({ x_m: 90000 }) }), truth);

@@ -161,21 +161,21 @@ function SafetyReadings(props: { flight: Flight; plan: PlanChanged; sample: Samp
   return (
     <>
       <Reading
-        label="Least d planned"
+        label="Least planned"
         value={formatMiles(separation.least_m)}
         unit="NM"
         note={`at ${formatClock(plan.t_s + separation.at_s)}`}
       />
-      <Reading label="Proved above" value={formatMiles(separation.proved_above_m)} unit="NM" />
+      <Reading label="Least proved" value={formatMiles(separation.proved_above_m)} unit="NM" />
       <Reading
-        label="Least d so far"
+        label="Least so far"
         value={formatMiles(flown)}
         unit="NM"
         tone={flown < limit ? "alert" : "value"}
         note={flown < limit ? `LOST, limit ${formatMiles(limit)}` : `limit ${formatMiles(limit)}`}
       />
       <Reading
-        label="Leader's intent"
+        label="Leader intent"
         value={known === null ? "––" : known ? "YES" : "NO"}
         tone={known === false ? "plain" : "value"}
       />
