@@ -83,7 +83,8 @@ def smooth_motion(
             f"has no stretch of {MIN_POINTS} positions without a gap of more than {MAX_GAP:g} s; "
             f"its longest has {len(at)}."
         )
-    grid = np.arange(at[0], at[-1] + 1e-9, step)
+    # 1 ms: seconds since 1970 are good to 0.2 µs
+    grid = at[0] + step * np.arange(int((at[-1] - at[0] + 1e-3) / step) + 1)
     flown, smoothing = _velocity_on(grid, t, velocity), POSITION_SMOOTHING
     if flown is None:
         flown, smoothing = np.zeros((len(grid), 2)), BARE_SMOOTHING

@@ -119,11 +119,8 @@ def _print_plan(console: Console, card: PlanCard, *, min_separation: float) -> N
 def _row(segment: PathSegment) -> tuple[str, ...]:
     match segment:
         case TurnSegment():
-            piece, turn, bank = (
-                segment.direction,
-                f"{segment.angle / DEG:.1f}°",
-                f"{segment.bank / DEG:.0f}°",
-            )
+            turn, bank = f"{segment.angle / DEG:.1f}°", f"{segment.bank / DEG:.0f}°"
+            piece: str = segment.direction
             length = segment.angle * segment.radius
         case StraightSegment():
             piece, turn, bank, length = "straight", "", "", segment.length

@@ -190,11 +190,13 @@ def _sample(collection: str) -> list[dict[str, Any]]:
         ) from None
     path = Path(str(package.locate_file(f"traffic/data/samples/{collection}.json.gz")))
     try:
-        rows: list[dict[str, Any]] = orjson.loads(gzip.decompress(path.read_bytes()))
+        rows = orjson.loads(gzip.decompress(path.read_bytes()))
     except FileNotFoundError:
         raise ValueError(f"traffic {package.version} has no samples {collection!r}.") from None
     except (OSError, EOFError, zlib.error, orjson.JSONDecodeError):
-        raise ValueError(f"{path} is damaged; install it again: {INSTALL}") from None
+        rows = None
+    if not (isinstance(rows, list) and rows and all(isinstance(row, dict) for row in rows)):
+        raise ValueError(f"{path} is damaged; install it again: {INSTALL}")
     return rows
 
 

@@ -1,0 +1,347 @@
+"""The command line: what it prints, how it ends, and that it never shows a traceback."""
+
+import json
+import signal
+import socket
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from time import monotonic, sleep
+from typing import Any
+from urllib.request import urlopen
+
+import pytest
+
+from relguide.__main__ import main
+from relguide.recorder import replay
+from tests.relguide.test_contract import BODY, changed
+
+FIGURES = {
+    "joined",
+    "join_time_s",
+    "planned_time_s",
+    "least_separation_m",
+    "heading_swing_deg",
+    "bank_reversals",
+    "replans",
+    "fallbacks",
+    "track_nm",
+    "simulated_s",
+    "wall_s",
+}
+UNREACHABLE = changed("leader.tas_mps", 300)
+
+Run = Callable[..., tuple[int, str, str]]
+
+
+@pytest.fixture
+def run(capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
+    """Run a command in a folder of its own: exit code, standard output, standard error."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "100")
+
+    def run(*arguments: str) -> tuple[int, str, str]:
+        try:
+            code = main(arguments)
+        except SystemExit as end:  # argparse ends so
+            code = int(end.code or 0)
+        out, err = capsys.readouterr()
+        assert "Traceback" not in err
+        return code, out, err
+
+    return run
+
+
+def written(content: Any, name: str = "situation.json") -> str:
+    Path(name).write_text(content if isinstance(content, str) else json.dumps(content), "utf-8")
+    return name
+
+
+# --- plan ---------------------------------------------------------------------------------------
+
+
+def test_plan_prints_the_plan(run: Run) -> None:
+    code, out, err = run("plan", written(BODY))
+    reply = json.loads(out)
+    assert (code, err) == (0, "")
+    assert (reply["status"], reply["planner"]) == ("planned", "exact")
+    assert reply["compute_ms"] < 1000.0  # without loading the kernels
+
+
+@pytest.mark.slow
+def test_plan_reads_standard_input() -> None:
+    done = process("plan", "-", input=json.dumps({"id": "a", **BODY}))
+    assert done.returncode == 0
+    assert json.loads(done.stdout)["id"] == "a"
+
+
+def test_no_plan_is_an_answer_with_exit_1(run: Run) -> None:
+    code, out, _ = run("plan", written(UNREACHABLE))
+    assert code == 1
+    assert json.loads(out)["status"] == "no_plan"
+    code, out, _ = run("plan", written(UNREACHABLE), "--table")
+    assert code == 1
+    assert "No plan (slot_unreachable)" in out
+
+
+def test_the_table_is_for_people(run: Run) -> None:
+    code, out, _ = run("plan", written(BODY), "--table")
+    assert code == 0
+    assert "Joins in 19:38.5 by RSR" in out
+    assert "43.4°" in out
+    assert "NM" in out
+    assert "…" not in out
+    assert max(map(len, out.splitlines())) <= 100
+
+
+@pytest.mark.parametrize("planner", ["network", "regular_dp"])
+def test_planners_to_come_are_refused(run: Run, planner: str) -> None:
+    for command in (("plan", written(BODY)), ("fly", "fig_6b")):
+        code, out, err = run(*command, "--planner", planner)
+        assert (code, out) == (2, "")
+        assert err == f"relguide: The planner {planner} is not part of this version: use exact.\n"
+
+
+@pytest.mark.parametrize(
+    ("content", "sentence"),
+    [
+        ("", "This is not JSON"),
+        ("[", "This is not JSON"),
+        (
+            changed("pursuer.tas_mps", "fast"),
+            'pursuer.tas_mps: must be a number, not the text "fast".',
+        ),
+        (changed("pursuer.tas_mps", ...), "pursuer.tas_mps: is missing."),
+    ],
+)
+def test_a_bad_situation_is_misuse(run: Run, content: Any, sentence: str) -> None:
+    for command in ("plan", "fly"):
+        code, out, err = run(command, written(content))
+        assert (code, out) == (2, "")
+        assert err.startswith(f"relguide: {sentence}")
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        (),
+        ("dance",),
+        ("plan",),
+        ("plan", "none.json"),
+        ("plan", "."),
+        ("plan", "\0"),
+        ("plan", sys.executable),
+        ("plan", "--batch", "none.jsonl"),
+        ("plan", "--batch", "."),
+        ("plan", "none.json", "--planner", "best"),
+        ("plan", "none.json", "--batch", "--table"),
+        ("fly", "fig_7"),
+        ("fly", "none.json"),
+        ("fly", "none.csv"),
+        ("fly", "fig_6b", "--record", "flight.txt"),
+        ("fly", "fig_6b", "--record", "no/such/folder/flight.jsonl"),
+        ("fly", "fig_6b", "--seed", "-1"),
+        ("fly", "fig_6b", "--seed", "1" * 30),
+        ("replay", "none.jsonl"),
+        ("replay", sys.executable),
+        ("serve", "--port", "0"),
+        ("serve", "--port", "99999"),
+        ("serve", "--host", "203.0.113.1"),
+    ],
+)
+def test_misuse_is_told_in_a_sentence(run: Run, arguments: tuple[str, ...]) -> None:
+    code, out, err = run(*arguments)
+    assert (code, out) == (2, "")
+    last = err.splitlines()[-1]
+    assert last.startswith("relguide")
+    assert len(last) > 20
+
+
+@pytest.mark.parametrize("command", ["plan", "fly", "replay", "serve"])
+def test_help_has_examples(run: Run, command: str) -> None:
+    code, out, _ = run(command, "--help")
+    assert code == 0
+    assert f"examples:\n  relguide {command}" in out
+    assert command in run("--help")[1]
+
+
+# --- batch --------------------------------------------------------------------------------------
+
+
+def test_a_batch_is_answered_in_order(run: Run) -> None:
+    lines = [{"id": n, **(UNREACHABLE if n == 2 else BODY)} for n in range(4)]
+    file = written("\n".join(map(json.dumps, lines)), "batch.jsonl")
+    code, out, err = run("plan", "--batch", file)
+    replies = [json.loads(line) for line in out.splitlines()]
+    assert (code, err) == (0, "")
+    assert [reply["id"] for reply in replies] == [0, 1, 2, 3]
+    assert [reply["status"] for reply in replies] == ["planned", "planned", "no_plan", "planned"]
+
+
+def test_a_bad_line_is_answered_in_its_place(run: Run) -> None:
+    lines = [json.dumps(BODY), "{", json.dumps({"id": "x"}), "", json.dumps({"id": "y", **BODY})]
+    code, out, err = run("plan", "--batch", written("\n".join(lines), "batch.jsonl"))
+    replies = [json.loads(line) for line in out.splitlines()]
+    assert code == 1
+    assert [reply["status"] for reply in replies] == ["planned", "invalid", "invalid", "planned"]
+    assert [reply.get("id") for reply in replies] == [None, None, "x", "y"]
+    assert replies[1]["message"].startswith("This is not JSON")
+    assert err == "relguide: 2 lines are no valid situation, the first is line 2.\n"
+
+
+def test_an_empty_batch_has_no_answers(run: Run) -> None:
+    assert run("plan", "--batch", written("", "batch.jsonl")) == (0, "", "")
+
+
+# --- fly and replay -----------------------------------------------------------------------------
+
+
+@pytest.mark.slow
+def test_fly_prints_the_contracts_figures(run: Run) -> None:
+    code, out, _ = run("fly", "fig_6b", "--json")
+    figures = json.loads(out)
+    assert set(figures) == FIGURES
+    assert (code, figures["joined"]) == (0, True)
+    assert figures["simulated_s"] >= figures["join_time_s"] > 0.0
+    assert figures["track_nm"] * 1852.0 == pytest.approx(figures["join_time_s"] * 240.0, rel=0.05)
+
+
+@pytest.mark.slow
+def test_a_recording_replays_to_the_same_figures(run: Run) -> None:
+    file = written(changed("pursuer.x_m", -15000), "near.json")
+    _, out, _ = run("fly", file, "--json", "--record", "near.jsonl.gz", "--seed", "7")
+    flown = json.loads(out)
+    code, out, _ = run("replay", "near.jsonl.gz", "--json")
+    told = json.loads(out)
+    assert (code, told["complete"]) == (0, True)
+    assert told["scenario"]
+    assert told["documents"] == len(list(replay("near.jsonl.gz")))
+    for name in FIGURES - {"wall_s"}:
+        assert told[name] == pytest.approx(flown[name], rel=1e-9)
+    code, out, _ = run("replay", "near.jsonl.gz")
+    assert code == 0
+    for word in ("engaged", "least separation", "fallbacks"):
+        assert word in out
+
+
+@pytest.mark.slow
+def test_of_a_damaged_recording_the_good_part_is_told(run: Run) -> None:
+    written(changed("pursuer.x_m", -15000), "near.json")
+    run("fly", "near.json", "--record", "near.jsonl")
+    whole = Path("near.jsonl").read_bytes()
+    Path("near.jsonl").write_bytes(whole[: len(whole) // 2])
+    code, out, err = run("replay", "near.jsonl", "--json")
+    told = json.loads(out)
+    assert code == 1
+    assert told["complete"] is False
+    assert told["documents"] > 10
+    assert err.startswith("relguide: near.jsonl, line")
+    assert err.endswith("the file is cut short here; what comes before is good.\n")
+    lines = whole.splitlines(keepends=True)
+    Path("near.jsonl").write_bytes(b"".join(lines[:-1]))
+    code, out, err = run("replay", "near.jsonl")
+    assert code == 1
+    assert "engaged" in out
+    assert "ends before its flight does" in err
+
+
+@pytest.mark.slow
+def test_fly_without_a_plan_fails(run: Run) -> None:
+    code, out, _ = run("fly", written(UNREACHABLE), "--json")
+    assert code == 1
+    assert json.loads(out)["joined"] is False
+
+
+# --- as a process -------------------------------------------------------------------------------
+
+
+def process(*arguments: str, input: str = "") -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-m", "relguide", *arguments],
+        input=input,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=120,
+    )
+
+
+@pytest.mark.slow
+def test_a_reader_that_has_seen_enough_is_no_error(tmp_path: Path) -> None:
+    batch = tmp_path / "batch.jsonl"
+    batch.write_text(f"{json.dumps(BODY)}\n" * 300)
+    command = f"{sys.executable} -m relguide plan --batch {batch} | head -1"
+    done = subprocess.run(command, shell=True, capture_output=True, text=True, timeout=120)
+    assert json.loads(done.stdout)["status"] == "planned"
+    assert done.stderr == ""
+
+
+@pytest.mark.slow
+def test_ctrl_c_stops_it_with_a_word() -> None:
+    with subprocess.Popen(
+        [sys.executable, "-m", "relguide", "plan", "--batch", "-"],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as running:
+        assert running.stdin is not None
+        assert running.stdout is not None
+        running.stdin.write(f"{json.dumps(BODY)}\n" * 20)
+        running.stdin.flush()
+        assert running.stdout.read(1) == "{"  # it is planning now
+        running.send_signal(signal.SIGINT)
+        _, err = running.communicate(timeout=60)
+        assert running.returncode == 130
+        assert err.strip() == "relguide: stopped."
+
+
+def test_help_loads_nothing_heavy() -> None:
+    program = (
+        "import sys, relguide\n"
+        "before = set(sys.modules)\n"
+        "import relguide.__main__ as m\n"
+        "try: m.main(['plan', '--help'])\n"
+        "except SystemExit: pass\n"
+        "heavy = {'torch', 'fastapi', 'uvicorn', 'pydantic', 'rich', 'numba', 'pyproj'}\n"
+        "print('HEAVY', *sorted(heavy & (set(sys.modules) - before)))"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert done.stdout.splitlines()[-1] == "HEAVY"
+
+
+@pytest.mark.slow
+def test_serve_serves_and_stops(tmp_path: Path) -> None:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    with subprocess.Popen(
+        [sys.executable, "-m", "relguide", "serve", "--port", str(port)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    ) as running:
+        try:
+            assert running.stdout is not None
+            said = running.stdout.readline()
+            assert said == f"relguide is on http://127.0.0.1:{port} (Ctrl-C stops it)\n"
+            assert answers(f"http://127.0.0.1:{port}/healthz", within=60.0)
+            taken = process("serve", "--port", str(port))
+            assert taken.returncode == 2
+            assert f"127.0.0.1, port {port}: Address already in use." in taken.stderr
+        finally:
+            running.send_signal(signal.SIGINT)
+            running.wait(timeout=30)
+    assert running.returncode in (0, 130)
+
+
+def answers(url: str, *, within: float) -> bool:
+    end = monotonic() + within
+    while monotonic() < end:
+        try:
+            with urlopen(url, timeout=5) as response:
+                return bool(response.status == 200)
+        except OSError:
+            sleep(0.1)
+    return False
