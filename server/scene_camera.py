@@ -84,9 +84,8 @@ class Cameras:
 
     def _point(self, camera: CameraHandle, direction: Vector) -> None:
         with camera.client.atomic():
-            camera.position = self._eye(
-                direction
-            )  # carries what it looks at along: so that is next
+            # In this order: a new position carries along what the camera looks at.
+            camera.position = self._eye(direction)
             camera.look_at = self._middle()
 
     def _middle(self) -> Vector:
