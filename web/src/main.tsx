@@ -6,6 +6,8 @@ import "./styles/tokens.css";
 import "./styles/base.css";
 import "./styles/layout.css";
 import "./styles/panels.css";
+import "./styles/controls.css";
+import "./styles/numbers.css";
 import { render } from "preact";
 import { createActions } from "./actions";
 import { Cockpit } from "./cockpit";
