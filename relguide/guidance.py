@@ -41,7 +41,7 @@ from relguide.flown_path import FlownPath, path_begun, path_extended
 from relguide.plan import NoPlan, Plan, Planner, Reason
 from relguide.situation import Situation
 from relguide.steering import Steering, steer
-from relguide.trajectory import Arc
+from relguide.trajectory import Arc, Trajectory
 from relguide.units import DEG, NM, Metre, MetrePerSecond, Radian, Second
 
 TURNED_IN_CAPTURE: Radian = 3.0 * DEG  # less moves the slot by 0.5 km, which capture takes up
@@ -49,13 +49,15 @@ JOINED_ALONG: Metre = 0.2 * NM  # half of D − d_min in fig. 6; closing at 13 m
 JOINED_ACROSS: Metre = 0.1 * NM  # RNP 0.1, the tightest navigation an airliner is approved for
 JOINED_HEADING: Radian = 2.0 * DEG  # 35 m of drift a kilometre: the route is kept from there on
 SEPARATION_BUFFER: Metre = 0.1 * NM  # what a roll-in begun half a second late can cost at 400 m/s
-CAPTURE_TURN: Radian = 100.0 * DEG  # a longer final turn is flown as planned until this is left
+CAPTURE_TURN: Radian = 160.0 * DEG  # a longer final turn is flown as planned until this is left
+GOING_AROUND: Radian = 120.0 * DEG  # a plan that turns so much from close in is a detour, or a loop
 CAPTURE_ACROSS: Metre = 1_500.0  # within the intercept law's linear range (30° ↔ 3.1 km)
 CAPTURE_HEADING: Radian = 30.0 * DEG  # the intercept angle itself
 LOST_ACROSS: Metre = 3_000.0  # twice what capture accepts: no flapping between the modes
-LOST_HEADING: Radian = 120.0 * DEG  # beyond it the tangent arc is no longer the shorter way
+LOST_HEADING: Radian = 175.0 * DEG  # beyond it the tangent arc is no longer the shorter way
 SHOWN_WITHIN: Metre = 0.25 * NM  # a re-solved path farther than this from the shown one is shown
-SHOWN_WITHIN_TIME: Second = 3.0
+SHOWN_WITHIN_TIME: Second = 3.0  # … or one that arrives so much earlier or later
+SHOWN_WITHIN_SHARE = 0.01  # and by this much of the time to go
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -154,16 +156,18 @@ def _converge(
         required=situation,
         planner=planner,
     )
+    slot = slot_of(situation)
+    from_slot = offsets(seen.pursuer, slot)
+    near = _close_in(from_slot, slot, assignment)
+    memory = replace(memory, slot_heading=slot.heading)
     if isinstance(choice, NoPlan):
-        return _hold(memory, seen, assignment, situation, choice)
+        captured = _capture(memory, seen, assignment, situation) if near else None
+        return captured or _hold(memory, seen, assignment, situation, choice)
     memory, events = _commit(memory, seen, choice)
     steering = steer(choice.plan.trajectory, assignment.model)
-    slot = slot_of(situation)
-    seen_from_slot = offsets(seen.pursuer, slot)
-    if _final(steering, choice.plan, slot, assignment) or _close_in(
-        seen_from_slot, slot, assignment
-    ):
-        captured = _capture(replace(memory, slot_heading=slot.heading), seen, assignment, situation)
+    around = near and _turning(choice.plan.trajectory) > GOING_AROUND
+    if around or _final(steering, choice.plan, slot, assignment):
+        captured = _capture(memory, seen, assignment, situation)
         if captured is not None:
             return captured[0], replace(captured[1], events=(*events, *captured[1].events))
     mode, mode_events = _mode(memory, "converge", f"Converging by {choice.plan.word}.")
@@ -175,7 +179,7 @@ def _converge(
         mode=mode,
         slot=slot,
         slot_open=_slot_open(memory, seen, assignment),
-        to_slot=-seen_from_slot.ahead,
+        to_slot=-from_slot.ahead,
         time_to_go=choice.plan.time_to_converge,
         joined=False,
         events=(*events, *mode_events),
@@ -212,7 +216,12 @@ def _news(memory: Memory, seen: Seen, cause: Cause) -> PlanReason | None:
     plan = memory.committed.plan
     shown = memory.shown.rest_at(seen.t, plan.situation)
     here = plan.trajectory
-    late = abs(plan.time_to_converge - shown.duration) > SHOWN_WITHIN_TIME
+    tolerance = max(SHOWN_WITHIN_TIME, SHOWN_WITHIN_SHARE * plan.time_to_converge)
+    pursuer, leader = plan.situation.pursuer.tas, plan.situation.leader.tas
+    gain = (pursuer - leader) * plan.time_to_converge
+    # while it brakes, arriving later than planned is no news
+    cruising = gain > braking_distance(pursuer, leader)
+    late = cruising and abs(plan.time_to_converge - shown.duration) > tolerance
     off = hypot(here.x - shown.x, here.y - shown.y) > SHOWN_WITHIN
     return "deviation" if late or off else None
 
@@ -226,9 +235,13 @@ def _final(steering: Steering, plan: Plan, slot: Slot, assignment: Assignment) -
     return len(steering.segments) == 1 and arcs[0].turn_angle < CAPTURE_TURN
 
 
+def _turning(trajectory: Trajectory) -> Radian:
+    return sum(s.turn_angle for s in trajectory.segments if isinstance(s, Arc))
+
+
 def _close_in(seen: Offsets, slot: Slot, assignment: Assignment) -> bool:
-    """Whether the pursuer is so near the slot that capture beats any plan."""
-    margin = assignment.slot_distance - assignment.min_separation
+    """Whether the pursuer is so near the slot, and so aligned, that it only has to slide in."""
+    margin = max(assignment.slot_distance - assignment.min_separation, JOINED_ALONG)
     braking = braking_distance(assignment.tas, slot.tas)
     return (
         abs(seen.right) < CAPTURE_ACROSS
