@@ -130,7 +130,7 @@ bench: .make/dev .make/bench/ready
 	@touch $@
 
 .PHONY: picture
-picture: .make/dev page .make/kernels .make/browser
+picture: .make/dev page .make/kernels .make/browser .make/traffic
 	@$(BIN)/python -m tests.browser.picture docs/cockpit.png
 
 .PHONY: image

@@ -42,7 +42,7 @@ def test_one_request() -> None:
 
 
 def test_commands_are_there(capsys: pytest.CaptureFixture[str]) -> None:
-    listed = re.findall(r"^relguide (\w+)", README, re.MULTILINE)
+    listed = re.findall(r"^relguide (\w+)", "".join(blocks("sh")), re.MULTILINE)
     assert set(listed) == {"plan", "fly", "replay", "serve"}
     for command in listed:
         with pytest.raises(SystemExit) as end:
@@ -53,7 +53,7 @@ def test_commands_are_there(capsys: pytest.CaptureFixture[str]) -> None:
 
 def test_make_targets_are_there() -> None:
     makefile = (ROOT / "Makefile").read_text()
-    for target in re.findall(r"`?\bmake (\w+)", README):
+    for target in re.findall(r"(?:^|`)make (\w+)", README, re.MULTILINE):
         assert f"\n{target}:" in makefile, f"make {target}"
 
 

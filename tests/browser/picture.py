@@ -10,6 +10,8 @@ from tests.browser.service import running_chromium, running_service
 
 SIMULATED = "05:00"
 """The flight time shown: on its way, all turns still visible."""
+RANGE = "80"
+"""The ND's range [NM]: the whole plan is on it."""
 SCENE_DRAWN = 15_000
 """Software WebGL takes this long to its first pictures [ms]."""
 
@@ -20,6 +22,7 @@ def main(file: Path) -> None:
             page = browser.new_page(viewport={"width": 1440, "height": 900})
             page.goto(service.url)
             expect(page.locator(".connection")).to_have_text("Live", timeout=20_000)
+            page.get_by_role("button", name=RANGE, exact=True).click()
             fly_until(page, SIMULATED)
             hide_toasts(page)
             page.wait_for_timeout(SCENE_DRAWN)
