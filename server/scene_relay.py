@@ -7,6 +7,7 @@ the outside (`ShareUrlRequest`), whether or not its button is shown.
 
 import asyncio
 import gzip
+from contextlib import suppress
 from functools import cache
 from hashlib import sha256
 from importlib.util import find_spec
@@ -15,6 +16,7 @@ from pathlib import Path
 import msgspec
 from fastapi import APIRouter, Request, WebSocket, WebSocketDisconnect
 from starlette.responses import RedirectResponse, Response
+from starlette.websockets import WebSocketState
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, WebSocketException
 from websockets.typing import Subprotocol
@@ -84,10 +86,13 @@ async def _relay(websocket: WebSocket, flight: Airborne) -> None:
         await websocket.accept(scene.subprotocol)
         downward = asyncio.create_task(_to_browser(scene, websocket))
         upward = asyncio.create_task(_to_scene(websocket, scene))
-        await asyncio.wait((downward, upward), return_when=asyncio.FIRST_COMPLETED)
-        for task in (downward, upward):
-            task.cancel()
-        await asyncio.gather(downward, upward, return_exceptions=True)
+        try:
+            done, _ = await asyncio.wait((downward, upward), return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            downward.cancel()
+            upward.cancel()
+        for task in done:
+            task.result()  # a mistake of ours in there is raised here
     finally:
         await scene.close()
 
@@ -99,10 +104,14 @@ async def _to_browser(scene: ClientConnection, websocket: WebSocket) -> None:
                 await websocket.send_bytes(message)
             else:
                 await websocket.send_text(message)
-    except (ConnectionClosed, WebSocketDisconnect):
+    except WebSocketDisconnect:
+        return
+    except ConnectionClosed:
         pass
-    code = scene.close_code if scene.close_code in (1000, 1001, 1002) else 1001
-    await websocket.close(code, scene.close_reason or "")
+    if websocket.application_state is WebSocketState.CONNECTED:
+        code = scene.close_code if scene.close_code in (1000, 1001, 1002) else 1001
+        with suppress(WebSocketDisconnect):
+            await websocket.close(code, scene.close_reason or "")
 
 
 async def _to_scene(websocket: WebSocket, scene: ClientConnection) -> None:

@@ -50,14 +50,12 @@ class StreamClient:
         sender = asyncio.create_task(self._send_all(websocket))
         watcher = asyncio.create_task(_until_closed(websocket))
         try:
-            await asyncio.wait((sender, watcher), return_when=asyncio.FIRST_COMPLETED)
+            done, _ = await asyncio.wait((sender, watcher), return_when=asyncio.FIRST_COMPLETED)
         finally:
-            for task in (sender, watcher):
-                task.cancel()
-            outcomes = await asyncio.gather(sender, watcher, return_exceptions=True)
-        for outcome in outcomes:
-            if isinstance(outcome, Exception):
-                raise outcome
+            sender.cancel()
+            watcher.cancel()
+        for task in done:
+            task.result()  # a mistake of ours in there is raised here
 
     async def _send_all(self, websocket: WebSocket) -> None:
         try:
