@@ -277,6 +277,16 @@ def test_poles_and_the_date_line_are_places(leader: tuple[float, float]) -> None
     assert reply["segments"][0]["start"]["heading_deg"] == pytest.approx(90.0, abs=1e-4)
 
 
+@pytest.mark.parametrize("pole", [90.0, -90.0])
+def test_a_pursuer_at_a_pole_has_a_heading(pole: float) -> None:
+    situation, anchor = situation_from_json(on_earth((pole, 30.0), (0.99 * pole, 30.0)))
+    reply = answer(situation, anchor, plan)
+    start = reply["segments"][0]["start"]
+    assert abs(start["lat_deg"]) == pytest.approx(90.0)
+    # along the meridian of 30° the pole's north is the plane's
+    assert situation.pursuer.heading / DEG == pytest.approx(90.0, abs=1e-6)
+
+
 @pytest.mark.parametrize("pursuer", [(-49.0, -178.0), (10.0, 2.0)])
 def test_too_far_apart_on_the_earth(pursuer: tuple[float, float]) -> None:
     path, message = problem_of(on_earth(pursuer, (49.0, 2.0)))

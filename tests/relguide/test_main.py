@@ -1,5 +1,6 @@
 """The command line: what it prints, how it ends, and that it never shows a traceback."""
 
+import gzip
 import json
 import signal
 import socket
@@ -14,6 +15,7 @@ from urllib.request import urlopen
 import pytest
 
 from relguide.__main__ import main
+from relguide.documents import FlightStarted
 from relguide.recorder import replay
 from tests.relguide.test_contract import BODY, changed
 
@@ -29,6 +31,12 @@ FIGURES = {
     "track_nm",
     "simulated_s",
     "wall_s",
+}
+NEAR = {
+    "pursuer": {**BODY["pursuer"], "x_m": -20000, "y_m": 3000},
+    "leader": {**BODY["leader"], "intent": []},
+    "slot_distance_m": 10000,
+    "min_separation_m": 9260,
 }
 UNREACHABLE = changed("leader.tas_mps", 300)
 
@@ -207,29 +215,43 @@ def test_fly_prints_the_contracts_figures(run: Run) -> None:
     assert figures["track_nm"] * 1852.0 == pytest.approx(figures["join_time_s"] * 240.0, rel=0.05)
 
 
+@pytest.fixture(scope="module")
+def flown(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, Any]]:
+    """A short flight: its recording, and its figures."""
+    folder = tmp_path_factory.mktemp("flown")
+    (folder / "near.json").write_text(json.dumps(NEAR))
+    file = folder / "near.jsonl.gz"
+    done = process("fly", str(folder / "near.json"), "--json", "--record", str(file), "--seed", "7")
+    assert done.returncode == 0
+    return file, json.loads(done.stdout)
+
+
 @pytest.mark.slow
-def test_a_recording_replays_to_the_same_figures(run: Run) -> None:
-    file = written(changed("pursuer.x_m", -15000), "near.json")
-    _, out, _ = run("fly", file, "--json", "--record", "near.jsonl.gz", "--seed", "7")
-    flown = json.loads(out)
-    code, out, _ = run("replay", "near.jsonl.gz", "--json")
+def test_a_recording_replays_to_the_same_figures(
+    run: Run, flown: tuple[Path, dict[str, Any]]
+) -> None:
+    file, figures = flown
+    code, out, _ = run("replay", str(file), "--json")
     told = json.loads(out)
     assert (code, told["complete"]) == (0, True)
-    assert told["scenario"]
-    assert told["documents"] == len(list(replay("near.jsonl.gz")))
+    assert told["title"] == "The situation of near.json"
+    documents = list(replay(file))
+    assert told["documents"] == len(documents)
+    assert isinstance(documents[0], FlightStarted)
+    assert documents[0].seed == 7
     for name in FIGURES - {"wall_s"}:
-        assert told[name] == pytest.approx(flown[name], rel=1e-9)
-    code, out, _ = run("replay", "near.jsonl.gz")
+        assert told[name] == pytest.approx(figures[name], rel=1e-9)
+    code, out, _ = run("replay", str(file))
     assert code == 0
     for word in ("engaged", "least separation", "fallbacks"):
         assert word in out
 
 
 @pytest.mark.slow
-def test_of_a_damaged_recording_the_good_part_is_told(run: Run) -> None:
-    written(changed("pursuer.x_m", -15000), "near.json")
-    run("fly", "near.json", "--record", "near.jsonl")
-    whole = Path("near.jsonl").read_bytes()
+def test_of_a_damaged_recording_the_good_part_is_told(
+    run: Run, flown: tuple[Path, dict[str, Any]]
+) -> None:
+    whole = gzip.decompress(flown[0].read_bytes())
     Path("near.jsonl").write_bytes(whole[: len(whole) // 2])
     code, out, err = run("replay", "near.jsonl", "--json")
     told = json.loads(out)
@@ -238,8 +260,7 @@ def test_of_a_damaged_recording_the_good_part_is_told(run: Run) -> None:
     assert told["documents"] > 10
     assert err.startswith("relguide: near.jsonl, line")
     assert err.endswith("the file is cut short here; what comes before is good.\n")
-    lines = whole.splitlines(keepends=True)
-    Path("near.jsonl").write_bytes(b"".join(lines[:-1]))
+    Path("near.jsonl").write_bytes(b"".join(whole.splitlines(keepends=True)[:-1]))
     code, out, err = run("replay", "near.jsonl")
     assert code == 1
     assert "engaged" in out
