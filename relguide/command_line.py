@@ -20,7 +20,7 @@ from relguide.plan import plan
 from relguide.progress import watched
 from relguide.recorder import record, replay
 from relguide.refusal import parse
-from relguide.story import figures, passed, told
+from relguide.story import failures, figures, told
 
 if TYPE_CHECKING:
     from relguide.flight import Scenario
@@ -124,7 +124,10 @@ def fly_one(name: str, *, record_to: str | None, seed: int, as_json: bool) -> bo
         from relguide.tables import print_flight
 
         print_flight(flight, result)
-    return passed(flight)
+    failed = failures(flight)
+    for sentence in failed:
+        _say(sentence)
+    return not failed
 
 
 def replay_one(file: str, *, as_json: bool) -> bool:

@@ -82,10 +82,16 @@ def figures(ended: FlightEnded) -> dict[str, Any]:
     }
 
 
-def passed(flight: Story) -> bool:
-    """Whether it ended joined and never closer than d_min."""
-    return all(ended.joined for ended in flight.ended) and all(
-        ended.least_separation >= started.min_separation
-        for started in flight.started
-        for ended in flight.ended
-    )
+def failures(flight: Story) -> tuple[str, ...]:
+    """What went wrong in a flight that ended, a sentence each."""
+    sentences = []
+    for ended in flight.ended:
+        if not ended.joined:
+            sentences.append(f"It did not join within {ended.t:.0f} s.")
+        for started in flight.started:
+            if ended.least_separation < started.min_separation:
+                sentences.append(
+                    f"The separation fell to {ended.least_separation / NM:.2f} NM, "
+                    f"below {started.min_separation / NM:.2f} NM."
+                )
+    return tuple(sentences)

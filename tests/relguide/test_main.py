@@ -269,8 +269,9 @@ def test_of_a_damaged_recording_the_good_part_is_told(
 
 @pytest.mark.slow
 def test_fly_without_a_plan_fails(run: Run) -> None:
-    code, out, _ = run("fly", written(UNREACHABLE), "--json")
+    code, out, err = run("fly", written(UNREACHABLE), "--json")
     assert code == 1
+    assert err == "relguide: It did not join within 3600 s.\n"
     assert json.loads(out)["joined"] is False
 
 
