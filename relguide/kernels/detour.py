@@ -4,7 +4,7 @@ A path that the limit bends touches the forbidden disc. Up to the contact, and f
 extremal without the limit: so it is fixed by the contact, and that by one bearing and a side (see
 `contact`). Both halves come from the same enumeration of words, and the time is a function of the
 bearing alone, for each piece of the leader's intent and each side. It is scanned round the disc,
-and every basin that matters is refined.
+every basin that matters is refined, and so are the contacts of `tangent`.
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader is a table as in
 `clearance`. The work is bounded: pieces × 2 × bearings contacts, each a few words.
@@ -21,10 +21,12 @@ from relguide.kernels.contact import contact_exists, contact_heading
 from relguide.kernels.extremals import MAX_ROWS, SIGNS, fly_piece, solve, solve_toward
 from relguide.kernels.hold import word_to_point
 from relguide.kernels.roots import FloatArray
+from relguide.kernels.tangent import tangents_from_start
 
 GRAZE = 3e-7
 """The contact is flown this far outside d_min [R], so that rounding cannot break it."""
 _BASINS = 8  # refined: the best of them wins in every reference case; the rest is insurance
+_BESIDE = 1e-6  # how far beside a tangent contact it is looked: 1 cm at R = 12 km
 _FINEST = 1e-7  # bearing steps end here: 1 mm at R = 12 km, 10 µs where the time has an edge
 
 
@@ -307,22 +309,48 @@ def best_detour(
         rise = max(values[at_i, at_side, (at_j + 1) % bearings], values[at_i, at_side, at_j - 1])
         if low > best and low - min(rise - low, slack) >= best:
             continue
-        side_sign, bearing = 1.0 - 2.0 * at_side, TWO_PI * at_j / bearings
-        here, stride = low, 0.5 * TWO_PI / bearings
-        while stride > _FINEST:
-            moved = False
-            for direction in range(2):
-                there = bearing + stride * (1.0 - 2.0 * direction)
-                found = through_contact(
-                    x, y, h, leader, at_i, alpha, delta, t_open, there, side_sign, here, rows,
-                    onward, trial,
+        here = _descend(
+            x, y, h, leader, at_i, alpha, delta, t_open, TWO_PI * at_j / bearings,
+            1.0 - 2.0 * at_side, low, 0.5 * TWO_PI / bearings, rows, onward, trial,
+        )  # fmt: skip
+        if here < best:
+            best = here
+            way[:] = trial
+    for bearing, side_sign in tangents_from_start(x, y, h, leader, alpha, delta)[:, :2]:
+        # the words that end there exist on one side of the bearing only
+        for off in (-_BESIDE, _BESIDE):
+            found = through_contact(
+                x, y, h, leader, pieces - 1, alpha, delta, t_open, bearing + off, side_sign,
+                best + slack, rows, onward, trial,
+            )  # fmt: skip
+            if found < best + slack:
+                here = _descend(
+                    x, y, h, leader, pieces - 1, alpha, delta, t_open, bearing + off, side_sign,
+                    found, 0.1 * TWO_PI / bearings, rows, onward, trial,
                 )  # fmt: skip
-                if found < here:
-                    here, bearing, moved = found, there, True
-                    if found < best:
-                        best = found
-                        way[:] = trial
-                    break
-            if not moved:
-                stride *= 0.4
+                if here < best:
+                    best = here
+                    way[:] = trial
     return best
+
+
+@njit(cache=True, nogil=True)
+def _descend(
+    x: float, y: float, h: float, leader: FloatArray, i: int, alpha: float, delta: float,
+    t_open: float, bearing: float, side: float, here: float, stride: float, rows: FloatArray,
+    onward: FloatArray, trial: FloatArray,
+) -> float:  # fmt: skip
+    """The least arrival near a bearing whose own is `here`; `trial` takes the way if it is less."""
+    while stride > _FINEST:
+        moved = False
+        for direction in range(2):
+            there = bearing + stride * (1.0 - 2.0 * direction)
+            found = through_contact(
+                x, y, h, leader, i, alpha, delta, t_open, there, side, here, rows, onward, trial
+            )
+            if found < here:
+                here, bearing, moved = found, there, True
+                break
+        if not moved:
+            stride *= 0.4
+    return here

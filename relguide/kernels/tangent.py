@@ -1,0 +1,150 @@
+"""Contacts that end a turn and a straight, or two opposite turns: where a ride begins or ends best.
+
+From the start, turn by θ and go straight: the closest approach to the leader is a function of θ
+alone, and where it equals δ the straight is tangent to the disc. So is a turn the other way at its
+own closest approach. These contacts are often the only ones in reach of an aircraft that is close
+to the leader, in a window of bearings too narrow for a scan.
+
+The same backward in time from the slot gives the contacts from which a straight and one turn lead
+there: reversing time and turning the world by π leaves both velocities as they are, mirrors every
+position in the leader and exchanges the sides.
+
+Lengths in R, times in R/V_P, angles counter-clockwise; positions are relative to the leader, which
+keeps heading 0.
+"""
+
+from math import atan2, cos, hypot, pi, sin
+
+import numpy as np
+from numba import njit
+
+from relguide.kernels.angles import TWO_PI, wrap
+from relguide.kernels.clearance import leader_at
+from relguide.kernels.extremals import fly_piece
+from relguide.kernels.roots import FloatArray
+
+MAX_TANGENTS = 32
+"""Room for contacts found."""
+NEAR = 8.0
+"""Farther from the disc than this [R] the windows of bearings are wide."""
+_TURNS = 120  # sizes of the first turn: every 3°
+_STEP = 0.1  # step along the second turn: 6°
+
+
+@njit(cache=True, nogil=True)
+def _miss(
+    x: float, y: float, h: float, alpha: float, delta: float, first: float, second: float,
+    turned: float, contact: FloatArray,
+) -> float:  # fmt: skip
+    """Closest approach of what follows a first turn, less δ; NaN if it only moves away.
+
+    `contact` takes the relative position and the time of the closest approach.
+    """
+    px, py, ph = fly_piece(x, y, h, first, turned)
+    px -= alpha * turned
+    if second == 0.0:
+        vx, vy = cos(ph) - alpha, sin(ph)
+        speed_squared = vx * vx + vy * vy
+        after = -(px * vx + py * vy) / speed_squared if speed_squared > 1e-12 else -1.0
+    else:
+        after = -1.0
+        last = px * (cos(ph) - alpha) + py * sin(ph)
+        t = 0.0
+        while t < TWO_PI and after < 0.0:
+            qx, qy, qh = fly_piece(px, py, ph, second, t + _STEP)
+            qx -= alpha * (t + _STEP)
+            rate = qx * (cos(qh) - alpha) + qy * sin(qh)
+            if last < 0.0 <= rate:
+                low, high = t, t + _STEP
+                for _ in range(40):
+                    middle = 0.5 * (low + high)
+                    qx, qy, qh = fly_piece(px, py, ph, second, middle)
+                    qx -= alpha * middle
+                    if qx * (cos(qh) - alpha) + qy * sin(qh) < 0.0:
+                        low = middle
+                    else:
+                        high = middle
+                after = high
+            last = rate
+            t += _STEP
+    if after <= 0.0:
+        return np.nan
+    qx, qy, _ = fly_piece(px, py, ph, second, after)
+    contact[0], contact[1], contact[2] = qx - alpha * after, qy, turned + after
+    return hypot(contact[0], contact[1]) - delta
+
+
+@njit(cache=True, nogil=True)
+def tangent_contacts(
+    x: float, y: float, h: float, alpha: float, delta: float, found: FloatArray
+) -> int:
+    """Contacts reached by a turn and a straight, or by a turn and one the other way.
+
+    Args:
+        x: start ahead of the leader [R].
+        y: start left of it [R].
+        h: start heading [rad].
+        alpha: V_L/V_P.
+        delta: distance of the contact [R].
+        found: takes bearing [rad, in [0, 2π)], side and time of each. shape (MAX_TANGENTS, 3)
+
+    Returns:
+        how many.
+    """
+    contact = np.empty(3)
+    n = 0
+    for k in range(4):
+        first = 1.0 - 2.0 * (k % 2)
+        second = 0.0 if k < 2 else -first
+        last = np.nan
+        for j in range(_TURNS + 1):
+            turned = TWO_PI * j / _TURNS
+            gap = _miss(x, y, h, alpha, delta, first, second, turned, contact)
+            if last * gap < 0.0 and n < MAX_TANGENTS:
+                low, high = turned - TWO_PI / _TURNS, turned
+                for _ in range(45):
+                    middle = 0.5 * (low + high)
+                    value = _miss(x, y, h, alpha, delta, first, second, middle, contact)
+                    if (value < 0.0) == (last < 0.0):
+                        low = middle
+                    else:
+                        high = middle
+                value = _miss(x, y, h, alpha, delta, first, second, high, contact)
+                if abs(value) < 1e-9:
+                    _, _, heading = fly_piece(x, y, h, first, high)
+                    if second != 0.0:
+                        heading += second * (contact[2] - high)
+                    across = contact[0] * sin(heading) - contact[1] * (cos(heading) - alpha)
+                    found[n, 0] = wrap(atan2(contact[1], contact[0]))
+                    found[n, 1] = 1.0 if across > 0.0 else -1.0
+                    found[n, 2] = contact[2]
+                    n += 1
+            last = gap
+    return n
+
+
+@njit(cache=True, nogil=True)
+def tangents_from_start(
+    x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float
+) -> FloatArray:
+    """Tangent contacts of the start, in the slot frame: rows of bearing, side, time.
+
+    None where the leader has turns to come, or is so far away that the scan sees all there is.
+    """
+    found = np.empty((MAX_TANGENTS, 3))
+    lx, ly, _ = leader_at(leader, len(leader) - 1, alpha, 0.0)
+    if len(leader) > 1 or hypot(x - lx, y - ly) > delta + NEAR:
+        return found[:0]
+    return found[: tangent_contacts(x - lx, y - ly, h, alpha, delta, found)]
+
+
+@njit(cache=True, nogil=True)
+def tangents_to_slot(leader: FloatArray, alpha: float, delta: float) -> FloatArray:
+    """Contacts from which a straight and a turn, or two turns, lead to the slot (final leg)."""
+    found = np.empty((MAX_TANGENTS, 3))
+    lx, ly, _ = leader_at(leader, len(leader) - 1, alpha, 0.0)
+    n = tangent_contacts(lx, ly, 0.0, alpha, delta, found)
+    for j in range(n):
+        found[j, 0] = wrap(found[j, 0] + pi)
+        found[j, 1] = -found[j, 1]
+    return found[:n]
