@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 from relguide.aircraft import AircraftModel, AircraftState
 from relguide.capture import Slot
-from relguide.frames import slot_frame
 from relguide.situation import IntentPiece, Leader, Pursuer, Situation, TurnTo, Wind
+from relguide.slot import slot_frame
 from relguide.units import Metre, MetrePerSecond, Radian, RadianPerSecond, Second
 
 

@@ -16,9 +16,9 @@ from relguide.documents import (
     UnsafeAlternativeCard,
     WindCard,
 )
-from relguide.frames import over_ground
 from relguide.plan import Alternative, LosesSeparation, NoPlan, Plan, Slower, alternatives
 from relguide.situation import Wind
+from relguide.slot import over_ground
 from relguide.trajectory import LEFT, Arc, Pose, Straight, Trajectory
 from relguide.units import G0
 

@@ -10,10 +10,10 @@ from math import cos, hypot, sin
 from typing import Literal
 
 from relguide.certificate import certify
-from relguide.frames import slot_frame
 from relguide.plan import NoPlan, Optimality, Plan, Planner
 from relguide.plan import plan as exact_plan
 from relguide.situation import Situation
+from relguide.slot import slot_frame
 from relguide.steering import rest
 from relguide.trajectory import Trajectory
 from relguide.units import Metre, Second

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from relguide.frames import SlotFrame
 from relguide.kernels.detour import GRAZE, best_detour
 from relguide.situation import Situation
+from relguide.slot import SlotFrame
 from relguide.units import Second
 from relguide.words import SIGN_ROWS, Candidate, Candidates, assemble
 

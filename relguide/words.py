@@ -6,10 +6,10 @@ from math import hypot
 
 import numpy as np
 
-from relguide.frames import SlotFrame, slot_frame
 from relguide.kernels.extremals import MAX_ROWS, SIGNS, WORDS, solve
 from relguide.kernels.hold import HOLD_PIECES, MAX_HOLDS, holds
 from relguide.situation import Situation
+from relguide.slot import SlotFrame, slot_frame
 from relguide.trajectory import LEFT, RIGHT, Arc, Segment, Straight, Trajectory
 from relguide.units import Second
 

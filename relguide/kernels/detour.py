@@ -227,15 +227,15 @@ def _soonest(
     lx, ly, lh = leader_at(leader, i, alpha, leader[i, 0] if leader[i, 4] != 0.0 else 0.0)
     course = lh + contact_heading(bearing, side, alpha)
     if leader[i, 4] != 0.0:
-        return max(leader[i, 0], t_open)
+        return float(max(leader[i, 0], t_open))
     cx, cy = lx + delta * cos(lh + bearing), ly + delta * sin(lh + bearing)
     ax, ay = alpha * cos(lh), alpha * sin(lh)
     there = max(_intercept(cx - x, cy - y, ax, ay), abs(wrap_signed(course - h)), leader[i, 0])
     if i + 1 < len(leader):
-        return max(there, t_open)
+        return float(max(there, t_open))
     # on the final leg the contact keeps its place from the slot
     onward = max(_intercept(-cx, -cy, alpha, 0.0), abs(wrap_signed(course)))
-    return max(there + onward, t_open)
+    return float(max(there + onward, t_open))
 
 
 @njit(cache=True, nogil=True)

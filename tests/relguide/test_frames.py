@@ -7,7 +7,8 @@ from hypothesis import given
 from pyproj import Geod
 
 from relguide import Situation
-from relguide.frames import LocalPlane, slot_frame, slot_offset
+from relguide.frames import LocalPlane
+from relguide.slot import slot_frame, slot_offset
 from tests.situations import numbers, situations
 
 
