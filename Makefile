@@ -84,7 +84,7 @@ $(call stage,hadolint,$(BIN)/hadolint --failure-threshold warning Dockerfile)
 endef
 
 .PHONY: check
-check: .make/dev page
+check: .make/dev page .make/kernels .make/traffic
 	$(static_stages)
 	$(call stage,quick tests,$(BIN)/python -m pytest -m "not slow")
 	@echo; echo "make check: all passed in $$(($$(date +%s) - $$(cat .make/started))) s."
