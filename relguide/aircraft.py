@@ -5,11 +5,10 @@ the autothrust within what thrust and drag allow. Height is kept.
 """
 
 from dataclasses import dataclass
-from math import atan2, cos, exp, hypot, pi, sin
+from math import atan2, cos, hypot, pi, sin
 from typing import NamedTuple
 
-from relguide.kernels.motion import advance
-from relguide.kernels.turn import turn_rate
+from relguide.kernels.lateral import lateral_step
 from relguide.units import DEG, Metre, MetrePerSecond, Radian, RadianPerSecond, Second
 
 
@@ -123,9 +122,7 @@ def step(
     wind_north: MetrePerSecond,
     duration: Second,
 ) -> AircraftState:
-    """Fly for a short while.
-
-        τ ṗ = aileron − p,   φ̇ = p,   ψ̇ = (g/V) tan φ,   V̇ = (V_c − V)/τ_V within its limits
+    """Fly for a short while: `kernels/lateral.py` has the equations.
 
     Args:
         model: the aircraft's type.
@@ -136,32 +133,20 @@ def step(
         wind_north: toward the north [m/s].
         duration: the step [s]; roll and heading are exact to second order in it.
     """
-    limit = model.max_roll_rate
-    asked = min(max(aileron, -limit), limit)
-    decay = exp(-duration / model.roll_time_constant)
-    roll_rate = asked + (state.roll_rate - asked) * decay
-    # exact integral of the exponential answer
-    bank = (
-        state.bank
-        + asked * duration
-        + (state.roll_rate - asked) * model.roll_time_constant * (1.0 - decay)
+    x, y, heading, bank, roll_rate, tas = lateral_step(
+        *state[:6],
+        aileron,
+        min(max(commanded_tas, model.min_tas), model.max_tas),
+        wind_east,
+        wind_north,
+        duration,
+        model.max_roll_rate,
+        model.roll_time_constant,
+        model.speed_time_constant,
+        model.max_acceleration,
+        model.max_deceleration,
     )
-    goal = min(max(commanded_tas, model.min_tas), model.max_tas)
-    acceleration = (goal - state.tas) / model.speed_time_constant
-    acceleration = min(max(acceleration, -model.max_deceleration), model.max_acceleration)
-    tas = state.tas + acceleration * duration
-    mean_tas = 0.5 * (state.tas + tas)
-    rate = turn_rate(mean_tas, 0.5 * (state.bank + bank))
-    x, y, heading = advance(state.x, state.y, state.heading, mean_tas, rate, duration)
-    return AircraftState(
-        x + wind_east * duration,
-        y + wind_north * duration,
-        heading % (2.0 * pi),
-        bank,
-        roll_rate,
-        tas,
-        state.altitude,
-    )
+    return AircraftState(x, y, heading, bank, roll_rate, tas, state.altitude)
 
 
 def roll_lead(model: AircraftModel, from_bank: Radian, to_bank: Radian) -> Second:

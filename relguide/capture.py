@@ -48,6 +48,7 @@ INTERCEPT = 30.0 * DEG
 CROSS_TRACK_GAIN = 5.0e-4  # [rad/m], with the next: ω = √(g·gain) = 0.07 rad/s, settled in 40 s
 TRACK_GAIN = 3.0  # damping 3·√g/(2·V·√gain) = 0.88 at 240 m/s: no overshoot to speak of
 TANGENT_ABOVE = 6.0 * DEG  # below it 1 − cos Δψ is 0.5 %: metres of offset would ask for any radius
+CLOSE_ENOUGH: Second = 45.0  # so long before the route, its intercept angle is kept
 SPEED_LOOP: Second = 12.0  # twice the autothrust's lag: the spacing loop must be slower than it
 BRAKING = 0.4  # [m/s²] what idle thrust gives without speed brakes: those stay in reserve
 FALL_BACK: MetrePerSecond = 20.0  # slower than the leader by 40 kt at most, to open the spacing
@@ -98,9 +99,10 @@ def closing_turn_rate(
     if abs(heading) > TANGENT_ABOVE and right * heading < 0.0:
         radius = abs(right) / (1.0 - cos(heading))
         wanted = -state.tas / radius if heading > 0.0 else state.tas / radius
-        steep = abs(heading) > INTERCEPT
-        if steep or abs(wanted) > 0.5 * limit:
+        if abs(heading) > INTERCEPT or abs(wanted) > 0.5 * limit:
             return min(max(wanted, -limit), limit)
+        if abs(right) < CLOSE_ENOUGH * state.tas * sin(abs(heading)):
+            return 0.0  # the tangent arc will begin shortly: no need to close more steeply
     reach = INTERCEPT * TRACK_GAIN / CROSS_TRACK_GAIN  # beyond it the intercept angle is full
     bank = -CROSS_TRACK_GAIN * min(max(seen.right, -reach), reach) - TRACK_GAIN * seen.heading
     bank = min(max(bank, -model.max_bank), model.max_bank)

@@ -9,7 +9,7 @@ from relguide.aircraft import AircraftState, GroundVelocity
 from relguide.capture import Offsets
 from relguide.units import DEG, Metre, MetrePerSecond, Radian, RadianPerSecond
 
-TURNING: RadianPerSecond = 0.1 * DEG  # a tenth of an airliner's turn; recorded tracks wander less
+STRAIGHT: Radian = 2.0 * DEG  # as for joining; an autopilot takes 10 s for the last degree
 SPARE: Metre = 20_000.0  # kept beyond D, and laid out straight behind the first position seen
 WINDOW: Metre = 6_000.0  # how far from the expected place the nearest point is looked for
 
@@ -35,11 +35,9 @@ class Mark(NamedTuple):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FlownPath:
-    """Marks in order, and where the leader last came out of a turn."""
+    """Marks in order of time, a second or so apart."""
 
     marks: tuple[Mark, ...]
-    straight_from: Metre
-    """s at which the present straight began; the leader's s while it turns [m]."""
 
     @property
     def last(self) -> Mark:
@@ -47,8 +45,13 @@ class FlownPath:
         return self.marks[-1]
 
     def slot_open(self, slot_distance: Metre) -> bool:
-        """Whether the leader has flown D since its last turn (at once if it never turned)."""
-        return self.last.s - self.straight_from >= slot_distance
+        """Whether the leader has flown D on its present heading (at once if it never turned)."""
+        heading = self.last.heading
+        since = bisect_left(self.marks, self.last.s - slot_distance, key=lambda mark: mark.s)
+        return all(
+            abs((mark.heading - heading + pi) % (2.0 * pi) - pi) < STRAIGHT
+            for mark in self.marks[since:]
+        )
 
     def at(self, s: Metre) -> Mark:
         """The path at length s, between marks as on a straight."""
@@ -91,7 +94,7 @@ def path_begun(leader: AircraftState, velocity: GroundVelocity, slot_distance: M
     far = here._replace(
         s=-behind, x=leader.x - behind * sin(track), y=leader.y - behind * cos(track)
     )
-    return FlownPath(marks=(far, here), straight_from=-behind)
+    return FlownPath(marks=(far, here))
 
 
 def path_extended(
@@ -110,7 +113,4 @@ def path_extended(
     mark = Mark(s, leader.x, leader.y, leader.heading, velocity.track, turn_rate, velocity.speed)
     oldest = s - slot_distance - SPARE
     kept = path.marks[1:] if path.marks[1].s < oldest else path.marks
-    return FlownPath(
-        marks=(*kept, mark),
-        straight_from=s if abs(turn_rate) > TURNING else path.straight_from,
-    )
+    return FlownPath(marks=(*kept, mark))

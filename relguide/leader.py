@@ -5,9 +5,8 @@ with half the roll before and half after. A recorded leader that is given a comm
 recording there and flies on by itself.
 """
 
-from dataclasses import dataclass, replace
 from math import atan, atan2, cos, hypot, pi, sin, tan
-from typing import Literal, assert_never
+from typing import Literal, NamedTuple, assert_never
 
 from relguide.aircraft import AircraftModel, AircraftState, roll_lead, step
 from relguide.autopilot import Autopilot, HoldHeading, Reference, TurnRate
@@ -18,13 +17,11 @@ from relguide.units import DEG, G0, MetrePerSecond, Radian, Second
 
 Way = Literal["left", "right", "shorter"]
 ROLLED_OUT: Radian = 0.3 * DEG  # the heading loop settles within 0.1°
-HEADING_CAPTURE: Radian = 15.0 * DEG  # the last degrees of a turn are a heading to capture
 PAST: Radian = 5.0 * DEG  # so little past the heading is not a full turn still to come
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FlyingLeader:
-    """A leader under its own autopilot."""
+class FlyingLeader(NamedTuple):
+    """A leader under its own autopilot; a named tuple, as one is made each step."""
 
     state: AircraftState
     pieces: tuple[IntentPiece, ...]
@@ -35,7 +32,6 @@ class FlyingLeader:
     """The heading it is on, or turns away from [rad]."""
     tas: MetrePerSecond
     """What its autothrust holds [m/s]."""
-    kind: Literal["flying"] = "flying"
 
     def intent_left(self, t: Second) -> tuple[IntentPiece, ...]:
         """What remains of its intent at flight time t [s]."""
@@ -52,13 +48,11 @@ class FlyingLeader:
                 return self.pieces
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ReplayedLeader:
+class ReplayedLeader(NamedTuple):
     """A leader that does what was recorded."""
 
     state: AircraftState
     track: RecordedTrack
-    kind: Literal["replayed"] = "replayed"
 
     def intent_left(self, t: Second) -> tuple[IntentPiece, ...]:
         """A recording declares nothing."""
@@ -113,8 +107,7 @@ def turned(
     """The leader after it was told a heading: what it had intended before is dropped."""
     change = (heading - leader.state.heading + pi) % (2.0 * pi) - pi
     turn: Turn = LEFT if way == "left" or (way == "shorter" and change < 0.0) else RIGHT
-    return replace(
-        _flying(leader, t),
+    return _flying(leader, t)._replace(
         pieces=(TurnTo(heading=heading, turn=turn, bank=bank),),
         since=t,
     )
@@ -122,7 +115,7 @@ def turned(
 
 def at_speed(leader: LeaderFlight, t: Second, tas: MetrePerSecond) -> FlyingLeader:
     """The leader after it was told a speed."""
-    return replace(_flying(leader, t), tas=tas)
+    return _flying(leader, t)._replace(tas=tas)
 
 
 def _flying(leader: LeaderFlight, t: Second) -> FlyingLeader:
@@ -148,10 +141,10 @@ def _reference(leader: FlyingLeader, t: Second, model: AircraftModel) -> Referen
                 if not following or left > roll_lead(model, 0.0, _bank(following[0])):
                     return HoldHeading(heading)
             case TurnTo():
-                angle = _angle_left(piece, leader.state)
-                if angle < HEADING_CAPTURE or angle > 2.0 * pi - PAST:
+                angle, bank = _angle_left(piece, leader.state), _bank(piece)
+                rate = G0 / leader.state.tas * tan(bank)
+                if angle < abs(rate) * roll_lead(model, bank, 0.0) or angle > 2.0 * pi - PAST:
                     return HoldHeading(piece.heading)
-                rate = G0 / leader.state.tas * tan(_bank(piece))
                 return TurnRate(rate)
     return HoldHeading(heading)
 

@@ -17,7 +17,7 @@ from relguide.tracks import DEFAULT_LEADER, INSTALL, RecordedTrack, load_sample
 from relguide.trajectory import RIGHT
 from relguide.units import DEG, NM, Metre, Second
 
-LEADER_TURNS_AT: Second = 540.0
+LEADER_TURNS_AT: Second = 820.0
 """When the leader of Fig. 6 begins its turn [s]."""
 BEHIND: Metre = 30_000.0
 """How far behind the recorded leader the pursuer begins [m]."""

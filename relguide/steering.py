@@ -10,11 +10,17 @@ from typing import NamedTuple
 
 from relguide.aircraft import AircraftModel, roll_lead
 from relguide.autopilot import HoldHeading, Reference, TurnRate
-from relguide.trajectory import Arc, Segment, Straight, Trajectory
-from relguide.units import DEG, G0, MetrePerSecond, Radian, RadianPerSecond, Second
+from relguide.trajectory import (
+    Arc,
+    BoundaryArc,
+    Segment,
+    Straight,
+    Trajectory,
+    after,
+    heading_change,
+)
+from relguide.units import G0, MetrePerSecond, Radian, RadianPerSecond, Second
 
-HEADING_CAPTURE = 15.0 * DEG
-"""A turn's last degrees are a heading to capture: the heading loop rolls out from 8° on [rad]."""
 HALF_TICK: Second = 0.5
 """Guidance speaks once a second: on average a switch comes half a second late."""
 
@@ -35,17 +41,7 @@ def rest(trajectory: Trajectory, elapsed: Second) -> Trajectory:
         if left >= segment.length:
             left -= segment.length
             continue
-        match segment:
-            case Arc():
-                segments.append(
-                    Arc(
-                        turn=segment.turn,
-                        turn_angle=segment.turn_angle - left / segment.radius,
-                        radius=segment.radius,
-                    )
-                )
-            case Straight():
-                segments.append(Straight(length=segment.length - left))
+        segments.append(after(segment, left))
         left = 0.0
     return Trajectory(
         x=pose.x, y=pose.y, heading=pose.heading, tas=trajectory.tas, segments=tuple(segments)
@@ -58,7 +54,8 @@ def steer(trajectory: Trajectory, model: AircraftModel) -> Steering:
     Within the roll's lead of a turn to come, the mean turn rate over that lead is asked for. It
     rolls in time; and when the exact path from here begins with a sliver of the opposite turn,
     because the aircraft is a little inside its arc, the bank is eased in proportion and not
-    reversed. A segment too short to roll for is skipped when no turn follows.
+    reversed. A segment too short to roll for is skipped when no turn follows: the heading that
+    comes after it is held, and the heading loop rolls out.
     """
     tas, segments, heading = trajectory.tas, trajectory.segments, trajectory.heading
     rates = trajectory.turn_rates()
@@ -68,32 +65,20 @@ def steer(trajectory: Trajectory, model: AircraftModel) -> Steering:
         window = roll_lead(model, _bank(rates[i], tas), _bank(rate_after, tas)) + HALF_TICK
         left = segment.length / tas
         if left > window:
-            return Steering(_reference(segment, heading, rate_after, tas), segments[i:])
+            return Steering(_reference(segment, heading, rates[i]), segments[i:])
         if following and rate_after != 0.0 and following[0].length / tas > window:
             mean = (left * rates[i] + (window - left) * rate_after) / window
             return Steering(TurnRate(mean), segments[i + 1 :])
-        heading = _heading_after(segment, heading)
+        heading += heading_change(segment)
     return Steering(HoldHeading(heading % (2.0 * pi)), ())
 
 
-def _reference(
-    segment: Segment, heading: Radian, rate_after: RadianPerSecond, tas: MetrePerSecond
-) -> Reference:
+def _reference(segment: Segment, heading: Radian, rate: RadianPerSecond) -> Reference:
     match segment:
         case Straight():
             return HoldHeading(heading % (2.0 * pi))
-        case Arc() if rate_after == 0.0 and segment.turn_angle < HEADING_CAPTURE:
-            return HoldHeading(_heading_after(segment, heading) % (2.0 * pi))
-        case Arc():
-            return TurnRate(-segment.turn * tas / segment.radius)
-
-
-def _heading_after(segment: Segment, heading: Radian) -> Radian:
-    match segment:
-        case Straight():
-            return heading
-        case Arc():
-            return heading - segment.turn * segment.turn_angle
+        case Arc() | BoundaryArc():
+            return TurnRate(rate)
 
 
 def _bank(rate: RadianPerSecond, tas: MetrePerSecond) -> Radian:
