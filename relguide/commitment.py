@@ -9,13 +9,14 @@ from dataclasses import dataclass
 from math import cos, hypot, sin
 from typing import Literal
 
+from relguide.aircraft import AircraftModel
 from relguide.certificate import certify
 from relguide.plan import NoPlan, Optimality, Plan, Planner
 from relguide.plan import plan as exact_plan
 from relguide.situation import Situation
 from relguide.slot import slot_frame
-from relguide.steering import rest
-from relguide.trajectory import Trajectory
+from relguide.steering import rest, steer
+from relguide.trajectory import Arc, Trajectory
 from relguide.units import Metre, Second
 from relguide.words import Candidate, candidates
 
@@ -69,8 +70,12 @@ def choose(
     preferred: Situation,
     required: Situation,
     planner: Planner,
+    model: AircraftModel,
 ) -> Choice | NoPlan:
     """Decide what to fly.
+
+    The last turn is flown as it was planned: solved again a few metres inside or outside it, the
+    exact answer swings wide first, by a turn that grows with the root of those metres.
 
     Args:
         committed: what is flown now; `None` only before the first plan.
@@ -79,7 +84,14 @@ def choose(
         required: the same with d_min itself, which the committed plan is held to, and new plans
             when nothing keeps the preferred separation.
         planner: makes plans; the certificate judges them, whoever made them.
+        model: how the aircraft rolls.
     """
+    if committed is not None:
+        left = committed.rest_at(t, required)
+        if _in_last_turn(left, model):
+            kept = _followed_on(left, committed.plan, required)
+            if kept is not None:
+                return Choice(plan=kept, cause="continued", fell_back=False)
     answer, fell_back = _ask(planner, preferred)
     if isinstance(answer, NoPlan):
         answer, fell_back_again = _ask(planner, required)
@@ -88,7 +100,6 @@ def choose(
         if isinstance(answer, NoPlan):
             return answer
         return Choice(plan=answer, cause="better_plan", fell_back=fell_back)
-    left = committed.rest_at(t, required)
     if isinstance(answer, Plan) and _same_way(left, answer.trajectory, SAME_WAY_SHARE):
         return Choice(plan=answer, cause="continued", fell_back=fell_back)
     kept = _solved_again(left, required) or _followed_on(left, committed.plan, required)
@@ -160,6 +171,12 @@ def _followed_on(left: Trajectory, plan: Plan, situation: Situation) -> Plan | N
         planner=plan.planner,
         compute_time=0.0,
     )
+
+
+def _in_last_turn(left: Trajectory, model: AircraftModel) -> bool:
+    """Whether it is being flown, or rolled into."""
+    segments = steer(left, model).segments
+    return len(segments) == 1 and isinstance(segments[0], Arc)
 
 
 def _misses(left: Trajectory, situation: Situation) -> Metre:

@@ -155,6 +155,7 @@ def _converge(
         preferred=situation_of(seen, assignment, buffered),
         required=situation,
         planner=planner,
+        model=assignment.model,
     )
     slot = slot_of(situation)
     from_slot = offsets(seen.pursuer, slot)
