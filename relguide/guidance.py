@@ -50,6 +50,7 @@ JOINED_ACROSS: Metre = 0.1 * NM  # RNP 0.1, the tightest navigation an airliner 
 JOINED_HEADING: Radian = 2.0 * DEG  # 35 m of drift a kilometre: the route is kept from there on
 SEPARATION_BUFFER: Metre = 0.1 * NM  # what a roll-in begun half a second late can cost at 400 m/s
 CAPTURE_TURN: Radian = 160.0 * DEG  # a longer final turn is flown as planned until this is left
+LAST_STRETCH: Second = 30.0  # braking by now, the plan at V_P is no longer what will be flown
 GOING_AROUND: Radian = 120.0 * DEG  # a plan that turns so much from close in is a detour, or a loop
 CAPTURE_ACROSS: Metre = 1_500.0  # within the intercept law's linear range (30° ↔ 3.1 km)
 CAPTURE_HEADING: Radian = 30.0 * DEG  # the intercept angle itself
@@ -229,6 +230,8 @@ def _news(memory: Memory, seen: Seen, cause: Cause) -> PlanReason | None:
 
 def _final(steering: Steering, plan: Plan, slot: Slot, assignment: Assignment) -> bool:
     """Whether only the last turn, or nothing but the braking, is left of the plan."""
+    if plan.time_to_converge < LAST_STRETCH and _turning(plan.trajectory) < CAPTURE_HEADING:
+        return True
     arcs = [segment for segment in steering.segments if isinstance(segment, Arc)]
     if len(arcs) == 0:
         closing = (assignment.tas - slot.tas) * plan.time_to_converge
