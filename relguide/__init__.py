@@ -34,6 +34,7 @@ from relguide.situation import wind_from as wind_from
 from relguide.trajectory import LEFT as LEFT
 from relguide.trajectory import RIGHT as RIGHT
 from relguide.trajectory import Arc as Arc
+from relguide.trajectory import BoundaryArc as BoundaryArc
 from relguide.trajectory import Pose as Pose
 from relguide.trajectory import Straight as Straight
 from relguide.trajectory import Trajectory as Trajectory
@@ -48,6 +49,7 @@ __all__ = [
     "RIGHT",
     "Alternative",
     "Arc",
+    "BoundaryArc",
     "Candidate",
     "Certificate",
     "FlyStraight",

@@ -1,10 +1,11 @@
 """Plans and trajectories as outsiders read them: over the ground, piece by piece."""
 
-from math import atan, atan2, pi
+from math import atan, atan2, ceil, pi
 from typing import assert_never
 
 from relguide.documents import (
     AlternativeCard,
+    BoundarySegment,
     NoPlanCard,
     OptimalityCard,
     PathPoint,
@@ -19,8 +20,11 @@ from relguide.documents import (
 from relguide.plan import Alternative, LosesSeparation, NoPlan, Plan, Slower, alternatives
 from relguide.situation import Wind
 from relguide.slot import over_ground
-from relguide.trajectory import LEFT, Arc, Pose, Straight, Trajectory
-from relguide.units import G0
+from relguide.trajectory import LEFT, Arc, BoundaryArc, Pose, Segment, Straight, Trajectory
+from relguide.units import G0, Second
+
+VIA: Second = 5.0
+"""Time between the points that draw a ride along d_min [s]: chords stray from it by metres."""
 
 
 def plan_card(plan: Plan) -> PlanCard:
@@ -50,8 +54,7 @@ def no_plan_card(answer: NoPlan) -> NoPlanCard:
 
 def path_point(pose: Pose, t: float, wind: Wind) -> PathPoint:
     """A pose of the air mass at time t [s], over the ground."""
-    ground = over_ground(pose, t, wind)
-    return PathPoint(t=t, x=ground.x, y=ground.y, heading=ground.heading)
+    return _point(pose, t, wind, 0.0)
 
 
 def path_segments(
@@ -66,7 +69,7 @@ def path_segments(
         horizon: if given, the endless straight that follows is appended, to end at this time [s]
             after the start (nothing is appended if the trajectory is longer).
     """
-    pieces = list(trajectory.segments)
+    pieces: list[Segment] = list(trajectory.segments)
     if horizon is not None and horizon > trajectory.duration:
         pieces.append(Straight(length=(horizon - trajectory.duration) * trajectory.tas))
     flown = Trajectory(
@@ -79,11 +82,12 @@ def path_segments(
     points: list[PathPoint] = []
     t = 0.0
     for pose, duration in zip(flown.breakpoints(), (*flown.durations(), 0.0), strict=True):
-        ground = over_ground(pose, t, wind)
-        points.append(PathPoint(t=start_time + t, x=ground.x, y=ground.y, heading=ground.heading))
+        points.append(_point(pose, t, wind, start_time))
         t += duration
     segments: list[PathSegment] = []
+    t = 0.0
     for piece, start, end in zip(flown.segments, points[:-1], points[1:], strict=True):
+        duration = piece.length / flown.tas
         match piece:
             case Arc():
                 segments.append(
@@ -92,23 +96,36 @@ def path_segments(
                         angle=piece.turn_angle,
                         bank=atan(flown.tas**2 / (G0 * piece.radius)),
                         radius=piece.radius,
-                        duration=piece.length / flown.tas,
+                        duration=duration,
                         start=start,
                         end=end,
                     )
                 )
             case Straight():
                 segments.append(
-                    StraightSegment(
-                        length=piece.length,
-                        duration=piece.length / flown.tas,
+                    StraightSegment(length=piece.length, duration=duration, start=start, end=end)
+                )
+            case BoundaryArc():
+                count = ceil(duration / VIA)
+                times = [t + duration * k / count for k in range(1, count)]
+                segments.append(
+                    BoundarySegment(
+                        side="left" if piece.side == LEFT else "right",
+                        duration=duration,
                         start=start,
                         end=end,
+                        via=tuple(_point(flown.pose_at(s), s, wind, start_time) for s in times),
                     )
                 )
             case _:
                 assert_never(piece)
+        t += duration
     return tuple(segments)
+
+
+def _point(pose: Pose, t: float, wind: Wind, start_time: float) -> PathPoint:
+    ground = over_ground(pose, t, wind)
+    return PathPoint(t=start_time + t, x=ground.x, y=ground.y, heading=ground.heading)
 
 
 def wind_card(wind: Wind) -> WindCard:

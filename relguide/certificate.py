@@ -58,9 +58,5 @@ def certify(trajectory: Trajectory, situation: Situation) -> Certificate:
 
 
 def _pieces(trajectory: Trajectory) -> np.ndarray:
-    """Durations and turn rates, as the kernel takes them."""  # (n, 2)
-    pieces = np.empty((len(trajectory.segments), 2))
-    if len(pieces) > 0:
-        pieces[:, 0] = trajectory.durations()
-        pieces[:, 1] = trajectory.turn_rates()
-    return pieces
+    """Durations and turn rates, as the kernel takes them."""
+    return np.array(trajectory.bends()).reshape(-1, 2)  # (pieces, 2)

@@ -74,7 +74,21 @@ class StraightSegment:
     kind: Literal["straight"] = "straight"
 
 
-PathSegment = TurnSegment | StraightSegment
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BoundarySegment:
+    """A ride along d = d_min with less than full bank."""
+
+    side: Direction
+    """The side it turns to: left rides counter-clockwise round the leader."""
+    duration: Second
+    start: PathPoint
+    end: PathPoint
+    via: tuple[PathPoint, ...]
+    """Points between, close enough to draw straight lines."""
+    kind: Literal["boundary"] = "boundary"
+
+
+PathSegment = TurnSegment | StraightSegment | BoundarySegment
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -8,14 +8,11 @@ from time import perf_counter_ns
 from typing import Literal
 
 from relguide.certificate import SLACK, Certificate, certify
-from relguide.detour import detour
+from relguide.detour import HORIZON, detour
 from relguide.situation import Situation
 from relguide.trajectory import Trajectory
 from relguide.units import KT, NM, Metre, Millisecond, Second
 from relguide.words import Candidate, Candidates, candidates, detours_at_opening
-
-HORIZON: Second = 43_200.0
-"""Plans longer than this are not given: 12 hours, longer than any aircraft's fuel lasts [s]."""
 
 Proof = Literal["relaxation", "bound", "none"]
 """Why a plan is optimal: the best plan without the limit keeps it; a lower bound; not shown."""

@@ -9,6 +9,7 @@ from rich.table import Table
 from rich.text import Text
 
 from relguide.documents import (
+    BoundarySegment,
     LeaderChanged,
     ModeChanged,
     NoPlanCard,
@@ -92,7 +93,7 @@ def _print_plan(console: Console, card: PlanCard, *, min_separation: float) -> N
     for heading in ("at", "lasts", "NM", "turn", "bank", "to", "east NM", "north NM"):
         table.add_column(heading, justify="right", no_wrap=True)
     for segment in card.segments:
-        table.add_row(*_row(segment))
+        table.add_row(*_row(segment, card.length / card.time_to_converge))
     console.print(table)
     keeps = card.separation.least - min_separation
     console.print(
@@ -116,7 +117,7 @@ def _print_plan(console: Console, card: PlanCard, *, min_separation: float) -> N
                 assert_never(other)
 
 
-def _row(segment: PathSegment) -> tuple[str, ...]:
+def _row(segment: PathSegment, tas: float) -> tuple[str, ...]:
     match segment:
         case TurnSegment():
             turn, bank = f"{segment.angle / DEG:.1f}°", f"{segment.bank / DEG:.0f}°"
@@ -124,6 +125,9 @@ def _row(segment: PathSegment) -> tuple[str, ...]:
             length = segment.angle * segment.radius
         case StraightSegment():
             piece, turn, bank, length = "straight", "", "", segment.length
+        case BoundarySegment():
+            piece, turn, bank = f"along limit, {segment.side}", "", ""
+            length = tas * segment.duration
         case _:
             assert_never(segment)
     return (

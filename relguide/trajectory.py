@@ -8,7 +8,7 @@ from math import isfinite, pi
 from typing import Literal
 
 from relguide.kernels.motion import advance
-from relguide.units import Metre, MetrePerSecond, Radian, Second
+from relguide.units import Metre, MetrePerSecond, Radian, RadianPerSecond, Second
 
 Turn = Literal[1, -1]
 """Direction of a turn, ε of the paper: +1 is a left turn."""
@@ -28,6 +28,10 @@ class Pose:
     """Clockwise from north [rad], in [0, 2π)."""
 
 
+Bend = tuple[Metre, float]
+"""A piece of constant curvature: length [m], and curvature [rad/m], positive to the right."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Arc:
     """A turn at constant bank."""
@@ -40,9 +44,14 @@ class Arc:
     """Turn radius [m], > 0."""
 
     @property
-    def length(self) -> float:
+    def length(self) -> Metre:
         """Path length [m]."""
         return self.turn_angle * self.radius
+
+    @property
+    def bends(self) -> tuple[Bend, ...]:
+        """Its one piece of constant curvature."""
+        return ((self.length, -self.turn / self.radius),)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,8 +61,50 @@ class Straight:
     length: Metre
     """l_i [m], ≥ 0."""
 
+    @property
+    def bends(self) -> tuple[Bend, ...]:
+        """Its one piece of no curvature."""
+        return ((self.length, 0.0),)
 
-Segment = Arc | Straight
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BoundaryArc:
+    """A piece that rides along d = d_min with less than full bank, as short arcs."""
+
+    side: Turn
+    """`LEFT` rides counter-clockwise round the leader, turning left; `RIGHT` the other way."""
+    bends: tuple[Bend, ...]
+    """The arcs, in order."""
+
+    @property
+    def length(self) -> Metre:
+        """Path length [m]."""
+        return sum(length for length, _ in self.bends)
+
+
+Segment = Arc | Straight | BoundaryArc
+
+
+def heading_change(segment: Segment) -> Radian:
+    """What a segment adds to the heading, positive to the right [rad]."""
+    return sum(length * curvature for length, curvature in segment.bends)
+
+
+def after(segment: Segment, flown: Metre) -> Segment:
+    """What is left of a segment once `flown` of it has been flown; `flown` < its length [m]."""
+    match segment:
+        case Straight():
+            return Straight(length=segment.length - flown)
+        case Arc():
+            angle = segment.turn_angle - flown / segment.radius
+            return Arc(turn=segment.turn, turn_angle=angle, radius=segment.radius)
+        case BoundaryArc():
+            bends: list[Bend] = []
+            for length, curvature in segment.bends:
+                if flown < length:
+                    bends.append((length - flown, curvature))
+                flown = max(flown - length, 0.0)
+            return BoundaryArc(side=segment.side, bends=tuple(bends))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -94,43 +145,47 @@ class Trajectory:
 
     @property
     def turns(self) -> int:
-        """Number of turns."""
-        return sum(isinstance(segment, Arc) for segment in self.segments)
+        """Number of turns, a ride along d_min counted as one."""
+        return sum(not isinstance(segment, Straight) for segment in self.segments)
 
     @property
     def letters(self) -> str:
-        """One letter a segment: L, R or S."""
+        """One letter a segment: L, R, S, or B for a ride along d_min."""
         return "".join(_letter(segment) for segment in self.segments)
 
-    def turn_rates(self) -> tuple[float, ...]:
-        """Turn rate of each segment [rad/s], positive to the right, 0 on a straight."""
-        return tuple(
-            -segment.turn * self.tas / segment.radius if isinstance(segment, Arc) else 0.0
-            for segment in self.segments
-        )
+    def turn_rates(self) -> tuple[RadianPerSecond, ...]:
+        """Turn rate at the start of each segment [rad/s], positive to the right."""
+        return tuple(segment.bends[0][1] * self.tas for segment in self.segments)
 
-    def durations(self) -> tuple[float, ...]:
+    def durations(self) -> tuple[Second, ...]:
         """Duration of each segment [s]."""
         return tuple(segment.length / self.tas for segment in self.segments)
 
-    def pose_at(self, t: float) -> Pose:
+    def bends(self) -> tuple[tuple[Second, RadianPerSecond], ...]:
+        """Duration [s] and turn rate [rad/s] of each piece of constant curvature."""
+        return tuple(
+            (length / self.tas, curvature * self.tas)
+            for segment in self.segments
+            for length, curvature in segment.bends
+        )
+
+    def pose_at(self, t: Second) -> Pose:
         """Where it is at time t [s]; past the end it goes on straight."""
         x, y, heading, left = self.x, self.y, self.heading, max(t, 0.0)
-        for duration, rate in zip(self.durations(), self.turn_rates(), strict=True):
+        for duration, rate in (*self.bends(), (left, 0.0)):
             x, y, heading = advance(x, y, heading, self.tas, rate, min(left, duration))
             left -= duration
             if left <= 0.0:
                 break
-        else:
-            x, y, heading = advance(x, y, heading, self.tas, 0.0, left)
         return Pose(x=x, y=y, heading=heading % (2.0 * pi))
 
     def breakpoints(self) -> tuple[Pose, ...]:
         """Start of the first segment, then the end of each."""
         poses = [Pose(x=self.x, y=self.y, heading=self.heading % (2.0 * pi))]
         x, y, heading = self.x, self.y, self.heading
-        for duration, rate in zip(self.durations(), self.turn_rates(), strict=True):
-            x, y, heading = advance(x, y, heading, self.tas, rate, duration)
+        for segment in self.segments:
+            for length, curvature in segment.bends:
+                x, y, heading = advance(x, y, heading, 1.0, curvature, length)
             poses.append(Pose(x=x, y=y, heading=heading % (2.0 * pi)))
         return tuple(poses)
 
@@ -141,3 +196,5 @@ def _letter(segment: Segment) -> str:
             return "S"
         case Arc():
             return "L" if segment.turn == LEFT else "R"
+        case BoundaryArc():
+            return "B"

@@ -137,6 +137,19 @@ def assemble(
         amounts: turn angles [rad] and lengths [R].
         word: its name; the letters of its segments if empty.
     """
+    pursuer = situation.pursuer
+    trajectory = Trajectory(
+        x=pursuer.x,
+        y=pursuer.y,
+        heading=pursuer.heading,
+        tas=pursuer.tas,
+        segments=segments_of(frame, signs, amounts),
+    )
+    return Candidate(word=word or trajectory.letters, trajectory=trajectory)
+
+
+def segments_of(frame: SlotFrame, signs: list[float], amounts: list[float]) -> tuple[Segment, ...]:
+    """Pieces of the slot frame as segments; what is only rounding is left out, like meets like."""
     segments: list[Segment] = []
     last = 2.0
     for sign, amount in zip(signs, amounts, strict=True):
@@ -150,12 +163,4 @@ def assemble(
             turn = LEFT if sign > 0.0 else RIGHT
             segments.append(Arc(turn=turn, turn_angle=amount, radius=frame.radius))
         last = sign
-    pursuer = situation.pursuer
-    trajectory = Trajectory(
-        x=pursuer.x,
-        y=pursuer.y,
-        heading=pursuer.heading,
-        tas=pursuer.tas,
-        segments=tuple(segments),
-    )
-    return Candidate(word=word or trajectory.letters, trajectory=trajectory)
+    return tuple(segments)

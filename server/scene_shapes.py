@@ -9,7 +9,7 @@ from math import cos, hypot, pi, sin
 import numpy as np
 from numpy.typing import NDArray
 
-from relguide.documents import PathSegment, StraightSegment, TurnSegment
+from relguide.documents import BoundarySegment, PathSegment, StraightSegment, TurnSegment
 
 Points = NDArray[np.float64]
 """(n, 3) or, as line segments, (n, 2, 3)."""
@@ -146,6 +146,9 @@ def _piece_points(segment: PathSegment, wind: tuple[float, float]) -> Points:
             y = segment.start.y + side * segment.radius * (np.sin(h) - np.sin(h0))
             t = segment.duration * share
             return np.column_stack((x + wind[0] * t, y + wind[1] * t))
+        case BoundarySegment():
+            points = (segment.start, *segment.via, segment.end)
+            return np.array([(point.x, point.y) for point in points])
 
 
 def polyline(points: Points) -> Points:

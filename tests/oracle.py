@@ -5,7 +5,7 @@ from math import atan2, cos, hypot, pi, sin, tan
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from relguide import Arc, FlyStraight, Situation, Trajectory, TurnTo
+from relguide import FlyStraight, Situation, Trajectory, TurnTo
 from relguide.units import G0
 
 Piece = tuple[float, float]
@@ -13,11 +13,11 @@ Piece = tuple[float, float]
 
 
 def pieces_of(trajectory: Trajectory) -> list[Piece]:
-    pieces = []
-    for segment in trajectory.segments:
-        rate = -segment.turn * trajectory.tas / segment.radius if isinstance(segment, Arc) else 0.0
-        pieces.append((segment.length / trajectory.tas, rate))
-    return pieces
+    return [
+        (length / trajectory.tas, curvature * trajectory.tas)
+        for segment in trajectory.segments
+        for length, curvature in segment.bends
+    ]
 
 
 def pieces_of_intent(situation: Situation) -> list[Piece]:

@@ -21,12 +21,14 @@ from relguide.kernels.contact import contact_exists, contact_heading
 from relguide.kernels.extremals import MAX_ROWS, SIGNS, fly_piece, solve, solve_toward
 from relguide.kernels.hold import word_to_point
 from relguide.kernels.roots import FloatArray
-from relguide.kernels.tangent import tangents_from_start
+from relguide.kernels.tangent import tangents_from_start, tangents_to_slot
 
 GRAZE = 3e-7
 """The contact is flown this far outside d_min [R], so that rounding cannot break it."""
 _BASINS = 8  # refined: the best of them wins in every reference case; the rest is insurance
 _BESIDE = 1e-6  # how far beside a tangent contact it is looked: 1 cm at R = 12 km
+_FIRST_TURNS = 48  # sizes of a first turn in `any_way`: every 7.5°
+_LONGEST = 64.0  # longest straight tried there [R]: 200 NM for an airliner
 _FINEST = 1e-7  # bearing steps end here: 1 mm at R = 12 km, 10 µs where the time has an edge
 
 
@@ -316,7 +318,9 @@ def best_detour(
         if here < best:
             best = here
             way[:] = trial
-    for bearing, side_sign in tangents_from_start(x, y, h, leader, alpha, delta)[:, :2]:
+    near = tangents_from_start(x, y, h, leader, alpha, delta)
+    for tangent in np.concatenate((near, tangents_to_slot(leader, alpha, delta))):
+        bearing, side_sign = tangent[0], tangent[1]
         # the words that end there exist on one side of the bearing only
         for off in (-_BESIDE, _BESIDE):
             found = through_contact(
@@ -354,3 +358,50 @@ def _descend(
         if not moved:
             stride *= 0.4
     return here
+
+
+@njit(cache=True, nogil=True)
+def any_way(
+    x: float, y: float, h: float, leader: FloatArray, alpha: float, limit: float, t_open: float,
+    beat: float, way: FloatArray,
+) -> tuple[float, float, float, float]:  # fmt: skip
+    """Some way to the slot that clears: a first turn of any size, a straight, and a word.
+
+    For when nothing else was found: whether there is a way at all matters more than its time then.
+
+    Args:
+        x: start, slot frame [R].
+        y: start [R].
+        h: start heading [rad].
+        leader: table of its pieces. shape (k, 5)
+        alpha: V_L/V_P.
+        limit: least allowed separation [R].
+        t_open: when the slot opens [R/V_P].
+        beat: an arrival already known [R/V_P]; only earlier ones are looked for.
+        way: takes the row of the word. shape (5,)
+
+    Returns:
+        arrival, sign and angle of the first turn, length of the straight; `beat` and zeros if none.
+    """
+    best, best_sign, best_turn, best_straight = beat, 0.0, 0.0, 0.0
+    rows = np.empty((MAX_ROWS, 5))
+    for side in range(2):
+        sign = 1.0 - 2.0 * side
+        for j in range(_FIRST_TURNS + 1):
+            turned = TWO_PI * j / _FIRST_TURNS
+            if not piece_clears(x, y, h, sign, 0.0, turned, leader, alpha, limit):
+                break  # nor does any larger turn
+            px, py, ph = fly_piece(x, y, h, sign, turned)
+            straight = 0.0
+            while straight <= _LONGEST:
+                if not piece_clears(px, py, ph, 0.0, turned, straight, leader, alpha, limit):
+                    break
+                qx, qy, _ = fly_piece(px, py, ph, 0.0, straight)
+                arrival, i = best_word(
+                    qx, qy, ph, turned + straight, leader, alpha, limit, t_open, best, rows
+                )
+                if arrival < best:
+                    best, best_sign, best_turn, best_straight = arrival, sign, turned, straight
+                    way[:] = rows[i]
+                straight = 2.0 * straight + 0.25
+    return best, best_sign, best_turn, best_straight

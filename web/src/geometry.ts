@@ -5,8 +5,8 @@
  * path is a trochoid: the arc flown in the air mass plus wind × time; in calm it is the arc itself.
  */
 
-import { DEG, wrap360 } from "./units";
-import type { PathPoint, PathSegment, TurnSegment, WindCard } from "./wire";
+import { DEG, wrap180, wrap360 } from "./units";
+import type { BoundarySegment, PathPoint, PathSegment, TurnSegment, WindCard } from "./wire";
 
 /** A vector in the world frame: x east, y north. */
 export interface Vector {
@@ -42,6 +42,7 @@ export function pointAlong(segment: PathSegment, t: number, wind: Vector = CALM)
       heading_deg: start.heading_deg,
     };
   }
+  if (segment.kind === "boundary") return alongBoundary(segment, t);
   const side = segment.direction === "right" ? 1 : -1;
   const heading = start.heading_deg + (side * segment.angle_deg * elapsed) / segment.duration_s;
   const psi0 = start.heading_deg * DEG;
@@ -51,6 +52,21 @@ export function pointAlong(segment: PathSegment, t: number, wind: Vector = CALM)
     x_m: start.x_m + side * segment.radius_m * (Math.cos(psi0) - Math.cos(psi)) + wind.x * elapsed,
     y_m: start.y_m + side * segment.radius_m * (Math.sin(psi) - Math.sin(psi0)) + wind.y * elapsed,
     heading_deg: wrap360(heading),
+  };
+}
+
+/** A ride along the limit comes as points close enough to join by lines. */
+function alongBoundary(segment: BoundarySegment, t: number): PathPoint {
+  const points = [segment.start, ...segment.via, segment.end];
+  const next = points.findIndex((point) => point.t_s > t);
+  const [before, after] = [points[next - 1] ?? segment.start, points[next] ?? segment.end];
+  const part = (t - before.t_s) / (after.t_s - before.t_s);
+  const turned = wrap180(after.heading_deg - before.heading_deg);
+  return {
+    t_s: t,
+    x_m: before.x_m + part * (after.x_m - before.x_m),
+    y_m: before.y_m + part * (after.y_m - before.y_m),
+    heading_deg: wrap360(before.heading_deg + part * turned),
   };
 }
 
@@ -80,9 +96,16 @@ export function cutSegment(
     start: pointAlong(segment, from, wind),
     end: pointAlong(segment, to, wind),
   };
-  return segment.kind === "turn"
-    ? { ...segment, ...ends, angle_deg: segment.angle_deg * part }
-    : { ...segment, ...ends, length_m: segment.length_m * part };
+  switch (segment.kind) {
+    case "turn":
+      return { ...segment, ...ends, angle_deg: segment.angle_deg * part };
+    case "straight":
+      return { ...segment, ...ends, length_m: segment.length_m * part };
+    case "boundary": {
+      const via = segment.via.filter((point) => point.t_s > from && point.t_s < to);
+      return { ...segment, ...ends, via };
+    }
+  }
 }
 
 /** The part of a path between two times [s]: what is still to be flown, for one. */
@@ -116,6 +139,17 @@ export function sampleTurn(turn: TurnSegment, wind: Vector = CALM, maxAngle = 2)
   );
 }
 
+function sampleSegment(segment: PathSegment, wind: Vector, maxAngle: number): PathPoint[] {
+  switch (segment.kind) {
+    case "turn":
+      return sampleTurn(segment, wind, maxAngle);
+    case "straight":
+      return [segment.start, segment.end];
+    case "boundary":
+      return [segment.start, ...segment.via, segment.end];
+  }
+}
+
 /** A path as points: the ends of straights, and turns every `maxAngle` [deg]; between t0 and t1 [s]. */
 export function samplePath(
   segments: readonly PathSegment[],
@@ -126,8 +160,7 @@ export function samplePath(
 ): PathPoint[] {
   const points: PathPoint[] = [];
   for (const segment of cutPath(segments, wind, t0, t1)) {
-    const more =
-      segment.kind === "turn" ? sampleTurn(segment, wind, maxAngle) : [segment.start, segment.end];
+    const more = sampleSegment(segment, wind, maxAngle);
     points.push(...(points.length === 0 ? more : more.slice(1)));
   }
   return points;

@@ -1,7 +1,7 @@
 // Made by `python -m server.emit_types` from relguide/contract.py: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-9b92de69187d";
+export const PROTOCOL = "relguide-cffdf51cc79f";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -40,7 +40,7 @@ export type Reason =
   | "beyond_horizon";
 
 /** A piece of a path over the ground. */
-export type PathSegment = TurnSegment | StraightSegment;
+export type PathSegment = TurnSegment | StraightSegment | BoundarySegment;
 
 /** What guidance asks of the autopilot. */
 export type ReferenceCard = HeadingReference | TurnRateReference;
@@ -102,6 +102,18 @@ export interface AlternativeCard {
   word: string;
   time_to_converge_s: number;
   rejected: "slower";
+}
+
+/** A ride along d = d_min with less than full bank. */
+export interface BoundarySegment {
+  kind: "boundary";
+  /** The side it turns to: left rides counter-clockwise round the leader. */
+  side: Direction;
+  duration_s: number;
+  start: PathPoint;
+  end: PathPoint;
+  /** Points between, close enough to draw straight lines. */
+  via: PathPoint[];
 }
 
 /** How the flight went: the last document. */

@@ -1,6 +1,7 @@
 import { describe, expect, test } from "vitest";
 import {
   cutPath,
+  cutSegment,
   pathPointAt,
   pointAlong,
   samplePath,
@@ -97,4 +98,26 @@ describe("a path over the ground", () => {
     expect(wind.x).toBeCloseTo(15, 9);
     expect(wind.y).toBeCloseTo(0, 9);
   });
+});
+
+test("a ride along the limit is read between its points, and cut like any segment", () => {
+  const at = (t_s: number, x_m: number, y_m: number, heading_deg: number) => ({
+    t_s,
+    x_m,
+    y_m,
+    heading_deg,
+  });
+  const ride = {
+    kind: "boundary" as const,
+    side: "left" as const,
+    duration_s: 20,
+    start: at(10, 0, 0, 5),
+    via: [at(20, 100, 1000, 355)],
+    end: at(30, 0, 2000, 345),
+  };
+  expect(pointAlong(ride, 15)).toEqual(at(15, 50, 500, 0));
+  expect(pointAlong(ride, 25).x_m).toBeCloseTo(50);
+  const rest = cutSegment(ride, 15, 99);
+  expect(rest).toMatchObject({ kind: "boundary", duration_s: 15, via: ride.via });
+  expect(samplePath([ride]).map((point) => point.y_m)).toEqual([0, 1000, 2000]);
 });

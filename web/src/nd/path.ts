@@ -15,9 +15,20 @@ export function pathData(layout: Layout, segments: readonly PathSegment[], wind:
   const first = segments[0];
   if (first === undefined) return "";
   return `M${point(layout, first.start)}${segments
-    .map((segment) => (segment.kind === "turn" ? turnData(layout, segment, wind) : ""))
-    .map((turn, i) => turn || `L${point(layout, segments[i]?.end ?? first.end)}`)
+    .map((segment) => segmentData(layout, segment, wind))
     .join("")}`;
+}
+
+function segmentData(layout: Layout, segment: PathSegment, wind: Vector): string {
+  switch (segment.kind) {
+    case "turn":
+      // a turn too small for any command still has its end
+      return turnData(layout, segment, wind) || `L${point(layout, segment.end)}`;
+    case "straight":
+      return `L${point(layout, segment.end)}`;
+    case "boundary":
+      return [...segment.via, segment.end].map((each) => `L${point(layout, each)}`).join("");
+  }
 }
 
 function turnData(layout: Layout, turn: TurnSegment, wind: Vector): string {
