@@ -29,10 +29,11 @@ from relguide.documents import (
     ModeChanged,
     PlanChanged,
 )
-from relguide.guidance import advise, begin
+from relguide.guidance import advise
 from relguide.kernels.turn import turn_rate
 from relguide.leader import FlyingLeader, LeaderFlight, advanced, replayed
 from relguide.logbook import Tally, counted, event_document, leader_route, sample
+from relguide.memory import begin
 from relguide.plan import Plan, Planner
 from relguide.situation import MAX_TAS, MIN_TAS, Situation, TurnTo
 from relguide.tracks import RecordedTrack

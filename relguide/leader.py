@@ -16,7 +16,7 @@ from relguide.trajectory import LEFT, RIGHT, Turn
 from relguide.units import DEG, G0, MetrePerSecond, Radian, Second
 
 Way = Literal["left", "right", "shorter"]
-ROLLED_OUT: Radian = 0.3 * DEG  # the heading loop settles within 0.1°
+ROLLED_OUT: Radian = 1.0 * DEG  # half of what joining accepts: the last degree takes 10 s more
 PAST: Radian = 5.0 * DEG  # so little past the heading is not a full turn still to come
 
 

@@ -20,8 +20,8 @@ from relguide.documents import (
     Sample,
     TurnRateReference,
 )
-from relguide.guidance import Advice
 from relguide.kernels.turn import turn_rate
+from relguide.memory import Advice
 from relguide.situation import IntentPiece, Leader, Wind
 from relguide.units import DEG, Metre, Radian, Second
 

@@ -1,9 +1,17 @@
 """The flights that have a name: the paper's by figure number, and a recorded leader.
 
-The paper does not say when the leader of Fig. 6 turns. `LEADER_TURNS_AT` was chosen by flying both
-figures with 6a's description in hand (section 5): after a first right turn the pursuer converges,
-changes its heading progressively when the leader turns, and in the end turns right to follow. See
-`fig_6`.
+The paper does not say when the leader of Fig. 6 turns. Both figures were flown for turns at 60 …
+850 s. In 6b the pursuer turns right only, 45° in all, whenever that is. In 6a, turns
+
+- before 730 s find it far out: it turns right only as well, and follows 2 … 23 % later than in 6b,
+  but nothing sways (45.4° against 44.7° of heading swing at 360 s);
+- at 760 … 790 s find it about to join: it is there when the slot opens, as early as in 6b;
+- at 795 … 850 s find it in its last turn onto the old route. After its first right turn it has
+  converged, it changes its heading as the leader's goes round, is too close for the new slot, and
+  comes back by a wide turn right: swing 170 … 185° against 45°, following 11 % later.
+
+Only the last is section 5's "very swaying trajectory", so `LEADER_TURNS_AT` is in its middle:
+820 s, 6a joins at 1,018 s with a swing of 181°, 6b at 916 s (planned: 904 s) with 45°.
 """
 
 from collections.abc import Callable, Mapping
