@@ -75,7 +75,8 @@ def choose(
     """Decide what to fly.
 
     The last turn is flown as it was planned: solved again a few metres inside or outside it, the
-    exact answer swings wide first, by a turn that grows with the root of those metres.
+    exact answer swings wide first, by a turn that grows with the root of those metres. So is a plan
+    that arrives as the slot opens: nothing is faster, and of the many that are as fast one is kept.
 
     Args:
         committed: what is flown now; `None` only before the first plan.
@@ -88,7 +89,7 @@ def choose(
     """
     if committed is not None:
         left = committed.rest_at(t, required)
-        if _in_last_turn(left, model):
+        if _in_last_turn(left, model) or _arrives_at_opening(left, required):
             kept = _followed_on(left, committed.plan, required)
             if kept is not None:
                 return Choice(plan=kept, cause="continued", fell_back=False)
@@ -177,6 +178,13 @@ def _in_last_turn(left: Trajectory, model: AircraftModel) -> bool:
     """Whether it is being flown, or rolled into."""
     segments = steer(left, model).segments
     return len(segments) == 1 and isinstance(segments[0], Arc)
+
+
+def _arrives_at_opening(left: Trajectory, situation: Situation) -> bool:
+    """Whether no plan can be better by the margin."""
+    frame = slot_frame(situation, situation.leader.trajectory)
+    slot_opens = frame.t_open * frame.radius / situation.pursuer.tas
+    return left.duration < slot_opens + MARGIN
 
 
 def _misses(left: Trajectory, situation: Situation) -> Metre:
