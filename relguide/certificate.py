@@ -39,13 +39,10 @@ def certify(trajectory: Trajectory, situation: Situation) -> Certificate:
         trajectory: the pursuer's, from t = 0 to its end.
         situation: gives the leader with its intent, and d_min. Uniform wind moves both alike.
     """
-    leader = situation.leader.trajectory
     radius = situation.pursuer.turn_radius
     least, at, bound = least_separation(
-        np.array((trajectory.x, trajectory.y, trajectory.heading, trajectory.tas), float),
-        _pieces(trajectory),
-        np.array((leader.x, leader.y, leader.heading, leader.tas), float),
-        _pieces(leader),
+        *kernel_arrays(trajectory),
+        *kernel_arrays(situation.leader.trajectory),
         trajectory.duration,
         TOLERANCE * radius,
     )
@@ -57,6 +54,11 @@ def certify(trajectory: Trajectory, situation: Situation) -> Certificate:
     )
 
 
-def _pieces(trajectory: Trajectory) -> np.ndarray:
-    """Durations and turn rates, as the kernel takes them."""
-    return np.array(trajectory.bends()).reshape(-1, 2)  # (pieces, 2)
+def kernel_arrays(trajectory: Trajectory) -> tuple[np.ndarray, np.ndarray]:
+    """A trajectory as the kernels take it.
+
+    Returns:
+        x, y, ψ, V at t = 0, shape (4,); duration and turn rate of each piece, shape (pieces, 2).
+    """
+    start = np.array((trajectory.x, trajectory.y, trajectory.heading, trajectory.tas), float)
+    return start, np.array(trajectory.bends(), float).reshape(-1, 2)

@@ -3,15 +3,16 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
-from math import hypot
+from math import hypot, inf
 from time import perf_counter_ns
 from typing import Literal
 
 from relguide.certificate import SLACK, Certificate, certify
 from relguide.detour import HORIZON, detour
+from relguide.recovery import Recovery, least_bad, restore
 from relguide.situation import Situation
 from relguide.trajectory import Trajectory
-from relguide.units import KT, NM, Metre, Millisecond, Second
+from relguide.units import DEG, KT, NM, Metre, Millisecond, Second
 from relguide.words import Candidate, Candidates, candidates, detours_at_opening
 
 Proof = Literal["relaxation", "bound", "none"]
@@ -114,8 +115,8 @@ def plan(situation: Situation) -> Plan | NoPlan:
     if separation < situation.min_separation - SLACK * radius:
         return NoPlan(
             reason=Reason.SEPARATION_ALREADY_LOST,
-            message=f"The aircraft are {_nm(separation)} apart, closer than the minimum of "
-            f"{_nm(situation.min_separation)}: restore separation first, or lower the minimum.",
+            message=f"The aircraft are {separation:,.0f} m ({_nm(separation)}) apart, closer than "
+            f"the minimum of {situation.min_separation:,.0f} m. {_way_out(restore(situation))}",
         )
     found = candidates(situation)
     if len(found) == 0:
@@ -124,9 +125,9 @@ def plan(situation: Situation) -> Plan | NoPlan:
     if chosen is None:
         return NoPlan(
             reason=Reason.SEPARATION_UNAVOIDABLE,
-            message=f"Each of the {len(found)} direct trajectories to the slot comes "
-            f"closer than {_nm(situation.min_separation)} to the leader, and no way round it was "
-            "found. A smaller minimum separation or a larger slot distance would help.",
+            message=f"Each of the {len(found)} direct trajectories to the slot comes closer "
+            f"than {_nm(situation.min_separation)} to the leader, and no way round it was found. "
+            f"{_least_bad(least_bad(situation))}",
         )
     candidate, certificate, optimality = chosen
     if candidate.time_to_converge > HORIZON:
@@ -222,3 +223,29 @@ def _unreachable(situation: Situation) -> str:
 
 def _nm(distance: float) -> str:
     return f"{distance / NM:.2f} NM"
+
+
+def _way_out(recovery: Recovery) -> str:
+    if recovery.at_time == inf:
+        return "No turn restores separation within 15 minutes: the leader would have to turn away."
+    return f"Soonest out: {_turn(recovery)}; separation is restored in {recovery.at_time:.0f} s."
+
+
+def _least_bad(recovery: Recovery) -> str:
+    if recovery.at_time == 0.0:
+        return (
+            "A smaller minimum separation or a larger slot distance would help; "
+            f"{_turn(recovery)} keeps clear meanwhile."
+        )
+    return (
+        f"Least bad: {_turn(recovery)}, which keeps {_nm(recovery.least_separation)}, least in "
+        f"{recovery.at_time:.0f} s with the leader at x {recovery.leader_x / 1000.0:.1f} km, "
+        f"y {recovery.leader_y / 1000.0:.1f} km. A smaller minimum separation would help."
+    )
+
+
+def _turn(recovery: Recovery) -> str:
+    heading = f"heading {round(recovery.heading / DEG) % 360:03d}°"
+    if recovery.turn_angle == 0.0:
+        return f"hold {heading}"
+    return f"turn {'right' if recovery.turn_angle > 0.0 else 'left'} to {heading}"
