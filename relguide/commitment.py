@@ -27,6 +27,7 @@ MARGIN: Second = 1.0  # a change of mind costs a roll reversal or two: about a s
 SHARE = 0.005  # and what is far ahead is uncertain: half a percent of the time to go
 SAME_WAY: Metre = 300.0  # replanning moves a path by metres, another way is kilometres off
 SAME_WAY_SHARE = 0.03  # … and by this much of its length while rolling, when a turn begins late
+OVERDUE: Second = 10.0  # two rolls' worth: more is not what rolling costs
 LEASH: Metre = 600.0  # what one roll-in costs; farther off, the committed path is not being flown
 
 
@@ -38,6 +39,8 @@ class Commitment:
     """Its trajectory is of the air mass, which was the world frame at `made_at`."""
     made_at: Second
     """Flight time [s]."""
+    due: Second
+    """When it was to arrive before it was solved again for the first time, flight time [s]."""
 
     def rest_at(self, t: Second, situation: Situation) -> Trajectory:
         """What is left of it at flight time t, in the situation's own air-mass frame."""
@@ -74,8 +77,10 @@ def choose(
 ) -> Choice | NoPlan:
     """Decide what to fly.
 
-    The last turn is flown as it was planned: solved again a few metres inside or outside it, the
-    exact answer swings wide first, by a turn that grows with the root of those metres. So is a plan
+    The last turn is flown as it was planned. Full bank has nothing to spare: solved again a few
+    metres outside it, the exact answer swings wide first, by a turn that grows with the root of
+    those metres. Turns before it are solved again, which makes good what rolling into them cost,
+    but not for ever: once overdue, they too are flown as they were planned last. So is a plan
     that arrives as the slot opens: nothing is faster, and of the many that are as fast one is kept.
 
     Args:
@@ -89,7 +94,8 @@ def choose(
     """
     if committed is not None:
         left = committed.rest_at(t, required)
-        if _in_last_turn(left, model) or _arrives_at_opening(left, required):
+        overdue = t + left.duration > committed.due + OVERDUE
+        if _as_planned(left, model, overdue=overdue) or _arrives_at_opening(left, required):
             kept = _followed_on(left, committed.plan, required)
             if kept is not None:
                 return Choice(plan=kept, cause="continued", fell_back=False)
@@ -174,10 +180,12 @@ def _followed_on(left: Trajectory, plan: Plan, situation: Situation) -> Plan | N
     )
 
 
-def _in_last_turn(left: Trajectory, model: AircraftModel) -> bool:
-    """Whether it is being flown, or rolled into."""
+def _as_planned(left: Trajectory, model: AircraftModel, *, overdue: bool) -> bool:
+    """Whether only the last turn is left, or only turns and no time to lose."""
     segments = steer(left, model).segments
-    return len(segments) == 1 and isinstance(segments[0], Arc)
+    if not all(isinstance(segment, Arc) for segment in segments):
+        return False
+    return len(segments) == 1 or (overdue and len(segments) > 1)
 
 
 def _arrives_at_opening(left: Trajectory, situation: Situation) -> bool:

@@ -96,7 +96,8 @@ def fly(
 
     Args:
         scenario: what to fly.
-        planner: asked once a second.
+        planner: asked once a second, but not in the last turn, nor while what is flown arrives as
+            the slot opens: then nothing it could answer would be better.
         commands: polled at each step with the flight time; what it gives takes effect at once.
         step: integration step [s]; a whole number of steps makes a second.
         sample_period: between samples [s]; a whole number of steps.

@@ -123,7 +123,11 @@ def _converge(
 
 def _commit(memory: Memory, seen: Seen, choice: Choice) -> tuple[Memory, tuple[Event, ...]]:
     """Remember the plan, and announce it if it is news."""
-    commitment = Commitment(plan=choice.plan, made_at=seen.t)
+    due = seen.t + choice.plan.time_to_converge
+    unchanged = leader_change(memory.expected, seen, TURNED) is None
+    if memory.committed is not None and choice.cause == "continued" and unchanged:
+        due = memory.committed.due
+    commitment = Commitment(plan=choice.plan, made_at=seen.t, due=due)
     memory = replace(
         memory,
         committed=commitment,

@@ -35,7 +35,7 @@ def later(seconds: float, *, aside: float = 0.0) -> Situation:
 
 def chosen(situation: Situation, t: float, planner: Planner = plan) -> Choice | NoPlan:
     return choose(
-        Commitment(plan=planned(SITUATION), made_at=0.0),
+        Commitment(plan=planned(SITUATION), made_at=0.0, due=planned(SITUATION).time_to_converge),
         t,
         preferred=situation,
         required=situation,

@@ -234,7 +234,7 @@ def test_a_plan_that_does_not_certify_is_not_flown() -> None:
         )
         return replace(answer, trajectory=past)
 
-    flight = flown(replace(FIG_6B, duration_limit=20.0), planner=careless)
+    flight = flown(replace(fig_6(intent_known=False), duration_limit=20.0), planner=careless)
     assert flight.end.fallbacks >= 20
     assert flight.of(PlanChanged)[0].plan.separation.proved_above >= 5.0 * NM
 
