@@ -4,12 +4,17 @@ import io
 import json
 import re
 from contextlib import redirect_stdout
+from math import degrees
 from pathlib import Path
 
 import pytest
 from fastapi.testclient import TestClient
 
+from relguide import plan
 from relguide.__main__ import main
+from relguide.documents import FlightEnded
+from relguide.flight import fly
+from relguide.scenarios import scenario
 from server.app import create_app
 
 ROOT = Path(__file__).parents[1]
@@ -49,6 +54,17 @@ def test_commands_are_there(capsys: pytest.CaptureFixture[str]) -> None:
             main([command, "--help"])
         assert end.value.code == 0
         assert f"relguide {command}" in capsys.readouterr().out
+
+
+def test_figures_6a_and_6b() -> None:
+    told = re.findall(r"`(fig_6[ab])`[^`]*?after (\d+) s and[a-z ]*? (\d+)°", README)
+    assert [name for name, _, _ in told] == ["fig_6a", "fig_6b"]
+    for name, seconds, degrees_turned in told:
+        *_, ended = fly(scenario(name), plan)
+        assert isinstance(ended, FlightEnded)
+        # a percent: what the reader learns stays true when a gain is tuned
+        assert ended.join_time == pytest.approx(float(seconds), rel=0.01)
+        assert degrees(ended.heading_swing) == pytest.approx(float(degrees_turned), rel=0.01, abs=1)
 
 
 def test_make_targets_are_there() -> None:

@@ -8,7 +8,7 @@ from playwright.sync_api import Page, expect
 
 from tests.browser.service import running_chromium, running_service
 
-SIMULATED = "05:00"
+SIMULATED = "07:00"
 """The flight time shown: on its way, all turns still visible."""
 RANGE = "80"
 """The ND's range [NM]: the whole plan is on it."""
