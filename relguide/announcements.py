@@ -10,6 +10,8 @@ from relguide.plan import NoPlan, Plan
 from relguide.units import DEG, KT, NM, MetrePerSecond, Radian
 
 Mode = Literal["heading", "converge", "capture", "follow"]
+"""heading: nothing to fly, holds its heading; converge: flies the plan; capture: closes onto the
+leader's route at its own speed; follow: on the route at D, speed matched."""
 PlanReason = Literal[
     "engaged",
     "better_plan",
@@ -20,7 +22,7 @@ PlanReason = Literal[
     "intent_received",
     "intent_withdrawn",
 ]
-
+"""Why a new plan was made."""
 TURNED: Radian = 1.0 * DEG  # five times what the leader's own autopilot wanders
 CHANGED_SPEED: MetrePerSecond = 2.0 * KT  # below what a crew would call a speed change
 

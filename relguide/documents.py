@@ -9,6 +9,8 @@ the instant the plan was made, as they do in the REST answer.
 from dataclasses import dataclass
 from typing import Literal
 
+from relguide.announcements import Mode as Mode
+from relguide.announcements import PlanReason as PlanReason
 from relguide.plan import PlannerName, Proof, Reason
 from relguide.units import (
     Metre,
@@ -20,20 +22,6 @@ from relguide.units import (
 )
 
 Direction = Literal["left", "right"]
-Mode = Literal["heading", "converge", "capture", "follow"]
-"""heading: nothing to fly, holds its heading; converge: flies the plan; capture: closes onto the
-leader's route at its own speed; follow: on the route at D, speed matched."""
-PlanReason = Literal[
-    "engaged",
-    "better_plan",
-    "deviation",
-    "separation",
-    "leader_turned",
-    "leader_changed_speed",
-    "intent_received",
-    "intent_withdrawn",
-]
-"""Why a new plan was made."""
 LeaderChange = Literal["heading", "speed", "intent_received", "intent_withdrawn"]
 
 
