@@ -1,0 +1,71 @@
+"""Many situations with a straight leader, one after another: time, bound and proof of each.
+
+The same chain as `plan`: every extremal in order of time, the first that clears; where that is not
+the very first, the ways that touch d_min once, and those that ride along it. Slot frame: lengths in
+R, times in R/V_P, angles counter-clockwise.
+"""
+
+from math import inf
+
+import numpy as np
+from numba import njit
+
+from relguide.kernels.angles import wrap
+from relguide.kernels.detour import GRAZE, best_detour, word_clears
+from relguide.kernels.extremals import MAX_ROWS, solve
+from relguide.kernels.ride import best_ride
+from relguide.kernels.roots import FloatArray
+
+SLACK = 1e-6
+"""Touching d_min counts as keeping it, to this much of R."""
+PROVED, BOUNDED, UNREACHABLE, ALREADY_LOST, NO_WAY = 0.0, 1.0, 2.0, 3.0, 4.0
+"""What a row of the answer says: the optimum, proved; a plan with its bound; no plan, and why."""
+
+
+@njit(cache=True, nogil=True)
+def plan_rows(
+    situations: FloatArray, bearings: int, limited: bool, first: int, last: int, answers: FloatArray
+) -> None:
+    """Plan situations first … last − 1.
+
+    Args:
+        situations: x, y, h of the pursuer; α; x, y of the leader; d_min. shape (n, 7)
+        bearings: how finely detours are looked for.
+        limited: whether the separation limit counts at all.
+        first: from this row on.
+        last: up to this row.
+        answers: takes arrival, lower bound, verdict, the word's number (−1: a detour). (n, 4)
+    """
+    rows = np.empty((MAX_ROWS, 5))
+    leader = np.zeros((1, 5))
+    way = np.empty((2, 5))
+    row = np.empty(5)
+    for n in range(first, last):
+        x, y, h = situations[n, 0], situations[n, 1], wrap(situations[n, 2])
+        alpha, limit = situations[n, 3], situations[n, 6]
+        leader[0, 1], leader[0, 2] = situations[n, 4], situations[n, 5]
+        answer = answers[n]
+        answer[0], answer[1], answer[3] = inf, inf, -1.0
+        gap = np.hypot(x - leader[0, 1], y - leader[0, 2])
+        if limited and gap < limit - SLACK:
+            answer[2] = ALREADY_LOST
+            continue
+        found = solve(x, y, h, alpha, 0.0, rows)
+        if found == 0:
+            answer[2] = UNREACHABLE
+            continue
+        answer[1] = rows[0, 0]
+        answer[2] = NO_WAY
+        for k in range(found):
+            clears = not limited or word_clears(x, y, h, 0.0, rows[k], leader, alpha, limit - SLACK)
+            if clears:
+                answer[0], answer[3] = rows[k, 0], rows[k, 1]
+                answer[2] = PROVED if k == 0 else BOUNDED
+                break
+        if answer[2] == PROVED or limit <= 0.0:
+            continue
+        start = x, y, h
+        once = best_detour(*start, leader, alpha, limit + GRAZE, 0.0, bearings, answer[0], way)
+        ride, _, _, _ = best_ride(*start, leader, alpha, limit + GRAZE, 0.0, bearings, once, row)
+        if ride < answer[0]:
+            answer[0], answer[2], answer[3] = ride, BOUNDED, -1.0
