@@ -13,7 +13,8 @@ from pathlib import Path
 from urllib.error import URLError
 from urllib.request import urlopen
 
-from playwright.sync_api import Browser, Page, sync_playwright
+from playwright.sync_api import Browser, Page, WebSocket, sync_playwright
+from playwright.sync_api import Request as HttpRequest
 
 CHROMIUMS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 """Names it goes by; without any of them Playwright's own is taken, if it is installed."""
@@ -116,17 +117,21 @@ def watch(page: Page) -> Watch:
     def count(kind: str) -> None:
         noted.frames[kind] += 1
 
+    def failed(request: HttpRequest) -> None:
+        # aborted: the page itself called it off, by moving on to another flight or page
+        if request.failure != "net::ERR_ABORTED":
+            noted.complaints.append(f"{request.url}: {request.failure}")
+
+    def opened(socket: WebSocket) -> None:
+        kind = "scene" if "/scene/" in socket.url else "stream"
+        socket.on("framereceived", lambda _: count(kind))
+
     page.on("console", lambda m: noted.complaints.append(m.text) if m.type == "error" else None)
     page.on("pageerror", lambda error: noted.complaints.append(str(error)))
-    page.on("requestfailed", lambda r: noted.complaints.append(f"{r.url}: {r.failure}"))
+    page.on("requestfailed", failed)
     page.on(
         "response",
         lambda r: noted.complaints.append(f"{r.url}: {r.status}") if r.status >= 400 else None,
     )
-
-    def opened(socket) -> None:
-        kind = "scene" if "/scene/" in socket.url else "stream"
-        socket.on("framereceived", lambda _: count(kind))
-
     page.on("websocket", opened)
     return noted
