@@ -320,21 +320,18 @@ def best_detour(
             way[:] = trial
     near = tangents_from_start(x, y, h, leader, alpha, delta)
     for tangent in np.concatenate((near, tangents_to_slot(leader, alpha, delta))):
-        bearing, side_sign = tangent[0], tangent[1]
         # the words that end there exist on one side of the bearing only
         for off in (-_BESIDE, _BESIDE):
             found = through_contact(
-                x, y, h, leader, pieces - 1, alpha, delta, t_open, bearing + off, side_sign,
-                best + slack, rows, onward, trial,
+                x, y, h, leader, pieces - 1, alpha, delta, t_open, tangent[0] + off, tangent[1],
+                best, rows, onward, trial,
             )  # fmt: skip
-            if found < best + slack:
-                here = _descend(
-                    x, y, h, leader, pieces - 1, alpha, delta, t_open, bearing + off, side_sign,
-                    found, 0.1 * TWO_PI / bearings, rows, onward, trial,
+            if found < best:
+                best = _descend(
+                    x, y, h, leader, pieces - 1, alpha, delta, t_open, tangent[0] + off,
+                    tangent[1], found, 0.1 * TWO_PI / bearings, rows, onward, trial,
                 )  # fmt: skip
-                if here < best:
-                    best = here
-                    way[:] = trial
+                way[:] = trial
     return best
 
 
