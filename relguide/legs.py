@@ -21,8 +21,8 @@ TOUCHES = 1e-5
 """Separations this near to d_min touch it [R]: 12 cm for an airliner; plans stay 3e-7 outside."""
 STRIDE = 0.01
 """Contacts closer together than this may count as one: half a second for an airliner."""
-NEXT = 0.05
-"""A contact this near to a ride is an end of it: some three seconds for an airliner."""
+EDGE = 1e-4
+"""A contact this near to a ride belongs to it: where the ride begins it is found twice."""
 MAX_CONTACTS = 4096
 """Room for contacts, those between the many arcs of a ride included."""
 ROUNDING = 1e-9
@@ -140,15 +140,19 @@ def cut(trajectory: Trajectory, situation: Situation) -> Cut:
     times = [0.0, *accumulate(duration for duration, _ in pieces)]
     limit = situation.min_separation / radius
     rides = _rides(pieces, [abs(encounter(t).separation - limit) for t in times])
-    spans = _spans(
-        [(times[i], times[j]) for i, j in rides],
+    spans = [(times[i], times[j]) for i, j in rides]
+    spans += [
+        (t, t)
+        for t in _contacts(trajectory, situation)
         # at its two ends a trajectory's λ may be what it likes
-        [t for t in _contacts(trajectory, situation) if ROUNDING < t < times[-1] - ROUNDING],
-    )
+        if ROUNDING < t < times[-1] - ROUNDING
+        and not any(low - EDGE < t < high + EDGE for low, high in spans)
+    ]
+    spans.sort()
     return Cut(
         legs=joined(_legs(pieces, trajectory.heading, spans)),
         touches=tuple(
-            Touch(nodes=tuple(encounter(t) for t in sorted({a, b, *times}) if a <= t <= b))
+            Touch(nodes=tuple(encounter(t) for t in (times if a < b else (a,)) if a <= t <= b))
             for a, b in spans
         ),
         end=encounter(times[-1]),
@@ -181,19 +185,6 @@ def _rides(pieces: list[tuple[float, float]], off_limit: list[float]) -> list[tu
     ]
     edges = [i for i, (a, b) in enumerate(pairwise([False, *riding, False])) if a != b]
     return list(zip(edges[::2], edges[1::2], strict=True))
-
-
-def _spans(rides: list[tuple[float, float]], found: list[float]) -> list[tuple[float, float]]:
-    """Rides, and contacts as rides of no length; a contact next to a ride is its end."""
-    spans = list(rides)
-    for t in found:
-        for i, (low, high) in enumerate(spans):
-            if low < high and low - NEXT < t < high + NEXT:
-                spans[i] = min(low, t), max(high, t)
-                break
-        else:
-            spans.append((t, t))
-    return sorted(spans)
 
 
 def _contacts(trajectory: Trajectory, situation: Situation) -> list[float]:

@@ -35,6 +35,10 @@ MET = 1e-3
 """To how much conditions are met, in R and R/V_P: what is left to gain goes with its square, some
 tens of microseconds for an airliner."""
 
+TOGETHER = 0.05
+"""Contacts nearer together than this share their jumps [R/V_P]: some three seconds for an airliner.
+A ride is flown a millimetre outside, and a path may touch d_min just before it or after."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Contact:
@@ -44,7 +48,8 @@ class Contact:
     bearing: Radian
     """θ, from pursuer to leader, clockwise from north [rad], in [−π, π]."""
     jump: float
-    """ν = λ_d after − λ_d before [s/m]; by (10) and (11) a minimum asks that ν ≥ 0."""
+    """ν = λ_d after − λ_d before [s/m]; by (10) and (11) a minimum asks that ν ≥ 0. Of contacts
+    nearer together than `TOGETHER` only the sum means much."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -91,6 +96,7 @@ class _Judgement:
     costates: Costates
     hamiltonian_residual: float
     switching_ok: bool
+    least_jump: float  # contacts that are `TOGETHER` as one
     multipliers: tuple[float, ...]  # least μ at each touch, 0 for contacts
 
     @property
@@ -98,7 +104,7 @@ class _Judgement:
         return (
             self.hamiltonian_residual <= MET
             and self.switching_ok
-            and float(self.costates.jumps.min(initial=0.0)) >= -MET
+            and self.least_jump >= -MET
             and min(self.multipliers, default=0.0) >= -MET
         )
 
@@ -178,7 +184,7 @@ def _judge(arrival: Arrival, whole: Cut, legs: tuple[Leg, ...]) -> _Judgement:
         rest = Costates(parts=np.zeros((n + 1, 3)), jumps=np.zeros((n, 2)), residual=0.0)
         return _Judgement(
             legs=legs, costates=rest, hamiltonian_residual=0.0, switching_ok=True,
-            multipliers=(0.0,) * n,
+            least_jump=0.0, multipliers=(0.0,) * n,
         )  # fmt: skip
     found = find_costates(whole, legs)
     # what the leader's turns still add: H due(t) = level − λ_p·v_L(t), unbroken at touches
@@ -202,8 +208,19 @@ def _judge(arrival: Arrival, whole: Cut, legs: tuple[Leg, ...]) -> _Judgement:
         costates=found,
         hamiltonian_residual=residual,
         switching_ok=signs_ok and found.residual <= MET,
+        least_jump=_least_jump(whole, found),
         multipliers=tuple(
             min(multiplier(found.kappa(i, touch), at) for at in touch.nodes) if touch.rides else 0.0
             for i, touch in enumerate(whole.touches)
         ),
     )
+
+
+def _least_jump(whole: Cut, found: Costates) -> float:
+    least, total, last = 0.0, 0.0, -1.0
+    for touch, jumps in zip(whole.touches, found.jumps.tolist(), strict=True):
+        for at, jump in zip(touch.ends, jumps, strict=False):
+            if at.time - last > TOGETHER:
+                least, total = min(least, total), 0.0
+            total, last = total + jump, at.time
+    return min(least, total)

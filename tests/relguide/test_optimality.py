@@ -13,6 +13,7 @@ from relguide import (
     Arc,
     FlyStraight,
     Leader,
+    Pursuer,
     Situation,
     Straight,
     TurnTo,
@@ -105,6 +106,23 @@ def test_a_contact_that_lies_elsewhere_fails_by_as_much_as_it_lies_off() -> None
         assert not report.holds
         residuals.append(report.switching_residual)
     assert residuals[1] == pytest.approx(2.0 * residuals[0], rel=0.2)
+
+
+def test_contacts_close_together_share_their_jumps() -> None:
+    """The last turn before this ride touches d_min 0.5 s before it, a millimetre further in."""
+    situation = Situation(
+        pursuer=Pursuer(x=5_126.637, y=7_507.113, heading=0.729506, tas=130.92535, max_bank=0.4715),
+        leader=Leader(x=0.0, y=0.0, heading=0.0, tas=117.906548),
+        slot_distance=8_609.996,
+        min_separation=8_500.767,
+    )
+    report = check(planned(situation), situation, samples=1)
+    before, entry, *_ = report.contacts
+    assert entry.time - before.time < 1.0
+    assert entry.time == report.rides[0].start
+    # each alone hangs on rounding, and one of them is negative
+    assert min(before.jump, entry.jump) < 0.0 < before.jump + entry.jump
+    assert report.holds
 
 
 def test_a_full_circle_meets_every_condition_and_is_not_optimal() -> None:
