@@ -86,7 +86,7 @@ endef
 .PHONY: check
 check: .make/dev page .make/kernels .make/traffic
 	$(static_stages)
-	$(call stage,quick tests,$(BIN)/python -m pytest -m "not slow")
+	$(call stage,quick tests,$(BIN)/python -m pytest -m "not slow" --hypothesis-profile=quick)
 	@echo; echo "make check: all passed in $$(($$(date +%s) - $$(cat .make/started))) s."
 
 .PHONY: test

@@ -1,6 +1,7 @@
 """Strictness for every test: float errors raise, examples and seeds are the same each run.
 
-Warnings are errors by `pyproject.toml`. Fresh examples: `pytest --hypothesis-profile=explore`.
+Warnings are errors by `pyproject.toml`. Fresh examples: `pytest --hypothesis-profile=explore`;
+few: `quick`, as in `make check`.
 """
 
 import random
@@ -18,6 +19,7 @@ settings.register_profile(
     "same", derandomize=True, deadline=None, suppress_health_check=[HealthCheck.too_slow]
 )
 settings.register_profile("explore", settings.get_profile("same"), derandomize=False)
+settings.register_profile("quick", settings.get_profile("same"), max_examples=10)
 settings.load_profile("same")
 
 

@@ -56,6 +56,7 @@ def test_commands_are_there(capsys: pytest.CaptureFixture[str]) -> None:
         assert f"relguide {command}" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_figures_6a_and_6b() -> None:
     told = re.findall(r"`(fig_6[ab])`[^`]*?after (\d+) s and[a-z ]*? (\d+)°", README)
     assert [name for name, _, _ in told] == ["fig_6a", "fig_6b"]
