@@ -13,6 +13,8 @@ from relguide.words import SIGN_ROWS, Candidate, Candidates, assemble, segments_
 
 HORIZON: Second = 43_200.0
 """Plans longer than this are not given: 12 hours, longer than any aircraft's fuel lasts [s]."""
+SAME = 1e-6
+"""A ride handed over as arcs takes as long as the ride searched, to this [R/V_P]."""
 BEARINGS = 90
 """How finely the disc is scanned: every 4°. Twice as fine finds nothing better in golden cases."""
 
@@ -41,7 +43,9 @@ def detour(found: Candidates, *, beat: Second) -> Candidate | None:
         *start, leader, frame.alpha, limit + GRAZE, frame.t_open, BEARINGS, time, row
     )
     if ride_time < time:
-        return _along_the_limit(found, leader, limit, row, side, first, last)
+        ridden = _along_the_limit(found, leader, limit, row, side, first, last)
+        if ridden is not None and ridden.time_to_converge <= (ride_time + SAME) * scale:
+            return ridden
     if time < beat / scale:
         signs = [sign for part in way for sign in SIGN_ROWS[int(part[1])]]
         return assemble(situation, frame, signs, way[:, 2:].ravel().tolist(), "")
@@ -77,7 +81,10 @@ def _along_the_limit(
         x, y, h, t, leader, frame.alpha, limit + GRAZE, side, first, last, bends
     )
     rows = np.empty((MAX_ROWS, 5))
-    _, i = best_word(x, y, h, t, leader, frame.alpha, limit, frame.t_open, float("inf"), rows)
+    # the ride's own last node lies within rounding of the limit, which must not cost the best word
+    _, i = best_word(
+        x, y, h, t, leader, frame.alpha, limit - GRAZE, frame.t_open, float("inf"), rows
+    )
     if i < 0:
         return None
     radius = frame.radius

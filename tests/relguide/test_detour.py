@@ -83,6 +83,22 @@ def test_a_ride_along_the_limit_beats_every_way_that_touches_it_once() -> None:
         assert separation == pytest.approx(RIDING.min_separation, abs=0.01)
 
 
+@pytest.mark.parametrize("off", [0.0, 1e-7, -1e-7, 1e-5])
+def test_a_ride_is_closed_by_the_word_it_was_searched_with(off: float) -> None:
+    """Rounding of the ride's last node once cost the right word, and 1,553 s."""
+    situation = Situation(
+        pursuer=Pursuer(
+            x=5_126.637 + off, y=7_507.113, heading=0.729506, tas=130.92535, max_bank=0.4715
+        ),
+        leader=Leader(x=0.0, y=0.0, heading=0.0, tas=117.906548),
+        slot_distance=8_609.996,
+        min_separation=8_500.767,
+    )
+    answer = plan(situation)
+    assert isinstance(answer, Plan)
+    assert answer.time_to_converge == pytest.approx(227.69, abs=0.01)
+
+
 def searched(situation: Situation, bearings: int) -> tuple[float, float]:
     """Arrival [s] by touching once, and by the better of that and riding."""
     frame = candidates(situation).frame
