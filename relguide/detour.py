@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from relguide.kernels.detour import GRAZE, any_way, best_detour, best_word
+from relguide.kernels.detour import any_way, best_detour
 from relguide.kernels.extremals import MAX_ROWS, fly_piece
+from relguide.kernels.passage import GRAZE, best_word
 from relguide.kernels.ride import MAX_NODES, best_ride, ride_pieces
 from relguide.situation import Situation
 from relguide.slot import SlotFrame

@@ -11,8 +11,9 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.angles import wrap
-from relguide.kernels.detour import GRAZE, best_detour, word_clears
+from relguide.kernels.detour import best_detour
 from relguide.kernels.extremals import MAX_ROWS, solve
+from relguide.kernels.passage import GRAZE, word_clears
 from relguide.kernels.ride import best_ride
 from relguide.kernels.roots import FloatArray
 

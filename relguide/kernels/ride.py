@@ -18,8 +18,8 @@ from numba import njit
 from relguide.kernels.angles import TWO_PI, wrap, wrap_signed
 from relguide.kernels.clearance import fly_rate, leader_at
 from relguide.kernels.contact import contact_heading, ride_time, ride_turn
-from relguide.kernels.detour import GRAZE, best_word, ways_to_contact, word_clears
 from relguide.kernels.extremals import MAX_ROWS
+from relguide.kernels.passage import GRAZE, best_word, ways_to_contact, word_clears
 from relguide.kernels.roots import FloatArray
 from relguide.kernels.tangent import tangents_from_start, tangents_to_slot
 

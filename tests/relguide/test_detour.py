@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from relguide import BoundaryArc, Leader, NoPlan, Plan, Pursuer, Situation, plan
 from relguide.detour import BEARINGS, leader_table
 from relguide.kernels.contact import contact_heading, ride_rate, ride_time, ride_turn
-from relguide.kernels.detour import GRAZE, best_detour
+from relguide.kernels.detour import best_detour
+from relguide.kernels.passage import GRAZE
 from relguide.kernels.ride import best_ride
 from relguide.kernels.tangent import tangent_contacts
 from relguide.kernels.turn import turn_radius

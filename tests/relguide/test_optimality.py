@@ -20,8 +20,8 @@ from relguide import (
     candidates,
 )
 from relguide.detour import leader_table
-from relguide.kernels.detour import GRAZE, through_contact
 from relguide.kernels.extremals import MAX_ROWS, solve
+from relguide.kernels.passage import GRAZE, through_contact
 from relguide.optimality import check
 from relguide.units import DEG
 from relguide.words import SIGN_ROWS, assemble

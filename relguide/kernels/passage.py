@@ -1,0 +1,200 @@
+"""Through one contact with d = d_min: the ways to it, and the best one on from it.
+
+Up to a contact and from it on, the path is an extremal without the limit: so it is fixed by the
+contact, and that by one bearing and a side (see `contact`). Both halves come from the same
+enumeration of words.
+
+Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader is a table as in
+`clearance`.
+"""
+
+from math import ceil, cos, hypot, inf, sin
+
+import numpy as np
+from numba import njit
+
+from relguide.kernels.angles import wrap
+from relguide.kernels.clearance import leader_at, piece_clears
+from relguide.kernels.contact import contact_exists, contact_heading
+from relguide.kernels.extremals import MAX_ROWS, SIGNS, fly_piece, solve, solve_toward
+from relguide.kernels.hold import word_to_point
+from relguide.kernels.roots import FloatArray
+
+GRAZE = 3e-7
+"""The contact is flown this far outside d_min [R], so that rounding cannot break it."""
+
+
+@njit(cache=True, nogil=True)
+def word_clears(
+    x: float, y: float, h: float, t: float, row: FloatArray, leader: FloatArray, alpha: float,
+    limit: float,
+) -> bool:  # fmt: skip
+    """Whether a row of `solve`, flown from time t, stays `limit` away from the leader."""
+    word = int(row[1])
+    for k in range(3):
+        sign, amount = SIGNS[word, k], row[k + 2]
+        if amount > 0.0 and not piece_clears(x, y, h, sign, t, amount, leader, alpha, limit):
+            return False
+        x, y, h = fly_piece(x, y, h, sign, amount)
+        t += amount
+    return True
+
+
+@njit(cache=True, nogil=True)
+def best_word(
+    x: float, y: float, h: float, t: float, leader: FloatArray, alpha: float, limit: float,
+    t_open: float, beat: float, rows: FloatArray,
+) -> tuple[float, int]:  # fmt: skip
+    """The fastest extremal to the slot, from time t on, that clears; arrival time and its row.
+
+    Infinite and −1 if none arrives before `beat`.
+    """
+    n = solve(x - alpha * t, y, wrap(h), alpha, max(t_open - t, 0.0), rows)
+    for i in range(n):
+        if t + rows[i, 0] >= beat:
+            break
+        if word_clears(x, y, h, t, rows[i], leader, alpha, limit):
+            return t + rows[i, 0], i
+    return inf, -1
+
+
+@njit(cache=True, nogil=True)
+def ways_to_contact(
+    x: float, y: float, h: float, leader: FloatArray, i: int, alpha: float, delta: float,
+    bearing: float, side: float, rows: FloatArray,
+) -> int:  # fmt: skip
+    """All words from (x, y, h) at t = 0 to a contact while the leader is on its piece i.
+
+    Returns:
+        how many rows; those of a straight piece come in order of time.
+    """
+    start, rate = leader[i, 0], leader[i, 4]
+    end = leader[i + 1, 0] if i + 1 < len(leader) else inf
+    if rate != 0.0:
+        return _ways_while_turning(x, y, h, leader, i, alpha, delta, bearing, side, rows)
+    lx, ly, lh = leader_at(leader, i, alpha, 0.0)
+    contact_x = lx + delta * cos(lh + bearing)
+    contact_y = ly + delta * sin(lh + bearing)
+    if (
+        end < inf
+        and hypot(contact_x + alpha * end * cos(lh) - x, contact_y + alpha * end * sin(lh) - y)
+        > end
+    ):
+        return 0  # not even straight there
+    course = lh + contact_heading(bearing, side, alpha)
+    c, s = cos(course), sin(course)
+    dx, dy = x - contact_x, y - contact_y
+    n = solve_toward(
+        dx * c + dy * s, dy * c - dx * s, wrap(h - course), alpha * cos(lh - course),
+        alpha * sin(lh - course), start, rows,
+    )  # fmt: skip
+    while n > 0 and rows[n - 1, 0] > end:
+        n -= 1
+    return n
+
+
+@njit(cache=True, nogil=True)
+def _ways_while_turning(
+    x: float, y: float, h: float, leader: FloatArray, i: int, alpha: float, delta: float,
+    bearing: float, side: float, rows: FloatArray,
+) -> int:  # fmt: skip
+    """As `ways_to_contact` while the leader turns: the contact moves on a circle, so roots in t."""
+    start, end = leader[i, 0], leader[i + 1, 0]
+    steps = ceil((end - start) / 0.15) + 1  # 0.15 R/V: the leader turns by some 10° in it
+    piece = np.empty(3)
+    n = 0
+    for branch in range(8):
+        last, last_t = np.nan, start
+        for k in range(steps + 1):
+            t = start + (end - start) * k / steps
+            gap = _excess(x, y, h, leader, i, alpha, delta, bearing, side, branch, t, piece)
+            if last * gap <= 0.0 and n < MAX_ROWS:
+                low, high = last_t, t
+                for _ in range(50):
+                    middle = 0.5 * (low + high)
+                    value = _excess(
+                        x, y, h, leader, i, alpha, delta, bearing, side, branch, middle, piece
+                    )
+                    if (value < 0.0) == (last < 0.0):
+                        low = middle
+                    else:
+                        high = middle
+                value = _excess(
+                    x, y, h, leader, i, alpha, delta, bearing, side, branch, high, piece
+                )
+                if abs(value) < 1e-9:  # a jump of a turn by 2π changes sign too
+                    rows[n, 0] = high
+                    rows[n, 1] = branch if branch < 6 else branch - 2
+                    rows[n, 2:5] = piece
+                    n += 1
+            last, last_t = gap, t
+    return n
+
+
+@njit(cache=True, nogil=True)
+def _excess(
+    x: float, y: float, h: float, leader: FloatArray, i: int, alpha: float, delta: float,
+    bearing: float, side: float, branch: int, t: float, piece: FloatArray,
+) -> float:  # fmt: skip
+    """Length of a word to where the contact is at t, less t; NaN if the word does not reach."""
+    lx, ly, lh = leader_at(leader, i, alpha, t)
+    course = lh + contact_heading(bearing, side, alpha)
+    c, s = cos(course), sin(course)
+    dx, dy = x - lx - delta * cos(lh + bearing), y - ly - delta * sin(lh + bearing)
+    length = word_to_point(dx * c + dy * s, dy * c - dx * s, h - course, 0.0, branch, piece)
+    return length - t if length >= 0.0 else np.nan
+
+
+@njit(cache=True, nogil=True)
+def through_contact(
+    x: float, y: float, h: float, leader: FloatArray, i: int, alpha: float, delta: float,
+    t_open: float, bearing: float, side: float, beat: float, rows: FloatArray,
+    onward: FloatArray, way: FloatArray,
+) -> float:  # fmt: skip
+    """Arrival by the fastest way through one contact that clears, if it is before `beat`.
+
+    Args:
+        x: start, slot frame [R].
+        y: start [R].
+        h: start heading [rad].
+        leader: table of its pieces. shape (k, 5)
+        i: piece it is on at the contact.
+        alpha: V_L/V_P.
+        delta: distance at the contact [R].
+        t_open: when the slot opens [R/V_P].
+        bearing: of the contact from the leader, relative to its heading [rad].
+        side: +1 counter-clockwise round the leader, −1 clockwise.
+        beat: arrivals from here on do not matter [R/V_P].
+        rows: room for words. shape (MAX_ROWS, 5)
+        onward: the same.
+        way: takes the two rows of the way found. shape (2, 5)
+
+    Returns:
+        arrival time; infinite if there is none before `beat`.
+    """
+    if not contact_exists(bearing, alpha):
+        return inf
+    limit = delta - GRAZE
+    n = ways_to_contact(x, y, h, leader, i, alpha, delta, bearing, side, rows)
+    for k in range(n):
+        t = rows[k, 0]
+        if t >= beat:
+            continue
+        lx, ly, lh = leader_at(leader, i, alpha, t)
+        cx, cy = lx + delta * cos(lh + bearing), ly + delta * sin(lh + bearing)
+        ch = lh + contact_heading(bearing, side, alpha)
+        m = solve(cx - alpha * t, cy, wrap(ch), alpha, max(t_open - t, 0.0), onward)
+        # the cheap test first: could it be in time at all?
+        if m == 0 or t + onward[0, 0] >= beat:
+            continue
+        if not word_clears(x, y, h, 0.0, rows[k], leader, alpha, limit):
+            continue
+        for j in range(m):
+            if t + onward[j, 0] >= beat:
+                break
+            if word_clears(cx, cy, ch, t, onward[j], leader, alpha, limit):
+                beat = t + onward[j, 0]
+                way[0] = rows[k]
+                way[1] = onward[j]
+                break
+    return beat
