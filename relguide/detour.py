@@ -6,6 +6,7 @@ from relguide.kernels.detour import any_way, best_detour
 from relguide.kernels.extremals import MAX_ROWS, fly_piece
 from relguide.kernels.passage import GRAZE, best_word
 from relguide.kernels.ride import MAX_NODES, best_ride, ride_pieces
+from relguide.kernels.tangent import tangents
 from relguide.situation import Situation
 from relguide.slot import SlotFrame
 from relguide.trajectory import LEFT, RIGHT, BoundaryArc, Segment, Trajectory
@@ -35,14 +36,11 @@ def detour(found: Candidates, *, beat: Second) -> Candidate | None:
         return None
     leader = leader_table(situation, frame)
     start = frame.x, frame.y, frame.h
-    way = np.zeros((2, 5))
-    time = best_detour(
-        *start, leader, frame.alpha, limit + GRAZE, frame.t_open, BEARINGS, beat / scale, way
-    )
-    row = np.zeros(5)
-    ride_time, side, first, last = best_ride(
-        *start, leader, frame.alpha, limit + GRAZE, frame.t_open, BEARINGS, time, row
-    )
+    disc = leader, frame.alpha, limit + GRAZE
+    scan = frame.t_open, BEARINGS, tangents(*start, *disc)
+    way, row = np.zeros((2, 5)), np.zeros(5)
+    time = best_detour(*start, *disc, *scan, beat / scale, way)
+    ride_time, side, first, last = best_ride(*start, *disc, *scan, time, row)
     if ride_time < time:
         ridden = _along_the_limit(found, leader, limit, row, side, first, last)
         if ridden is not None and ridden.time_to_converge <= (ride_time + SAME) * scale:

@@ -16,6 +16,7 @@ from relguide.kernels.extremals import MAX_ROWS, solve
 from relguide.kernels.passage import GRAZE, word_clears
 from relguide.kernels.ride import best_ride
 from relguide.kernels.roots import FloatArray
+from relguide.kernels.tangent import tangents
 
 SLACK = 1e-6
 """Touching d_min counts as keeping it, to this much of R."""
@@ -65,8 +66,12 @@ def plan_rows(
                 break
         if answer[2] == PROVED or limit <= 0.0:
             continue
-        start = x, y, h
-        once = best_detour(*start, leader, alpha, limit + GRAZE, 0.0, bearings, answer[0], way)
-        ride, _, _, _ = best_ride(*start, leader, alpha, limit + GRAZE, 0.0, bearings, once, row)
+        near = tangents(x, y, h, leader, alpha, limit + GRAZE)
+        once = best_detour(
+            x, y, h, leader, alpha, limit + GRAZE, 0.0, bearings, near, answer[0], way
+        )
+        ride, _, _, _ = best_ride(
+            x, y, h, leader, alpha, limit + GRAZE, 0.0, bearings, near, once, row
+        )
         if ride < answer[0]:
             answer[0], answer[2], answer[3] = ride, BOUNDED, -1.0

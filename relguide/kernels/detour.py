@@ -19,7 +19,6 @@ from relguide.kernels.contact import contact_exists, contact_heading
 from relguide.kernels.extremals import MAX_ROWS, fly_piece
 from relguide.kernels.passage import best_word, through_contact
 from relguide.kernels.roots import FloatArray
-from relguide.kernels.tangent import tangents_from_start, tangents_to_slot
 
 _BASINS = 8  # refined: the best of them wins in every reference case; the rest is insurance
 _BESIDE = 1e-6  # how far beside a tangent contact it is looked: 1 cm at R = 12 km
@@ -63,7 +62,7 @@ def _soonest(
 @njit(cache=True, nogil=True)
 def best_detour(
     x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float, t_open: float,
-    bearings: int, beat: float, way: FloatArray,
+    bearings: int, tangents: FloatArray, beat: float, way: FloatArray,
 ) -> float:  # fmt: skip
     """The fastest way to the slot through one contact.
 
@@ -76,6 +75,7 @@ def best_detour(
         delta: distance at the contact, d_min and a graze more [R].
         t_open: when the slot opens [R/V_P].
         bearings: how finely the disc is scanned.
+        tangents: contacts to be looked at besides, from `tangent.tangents`. shape (·, 3)
         beat: an arrival already known [R/V_P]; only earlier ones are looked for.
         way: takes the row to the contact and the row from it. shape (2, 5)
 
@@ -138,8 +138,7 @@ def best_detour(
         if here < best:
             best = here
             way[:] = trial
-    near = tangents_from_start(x, y, h, leader, alpha, delta)
-    for tangent in np.concatenate((near, tangents_to_slot(leader, alpha, delta))):
+    for tangent in tangents:
         # the words that end there exist on one side of the bearing only
         for off in (-_BESIDE, _BESIDE):
             found = through_contact(

@@ -21,7 +21,6 @@ from relguide.kernels.contact import contact_heading, ride_time, ride_turn
 from relguide.kernels.extremals import MAX_ROWS
 from relguide.kernels.passage import GRAZE, best_word, ways_to_contact, word_clears
 from relguide.kernels.roots import FloatArray
-from relguide.kernels.tangent import tangents_from_start, tangents_to_slot
 
 NODE = 0.03
 """Time between nodes of a ride [R/V_P]: between them it strays from d_min by some 1e-8 R."""
@@ -106,7 +105,7 @@ def _nodes(
 @njit(cache=True, nogil=True)
 def best_ride(
     x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float, t_open: float,
-    bearings: int, beat: float, way: FloatArray,
+    bearings: int, tangents: FloatArray, beat: float, way: FloatArray,
 ) -> tuple[float, float, float, float]:  # fmt: skip
     """The fastest way to the slot that rides along the disc.
 
@@ -119,6 +118,7 @@ def best_ride(
         delta: distance of the ride [R].
         t_open: when the slot opens [R/V_P].
         bearings: how finely the disc is scanned.
+        tangents: contacts to be looked at besides, from `tangent.tangents`. shape (·, 3)
         beat: an arrival already known [R/V_P]; only earlier ones are looked for.
         way: takes the row of `solve` to the first contact. shape (5,)
 
@@ -133,12 +133,10 @@ def best_ride(
     t_ref = max(t_open, leader[len(leader) - 1, 0])
     if not _somewhere(alpha, delta):
         return best, best_side, best_first, best_last
-    near = tangents_from_start(x, y, h, leader, alpha, delta)
-    specials = np.concatenate((near, tangents_to_slot(leader, alpha, delta)))
     stride = TWO_PI / bearings
     for k in range(2):
         side = 1.0 - 2.0 * k
-        nodes = _nodes(specials, side, alpha, delta, bearings)
+        nodes = _nodes(tangents, side, alpha, delta, bearings)
         size = len(nodes)
         ride = np.empty(size)
         to = np.full(size, inf)

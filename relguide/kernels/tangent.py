@@ -124,6 +124,15 @@ def tangent_contacts(
 
 
 @njit(cache=True, nogil=True)
+def tangents(
+    x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float
+) -> FloatArray:
+    """Tangent contacts of the start and of the slot: rows of bearing, side, time."""
+    near = tangents_from_start(x, y, h, leader, alpha, delta)
+    return np.concatenate((near, tangents_to_slot(leader, alpha, delta)))
+
+
+@njit(cache=True, nogil=True)
 def tangents_from_start(
     x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float
 ) -> FloatArray:

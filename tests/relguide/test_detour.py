@@ -13,7 +13,7 @@ from relguide.kernels.contact import contact_heading, ride_rate, ride_time, ride
 from relguide.kernels.detour import best_detour
 from relguide.kernels.passage import GRAZE
 from relguide.kernels.ride import best_ride
-from relguide.kernels.tangent import tangent_contacts
+from relguide.kernels.tangent import tangent_contacts, tangents
 from relguide.kernels.turn import turn_radius
 from relguide.words import candidates
 from tests.oracle import arrival_error
@@ -105,13 +105,10 @@ def searched(situation: Situation, bearings: int) -> tuple[float, float]:
     frame = candidates(situation).frame
     limit = situation.min_separation / frame.radius + GRAZE
     table = leader_table(situation, frame)
-    start = frame.x, frame.y, frame.h
-    once = best_detour(
-        *start, table, frame.alpha, limit, frame.t_open, bearings, inf, np.zeros((2, 5))
-    )
-    ride, *_ = best_ride(
-        *start, table, frame.alpha, limit, frame.t_open, bearings, once, np.zeros(5)
-    )
+    start = frame.x, frame.y, frame.h, table, frame.alpha, limit
+    scan = frame.t_open, bearings, tangents(*start)
+    once = best_detour(*start, *scan, inf, np.zeros((2, 5)))
+    ride, *_ = best_ride(*start, *scan, once, np.zeros(5))
     scale = frame.radius / situation.pursuer.tas
     return once * scale, ride * scale
 
