@@ -4,7 +4,8 @@ from bisect import bisect_left
 from dataclasses import dataclass, field
 
 BUCKETS = (0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005, 0.01, 0.1, 1.0)
-"""Upper ends of the histogram of planning times [s]: a plan takes about 0.1 ms."""
+"""Upper ends of the histogram of planning times [s]: a plan takes about 0.1 ms,
+some ten where the separation limit binds."""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -36,7 +37,7 @@ class Metrics:
         lines = [
             *_header("relguide_plans_total", "counter", "Plans answered."),
             *(f'relguide_plans_total{{status="{k}"}} {n}' for k, n in self.plans.items()),
-            *_header("relguide_plan_seconds", "histogram", "Time to make one plan."),
+            *_header("relguide_plan_seconds", "histogram", "Time to make and write one plan."),
             *(
                 f'relguide_plan_seconds_bucket{{le="{end:g}"}} {sum(self.plan_counts[: i + 1])}'
                 for i, end in enumerate(BUCKETS)

@@ -1,4 +1,4 @@
-"""Angles: wrapping, and compass ↔ mathematical."""
+"""Angles: wrapping."""
 
 from math import pi
 
@@ -31,9 +31,3 @@ def turn_to(angle: float) -> float:
     if wrapped > TWO_PI - FULL_TURN_SLACK:
         return 0.0
     return wrapped
-
-
-@njit(cache=True, nogil=True)
-def heading_from_math(angle: float) -> float:
-    """Counter-clockwise from east → clockwise from north, in [0, 2π)."""
-    return wrap(0.5 * pi - angle)

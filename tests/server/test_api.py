@@ -1,12 +1,14 @@
 """REST: plans, flights, problem documents; garbage in, sentences out."""
 
+import threading
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 from fastapi import FastAPI
 from starlette.testclient import TestClient
 
-from relguide.plan import NoPlan, Plan
+from relguide.plan import NoPlan, Plan, plan
 from relguide.situation import Situation
 from server.app import create_app
 from server.plans import EXAMPLE, MAX_BATCH
@@ -236,3 +238,21 @@ def test_the_docs_need_no_other_machine(client: TestClient) -> None:
     assert "https://" not in page
     assert client.get("/docs/swagger-ui-bundle.js").status_code == 200
     assert client.get("/docs/swagger-ui.css").headers["content-type"].startswith("text/css")
+
+
+def test_a_plan_that_takes_long_keeps_nobody_waiting() -> None:
+    """Where the limit binds a plan takes tens of ms: the loop, and so the streams, go on."""
+    asked, go_on = threading.Event(), threading.Event()
+
+    def slow(situation: Situation) -> Plan | NoPlan:
+        asked.set()
+        assert go_on.wait(10.0)
+        return plan(situation)
+
+    app = create_app(Settings(), planner=slow, departures=ideal_departures())
+    with TestClient(app) as client, ThreadPoolExecutor(1) as other:
+        planned = other.submit(client.post, "/api/v1/plans", json=EXAMPLE)
+        assert asked.wait(10.0)
+        assert client.get("/healthz").status_code == 200
+        go_on.set()
+        assert planned.result().json()["status"] == "planned"
