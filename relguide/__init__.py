@@ -8,38 +8,38 @@ d_min. Five conventions hold everywhere:
 2. World frame: x east, y north [m]. Heading ψ clockwise from north in [0, 2π).
    Velocity = V (sin ψ, cos ψ).
 3. Slot frame (inside kernels only): origin at the slot, x along the leader's final heading,
-   angles counter-clockwise, lengths in R, times in R/V_P. Crossed only in `frames.py`.
+   angles counter-clockwise, lengths in R, times in R/V_P. Crossed only in `planning/slot.py`.
 4. Signs: bank φ > 0 is right wing down, turns right, ψ grows. The paper's ε = +1 is a left turn: so
    `turn = LEFT = +1`, and sign φ = −`turn`.
 5. Time is t [s] from the start of the manoeuvre; segments are numbered forward from 0.
 """
 
-from relguide.certificate import Certificate as Certificate
-from relguide.certificate import certify as certify
-from relguide.plan import Alternative as Alternative
-from relguide.plan import NoPlan as NoPlan
-from relguide.plan import Plan as Plan
-from relguide.plan import Planner as Planner
-from relguide.plan import Reason as Reason
-from relguide.plan import alternatives as alternatives
-from relguide.plan import plan as plan
-from relguide.situation import CALM as CALM
-from relguide.situation import FlyStraight as FlyStraight
-from relguide.situation import Leader as Leader
-from relguide.situation import Pursuer as Pursuer
-from relguide.situation import Situation as Situation
-from relguide.situation import TurnTo as TurnTo
-from relguide.situation import Wind as Wind
-from relguide.situation import wind_from as wind_from
-from relguide.trajectory import LEFT as LEFT
-from relguide.trajectory import RIGHT as RIGHT
-from relguide.trajectory import Arc as Arc
-from relguide.trajectory import BoundaryArc as BoundaryArc
-from relguide.trajectory import Pose as Pose
-from relguide.trajectory import Straight as Straight
-from relguide.trajectory import Trajectory as Trajectory
-from relguide.words import Candidate as Candidate
-from relguide.words import candidates as candidates
+from relguide.planning.certificate import Certificate as Certificate
+from relguide.planning.certificate import certify as certify
+from relguide.planning.plan import Alternative as Alternative
+from relguide.planning.plan import NoPlan as NoPlan
+from relguide.planning.plan import Plan as Plan
+from relguide.planning.plan import Planner as Planner
+from relguide.planning.plan import Reason as Reason
+from relguide.planning.plan import alternatives as alternatives
+from relguide.planning.plan import plan as plan
+from relguide.planning.situation import CALM as CALM
+from relguide.planning.situation import FlyStraight as FlyStraight
+from relguide.planning.situation import Leader as Leader
+from relguide.planning.situation import Pursuer as Pursuer
+from relguide.planning.situation import Situation as Situation
+from relguide.planning.situation import TurnTo as TurnTo
+from relguide.planning.situation import Wind as Wind
+from relguide.planning.situation import wind_from as wind_from
+from relguide.planning.trajectory import LEFT as LEFT
+from relguide.planning.trajectory import RIGHT as RIGHT
+from relguide.planning.trajectory import Arc as Arc
+from relguide.planning.trajectory import BoundaryArc as BoundaryArc
+from relguide.planning.trajectory import Pose as Pose
+from relguide.planning.trajectory import Straight as Straight
+from relguide.planning.trajectory import Trajectory as Trajectory
+from relguide.planning.words import Candidate as Candidate
+from relguide.planning.words import candidates as candidates
 
 __version__ = "0.1.0"
 

@@ -104,7 +104,7 @@ def _port(text: str) -> int:
 
 
 def _recording(text: str) -> str:
-    from relguide.recorder import check_name
+    from relguide.contract.recorder import check_name
 
     try:
         check_name(text)

@@ -14,16 +14,16 @@ from typing import IO, TYPE_CHECKING, Any
 
 import orjson
 
-from relguide.answers import answer, answer_card, answer_line
-from relguide.bodies import NamedSituationBody, situation_from_body
-from relguide.plan import plan
+from relguide.contract.answers import answer, answer_card, answer_line
+from relguide.contract.bodies import NamedSituationBody, situation_from_body
+from relguide.contract.recorder import record, replay
+from relguide.contract.refusal import parse
+from relguide.contract.story import failures, figures, told
+from relguide.planning.plan import plan
 from relguide.progress import watched
-from relguide.recorder import record, replay
-from relguide.refusal import parse
-from relguide.story import failures, figures, told
 
 if TYPE_CHECKING:
-    from relguide.flight import Scenario
+    from relguide.flying.flight import Scenario
 
 _WARM_UP = 40
 """Documents of a flight made for nothing, or a plan: it loads the compiled kernels, which takes
@@ -96,7 +96,7 @@ def fly_one(name: str, *, record_to: str | None, seed: int, as_json: bool) -> bo
     Returns:
         whether it joined and kept d_min.
     """
-    from relguide.flight import fly
+    from relguide.flying.flight import fly
 
     scenario = _scenario(name)
     for _ in islice(fly(scenario, plan, sample_period=1.0), _WARM_UP):
@@ -178,11 +178,11 @@ def serve(*, host: str, port: int) -> None:
 
 
 def _scenario(name: str) -> "Scenario":
-    from relguide.scenarios import own_scenario, recorded, scenario
+    from relguide.flying.scenarios import own_scenario, recorded, scenario
 
     path = Path(name)
     if path.suffix == ".csv":
-        from relguide.tracks import load_csv
+        from relguide.flying.tracks import load_csv
 
         return recorded(load_csv(path))
     if path.suffix == ".json" or name == "-" or path.is_file():

@@ -8,7 +8,8 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from relguide.documents import (
+from relguide.contract.story import Event, Story
+from relguide.flying.documents import (
     BoundarySegment,
     LeaderChanged,
     ModeChanged,
@@ -21,7 +22,6 @@ from relguide.documents import (
     StraightSegment,
     TurnSegment,
 )
-from relguide.story import Event, Story
 from relguide.units import DEG, NM
 
 PROOFS = {

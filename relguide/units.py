@@ -16,7 +16,7 @@ DEG = pi / 180.0
 G0 = 9.80665
 """Standard gravity g [m/s²]."""
 
-# A field's unit is part of its type, so that `contract.py` can put it into the field's JSON name.
+# A field's unit is part of its type, so that `contract/wire.py` can put it into its JSON name.
 Metre = Annotated[float, "m"]
 Second = Annotated[float, "s"]
 Millisecond = Annotated[float, "ms"]

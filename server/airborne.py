@@ -6,9 +6,9 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from relguide.commands import Command
-from relguide.documents import Document, Sample
-from relguide.wire import tick
+from relguide.contract.wire import tick
+from relguide.flying.commands import Command
+from relguide.flying.documents import Document, Sample
 from server.errors import survives
 from server.history import History
 from server.inbox import Inbox

@@ -9,7 +9,7 @@ from fastapi import APIRouter, FastAPI, Request
 from starlette.responses import PlainTextResponse, Response
 
 from relguide import __version__
-from relguide.plan import Planner, plan
+from relguide.planning.plan import Planner, plan
 from server import flights, pages, plans, scene_relay
 from server.departures import Departures, library_departures
 from server.errors import Refusal, install_handlers, survives

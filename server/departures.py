@@ -8,18 +8,18 @@ from typing import Annotated
 from fastapi import Depends
 from starlette.requests import HTTPConnection
 
-from relguide.contract import (
-    ContractError,
+from relguide.contract.bodies import situation_from_body
+from relguide.contract.messages import (
     FlightRequest,
     ScenarioFlightRequest,
     ScenarioInfo,
     ScenarioList,
     SituationFlightRequest,
-    situation_from_body,
 )
-from relguide.flight import Scenario, fly
-from relguide.plan import Planner
-from relguide.scenarios import SCENARIOS, own_scenario, scenario
+from relguide.contract.refusal import ContractError
+from relguide.flying.flight import Scenario, fly
+from relguide.flying.scenarios import SCENARIOS, own_scenario, scenario
+from relguide.planning.plan import Planner
 from server.airborne import Source
 
 REHEARSED = "fig_6b"

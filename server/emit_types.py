@@ -4,7 +4,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from relguide.contract import PROTOCOL, typescript_body
+from relguide.contract.protocol import PROTOCOL, typescript_body
 
 WIRE_TS = Path(__file__).parent.parent / "web" / "src" / "wire.ts"
 COMMAND = "python -m server.emit_types"
@@ -13,7 +13,7 @@ COMMAND = "python -m server.emit_types"
 def wire_ts() -> str:
     """The whole file."""
     return (
-        f"// Made by `{COMMAND}` from relguide/contract.py: do not edit.\n\n"
+        f"// Made by `{COMMAND}` from relguide/contract: do not edit.\n\n"
         "/** Sub-protocol of the stream: a server of another version refuses it. */\n"
         f'export const PROTOCOL = "{PROTOCOL}";\n\n'
         f"{typescript_body(docs=True)}"

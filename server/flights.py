@@ -7,11 +7,8 @@ from fastapi import APIRouter, Request, WebSocket
 from pydantic import RootModel
 from starlette.responses import Response
 
-from relguide.commands import IntentKnown, LeaderHeading, LeaderSpeed
-from relguide.contract import (
-    PROTOCOL,
+from relguide.contract.messages import (
     Command,
-    ContractError,
     FlightList,
     FlightRequest,
     FlightStatus,
@@ -22,8 +19,10 @@ from relguide.contract import (
     ScenarioList,
     SetIntentKnownCommand,
     SetRateCommand,
-    parse,
 )
+from relguide.contract.protocol import PROTOCOL
+from relguide.contract.refusal import ContractError, parse
+from relguide.flying.commands import IntentKnown, LeaderHeading, LeaderSpeed
 from server.airborne import Airborne
 from server.departures import DeparturesOf
 from server.fleet import FleetOf

@@ -4,7 +4,7 @@ from collections import deque
 from dataclasses import dataclass, field
 from typing import assert_never
 
-from relguide.documents import (
+from relguide.flying.documents import (
     Document,
     FlightEnded,
     FlightStarted,

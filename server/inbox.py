@@ -2,7 +2,7 @@
 
 import threading
 
-from relguide.documents import Document, Sample
+from relguide.flying.documents import Document, Sample
 
 
 class Inbox:

@@ -13,7 +13,7 @@ from pydantic import BaseModel
 from pydantic.json_schema import JsonSchemaMode, models_json_schema
 from starlette.responses import Response
 
-from relguide.refusal import ContractError, loads
+from relguide.contract.refusal import ContractError, loads
 from server.errors import PROBLEM_JSON, Problem, ProblemError, Refusal
 
 _REF = "#/components/schemas/{model}"

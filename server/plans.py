@@ -8,20 +8,13 @@ from fastapi import APIRouter, Depends, Request
 from pydantic import BaseModel, Field, RootModel, create_model
 from starlette.responses import Response
 
-from relguide.answers import answer
-from relguide.contract import (
-    Anchor,
-    ContractError,
-    NamedSituationBody,
-    PlanAnswer,
-    SituationBody,
-    model_of,
-    parse,
-    situation_from_body,
-)
-from relguide.documents import NoPlanCard, PlanCard
-from relguide.plan import Planner
-from relguide.situation import Situation
+from relguide.contract.answers import answer
+from relguide.contract.bodies import Anchor, NamedSituationBody, SituationBody, situation_from_body
+from relguide.contract.messages import PlanAnswer, model_of
+from relguide.contract.refusal import ContractError, parse
+from relguide.flying.documents import NoPlanCard, PlanCard
+from relguide.planning.plan import Planner
+from relguide.planning.situation import Situation
 from server.errors import Refusal
 from server.metrics import Metrics
 from server.openapi import (

@@ -11,7 +11,7 @@ from math import cos, sin
 import numpy as np
 from viser import ViserServer
 
-from relguide.documents import (
+from relguide.flying.documents import (
     Document,
     FlightEnded,
     FlightStarted,

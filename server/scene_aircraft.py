@@ -3,7 +3,7 @@
 import numpy as np
 from viser import SceneApi
 
-from relguide.documents import AircraftCard, AircraftSample
+from relguide.flying.documents import AircraftCard, AircraftSample
 from relguide.units import FT, KT
 from server import scene_shapes as shapes
 from server.scene_paint import Colour, dimmed, label, lines

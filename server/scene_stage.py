@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import rich
 
-from relguide.documents import Document
+from relguide.flying.documents import Document
 from server.errors import survives
 from server.inbox import Inbox
 

@@ -9,8 +9,8 @@ from typing import Any, Literal, get_args, get_origin
 
 from hypothesis import strategies as st
 
-from relguide.documents import Document
-from relguide.wire import COMPASS, wire_fields
+from relguide.contract.wire import COMPASS, wire_fields
+from relguide.flying.documents import Document
 
 DOCUMENT_TYPES: tuple[type[Any], ...] = get_args(Document)
 

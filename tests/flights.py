@@ -6,11 +6,11 @@ from math import hypot, pi
 from random import Random
 from typing import TypeVar
 
-from relguide.documents import Document, FlightEnded, Sample
-from relguide.flight import Command, Scenario, fly
-from relguide.plan import Planner, plan
-from relguide.situation import FlyStraight, Leader, Pursuer, Situation, TurnTo, wind_from
-from relguide.trajectory import LEFT, RIGHT
+from relguide.flying.documents import Document, FlightEnded, Sample
+from relguide.flying.flight import Command, Scenario, fly
+from relguide.planning.plan import Planner, plan
+from relguide.planning.situation import FlyStraight, Leader, Pursuer, Situation, TurnTo, wind_from
+from relguide.planning.trajectory import LEFT, RIGHT
 from relguide.units import DEG, NM
 
 T = TypeVar("T")

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import assume
 
 from relguide import Arc, Leader, Plan, Pursuer, Situation, Straight, Trajectory, plan
-from relguide.optimality import OptimalityReport
+from relguide.planning.optimality import OptimalityReport
 from relguide.units import DEG
 from tests.situations import golden
 

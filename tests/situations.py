@@ -18,7 +18,7 @@ from relguide import (
     TurnTo,
     Wind,
 )
-from relguide.contract import situation_from_json
+from relguide.contract.bodies import situation_from_json
 from relguide.units import DEG
 
 GOLDEN = Path(__file__).parent / "golden"

@@ -10,9 +10,11 @@ from pathlib import Path
 import pytest
 
 from relguide import Plan, candidates, certify, plan
-from relguide.cards import plan_card
-from relguide.contract import situation_from_json, to_wire
-from relguide.documents import (
+from relguide.contract.bodies import situation_from_json
+from relguide.contract.recorder import record, replay
+from relguide.contract.wire import to_wire
+from relguide.flying.cards import plan_card
+from relguide.flying.documents import (
     Document,
     FlightEnded,
     FlightStarted,
@@ -22,9 +24,8 @@ from relguide.documents import (
     PlanChanged,
     Sample,
 )
-from relguide.flight import Command, LeaderHeading, fly
-from relguide.recorder import record, replay
-from relguide.scenarios import scenario
+from relguide.flying.flight import Command, LeaderHeading, fly
+from relguide.flying.scenarios import scenario
 
 SECTION_5 = """{
   "pursuer": {"x_m": -40000, "y_m": 40000, "heading_deg": 90, "tas_mps": 240, "max_bank_deg": 25},

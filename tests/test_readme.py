@@ -12,9 +12,9 @@ from fastapi.testclient import TestClient
 
 from relguide import plan
 from relguide.__main__ import main
-from relguide.documents import FlightEnded
-from relguide.flight import fly
-from relguide.scenarios import scenario
+from relguide.flying.documents import FlightEnded
+from relguide.flying.flight import fly
+from relguide.flying.scenarios import scenario
 from server.app import create_app
 
 ROOT = Path(__file__).parents[1]
@@ -76,16 +76,15 @@ def test_make_targets_are_there() -> None:
 
 def test_map_and_links_lead_somewhere() -> None:
     (tree,) = [block for block in blocks("text") if block.startswith("relguide/")]
-    folder = ROOT
+    folders = [ROOT]  # and those a line is in, outermost first
     for line in tree.splitlines():
         names = re.match(r"( *)((?:[\w.]+/?(?:, )?)+)", line)
         assert names is not None, line
-        if not names[1]:
-            folder = ROOT
+        del folders[1 + len(names[1]) // 2 :]
         for name in names[2].strip().split(", "):
-            assert (folder / name).exists(), name
-        if not names[1] and names[2].strip().endswith("/"):
-            folder = ROOT / names[2].strip()
+            assert (folders[-1] / name).exists(), name
+        if names[2].strip().endswith("/"):
+            folders.append(folders[-1] / names[2].strip())
     for link in re.findall(r"\]\((?!http|#)([^)]+)\)", README):
         assert (ROOT / link).exists(), link
 

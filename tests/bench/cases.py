@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from relguide import Leader, Pursuer, Situation
-from relguide.slot import SlotFrame, slot_frame
+from relguide.planning.slot import SlotFrame, slot_frame
 
 GOLDEN = Path(__file__).parents[1] / "golden"
 FRESH = 240

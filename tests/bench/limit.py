@@ -17,9 +17,9 @@ from rich.console import Console
 from rich.progress import track
 
 from relguide import Situation, certify
-from relguide.detour import BEARINGS
-from relguide.words import candidates
-from tests.relguide.test_detour import drawn, searched
+from relguide.planning.detour import BEARINGS
+from relguide.planning.words import candidates
+from tests.relguide.planning.test_detour import drawn, searched
 
 
 def active(rng: np.random.Generator, *, tight: bool) -> Situation:

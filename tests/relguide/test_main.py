@@ -15,9 +15,9 @@ from urllib.request import urlopen
 import pytest
 
 from relguide.__main__ import main
-from relguide.documents import FlightStarted
-from relguide.recorder import replay
-from tests.relguide.test_contract import BODY, changed
+from relguide.contract.recorder import replay
+from relguide.flying.documents import FlightStarted
+from tests.relguide.contract.test_contract import BODY, changed
 
 FIGURES = {
     "joined",

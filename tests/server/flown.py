@@ -3,8 +3,8 @@
 from collections.abc import Callable, Iterable, Iterator
 from math import hypot
 
-from relguide.cards import path_point, path_segments, plan_card, wind_card
-from relguide.documents import (
+from relguide.flying.cards import path_point, path_segments, plan_card, wind_card
+from relguide.flying.documents import (
     AircraftCard,
     AircraftSample,
     Document,
@@ -18,9 +18,17 @@ from relguide.documents import (
     PlanChanged,
     Sample,
 )
-from relguide.plan import Plan, plan
-from relguide.situation import FlyStraight, Leader, Pursuer, Situation, TurnTo, Wind, wind_from
-from relguide.trajectory import RIGHT, Trajectory
+from relguide.planning.plan import Plan, plan
+from relguide.planning.situation import (
+    FlyStraight,
+    Leader,
+    Pursuer,
+    Situation,
+    TurnTo,
+    Wind,
+    wind_from,
+)
+from relguide.planning.trajectory import RIGHT, Trajectory
 from relguide.units import DEG, FT
 
 SITUATION = Situation(

@@ -8,15 +8,15 @@ from contextlib import contextmanager
 import uvicorn
 from fastapi import FastAPI
 
-from relguide.contract import (
-    ContractError,
+from relguide.contract.messages import (
     FlightRequest,
     ScenarioFlightRequest,
     ScenarioInfo,
     ScenarioList,
 )
-from relguide.documents import Document
-from relguide.plan import plan
+from relguide.contract.refusal import ContractError
+from relguide.flying.documents import Document
+from relguide.planning.plan import plan
 from server.app import create_app
 from server.departures import Departure, Departures
 from server.settings import Settings, uvicorn_options

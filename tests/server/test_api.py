@@ -8,8 +8,8 @@ import pytest
 from fastapi import FastAPI
 from starlette.testclient import TestClient
 
-from relguide.plan import NoPlan, Plan, plan
-from relguide.situation import Situation
+from relguide.planning.plan import NoPlan, Plan, plan
+from relguide.planning.situation import Situation
 from server.app import create_app
 from server.plans import EXAMPLE, MAX_BATCH
 from server.settings import Settings

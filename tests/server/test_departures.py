@@ -5,7 +5,7 @@ import time
 import pytest
 from starlette.testclient import TestClient
 
-from relguide.contract import PROTOCOL
+from relguide.contract.protocol import PROTOCOL
 from server.app import create_app
 from server.plans import EXAMPLE
 from server.settings import Settings

@@ -5,8 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from relguide import contract
-from relguide.contract import PROTOCOL, typescript_body
+from relguide.contract.protocol import PROTOCOL, protocol, typescript_body
 from server.emit_types import COMMAND, WIRE_TS, main, wire_ts
 from tests.documents import DOCUMENT_TYPES
 
@@ -35,8 +34,8 @@ def test_the_protocol_stands_in_the_file() -> None:
 def test_comments_do_not_change_the_protocol_but_shapes_do() -> None:
     assert "/**" in typescript_body(docs=True)
     assert "/**" not in typescript_body(docs=False)
-    assert contract.protocol("a") != contract.protocol("b")
-    assert contract.protocol(typescript_body(docs=False)) == PROTOCOL
+    assert protocol("a") != protocol("b")
+    assert protocol(typescript_body(docs=False)) == PROTOCOL
 
 
 def test_every_document_has_its_interface_and_its_place_in_the_union() -> None:

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from relguide.documents import (
+from relguide.flying.documents import (
     FlightEnded,
     FlightStarted,
     LeaderChanged,

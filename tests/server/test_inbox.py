@@ -2,7 +2,7 @@
 
 import threading
 
-from relguide.documents import ModeChanged, PlanChanged, Sample
+from relguide.flying.documents import ModeChanged, PlanChanged, Sample
 from server.inbox import Inbox
 from tests.server.flown import ideal_flight
 

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 from viser import ViserServer
 
-from relguide.documents import (
+from relguide.flying.documents import (
     Document,
     NoPlanCard,
     PlanUnavailable,
     Sample,
 )
-from relguide.plan import Reason
+from relguide.planning.plan import Reason
 from server import scene_paint as paint
 from server.scene import Scene
 from server.scene_shapes import ALTITUDE_SCALE

@@ -14,8 +14,8 @@ from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.typing import Subprotocol
 
-from relguide.commands import Command
-from relguide.documents import Document
+from relguide.flying.commands import Command
+from relguide.flying.documents import Document
 from server.scene_relay import may_pass
 from tests.server.flown import ideal_flight
 from tests.server.serving import ideal_app, served

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from viser.transforms import SO3
 
-from relguide.cards import path_segments, plan_card
-from relguide.plan import Plan, plan
+from relguide.flying.cards import path_segments, plan_card
+from relguide.planning.plan import Plan, plan
 from server import scene_shapes as shapes
 from tests.server.flown import SITUATION
 

@@ -11,7 +11,7 @@ from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed
 from websockets.typing import Subprotocol
 
-from relguide.contract import PROTOCOL
+from relguide.contract.protocol import PROTOCOL
 from tests.server.flown import ideal_flight
 from tests.server.serving import ideal_app, served
 

@@ -12,10 +12,11 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed
 from websockets.typing import Subprotocol
 
-from relguide.commands import Command
-from relguide.contract import PROTOCOL, parse
-from relguide.documents import Document
-from relguide.messages import Tick
+from relguide.contract.messages import Tick
+from relguide.contract.protocol import PROTOCOL
+from relguide.contract.refusal import parse
+from relguide.flying.commands import Command
+from relguide.flying.documents import Document
 from tests.server.flown import ideal_flight
 from tests.server.serving import ideal_app, served
 

@@ -1,4 +1,4 @@
-// Made by `python -m server.emit_types` from relguide/contract.py: do not edit.
+// Made by `python -m server.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
 export const PROTOCOL = "relguide-cffdf51cc79f";

@@ -1,0 +1,66 @@
+"""From a situation in JSON to its answer in JSON, one at a time or a line of a batch."""
+
+from typing import Any
+
+from relguide.contract.bodies import (
+    MAX_ID,
+    MAX_INTEGER,
+    Anchor,
+    NamedSituationBody,
+    plan_to_wire,
+    situation_from_body,
+)
+from relguide.contract.refusal import ContractError, loads, parse, printable
+from relguide.contract.wire import to_wire
+from relguide.flying.cards import no_plan_card, plan_card
+from relguide.flying.documents import NoPlanCard, PlanCard
+from relguide.planning.plan import NoPlan, Plan, Planner
+from relguide.planning.situation import Situation
+
+
+def answer_card(situation: Situation, planner: Planner) -> PlanCard | NoPlanCard:
+    """A plan, or why there is none, as outsiders read it."""
+    match planned := planner(situation):
+        case Plan():
+            return plan_card(planned)
+        case NoPlan():
+            return no_plan_card(planned)
+
+
+def answer(situation: Situation, anchor: Anchor, planner: Planner) -> dict[str, Any]:
+    """A plan, or why there is none, as a JSON object."""
+    match card := answer_card(situation, planner):
+        case PlanCard():
+            return plan_to_wire(card, anchor)
+        case NoPlanCard():
+            return to_wire(card)
+
+
+def answer_line(line: bytes, planner: Planner) -> dict[str, Any]:
+    """The answer to a line of a batch, with the situation's `id` if it has one.
+
+    What is no situation gives `{"status": "invalid", "message": …}` in its place.
+    """
+    name: dict[str, Any] = {}
+    try:
+        content = loads(line)
+        if isinstance(content, dict):
+            name = _name(content)
+            situation, anchor = situation_from_body(parse(NamedSituationBody, content))
+            return name | answer(situation, anchor, planner)
+        raise ContractError([("", "A line must be an object with fields: a situation.")])
+    except ContractError as error:
+        return name | {"status": "invalid", "message": str(error)}
+
+
+def _name(content: dict[str, Any]) -> dict[str, Any]:
+    """The `id` alone, if it is one that can be written back."""
+    match content.get("id"):
+        case bool():
+            return {}
+        case int(number) if abs(number) <= MAX_INTEGER:
+            return {"id": number}
+        case str(text) if len(text) <= MAX_ID and printable(text) == text:
+            return {"id": text}
+        case _:
+            return {}

@@ -1,0 +1,321 @@
+"""A situation as outsiders send it: strict shapes with units in their names, and their meaning.
+
+Positions are x, y of the world frame or latitude, longitude (WGS84), in both aircraft alike. In the
+second case the world frame is the plane that touches the earth at the leader, and headings, which
+are clockwise from true north where the aircraft is, are turned by the angle between its meridian
+and the plane's north. Wind and intent are taken at the leader.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import atan2, degrees, hypot, isfinite, radians
+from typing import Annotated, Any
+
+from pydantic import Discriminator, Field, Tag
+
+from relguide.contract.refusal import ContractError, Strict, parse
+from relguide.contract.wire import to_wire
+from relguide.flying.documents import Direction, PlanCard
+from relguide.planning import situation as limits
+from relguide.planning.frames import LocalPlane
+from relguide.planning.situation import (
+    CALM,
+    FlyStraight,
+    IntentPiece,
+    Leader,
+    Pursuer,
+    Situation,
+    TurnTo,
+    Wind,
+    wind_from,
+)
+from relguide.planning.trajectory import LEFT, RIGHT
+from relguide.units import DEG
+
+# 9 decimals: a bound such as 60° comes back from radians with its last digit changed
+_BANK = Field(ge=round(limits.MIN_BANK / DEG, 9), le=round(limits.MAX_BANK / DEG, 9))
+_POSITION = Field(ge=-limits.MAX_POSITION, le=limits.MAX_POSITION)
+
+MAX_ID = 200
+"""Longest accepted `id` [characters]."""
+MAX_INTEGER = 2**53 - 1
+"""Largest integer that every reader of JSON keeps exact."""
+
+Tas = Annotated[float, Field(ge=limits.MIN_TAS, le=limits.MAX_TAS)]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Unanchored:
+    """Positions came as x, y: there are no latitudes to give back."""
+
+
+Anchor = LocalPlane | Unanchored
+"""How the world frame lies on the earth."""
+
+
+class LocalPursuer(Strict):
+    """The aircraft that is guided, at t = 0."""
+
+    x_m: Annotated[float, _POSITION]
+    """East."""
+    y_m: Annotated[float, _POSITION]
+    """North."""
+    heading_deg: float
+    """Clockwise from true north."""
+    tas_mps: Tas
+    """True airspeed, kept constant."""
+    max_bank_deg: Annotated[float, _BANK]
+    """Bank of its turns."""
+
+
+class GeodeticPursuer(Strict):
+    """The aircraft that is guided, at t = 0, placed on the earth (WGS84)."""
+
+    lat_deg: Annotated[float, Field(ge=-90.0, le=90.0)]
+    lon_deg: Annotated[float, Field(ge=-180.0, le=180.0)]
+    heading_deg: float
+    """Clockwise from true north."""
+    tas_mps: Tas
+    """True airspeed, kept constant."""
+    max_bank_deg: Annotated[float, _BANK]
+    """Bank of its turns."""
+
+
+class StraightPiece(Strict):
+    """A piece of intent: keep the heading."""
+
+    straight_s: Annotated[float, Field(ge=0.0, le=limits.MAX_PIECE)]
+    """For how long."""
+
+
+class TurnPiece(Strict):
+    """A piece of intent: turn at constant bank."""
+
+    turn_to_heading_deg: float
+    """Heading to roll out on, clockwise from true north."""
+    direction: Direction
+    """Which way round."""
+    bank_deg: Annotated[float, _BANK]
+    """Bank of the turn."""
+
+
+def _which_piece(value: Any) -> str:
+    turns = isinstance(value, TurnPiece) or (
+        isinstance(value, Mapping) and not value.keys().isdisjoint(TurnPiece.model_fields)
+    )
+    return "#turn" if turns else "#straight"
+
+
+def _which_position(value: Any) -> str:
+    geodetic = isinstance(value, GeodeticPursuer | GeodeticLeader) or (
+        isinstance(value, Mapping) and not value.keys().isdisjoint(("lat_deg", "lon_deg"))
+    )
+    return "#geodetic" if geodetic else "#local"
+
+
+Piece = Annotated[
+    Annotated[StraightPiece, Tag("#straight")] | Annotated[TurnPiece, Tag("#turn")],
+    Discriminator(_which_piece),
+]
+Intent = Annotated[list[Piece], Field(max_length=limits.MAX_PIECES)]
+
+
+class LocalLeader(Strict):
+    """The aircraft to be joined, at t = 0, with what it has declared it will do."""
+
+    x_m: Annotated[float, _POSITION]
+    """East."""
+    y_m: Annotated[float, _POSITION]
+    """North."""
+    heading_deg: float
+    """Clockwise from true north."""
+    tas_mps: Tas
+    """True airspeed, kept constant."""
+    intent: Annotated[Intent, Field(default_factory=list)]
+    """Pieces to come; what follows the last is flown for ever."""
+
+
+class GeodeticLeader(Strict):
+    """The aircraft to be joined, at t = 0, placed on the earth (WGS84)."""
+
+    lat_deg: Annotated[float, Field(ge=-90.0, le=90.0)]
+    lon_deg: Annotated[float, Field(ge=-180.0, le=180.0)]
+    heading_deg: float
+    """Clockwise from true north."""
+    tas_mps: Tas
+    """True airspeed, kept constant."""
+    intent: Annotated[Intent, Field(default_factory=list)]
+    """Pieces to come; what follows the last is flown for ever."""
+
+
+class WindBody(Strict):
+    """Uniform wind as reports give it."""
+
+    from_deg: float
+    """Where it comes from, clockwise from true north."""
+    speed_mps: Annotated[float, Field(ge=0.0, le=limits.MAX_WIND)]
+
+
+class SituationBody(Strict):
+    """Everything a plan depends on, at one instant."""
+
+    pursuer: Annotated[
+        Annotated[LocalPursuer, Tag("#local")] | Annotated[GeodeticPursuer, Tag("#geodetic")],
+        Discriminator(_which_position),
+    ]
+    leader: Annotated[
+        Annotated[LocalLeader, Tag("#local")] | Annotated[GeodeticLeader, Tag("#geodetic")],
+        Discriminator(_which_position),
+    ]
+    slot_distance_m: Annotated[float, Field(ge=0.0, le=limits.MAX_SLOT_DISTANCE)]
+    """D: how far behind the leader the pursuer is to be."""
+    min_separation_m: Annotated[float, Field(ge=0.0, le=limits.MAX_SLOT_DISTANCE)]
+    """d_min: how close the two may come; at most D."""
+    wind: WindBody = WindBody(from_deg=0.0, speed_mps=0.0)
+    """Left out: calm."""
+
+
+def _which_id(value: Any) -> str:
+    return "#text" if isinstance(value, str) else "#number"
+
+
+class NamedSituationBody(SituationBody):
+    """A situation of a batch."""
+
+    id: Annotated[
+        Annotated[Annotated[str, Field(max_length=MAX_ID)], Tag("#text")]
+        | Annotated[Annotated[int, Field(ge=-MAX_INTEGER, le=MAX_INTEGER)], Tag("#number")],
+        Discriminator(_which_id),
+    ] = ""
+    """Given back with the answer."""
+
+
+def situation_from_json(source: bytes | str | Mapping[str, object]) -> tuple[Situation, Anchor]:
+    """Read a situation from JSON text, or from JSON already parsed.
+
+    Returns:
+        the situation, and how its world frame lies on the earth.
+
+    Raises:
+        ContractError: naming each field that is wrong.
+    """
+    return situation_from_body(parse(SituationBody, source))
+
+
+def situation_from_body(body: SituationBody) -> tuple[Situation, Anchor]:
+    """A situation whose shape is right, in library units.
+
+    Raises:
+        ContractError: for what the shape cannot tell, such as D < d_min.
+    """
+    pursuer, leader, anchor = _aircraft(body)
+    if body.slot_distance_m < body.min_separation_m:
+        message = (
+            f"must be at least min_separation_m ({body.min_separation_m:g}), not "
+            f"{body.slot_distance_m:g}: the slot itself would be too close."
+        )
+        raise ContractError([("slot_distance_m", message)])
+    try:
+        return (
+            Situation(
+                pursuer=pursuer,
+                leader=leader,
+                slot_distance=body.slot_distance_m,
+                min_separation=body.min_separation_m,
+                wind=_wind(body.wind),
+            ),
+            anchor,
+        )
+    except ValueError as error:  # a rule of `Situation` that the shapes above do not know
+        raise ContractError([("", str(error))]) from None
+
+
+def plan_to_wire(card: PlanCard, anchor: Anchor) -> dict[str, Any]:
+    """A plan as a JSON object; every point with latitude and longitude if the situation came so."""
+    answer = to_wire(card)
+    match anchor:
+        case LocalPlane():
+            for segment in answer["segments"]:
+                segment["start"] = _on_earth(segment["start"], anchor)
+                segment["end"] = _on_earth(segment["end"], anchor)
+        case Unanchored():
+            pass
+    return answer
+
+
+def _aircraft(body: SituationBody) -> tuple[Pursuer, Leader, Anchor]:
+    match body.pursuer, body.leader:
+        case LocalPursuer() as p, LocalLeader() as l:
+            return (
+                _pursuer(p, p.x_m, p.y_m, radians(p.heading_deg % 360.0)),
+                _leader(l, l.x_m, l.y_m, radians(l.heading_deg % 360.0)),
+                Unanchored(),
+            )
+        case GeodeticPursuer() as p, GeodeticLeader() as l:
+            plane = LocalPlane(l.lat_deg, l.lon_deg)
+            x, y = _near(plane, p)
+            heading = radians((p.heading_deg + _meridian(plane, p.lat_deg, p.lon_deg)) % 360.0)
+            return (
+                _pursuer(p, x, y, heading),
+                _leader(l, 0.0, 0.0, radians(l.heading_deg % 360.0)),
+                plane,
+            )
+        case _:
+            message = "must have x_m, y_m or lat_deg, lon_deg in both aircraft alike."
+            raise ContractError([("pursuer", message), ("leader", message)])
+
+
+def _pursuer(body: LocalPursuer | GeodeticPursuer, x: float, y: float, heading: float) -> Pursuer:
+    return Pursuer(x=x, y=y, heading=heading, tas=body.tas_mps, max_bank=radians(body.max_bank_deg))
+
+
+def _leader(body: LocalLeader | GeodeticLeader, x: float, y: float, heading: float) -> Leader:
+    return Leader(
+        x=x, y=y, heading=heading, tas=body.tas_mps, intent=tuple(map(_piece, body.intent))
+    )
+
+
+def _piece(body: StraightPiece | TurnPiece) -> IntentPiece:
+    match body:
+        case StraightPiece():
+            return FlyStraight(duration=body.straight_s)
+        case TurnPiece():
+            return TurnTo(
+                heading=radians(body.turn_to_heading_deg % 360.0),
+                turn=LEFT if body.direction == "left" else RIGHT,
+                bank=radians(body.bank_deg),
+            )
+
+
+def _wind(body: WindBody) -> Wind:
+    if body.speed_mps == 0.0:
+        return CALM
+    return wind_from(radians(body.from_deg % 360.0), body.speed_mps)
+
+
+def _near(plane: LocalPlane, pursuer: GeodeticPursuer) -> tuple[float, float]:
+    x, y = plane.to_local(pursuer.lat_deg, pursuer.lon_deg)
+    # at the antipode the projection gives infinity
+    if not (isfinite(x) and isfinite(y)) or hypot(x, y) > limits.MAX_POSITION:
+        message = f"must lie within {limits.MAX_POSITION / 1000.0:g} km of the leader."
+        raise ContractError([("pursuer.lat_deg, pursuer.lon_deg", message)])
+    return x, y
+
+
+def _meridian(plane: LocalPlane, lat_deg: float, lon_deg: float) -> float:
+    """Direction of true north at a place, clockwise from the plane's north [°]."""
+    step = 1e-4 if lat_deg < 0.0 else -1e-4  # 11 m, toward the equator: there is no north of a pole
+    x, y = plane.to_local(lat_deg, lon_deg)
+    x_step, y_step = plane.to_local(lat_deg + step, lon_deg)
+    return degrees(atan2((x_step - x) / step, (y_step - y) / step))
+
+
+def _on_earth(point: dict[str, Any], plane: LocalPlane) -> dict[str, Any]:
+    lat, lon = plane.to_geodetic(point["x_m"], point["y_m"])
+    heading = (point["heading_deg"] - _meridian(plane, lat, lon)) % 360.0
+    return {
+        **point,
+        "heading_deg": heading if heading < 360.0 else 0.0,
+        "lat_deg": lat,
+        "lon_deg": lon,
+    }

@@ -1,0 +1,304 @@
+"""Documents read back from JSON, the stream's ticks, and what flights take and give over REST.
+
+The models of the documents are made from their dataclasses by the rules of `wire.py`: one source
+for reading them back, for the OpenAPI document and for the browser's types.
+"""
+
+from collections.abc import Mapping
+from dataclasses import is_dataclass
+from enum import Enum
+from functools import reduce
+from operator import or_
+from types import UnionType
+from typing import Annotated, Any, Literal, Union, get_args, get_origin
+
+from pydantic import (
+    BaseModel,
+    Discriminator,
+    Field,
+    Tag,
+    TypeAdapter,
+    ValidationError,
+    create_model,
+)
+
+from relguide.contract.bodies import SituationBody, Tas
+from relguide.contract.refusal import Strict, loads, refusal
+from relguide.contract.wire import WireField, wire_fields
+from relguide.flying.documents import (
+    Direction,
+    Document,
+    Mode,
+    NoPlanCard,
+    PathPoint,
+    PathSegment,
+    PlanCard,
+    ReferenceCard,
+)
+
+_TAGS = ("kind", "status", "rejected")
+
+
+def _no_default(schema: dict[str, Any]) -> None:
+    del schema["default"]  # the field is left out, never null
+
+
+_GEODETIC: dict[str, Any] = {
+    name: (
+        float,
+        Field(
+            default=None,
+            description="WGS84; there if the situation came with latitudes.",
+            json_schema_extra=_no_default,
+        ),
+    )
+    for name in ("lat_deg", "lon_deg")
+}
+_MODELS: dict[type[Any], type[BaseModel]] = {}
+_DATACLASSES: dict[type[BaseModel], type[Any]] = {}
+
+
+def model_of(document_type: type[Any]) -> type[BaseModel]:
+    """The JSON shape of a document or card."""
+    if (known := _MODELS.get(document_type)) is not None:
+        return known
+    members: dict[str, Any] = {
+        f.wire_name: (_json_type(f.annotation), Field(description=f.doc or None))
+        for f in wire_fields(document_type)
+    }
+    if document_type is PathPoint:
+        members |= _GEODETIC
+    model = create_model(
+        document_type.__name__, __base__=Strict, __doc__=document_type.__doc__, **members
+    )
+    _MODELS[document_type], _DATACLASSES[model] = model, document_type
+    return model
+
+
+def _json_type(annotation: Any) -> Any:
+    origin = get_origin(annotation)
+    if origin is tuple:
+        return list[_json_type(get_args(annotation)[0])]  # type: ignore[misc]
+    if origin in (UnionType, Union):
+        members = get_args(annotation)
+        (tag,) = [t for t in _TAGS if all(_tag_field(m) == t for m in members)]
+        return Annotated[reduce(or_, map(model_of, members)), Field(discriminator=tag)]
+    if is_dataclass(annotation):
+        assert isinstance(annotation, type)
+        return model_of(annotation)
+    if isinstance(annotation, type) and issubclass(annotation, Enum):
+        return Literal[tuple(member.value for member in annotation)]
+    return annotation
+
+
+def _tag_field(document_type: type[Any]) -> str:
+    (tag,) = [f.name for f in wire_fields(document_type) if f.name in _TAGS]
+    return tag
+
+
+DocumentModel: Any = _json_type(Document)
+"""Any document of a flight."""
+PlanAnswer: Any = _json_type(PlanCard | NoPlanCard)
+"""The answer to a situation."""
+PathSegmentModel: Any = _json_type(PathSegment)
+"""A piece of a path over the ground."""
+ReferenceModel: Any = _json_type(ReferenceCard)
+"""What guidance asks of the autopilot."""
+_DOCUMENT: TypeAdapter[BaseModel] = TypeAdapter(DocumentModel)
+
+Rate = Annotated[float, Field(ge=1.0, le=60.0)]
+"""Accepted simulated seconds per second."""
+Seed = Annotated[int, Field(ge=0, le=2**32 - 1)]
+"""Accepted seeds of a flight's random numbers."""
+
+
+def from_wire(source: bytes | str | Mapping[str, object]) -> Document:
+    """Read a document back from its JSON.
+
+    Raises:
+        ContractError: naming each field that is wrong.
+    """
+    content = loads(source) if isinstance(source, bytes | str) else source
+    try:
+        model = _DOCUMENT.validate_python(content)
+    except ValidationError as error:
+        raise refusal(error, content) from None
+    document: Document = _from_model(model)
+    return document
+
+
+def _from_model(model: BaseModel) -> Any:
+    document_type = _DATACLASSES[type(model)]
+    return document_type(
+        **{f.name: _decode(f, getattr(model, f.wire_name)) for f in wire_fields(document_type)}
+    )
+
+
+def _decode(field: WireField, value: Any) -> Any:
+    if isinstance(value, BaseModel):
+        return _from_model(value)
+    if isinstance(value, list):
+        return tuple(map(_from_model, value))
+    if isinstance(field.annotation, type) and issubclass(field.annotation, Enum):
+        return field.annotation(value)
+    return field.decode_number(value)
+
+
+class Tick(Strict):
+    """A frame of the stream: what happened in a flight since the last one."""
+
+    kind: Literal["tick"]
+    flight_id: str
+    t_s: float
+    """Flight time now."""
+    rate: float
+    """Simulated seconds per second."""
+    paused: bool
+    ended: bool
+    documents: list[DocumentModel]
+    """Since the last tick, in order; of several samples only the newest."""
+
+
+class ScenarioInfo(Strict):
+    """A scenario that can be flown."""
+
+    name: str
+    title: str
+    description: str
+    available: bool
+    """Whether what it needs is installed."""
+    message: str
+    """If not, what to install."""
+
+
+class ScenarioList(Strict):
+    """All scenarios."""
+
+    scenarios: list[ScenarioInfo]
+
+
+class ScenarioFlightRequest(Strict):
+    """Start a flight of a scenario."""
+
+    scenario: Annotated[str, Field(max_length=100)]
+    """Its name."""
+    rate: Rate = 1.0
+    """Simulated seconds per second."""
+    paused: bool = False
+    """Whether it waits for `play`."""
+    intent_known: bool | None = None
+    """Whether the pursuer knows the leader's intent; left out: as the scenario says."""
+    seed: Seed = 0
+
+
+class SituationFlightRequest(Strict):
+    """Start a flight of a situation of one's own."""
+
+    situation: SituationBody
+    rate: Rate = 1.0
+    """Simulated seconds per second."""
+    paused: bool = False
+    """Whether it waits for `play`."""
+    intent_known: bool | None = None
+    """Whether the pursuer knows the leader's intent; left out: it does."""
+    seed: Seed = 0
+
+
+def _which_request(value: Any) -> str:
+    own = isinstance(value, SituationFlightRequest) or (
+        isinstance(value, Mapping) and "situation" in value
+    )
+    return "#situation" if own else "#scenario"
+
+
+FlightRequest = Annotated[
+    Annotated[ScenarioFlightRequest, Tag("#scenario")]
+    | Annotated[SituationFlightRequest, Tag("#situation")],
+    Discriminator(_which_request),
+]
+"""What starts a flight."""
+
+
+class FlightStatus(Strict):
+    """Where a flight stands."""
+
+    id: str
+    scenario: str
+    """Its name; empty for a situation of one's own."""
+    title: str
+    t_s: float
+    """Flight time."""
+    rate: float
+    """Simulated seconds per second."""
+    paused: bool
+    ended: bool
+    mode: Mode
+    joined: bool
+    separation_m: float
+    stream_url: str
+    """Path of its WebSocket."""
+    scene_url: str
+    """Path of its 3D scene."""
+
+
+class FlightList(Strict):
+    """All flights."""
+
+    flights: list[FlightStatus]
+
+
+class PlayCommand(Strict):
+    """Let the flight go on."""
+
+    command: Literal["play"]
+
+
+class PauseCommand(Strict):
+    """Stop the flight where it is."""
+
+    command: Literal["pause"]
+
+
+class SetRateCommand(Strict):
+    """Let simulated time go faster or slower."""
+
+    command: Literal["set_rate"]
+    rate: Rate
+    """Simulated seconds per second."""
+
+
+class LeaderHeadingCommand(Strict):
+    """Give the leader a heading."""
+
+    command: Literal["leader_heading"]
+    heading_deg: float
+    """Clockwise from true north."""
+    direction: Direction | None = None
+    """Which way round; left out: the shorter."""
+
+
+class LeaderSpeedCommand(Strict):
+    """Give the leader a speed."""
+
+    command: Literal["leader_speed"]
+    tas_mps: Tas
+    """True airspeed."""
+
+
+class SetIntentKnownCommand(Strict):
+    """Tell the pursuer the leader's intent, or withdraw it."""
+
+    command: Literal["set_intent_known"]
+    known: bool
+
+
+Command = Annotated[
+    PlayCommand
+    | PauseCommand
+    | SetRateCommand
+    | LeaderHeadingCommand
+    | LeaderSpeedCommand
+    | SetIntentKnownCommand,
+    Field(discriminator="command"),
+]
+"""What a flight can be told."""

@@ -1,0 +1,192 @@
+"""Documents as JSON, made mechanically from their dataclasses: every name ends in its unit.
+
+A field annotated with a unit of `units.py` gets that unit as suffix (`Metre` → `_m`); radians are
+written as degrees (`_deg`, `_degps`), headings and tracks in [0, 360). A trailing underscore of a
+Python name is dropped. The field that tells a union's members apart (`kind`, `status`) comes first.
+"""
+
+import ast
+import inspect
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, fields, is_dataclass
+from enum import Enum
+from math import degrees, isfinite, radians
+from types import UnionType
+from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
+
+import orjson
+
+from relguide.flying.documents import (
+    AircraftCard,
+    AircraftSample,
+    AlternativeCard,
+    Document,
+    NoPlanCard,
+    PathPoint,
+    PlanCard,
+)
+
+Card = PlanCard | NoPlanCard | PathPoint | AlternativeCard | AircraftCard | AircraftSample
+"""Parts of documents that also travel alone."""
+
+SUFFIX = {"m": "_m", "s": "_s", "ms": "_ms", "mps": "_mps", "rad": "_deg", "radps": "_degps"}
+"""Unit of `units.py` → what the JSON name ends in."""
+COMPASS = ("heading", "track", "from_")
+"""Angles with these names are directions, written in [0, 360)."""
+TAGS = ("kind", "status")
+"""Fields that say which member of a union this is, and come first."""
+
+Convert = Callable[[Any], Any]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WireField:
+    """One field of a document, on both sides of the wire."""
+
+    name: str
+    """In Python."""
+    wire_name: str
+    """In JSON."""
+    annotation: Any
+    """Its Python type, without the unit."""
+    doc: str
+    """Its docstring, or nothing."""
+    encode: Convert
+    """Python value → JSON value."""
+    decode_number: Convert
+    """JSON number → Python number; the identity for what is not an angle."""
+
+
+def to_wire(document: Document | Card) -> dict[str, Any]:
+    """A document, or a card of one, as a JSON object.
+
+    Raises:
+        ValueError: if a number in it is not finite; JSON has no such numbers.
+    """
+    return {f.wire_name: f.encode(getattr(document, f.name)) for f in wire_fields(type(document))}
+
+
+def dumps(document: Document | Card) -> bytes:
+    """A document, or a card of one, as JSON text."""
+    return orjson.dumps(to_wire(document))
+
+
+def tick(
+    flight_id: str,
+    *,
+    t: float,
+    rate: float,
+    paused: bool,
+    ended: bool,
+    documents: Sequence[Document],
+) -> bytes:
+    """One frame of the stream: what happened since the last one, in order, as JSON text.
+
+    Args:
+        flight_id: whose stream it is.
+        t: flight time now [s].
+        rate: simulated seconds per second.
+        paused: whether the flight stands still.
+        ended: whether it is over.
+        documents: since the last tick.
+    """
+    return orjson.dumps(
+        {
+            "kind": "tick",
+            "flight_id": flight_id,
+            "t_s": _finite(t),
+            "rate": _finite(rate),
+            "paused": paused,
+            "ended": ended,
+            "documents": [to_wire(document) for document in documents],
+        }
+    )
+
+
+_FIELDS: dict[type[Any], tuple[WireField, ...]] = {}
+
+
+def wire_fields(document_type: type[Any]) -> tuple[WireField, ...]:
+    """The fields of a document type in the order of its JSON."""
+    if (known := _FIELDS.get(document_type)) is not None:
+        return known
+    hints = get_type_hints(document_type, include_extras=True)
+    docs = field_docs(document_type)
+    described = [
+        _describe(f.name, hints[f.name], docs.get(f.name, "")) for f in fields(document_type)
+    ]
+    described.sort(key=lambda f: f.name not in TAGS)
+    return _FIELDS.setdefault(document_type, tuple(described))
+
+
+def field_docs(document_type: type[Any]) -> dict[str, str]:
+    """The string under each field of a class, by name."""
+    try:
+        (definition,) = ast.parse(inspect.getsource(document_type)).body
+    except OSError:  # installed without sources: nothing to tell
+        return {}
+    assert isinstance(definition, ast.ClassDef)
+    docs: dict[str, str] = {}
+    for field, below in zip(definition.body, definition.body[1:], strict=False):
+        match field, below:
+            case (
+                ast.AnnAssign(target=ast.Name(id=name)),
+                ast.Expr(value=ast.Constant(value=str(text))),
+            ):
+                docs[name] = inspect.cleandoc(text)
+    return docs
+
+
+def _describe(name: str, hint: Any, doc: str) -> WireField:
+    unit, annotation = "", hint
+    if get_origin(hint) is Annotated:
+        annotation, unit = get_args(hint)
+    encode, decode = _conversion(name, annotation, unit)
+    return WireField(
+        name=name,
+        wire_name=name.rstrip("_") + SUFFIX.get(unit, ""),
+        annotation=annotation,
+        doc=doc,
+        encode=encode,
+        decode_number=decode,
+    )
+
+
+def _conversion(name: str, annotation: Any, unit: str) -> tuple[Convert, Convert]:
+    if unit in ("rad", "radps"):
+        return (_compass_degrees if name in COMPASS else _degrees), radians
+    if annotation is float:
+        return _finite, _same
+    if annotation in (int, bool, str):
+        return annotation, _same  # also turns numpy's scalars into Python's
+    if get_origin(annotation) is tuple:
+        return _encode_all, _same
+    if is_dataclass(annotation) or get_origin(annotation) in (UnionType, Union):
+        return to_wire, _same
+    if get_origin(annotation) is Literal or issubclass(annotation, Enum):
+        return str, _same
+    raise TypeError(f"{name}: the wire has no form for {annotation!r}.")
+
+
+def _encode_all(members: Sequence[Any]) -> list[dict[str, Any]]:
+    return [to_wire(member) for member in members]
+
+
+def _same(value: Any) -> Any:
+    return value
+
+
+def _finite(value: float) -> float:
+    if not isfinite(value):
+        raise ValueError(f"A document must hold finite numbers only, not {value}.")
+    return float(value)
+
+
+def _degrees(value: float) -> float:
+    return degrees(_finite(value))
+
+
+def _compass_degrees(value: float) -> float:
+    wrapped = degrees(_finite(value)) % 360.0
+    # the remainder of a tiny negative angle rounds to 360 itself
+    return wrapped if wrapped < 360.0 else 0.0

@@ -1,0 +1,151 @@
+"""Plans and trajectories as outsiders read them: over the ground, piece by piece."""
+
+from math import atan, atan2, ceil, pi
+from typing import assert_never
+
+from relguide.flying.documents import (
+    AlternativeCard,
+    BoundarySegment,
+    NoPlanCard,
+    OptimalityCard,
+    PathPoint,
+    PathSegment,
+    PlanCard,
+    Separation,
+    StraightSegment,
+    TurnSegment,
+    UnsafeAlternativeCard,
+    WindCard,
+)
+from relguide.planning.plan import Alternative, LosesSeparation, NoPlan, Plan, Slower, alternatives
+from relguide.planning.situation import Wind
+from relguide.planning.slot import over_ground
+from relguide.planning.trajectory import LEFT, Arc, BoundaryArc, Pose, Segment, Straight, Trajectory
+from relguide.units import G0, Second
+
+VIA: Second = 5.0
+"""Time between the points that draw a ride along d_min [s]: chords stray from it by metres."""
+
+
+def plan_card(plan: Plan) -> PlanCard:
+    """A plan with its segments over the ground and the alternatives that lost."""
+    certificate, optimality = plan.certificate, plan.optimality
+    return PlanCard(
+        planner=plan.planner,
+        word=plan.word,
+        time_to_converge=plan.time_to_converge,
+        length=plan.trajectory.length,
+        segments=path_segments(plan.trajectory, wind=plan.situation.wind),
+        separation=Separation(
+            least=certificate.least_separation,
+            at=certificate.at_time,
+            proved_above=certificate.lower_bound,
+        ),
+        optimality=OptimalityCard(proof=optimality.proof, lower_bound=optimality.lower_bound),
+        alternatives=tuple(_alternative_card(a) for a in alternatives(plan)),
+        compute=plan.compute_time,
+    )
+
+
+def no_plan_card(answer: NoPlan) -> NoPlanCard:
+    """Why there is no plan."""
+    return NoPlanCard(reason=answer.reason, message=answer.message)
+
+
+def path_point(pose: Pose, t: float, wind: Wind) -> PathPoint:
+    """A pose of the air mass at time t [s], over the ground."""
+    return _point(pose, t, wind, 0.0)
+
+
+def path_segments(
+    trajectory: Trajectory, *, wind: Wind, start_time: float = 0.0, horizon: float | None = None
+) -> tuple[PathSegment, ...]:
+    """A trajectory's segments with their ends over the ground.
+
+    Args:
+        trajectory: in the air mass, which is the world frame at the trajectory's own t = 0.
+        wind: moves the air mass over the ground.
+        start_time: added to every t [s].
+        horizon: if given, the endless straight that follows is appended, to end at this time [s]
+            after the start (nothing is appended if the trajectory is longer).
+    """
+    pieces: list[Segment] = list(trajectory.segments)
+    if horizon is not None and horizon > trajectory.duration:
+        pieces.append(Straight(length=(horizon - trajectory.duration) * trajectory.tas))
+    flown = Trajectory(
+        x=trajectory.x,
+        y=trajectory.y,
+        heading=trajectory.heading,
+        tas=trajectory.tas,
+        segments=tuple(pieces),
+    )
+    points: list[PathPoint] = []
+    t = 0.0
+    for pose, duration in zip(flown.breakpoints(), (*flown.durations(), 0.0), strict=True):
+        points.append(_point(pose, t, wind, start_time))
+        t += duration
+    segments: list[PathSegment] = []
+    t = 0.0
+    for piece, start, end in zip(flown.segments, points[:-1], points[1:], strict=True):
+        duration = piece.length / flown.tas
+        match piece:
+            case Arc():
+                segments.append(
+                    TurnSegment(
+                        direction="left" if piece.turn == LEFT else "right",
+                        angle=piece.turn_angle,
+                        bank=atan(flown.tas**2 / (G0 * piece.radius)),
+                        radius=piece.radius,
+                        duration=duration,
+                        start=start,
+                        end=end,
+                    )
+                )
+            case Straight():
+                segments.append(
+                    StraightSegment(length=piece.length, duration=duration, start=start, end=end)
+                )
+            case BoundaryArc():
+                count = ceil(duration / VIA)
+                times = [t + duration * k / count for k in range(1, count)]
+                segments.append(
+                    BoundarySegment(
+                        side="left" if piece.side == LEFT else "right",
+                        duration=duration,
+                        start=start,
+                        end=end,
+                        via=tuple(_point(flown.pose_at(s), s, wind, start_time) for s in times),
+                    )
+                )
+            case _:
+                assert_never(piece)
+        t += duration
+    return tuple(segments)
+
+
+def _point(pose: Pose, t: float, wind: Wind, start_time: float) -> PathPoint:
+    ground = over_ground(pose, t, wind)
+    return PathPoint(t=start_time + t, x=ground.x, y=ground.y, heading=ground.heading)
+
+
+def wind_card(wind: Wind) -> WindCard:
+    """A wind as reports give it: where it comes from, and how strong."""
+    direction = (atan2(wind.east, wind.north) + pi) % (2.0 * pi) if wind.speed > 0.0 else 0.0
+    return WindCard(from_=direction, speed=wind.speed)
+
+
+def _alternative_card(alternative: Alternative) -> AlternativeCard | UnsafeAlternativeCard:
+    match alternative.rejected:
+        case Slower():
+            return AlternativeCard(
+                word=alternative.word, time_to_converge=alternative.time_to_converge
+            )
+        case LosesSeparation(least_separation=least, at_time=at):
+            return UnsafeAlternativeCard(
+                word=alternative.word,
+                time_to_converge=alternative.time_to_converge,
+                least_separation=least,
+                at=at,
+            )
+        case _:
+            assert_never(alternative.rejected)

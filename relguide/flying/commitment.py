@@ -1,0 +1,219 @@
+"""Which plan to fly: the committed one, until another is better by a margin or it fails.
+
+The plan is discontinuous in the situation: 100 m may move it by a minute and to the other side.
+Flown as it comes, it would chatter. So the same strategy is solved again from where the aircraft
+is, and given up only for a reason.
+"""
+
+from dataclasses import dataclass
+from math import cos, hypot, sin
+from typing import Literal
+
+from relguide.flying.aircraft import AircraftModel
+from relguide.flying.steering import rest, steer
+from relguide.planning.certificate import certify
+from relguide.planning.plan import NoPlan, Optimality, Plan, Planner
+from relguide.planning.plan import plan as exact_plan
+from relguide.planning.situation import Situation
+from relguide.planning.slot import slot_frame
+from relguide.planning.trajectory import Arc, Trajectory
+from relguide.planning.words import Candidate, candidates
+from relguide.units import Metre, Second
+
+Cause = Literal["continued", "better_plan", "deviation", "separation"]
+"""Why the trajectory flown from now on is what it is."""
+
+MARGIN: Second = 1.0  # a change of mind costs a roll reversal or two: about a second each
+SHARE = 0.005  # and what is far ahead is uncertain: half a percent of the time to go
+SAME_WAY: Metre = 300.0  # replanning moves a path by metres, another way is kilometres off
+SAME_WAY_SHARE = 0.03  # … and by this much of its length while rolling, when a turn begins late
+OVERDUE: Second = 10.0  # two rolls' worth: more is not what rolling costs
+LEASH: Metre = 600.0  # what one roll-in costs; farther off, the committed path is not being flown
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Commitment:
+    """A plan being flown."""
+
+    plan: Plan
+    """Its trajectory is of the air mass, which was the world frame at `made_at`."""
+    made_at: Second
+    """Flight time [s]."""
+    due: Second
+    """When it was to arrive before it was solved again for the first time, flight time [s]."""
+
+    def rest_at(self, t: Second, situation: Situation) -> Trajectory:
+        """What is left of it at flight time t, in the situation's own air-mass frame."""
+        elapsed = t - self.made_at
+        left = rest(self.plan.trajectory, elapsed)
+        wind = situation.wind
+        return Trajectory(
+            x=left.x + wind.east * elapsed,
+            y=left.y + wind.north * elapsed,
+            heading=left.heading,
+            tas=left.tas,
+            segments=left.segments,
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Choice:
+    """What to fly from now on, and why."""
+
+    plan: Plan
+    cause: Cause
+    fell_back: bool
+    """Whether the planner's own answer did not certify and the exact plan stood in."""
+
+
+def choose(
+    committed: Commitment | None,
+    t: Second,
+    *,
+    preferred: Situation,
+    required: Situation,
+    planner: Planner,
+    model: AircraftModel,
+) -> Choice | NoPlan:
+    """Decide what to fly.
+
+    The last turn is flown as it was planned. Full bank has nothing to spare: solved again a few
+    metres outside it, the exact answer swings wide first, by a turn that grows with the root of
+    those metres. Turns before it are solved again, which makes good what rolling into them cost,
+    but not for ever: once overdue, they too are flown as they were planned last. So is a plan
+    that arrives as the slot opens: nothing is faster, and of the many that are as fast one is kept.
+
+    Args:
+        committed: what is flown now; `None` only before the first plan.
+        t: flight time [s].
+        preferred: the situation with the separation that new plans should keep.
+        required: the same with d_min itself, which the committed plan is held to, and new plans
+            when nothing keeps the preferred separation.
+        planner: makes plans; the certificate judges them, whoever made them.
+        model: how the aircraft rolls.
+    """
+    if committed is not None:
+        left = committed.rest_at(t, required)
+        overdue = t + left.duration > committed.due + OVERDUE
+        if _as_planned(left, model, overdue=overdue) or _arrives_at_opening(left, required):
+            kept = _followed_on(left, committed.plan, required)
+            if kept is not None:
+                return Choice(plan=kept, cause="continued", fell_back=False)
+    answer, fell_back = _ask(planner, preferred)
+    if isinstance(answer, NoPlan):
+        answer, fell_back_again = _ask(planner, required)
+        fell_back = fell_back or fell_back_again
+    if committed is None:
+        if isinstance(answer, NoPlan):
+            return answer
+        return Choice(plan=answer, cause="better_plan", fell_back=fell_back)
+    if isinstance(answer, Plan) and _same_way(left, answer.trajectory, SAME_WAY_SHARE):
+        return Choice(plan=answer, cause="continued", fell_back=fell_back)
+    kept = _solved_again(left, required) or _followed_on(left, committed.plan, required)
+    if kept is None:
+        if isinstance(answer, NoPlan):
+            return answer
+        lost = not certify(left, required).holds
+        return Choice(plan=answer, cause="separation" if lost else "deviation", fell_back=fell_back)
+    if isinstance(answer, Plan):
+        gain = kept.time_to_converge - answer.time_to_converge
+        if gain > max(MARGIN, SHARE * kept.time_to_converge):
+            return Choice(plan=answer, cause="better_plan", fell_back=fell_back)
+    return Choice(plan=kept, cause="continued", fell_back=fell_back)
+
+
+def _ask(planner: Planner, situation: Situation) -> tuple[Plan | NoPlan, bool]:
+    """The planner's answer if it certifies, else the exact plan."""
+    answer = planner(situation)
+    if isinstance(answer, NoPlan) or certify(answer.trajectory, situation).holds:
+        return answer, False
+    return exact_plan(situation), True
+
+
+def _solved_again(left: Trajectory, situation: Situation) -> Plan | None:
+    """The extremal nearest to what is left, if it certifies."""
+    found = candidates(situation)
+    near = [
+        candidate
+        for candidate in (*found.at_opening, *found.later)
+        if _same_way(left, candidate.trajectory, 2.0 * SAME_WAY_SHARE)
+    ]
+    near.sort(key=lambda candidate: _distance_between(left, candidate.trajectory))
+    for candidate in near:
+        plan = _as_plan(candidate, situation, found.bound)
+        if plan.certificate.holds:
+            return plan
+    return None
+
+
+def _as_plan(candidate: Candidate, situation: Situation, bound: Second) -> Plan:
+    fastest = candidate.time_to_converge <= bound + 1e-6  # a microsecond: the same root, rounded
+    return Plan(
+        situation=situation,
+        trajectory=candidate.trajectory,
+        word=candidate.word,
+        certificate=certify(candidate.trajectory, situation),
+        optimality=Optimality(proof="relaxation" if fastest else "none", lower_bound=bound),
+        planner="exact",
+        compute_time=0.0,
+    )
+
+
+def _followed_on(left: Trajectory, plan: Plan, situation: Situation) -> Plan | None:
+    """What is left, as it was planned, if the aircraft is on it, it leads there and certifies."""
+    pursuer = situation.pursuer
+    if hypot(pursuer.x - left.x, pursuer.y - left.y) > LEASH or left.duration == 0.0:
+        return None
+    if _misses(left, situation) > LEASH:
+        return None
+    certificate = certify(left, situation)
+    if not certificate.holds:
+        return None
+    return Plan(
+        situation=situation,
+        trajectory=left,
+        word=left.letters,
+        certificate=certificate,
+        optimality=Optimality(proof="none", lower_bound=0.0),
+        planner=plan.planner,
+        compute_time=0.0,
+    )
+
+
+def _as_planned(left: Trajectory, model: AircraftModel, *, overdue: bool) -> bool:
+    """Whether only the last turn is left, or only turns and no time to lose."""
+    segments = steer(left, model).segments
+    if not all(isinstance(segment, Arc) for segment in segments):
+        return False
+    return len(segments) == 1 or (overdue and len(segments) > 1)
+
+
+def _arrives_at_opening(left: Trajectory, situation: Situation) -> bool:
+    """Whether no plan can be better by the margin."""
+    frame = slot_frame(situation, situation.leader.trajectory)
+    slot_opens = frame.t_open * frame.radius / situation.pursuer.tas
+    return left.duration < slot_opens + MARGIN
+
+
+def _misses(left: Trajectory, situation: Situation) -> Metre:
+    """How far from the slot a path ends: the leader may not be where the plan had it."""
+    frame = slot_frame(situation, situation.leader.trajectory)
+    flown = situation.leader.tas * left.duration
+    end = left.pose_at(left.duration)
+    return hypot(
+        end.x - frame.origin_x - flown * sin(frame.heading),
+        end.y - frame.origin_y - flown * cos(frame.heading),
+    )
+
+
+def _same_way(left: Trajectory, other: Trajectory, share: float) -> bool:
+    return _distance_between(left, other) <= SAME_WAY + share * other.length
+
+
+def _distance_between(left: Trajectory, other: Trajectory) -> Metre:
+    """How far apart two paths come, looked at after each third of the way."""
+    apart, time, other_time = 0.0, left.duration, other.duration
+    for share in (0.33, 0.67, 1.0):
+        a, b = left.pose_at(share * time), other.pose_at(share * other_time)
+        apart = max(apart, hypot(a.x - b.x, a.y - b.y))
+    return apart

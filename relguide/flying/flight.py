@@ -1,0 +1,327 @@
+"""fly(scenario, planner): the one closed loop in the house.
+
+    leader → what the pursuer knows → guidance (once a second) → autopilot → aircraft (each step)
+
+Everything else that flies a plan, live or not, iterates over these documents.
+"""
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
+from math import hypot, isfinite, pi
+from typing import Literal, assert_never
+
+from relguide.flying.aircraft import A300, AircraftModel, AircraftState
+from relguide.flying.aircraft import step as fly_step
+from relguide.flying.assignment import Assignment, Seen
+from relguide.flying.autopilot import Autopilot
+from relguide.flying.cards import wind_card
+from relguide.flying.commands import Command, obey
+from relguide.flying.commands import IntentKnown as IntentKnown
+from relguide.flying.commands import LeaderHeading as LeaderHeading
+from relguide.flying.commands import LeaderSpeed as LeaderSpeed
+from relguide.flying.commands import no_commands as no_commands
+from relguide.flying.documents import (
+    AircraftCard,
+    Document,
+    FlightEnded,
+    FlightStarted,
+    LeaderChanged,
+    ModeChanged,
+    PlanChanged,
+)
+from relguide.flying.guidance import advise
+from relguide.flying.leader import FlyingLeader, LeaderFlight, advanced, replayed
+from relguide.flying.logbook import Tally, counted, event_document, leader_route, sample
+from relguide.flying.memory import begin
+from relguide.flying.tracks import RecordedTrack
+from relguide.kernels.turn import turn_rate
+from relguide.planning.plan import Plan, Planner
+from relguide.planning.situation import MAX_TAS, MIN_TAS, Situation, TurnTo
+from relguide.units import DEG, KT, Metre, MetrePerSecond, Radian, Second
+
+ROUTE_TURNED: Radian = 1.0 * DEG  # a route drawn a degree off is 2 % of its length beside the truth
+ROUTE_SPEED: MetrePerSecond = 2.0 * KT  # what the display rounds to
+TURN_SEEN: float = 0.3 * DEG  # a quarter of an airliner's turn rate: a turn, not a correction
+TURN_OVER: float = 0.1 * DEG
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DeclaredLeader:
+    """The leader flies the intent of the scenario's situation."""
+
+    kind: Literal["declared"] = "declared"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Scenario:
+    """A flight that can be flown: where both begin, and what the leader will do."""
+
+    name: str
+    title: str
+    description: str
+    situation: Situation
+    """At t = 0, with the leader's true intent."""
+    intent_known: bool = True
+    """Whether the pursuer is told it."""
+    leader_source: DeclaredLeader | RecordedTrack = DeclaredLeader()
+    """A recorded leader overrules the situation's; its intent is not known."""
+    pursuer_ident: str = "PURSUER"
+    leader_ident: str = "LEADER"
+    leader_type: str = A300.aircraft_type
+    altitude: Metre = 9449.0
+    """Of the pursuer, and of a leader that is not recorded [m]; FL310."""
+    duration_limit: Second = 3600.0
+    """The flight ends here at the latest [s]."""
+    after_joining: Second = 120.0
+    """How long it goes on once joined [s]."""
+
+    def __post_init__(self) -> None:
+        """Refuse times that are none."""
+        if not (isfinite(self.duration_limit) and self.duration_limit > 0.0):
+            raise ValueError(f"duration_limit must be above 0 s, not {self.duration_limit}.")
+        if not self.after_joining >= 0.0:
+            raise ValueError(f"after_joining must be 0 s or more, not {self.after_joining}.")
+
+
+def fly(
+    scenario: Scenario,
+    planner: Planner,
+    *,
+    commands: Callable[[Second], Iterable[Command]] = no_commands,
+    step: Second = 0.05,
+    sample_period: Second = 0.05,
+    seed: int = 0,
+) -> Iterator[Document]:
+    """Fly a scenario and say what happens, in order of time.
+
+    Args:
+        scenario: what to fly.
+        planner: asked once a second, but not in the last turn, nor while what is flown arrives as
+            the slot opens: then nothing it could answer would be better.
+        commands: polled at each step with the flight time; what it gives takes effect at once.
+        step: integration step [s]; a whole number of steps makes a second.
+        sample_period: between samples [s]; a whole number of steps.
+        seed: written into the first document; nothing is random yet.
+
+    Yields:
+        `FlightStarted` first, `FlightEnded` last.
+    """
+    a_second, a_sample = _whole(1.0, step), _whole(sample_period, step)
+    return _fly(scenario, planner, commands, step, a_second, a_sample, seed)
+
+
+def _fly(
+    scenario: Scenario,
+    planner: Planner,
+    commands: Callable[[Second], Iterable[Command]],
+    step: Second,
+    a_second: int,
+    a_sample: int,
+    seed: int,
+) -> Iterator[Document]:
+    situation, wind = scenario.situation, scenario.situation.wind
+    model = _model(scenario)
+    leader = _leader(scenario)
+    pursuer = AircraftState(
+        situation.pursuer.x,
+        situation.pursuer.y,
+        situation.pursuer.heading % (2.0 * pi),
+        0.0,
+        0.0,
+        situation.pursuer.tas,
+        scenario.altitude,
+    )
+    assignment = Assignment(
+        model=model,
+        tas=situation.pursuer.tas,
+        max_bank=situation.pursuer.max_bank,
+        slot_distance=situation.slot_distance,
+        min_separation=situation.min_separation,
+        wind=wind,
+    )
+    pilot, leader_pilot = Autopilot(model=model), Autopilot(model=_leader_model(scenario))
+    known = scenario.intent_known and isinstance(leader, FlyingLeader)
+    yield _started(scenario, planner, step, seed)
+    seen = _seen(0.0, pursuer, leader, known)
+    memory = begin(seen, assignment)
+    yield leader_route(0.0, seen.leader, seen.intent, intent_known=known, wind=wind)
+    shown, turning, told = seen, False, False
+    tally = Tally(hypot(pursuer.x - leader.state.x, pursuer.y - leader.state.y), 0.0, 0.0, 0, 0)
+    planned_time, replans = 0.0, 0
+    join_time, following_since, joined = scenario.duration_limit, 0.0, False
+    n = 0
+    while True:
+        t = n * step
+        for command in commands(t):
+            leader, known, said = obey(command, leader, known, t, model.max_bank)
+            told = told or isinstance(command, LeaderHeading | LeaderSpeed)
+            yield from said
+        if n % a_second == 0:
+            seen = _seen(t, pursuer, leader, known)
+            changes, turning = _observed(shown, seen, turning, told)
+            yield from changes
+            if told or _route_is_news(shown, seen):
+                yield leader_route(t, seen.leader, seen.intent, intent_known=known, wind=wind)
+                shown, told = seen, False
+            memory, advice = advise(memory, seen, assignment, planner)
+            for event in advice.events:
+                document = event_document(t, event)
+                match document:
+                    case PlanChanged(reason="engaged", plan=card):
+                        planned_time = card.time_to_converge if n == 0 else 0.0
+                    case PlanChanged():
+                        replans += 1
+                    case ModeChanged(mode="follow"):
+                        following_since = t
+                        join_time = join_time if joined else t
+                        joined = True
+                yield document
+        if n % a_sample == 0:
+            since = (n % a_second) * step
+            yield sample(t, pursuer, leader.state, advice, since, tally, wind)
+        rested = advice.mode == "follow" and t - following_since >= scenario.after_joining
+        if rested or t >= _limit(scenario, leader) - 0.5 * step:
+            break
+        before = pursuer
+        pursuer = fly_step(
+            model,
+            pursuer,
+            aileron=pilot.aileron(advice.reference, pursuer, step),
+            commanded_tas=advice.commanded_tas,
+            wind_east=wind.east,
+            wind_north=wind.north,
+            duration=step,
+        )
+        leader = advanced(leader, leader_pilot, t, wind=wind, duration=step)
+        tally = counted(tally, before, pursuer, leader.state, joined)
+        n += 1
+    yield FlightEnded(
+        t=t,
+        joined=joined,
+        join_time=join_time if joined else t,
+        planned_time=planned_time,
+        least_separation=tally.least_separation,
+        heading_swing=tally.heading_swing,
+        bank_reversals=tally.bank_reversals,
+        replans=replans,
+        fallbacks=memory.fallbacks,
+        track=tally.track,
+    )
+
+
+def _started(scenario: Scenario, planner: Planner, step: Second, seed: int) -> FlightStarted:
+    situation = scenario.situation
+    answer = planner(situation)
+    return FlightStarted(
+        t=0.0,
+        scenario=scenario.name,
+        title=scenario.title,
+        planner=answer.planner if isinstance(answer, Plan) else "exact",
+        pursuer=AircraftCard(
+            ident=scenario.pursuer_ident,
+            aircraft_type=A300.aircraft_type,
+            max_bank=situation.pursuer.max_bank,
+        ),
+        leader=AircraftCard(
+            ident=scenario.leader_ident,
+            aircraft_type=scenario.leader_type,
+            max_bank=_leader_model(scenario).max_bank,
+        ),
+        slot_distance=situation.slot_distance,
+        min_separation=situation.min_separation,
+        wind=wind_card(situation.wind),
+        step=step,
+        seed=seed,
+    )
+
+
+def _leader(scenario: Scenario) -> LeaderFlight:
+    match scenario.leader_source:
+        case RecordedTrack() as track:
+            return replayed(track, 0.0, scenario.situation.wind)
+        case DeclaredLeader():
+            leader = scenario.situation.leader
+            heading = leader.heading % (2.0 * pi)
+            state = AircraftState(
+                leader.x, leader.y, heading, 0.0, 0.0, leader.tas, scenario.altitude
+            )
+            return FlyingLeader(
+                state=state, pieces=leader.intent, since=0.0, heading=heading, tas=leader.tas
+            )
+        case _:
+            assert_never(scenario.leader_source)
+
+
+def _model(scenario: Scenario) -> AircraftModel:
+    """The pursuer's: an A300 that can fly what the situation asks for."""
+    pursuer = scenario.situation.pursuer
+    return replace(
+        A300,
+        max_bank=pursuer.max_bank,
+        min_tas=min(A300.min_tas, 0.8 * pursuer.tas),
+        max_tas=max(A300.max_tas, pursuer.tas),
+    )
+
+
+def _leader_model(scenario: Scenario) -> AircraftModel:
+    """The leader's: an A300 that can bank as its intent says, and slows down without brakes."""
+    leader = scenario.situation.leader
+    banks = [piece.bank for piece in leader.intent if isinstance(piece, TurnTo)]
+    return replace(
+        A300,
+        max_bank=max(A300.max_bank, *banks, 0.0),
+        max_deceleration=0.5 * A300.max_deceleration,
+        min_tas=MIN_TAS,
+        max_tas=MAX_TAS,
+    )
+
+
+def _limit(scenario: Scenario, leader: LeaderFlight) -> Second:
+    """When the flight ends at the latest [s]: a recording cannot be flown beyond its end."""
+    if isinstance(leader, FlyingLeader):
+        return scenario.duration_limit
+    return min(scenario.duration_limit, leader.track.duration)
+
+
+def _seen(t: Second, pursuer: AircraftState, leader: LeaderFlight, known: bool) -> Seen:
+    state = leader.state
+    return Seen(
+        t=t,
+        pursuer=pursuer,
+        leader=state,
+        leader_turn_rate=turn_rate(state.tas, state.bank),
+        intent=leader.intent_left(t) if known else (),
+        intent_known=known,
+    )
+
+
+def _observed(
+    shown: Seen, seen: Seen, turning: bool, told: bool
+) -> tuple[tuple[LeaderChanged, ...], bool]:
+    """A turn that the leader begins without having announced it."""
+    rate = seen.leader_turn_rate
+    if turning or abs(rate) < TURN_SEEN:
+        return (), turning and abs(rate) > TURN_OVER
+    if seen.intent_known or told:
+        return (), True
+    side = "right" if rate > 0.0 else "left"
+    change = LeaderChanged(t=seen.t, change="heading", message=f"The leader turns {side}.")
+    return (change,), True
+
+
+def _route_is_news(shown: Seen, seen: Seen) -> bool:
+    """Whether the route last shown is no longer what is expected."""
+    if shown.intent_known != seen.intent_known:
+        return True
+    if abs(shown.leader.tas - seen.leader.tas) > ROUTE_SPEED:
+        return True
+    final, before = seen.final_heading, shown.final_heading
+    return abs((final - before + pi) % (2.0 * pi) - pi) > ROUTE_TURNED
+
+
+def _whole(duration: Second, step: Second) -> int:
+    """How many steps a duration has."""
+    steps = round(duration / step) if step > 0.0 else 0
+    if steps < 1 or abs(steps * step - duration) > 1e-9:
+        raise ValueError(f"{duration:g} s must be a whole number of steps of {step:g} s.")
+    return steps

@@ -1,0 +1,190 @@
+"""From what happens in flight to the documents that say so, and the figures of its summary."""
+
+from math import cos, hypot, pi, sin
+from typing import NamedTuple, assert_never
+
+from relguide.flying.aircraft import AircraftState, ground_velocity
+from relguide.flying.announcements import Event, ModeChange, NewPlan, PlanMissing
+from relguide.flying.autopilot import HoldHeading, Reference, TurnRate
+from relguide.flying.cards import no_plan_card, path_point, path_segments, plan_card
+from relguide.flying.documents import (
+    AircraftSample,
+    Document,
+    HeadingReference,
+    LeaderRoute,
+    ModeChanged,
+    PathPoint,
+    PlanChanged,
+    PlanUnavailable,
+    ReferenceCard,
+    Sample,
+    TurnRateReference,
+)
+from relguide.flying.memory import Advice
+from relguide.kernels.turn import turn_rate
+from relguide.planning.situation import IntentPiece, Leader, Wind
+from relguide.units import DEG, Metre, Radian, Second
+
+FINAL_LEG: Second = 1200.0
+"""How much of the leader's endless final leg is shown: what a pursuer 100 km away needs [s]."""
+BANKED: Radian = 3.0 * DEG  # less is a correction, not a turn
+
+
+class Tally(NamedTuple):
+    """Figures of a flight so far."""
+
+    least_separation: Metre
+    heading_swing: Radian
+    """Total variation of the pursuer's heading until joined."""
+    track: Metre
+    """Flown over the ground until joined."""
+    banked: int
+    """The last side banked to: +1 right, −1 left, 0 none yet."""
+    bank_reversals: int
+    """From one side to the other, until joined."""
+
+
+def counted(
+    tally: Tally, before: AircraftState, now: AircraftState, leader: AircraftState, joined: bool
+) -> Tally:
+    """The figures a step later."""
+    separation = hypot(now.x - leader.x, now.y - leader.y)
+    least = min(tally.least_separation, separation)
+    if joined:
+        return tally._replace(least_separation=least)
+    turned = abs((now.heading - before.heading + pi) % (2.0 * pi) - pi)
+    side = tally.banked
+    if abs(now.bank) > BANKED:
+        side = 1 if now.bank > 0.0 else -1
+    return Tally(
+        least,
+        tally.heading_swing + turned,
+        tally.track + hypot(now.x - before.x, now.y - before.y),
+        side,
+        tally.bank_reversals + (side * tally.banked < 0),
+    )
+
+
+def sample(
+    t: Second,
+    pursuer: AircraftState,
+    leader: AircraftState,
+    advice: Advice,
+    since: Second,
+    tally: Tally,
+    wind: Wind,
+) -> Sample:
+    """The flight at one instant.
+
+    Args:
+        t: flight time [s].
+        pursuer: now.
+        leader: now.
+        advice: the last that guidance gave.
+        since: how long ago [s]; the slot has moved since.
+        tally: gives the least separation.
+        wind: moves all three.
+    """
+    east, north = leader.x - pursuer.x, leader.y - pursuer.y
+    separation = hypot(east, north)
+    own = _aircraft_sample(pursuer, wind)
+    other = _aircraft_sample(leader, wind)
+    closure = 0.0
+    if separation > 0.0:
+        relative_east = own.ground_speed * sin(own.track) - other.ground_speed * sin(other.track)
+        relative_north = own.ground_speed * cos(own.track) - other.ground_speed * cos(other.track)
+        closure = (relative_east * east + relative_north * north) / separation
+    slot = advice.slot
+    half_turn = 0.5 * slot.turn_rate * since
+    slot_east = slot.tas * sin(slot.heading + half_turn) + wind.east
+    slot_north = slot.tas * cos(slot.heading + half_turn) + wind.north
+    slot_x, slot_y = slot.x + slot_east * since, slot.y + slot_north * since
+    slot_speed = hypot(slot_east, slot_north)
+    dx, dy = pursuer.x - slot_x, pursuer.y - slot_y
+    return Sample(
+        t=t,
+        pursuer=own,
+        leader=other,
+        mode=advice.mode,
+        reference=_reference_card(advice.reference),
+        commanded_tas=advice.commanded_tas,
+        separation=separation,
+        closure=closure,
+        least_separation=tally.least_separation,
+        slot=PathPoint(
+            t=t, x=slot_x, y=slot_y, heading=(slot.heading + 2.0 * half_turn) % (2.0 * pi)
+        ),
+        slot_open=advice.slot_open,
+        spacing_error=-(dx * slot_east + dy * slot_north) / slot_speed,
+        cross_track=(dx * slot_north - dy * slot_east) / slot_speed,
+        time_to_go=max(advice.time_to_go - since, 0.0),
+        joined=advice.mode == "follow",
+    )
+
+
+def leader_route(
+    t: Second,
+    leader: AircraftState,
+    intent: tuple[IntentPiece, ...],
+    *,
+    intent_known: bool,
+    wind: Wind,
+) -> LeaderRoute:
+    """What guidance expects the leader to fly."""
+    expected = Leader(x=leader.x, y=leader.y, heading=leader.heading, tas=leader.tas, intent=intent)
+    trajectory = expected.trajectory
+    return LeaderRoute(
+        t=t,
+        intent_known=intent_known,
+        segments=path_segments(
+            trajectory, wind=wind, start_time=t, horizon=trajectory.duration + FINAL_LEG
+        ),
+    )
+
+
+def event_document(t: Second, event: Event) -> Document:
+    """What guidance has to say, as a document."""
+    match event:
+        case NewPlan(commitment=commitment):
+            plan = commitment.plan
+            at, wind = plan.certificate.at_time, plan.situation.wind
+            leader = plan.situation.leader.trajectory
+            return PlanChanged(
+                t=t,
+                reason=event.reason,
+                message=event.message,
+                plan=plan_card(plan),
+                leader_at_closest=path_point(leader.pose_at(at), at, wind),
+                pursuer_at_closest=path_point(plan.trajectory.pose_at(at), at, wind),
+            )
+        case PlanMissing(answer=answer):
+            return PlanUnavailable(t=t, answer=no_plan_card(answer))
+        case ModeChange():
+            return ModeChanged(t=t, mode=event.mode, previous=event.previous, message=event.message)
+        case _:
+            assert_never(event)
+
+
+def _aircraft_sample(state: AircraftState, wind: Wind) -> AircraftSample:
+    velocity = ground_velocity(state, wind.east, wind.north)
+    return AircraftSample(
+        x=state.x,
+        y=state.y,
+        heading=state.heading,
+        track=velocity.track,
+        bank=state.bank,
+        turn_rate=turn_rate(state.tas, state.bank),
+        tas=state.tas,
+        ground_speed=velocity.speed,
+        altitude=state.altitude,
+    )
+
+
+def _reference_card(reference: Reference) -> ReferenceCard:
+    match reference:
+        case HoldHeading(heading=heading):
+            return HeadingReference(heading=heading)
+        case TurnRate(turn_rate=rate):
+            return TurnRateReference(turn_rate=rate)
+        case _:
+            assert_never(reference)

@@ -1,0 +1,177 @@
+"""The flights that have a name: the paper's by figure number, and a recorded leader.
+
+The paper does not say when the leader of Fig. 6 turns. Both figures were flown for turns at 60 …
+850 s. In 6b the pursuer turns right only, 45° in all, whenever that is. In 6a, turns
+
+- before 730 s find it far out: it turns right only as well, and follows 2 … 23 % later than in 6b,
+  but nothing sways (45.4° against 44.7° of heading swing at 360 s);
+- at 760 … 790 s find it about to join: it is there when the slot opens, as early as in 6b;
+- at 795 … 850 s find it in its last turn onto the old route. After its first right turn it has
+  converged, it changes its heading as the leader's goes round, is too close for the new slot, and
+  comes back by a wide turn right: swing 170 … 185° against 45°, following 11 % later.
+
+Only the last is section 5's "very swaying trajectory", so `LEADER_TURNS_AT` is in its middle:
+820 s, 6a joins at 1,018 s with a swing of 181°, 6b at 916 s (planned: 904 s) with 45°.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from importlib.util import find_spec
+from math import cos, sin
+
+from relguide.flying.flight import Scenario
+from relguide.flying.tracks import DEFAULT_LEADER, INSTALL, RecordedTrack, load_sample
+from relguide.planning.situation import CALM, FlyStraight, Leader, Pursuer, Situation, TurnTo
+from relguide.planning.trajectory import RIGHT
+from relguide.units import DEG, NM, Metre, Second
+
+LEADER_TURNS_AT: Second = 820.0
+"""When the leader of Fig. 6 begins its turn [s]."""
+BEHIND: Metre = 30_000.0
+"""How far behind the recorded leader the pursuer begins [m]."""
+ABEAM: Metre = 20_000.0
+"""… and how far to the left of its track [m]."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NamedScenario:
+    """A scenario as it is listed, and how to make it."""
+
+    name: str
+    title: str
+    description: str
+    build: Callable[[], Scenario]
+    """Raises `ValueError` with a sentence if its data is not there."""
+    missing: Callable[[], str]
+    """What to install before it can be built; empty if nothing."""
+
+
+def fig_6(*, intent_known: bool, leader_turns_at: Second = LEADER_TURNS_AT) -> Scenario:
+    """Fig. 6a (intent unknown) or 6b (intent known); they differ in nothing else.
+
+    Args:
+        intent_known: whether the pursuer knows of the leader's turn.
+        leader_turns_at: when the leader turns [s].
+    """
+    name = "fig_6b" if intent_known else "fig_6a"
+    return Scenario(
+        name=name,
+        title=TITLES[name],
+        description=DESCRIPTIONS[name],
+        situation=Situation(
+            pursuer=Pursuer(
+                x=-40_000.0, y=40_000.0, heading=90.0 * DEG, tas=240.0, max_bank=25.0 * DEG
+            ),
+            leader=Leader(
+                x=0.0,
+                y=0.0,
+                heading=90.0 * DEG,
+                tas=200.0,
+                intent=(
+                    FlyStraight(duration=leader_turns_at),
+                    TurnTo(heading=135.0 * DEG, turn=RIGHT, bank=25.0 * DEG),
+                ),
+            ),
+            slot_distance=10_000.0,
+            min_separation=5.0 * NM,
+            wind=CALM,
+        ),
+        intent_known=intent_known,
+    )
+
+
+def recorded(track: RecordedTrack, *, behind: Metre = BEHIND, abeam: Metre = ABEAM) -> Scenario:
+    """A recorded leader, and a pursuer 20 % faster behind it and to its left.
+
+    Args:
+        track: the leader; its heading and speed changes come as they were flown, unannounced.
+        behind: where the pursuer begins, back along the leader's first track [m].
+        abeam: and to the left of it [m].
+    """
+    first = track.state_at(0.0)
+    along_x, along_y = sin(first.track), cos(first.track)
+    speed = 1.2 * max(first.ground_speed, *(track.state_at(t).ground_speed for t in (60.0, 180.0)))
+    return Scenario(
+        name="recorded_leader",
+        title=TITLES["recorded_leader"],
+        description=DESCRIPTIONS["recorded_leader"],
+        situation=Situation(
+            pursuer=Pursuer(
+                x=first.x - behind * along_x - abeam * along_y,
+                y=first.y - behind * along_y + abeam * along_x,
+                heading=first.track,
+                tas=speed,
+                max_bank=25.0 * DEG,
+            ),
+            leader=Leader(x=first.x, y=first.y, heading=first.track, tas=first.ground_speed),
+            slot_distance=10_000.0,
+            min_separation=5.0 * NM,
+            wind=CALM,
+        ),
+        intent_known=False,
+        leader_source=track,
+        leader_ident=track.ident,
+        leader_type=track.aircraft_type or "unknown",
+        altitude=first.altitude,
+    )
+
+
+def scenario(name: str) -> Scenario:
+    """The scenario of that name.
+
+    Raises:
+        ValueError: if there is none, or its data is not installed, in a sentence.
+    """
+    if name not in SCENARIOS:
+        raise ValueError(f"There is no scenario {name!r}; there are {', '.join(SCENARIOS)}.")
+    return SCENARIOS[name].build()
+
+
+def own_scenario(situation: Situation, *, intent_known: bool = True) -> Scenario:
+    """A situation of one's own, to be flown."""
+    return Scenario(
+        name="own",
+        title="Own situation",
+        description="A situation that was sent.",
+        situation=situation,
+        intent_known=intent_known,
+    )
+
+
+def _nothing_missing() -> str:
+    return ""
+
+
+def _samples_missing() -> str:
+    if find_spec("traffic") is not None:
+        return ""
+    return f"Recorded tracks come with the package traffic, which is not installed: {INSTALL}"
+
+
+TITLES = {
+    "fig_6a": "Fig. 6a: the leader's intent is unknown",
+    "fig_6b": "Fig. 6b: the leader's intent is known",
+    "recorded_leader": "A recorded leader",
+}
+DESCRIPTIONS = {
+    "fig_6a": "The leader turns right to 135° without announcement; the pursuer, 40 km behind and "
+    "40 km north, has to change its plan.",
+    "fig_6b": "The same flight, but the pursuer knows of the turn and makes for the final route.",
+    "recorded_leader": "The leader flies as it was recorded by ADS-B near Paris, intent unknown; "
+    "the pursuer begins 30 km behind it and 20 km to its left.",
+}
+SCENARIOS: Mapping[str, NamedScenario] = {
+    name: NamedScenario(
+        name=name,
+        title=TITLES[name],
+        description=DESCRIPTIONS[name],
+        build=build,
+        missing=missing,
+    )
+    for name, build, missing in (
+        ("fig_6a", lambda: fig_6(intent_known=False), _nothing_missing),
+        ("fig_6b", lambda: fig_6(intent_known=True), _nothing_missing),
+        ("recorded_leader", lambda: recorded(load_sample(DEFAULT_LEADER)), _samples_missing),
+    )
+}
+"""All of them, by name."""

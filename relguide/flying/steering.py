@@ -1,0 +1,86 @@
+"""From a planned trajectory to a reference for the autopilot, with the roll anticipated.
+
+A plan changes its bank at once, an aircraft takes seconds to roll. So each segment is left early by
+half the roll to the next one: the same turn is then flown, only with rounded ends. What the first
+roll-in costs, replanning makes good.
+"""
+
+from math import atan, pi
+from typing import NamedTuple
+
+from relguide.flying.aircraft import AircraftModel, roll_lead
+from relguide.flying.autopilot import HoldHeading, Reference, TurnRate
+from relguide.planning.trajectory import (
+    Arc,
+    BoundaryArc,
+    Segment,
+    Straight,
+    Trajectory,
+    after,
+    heading_change,
+)
+from relguide.units import G0, MetrePerSecond, Radian, RadianPerSecond, Second
+
+HALF_TICK: Second = 0.5
+"""Guidance speaks once a second: on average a switch comes half a second late."""
+
+
+class Steering(NamedTuple):
+    """What to do now, and what is left after it."""
+
+    reference: Reference
+    segments: tuple[Segment, ...]
+    """From the one being flown on."""
+
+
+def rest(trajectory: Trajectory, elapsed: Second) -> Trajectory:
+    """What is left of a trajectory after a while [s]."""
+    pose = trajectory.pose_at(elapsed)
+    left, segments = elapsed * trajectory.tas, list[Segment]()
+    for segment in trajectory.segments:
+        if left >= segment.length:
+            left -= segment.length
+            continue
+        segments.append(after(segment, left))
+        left = 0.0
+    return Trajectory(
+        x=pose.x, y=pose.y, heading=pose.heading, tas=trajectory.tas, segments=tuple(segments)
+    )
+
+
+def steer(trajectory: Trajectory, model: AircraftModel) -> Steering:
+    """The reference that flies a trajectory from its start.
+
+    Within the roll's lead of a turn to come, the mean turn rate over that lead is asked for. It
+    rolls in time; and when the exact path from here begins with a sliver of the opposite turn,
+    because the aircraft is a little inside its arc, the bank is eased in proportion and not
+    reversed. A segment too short to roll for is skipped when no turn follows: the heading that
+    comes after it is held, and the heading loop rolls out.
+    """
+    tas, segments, heading = trajectory.tas, trajectory.segments, trajectory.heading
+    rates = trajectory.turn_rates()
+    for i, segment in enumerate(segments):
+        following = segments[i + 1 : i + 2]
+        rate_after = rates[i + 1] if following else 0.0
+        window = roll_lead(model, _bank(rates[i], tas), _bank(rate_after, tas)) + HALF_TICK
+        left = segment.length / tas
+        if left > window:
+            return Steering(_reference(segment, heading, rates[i]), segments[i:])
+        if following and rate_after != 0.0 and following[0].length / tas > window:
+            mean = (left * rates[i] + (window - left) * rate_after) / window
+            return Steering(TurnRate(mean), segments[i + 1 :])
+        heading += heading_change(segment)
+    return Steering(HoldHeading(heading % (2.0 * pi)), ())
+
+
+def _reference(segment: Segment, heading: Radian, rate: RadianPerSecond) -> Reference:
+    match segment:
+        case Straight():
+            return HoldHeading(heading % (2.0 * pi))
+        case Arc() | BoundaryArc():
+            return TurnRate(rate)
+
+
+def _bank(rate: RadianPerSecond, tas: MetrePerSecond) -> Radian:
+    """Bank of a turn rate, eq. (8)."""
+    return atan(tas * rate / G0)

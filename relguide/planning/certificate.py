@@ -1,0 +1,64 @@
+"""Does a trajectory keep d_min? A proved lower bound on the separation, all turns included.
+
+The certificate never trusts who made the trajectory: it reads its segments, nothing else.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from relguide.kernels.approach import least_separation
+from relguide.planning.situation import Situation
+from relguide.planning.trajectory import Trajectory
+from relguide.units import Metre, Second
+
+SLACK = 1e-6
+"""Touching d_min counts as keeping it, to this much of R: 1 cm for an airliner."""
+TOLERANCE = 1e-7
+"""How far below the least separation found the proof may stop [R]: 1 mm for an airliner."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Certificate:
+    """Least separation of a trajectory from the leader over [0, T], with its proof."""
+
+    least_separation: Metre
+    """The least separation found, reached at `at_time` [m]."""
+    at_time: Second
+    """When it is reached [s]."""
+    lower_bound: Metre
+    """No separation anywhere in [0, T] is below this [m]: proved, not sampled."""
+    holds: bool
+    """Whether `lower_bound` keeps d_min, to 1e-6 R."""
+
+
+def certify(trajectory: Trajectory, situation: Situation) -> Certificate:
+    """Judge a trajectory of the air mass against the situation's real leader, its turns included.
+
+    Args:
+        trajectory: the pursuer's, from t = 0 to its end.
+        situation: gives the leader with its intent, and d_min. Uniform wind moves both alike.
+    """
+    radius = situation.pursuer.turn_radius
+    least, at, bound = least_separation(
+        *kernel_arrays(trajectory),
+        *kernel_arrays(situation.leader.trajectory),
+        trajectory.duration,
+        TOLERANCE * radius,
+    )
+    return Certificate(
+        least_separation=least,
+        at_time=at,
+        lower_bound=bound,
+        holds=bound >= situation.min_separation - SLACK * radius,
+    )
+
+
+def kernel_arrays(trajectory: Trajectory) -> tuple[np.ndarray, np.ndarray]:
+    """A trajectory as the kernels take it.
+
+    Returns:
+        x, y, ψ, V at t = 0, shape (4,); duration and turn rate of each piece, shape (pieces, 2).
+    """
+    start = np.array((trajectory.x, trajectory.y, trajectory.heading, trajectory.tas), float)
+    return start, np.array(trajectory.bends(), float).reshape(-1, 2)

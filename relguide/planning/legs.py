@@ -1,0 +1,240 @@
+"""cut(trajectory, situation): the legs on which Pontryagin's conditions are asked.
+
+A leg ends where the control changes or where d = d_min is touched. Touching is a contact at one
+instant, or a ride: arcs of partial bank, one after another, that keep to d = d_min.
+Everything here is in R and R/V_P; places are relative to where the trajectory ends.
+"""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from itertools import accumulate, pairwise
+from math import cos, hypot, sin
+
+import numpy as np
+
+from relguide.kernels.costate import contacts
+from relguide.kernels.motion import advance
+from relguide.planning.situation import Situation
+from relguide.planning.trajectory import Trajectory
+
+TOUCHES = 1e-5
+"""Separations this near to d_min touch it [R]: 12 cm for an airliner; plans stay 3e-7 outside."""
+STRIDE = 0.01
+"""Contacts closer together than this may count as one: half a second for an airliner."""
+EDGE = 1e-4
+"""A contact this near to a ride belongs to it: where the ride begins it is found twice."""
+MAX_CONTACTS = 4096
+"""Room for contacts, those between the many arcs of a ride included."""
+ROUNDING = 1e-9
+"""Pieces shorter than this are rounding; turn rates nearer than this are the same."""
+
+Vector = tuple[float, float]
+"""East, north."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Leg:
+    """A piece of the trajectory between two changes."""
+
+    start: float
+    """When."""
+    duration: float
+    x: float
+    """Where it starts, east."""
+    y: float
+    """And north."""
+    heading: float
+    """Heading there, clockwise from north [rad]."""
+    rate: float
+    """Turn rate, positive to the right: ±1 at nominal bank."""
+    part: int
+    """How many contacts and rides come before it."""
+    riding: bool
+    """Whether it is a piece of a ride; then that of the touch number `part`."""
+
+    def at(self, t: float) -> tuple[float, float, float]:
+        """Place and heading after flying it for t."""
+        return advance(self.x, self.y, self.heading, 1.0, self.rate, t)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Encounter:
+    """Both aircraft at an instant."""
+
+    time: float
+    course: Vector
+    """The pursuer's velocity: a unit vector."""
+    leader_velocity: Vector
+    toward: Vector
+    """Unit vector from the pursuer to the leader."""
+    separation: float
+
+    @property
+    def passing(self) -> Vector:
+        """The pursuer's velocity relative to the leader."""
+        return (
+            self.course[0] - self.leader_velocity[0],
+            self.course[1] - self.leader_velocity[1],
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Touch:
+    """Where d = d_min: a contact or a ride."""
+
+    nodes: tuple[Encounter, ...]
+    """The contact; or the ends of a ride's arcs, in the order flown."""
+
+    @property
+    def entry(self) -> Encounter:
+        """Where it begins."""
+        return self.nodes[0]
+
+    @property
+    def exit(self) -> Encounter:
+        """Where it ends."""
+        return self.nodes[-1]
+
+    @property
+    def rides(self) -> bool:
+        """Whether it lasts."""
+        return len(self.nodes) > 1
+
+    @property
+    def ends(self) -> tuple[Encounter, ...]:
+        """Entry and exit of a ride; a contact itself."""
+        return (self.entry, self.exit) if self.rides else self.nodes
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Cut:
+    """A trajectory in legs."""
+
+    legs: tuple[Leg, ...]
+    """In the order flown; none shorter than `ROUNDING`, none at all if it has no length."""
+    touches: tuple[Touch, ...]
+    """In the order flown; contacts at the trajectory's two ends ask nothing and are left out."""
+    end: Encounter
+    """At t_f."""
+
+
+def cut(trajectory: Trajectory, situation: Situation) -> Cut:
+    """Cut a trajectory where the conditions change."""
+    leader, radius = situation.leader.trajectory, situation.pursuer.turn_radius
+    scale = radius / trajectory.tas
+    pieces = list(_pieces(trajectory, scale))
+
+    def encounter(t: float) -> Encounter:
+        ours, theirs = trajectory.pose_at(t * scale), leader.pose_at(t * scale)
+        dx, dy = theirs.x - ours.x, theirs.y - ours.y
+        d = max(hypot(dx, dy), 1e-9)  # where they meet there is no direction, and no limit
+        alpha = leader.tas / trajectory.tas
+        return Encounter(
+            time=t,
+            course=(sin(ours.heading), cos(ours.heading)),
+            leader_velocity=(alpha * sin(theirs.heading), alpha * cos(theirs.heading)),
+            toward=(dx / d, dy / d),
+            separation=d / radius,
+        )
+
+    times = [0.0, *accumulate(duration for duration, _ in pieces)]
+    limit = situation.min_separation / radius
+    rides = _rides(pieces, [abs(encounter(t).separation - limit) for t in times])
+    spans = [(times[i], times[j]) for i, j in rides]
+    spans += [
+        (t, t)
+        for t in _contacts(trajectory, situation)
+        # at its two ends a trajectory's λ may be what it likes
+        if ROUNDING < t < times[-1] - ROUNDING
+        and not any(low - EDGE < t < high + EDGE for low, high in spans)
+    ]
+    spans.sort()
+    return Cut(
+        legs=joined(_legs(pieces, trajectory.heading, spans)),
+        touches=tuple(
+            Touch(nodes=tuple(encounter(t) for t in (times if a < b else (a,)) if a <= t <= b))
+            for a, b in spans
+        ),
+        end=encounter(times[-1]),
+    )
+
+
+def _pieces(trajectory: Trajectory, scale: float) -> Iterator[tuple[float, float]]:
+    """Duration and turn rate of each piece; neighbours with one rate are one."""
+    duration, last = 0.0, 0.0
+    for seconds, rate in trajectory.bends():
+        if seconds <= ROUNDING * scale:
+            continue
+        if duration > 0.0 and abs(rate * scale - last) > ROUNDING:
+            yield duration, last
+            duration = 0.0
+        duration, last = duration + seconds / scale, rate * scale
+    if duration > 0.0:
+        yield duration, last
+
+
+def partial(rate: float) -> bool:
+    """Whether a turn is flown at another bank than the nominal."""
+    return rate != 0.0 and abs(abs(rate) - 1.0) > ROUNDING
+
+
+def _rides(pieces: list[tuple[float, float]], off_limit: list[float]) -> list[tuple[int, int]]:
+    """Runs of pieces that ride: number of the first, and of the first after."""
+    riding = [
+        partial(rate) and max(off_limit[i : i + 2]) < TOUCHES for i, (_, rate) in enumerate(pieces)
+    ]
+    edges = [i for i, (a, b) in enumerate(pairwise([False, *riding, False])) if a != b]
+    return list(zip(edges[::2], edges[1::2], strict=True))
+
+
+def _contacts(trajectory: Trajectory, situation: Situation) -> list[float]:
+    radius, leader = situation.pursuer.turn_radius, situation.leader.trajectory
+    found = np.empty(MAX_CONTACTS)
+    n = contacts(
+        *_tables(trajectory),
+        *_tables(leader),
+        trajectory.duration,
+        situation.min_separation - TOUCHES * radius,
+        situation.min_separation + TOUCHES * radius,
+        STRIDE * radius / trajectory.tas,
+        found,
+    )
+    return [float(t) * trajectory.tas / radius for t in found[:n]]
+
+
+def _tables(trajectory: Trajectory) -> tuple[np.ndarray, np.ndarray]:
+    """Its start, and its pieces, as the kernel takes them."""
+    start = np.array((trajectory.x, trajectory.y, trajectory.heading, trajectory.tas), float)
+    return start, np.array(trajectory.bends()).reshape(-1, 2)  # (pieces, 2)
+
+
+def _legs(
+    pieces: list[tuple[float, float]], heading: float, spans: list[tuple[float, float]]
+) -> Iterator[Leg]:
+    """The pieces, cut at contacts; places are left to `joined`."""
+    t, end, part = 0.0, 0.0, 0
+    for duration, rate in pieces:
+        end += duration
+        while end - t > ROUNDING:
+            while part < len(spans) and spans[part][1] <= t + ROUNDING:
+                part += 1
+            low, high = spans[part] if part < len(spans) else (end, end)
+            riding = low - ROUNDING <= t
+            stop = min(end, high if riding else low)
+            yield Leg(
+                start=t, duration=stop - t, x=0.0, y=0.0, heading=heading, rate=rate, part=part,
+                riding=riding,
+            )  # fmt: skip
+            heading += rate * (stop - t)
+            t = stop
+
+
+def joined(legs: Iterable[Leg]) -> tuple[Leg, ...]:
+    """The legs, moved so that each begins where the one before ends, and the last at the origin."""
+    chain: list[Leg] = []
+    x, y = 0.0, 0.0
+    for leg in reversed(tuple(legs)):
+        dx, dy, _ = advance(0.0, 0.0, leg.heading, 1.0, leg.rate, leg.duration)
+        x, y = x - dx, y - dy
+        chain.insert(0, replace(leg, x=x, y=y))
+    return tuple(chain)

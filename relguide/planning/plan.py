@@ -1,0 +1,251 @@
+"""plan(situation) → Plan | NoPlan: the fastest candidate that certifies, and what is proved."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import StrEnum
+from math import hypot, inf
+from time import perf_counter_ns
+from typing import Literal
+
+from relguide.planning.certificate import SLACK, Certificate, certify
+from relguide.planning.detour import HORIZON, detour
+from relguide.planning.recovery import Recovery, least_bad, restore
+from relguide.planning.situation import Situation
+from relguide.planning.trajectory import Trajectory
+from relguide.planning.words import Candidate, Candidates, candidates, detours_at_opening
+from relguide.units import DEG, KT, NM, Metre, Millisecond, Second
+
+Proof = Literal["relaxation", "bound", "none"]
+"""Why a plan is optimal: the best plan without the limit keeps it; a lower bound; not shown."""
+PlannerName = Literal["exact", "network", "regular_dp"]
+"""Who made the plan."""
+
+
+class Reason(StrEnum):
+    """Why there is no plan."""
+
+    SLOT_UNREACHABLE = "slot_unreachable"
+    SEPARATION_ALREADY_LOST = "separation_already_lost"
+    SEPARATION_UNAVOIDABLE = "separation_unavoidable"
+    BEYOND_HORIZON = "beyond_horizon"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Optimality:
+    """What is proved of a plan's time."""
+
+    proof: Proof
+    lower_bound: Second
+    """No plan that keeps d_min is faster than this [s]."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Plan:
+    """A certified trajectory to the slot."""
+
+    situation: Situation
+    trajectory: Trajectory
+    """In the air mass, from the pursuer's present state to the slot."""
+    word: str
+    """Its letters, e.g. `"LSR"`."""
+    certificate: Certificate
+    optimality: Optimality
+    planner: PlannerName
+    compute_time: Millisecond
+    """Wall time it took to find [ms]."""
+    status: Literal["planned"] = "planned"
+
+    @property
+    def time_to_converge(self) -> Second:
+        """T: when the pursuer is at the slot, on the leader's heading [s]."""
+        return self.trajectory.duration
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NoPlan:
+    """Why there is no plan, and what would help."""
+
+    reason: Reason
+    message: str
+    """A sentence for people."""
+    status: Literal["no_plan"] = "no_plan"
+
+
+Planner = Callable[[Situation], Plan | NoPlan]
+"""The one protocol of all planners."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Slower:
+    """An alternative that certifies or not, but arrives later than the plan."""
+
+    kind: Literal["slower"] = "slower"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LosesSeparation:
+    """An alternative that would come too close."""
+
+    least_separation: Metre
+    at_time: Second
+    kind: Literal["separation"] = "separation"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Alternative:
+    """A candidate that is not the plan, and why."""
+
+    word: str
+    time_to_converge: Second
+    rejected: Slower | LosesSeparation
+
+
+def plan(situation: Situation) -> Plan | NoPlan:
+    """The fastest candidate that keeps d_min, with what is proved of it.
+
+    Without the limit the candidates are all the extremals there are, so if the fastest of them
+    keeps the limit it is the global optimum (`proof="relaxation"`). If it does not, the ways that
+    touch d_min once are searched too, and the fastest of all that certify is given with the time of
+    the fastest candidate as the bound it is proved to within (`proof="bound"`).
+    """
+    started = perf_counter_ns()
+    radius = situation.pursuer.turn_radius
+    pursuer, leader = situation.pursuer, situation.leader
+    separation = hypot(pursuer.x - leader.x, pursuer.y - leader.y)
+    if separation < situation.min_separation - SLACK * radius:
+        return NoPlan(
+            reason=Reason.SEPARATION_ALREADY_LOST,
+            message=f"The aircraft are {separation:,.0f} m ({_nm(separation)}) apart, closer than "
+            f"the minimum of {situation.min_separation:,.0f} m. {_way_out(restore(situation))}",
+        )
+    found = candidates(situation)
+    if len(found) == 0:
+        return NoPlan(reason=Reason.SLOT_UNREACHABLE, message=_unreachable(situation))
+    chosen = _first_that_holds(found, situation)
+    if chosen is None:
+        return NoPlan(
+            reason=Reason.SEPARATION_UNAVOIDABLE,
+            message=f"Each of the {len(found)} direct trajectories to the slot comes closer "
+            f"than {_nm(situation.min_separation)} to the leader, and no way round it was found. "
+            f"{_least_bad(least_bad(situation))}",
+        )
+    candidate, certificate, optimality = chosen
+    if candidate.time_to_converge > HORIZON:
+        return NoPlan(
+            reason=Reason.BEYOND_HORIZON,
+            message=f"The slot is reached only after {candidate.time_to_converge / 3600.0:.0f} h, "
+            f"beyond the horizon of {HORIZON / 3600.0:.0f} h: a larger speed difference helps.",
+        )
+    return Plan(
+        situation=situation,
+        trajectory=candidate.trajectory,
+        word=candidate.word,
+        certificate=certificate,
+        optimality=optimality,
+        planner="exact",
+        compute_time=(perf_counter_ns() - started) * 1e-6,
+    )
+
+
+def alternatives(plan: Plan) -> tuple[Alternative, ...]:
+    """What else was there, and why it lost: all that is faster, and the best of each other word."""
+    listed: list[Alternative] = []
+    seen = {plan.word}
+    found = candidates(plan.situation)
+    for candidate in (*found.at_opening[:1], *found.later):
+        time = candidate.time_to_converge
+        if time < plan.time_to_converge - 1e-6:  # a microsecond: the same path found twice
+            certificate = certify(candidate.trajectory, plan.situation)
+            rejected: Slower | LosesSeparation = LosesSeparation(
+                least_separation=certificate.least_separation, at_time=certificate.at_time
+            )
+        elif candidate.word not in seen:
+            rejected = Slower()
+        else:
+            continue
+        seen.add(candidate.word)
+        listed.append(Alternative(word=candidate.word, time_to_converge=time, rejected=rejected))
+    return tuple(listed)
+
+
+def _first_that_holds(
+    found: Candidates, situation: Situation
+) -> tuple[Candidate, Certificate, Optimality] | None:
+    bound = found.bound
+    if found.reachable_at_opening:
+        best = _canonical(found.at_opening, situation) or _canonical(
+            detours_at_opening(situation), situation
+        )
+        if best is not None:
+            return *best, Optimality(proof="relaxation", lower_bound=bound)
+    chosen: tuple[Candidate, Certificate] | None = None
+    for i, candidate in enumerate(found.later):
+        certificate = certify(candidate.trajectory, situation)
+        if certificate.holds:
+            chosen = candidate, certificate
+            if i == 0 and not found.reachable_at_opening:
+                return *chosen, Optimality(proof="relaxation", lower_bound=bound)
+            break
+    around = detour(found, beat=chosen[0].time_to_converge if chosen else HORIZON)
+    if around is not None:
+        certificate = certify(around.trajectory, situation)
+        if certificate.holds:
+            chosen = around, certificate
+    if chosen is None:
+        return None
+    return *chosen, Optimality(proof="bound", lower_bound=bound)
+
+
+def _canonical(
+    equally_fast: tuple[Candidate, ...], situation: Situation
+) -> tuple[Candidate, Certificate] | None:
+    """Of candidates that arrive together: fewest turns, then separation, then least turning."""
+    best: tuple[Candidate, Certificate] | None = None
+    for candidate in equally_fast:
+        if best is not None and candidate.trajectory.turns > best[0].trajectory.turns:
+            break
+        certificate = certify(candidate.trajectory, situation)
+        # 1 m: separations this close count as equal, and the one with less turning stays
+        if certificate.holds and (
+            best is None or certificate.least_separation > best[1].least_separation + 1.0
+        ):
+            best = candidate, certificate
+    return best
+
+
+def _unreachable(situation: Situation) -> str:
+    pursuer, leader = situation.pursuer.tas / KT, situation.leader.tas / KT
+    return (
+        f"The leader flies {leader:.0f} kt and the pursuer {pursuer:.0f} kt, and from here the "
+        "slot cannot be caught: a pursuer faster than the leader always can."
+    )
+
+
+def _nm(distance: float) -> str:
+    return f"{distance / NM:.2f} NM"
+
+
+def _way_out(recovery: Recovery) -> str:
+    if recovery.at_time == inf:
+        return "No turn restores separation within 15 minutes: the leader would have to turn away."
+    return f"Soonest out: {_turn(recovery)}; separation is restored in {recovery.at_time:.0f} s."
+
+
+def _least_bad(recovery: Recovery) -> str:
+    if recovery.at_time == 0.0:
+        return (
+            "A smaller minimum separation or a larger slot distance would help; "
+            f"{_turn(recovery)} keeps clear meanwhile."
+        )
+    return (
+        f"Least bad: {_turn(recovery)}, which keeps {_nm(recovery.least_separation)}, least in "
+        f"{recovery.at_time:.0f} s with the leader at x {recovery.leader_x / 1000.0:.1f} km, "
+        f"y {recovery.leader_y / 1000.0:.1f} km. A smaller minimum separation would help."
+    )
+
+
+def _turn(recovery: Recovery) -> str:
+    heading = f"heading {round(recovery.heading / DEG) % 360:03d}°"
+    if recovery.turn_angle == 0.0:
+        return f"hold {heading}"
+    return f"turn {'right' if recovery.turn_angle > 0.0 else 'left'} to {heading}"

@@ -1,0 +1,245 @@
+"""Everything a plan depends on at one instant: both aircraft, the intent, D, d_min, the wind.
+
+A `Situation` is data and its own judge: what cannot be flown is refused when it is made, with a
+sentence that says what would be right. Positions and headings are of the world frame (x east,
+y north, heading clockwise from north), at t = 0, over the ground.
+"""
+
+from dataclasses import dataclass
+from math import cos, hypot, isfinite, sin
+from typing import Literal
+
+from relguide.kernels.angles import turn_to
+from relguide.kernels.turn import turn_radius
+from relguide.planning.trajectory import Arc, Straight, Trajectory, Turn
+from relguide.units import DEG, Metre, MetrePerSecond, Radian, Second
+
+MIN_TAS, MAX_TAS = 30.0, 400.0
+"""Accepted true airspeeds [m/s]."""
+MIN_BANK, MAX_BANK = 1.0 * DEG, 60.0 * DEG
+"""Accepted bank angles [rad]."""
+MAX_POSITION = 1_000_000.0
+"""Largest accepted |x| and |y| [m]."""
+MAX_SLOT_DISTANCE = 200_000.0
+"""Largest accepted D [m]."""
+MAX_WIND = 150.0
+"""Largest accepted wind speed [m/s]: above the strongest jet streams on record."""
+MIN_HEADWAY = 1.0
+"""Least ground speed of the leader on its final leg [m/s]: below it has no ground track."""
+MAX_PIECE = 86_400.0
+"""Longest straight piece of an intent [s]."""
+MAX_PIECES = 20
+"""Most pieces an intent may have."""
+
+
+def _check_aircraft(name: str, x: float, y: float, heading: float, tas: float) -> None:
+    _check_range(f"{name}.x", x, -MAX_POSITION, MAX_POSITION, "m")
+    _check_range(f"{name}.y", y, -MAX_POSITION, MAX_POSITION, "m")
+    _check_finite(f"{name}.heading", heading)
+    _check_range(f"{name}.tas", tas, MIN_TAS, MAX_TAS, "m/s")
+
+
+def _check_finite(name: str, value: float) -> None:
+    if not isfinite(value):
+        raise ValueError(f"{name} must be a finite number, not {value}.")
+
+
+def _check_range(name: str, value: float, low: float, high: float, unit: str) -> None:
+    _check_finite(name, value)
+    # 1e-9 relative: a bound given in degrees comes back from radians with its last digit changed
+    slack = 1e-9 * max(abs(low), abs(high))
+    if not low - slack <= value <= high + slack:
+        raise ValueError(f"{name} must lie in {low:g} … {high:g} {unit}, not {value:g} {unit}.")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Pursuer:
+    """The aircraft we guide, at t = 0."""
+
+    x: Metre
+    """East [m]."""
+    y: Metre
+    """North [m]."""
+    heading: Radian
+    """ψ_P, clockwise from north [rad]."""
+    tas: MetrePerSecond
+    """True airspeed V_P, kept constant [m/s]."""
+    max_bank: Radian
+    """φ_max, the bank its turns are flown at [rad]."""
+
+    def __post_init__(self) -> None:
+        """Refuse what cannot be flown."""
+        _check_aircraft("pursuer", self.x, self.y, self.heading, self.tas)
+        _check_range("pursuer.max_bank", self.max_bank / DEG, MIN_BANK / DEG, MAX_BANK / DEG, "°")
+
+    @property
+    def turn_radius(self) -> float:
+        """R at φ_max [m]."""
+        return turn_radius(self.tas, self.max_bank)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FlyStraight:
+    """A piece of intent: keep the heading for a while."""
+
+    duration: Second
+    """How long [s], ≥ 0."""
+    kind: Literal["straight"] = "straight"
+
+    def __post_init__(self) -> None:
+        """Refuse a duration that is not one."""
+        _check_range("intent straight.duration", self.duration, 0.0, MAX_PIECE, "s")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TurnTo:
+    """A piece of intent: turn at constant bank to a heading, the way round that `turn` says."""
+
+    heading: Radian
+    """Heading to roll out on, clockwise from north [rad]."""
+    turn: Turn
+    """`LEFT` or `RIGHT`."""
+    bank: Radian
+    """|φ| of the turn [rad]."""
+    kind: Literal["turn"] = "turn"
+
+    def __post_init__(self) -> None:
+        """Refuse a turn that cannot be flown."""
+        _check_finite("intent turn.heading", self.heading)
+        if self.turn not in (1, -1):
+            raise ValueError(
+                f"intent turn.turn must be LEFT (+1) or RIGHT (-1), not {self.turn!r}."
+            )
+        _check_range("intent turn.bank", self.bank / DEG, MIN_BANK / DEG, MAX_BANK / DEG, "°")
+
+
+IntentPiece = FlyStraight | TurnTo
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Leader:
+    """The aircraft to be joined, at t = 0, with what it has declared it will do."""
+
+    x: Metre
+    """East [m]."""
+    y: Metre
+    """North [m]."""
+    heading: Radian
+    """ψ_L, clockwise from north [rad]."""
+    tas: MetrePerSecond
+    """True airspeed V_L, kept constant [m/s]."""
+    intent: tuple[IntentPiece, ...] = ()
+    """Pieces to come; what follows the last one is the endless final leg."""
+
+    def __post_init__(self) -> None:
+        """Refuse what cannot be flown."""
+        _check_aircraft("leader", self.x, self.y, self.heading, self.tas)
+        if len(self.intent) > MAX_PIECES:
+            raise ValueError(
+                f"leader.intent must have at most {MAX_PIECES} pieces, not {len(self.intent)}."
+            )
+
+    @property
+    def final_heading(self) -> float:
+        """Heading of the final leg, clockwise from north [rad]."""
+        turns = [piece.heading for piece in self.intent if isinstance(piece, TurnTo)]
+        return turns[-1] if turns else self.heading
+
+    @property
+    def trajectory(self) -> Trajectory:
+        """What the leader flies in the air mass; its last heading goes on for ever."""
+        segments: list[Arc | Straight] = []
+        heading = self.heading
+        for piece in self.intent:
+            match piece:
+                case FlyStraight():
+                    segments.append(Straight(length=self.tas * piece.duration))
+                case TurnTo():
+                    # LEFT (+1) lowers the compass heading; to the present heading is no turn
+                    angle = turn_to(-piece.turn * (piece.heading - heading))
+                    segments.append(
+                        Arc(
+                            turn=piece.turn,
+                            turn_angle=angle,
+                            radius=turn_radius(self.tas, piece.bank),
+                        )
+                    )
+                    heading = piece.heading
+        return Trajectory(
+            x=self.x, y=self.y, heading=self.heading, tas=self.tas, segments=tuple(segments)
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Wind:
+    """Uniform wind: the velocity of the air mass over the ground."""
+
+    east: MetrePerSecond = 0.0
+    """Toward the east [m/s]."""
+    north: MetrePerSecond = 0.0
+    """Toward the north [m/s]."""
+
+    def __post_init__(self) -> None:
+        """Refuse a wind that no atmosphere has."""
+        _check_finite("wind.east", self.east)
+        _check_finite("wind.north", self.north)
+        _check_range("wind.speed", hypot(self.east, self.north), 0.0, MAX_WIND, "m/s")
+
+    @property
+    def speed(self) -> float:
+        """Wind speed [m/s]."""
+        return hypot(self.east, self.north)
+
+
+CALM = Wind()
+"""No wind."""
+
+
+def wind_from(direction: float, speed: float) -> Wind:
+    """The wind that blows *from* a direction, as reports give it.
+
+    Args:
+        direction: where it comes from, clockwise from north [rad].
+        speed: [m/s], ≥ 0.
+    """
+    return Wind(east=-speed * sin(direction), north=-speed * cos(direction))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Situation:
+    """Everything a plan depends on, at one instant (t = 0)."""
+
+    pursuer: Pursuer
+    leader: Leader
+    slot_distance: Metre
+    """D, along the leader's ground track of the final leg behind it [m]."""
+    min_separation: Metre
+    """d_min [m], 0 ≤ d_min ≤ D."""
+    wind: Wind = CALM
+
+    def __post_init__(self) -> None:
+        """Refuse distances that contradict each other."""
+        _check_finite("min_separation", self.min_separation)
+        _check_finite("slot_distance", self.slot_distance)
+        if self.min_separation < 0.0:
+            raise ValueError(f"min_separation must be 0 m or more, not {self.min_separation:g} m.")
+        if self.slot_distance < self.min_separation:
+            raise ValueError(
+                f"slot_distance ({self.slot_distance:g} m) must be at least min_separation "
+                f"({self.min_separation:g} m): the slot itself would be too close."
+            )
+        if self.slot_distance > MAX_SLOT_DISTANCE:
+            raise ValueError(
+                f"slot_distance must be at most {MAX_SLOT_DISTANCE:g} m, "
+                f"not {self.slot_distance:g} m."
+            )
+        heading = self.leader.final_heading
+        headway = hypot(
+            self.leader.tas * sin(heading) + self.wind.east,
+            self.leader.tas * cos(heading) + self.wind.north,
+        )
+        if headway < MIN_HEADWAY:
+            raise ValueError(
+                f"In this wind the leader makes no headway on its final leg ({headway:.1f} m/s "
+                f"over the ground; at least {MIN_HEADWAY:g} m/s is needed): it has no behind."
+            )

@@ -1,0 +1,166 @@
+"""candidates(situation): every extremal that reaches the slot, whether or not it keeps d_min."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import hypot
+
+import numpy as np
+
+from relguide.kernels.extremals import MAX_ROWS, SIGNS, WORDS, solve
+from relguide.kernels.hold import HOLD_PIECES, MAX_HOLDS, holds
+from relguide.planning.situation import Situation
+from relguide.planning.slot import SlotFrame, slot_frame
+from relguide.planning.trajectory import LEFT, RIGHT, Arc, Segment, Straight, Trajectory
+from relguide.units import Second
+
+NO_TURN = 1e-9
+"""A turn below this is rounding [rad]; likewise a straight, in R."""
+SIGN_ROWS: list[list[float]] = SIGNS.tolist()
+"""`SIGNS` as lists."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Candidate:
+    """A word with its solved lengths: it reaches the slot, open and on the leader's heading."""
+
+    word: str
+    """Its letters in the order flown, e.g. `"LSR"`."""
+    trajectory: Trajectory
+    """In the air mass."""
+
+    @property
+    def time_to_converge(self) -> Second:
+        """T [s]."""
+        return self.trajectory.duration
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Candidates:
+    """All candidates of a situation, and what is known without the separation limit."""
+
+    situation: Situation
+    frame: SlotFrame
+    rows: np.ndarray
+    """The extremals that arrive after the slot opens, fastest first, as `solve` gives them."""
+    at_opening: tuple[Candidate, ...]
+    """Paths that arrive exactly when the slot opens, all equally fast; fewest turns first."""
+    reachable_at_opening: bool
+    """Whether the shortest way to the slot's place at t_open is short enough to be there then."""
+
+    @property
+    def bound(self) -> Second:
+        """No way to the slot is faster than this, with or without the separation limit [s]."""
+        time = self.frame.t_open if self.reachable_at_opening else self.rows[0, 0]
+        return float(time) * self.frame.radius / self.situation.pursuer.tas
+
+    @property
+    def later(self) -> Iterator[Candidate]:
+        """Extremals that arrive after the slot opens, fastest first, each made when asked for."""
+        for _, word, *amounts in self.rows.tolist():
+            signs = SIGN_ROWS[int(word)]
+            yield assemble(self.situation, self.frame, signs, amounts, WORDS[int(word)])
+
+    def __len__(self) -> int:
+        return len(self.at_opening) + len(self.rows)
+
+    def __iter__(self) -> Iterator[Candidate]:
+        yield from self.at_opening
+        yield from self.later
+
+
+def candidates(situation: Situation) -> Candidates:
+    """Every extremal that reaches the slot, fastest first.
+
+    With no separation limit the first is the global optimum; an empty answer means that the slot
+    cannot be reached (possible only for V_L ≥ V_P).
+    """
+    frame = slot_frame(situation, situation.leader.trajectory)
+    rows = np.empty((MAX_ROWS, 5))
+    n = solve(frame.x, frame.y, frame.h, frame.alpha, frame.t_open, rows)
+    reachable = frame.t_open > 0.0 and _dubins_length(frame) <= frame.t_open + NO_TURN
+    return Candidates(
+        situation=situation,
+        frame=frame,
+        rows=rows[:n],
+        at_opening=_at_opening(situation, frame, first_turns=False) if reachable else (),
+        reachable_at_opening=reachable,
+    )
+
+
+def detours_at_opening(situation: Situation) -> tuple[Candidate, ...]:
+    """More paths that arrive exactly when the slot opens: those that begin with one more turn.
+
+    For when none of `Candidates.at_opening` keeps d_min; fewest turns first. Costs some 20 ms.
+    """
+    return _at_opening(
+        situation, slot_frame(situation, situation.leader.trajectory), first_turns=True
+    )
+
+
+def _at_opening(
+    situation: Situation, frame: SlotFrame, *, first_turns: bool
+) -> tuple[Candidate, ...]:
+    signs = np.empty((MAX_HOLDS, HOLD_PIECES))
+    amounts = np.empty((MAX_HOLDS, HOLD_PIECES))
+    n = holds(frame.x, frame.y, frame.h, frame.alpha, frame.t_open, first_turns, signs, amounts)
+    pieces = zip(signs[:n].tolist(), amounts[:n].tolist(), strict=True)
+    found = [assemble(situation, frame, *piece, "") for piece in pieces]
+    return tuple(sorted(found, key=_canonical_order))
+
+
+def _canonical_order(candidate: Candidate) -> tuple[int, float]:
+    """Fewest turns, then least turning."""
+    trajectory = candidate.trajectory
+    turning = sum(s.turn_angle for s in trajectory.segments if isinstance(s, Arc))
+    return trajectory.turns, turning
+
+
+def _dubins_length(frame: SlotFrame) -> float:
+    """Shortest way to the slot's place at t_open [R]: the extremals to a slot at rest."""
+    end_x = frame.alpha * frame.t_open
+    if hypot(end_x - frame.x, frame.y) > frame.t_open:
+        return float("inf")
+    rows = np.empty((MAX_ROWS, 5))
+    solve(frame.x - end_x, frame.y, frame.h, 0.0, 0.0, rows)
+    return float(rows[0, 0])
+
+
+def assemble(
+    situation: Situation, frame: SlotFrame, signs: list[float], amounts: list[float], word: str
+) -> Candidate:
+    """A path of the slot frame as the pursuer's trajectory.
+
+    Args:
+        situation: gives the pursuer.
+        frame: its slot frame.
+        signs: ε of each piece, 0 for straights.
+        amounts: turn angles [rad] and lengths [R].
+        word: its name; the letters of its segments if empty.
+    """
+    pursuer = situation.pursuer
+    trajectory = Trajectory(
+        x=pursuer.x,
+        y=pursuer.y,
+        heading=pursuer.heading,
+        tas=pursuer.tas,
+        segments=segments_of(frame, signs, amounts),
+    )
+    return Candidate(word=word or trajectory.letters, trajectory=trajectory)
+
+
+def segments_of(frame: SlotFrame, signs: list[float], amounts: list[float]) -> tuple[Segment, ...]:
+    """Pieces of the slot frame as segments; what is only rounding is left out, like meets like."""
+    segments: list[Segment] = []
+    last = 2.0
+    for sign, amount in zip(signs, amounts, strict=True):
+        if amount <= NO_TURN:
+            continue
+        if sign == last:  # two pieces that meet in a contact may be one turn, or one straight
+            amount += segments.pop().length / frame.radius
+        if sign == 0.0:
+            segments.append(Straight(length=amount * frame.radius))
+        else:
+            turn = LEFT if sign > 0.0 else RIGHT
+            segments.append(Arc(turn=turn, turn_angle=amount, radius=frame.radius))
+        last = sign
+    return tuple(segments)

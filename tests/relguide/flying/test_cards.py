@@ -1,0 +1,85 @@
+"""Plans as outsiders read them: over the ground, piece by piece."""
+
+from math import hypot, pi
+
+import pytest
+from hypothesis import assume, given
+
+from relguide import (
+    CALM,
+    NoPlan,
+    Plan,
+    Reason,
+    Situation,
+    Straight,
+    Trajectory,
+    Wind,
+    plan,
+    wind_from,
+)
+from relguide.flying.cards import no_plan_card, path_segments, plan_card, wind_card
+from relguide.flying.documents import TurnSegment
+from tests.oracle import integrate, pieces_of
+from tests.situations import golden, headings, numbers, situations
+
+
+@given(situation=situations(reach=80_000.0))
+def test_segments_join_up_over_the_ground(situation: Situation) -> None:
+    answer = plan(situation)
+    assume(isinstance(answer, Plan))
+    assert isinstance(answer, Plan)
+    card = plan_card(answer)
+    wind = (situation.wind.east, situation.wind.north)
+    pursuer = situation.pursuer
+    track = integrate(
+        (pursuer.x, pursuer.y, pursuer.heading), pursuer.tas, pieces_of(answer.trajectory), wind,
+        answer.time_to_converge,
+    )  # fmt: skip
+    assert card.segments[0].start.t == 0.0
+    for before, after in zip(card.segments[:-1], card.segments[1:], strict=True):
+        assert before.end == after.start
+    end = card.segments[-1].end
+    assert end.t == pytest.approx(card.time_to_converge)
+    assert hypot(end.x - track[-1][1], end.y - track[-1][2]) < 0.02
+    for segment in card.segments:
+        assert segment.duration == pytest.approx(segment.end.t - segment.start.t, abs=1e-9)
+        if isinstance(segment, TurnSegment):
+            assert segment.bank == pytest.approx(pursuer.max_bank)
+            turned = segment.end.heading - segment.start.heading
+            sign = 1.0 if segment.direction == "right" else -1.0
+            off = (turned - sign * segment.angle) % (2.0 * pi)
+            assert min(off, 2.0 * pi - off) < 1e-9
+
+
+def test_a_horizon_appends_the_endless_straight_and_shifts_the_clock() -> None:
+    flown = Trajectory(x=0.0, y=0.0, heading=0.0, tas=100.0, segments=(Straight(length=1_000.0),))
+    segments = path_segments(flown, wind=Wind(east=5.0), start_time=50.0, horizon=30.0)
+    assert [(s.start.t, s.end.t) for s in segments] == [(50.0, 60.0), (60.0, 80.0)]
+    assert (segments[-1].end.x, segments[-1].end.y) == pytest.approx((150.0, 3_000.0))
+    assert path_segments(flown, wind=CALM, horizon=5.0) == path_segments(flown, wind=CALM)
+
+
+@given(direction=headings, speed=numbers(0.1, 90.0))
+def test_wind_is_reported_as_it_was_given(direction: float, speed: float) -> None:
+    card = wind_card(wind_from(direction, speed))
+    off = (card.from_ - direction) % (2.0 * pi)
+    assert min(off, 2.0 * pi - off) < 1e-9
+    assert card.speed == pytest.approx(speed)
+    assert wind_card(CALM).from_ == 0.0
+
+
+def test_no_plan_keeps_its_reason_and_sentence() -> None:
+    card = no_plan_card(NoPlan(reason=Reason.SLOT_UNREACHABLE, message="The leader is faster."))
+    assert (card.status, card.reason, card.message) == (
+        "no_plan",
+        "slot_unreachable",
+        "The leader is faster.",
+    )
+
+
+def test_alternatives_are_listed_with_what_they_lose() -> None:
+    situation, _ = next(pair for pair in golden("reference") if pair[1]["id"] == "R061")
+    answer = plan(situation)
+    assert isinstance(answer, Plan)
+    rejected = {a.rejected for a in plan_card(answer).alternatives}
+    assert rejected == {"slower", "separation"}

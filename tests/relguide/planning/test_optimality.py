@@ -1,0 +1,215 @@
+"""Pontryagin's conditions: where they must hold, where they may not, and what is refused."""
+
+from dataclasses import replace
+from math import atan2, hypot, pi
+
+import numpy as np
+import pytest
+from hypothesis import given
+
+from relguide import (
+    LEFT,
+    RIGHT,
+    Arc,
+    FlyStraight,
+    Leader,
+    Pursuer,
+    Situation,
+    Straight,
+    TurnTo,
+    candidates,
+)
+from relguide.kernels.extremals import MAX_ROWS, solve
+from relguide.kernels.passage import GRAZE, through_contact
+from relguide.planning.detour import leader_table
+from relguide.planning.optimality import check
+from relguide.planning.words import SIGN_ROWS, assemble
+from relguide.units import DEG
+from tests.plans import assert_exact, flown, golden_plan, planned, straight_behind, unlimited
+from tests.situations import golden, situations
+
+BEYOND = ("R101",)
+"""Detours whose contact is on an edge of the search, next to the best: conditions fail by 0.6 %."""
+
+
+def test_every_proven_optimum_meets_the_conditions() -> None:
+    free = 0
+    for situation, expected in (*golden("reference"), *golden("wind")):
+        if expected["status"] != "optimal":
+            continue
+        answer = planned(situation)
+        report = check(answer, situation, samples=1)
+        assert_exact(report, situation)
+        free += report.arrival == "free"
+    assert free >= 200  # the others wait for the slot to open, or are there
+
+
+@given(situation=situations())
+def test_an_optimum_without_the_limit_meets_the_conditions(situation: Situation) -> None:
+    answer = unlimited(situation)
+    assert_exact(check(answer, situation, samples=1), situation)
+
+
+@given(situation=situations(speed_ratio=(1.0, 1.3), reach=60_000.0))
+def test_so_does_one_that_joins_a_faster_leader(situation: Situation) -> None:
+    answer = unlimited(situation)
+    assert_exact(check(answer, situation, samples=1), situation)
+
+
+def test_detours_meet_the_conditions_with_a_jump_that_is_not_negative() -> None:
+    """λ_d after the contact − before, by (10) and (11): 27 golden plans touch d_min once."""
+    held = touching = 0
+    for situation, expected in golden("reference"):
+        if expected["status"] != "best_known":
+            continue
+        answer = planned(situation)
+        report = check(answer, situation, samples=1)
+        held += report.holds
+        touching += len(report.contacts) > 0
+        assert report.holds == (expected["id"] not in BEYOND), expected["id"]
+        for contact in report.contacts:
+            ours = answer.trajectory.pose_at(contact.time)
+            theirs = situation.leader.trajectory.pose_at(contact.time)
+            dx, dy = theirs.x - ours.x, theirs.y - ours.y
+            assert hypot(dx, dy) == pytest.approx(situation.min_separation, abs=0.2)
+            assert contact.bearing == pytest.approx(atan2(dx, dy), abs=1e-9)
+            assert contact.jump > 0.0
+        # what was left out is shorter than a pilot's glance
+        assert report.neglected < 0.1
+    assert touching == 27
+    assert held == 38
+
+
+def test_a_contact_that_lies_elsewhere_fails_by_as_much_as_it_lies_off() -> None:
+    """The way through a neighbouring contact reaches the slot too, but is no extremal."""
+    situation = golden_plan("R061").situation
+    found = candidates(situation)
+    frame, table = found.frame, leader_table(situation, found.frame)
+    contact = check(golden_plan("R061"), situation, samples=1).contacts[0]
+    ours = contact.bearing + pi  # of the pursuer from the leader, clockwise from north
+    way, rows, onward = np.zeros((2, 5)), np.empty((MAX_ROWS, 5)), np.empty((MAX_ROWS, 5))
+    residuals = []
+    for off in (0.01, 0.02):
+        arrivals = []
+        for side in (1.0, -1.0):
+            trial = np.zeros((2, 5))
+            time = through_contact(
+                frame.x, frame.y, frame.h, table, 0, frame.alpha,
+                situation.min_separation / frame.radius + GRAZE, frame.t_open,
+                situation.leader.heading - ours + off, side, 50.0, rows, onward, trial,
+            )  # fmt: skip
+            arrivals.append((time, trial))
+        time, way = min(arrivals, key=lambda arrival: arrival[0])
+        signs = [sign for row in way for sign in SIGN_ROWS[int(row[1])]]
+        beside = assemble(situation, frame, signs, way[:, 2:].ravel().tolist(), "").trajectory
+        report = check(beside, situation, samples=1)
+        assert not report.holds
+        residuals.append(report.switching_residual)
+    assert residuals[1] == pytest.approx(2.0 * residuals[0], rel=0.2)
+
+
+def test_contacts_close_together_share_their_jumps() -> None:
+    """The last turn before this ride touches d_min 0.5 s before it, a millimetre further in.
+
+    Each of the two jumps hangs on rounding, and may be negative.
+    """
+    situation = Situation(
+        pursuer=Pursuer(
+            x=5126.6374828192065,
+            y=7507.112993100745,
+            heading=0.7295063247489008,
+            tas=130.92534999033458,
+            max_bank=0.4714984028318385,
+        ),
+        leader=Leader(x=0.0, y=0.0, heading=0.0, tas=117.90654827785168),
+        slot_distance=8609.995676130982,
+        min_separation=8500.767075644066,
+    )
+    report = check(planned(situation), situation, samples=1)
+    before, entry, *_ = report.contacts
+    assert entry.time == report.rides[0].start
+    assert entry.time - before.time < 1.0
+    assert before.jump + entry.jump > 0.0
+    assert report.holds
+
+
+def test_a_full_circle_meets_every_condition_and_is_not_optimal() -> None:
+    """They are necessary, not sufficient: no small change of it is faster."""
+    situation = straight_behind()
+    radius = situation.pursuer.turn_radius
+    circle = Arc(turn=LEFT, turn_angle=2.0 * pi, radius=radius)
+    time = (31_000.0 + circle.length) / 40.0
+    onward = Straight(length=time * 220.0 - circle.length)
+    assert_exact(check(flown(situation, circle, onward), situation), situation)
+
+
+def test_a_weave_fails() -> None:
+    situation = straight_behind()
+    radius = situation.pursuer.turn_radius
+    weave = [Arc(turn=t, turn_angle=0.3, radius=radius) for t in (LEFT, RIGHT, RIGHT, LEFT)]
+    woven = flown(situation, *weave)
+    ahead = woven.pose_at(woven.duration).y - situation.pursuer.y
+    time = (31_000.0 + woven.length - ahead) / 40.0
+    onward = Straight(length=time * 220.0 - woven.length)
+    report = check(flown(situation, *weave, onward), situation)
+    assert not report.holds
+    assert report.switching_residual > 1.0
+
+
+def test_less_bank_than_there_is_fails_eq_16() -> None:
+    situation = golden_plan("R001").situation
+    pursuer = situation.pursuer
+    gentle = replace(situation, pursuer=replace(pursuer, max_bank=0.8 * pursuer.max_bank))
+    answer = planned(gentle)
+    assert check(answer, gentle).switching_ok
+    report = check(answer, situation)
+    assert not report.switching_ok
+    assert report.switching_residual < 1e-6  # nothing else is wrong with it
+
+
+def test_a_plan_that_waits_for_the_opening_is_said_to_be_one() -> None:
+    answer = golden_plan("R104")
+    report = check(answer, answer.situation)
+    assert report.arrival == "opening"
+    assert report.holds
+    assert set(report.history.hamiltonian) == {1.0}
+    assert set(report.history.switching) == {0.0}
+
+
+def test_of_a_pursuer_in_the_slot_nothing_is_asked() -> None:
+    situation = straight_behind()
+    there = replace(situation, pursuer=replace(situation.pursuer, y=-9_000.0))
+    report = check(planned(there), there)
+    assert (report.arrival, report.holds, report.history.times) == ("at_once", True, ())
+
+
+def test_aircraft_in_one_place_do_not_disturb() -> None:
+    situation = straight_behind(d_min=0.0)
+    there = replace(situation, pursuer=replace(situation.pursuer, y=0.0))
+    report = check(planned(there), there)
+    assert report.holds
+    assert max(map(abs, report.history.hamiltonian)) <= 1e-7
+
+
+def test_what_does_not_reach_the_slot_is_refused() -> None:
+    situation = straight_behind()
+    with pytest.raises(ValueError, match=r"ends \d+\.\d m from the slot"):
+        check(flown(situation, Straight(length=1_000.0)), situation)
+
+
+def test_so_is_what_comes_before_the_slot_opens() -> None:
+    leader = Leader(
+        x=0.0,
+        y=0.0,
+        heading=0.0,
+        tas=180.0,
+        intent=(FlyStraight(duration=1_000.0), TurnTo(heading=0.5, turn=RIGHT, bank=20.0 * DEG)),
+    )
+    situation = replace(straight_behind(), leader=leader)
+    frame, rows = candidates(situation).frame, np.empty((MAX_ROWS, 5))
+    assert solve(frame.x, frame.y, frame.h, frame.alpha, 0.0, rows) > 0
+    assert rows[0, 0] < frame.t_open
+    amounts = rows[0, 2:].tolist()
+    early = assemble(situation, frame, SIGN_ROWS[int(rows[0, 1])], amounts, "").trajectory
+    with pytest.raises(ValueError, match="before the slot opens"):
+        check(early, situation)

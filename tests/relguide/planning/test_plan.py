@@ -1,0 +1,243 @@
+"""Properties of plans: mirror, scale, rotate, shift, Bellman; and honest answers without one."""
+
+from dataclasses import replace
+from math import cos, pi, sin
+
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from relguide import (
+    LEFT,
+    RIGHT,
+    FlyStraight,
+    Leader,
+    NoPlan,
+    Plan,
+    Pursuer,
+    Situation,
+    TurnTo,
+    Wind,
+    alternatives,
+    candidates,
+    certify,
+    plan,
+)
+from relguide.planning.plan import LosesSeparation
+from relguide.planning.situation import IntentPiece
+from relguide.units import DEG
+from tests.oracle import arrival_error
+from tests.situations import headings, numbers, situations
+
+TIME = 1e-5
+"""Seconds by which equal plans may differ: rounding of 150 km over the least closure."""
+
+
+def turned(x: float, y: float, angle: float) -> tuple[float, float]:
+    """A point turned clockwise about the origin."""
+    return x * cos(angle) + y * sin(angle), y * cos(angle) - x * sin(angle)
+
+
+def map_intent(intent: tuple[IntentPiece, ...], sign: int, angle: float) -> tuple[IntentPiece, ...]:
+    return tuple(
+        p
+        if isinstance(p, FlyStraight)
+        else TurnTo(
+            heading=sign * p.heading + angle,
+            turn=(LEFT if p.turn * sign > 0 else RIGHT),
+            bank=p.bank,
+        )
+        for p in intent
+    )
+
+
+def mirrored(situation: Situation) -> Situation:
+    """West for east."""
+    p, l = situation.pursuer, situation.leader
+    return replace(
+        situation,
+        pursuer=replace(p, x=-p.x, heading=-p.heading),
+        leader=replace(l, x=-l.x, heading=-l.heading, intent=map_intent(l.intent, -1, 0.0)),
+        wind=Wind(east=-situation.wind.east, north=situation.wind.north),
+    )
+
+
+def moved(situation: Situation, angle: float, dx: float, dy: float) -> Situation:
+    """Turned clockwise about the origin, then shifted."""
+    p, l, w = situation.pursuer, situation.leader, situation.wind
+    px, py = turned(p.x, p.y, angle)
+    lx, ly = turned(l.x, l.y, angle)
+    east, north = turned(w.east, w.north, angle)
+    return replace(
+        situation,
+        pursuer=replace(p, x=px + dx, y=py + dy, heading=p.heading + angle),
+        leader=replace(
+            l,
+            x=lx + dx,
+            y=ly + dy,
+            heading=l.heading + angle,
+            intent=map_intent(l.intent, 1, angle),
+        ),
+        wind=Wind(east=east, north=north),
+    )
+
+
+def scaled(situation: Situation, k: float) -> Situation:
+    """Lengths times k², speeds times k: the same picture, since R = V²/(g tan φ)."""
+    p, l, w = situation.pursuer, situation.leader, situation.wind
+    return Situation(
+        pursuer=replace(p, x=p.x * k * k, y=p.y * k * k, tas=p.tas * k),
+        leader=replace(
+            l,
+            x=l.x * k * k,
+            y=l.y * k * k,
+            tas=l.tas * k,
+            intent=tuple(
+                FlyStraight(duration=i.duration * k) if isinstance(i, FlyStraight) else i
+                for i in l.intent
+            ),
+        ),
+        slot_distance=situation.slot_distance * k * k,
+        min_separation=situation.min_separation * k * k,
+        wind=Wind(east=w.east * k, north=w.north * k),
+    )
+
+
+def same(first: Plan | NoPlan, second: Plan | NoPlan, factor: float = 1.0) -> None:
+    # a separation within rounding of d_min may certify one and not the other
+    assume(isinstance(first, Plan) and first.optimality.proof == "relaxation")
+    assert isinstance(first, Plan)
+    assume(first.certificate.least_separation > first.situation.min_separation + 0.1)
+    assert isinstance(second, Plan), second
+    assert second.time_to_converge == pytest.approx(first.time_to_converge * factor, abs=TIME)
+
+
+@given(situation=situations())
+def test_the_mirrored_situation_takes_as_long(situation: Situation) -> None:
+    same(plan(situation), plan(mirrored(situation)))
+
+
+@given(situation=situations(), angle=headings, dx=numbers(-1e5, 1e5), dy=numbers(-1e5, 1e5))
+def test_turning_and_shifting_the_world_changes_nothing(
+    situation: Situation, angle: float, dx: float, dy: float
+) -> None:
+    same(plan(situation), plan(moved(situation, angle, dx, dy)))
+
+
+@given(situation=situations(), k=st.sampled_from([0.5, 0.8, 1.25, 1.5]))
+def test_scaled_lengths_and_speeds_scale_the_plan(situation: Situation, k: float) -> None:
+    same(plan(situation), plan(scaled(situation, k)), k)
+
+
+@given(situation=situations())
+def test_flying_a_plan_ends_in_the_slot(situation: Situation) -> None:
+    answer = plan(situation)
+    assume(isinstance(answer, Plan))
+    assert isinstance(answer, Plan)
+    distance, heading_error, least = arrival_error(situation, answer.trajectory)
+    assert distance < 1e-6 * situation.pursuer.turn_radius + 1e-3  # R-relative, and scipy's own
+    assert heading_error < 1e-6
+    assert least > answer.certificate.lower_bound - 1.0  # 1 m: interpolated a second apart
+
+
+@given(situation=situations(with_intent=False), part=numbers(0.01, 0.95))
+def test_replanning_on_the_way_is_the_rest_of_the_plan(situation: Situation, part: float) -> None:
+    """Bellman: where the limit plays no part the rest of an optimal plan is optimal."""
+    answer = plan(situation)
+    assume(isinstance(answer, Plan) and answer.optimality.proof == "relaxation")
+    assert isinstance(answer, Plan)
+    t = part * answer.time_to_converge
+    ours, theirs = answer.trajectory.pose_at(t), situation.leader.trajectory.pose_at(t)
+    rest = plan(
+        replace(
+            situation,
+            pursuer=replace(
+                situation.pursuer, x=ours.x - theirs.x, y=ours.y - theirs.y, heading=ours.heading
+            ),
+            leader=replace(situation.leader, x=0.0, y=0.0, heading=theirs.heading),
+        )
+    )
+    assert isinstance(rest, Plan)
+    assert rest.time_to_converge == pytest.approx(answer.time_to_converge - t, abs=1e-4)
+
+
+@given(situation=situations(reach=60_000.0))
+def test_no_candidate_that_certifies_beats_the_plan(situation: Situation) -> None:
+    answer = plan(situation)
+    for candidate in candidates(situation):
+        if certify(candidate.trajectory, situation).holds:
+            assert isinstance(answer, Plan)
+            assert candidate.time_to_converge >= answer.time_to_converge - 1e-9
+
+
+@given(situation=situations(reach=40_000.0))
+def test_alternatives_are_faster_and_unsafe_or_slower(situation: Situation) -> None:
+    answer = plan(situation)
+    assume(isinstance(answer, Plan))
+    assert isinstance(answer, Plan)
+    for alternative in alternatives(answer):
+        faster = alternative.time_to_converge < answer.time_to_converge - 1e-6
+        assert isinstance(alternative.rejected, LosesSeparation) == faster
+        if isinstance(alternative.rejected, LosesSeparation):
+            assert alternative.rejected.least_separation < situation.min_separation
+
+
+def two(**changes: object) -> Situation:
+    base = Situation(
+        pursuer=Pursuer(x=-40_000.0, y=0.0, heading=0.5 * pi, tas=200.0, max_bank=25 * DEG),
+        leader=Leader(x=0.0, y=0.0, heading=0.5 * pi, tas=180.0),
+        slot_distance=12_000.0,
+        min_separation=9_000.0,
+    )
+    return replace(base, **changes)  # type: ignore[arg-type]
+
+
+def test_straight_behind_is_a_straight() -> None:
+    answer = plan(two())
+    assert isinstance(answer, Plan)
+    assert answer.time_to_converge == pytest.approx(28_000.0 / 20.0)
+    assert answer.trajectory.letters == "S"
+
+
+@pytest.mark.parametrize("tas", [180.0, 170.0])
+def test_a_leader_that_is_not_slower_may_be_out_of_reach(tas: float) -> None:
+    slow = Pursuer(x=-40_000.0, y=0.0, heading=0.5 * pi, tas=tas, max_bank=25 * DEG)
+    answer = plan(two(pursuer=slow))
+    assert isinstance(answer, NoPlan)
+    assert answer.reason == "slot_unreachable"
+    assert "350 kt" in answer.message
+
+
+def test_too_close_already() -> None:
+    answer = plan(two(leader=Leader(x=-38_000.0, y=0.0, heading=0.0, tas=150.0)))
+    assert isinstance(answer, NoPlan)
+    assert answer.reason == "separation_already_lost"
+    assert "1.08 NM" in answer.message
+
+
+def test_a_chase_of_days_is_beyond_the_horizon() -> None:
+    answer = plan(two(leader=Leader(x=0.0, y=0.0, heading=0.5 * pi, tas=199.9)))
+    assert isinstance(answer, NoPlan)
+    assert answer.reason == "beyond_horizon"
+
+
+def test_a_slot_that_opens_later_is_taken_the_moment_it_opens() -> None:
+    """The slot opens once the leader has flown D on its final leg."""
+    turning = Leader(
+        x=0.0,
+        y=0.0,
+        heading=0.5 * pi,
+        tas=180.0,
+        intent=(FlyStraight(duration=200.0), TurnTo(heading=pi, turn=RIGHT, bank=25 * DEG)),
+    )
+    situation = two(
+        leader=turning,
+        pursuer=Pursuer(x=38_000.0, y=2_000.0, heading=pi, tas=200.0, max_bank=25 * DEG),
+    )
+    answer = plan(situation)
+    assert isinstance(answer, Plan)
+    opens = turning.trajectory.duration + 12_000.0 / 180.0
+    assert answer.time_to_converge == pytest.approx(opens, abs=1e-6)
+    assert answer.optimality.proof == "relaxation"
+    distance, _, _ = arrival_error(situation, answer.trajectory)
+    assert distance < 0.02
