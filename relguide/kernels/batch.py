@@ -1,7 +1,7 @@
 """Many situations with a straight leader, one after another: time, bound and proof of each.
 
 The same chain as `plan`: every extremal in order of time, the first that clears; where that is not
-the very first, the ways that touch d_min once, and those that ride along it. Slot frame: lengths in
+the very first, the ways that touch d_min or ride along it. Slot frame: lengths in
 R, times in R/V_P, angles counter-clockwise.
 """
 
@@ -11,10 +11,9 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.angles import wrap
-from relguide.kernels.detour import best_detour
+from relguide.kernels.detour import MAX_LEGS, best_detour
 from relguide.kernels.extremals import MAX_ROWS, solve
 from relguide.kernels.passage import GRAZE, word_clears
-from relguide.kernels.ride import best_ride
 from relguide.kernels.roots import FloatArray
 from relguide.kernels.tangent import tangents
 
@@ -40,8 +39,7 @@ def plan_rows(
     """
     rows = np.empty((MAX_ROWS, 5))
     leader = np.zeros((1, 5))
-    way = np.empty((2, 5))
-    row = np.empty(5)
+    legs = np.empty((MAX_LEGS, 6))
     for n in range(first, last):
         x, y, h = situations[n, 0], situations[n, 1], wrap(situations[n, 2])
         alpha, limit = situations[n, 3], situations[n, 6]
@@ -67,11 +65,8 @@ def plan_rows(
         if answer[2] == PROVED or limit <= 0.0:
             continue
         near = tangents(x, y, h, leader, alpha, limit + GRAZE)
-        once = best_detour(
-            x, y, h, leader, alpha, limit + GRAZE, 0.0, bearings, near, answer[0], way
+        arrival, legs_flown = best_detour(
+            x, y, h, leader, alpha, limit + GRAZE, 0.0, bearings, near, answer[0], legs
         )
-        ride, _, _, _ = best_ride(
-            x, y, h, leader, alpha, limit + GRAZE, 0.0, bearings, near, once, row
-        )
-        if ride < answer[0]:
-            answer[0], answer[2], answer[3] = ride, BOUNDED, -1.0
+        if legs_flown > 0:
+            answer[0], answer[2], answer[3] = arrival, BOUNDED, -1.0

@@ -6,14 +6,20 @@ counter-clockwise from the leader's heading, that fixes the pursuer's heading bu
 
     cos(h − b) = α cos b      ⇒      h = b + s arccos(α cos b),    s = +1 counter-clockwise round.
 
-Riding means to stay there: δ b′ = s √(1 − α² cos² b) + α sin b, which asks for a turn to side s at
-the rate h′ = δ b′² / √(1 − α² cos² b) (plus what the leader itself turns), at most 1 in R/V_P.
-Lengths are in R, times in R/V_P, angles counter-clockwise.
+Riding means to stay there. With ω the leader's turn rate and q = √(1 − α² cos² b),
+
+    b′ = (s q + α sin b)/δ − ω,      h′ = ω + b′ (1 + s α sin b/q)    (h relative to the world),
+
+and |h′| is at most 1. Lengths are in R, times in R/V_P, angles counter-clockwise.
 """
 
-from math import acos, cos, sin, sqrt
+from math import acos, ceil, cos, inf, sin, sqrt
 
 from numba import njit
+
+_STEP = 0.07  # bearing step of Simpson's rule: 4°, right to 1e-9
+_STILL = 1e-6  # slower round the leader than this, a ride gets nowhere [V_P/R]
+_BANK_SLACK = 1e-9  # ends of what can be ridden are found by bisection, and count as inside
 
 
 @njit(cache=True, nogil=True)
@@ -35,27 +41,91 @@ def contact_heading(bearing: float, side: float, alpha: float) -> float:
 
 
 @njit(cache=True, nogil=True)
-def ride_rate(bearing: float, side: float, alpha: float, delta: float) -> float:
-    """b′ when riding at δ round a leader that keeps straight; has the sign of `side`. α < 1."""
+def ride_rates(
+    bearing: float, side: float, alpha: float, delta: float, turning: float
+) -> tuple[float, float]:
+    """b′ and h′ of a ride at δ; both infinite where the disc cannot be touched.
+
+    Args:
+        bearing: as in `contact_heading` [rad].
+        side: as there.
+        alpha: V_L/V_P.
+        delta: distance of the ride [R].
+        turning: the leader's turn rate ω [V_P/R].
+    """
     along = alpha * cos(bearing)
-    return (side * sqrt(1.0 - along * along) + alpha * sin(bearing)) / delta
+    if abs(along) >= 1.0:
+        return inf, inf
+    across = sqrt(1.0 - along * along)
+    round_it = (side * across + alpha * sin(bearing)) / delta - turning
+    return round_it, turning + round_it * (1.0 + side * alpha * sin(bearing) / across)
 
 
 @njit(cache=True, nogil=True)
-def ride_turn(bearing: float, side: float, alpha: float, delta: float) -> float:
-    """|h′| that riding asks for; above 1 it cannot be flown."""
-    along = alpha * cos(bearing)
-    rate = ride_rate(bearing, side, alpha, delta)
-    return delta * rate * rate / sqrt(1.0 - along * along)
+def ride_way(bearing: float, side: float, alpha: float, delta: float, turning: float) -> float:
+    """Which way a ride moves the bearing: +1, −1, or 0 where it cannot be flown."""
+    round_it, rate = ride_rates(bearing, side, alpha, delta, turning)
+    if abs(rate) > 1.0 + _BANK_SLACK or abs(round_it) < _STILL:
+        return 0.0
+    return 1.0 if round_it > 0.0 else -1.0
 
 
 @njit(cache=True, nogil=True)
-def ride_time(low: float, high: float, side: float, alpha: float, delta: float) -> float:
-    """Time to ride from one bearing to another, in the direction of `side` (Simpson's rule)."""
-    middle = 0.5 * (low + high)
-    slowness = (
-        1.0 / ride_rate(low, side, alpha, delta)
-        + 4.0 / ride_rate(middle, side, alpha, delta)
-        + 1.0 / ride_rate(high, side, alpha, delta)
-    )
-    return (high - low) * slowness / 6.0
+def _slowness(
+    bearing: float, way: float, side: float, alpha: float, delta: float, turning: float
+) -> float:
+    """Time per bearing; infinite where the ride cannot be flown, or goes the other way."""
+    if ride_way(bearing, side, alpha, delta, turning) != way:
+        return inf
+    return way / ride_rates(bearing, side, alpha, delta, turning)[0]
+
+
+@njit(cache=True, nogil=True)
+def ride_within(
+    bearing: float, goal: float, side: float, alpha: float, delta: float, turning: float,
+    left: float,
+) -> tuple[float, float]:  # fmt: skip
+    """Ride from one bearing to another while the leader keeps its turn rate.
+
+    Args:
+        bearing: where it begins [rad].
+        goal: where it ends; not wrapped, so that it tells the way [rad].
+        side: as in `contact_heading`.
+        alpha: V_L/V_P.
+        delta: distance of the ride [R].
+        turning: the leader's turn rate ω [V_P/R].
+        left: how long the leader keeps it [R/V_P].
+
+    Returns:
+        the bearing reached and the time it took: the goal, or what is reached when the time is up;
+        an infinite time where the ride cannot be flown.
+    """
+    steps = ceil(abs(goal - bearing) / _STEP)
+    way = 1.0 if goal > bearing else -1.0
+    used, low = 0.0, bearing
+    slow_low = _slowness(low, way, side, alpha, delta, turning)
+    for k in range(steps):
+        high = bearing + (goal - bearing) * (k + 1) / steps
+        slow_high = _slowness(high, way, side, alpha, delta, turning)
+        slow_middle = _slowness(0.5 * (low + high), way, side, alpha, delta, turning)
+        took = abs(high - low) * (slow_low + 4.0 * slow_middle + slow_high) / 6.0
+        if took == inf:
+            return low, inf
+        if used + took > left:
+            near, far = 0.0, 1.0
+            for _ in range(50):
+                share = 0.5 * (near + far)
+                end = low + share * (high - low)
+                partly = (
+                    slow_low
+                    + 4.0 * _slowness(0.5 * (low + end), way, side, alpha, delta, turning)
+                    + _slowness(end, way, side, alpha, delta, turning)
+                )
+                if used + share * abs(high - low) * partly / 6.0 < left:
+                    near = share
+                else:
+                    far = share
+            return low + far * (high - low), left
+        used += took
+        low, slow_low = high, slow_high
+    return goal, used

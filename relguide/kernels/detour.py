@@ -1,70 +1,102 @@
 """Ways to the slot that touch d = d_min: the search when the best way without the limit breaks it.
 
-A path that the limit bends touches the forbidden disc, and the arrival is a function of the
-contact's bearing alone, for each piece of the leader's intent and each side (see `passage`). It is
-scanned round the disc, every basin that matters is refined, and so are the contacts of `tangent`.
+A path that the limit bends touches the forbidden disc, and the state at a contact is fixed by its
+bearing, for each piece of the leader's intent and each side. Three searches follow each other: ways
+through one contact, whose arrival is a function of its bearing alone (see `passage`); a graph of
+contacts joined by words and rides (see `contact_graph`); and the refinement of the best of both.
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader is a table as in
-`clearance`. The work is bounded: pieces × 2 × bearings contacts, each a few words.
+`clearance`. The work is bounded: pieces × 2 × bearings contacts, each a few words, and a fixed
+number of basins, hops and sweeps.
 """
 
-from math import cos, inf, sin, sqrt
+from math import inf
 
 import numpy as np
 from numba import njit
 
-from relguide.kernels.angles import TWO_PI, wrap_signed
-from relguide.kernels.clearance import leader_at, piece_clears
-from relguide.kernels.contact import contact_exists, contact_heading
+from relguide.kernels.angles import TWO_PI, wrap
+from relguide.kernels.chain import (
+    GAIN,
+    MAX_CONTACTS,
+    WORD,
+    contact_at,
+    fly_chain,
+    refine_chain,
+    vertex,
+)
+from relguide.kernels.clearance import piece_clears
+from relguide.kernels.contact import contact_exists, ride_way
+from relguide.kernels.contact_graph import best_chains
 from relguide.kernels.extremals import MAX_ROWS, fly_piece
-from relguide.kernels.passage import best_word, through_contact
+from relguide.kernels.passage import best_word, not_before, not_before_slot, through_contact
 from relguide.kernels.roots import FloatArray
 
+MAX_LEGS = MAX_CONTACTS + 1
+"""Legs of the longest way."""
 _BASINS = 8  # refined: the best of them wins in every reference case; the rest is insurance
 _BESIDE = 1e-6  # how far beside a tangent contact it is looked: 1 cm at R = 12 km
+_CHAINS = 4  # of the graph, refined
+_SLACK = 0.14  # how much a basin may fall below what the scan sees of it [R/V_P]
 _FIRST_TURNS = 48  # sizes of a first turn in `any_way`: every 7.5°
 _LONGEST = 64.0  # longest straight tried there [R]: 200 NM for an airliner
 _FINEST = 1e-7  # bearing steps end here: 1 mm at R = 12 km, 10 µs where the time has an edge
 
 
 @njit(cache=True, nogil=True)
-def _intercept(dx: float, dy: float, ax: float, ay: float) -> float:
-    """Least time to a point at (dx, dy) that moves at a, by the straight way; 0 where unknown."""
-    closing = dx * ax + dy * ay
-    one_less = 1.0 - ax * ax - ay * ay
-    if one_less <= 1e-9:
-        return 0.0
-    return (closing + sqrt(closing * closing + one_less * (dx * dx + dy * dy))) / one_less
+def _nodes(
+    leader: FloatArray, alpha: float, delta: float, bearings: int, tangents: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Sides and bearings of the contacts looked at: for each piece both sides, ascending.
 
-
-@njit(cache=True, nogil=True)
-def _soonest(
-    x: float, y: float, h: float, leader: FloatArray, i: int, alpha: float, delta: float,
-    t_open: float, bearing: float, side: float,
-) -> float:  # fmt: skip
-    """A cheap lower bound on the arrival through a contact: straight ways, and least turns."""
-    if not contact_exists(bearing, alpha):
-        return inf
-    lx, ly, lh = leader_at(leader, i, alpha, leader[i, 0] if leader[i, 4] != 0.0 else 0.0)
-    course = lh + contact_heading(bearing, side, alpha)
-    if leader[i, 4] != 0.0:
-        return float(max(leader[i, 0], t_open))
-    cx, cy = lx + delta * cos(lh + bearing), ly + delta * sin(lh + bearing)
-    ax, ay = alpha * cos(lh), alpha * sin(lh)
-    there = max(_intercept(cx - x, cy - y, ax, ay), abs(wrap_signed(course - h)), leader[i, 0])
-    if i + 1 < len(leader):
-        return float(max(there, t_open))
-    # on the final leg the contact keeps its place from the slot
-    onward = max(_intercept(-cx, -cy, alpha, 0.0), abs(wrap_signed(course)))
-    return float(max(there + onward, t_open))
+    A grid; both sides of each tangent contact, since the words that end there exist on one of them
+    only; and the ends of what can be ridden on the final leg.
+    """
+    last = len(leader) - 1
+    own = np.empty((2, 2 * bearings + 2 * len(tangents)))
+    sizes = np.zeros(2, dtype=np.int64)
+    for k in range(2):
+        side = 1.0 - 2.0 * k
+        n = 0
+        for j in range(bearings):
+            low, high = TWO_PI * j / bearings, TWO_PI * (j + 1) / bearings
+            own[k, n] = low
+            n += 1
+            way = ride_way(low, side, alpha, delta, leader[last, 4])
+            if way != ride_way(high, side, alpha, delta, leader[last, 4]):
+                for _ in range(50):
+                    middle = 0.5 * (low + high)
+                    if ride_way(middle, side, alpha, delta, leader[last, 4]) == way:
+                        low = middle
+                    else:
+                        high = middle
+                own[k, n] = low if way != 0.0 else high
+                n += 1
+        for tangent in tangents:
+            if tangent[1] == side:
+                own[k, n] = wrap(tangent[0] - _BESIDE)
+                own[k, n + 1] = wrap(tangent[0] + _BESIDE)
+                n += 2
+        sizes[k] = n
+    # both sides get as many, so that groups are alike in length: the spare ones are far from all
+    size = max(sizes[0], sizes[1])
+    for k in range(2):
+        for n in range(sizes[k], size):
+            own[k, n] = TWO_PI * (n - sizes[k] + 0.5) / bearings
+    sides = np.empty(2 * len(leader) * size)
+    placed = np.empty(2 * len(leader) * size)
+    for group in range(2 * len(leader)):
+        sides[group * size : (group + 1) * size] = 1.0 - 2.0 * (group % 2)
+        placed[group * size : (group + 1) * size] = np.sort(own[group % 2, :size])
+    return sides, placed
 
 
 @njit(cache=True, nogil=True)
 def best_detour(
     x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float, t_open: float,
-    bearings: int, tangents: FloatArray, beat: float, way: FloatArray,
-) -> float:  # fmt: skip
-    """The fastest way to the slot through one contact.
+    bearings: int, tangents: FloatArray, beat: float, legs: FloatArray,
+) -> tuple[float, int]:  # fmt: skip
+    """The fastest way to the slot that touches the disc.
 
     Args:
         x: start, slot frame [R].
@@ -72,107 +104,137 @@ def best_detour(
         h: start heading [rad].
         leader: table of its pieces. shape (k, 5)
         alpha: V_L/V_P.
-        delta: distance at the contact, d_min and a graze more [R].
+        delta: distance at the contacts, d_min and a graze more [R].
         t_open: when the slot opens [R/V_P].
         bearings: how finely the disc is scanned.
         tangents: contacts to be looked at besides, from `tangent.tangents`. shape (·, 3)
         beat: an arrival already known [R/V_P]; only earlier ones are looked for.
-        way: takes the row to the contact and the row from it. shape (2, 5)
+        legs: takes the legs of the way, as `chain.fly_chain`. shape (MAX_LEGS, 6)
 
     Returns:
-        arrival time [R/V_P]; `beat` if no way is faster.
+        arrival time [R/V_P] and the number of legs; `beat` and 0 if no way is faster.
     """
-    pieces = len(leader)
     rows = np.empty((MAX_ROWS, 5))
     onward = np.empty((MAX_ROWS, 5))
-    trial = np.empty((2, 5))
-    values = np.full((pieces, 2, bearings), inf)
-    soonest = np.empty(pieces * 2 * bearings)
-    for n in range(len(soonest)):
-        soonest[n] = _soonest(
-            x, y, h, leader, n // (2 * bearings), alpha, delta, t_open,
-            TWO_PI * (n % bearings) / bearings, 1.0 - 2.0 * (n // bearings % 2),
-        )  # fmt: skip
-    best = beat
-    # basins are compared against what is known before any is refined: some slack, or none survives
-    slack = 2.0 * TWO_PI / bearings
+    way, nearby, trial = np.empty((2, 5)), np.empty((2, 5)), np.empty((2, 5))
+    reached = np.empty(2)
+    sides, placed = _nodes(leader, alpha, delta, bearings, tangents)
+    count, size = len(placed), len(placed) // (2 * len(leader))
+    time, lower, values = np.full(count, inf), np.full(count, inf), np.full(count, inf)
+    soonest = np.full(count, inf)
+    for n in range(count):
+        if contact_exists(placed[n], alpha):
+            i = n // (2 * size)
+            t = not_before(x, y, h, 0.0, leader, i, alpha, delta, placed[n], sides[n])
+            soonest[n] = max(t, t_open)
+            if i + 1 == len(leader):
+                # on the final leg the contact keeps its place from the slot
+                cx, cy, ch = contact_at(leader, t, placed[n], sides[n], alpha, delta)
+                soonest[n] = not_before_slot(cx, cy, ch, t, alpha, t_open)
+    best, found = beat, 0
     for n in np.argsort(soonest):
-        if soonest[n] >= best + slack:
+        if soonest[n] >= best + _SLACK:
             break
-        i, side, j = n // (2 * bearings), n // bearings % 2, n % bearings
-        found = through_contact(
-            x, y, h, leader, i, alpha, delta, t_open, TWO_PI * j / bearings, 1.0 - 2.0 * side,
-            best + slack, rows, onward, trial,
+        values[n] = through_contact(
+            x, y, h, leader, n // (2 * size), alpha, delta, t_open, placed[n], sides[n],
+            best + _SLACK, rows, onward, trial, reached,
         )  # fmt: skip
-        if found < best + slack:
-            values[i, side, j] = found
-            if found < best:
-                best = found
-                way[:] = trial
-    taken = np.zeros((pieces, 2, bearings))
+        time[n], lower[n] = reached[0], reached[1]
+        if values[n] >= best + _SLACK:
+            values[n] = inf
+        elif values[n] < best:
+            best, found = values[n], 2
+            way[:] = trial
+    taken = np.zeros(count)
     for _ in range(_BASINS):
-        low, at_i, at_side, at_j = inf, -1, 0, 0
-        for i in range(pieces):
-            for side in range(2):
-                for j in range(bearings):
-                    value = values[i, side, j]
-                    is_basin = (
-                        value < low
-                        and taken[i, side, j] == 0.0
-                        and value <= values[i, side, (j + 1) % bearings]
-                        and value <= values[i, side, j - 1]
-                    )
-                    if is_basin:
-                        low, at_i, at_side, at_j = value, i, side, j
-        if at_i < 0:
+        at = -1
+        for n in range(count):
+            group = n // size * size
+            if (
+                values[n] < inf
+                and taken[n] == 0.0
+                and (at < 0 or values[n] < values[at])
+                and values[n] <= values[group + (n - group + 1) % size]
+                and values[n] <= values[group + (n - group - 1) % size]
+            ):
+                at = n
+        if at < 0:
             break
-        taken[at_i, at_side, at_j] = 1.0
+        taken[at] = 1.0
+        group = at // size * size
+        after, before = group + (at - group + 1) % size, group + (at - group - 1) % size
         # how much lower it may be between here and its neighbours; an edge may hide more
-        rise = max(values[at_i, at_side, (at_j + 1) % bearings], values[at_i, at_side, at_j - 1])
-        if low > best and low - min(rise - low, slack) >= best:
+        rise = max(values[after], values[before]) - values[at]
+        if values[at] > best and values[at] - min(rise, _SLACK) >= best:
             continue
         here = _descend(
-            x, y, h, leader, at_i, alpha, delta, t_open, TWO_PI * at_j / bearings,
-            1.0 - 2.0 * at_side, low, 0.5 * TWO_PI / bearings, rows, onward, trial,
+            x, y, h, leader, at // (2 * size), alpha, delta, t_open, placed[at], sides[at],
+            values[at], 0.5 * TWO_PI / bearings, rows, onward, trial, reached, nearby,
         )  # fmt: skip
         if here < best:
-            best = here
-            way[:] = trial
-    for tangent in tangents:
-        # the words that end there exist on one side of the bearing only
-        for off in (-_BESIDE, _BESIDE):
-            found = through_contact(
-                x, y, h, leader, pieces - 1, alpha, delta, t_open, tangent[0] + off, tangent[1],
-                best, rows, onward, trial,
-            )  # fmt: skip
-            if found < best:
-                best = _descend(
-                    x, y, h, leader, pieces - 1, alpha, delta, t_open, tangent[0] + off,
-                    tangent[1], found, 0.1 * TWO_PI / bearings, rows, onward, trial,
-                )  # fmt: skip
-                way[:] = trial
-    return best
+            best, found = here, 2
+            way[:] = nearby
+    for k in range(found):
+        legs[k, 0] = WORD
+        legs[k, 1:6] = way[k]
+    chains = np.empty((_CHAINS, MAX_CONTACTS + 1, 4))
+    tried = np.empty((MAX_LEGS, 6))
+    kept = best_chains(
+        leader, alpha, delta, t_open, sides, placed, time, lower, best, _SLACK, chains
+    )
+    for k in range(kept):
+        contacts = int(chains[k, 0, 1])
+        chain = chains[k, 1 : contacts + 1]
+        here = refine_chain(
+            x, y, h, leader, alpha, delta, t_open, chain, chains[k, 0, 0],
+            0.5 * TWO_PI / bearings, best, rows, tried,
+        )  # fmt: skip
+        if here < best - GAIN:
+            flown = fly_chain(x, y, h, leader, alpha, delta, t_open, chain, inf, rows, tried)
+            if flown < best:
+                best, found = flown, contacts + 1
+                legs[:found] = tried[:found]
+    return best, found
 
 
 @njit(cache=True, nogil=True)
 def _descend(
     x: float, y: float, h: float, leader: FloatArray, i: int, alpha: float, delta: float,
     t_open: float, bearing: float, side: float, here: float, stride: float, rows: FloatArray,
-    onward: FloatArray, trial: FloatArray,
+    onward: FloatArray, trial: FloatArray, reached: FloatArray, way: FloatArray,
 ) -> float:  # fmt: skip
-    """The least arrival near a bearing whose own is `here`; `trial` takes the way if it is less."""
+    """The least arrival near a bearing whose own is `here`; `way` takes the way if it is less."""
     while stride > _FINEST:
         moved = False
+        values = (inf, inf)
         for direction in range(2):
-            there = bearing + stride * (1.0 - 2.0 * direction)
+            there = bearing + stride * (2.0 * direction - 1.0)
             found = through_contact(
-                x, y, h, leader, i, alpha, delta, t_open, there, side, here, rows, onward, trial
-            )
+                x, y, h, leader, i, alpha, delta, t_open, there, side, here + 0.2, rows, onward,
+                trial, reached,
+            )  # fmt: skip
+            values = (values[1], found)
             if found < here:
                 here, bearing, moved = found, there, True
+                way[:] = trial
                 break
-        if not moved:
+        if moved:
+            continue
+        shift, promised = vertex(values[0], here, values[1], stride)
+        if promised == 0.0:
             stride *= 0.4
+            continue
+        found = through_contact(
+            x, y, h, leader, i, alpha, delta, t_open, bearing + shift, side, here, rows, onward,
+            trial, reached,
+        )  # fmt: skip
+        smooth = abs(here - found - promised) <= 0.1 * promised + GAIN
+        if found < here:
+            here, bearing = found, bearing + shift
+            way[:] = trial
+        if smooth and promised < GAIN:
+            break
+        stride *= 0.1 if smooth else 0.4
     return here
 
 

@@ -8,12 +8,12 @@ Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader i
 `clearance`.
 """
 
-from math import ceil, cos, hypot, inf, sin
+from math import ceil, cos, hypot, inf, sin, sqrt
 
 import numpy as np
 from numba import njit
 
-from relguide.kernels.angles import wrap
+from relguide.kernels.angles import wrap, wrap_signed
 from relguide.kernels.clearance import leader_at, piece_clears
 from relguide.kernels.contact import contact_exists, contact_heading
 from relguide.kernels.extremals import MAX_ROWS, SIGNS, fly_piece, solve, solve_toward
@@ -59,26 +59,61 @@ def best_word(
 
 
 @njit(cache=True, nogil=True)
+def intercept(dx: float, dy: float, ax: float, ay: float) -> float:
+    """Least time to a point at (dx, dy) that moves at a, by the straight way; 0 where unknown."""
+    closing = dx * ax + dy * ay
+    one_less = 1.0 - ax * ax - ay * ay
+    if one_less <= 1e-9:
+        return 0.0
+    return float((closing + sqrt(closing * closing + one_less * (dx * dx + dy * dy))) / one_less)
+
+
+@njit(cache=True, nogil=True)
+def not_before(
+    x: float, y: float, h: float, t: float, leader: FloatArray, i: int, alpha: float, delta: float,
+    bearing: float, side: float,
+) -> float:  # fmt: skip
+    """Before this time no way from a pose at time t reaches a contact on the leader's piece i."""
+    start = max(leader[i, 0], t)
+    if leader[i, 4] != 0.0:
+        return float(start)
+    lx, ly, lh = leader_at(leader, i, alpha, t)
+    course = lh + contact_heading(bearing, side, alpha)
+    cx, cy = lx + delta * cos(lh + bearing), ly + delta * sin(lh + bearing)
+    straight = intercept(cx - x, cy - y, alpha * cos(lh), alpha * sin(lh))
+    return float(max(t + max(straight, abs(wrap_signed(course - h))), start))
+
+
+@njit(cache=True, nogil=True)
+def not_before_slot(x: float, y: float, h: float, t: float, alpha: float, t_open: float) -> float:
+    """Before this time no way from a pose at time t reaches the slot."""
+    onward = max(intercept(alpha * t - x, -y, alpha, 0.0), abs(wrap_signed(h)))
+    return float(max(t + onward, t_open))
+
+
+@njit(cache=True, nogil=True)
 def ways_to_contact(
-    x: float, y: float, h: float, leader: FloatArray, i: int, alpha: float, delta: float,
+    x: float, y: float, h: float, t: float, leader: FloatArray, i: int, alpha: float, delta: float,
     bearing: float, side: float, rows: FloatArray,
 ) -> int:  # fmt: skip
-    """All words from (x, y, h) at t = 0 to a contact while the leader is on its piece i.
+    """All words from (x, y, h) at time t to a contact while the leader is on its piece i.
 
     Returns:
-        how many rows; those of a straight piece come in order of time.
+        how many rows, with the time of arrival in place of how long they take; those of a straight
+        piece come in order of time.
     """
     start, rate = leader[i, 0], leader[i, 4]
     end = leader[i + 1, 0] if i + 1 < len(leader) else inf
+    if end <= t:
+        return 0
     if rate != 0.0:
-        return _ways_while_turning(x, y, h, leader, i, alpha, delta, bearing, side, rows)
-    lx, ly, lh = leader_at(leader, i, alpha, 0.0)
+        return _ways_while_turning(x, y, h, t, leader, i, alpha, delta, bearing, side, rows)
+    lx, ly, lh = leader_at(leader, i, alpha, t)
     contact_x = lx + delta * cos(lh + bearing)
     contact_y = ly + delta * sin(lh + bearing)
-    if (
-        end < inf
-        and hypot(contact_x + alpha * end * cos(lh) - x, contact_y + alpha * end * sin(lh) - y)
-        > end
+    left = end - t
+    if left < inf and (
+        hypot(contact_x + alpha * left * cos(lh) - x, contact_y + alpha * left * sin(lh) - y) > left
     ):
         return 0  # not even straight there
     course = lh + contact_heading(bearing, side, alpha)
@@ -86,20 +121,21 @@ def ways_to_contact(
     dx, dy = x - contact_x, y - contact_y
     n = solve_toward(
         dx * c + dy * s, dy * c - dx * s, wrap(h - course), alpha * cos(lh - course),
-        alpha * sin(lh - course), start, rows,
+        alpha * sin(lh - course), max(start - t, 0.0), rows,
     )  # fmt: skip
-    while n > 0 and rows[n - 1, 0] > end:
+    while n > 0 and rows[n - 1, 0] > left:
         n -= 1
+    rows[:n, 0] += t
     return n
 
 
 @njit(cache=True, nogil=True)
 def _ways_while_turning(
-    x: float, y: float, h: float, leader: FloatArray, i: int, alpha: float, delta: float,
-    bearing: float, side: float, rows: FloatArray,
+    x: float, y: float, h: float, t_start: float, leader: FloatArray, i: int, alpha: float,
+    delta: float, bearing: float, side: float, rows: FloatArray,
 ) -> int:  # fmt: skip
     """As `ways_to_contact` while the leader turns: the contact moves on a circle, so roots in t."""
-    start, end = leader[i, 0], leader[i + 1, 0]
+    start, end = max(leader[i, 0], t_start), leader[i + 1, 0]
     steps = ceil((end - start) / 0.15) + 1  # 0.15 R/V: the leader turns by some 10° in it
     piece = np.empty(3)
     n = 0
@@ -107,20 +143,23 @@ def _ways_while_turning(
         last, last_t = np.nan, start
         for k in range(steps + 1):
             t = start + (end - start) * k / steps
-            gap = _excess(x, y, h, leader, i, alpha, delta, bearing, side, branch, t, piece)
+            gap = _excess(
+                x, y, h, t_start, leader, i, alpha, delta, bearing, side, branch, t, piece
+            )  # fmt: skip
             if last * gap <= 0.0 and n < MAX_ROWS:
                 low, high = last_t, t
                 for _ in range(50):
                     middle = 0.5 * (low + high)
                     value = _excess(
-                        x, y, h, leader, i, alpha, delta, bearing, side, branch, middle, piece
-                    )
+                        x, y, h, t_start, leader, i, alpha, delta, bearing, side, branch, middle,
+                        piece,
+                    )  # fmt: skip
                     if (value < 0.0) == (last < 0.0):
                         low = middle
                     else:
                         high = middle
                 value = _excess(
-                    x, y, h, leader, i, alpha, delta, bearing, side, branch, high, piece
+                    x, y, h, t_start, leader, i, alpha, delta, bearing, side, branch, high, piece
                 )
                 if abs(value) < 1e-9:  # a jump of a turn by 2π changes sign too
                     rows[n, 0] = high
@@ -133,23 +172,23 @@ def _ways_while_turning(
 
 @njit(cache=True, nogil=True)
 def _excess(
-    x: float, y: float, h: float, leader: FloatArray, i: int, alpha: float, delta: float,
-    bearing: float, side: float, branch: int, t: float, piece: FloatArray,
+    x: float, y: float, h: float, t_start: float, leader: FloatArray, i: int, alpha: float,
+    delta: float, bearing: float, side: float, branch: int, t: float, piece: FloatArray,
 ) -> float:  # fmt: skip
-    """Length of a word to where the contact is at t, less t; NaN if the word does not reach."""
+    """Length of a word to where the contact is at t, less the time for it; NaN if out of reach."""
     lx, ly, lh = leader_at(leader, i, alpha, t)
     course = lh + contact_heading(bearing, side, alpha)
     c, s = cos(course), sin(course)
     dx, dy = x - lx - delta * cos(lh + bearing), y - ly - delta * sin(lh + bearing)
     length = word_to_point(dx * c + dy * s, dy * c - dx * s, h - course, 0.0, branch, piece)
-    return length - t if length >= 0.0 else np.nan
+    return length - (t - t_start) if length >= 0.0 else np.nan
 
 
 @njit(cache=True, nogil=True)
 def through_contact(
     x: float, y: float, h: float, leader: FloatArray, i: int, alpha: float, delta: float,
     t_open: float, bearing: float, side: float, beat: float, rows: FloatArray,
-    onward: FloatArray, way: FloatArray,
+    onward: FloatArray, way: FloatArray, reached: FloatArray,
 ) -> float:  # fmt: skip
     """Arrival by the fastest way through one contact that clears, if it is before `beat`.
 
@@ -168,14 +207,17 @@ def through_contact(
         rows: room for words. shape (MAX_ROWS, 5)
         onward: the same.
         way: takes the two rows of the way found. shape (2, 5)
+        reached: takes the earliest time the contact is reached clear of the limit, and before what
+            no way on from there arrives; infinite if not in time. shape (2,)
 
     Returns:
         arrival time; infinite if there is none before `beat`.
     """
+    reached[:] = inf
     if not contact_exists(bearing, alpha):
         return inf
     limit = delta - GRAZE
-    n = ways_to_contact(x, y, h, leader, i, alpha, delta, bearing, side, rows)
+    n = ways_to_contact(x, y, h, 0.0, leader, i, alpha, delta, bearing, side, rows)
     for k in range(n):
         t = rows[k, 0]
         if t >= beat:
@@ -183,12 +225,16 @@ def through_contact(
         lx, ly, lh = leader_at(leader, i, alpha, t)
         cx, cy = lx + delta * cos(lh + bearing), ly + delta * sin(lh + bearing)
         ch = lh + contact_heading(bearing, side, alpha)
+        if not_before_slot(cx, cy, ch, t, alpha, t_open) >= beat:
+            continue
         m = solve(cx - alpha * t, cy, wrap(ch), alpha, max(t_open - t, 0.0), onward)
         # the cheap test first: could it be in time at all?
         if m == 0 or t + onward[0, 0] >= beat:
             continue
         if not word_clears(x, y, h, 0.0, rows[k], leader, alpha, limit):
             continue
+        if t < reached[0]:
+            reached[0], reached[1] = t, t + onward[0, 0]
         for j in range(m):
             if t + onward[j, 0] >= beat:
                 break

@@ -2,10 +2,11 @@
 
 import numpy as np
 
-from relguide.kernels.detour import any_way, best_detour
+from relguide.kernels.chain import RIDE
+from relguide.kernels.detour import MAX_LEGS, any_way, best_detour
 from relguide.kernels.extremals import MAX_ROWS, fly_piece
 from relguide.kernels.passage import GRAZE, best_word
-from relguide.kernels.ride import MAX_NODES, best_ride, ride_pieces
+from relguide.kernels.ride import MAX_NODES, ride_pieces
 from relguide.kernels.tangent import tangents
 from relguide.planning.situation import Situation
 from relguide.planning.slot import SlotFrame
@@ -16,17 +17,17 @@ from relguide.units import Second
 HORIZON: Second = 43_200.0
 """Plans longer than this are not given: 12 hours, longer than any aircraft's fuel lasts [s]."""
 SAME = 1e-6
-"""A ride handed over as arcs takes as long as the ride searched, to this [R/V_P]."""
-BEARINGS = 90
-"""How finely the disc is scanned: every 4°. Twice as fine finds nothing better in golden cases."""
+"""A way handed over as segments takes as long as the one searched, to this [R/V_P]."""
+BEARINGS = 36
+"""How finely the disc is scanned: every 10°. Forty times as fine finds nothing better."""
 
 
 def detour(found: Candidates, *, beat: Second) -> Candidate | None:
-    """The fastest way through a contact with d = d_min, if it arrives before `beat` [s].
+    """The fastest way through contacts with d = d_min, if it arrives before `beat` [s].
 
-    Up to the contact and from it on the way is an extremal without the limit, from the same
-    complete enumeration of words. The contact's bearing is searched round the leader, for each
-    piece of its intent and both sides; then the ways that ride along d_min between two contacts.
+    Up to the first contact, between contacts and from the last one on, the way is an extremal
+    without the limit, from the same complete enumeration of words, or it rides along d_min. The
+    contacts' bearings are searched round the leader, for each piece of its intent and both sides.
     If there is none, and nothing to beat, any way that begins with a turn and a straight will do.
     """
     situation, frame = found.situation, found.frame
@@ -37,17 +38,14 @@ def detour(found: Candidates, *, beat: Second) -> Candidate | None:
     leader = leader_table(situation, frame)
     start = frame.x, frame.y, frame.h
     disc = leader, frame.alpha, limit + GRAZE
-    scan = frame.t_open, BEARINGS, tangents(*start, *disc)
-    way, row = np.zeros((2, 5)), np.zeros(5)
-    time = best_detour(*start, *disc, *scan, beat / scale, way)
-    ride_time, side, first, last = best_ride(*start, *disc, *scan, time, row)
-    if ride_time < time:
-        ridden = _along_the_limit(found, leader, limit, row, side, first, last)
-        if ridden is not None and ridden.time_to_converge <= (ride_time + SAME) * scale:
-            return ridden
-    if time < beat / scale:
-        signs = [sign for part in way for sign in SIGN_ROWS[int(part[1])]]
-        return assemble(situation, frame, signs, way[:, 2:].ravel().tolist(), "")
+    legs, row = np.zeros((MAX_LEGS, 6)), np.zeros(5)
+    time, count = best_detour(
+        *start, *disc, frame.t_open, BEARINGS, tangents(*start, *disc), beat / scale, legs
+    )
+    if count > 0:
+        around = _flown(found, leader, limit, legs[:count])
+        if around is not None and around.time_to_converge <= (time + SAME) * scale:
+            return around
     if beat < HORIZON:
         return None
     time, sign, turned, straight = any_way(
@@ -59,49 +57,58 @@ def detour(found: Candidates, *, beat: Second) -> Candidate | None:
     return assemble(situation, frame, signs, [turned, straight, *row[2:].tolist()], "")
 
 
-def _along_the_limit(
-    found: Candidates,
-    leader: np.ndarray,
-    limit: float,
-    row: np.ndarray,
-    side: float,
-    first: float,
-    last: float,
+def _flown(
+    found: Candidates, leader: np.ndarray, limit: float, legs: np.ndarray
 ) -> Candidate | None:
-    """The way that rides from one bearing to another, as segments."""
+    """The legs of a way as segments; the last word anew, from where the rides really end."""
     situation, frame = found.situation, found.frame
     x, y, h, t = frame.x, frame.y, frame.h, 0.0
-    signs = SIGN_ROWS[int(row[1])]
-    for sign, amount in zip(signs, row[2:].tolist(), strict=True):
-        x, y, h = fly_piece(x, y, h, sign, amount)
-        t += amount
-    bends = np.empty((2 * MAX_NODES, 2))
-    n, x, y, h, t = ride_pieces(
-        x, y, h, t, leader, frame.alpha, limit + GRAZE, side, first, last, bends
-    )
-    rows = np.empty((MAX_ROWS, 5))
-    # the ride's own last node lies within rounding of the limit, which must not cost the best word
-    _, i = best_word(
-        x, y, h, t, leader, frame.alpha, limit - GRAZE, frame.t_open, float("inf"), rows
-    )
-    if i < 0:
-        return None
-    radius = frame.radius
-    ride = BoundaryArc(
-        side=LEFT if side > 0.0 else RIGHT,
-        # counter-clockwise rates become curvatures positive to the right
-        bends=tuple((amount * radius, -rate / radius) for amount, rate in bends[:n].tolist()),
-    )
-    segments: tuple[Segment, ...] = (
-        *segments_of(frame, signs, row[2:].tolist()),
-        ride,
-        *segments_of(frame, SIGN_ROWS[int(rows[i, 1])], rows[i, 2:].tolist()),
-    )
+    segments: list[Segment] = []
+    rode = False
+    for leg in legs[:-1].tolist():
+        if leg[0] == RIDE:
+            _, side, first, last, _, _ = leg
+            bends = np.empty((2 * MAX_NODES, 2))
+            n, x, y, h, t = ride_pieces(
+                x, y, h, t, leader, frame.alpha, limit + GRAZE, side, first, last, bends
+            )
+            segments.append(_ridden(frame, side, bends[:n]))
+            rode = True
+        else:
+            signs = SIGN_ROWS[int(leg[2])]
+            segments += segments_of(frame, signs, leg[3:])
+            for sign, amount in zip(signs, leg[3:], strict=True):
+                x, y, h = fly_piece(x, y, h, sign, amount)
+                t += amount
+    last_row = legs[-1, 1:]
+    if rode:
+        rows = np.empty((MAX_ROWS, 5))
+        # a ride's last node lies within rounding of the limit, which must not cost the best word
+        _, i = best_word(
+            x, y, h, t, leader, frame.alpha, limit - GRAZE, frame.t_open, float("inf"), rows
+        )
+        if i < 0:
+            return None
+        last_row = rows[i]
+    segments += segments_of(frame, SIGN_ROWS[int(last_row[1])], last_row[2:].tolist())
     pursuer = situation.pursuer
     trajectory = Trajectory(
-        x=pursuer.x, y=pursuer.y, heading=pursuer.heading, tas=pursuer.tas, segments=segments
+        x=pursuer.x,
+        y=pursuer.y,
+        heading=pursuer.heading,
+        tas=pursuer.tas,
+        segments=tuple(segments),
     )
     return Candidate(word=trajectory.letters, trajectory=trajectory)
+
+
+def _ridden(frame: SlotFrame, side: float, bends: np.ndarray) -> BoundaryArc:
+    radius = frame.radius
+    return BoundaryArc(
+        side=LEFT if side > 0.0 else RIGHT,
+        # counter-clockwise rates become curvatures positive to the right
+        bends=tuple((amount * radius, -rate / radius) for amount, rate in bends.tolist()),
+    )
 
 
 def leader_table(situation: Situation, frame: SlotFrame) -> np.ndarray:

@@ -1,0 +1,211 @@
+"""Chains of contacts: ways to the slot that touch d = d_min several times, or ride along it.
+
+A chain is a row a contact: the leader's piece, the side, the bearing, and whether the way to it is
+a word or a ride from the contact before (the leader may go on to its next pieces meanwhile).
+Between contacts the way is the earliest extremal that clears, so the arrival is a function of the
+bearings alone, and they are refined one after another.
+
+Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader is a table as in
+`clearance`.
+"""
+
+from math import cos, inf, sin
+
+import numpy as np
+from numba import njit
+
+from relguide.kernels.clearance import leader_at
+from relguide.kernels.contact import contact_exists, contact_heading, ride_within
+from relguide.kernels.passage import GRAZE, best_word, ways_to_contact, word_clears
+from relguide.kernels.roots import FloatArray
+
+WORD, RIDE = 0.0, 1.0
+"""How a contact is reached."""
+MAX_CONTACTS = 8
+"""Longest chain."""
+_FINEST = 1e-7  # bearing steps end here: 1 mm at R = 12 km, 10 µs where the time has an edge
+GAIN = 1e-8
+"""Or where a parabola promises less than this [R/V_P]: 1 µs."""
+_SWEEPS = 16  # over all bearings of a chain
+
+
+@njit(cache=True, nogil=True)
+def piece_at(leader: FloatArray, t: float) -> int:
+    """The leader's piece at time t."""
+    i = 0
+    while i + 1 < len(leader) and leader[i + 1, 0] <= t:
+        i += 1
+    return i
+
+
+@njit(cache=True, nogil=True)
+def ride_arrival(
+    leader: FloatArray, t: float, bearing: float, goal: float, side: float, alpha: float,
+    delta: float,
+) -> float:  # fmt: skip
+    """When a ride that begins at time t reaches a bearing; infinite if it cannot be flown."""
+    i = piece_at(leader, t)
+    while bearing != goal:
+        left = leader[i + 1, 0] - t if i + 1 < len(leader) else inf
+        bearing, took = ride_within(bearing, goal, side, alpha, delta, leader[i, 4], left)
+        if took == inf:
+            return inf
+        t += took
+        i += 1
+    return t
+
+
+@njit(cache=True, nogil=True)
+def contact_at(
+    leader: FloatArray, t: float, bearing: float, side: float, alpha: float, delta: float
+) -> tuple[float, float, float]:
+    """The pursuer's pose at a contact at time t."""
+    lx, ly, lh = leader_at(leader, piece_at(leader, t), alpha, t)
+    return (
+        lx + delta * cos(lh + bearing),
+        ly + delta * sin(lh + bearing),
+        lh + contact_heading(bearing, side, alpha),
+    )
+
+
+@njit(cache=True, nogil=True)
+def earliest_contact(
+    x: float, y: float, h: float, t: float, leader: FloatArray, i: int, alpha: float, delta: float,
+    bearing: float, side: float, beat: float, rows: FloatArray,
+) -> tuple[float, int]:  # fmt: skip
+    """The earliest arrival at a contact that clears, and its row; infinite and −1 if none."""
+    best, at = beat, -1
+    n = ways_to_contact(x, y, h, t, leader, i, alpha, delta, bearing, side, rows)
+    for k in range(n):
+        if rows[k, 0] < best and word_clears(x, y, h, t, rows[k], leader, alpha, delta - GRAZE):
+            best, at = rows[k, 0], k
+    return (best, at) if at >= 0 else (inf, -1)
+
+
+@njit(cache=True, nogil=True)
+def fly_chain(
+    x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float, t_open: float,
+    chain: FloatArray, beat: float, rows: FloatArray, legs: FloatArray,
+) -> float:  # fmt: skip
+    """Arrival by a chain; infinite if it cannot be flown, or not before `beat`.
+
+    Args:
+        x: start, slot frame [R].
+        y: start [R].
+        h: start heading [rad].
+        leader: table of its pieces. shape (k, 5)
+        alpha: V_L/V_P.
+        delta: distance at the contacts [R].
+        t_open: when the slot opens [R/V_P].
+        chain: piece, side, bearing, WORD or RIDE of each contact. shape (n, 4)
+        beat: arrivals from here on do not matter [R/V_P].
+        rows: room for words. shape (MAX_ROWS, 5)
+        legs: takes WORD and a row of `solve`, or RIDE, side, first and last bearing, for each leg.
+            shape (≥ n + 1, 6)
+    """
+    t = 0.0
+    for k in range(len(chain)):
+        side, bearing = chain[k, 1], chain[k, 2]
+        legs[k, 0] = chain[k, 3]
+        if not contact_exists(bearing, alpha):
+            return inf
+        if chain[k, 3] == RIDE:
+            first = chain[k - 1, 2]
+            t = ride_arrival(leader, t, first, bearing, side, alpha, delta)
+            legs[k, 1], legs[k, 2], legs[k, 3] = side, first, bearing
+            if t >= beat:
+                return inf
+        else:
+            t_start = t
+            t, at = earliest_contact(
+                x, y, h, t, leader, int(chain[k, 0]), alpha, delta, bearing, side, beat, rows
+            )
+            if at < 0:
+                return inf
+            legs[k, 1:6] = rows[at]
+            legs[k, 1] = t - t_start
+        x, y, h = contact_at(leader, t, bearing, side, alpha, delta)
+    legs[len(chain), 0] = WORD
+    arrival, at = best_word(x, y, h, t, leader, alpha, delta - GRAZE, t_open, beat, rows)
+    if at >= 0:
+        legs[len(chain), 1:6] = rows[at]
+    return arrival
+
+
+@njit(cache=True, nogil=True)
+def refine_chain(
+    x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float, t_open: float,
+    chain: FloatArray, here: float, stride: float, beat: float, rows: FloatArray, legs: FloatArray,
+) -> float:  # fmt: skip
+    """The least arrival near a chain, whose bearings are moved.
+
+    As `fly_chain`, from its arrival `here` on, looking as far as `stride` [rad] at first. Given up
+    where the last sweep gained less than what is missing to `beat`.
+    """
+    strides = np.full(len(chain), stride)
+    finest = 0.1 * stride
+    for _ in range(_SWEEPS):
+        before = here
+        for k in range(len(chain)):
+            here = _refine_one(
+                x, y, h, leader, alpha, delta, t_open, chain, k, here, strides, finest, rows, legs
+            )
+        gain = before - here
+        if here - 2.0 * gain > beat or (gain < GAIN and finest == _FINEST):
+            break
+        finest = max(0.1 * finest, _FINEST)
+    return here
+
+
+@njit(cache=True, nogil=True)
+def _refine_one(
+    x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float, t_open: float,
+    chain: FloatArray, k: int, here: float, strides: FloatArray, finest: float, rows: FloatArray,
+    legs: FloatArray,
+) -> float:  # fmt: skip
+    """One bearing of a chain: parabolas where the arrival is smooth, smaller steps at edges."""
+    stride, moved_by = strides[k], 0.0
+    while stride >= finest:
+        bearing = chain[k, 2]
+        chain[k, 2] = bearing - stride
+        below = fly_chain(x, y, h, leader, alpha, delta, t_open, chain, inf, rows, legs)
+        chain[k, 2] = bearing + stride
+        above = fly_chain(x, y, h, leader, alpha, delta, t_open, chain, inf, rows, legs)
+        shift, promised = vertex(below, here, above, stride)
+        to, least, smooth = bearing, here, False
+        if promised > 0.0:
+            chain[k, 2] = bearing + shift
+            found = fly_chain(x, y, h, leader, alpha, delta, t_open, chain, inf, rows, legs)
+            smooth = abs(here - found - promised) <= 0.1 * promised + GAIN
+            if found < least:
+                to, least = bearing + shift, found
+        if below < least:
+            to, least = bearing - stride, below
+        if above < least:
+            to, least = bearing + stride, above
+        chain[k, 2] = to
+        moved_by = max(moved_by, abs(to - bearing))
+        here = least
+        if smooth and promised < GAIN:
+            break
+        if smooth:
+            stride *= 0.1
+        elif abs(to - bearing) < stride:
+            stride *= 0.4
+    strides[k] = max(2.0 * moved_by, finest)
+    return here
+
+
+@njit(cache=True, nogil=True)
+def vertex(below: float, here: float, above: float, stride: float) -> tuple[float, float]:
+    """The least point of the parabola through three values: how far it is, and what it promises.
+
+    Both 0 where there is none within two strides.
+    """
+    bend = below - 2.0 * here + above
+    if not 0.0 < bend < inf:
+        return 0.0, 0.0
+    shift = 0.5 * stride * (below - above) / bend
+    if abs(shift) > 2.0 * stride:
+        return 0.0, 0.0
+    return shift, shift * shift * bend / (2.0 * stride * stride)

@@ -1,0 +1,234 @@
+"""A graph of contacts with d = d_min: earliest arrivals by words between them and rides along it.
+
+Nodes are contacts: a piece of the leader's intent, a side and a bearing of a grid. Words lead from
+the start to a node, from node to node, and on to the slot; rides lead from a node to its neighbour.
+Labels are earliest arrivals. A node from which even the best way without the limit would come too
+late is not followed, so where one contact is enough there is little to do here.
+
+Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader is a table as in
+`clearance`.
+"""
+
+from math import inf
+
+import numpy as np
+from numba import njit
+
+from relguide.kernels.angles import TWO_PI
+from relguide.kernels.chain import (
+    MAX_CONTACTS,
+    RIDE,
+    WORD,
+    contact_at,
+    earliest_contact,
+    piece_at,
+)
+from relguide.kernels.contact import contact_exists, ride_way, ride_within
+from relguide.kernels.extremals import MAX_ROWS, solve
+from relguide.kernels.passage import GRAZE, not_before, not_before_slot, word_clears
+from relguide.kernels.roots import FloatArray
+
+_ROUNDS = 3  # of hops, each followed by rides: chains with up to two hops and three rides
+_HOPS = 24  # nodes from which hops are looked for, in each round
+_BETTER = 1e-9  # a label must fall by more than this [R/V_P], or rounding goes round in circles
+
+
+@njit(cache=True, nogil=True)
+def _next(
+    bearings: FloatArray, n: int, size: int, leader: FloatArray, t: float, sides: FloatArray,
+    alpha: float, delta: float,
+) -> tuple[int, float, float]:  # fmt: skip
+    """The node that a ride from node n at time t comes to first, when, and its bearing unwrapped.
+
+    −1 if the ride cannot be flown. The leader may have gone on to another piece meanwhile.
+    """
+    side = sides[n]
+    bearing = bearings[n]
+    i = piece_at(leader, t)
+    for _ in range(len(leader)):
+        group = (2 * i + (0 if side > 0.0 else 1)) * size
+        way = ride_way(bearing, side, alpha, delta, leader[i, 4])
+        if way == 0.0:
+            break
+        m, gap = -1, inf
+        for j in range(size):
+            ahead = (way * (bearings[group + j] - bearing)) % TWO_PI
+            if 1e-9 < ahead < gap:
+                m, gap = group + j, ahead
+        left = leader[i + 1, 0] - t if i + 1 < len(leader) else inf
+        goal = bearing + way * gap
+        bearing, took = ride_within(bearing, goal, side, alpha, delta, leader[i, 4], left)
+        if took == inf:
+            break
+        t += took
+        if bearing == goal:
+            return m, t, goal
+        i += 1
+    return -1, inf, 0.0
+
+
+@njit(cache=True, nogil=True)
+def _onward(
+    leader: FloatArray, t: float, bearing: float, side: float, alpha: float, delta: float,
+    t_open: float, beat: float, rows: FloatArray,
+) -> tuple[float, float]:  # fmt: skip
+    """From a contact to the slot: arrival without the limit, and with it if before `beat`."""
+    x, y, h = contact_at(leader, t, bearing, side, alpha, delta)
+    n = solve(x - alpha * t, y, h % TWO_PI, alpha, max(t_open - t, 0.0), rows)
+    if n == 0:
+        return inf, inf
+    for k in range(n):
+        if t + rows[k, 0] >= beat:
+            break
+        if word_clears(x, y, h, t, rows[k], leader, alpha, delta - GRAZE):
+            return t + rows[0, 0], t + rows[k, 0]
+    return t + rows[0, 0], inf
+
+
+@njit(cache=True, nogil=True)
+def best_chains(
+    leader: FloatArray, alpha: float, delta: float, t_open: float, sides: FloatArray,
+    bearings: FloatArray, time: FloatArray, lower: FloatArray, beat: float, slack: float,
+    chains: FloatArray,
+) -> int:  # fmt: skip
+    """The best chains of two contacts or more on the grid, best first.
+
+    Args:
+        leader: table of its pieces. shape (k, 5)
+        alpha: V_L/V_P.
+        delta: distance at the contacts [R].
+        t_open: when the slot opens [R/V_P].
+        sides: of the nodes, k groups of both sides. shape (n,)
+        bearings: of the nodes [rad]. shape (n,)
+        time: earliest arrival at each node from the start, infinite where none matters; falls.
+        lower: before what no way by that node's label arrives at the slot.
+        beat: an arrival already known [R/V_P].
+        slack: chains on the grid that arrive this much later are kept, to be refined [R/V_P].
+        chains: takes the chains: a row with their arrival and number of contacts, then rows as in
+            `fly_chain`. shape (·, MAX_CONTACTS + 1, 4)
+
+    Returns:
+        how many.
+    """
+    count, size = len(bearings), len(bearings) // (2 * len(leader))
+    pred = np.full(count, -1)
+    link = np.full(count, WORD)
+    gained = np.zeros(count)  # bearing ridden on the link
+    arrive = np.full(count, inf)
+    hopped = np.full(count, inf)  # the label with which a node was last followed
+    fresh = np.zeros(count)
+    queue = np.empty(4 * count, dtype=np.int64)
+    rows = np.empty((MAX_ROWS, 5))
+    best = beat
+    tail = 0
+    for n in range(count):
+        if lower[n] < best:
+            queue[tail] = n
+            tail += 1
+    for turn in range(_ROUNDS):
+        head = 0
+        while head < tail:
+            n = queue[head]
+            head += 1
+            m, t, goal = _next(bearings, n, size, leader, time[n], sides, alpha, delta)
+            if m < 0 or t >= time[m] - _BETTER or tail == len(queue):
+                continue
+            x, y, h = contact_at(leader, t, bearings[m], sides[m], alpha, delta)
+            if not_before_slot(x, y, h, t, alpha, t_open) >= best + slack:
+                continue
+            time[m], pred[m], link[m], gained[m] = t, n, RIDE, goal - bearings[n]
+            fresh[m] = 1.0
+            queue[tail] = m
+            tail += 1
+        for n in range(count):
+            if fresh[n] == 0.0:
+                continue
+            fresh[n] = 0.0
+            lower[n], arrive[n] = _onward(
+                leader, time[n], bearings[n], sides[n], alpha, delta, t_open, best + slack, rows
+            )
+            best = min(best, arrive[n])
+        tail = 0
+        if turn == _ROUNDS - 1:
+            break
+        for _ in range(_HOPS):
+            n = -1
+            for m in range(count):
+                if lower[m] < best and time[m] < hopped[m] and (n < 0 or lower[m] < lower[n]):
+                    n = m
+            if n < 0:
+                break
+            hopped[n] = time[n]
+            x, y, h = contact_at(leader, time[n], bearings[n], sides[n], alpha, delta)
+            for m in range(count):
+                i = m // (2 * size)
+                if m == n or not contact_exists(bearings[m], alpha):
+                    continue
+                t = not_before(
+                    x, y, h, time[n], leader, i, alpha, delta, bearings[m], sides[m]
+                )  # fmt: skip
+                if t >= time[m] - _BETTER:
+                    continue
+                ax, ay, ah = contact_at(leader, t, bearings[m], sides[m], alpha, delta)
+                if not_before_slot(ax, ay, ah, t, alpha, t_open) >= best:
+                    continue
+                t, _ = earliest_contact(
+                    x, y, h, time[n], leader, i, alpha, delta, bearings[m], sides[m],
+                    time[m] - _BETTER, rows,
+                )  # fmt: skip
+                if t == inf:
+                    continue
+                time[m], pred[m], link[m], fresh[m] = t, n, WORD, 1.0
+        for n in range(count):
+            if fresh[n] == 1.0 and tail < len(queue):
+                queue[tail] = n
+                tail += 1
+        if tail == 0:
+            break
+    return _collected(leader, sides, bearings, pred, link, gained, arrive, best + slack, chains)
+
+
+@njit(cache=True, nogil=True)
+def _collected(
+    leader: FloatArray, sides: FloatArray, bearings: FloatArray, pred: FloatArray, link: FloatArray,
+    gained: FloatArray, arrive: FloatArray, beat: float, chains: FloatArray,
+) -> int:  # fmt: skip
+    """The chains that end in the best nodes; of those alike in sides and links only the best."""
+    size = len(bearings) // (2 * len(leader))
+    kept = 0
+    path = np.empty(len(bearings), dtype=np.int64)
+    trial = np.empty((MAX_CONTACTS + 1, 4))
+    for end in np.argsort(arrive):
+        if arrive[end] >= beat or kept == len(chains):
+            break
+        length, n = 0, end
+        while n >= 0:
+            path[length] = n
+            length += 1
+            n = pred[n]
+        contacts = 0
+        for k in range(length - 1, -1, -1):
+            n = path[k]
+            bearing, rides = bearings[n], link[n] == RIDE and pred[n] >= 0
+            if rides:
+                bearing = trial[contacts, 2] + gained[n]
+            if not rides or trial[contacts, 3] != RIDE:
+                contacts += 1
+                if contacts > MAX_CONTACTS:
+                    break
+            trial[contacts, 0], trial[contacts, 1] = n // (2 * size), sides[n]
+            trial[contacts, 2], trial[contacts, 3] = bearing, RIDE if rides else WORD
+        if contacts > MAX_CONTACTS:
+            continue
+        trial[0, 0], trial[0, 1] = arrive[end], contacts
+        alike = False
+        for k in range(kept):
+            same = chains[k, 0, 1] == contacts
+            for j in range(1, contacts + 1):
+                if chains[k, j, 1] != trial[j, 1] or chains[k, j, 3] != trial[j, 3]:
+                    same = False
+            alike = alike or same
+        if not alike:
+            chains[kept] = trial
+            kept += 1
+    return kept
