@@ -27,6 +27,7 @@ _FINEST = 1e-7  # bearing steps end here: 1 mm at R = 12 km, 10 µs where the ti
 GAIN = 1e-8
 """Or where a parabola promises less than this [R/V_P]: 1 µs."""
 _SWEEPS = 16  # over all bearings of a chain
+_NEAR = 0.3  # values farther above the least say nothing about a minimum [R/V_P]
 
 
 @njit(cache=True, nogil=True)
@@ -83,53 +84,60 @@ def earliest_contact(
 
 
 @njit(cache=True, nogil=True)
-def fly_chain(
-    x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float, t_open: float,
-    chain: FloatArray, beat: float, rows: FloatArray, legs: FloatArray,
-) -> float:  # fmt: skip
-    """Arrival by a chain; infinite if it cannot be flown, or not before `beat`.
+def fly_links(
+    x: float, y: float, h: float, t: float, leader: FloatArray, alpha: float, delta: float,
+    t_open: float, chain: FloatArray, first: int, last: int, beat: float, rows: FloatArray,
+    legs: FloatArray,
+) -> tuple[float, float, float, float]:  # fmt: skip
+    """Fly some links of a chain: link k leads to contact k, and one more to the slot.
 
     Args:
-        x: start, slot frame [R].
-        y: start [R].
-        h: start heading [rad].
+        x: where link `first` begins, slot frame [R].
+        y: the same [R].
+        h: the same [rad].
+        t: when [R/V_P].
         leader: table of its pieces. shape (k, 5)
         alpha: V_L/V_P.
         delta: distance at the contacts [R].
         t_open: when the slot opens [R/V_P].
         chain: piece, side, bearing, WORD or RIDE of each contact. shape (n, 4)
+        first: link to begin with.
+        last: link to end with, at most n.
         beat: arrivals from here on do not matter [R/V_P].
         rows: room for words. shape (MAX_ROWS, 5)
         legs: takes WORD and a row of `solve`, or RIDE, side, first and last bearing, for each leg.
             shape (≥ n + 1, 6)
+
+    Returns:
+        x, y, h, t where the last link ends; t is infinite if it cannot be flown before `beat`.
     """
-    t = 0.0
-    for k in range(len(chain)):
+    for k in range(first, min(last + 1, len(chain))):
         side, bearing = chain[k, 1], chain[k, 2]
         legs[k, 0] = chain[k, 3]
         if not contact_exists(bearing, alpha):
-            return inf
+            return x, y, h, inf
         if chain[k, 3] == RIDE:
-            first = chain[k - 1, 2]
-            t = ride_arrival(leader, t, first, bearing, side, alpha, delta)
-            legs[k, 1], legs[k, 2], legs[k, 3] = side, first, bearing
+            begun = chain[k - 1, 2]
+            t = ride_arrival(leader, t, begun, bearing, side, alpha, delta)
+            legs[k, 1], legs[k, 2], legs[k, 3] = side, begun, bearing
             if t >= beat:
-                return inf
+                return x, y, h, inf
         else:
             t_start = t
             t, at = earliest_contact(
                 x, y, h, t, leader, int(chain[k, 0]), alpha, delta, bearing, side, beat, rows
             )
             if at < 0:
-                return inf
+                return x, y, h, inf
             legs[k, 1:6] = rows[at]
             legs[k, 1] = t - t_start
         x, y, h = contact_at(leader, t, bearing, side, alpha, delta)
-    legs[len(chain), 0] = WORD
-    arrival, at = best_word(x, y, h, t, leader, alpha, delta - GRAZE, t_open, beat, rows)
-    if at >= 0:
-        legs[len(chain), 1:6] = rows[at]
-    return arrival
+    if last == len(chain):
+        legs[last, 0] = WORD
+        t, at = best_word(x, y, h, t, leader, alpha, delta - GRAZE, t_open, beat, rows)
+        if at >= 0:
+            legs[last, 1:6] = rows[at]
+    return x, y, h, t
 
 
 @njit(cache=True, nogil=True)
@@ -139,17 +147,25 @@ def refine_chain(
 ) -> float:  # fmt: skip
     """The least arrival near a chain, whose bearings are moved.
 
-    As `fly_chain`, from its arrival `here` on, looking as far as `stride` [rad] at first. Given up
-    where the last sweep gained less than what is missing to `beat`.
+    From the chain's arrival `here` on, looking as far as `stride` [rad] at first; given up where
+    the last sweep gained less than what is missing to `beat`. Other arguments as `fly_links`.
     """
     strides = np.full(len(chain), stride)
     finest = 0.1 * stride
     for _ in range(_SWEEPS):
         before = here
         for k in range(len(chain)):
-            here = _refine_one(
-                x, y, h, leader, alpha, delta, t_open, chain, k, here, strides, finest, rows, legs
+            ax, ay, ah, t = fly_links(
+                x, y, h, 0.0, leader, alpha, delta, t_open, chain, 0, k - 1, inf, rows, legs
             )
+            # on the final leg nothing depends on time: past the next contact all stays as it is
+            last = len(chain)
+            if t >= t_open and chain[k, 0] == len(leader) - 1:
+                last = min(k + 1, last)
+            here = _refine_one(
+                ax, ay, ah, t, leader, alpha, delta, t_open, chain, k, last, here, strides, finest,
+                rows, legs,
+            )  # fmt: skip
         gain = before - here
         if here - 2.0 * gain > beat or (gain < GAIN and finest == _FINEST):
             break
@@ -158,24 +174,66 @@ def refine_chain(
 
 
 @njit(cache=True, nogil=True)
-def _refine_one(
+def simplify_chain(
     x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float, t_open: float,
-    chain: FloatArray, k: int, here: float, strides: FloatArray, finest: float, rows: FloatArray,
-    legs: FloatArray,
+    chain: FloatArray, here: float, stride: float, rows: FloatArray, legs: FloatArray,
+) -> tuple[float, int]:  # fmt: skip
+    """Leave out contacts that a chain does as well without, or better.
+
+    As `refine_chain`; `chain` takes the shorter one. Returns its arrival and how many contacts.
+    """
+    contacts = len(chain)
+    k = 0
+    while k < contacts and contacts > 1:
+        fewer = np.empty((contacts - 1, 4))
+        fewer[:k] = chain[:k]
+        fewer[k:] = chain[k + 1 : contacts]
+        if k < contacts - 1 and chain[k, 3] == WORD:
+            fewer[k, 3] = WORD  # the ride that began at k is left out with it
+        _, _, _, there = fly_links(
+            x, y, h, 0.0, leader, alpha, delta, t_open, fewer, 0, contacts - 1, here + _NEAR, rows,
+            legs,
+        )  # fmt: skip
+        if there < inf:
+            there = refine_chain(
+                x, y, h, leader, alpha, delta, t_open, fewer, there, stride, here, rows, legs
+            )
+        if there <= here + GAIN:
+            contacts -= 1
+            here = there
+            chain[:contacts] = fewer
+            k = 0
+        else:
+            k += 1
+    return here, contacts
+
+
+@njit(cache=True, nogil=True)
+def _refine_one(
+    x: float, y: float, h: float, t: float, leader: FloatArray, alpha: float, delta: float,
+    t_open: float, chain: FloatArray, k: int, last: int, arrival: float, strides: FloatArray,
+    finest: float, rows: FloatArray, legs: FloatArray,
 ) -> float:  # fmt: skip
-    """One bearing of a chain: parabolas where the arrival is smooth, smaller steps at edges."""
+    """One bearing of a chain: parabolas where the arrival is smooth, smaller steps at edges.
+
+    Only the links up to `last` depend on it; the arrival falls by as much as their end.
+    """
     stride, moved_by = strides[k], 0.0
-    while stride >= finest:
+    link = t, leader, alpha, delta, t_open, chain, k, last
+    _, _, _, begun = fly_links(x, y, h, *link, inf, rows, legs)
+    here = begun
+    while stride >= finest and here < inf:
         bearing = chain[k, 2]
+        beat = here + _NEAR
         chain[k, 2] = bearing - stride
-        below = fly_chain(x, y, h, leader, alpha, delta, t_open, chain, inf, rows, legs)
+        _, _, _, below = fly_links(x, y, h, *link, beat, rows, legs)
         chain[k, 2] = bearing + stride
-        above = fly_chain(x, y, h, leader, alpha, delta, t_open, chain, inf, rows, legs)
+        _, _, _, above = fly_links(x, y, h, *link, beat, rows, legs)
         shift, promised = vertex(below, here, above, stride)
         to, least, smooth = bearing, here, False
         if promised > 0.0:
             chain[k, 2] = bearing + shift
-            found = fly_chain(x, y, h, leader, alpha, delta, t_open, chain, inf, rows, legs)
+            _, _, _, found = fly_links(x, y, h, *link, beat, rows, legs)
             smooth = abs(here - found - promised) <= 0.1 * promised + GAIN
             if found < least:
                 to, least = bearing + shift, found
@@ -193,7 +251,7 @@ def _refine_one(
         elif abs(to - bearing) < stride:
             stride *= 0.4
     strides[k] = max(2.0 * moved_by, finest)
-    return here
+    return arrival - (begun - here) if here < inf else arrival
 
 
 @njit(cache=True, nogil=True)

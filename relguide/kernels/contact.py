@@ -13,12 +13,13 @@ Riding means to stay there. With ω the leader's turn rate and q = √(1 − α�
 and |h′| is at most 1. Lengths are in R, times in R/V_P, angles counter-clockwise.
 """
 
-from math import acos, ceil, cos, inf, sin, sqrt
+from math import acos, cos, inf, sin, sqrt
 
 from numba import njit
 
 _STEP = 0.07  # bearing step of Simpson's rule: 4°, right to 1e-9
-_STILL = 1e-6  # slower round the leader than this, a ride gets nowhere [V_P/R]
+_SLOWLY = 0.2  # or this much of the speed round the leader, where the ride is slow
+_STILL = 0.01  # slower round the leader than this, a ride gets nowhere [V_P]
 _BANK_SLACK = 1e-9  # ends of what can be ridden are found by bisection, and count as inside
 
 
@@ -65,7 +66,7 @@ def ride_rates(
 def ride_way(bearing: float, side: float, alpha: float, delta: float, turning: float) -> float:
     """Which way a ride moves the bearing: +1, −1, or 0 where it cannot be flown."""
     round_it, rate = ride_rates(bearing, side, alpha, delta, turning)
-    if abs(rate) > 1.0 + _BANK_SLACK or abs(round_it) < _STILL:
+    if abs(rate) > 1.0 + _BANK_SLACK or abs(round_it) * delta < _STILL:
         return 0.0
     return 1.0 if round_it > 0.0 else -1.0
 
@@ -100,12 +101,14 @@ def ride_within(
         the bearing reached and the time it took: the goal, or what is reached when the time is up;
         an infinite time where the ride cannot be flown.
     """
-    steps = ceil(abs(goal - bearing) / _STEP)
     way = 1.0 if goal > bearing else -1.0
     used, low = 0.0, bearing
     slow_low = _slowness(low, way, side, alpha, delta, turning)
-    for k in range(steps):
-        high = bearing + (goal - bearing) * (k + 1) / steps
+    while low != goal:
+        if slow_low == inf:
+            return low, inf
+        step = min(_STEP, _SLOWLY * delta / slow_low)
+        high = low + way * step if abs(goal - low) > 1.001 * step else goal
         slow_high = _slowness(high, way, side, alpha, delta, turning)
         slow_middle = _slowness(0.5 * (low + high), way, side, alpha, delta, turning)
         took = abs(high - low) * (slow_low + 4.0 * slow_middle + slow_high) / 6.0

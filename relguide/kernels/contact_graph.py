@@ -29,7 +29,6 @@ from relguide.kernels.passage import GRAZE, not_before, not_before_slot, word_cl
 from relguide.kernels.roots import FloatArray
 
 _ROUNDS = 3  # of hops, each followed by rides: chains with up to two hops and three rides
-_HOPS = 24  # nodes from which hops are looked for, in each round
 _BETTER = 1e-9  # a label must fall by more than this [R/V_P], or rounding goes round in circles
 
 
@@ -89,7 +88,7 @@ def _onward(
 def best_chains(
     leader: FloatArray, alpha: float, delta: float, t_open: float, sides: FloatArray,
     bearings: FloatArray, time: FloatArray, lower: FloatArray, beat: float, slack: float,
-    chains: FloatArray,
+    hops: int, chains: FloatArray,
 ) -> int:  # fmt: skip
     """The best chains of two contacts or more on the grid, best first.
 
@@ -104,8 +103,9 @@ def best_chains(
         lower: before what no way by that node's label arrives at the slot.
         beat: an arrival already known [R/V_P].
         slack: chains on the grid that arrive this much later are kept, to be refined [R/V_P].
+        hops: from how many nodes words to other nodes are looked for, in each round.
         chains: takes the chains: a row with their arrival and number of contacts, then rows as in
-            `fly_chain`. shape (·, MAX_CONTACTS + 1, 4)
+            `fly_links`. shape (·, MAX_CONTACTS + 1, 4)
 
     Returns:
         how many.
@@ -117,29 +117,36 @@ def best_chains(
     arrive = np.full(count, inf)
     hopped = np.full(count, inf)  # the label with which a node was last followed
     fresh = np.zeros(count)
-    queue = np.empty(4 * count, dtype=np.int64)
+    waiting = np.zeros(count)  # nodes whose label has fallen since they were last ridden from
     rows = np.empty((MAX_ROWS, 5))
+    # on the final leg the way on without the limit takes as long at any time
+    free = np.zeros(count)
+    final = 2 * size * (len(leader) - 1)
+    for n in range(final, count):
+        if t_open <= time[n] < inf:
+            free[n] = lower[n] - time[n]
     best = beat
-    tail = 0
     for n in range(count):
-        if lower[n] < best:
-            queue[tail] = n
-            tail += 1
+        if lower[n] < best + slack:
+            waiting[n] = 1.0
     for turn in range(_ROUNDS):
-        head = 0
-        while head < tail:
-            n = queue[head]
-            head += 1
+        while True:
+            # in order of time: a label that was taken does not fall again
+            n = -1
+            for m in range(count):
+                if waiting[m] == 1.0 and (n < 0 or time[m] < time[n]):
+                    n = m
+            if n < 0:
+                break
+            waiting[n] = 0.0
             m, t, goal = _next(bearings, n, size, leader, time[n], sides, alpha, delta)
-            if m < 0 or t >= time[m] - _BETTER or tail == len(queue):
+            if m < 0 or t >= time[m] - _BETTER:
                 continue
             x, y, h = contact_at(leader, t, bearings[m], sides[m], alpha, delta)
             if not_before_slot(x, y, h, t, alpha, t_open) >= best + slack:
                 continue
             time[m], pred[m], link[m], gained[m] = t, n, RIDE, goal - bearings[n]
-            fresh[m] = 1.0
-            queue[tail] = m
-            tail += 1
+            fresh[m], waiting[m] = 1.0, 1.0
         for n in range(count):
             if fresh[n] == 0.0:
                 continue
@@ -148,10 +155,11 @@ def best_chains(
                 leader, time[n], bearings[n], sides[n], alpha, delta, t_open, best + slack, rows
             )
             best = min(best, arrive[n])
-        tail = 0
+            if n >= final and t_open <= time[n]:
+                free[n] = lower[n] - time[n]
         if turn == _ROUNDS - 1:
             break
-        for _ in range(_HOPS):
+        for _ in range(hops):
             n = -1
             for m in range(count):
                 if lower[m] < best and time[m] < hopped[m] and (n < 0 or lower[m] < lower[n]):
@@ -169,6 +177,8 @@ def best_chains(
                 )  # fmt: skip
                 if t >= time[m] - _BETTER:
                     continue
+                if t + free[m] >= best:
+                    continue
                 ax, ay, ah = contact_at(leader, t, bearings[m], sides[m], alpha, delta)
                 if not_before_slot(ax, ay, ah, t, alpha, t_open) >= best:
                     continue
@@ -179,11 +189,8 @@ def best_chains(
                 if t == inf:
                     continue
                 time[m], pred[m], link[m], fresh[m] = t, n, WORD, 1.0
-        for n in range(count):
-            if fresh[n] == 1.0 and tail < len(queue):
-                queue[tail] = n
-                tail += 1
-        if tail == 0:
+        waiting[:] = fresh
+        if not waiting.any():
             break
     return _collected(leader, sides, bearings, pred, link, gained, arrive, best + slack, chains)
 

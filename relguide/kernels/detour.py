@@ -21,8 +21,9 @@ from relguide.kernels.chain import (
     MAX_CONTACTS,
     WORD,
     contact_at,
-    fly_chain,
+    fly_links,
     refine_chain,
+    simplify_chain,
     vertex,
 )
 from relguide.kernels.clearance import piece_clears
@@ -37,6 +38,8 @@ MAX_LEGS = MAX_CONTACTS + 1
 _BASINS = 8  # refined: the best of them wins in every reference case; the rest is insurance
 _BESIDE = 1e-6  # how far beside a tangent contact it is looked: 1 cm at R = 12 km
 _CHAINS = 4  # of the graph, refined
+_PER_HOP = 4  # so many bearings on the disc let one contact be followed to all others
+_NEARLY = 0.07  # how much a chain may fall below what the graph sees of it [R/V_P]
 _SLACK = 0.14  # how much a basin may fall below what the scan sees of it [R/V_P]
 _FIRST_TURNS = 48  # sizes of a first turn in `any_way`: every 7.5°
 _LONGEST = 64.0  # longest straight tried there [R]: 200 NM for an airliner
@@ -109,7 +112,7 @@ def best_detour(
         bearings: how finely the disc is scanned.
         tangents: contacts to be looked at besides, from `tangent.tangents`. shape (·, 3)
         beat: an arrival already known [R/V_P]; only earlier ones are looked for.
-        legs: takes the legs of the way, as `chain.fly_chain`. shape (MAX_LEGS, 6)
+        legs: takes the legs of the way, as `chain.fly_links`. shape (MAX_LEGS, 6)
 
     Returns:
         arrival time [R/V_P] and the number of legs; `beat` and 0 if no way is faster.
@@ -163,9 +166,12 @@ def best_detour(
         taken[at] = 1.0
         group = at // size * size
         after, before = group + (at - group + 1) % size, group + (at - group - 1) % size
-        # how much lower it may be between here and its neighbours; an edge may hide more
+        # how much lower it may be between here and its neighbours: what a parabola says, or the
+        # rise to them where an edge may hide more
+        _, promised = vertex(values[before], values[at], values[after], TWO_PI / bearings)
         rise = max(values[after], values[before]) - values[at]
-        if values[at] > best and values[at] - min(rise, _SLACK) >= best:
+        hidden = 1.5 * promised + 0.01 if promised > 0.0 else min(rise, _SLACK)
+        if values[at] > best and values[at] - hidden >= best:
             continue
         here = _descend(
             x, y, h, leader, at // (2 * size), alpha, delta, t_open, placed[at], sides[at],
@@ -174,26 +180,36 @@ def best_detour(
         if here < best:
             best, found = here, 2
             way[:] = nearby
+    tried = np.empty((MAX_LEGS, 6))
+    stride = 0.5 * TWO_PI / bearings
     for k in range(found):
         legs[k, 0] = WORD
         legs[k, 1:6] = way[k]
     chains = np.empty((_CHAINS, MAX_CONTACTS + 1, 4))
-    tried = np.empty((MAX_LEGS, 6))
     kept = best_chains(
-        leader, alpha, delta, t_open, sides, placed, time, lower, best, _SLACK, chains
-    )
+        leader, alpha, delta, t_open, sides, placed, time, lower, best, _NEARLY,
+        bearings // _PER_HOP, chains,
+    )  # fmt: skip
+    won = -1
     for k in range(kept):
-        contacts = int(chains[k, 0, 1])
-        chain = chains[k, 1 : contacts + 1]
         here = refine_chain(
-            x, y, h, leader, alpha, delta, t_open, chain, chains[k, 0, 0],
-            0.5 * TWO_PI / bearings, best, rows, tried,
+            x, y, h, leader, alpha, delta, t_open, chains[k, 1 : int(chains[k, 0, 1]) + 1],
+            chains[k, 0, 0], stride, best, rows, tried,
         )  # fmt: skip
         if here < best - GAIN:
-            flown = fly_chain(x, y, h, leader, alpha, delta, t_open, chain, inf, rows, tried)
-            if flown < best:
-                best, found = flown, contacts + 1
-                legs[:found] = tried[:found]
+            best, won = here, k
+    if won >= 0:
+        contacts = int(chains[won, 0, 1])
+        chain = chains[won, 1 : contacts + 1]
+        if contacts > 2:
+            best, contacts = simplify_chain(
+                x, y, h, leader, alpha, delta, t_open, chain, best, stride, rows, tried
+            )
+        _, _, _, best = fly_links(
+            x, y, h, 0.0, leader, alpha, delta, t_open, chain[:contacts], 0, contacts, inf, rows,
+            legs,
+        )  # fmt: skip
+        found = contacts + 1
     return best, found
 
 

@@ -218,6 +218,7 @@ def through_contact(
         return inf
     limit = delta - GRAZE
     n = ways_to_contact(x, y, h, 0.0, leader, i, alpha, delta, bearing, side, rows)
+    m = -1
     for k in range(n):
         t = rows[k, 0]
         if t >= beat:
@@ -227,7 +228,9 @@ def through_contact(
         ch = lh + contact_heading(bearing, side, alpha)
         if not_before_slot(cx, cy, ch, t, alpha, t_open) >= beat:
             continue
-        m = solve(cx - alpha * t, cy, wrap(ch), alpha, max(t_open - t, 0.0), onward)
+        if m < 0 or i + 1 < len(leader) or t < t_open:
+            # on the final leg the ways on are the same at any time
+            m = solve(cx - alpha * t, cy, wrap(ch), alpha, max(t_open - t, 0.0), onward)
         # the cheap test first: could it be in time at all?
         if m == 0 or t + onward[0, 0] >= beat:
             continue

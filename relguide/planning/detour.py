@@ -16,10 +16,12 @@ from relguide.units import Second
 
 HORIZON: Second = 43_200.0
 """Plans longer than this are not given: 12 hours, longer than any aircraft's fuel lasts [s]."""
-SAME = 1e-6
-"""A way handed over as segments takes as long as the one searched, to this [R/V_P]."""
+SAME = 1e-4
+"""A way handed over as segments takes as long as the one searched, to this [R/V_P]: some ms."""
 BEARINGS = 36
-"""How finely the disc is scanned: every 10°. Forty times as fine finds nothing better."""
+"""How finely the disc is scanned round a leader that keeps straight: every 10°."""
+TURNING_BEARINGS = 144
+"""Round one that turns: every 2.5°, since contacts must fall into the time of one piece."""
 
 
 def detour(found: Candidates, *, beat: Second) -> Candidate | None:
@@ -40,7 +42,13 @@ def detour(found: Candidates, *, beat: Second) -> Candidate | None:
     disc = leader, frame.alpha, limit + GRAZE
     legs, row = np.zeros((MAX_LEGS, 6)), np.zeros(5)
     time, count = best_detour(
-        *start, *disc, frame.t_open, BEARINGS, tangents(*start, *disc), beat / scale, legs
+        *start,
+        *disc,
+        frame.t_open,
+        BEARINGS if len(leader) == 1 else TURNING_BEARINGS,
+        tangents(*start, *disc),
+        beat / scale,
+        legs,
     )
     if count > 0:
         around = _flown(found, leader, limit, legs[:count])
@@ -64,7 +72,8 @@ def _flown(
     situation, frame = found.situation, found.frame
     x, y, h, t = frame.x, frame.y, frame.h, 0.0
     segments: list[Segment] = []
-    rode = False
+    signs: list[float] = []  # of the words since the last ride: where they meet, turns may be one
+    amounts: list[float] = []
     for leg in legs[:-1].tolist():
         if leg[0] == RIDE:
             _, side, first, last, _, _ = leg
@@ -72,16 +81,17 @@ def _flown(
             n, x, y, h, t = ride_pieces(
                 x, y, h, t, leader, frame.alpha, limit + GRAZE, side, first, last, bends
             )
-            segments.append(_ridden(frame, side, bends[:n]))
-            rode = True
+            segments += (*segments_of(frame, signs, amounts), _ridden(frame, side, bends[:n]))
+            signs, amounts = [], []
         else:
-            signs = SIGN_ROWS[int(leg[2])]
-            segments += segments_of(frame, signs, leg[3:])
-            for sign, amount in zip(signs, leg[3:], strict=True):
+            word = SIGN_ROWS[int(leg[2])]
+            signs += word
+            amounts += leg[3:]
+            for sign, amount in zip(word, leg[3:], strict=True):
                 x, y, h = fly_piece(x, y, h, sign, amount)
                 t += amount
     last_row = legs[-1, 1:]
-    if rode:
+    if any(isinstance(segment, BoundaryArc) for segment in segments):
         rows = np.empty((MAX_ROWS, 5))
         # a ride's last node lies within rounding of the limit, which must not cost the best word
         _, i = best_word(
@@ -90,7 +100,8 @@ def _flown(
         if i < 0:
             return None
         last_row = rows[i]
-    segments += segments_of(frame, SIGN_ROWS[int(last_row[1])], last_row[2:].tolist())
+    signs += SIGN_ROWS[int(last_row[1])]
+    segments += segments_of(frame, signs, amounts + last_row[2:].tolist())
     pursuer = situation.pursuer
     trajectory = Trajectory(
         x=pursuer.x,

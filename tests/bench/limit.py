@@ -17,7 +17,6 @@ from rich.console import Console
 from rich.progress import track
 
 from relguide import Situation, certify
-from relguide.planning.detour import BEARINGS
 from relguide.planning.words import candidates
 from tests.relguide.planning.test_detour import drawn, searched
 
@@ -44,9 +43,9 @@ def main() -> None:
     for i in track(rounds, "Looking harder", console=Console(file=sys.stderr)):
         situation = active(rng, tight=i % 2 == 0)
         started = thread_time()
-        _, ours = searched(situation, BEARINGS)
+        ours = searched(situation)
         times.append(thread_time() - started)
-        _, harder = searched(situation, arguments.effort * BEARINGS)
+        harder = searched(situation, arguments.effort)
         loss = 0.0 if ours == harder else ours - harder
         losses.append(loss)
         if loss > 0.1:

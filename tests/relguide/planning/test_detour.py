@@ -1,6 +1,6 @@
 """The search with the limit: what it finds certifies, flies, and stands up to a harder look."""
 
-from math import cos, inf, radians, sin
+from math import cos, hypot, inf, pi, radians, sin
 
 import numpy as np
 import pytest
@@ -8,13 +8,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from relguide import BoundaryArc, Leader, NoPlan, Plan, Pursuer, Situation, plan
-from relguide.kernels.contact import contact_heading, ride_rate, ride_time, ride_turn
-from relguide.kernels.detour import best_detour
+from relguide.kernels.detour import MAX_LEGS, best_detour
 from relguide.kernels.passage import GRAZE
-from relguide.kernels.ride import best_ride
-from relguide.kernels.tangent import tangent_contacts, tangents
+from relguide.kernels.tangent import tangents
 from relguide.kernels.turn import turn_radius
-from relguide.planning.detour import BEARINGS, leader_table
+from relguide.planning.detour import BEARINGS, TURNING_BEARINGS, leader_table
+from relguide.planning.optimality import check
 from relguide.planning.words import candidates
 from tests.oracle import arrival_error
 from tests.situations import headings, numbers
@@ -63,15 +62,14 @@ RIDING = Situation(
 )
 
 
-def test_a_ride_along_the_limit_beats_every_way_that_touches_it_once() -> None:
+def test_a_ride_keeps_to_the_limit() -> None:
     answer = plan(RIDING)
     assert isinstance(answer, Plan)
     (ride,) = [s for s in answer.trajectory.segments if isinstance(s, BoundaryArc)]
     assert "B" in answer.word
     radius = RIDING.pursuer.turn_radius
     assert all(abs(curvature) <= 1.0 / radius + 1e-9 for _, curvature in ride.bends)
-    once, _ = searched(RIDING, BEARINGS)
-    assert answer.time_to_converge < once - 1.0
+    assert answer.time_to_converge == pytest.approx(125.417, abs=0.01)
     # on the ride the separation is d_min
     t = (
         sum(s.length for s in answer.trajectory.segments[: answer.trajectory.segments.index(ride)])
@@ -80,8 +78,49 @@ def test_a_ride_along_the_limit_beats_every_way_that_touches_it_once() -> None:
     for part in (0.0, 0.3, 0.7, 1.0):
         at = t + part * ride.length / answer.trajectory.tas
         ours, theirs = answer.trajectory.pose_at(at), RIDING.leader.trajectory.pose_at(at)
-        separation = np.hypot(ours.x - theirs.x, ours.y - theirs.y)
+        separation = hypot(ours.x - theirs.x, ours.y - theirs.y)
         assert separation == pytest.approx(RIDING.min_separation, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    ("situation", "touching_once"),
+    [
+        (
+            Situation(
+                pursuer=Pursuer(
+                    x=-3_038.757489, y=13_250.663925, heading=2.151633867, tas=137.324623,
+                    max_bank=0.439363632,
+                ),
+                leader=Leader(x=0.0, y=0.0, heading=0.0, tas=122.665771),
+                slot_distance=10_815.694378,
+                min_separation=8_689.204844,
+            ),
+            286.237,
+        ),
+        (
+            Situation(
+                pursuer=Pursuer(
+                    x=1_141.095913, y=12_120.886369, heading=4.570678743, tas=144.728986,
+                    max_bank=0.488866395,
+                ),
+                leader=Leader(x=0.0, y=0.0, heading=0.0, tas=132.973603),
+                slot_distance=8_943.861116,
+                min_separation=7_904.640126,
+            ),
+            236.125,
+        ),
+    ],
+)  # fmt: skip
+def test_two_contacts_without_a_ride_between_beat_one(
+    situation: Situation, touching_once: float
+) -> None:
+    """Direct transcription found these, 1.9 s and 2.95 s faster than any way that touches once."""
+    answer = plan(situation)
+    assert isinstance(answer, Plan)
+    assert answer.time_to_converge < touching_once - 1.9
+    report = check(answer, situation, samples=1)
+    assert report.holds
+    assert len(report.contacts) == 2
 
 
 @pytest.mark.parametrize("off", [0.0, 1e-7, -1e-7, 1e-5])
@@ -100,35 +139,35 @@ def test_a_ride_is_closed_by_the_word_it_was_searched_with(off: float) -> None:
     assert answer.time_to_converge == pytest.approx(227.69, abs=0.01)
 
 
-def searched(situation: Situation, bearings: int) -> tuple[float, float]:
-    """Arrival [s] by touching once, and by the better of that and riding."""
+def searched(situation: Situation, effort: int = 1) -> float:
+    """Arrival by the search with the limit alone [s], with so many times the usual bearings."""
     frame = candidates(situation).frame
-    limit = situation.min_separation / frame.radius + GRAZE
     table = leader_table(situation, frame)
-    start = frame.x, frame.y, frame.h, table, frame.alpha, limit
-    scan = frame.t_open, bearings, tangents(*start)
-    once = best_detour(*start, *scan, inf, np.zeros((2, 5)))
-    ride, *_ = best_ride(*start, *scan, once, np.zeros(5))
-    scale = frame.radius / situation.pursuer.tas
-    return once * scale, ride * scale
+    disc = frame.x, frame.y, frame.h, table, frame.alpha, situation.min_separation / frame.radius
+    start = (*disc[:5], disc[5] + GRAZE)
+    bearings = effort * (BEARINGS if len(table) == 1 else TURNING_BEARINGS)
+    time, _ = best_detour(
+        *start, frame.t_open, bearings, tangents(*start), inf, np.zeros((MAX_LEGS, 6))
+    )
+    return time * frame.radius / situation.pursuer.tas
 
 
 def drawn(rng: np.random.Generator, *, tight: bool) -> Situation:
     """A situation near the leader, where the limit tends to be active."""
     tas, bank = rng.uniform(90.0, 260.0), radians(rng.uniform(15.0, 35.0))
     limit = turn_radius(tas, bank) * (rng.uniform(1.0, 4.0) if tight else rng.uniform(0.3, 1.0))
-    bearing = rng.uniform(0.0, 2.0 * np.pi)
+    bearing = rng.uniform(0.0, 2.0 * pi)
     distance = limit * (rng.uniform(1.0, 1.6) if tight else rng.uniform(1.0, 8.0))
     return Situation(
         pursuer=Pursuer(
             x=distance * sin(bearing),
             y=distance * cos(bearing),
-            heading=rng.uniform(0.0, 2.0 * np.pi),
+            heading=rng.uniform(0.0, 2.0 * pi),
             tas=tas,
             max_bank=bank,
         ),
         leader=Leader(
-            x=0.0, y=0.0, heading=rng.uniform(0.0, 2.0 * np.pi), tas=tas * rng.uniform(0.6, 0.98)
+            x=0.0, y=0.0, heading=rng.uniform(0.0, 2.0 * pi), tas=tas * rng.uniform(0.6, 0.98)
         ),
         slot_distance=limit * rng.uniform(1.0, 2.0),
         min_separation=limit,
@@ -142,40 +181,7 @@ def test_eight_times_the_effort_finds_nothing_much_better(tight: bool) -> None:
     worse = []
     for _ in range(60):
         situation = drawn(rng, tight=tight)
-        _, ours = searched(situation, BEARINGS)
-        _, harder = searched(situation, 8 * BEARINGS)
+        ours, harder = searched(situation), searched(situation, 8)
         if not ours <= harder + 0.1:
             worse.append((situation, ours, harder))
     assert not worse, worse
-
-
-@given(bearing=headings, side=st.sampled_from([1.0, -1.0]), alpha=numbers(0.3, 0.98))
-def test_a_contact_is_tangent(bearing: float, side: float, alpha: float) -> None:
-    heading = contact_heading(bearing, side, alpha)
-    vx, vy = cos(heading) - alpha, sin(heading)
-    assert vx * cos(bearing) + vy * sin(bearing) == pytest.approx(0.0, abs=1e-12)
-    around = vy * cos(bearing) - vx * sin(bearing)
-    assert around * side > 0.0
-    assert ride_rate(bearing, side, alpha, 2.0) == pytest.approx(around / 2.0)
-
-
-@given(bearing=headings, side=st.sampled_from([1.0, -1.0]), alpha=numbers(0.3, 0.95))
-def test_a_ride_turns_as_fast_as_the_contact_heading_does(
-    bearing: float, side: float, alpha: float
-) -> None:
-    step = 1e-6 * side
-    turned = contact_heading(bearing + step, side, alpha) - contact_heading(bearing, side, alpha)
-    duration = ride_time(bearing, bearing + step, side, alpha, 2.0)
-    assert turned / duration == pytest.approx(
-        side * ride_turn(bearing, side, alpha, 2.0), rel=1e-3, abs=1e-5
-    )
-
-
-def test_tangent_contacts_touch() -> None:
-    found = np.empty((32, 3))
-    n = tangent_contacts(6.0, 1.0, 2.5, 0.8, 2.0, found)
-    assert n >= 2
-    for bearing, side, time in found[:n]:
-        assert 0.0 <= bearing < 2.0 * np.pi
-        assert side in (1.0, -1.0)
-        assert time > 0.0

@@ -92,11 +92,11 @@ def test_a_contact_that_lies_elsewhere_fails_by_as_much_as_it_lies_off() -> None
     for off in (0.01, 0.02):
         arrivals = []
         for side in (1.0, -1.0):
-            trial = np.zeros((2, 5))
+            trial, reached = np.zeros((2, 5)), np.zeros(2)
             time = through_contact(
                 frame.x, frame.y, frame.h, table, 0, frame.alpha,
                 situation.min_separation / frame.radius + GRAZE, frame.t_open,
-                situation.leader.heading - ours + off, side, 50.0, rows, onward, trial,
+                situation.leader.heading - ours + off, side, 50.0, rows, onward, trial, reached,
             )  # fmt: skip
             arrivals.append((time, trial))
         time, way = min(arrivals, key=lambda arrival: arrival[0])
