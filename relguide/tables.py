@@ -10,8 +10,12 @@ from rich.text import Text
 
 from relguide.contract.story import Event, Story
 from relguide.flying.documents import (
+    AlternativeCard,
+    AnyAlternativeCard,
     BoundarySegment,
+    EarlyAlternativeCard,
     LeaderChanged,
+    MissingAlternativeCard,
     ModeChanged,
     NoPlanCard,
     PathPoint,
@@ -21,6 +25,7 @@ from relguide.flying.documents import (
     PlanUnavailable,
     StraightSegment,
     TurnSegment,
+    UnsafeAlternativeCard,
 )
 from relguide.units import DEG, NM
 
@@ -105,16 +110,35 @@ def _print_plan(console: Console, card: PlanCard, *, min_separation: float) -> N
         f" (lower bound {clock(card.optimality.lower_bound)}). "
         f"Planner {card.planner}, {card.compute:.2f} ms."
     )
+    others = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True, style="dim")
+    others.add_column("instead", no_wrap=True)
+    others.add_column("at", justify="right", no_wrap=True)
+    others.add_column("turns", justify="right", no_wrap=True)
+    others.add_column("passes", no_wrap=True)
+    others.add_column("leader on", no_wrap=True)
+    others.add_column("why not", overflow="fold")
     for other in card.alternatives:
-        line = f"{other.word} would take {clock(other.time_to_converge)}"
-        match other.rejected:
-            case "slower":
-                console.print(Text(f"  {line}: slower", style="dim"))
-            case "separation":
-                near = f"{miles(other.least_separation)} after {clock(other.at)}"
-                console.print(Text(f"  {line}: comes to {near}", style="dim"))
-            case _:
-                assert_never(other)
+        others.add_row(*_alternative(other))
+    console.print(others)
+
+
+def _alternative(other: AnyAlternativeCard) -> tuple[str, ...]:
+    match other:
+        case MissingAlternativeCard():
+            return other.word, "", "", "", "", other.why
+        case EarlyAlternativeCard():
+            return other.word, clock(other.time_to_converge), "", "", "", other.why
+        case AlternativeCard() | UnsafeAlternativeCard():
+            return (
+                other.word,
+                clock(other.time_to_converge),
+                f"{other.turning / DEG:.0f}°",
+                other.passes,
+                f"its {other.side}",
+                other.why,
+            )
+        case _:
+            assert_never(other)
 
 
 def _row(segment: PathSegment, tas: float) -> tuple[str, ...]:

@@ -26,6 +26,7 @@ from relguide.contract.bodies import SituationBody, Tas
 from relguide.contract.refusal import Strict, loads, refusal
 from relguide.contract.wire import WireField, wire_fields
 from relguide.flying.documents import (
+    AnyAlternativeCard,
     Direction,
     Document,
     Mode,
@@ -102,6 +103,8 @@ PlanAnswer: Any = _json_type(PlanCard | NoPlanCard)
 """The answer to a situation."""
 PathSegmentModel: Any = _json_type(PathSegment)
 """A piece of a path over the ground."""
+AlternativeModel: Any = _json_type(AnyAlternativeCard)
+"""Another way to the slot, and why it is not flown."""
 ReferenceModel: Any = _json_type(ReferenceCard)
 """What guidance asks of the autopilot."""
 _DOCUMENT: TypeAdapter[BaseModel] = TypeAdapter(DocumentModel)

@@ -19,14 +19,14 @@ import orjson
 from relguide.flying.documents import (
     AircraftCard,
     AircraftSample,
-    AlternativeCard,
+    AnyAlternativeCard,
     Document,
     NoPlanCard,
     PathPoint,
     PlanCard,
 )
 
-Card = PlanCard | NoPlanCard | PathPoint | AlternativeCard | AircraftCard | AircraftSample
+Card = PlanCard | NoPlanCard | PathPoint | AnyAlternativeCard | AircraftCard | AircraftSample
 """Parts of documents that also travel alone."""
 
 SUFFIX = {"m": "_m", "s": "_s", "ms": "_ms", "mps": "_mps", "rad": "_deg", "radps": "_degps"}

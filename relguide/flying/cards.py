@@ -5,7 +5,11 @@ from typing import assert_never
 
 from relguide.flying.documents import (
     AlternativeCard,
+    AnyAlternativeCard,
     BoundarySegment,
+    Direction,
+    EarlyAlternativeCard,
+    MissingAlternativeCard,
     NoPlanCard,
     OptimalityCard,
     PathPoint,
@@ -17,10 +21,29 @@ from relguide.flying.documents import (
     UnsafeAlternativeCard,
     WindCard,
 )
-from relguide.planning.plan import Alternative, LosesSeparation, NoPlan, Plan, Slower, alternatives
+from relguide.planning.alternatives import (
+    Alternative,
+    AsFast,
+    Faster,
+    LosesSeparation,
+    NoRoot,
+    Slower,
+    TooEarly,
+    alternatives,
+)
+from relguide.planning.plan import NoPlan, Plan
 from relguide.planning.situation import Wind
 from relguide.planning.slot import over_ground
-from relguide.planning.trajectory import LEFT, Arc, BoundaryArc, Pose, Segment, Straight, Trajectory
+from relguide.planning.trajectory import (
+    LEFT,
+    Arc,
+    BoundaryArc,
+    Pose,
+    Segment,
+    Straight,
+    Trajectory,
+    heading_change,
+)
 from relguide.units import G0, Second
 
 VIA: Second = 5.0
@@ -134,18 +157,38 @@ def wind_card(wind: Wind) -> WindCard:
     return WindCard(from_=direction, speed=wind.speed)
 
 
-def _alternative_card(alternative: Alternative) -> AlternativeCard | UnsafeAlternativeCard:
-    match alternative.rejected:
-        case Slower():
-            return AlternativeCard(
-                word=alternative.word, time_to_converge=alternative.time_to_converge
-            )
+def _alternative_card(other: Alternative | TooEarly | NoRoot) -> AnyAlternativeCard:
+    match other:
+        case NoRoot(word=word, why=why):
+            return MissingAlternativeCard(word=word, why=why)
+        case TooEarly(word=word, time_to_converge=time, opens=opens, why=why):
+            return EarlyAlternativeCard(word=word, time_to_converge=time, opens=opens, why=why)
+        case Alternative(candidate=candidate, passing=passing):
+            turning = sum(abs(heading_change(s)) for s in candidate.trajectory.segments)
+            side: Direction = "left" if passing.side == LEFT else "right"
+        case _:
+            assert_never(other)
+    match other.rejected:
         case LosesSeparation(least_separation=least, at_time=at):
             return UnsafeAlternativeCard(
-                word=alternative.word,
-                time_to_converge=alternative.time_to_converge,
+                word=candidate.word,
+                time_to_converge=candidate.time_to_converge,
+                turning=turning,
+                passes=passing.where,
+                side=side,
                 least_separation=least,
                 at=at,
+                why=other.why,
+            )
+        case Slower() | AsFast() | Faster():
+            return AlternativeCard(
+                word=candidate.word,
+                time_to_converge=candidate.time_to_converge,
+                turning=turning,
+                passes=passing.where,
+                side=side,
+                why=other.why,
+                rejected=other.rejected.kind,
             )
         case _:
-            assert_never(alternative.rejected)
+            assert_never(other.rejected)

@@ -1,7 +1,7 @@
 // Made by `python -m server.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-cffdf51cc79f";
+export const PROTOCOL = "relguide-dd4cbba44f57";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -41,6 +41,13 @@ export type Reason =
 
 /** A piece of a path over the ground. */
 export type PathSegment = TurnSegment | StraightSegment | BoundarySegment;
+
+/** Another way to the slot, and why it is not flown. */
+export type Alternative =
+  | AlternativeCard
+  | UnsafeAlternativeCard
+  | EarlyAlternativeCard
+  | MissingAlternativeCard;
 
 /** What guidance asks of the autopilot. */
 export type ReferenceCard = HeadingReference | TurnRateReference;
@@ -97,11 +104,24 @@ export interface AircraftSample {
   altitude_m: number;
 }
 
-/** A candidate that lost because it is slower. */
+/**
+ * Another way to the slot that lost because it is no faster.
+ *
+ * `as_fast`: it arrives with the plan. `faster`: it keeps the limit and was not found, which only
+ * a planner that is not exact lets happen.
+ */
 export interface AlternativeCard {
   word: string;
   time_to_converge_s: number;
-  rejected: "slower";
+  /** How much it turns in all, left and right added. */
+  turning_deg: number;
+  /** Whether it crosses the line ahead of the leader on its final leg. */
+  passes: "behind" | "ahead";
+  /** How it goes round the leader: left is counter-clockwise, with the leader on its left hand. */
+  side: Direction;
+  /** Why it is not flown, e.g. `38 s slower`. */
+  why: string;
+  rejected: "slower" | "as_fast" | "faster";
 }
 
 /** A ride along d = d_min with less than full bank. */
@@ -114,6 +134,16 @@ export interface BoundarySegment {
   end: PathPoint;
   /** Points between, close enough to draw straight lines. */
   via: PathPoint[];
+}
+
+/** A word that reaches the place of the slot before it opens. */
+export interface EarlyAlternativeCard {
+  word: string;
+  time_to_converge_s: number;
+  /** When the slot opens. */
+  opens_s: number;
+  why: string;
+  rejected: "not_open";
 }
 
 /** How the flight went: the last document. */
@@ -272,6 +302,13 @@ export interface LocalPursuer {
   max_bank_deg: number;
 }
 
+/** A word of which no path reaches the slot. */
+export interface MissingAlternativeCard {
+  word: string;
+  why: string;
+  rejected: "no_root";
+}
+
 /** Guidance went from one mode to another. */
 export interface ModeChanged {
   kind: "mode_changed";
@@ -322,7 +359,8 @@ export interface PlanCard {
   segments: PathSegment[];
   separation: Separation;
   optimality: OptimalityCard;
-  alternatives: (AlternativeCard | UnsafeAlternativeCard)[];
+  /** By time; words without any path last. */
+  alternatives: Alternative[];
   compute_ms: number;
 }
 
@@ -510,12 +548,20 @@ export interface TurnSegment {
   end: PathPoint;
 }
 
-/** A candidate that lost because it comes too close. */
+/** Another way to the slot that lost because it comes too close. */
 export interface UnsafeAlternativeCard {
   word: string;
   time_to_converge_s: number;
+  /** How much it turns in all, left and right added. */
+  turning_deg: number;
+  /** Whether it crosses the line ahead of the leader on its final leg. */
+  passes: "behind" | "ahead";
+  /** How it goes round the leader: left is counter-clockwise, with the leader on its left hand. */
+  side: Direction;
   least_separation_m: number;
   at_s: number;
+  /** Why it is not flown, e.g. `comes within 4.22 NM at 212 s`. */
+  why: string;
   rejected: "separation";
 }
 

@@ -329,9 +329,16 @@ def test_a_plan_has_the_contracts_names() -> None:
         }[segment["kind"]]
         assert set(segment) == names | {"start", "end"}
         assert set(segment["start"]) == {"t_s", "x_m", "y_m", "heading_deg"}
+    way = {"time_to_converge_s", "turning_deg", "passes", "side"}
+    names_of = {
+        "slower": way,
+        "separation": way | {"least_separation_m", "at_s"},
+        "not_open": {"time_to_converge_s", "opens_s"},
+        "no_root": set(),
+    }
     for other in reply["alternatives"]:
-        extra = {"least_separation_m", "at_s"} if other["rejected"] == "separation" else set()
-        assert set(other) == {"word", "time_to_converge_s", "rejected"} | extra
+        assert set(other) == names_of[other["rejected"]] | {"word", "why", "rejected"}
+    assert {other["rejected"] for other in reply["alternatives"]} == {"slower", "no_root"}
     TypeAdapter(PlanAnswer).validate_python(reply)
 
 
