@@ -59,8 +59,9 @@ def _plan(chosen: argparse.Namespace) -> int:
     if chosen.batch and chosen.table:
         raise ValueError("A batch is answered in JSON, a plan a line: leave out --table.")
     if chosen.batch:
-        return FAILED if plan_batch(chosen.file) else DONE
-    return DONE if plan_one(chosen.file, table=chosen.table) else FAILED
+        return FAILED if plan_batch(chosen.file, optimality=chosen.optimality) else DONE
+    planned = plan_one(chosen.file, table=chosen.table, optimality=chosen.optimality)
+    return DONE if planned else FAILED
 
 
 def _fly(chosen: argparse.Namespace) -> int:
@@ -134,11 +135,17 @@ def _parser() -> argparse.ArgumentParser:
         relguide plan situation.json --table      the same for people
         cat situation.json | relguide plan -      from standard input
         relguide plan --batch situations.jsonl    one plan a line, in order
+        relguide plan situation.json --optimality with H, λ and what eq. (16) says of it
         """,
     )
     plan.add_argument("file", metavar="FILE", help="a situation in JSON; - for standard input")
     plan.add_argument("--batch", action="store_true", help="FILE has a situation a line")
     plan.add_argument("--table", action="store_true", help="print tables for people")
+    plan.add_argument(
+        "--optimality",
+        action="store_true",
+        help="say how the plan meets Pontryagin's conditions, with H and λ along it",
+    )
     _add_planner(plan)
 
     fly = _command(

@@ -14,12 +14,13 @@ from typing import IO, TYPE_CHECKING, Any
 
 import orjson
 
-from relguide.contract.answers import answer, answer_card, answer_line
+from relguide.contract.answers import answer, answer_line, checked
 from relguide.contract.bodies import NamedSituationBody, situation_from_body
 from relguide.contract.recorder import record, replay
 from relguide.contract.refusal import parse
 from relguide.contract.story import failures, figures, told
-from relguide.planning.plan import plan
+from relguide.flying.cards import no_plan_card, plan_card
+from relguide.planning.plan import NoPlan, Plan, plan
 from relguide.progress import watched
 
 if TYPE_CHECKING:
@@ -30,12 +31,13 @@ _WARM_UP = 40
 seconds where planning takes a tenth of a millisecond, and is no part of what is measured."""
 
 
-def plan_one(file: str, *, table: bool) -> bool:
+def plan_one(file: str, *, table: bool, optimality: bool) -> bool:
     """Print the answer to a situation.
 
     Args:
         file: its path; - for standard input.
         table: for people; JSON otherwise.
+        optimality: say how the plan meets Pontryagin's conditions, too.
 
     Returns:
         whether there is a plan.
@@ -44,21 +46,30 @@ def plan_one(file: str, *, table: bool) -> bool:
         body = parse(NamedSituationBody, stream.read())
     situation, anchor = situation_from_body(body)
     if table:
-        from relguide.tables import print_answer
+        from relguide.tables import print_no_plan, print_optimality, print_plan
 
         plan(situation)  # see `_WARM_UP`
-        card = answer_card(situation, plan)
-        print_answer(card, min_separation=situation.min_separation)
-        return card.status == "planned"
+        match planned := plan(situation):
+            case NoPlan():
+                print_no_plan(no_plan_card(planned))
+            case Plan():
+                print_plan(plan_card(planned), min_separation=situation.min_separation)
+                if optimality:
+                    print_optimality(checked(planned))
+        return isinstance(planned, Plan)
     plan(situation)  # see `_WARM_UP`
-    reply = answer(situation, anchor, plan)
+    reply = answer(situation, anchor, plan, optimality=optimality)
     name = {"id": body.id} if "id" in body.model_fields_set else {}
     _print_json(name | reply)
     return bool(reply["status"] == "planned")
 
 
-def plan_batch(file: str) -> int:
+def plan_batch(file: str, *, optimality: bool) -> int:
     """Print the answers to a file of situations, one a line.
+
+    Args:
+        file: its path; - for standard input.
+        optimality: say how each plan meets Pontryagin's conditions, too.
 
     Returns:
         how many lines are no situations.
@@ -74,7 +85,7 @@ def plan_batch(file: str) -> int:
             read += len(line)
             if not line.strip():
                 continue
-            reply = answer_line(line, plan)
+            reply = answer_line(line, plan, optimality=optimality)
             if reply["status"] == "invalid":
                 invalid.append(number)
             sys.stdout.write(orjson.dumps(reply).decode() + "\n")

@@ -18,6 +18,7 @@ from relguide.flying.documents import (
     MissingAlternativeCard,
     ModeChanged,
     NoPlanCard,
+    OptimalityCheck,
     PathPoint,
     PathSegment,
     PlanCard,
@@ -36,20 +37,44 @@ PROOFS = {
 }
 
 
-def print_answer(card: PlanCard | NoPlanCard, *, min_separation: float) -> None:
-    """Print a plan, or why there is none.
-
-    Args:
-        card: what to print.
-        min_separation: d_min [m].
-    """
+def print_no_plan(card: NoPlanCard) -> None:
+    """Print why there is no plan."""
     console = Console(highlight=False)
-    match card:
-        case NoPlanCard():
-            console.print(Text("No plan", style="bold red") + f" ({card.reason.value})")
-            console.print(card.message)
-        case PlanCard():
-            _print_plan(console, card, min_separation=min_separation)
+    console.print(Text("No plan", style="bold red") + f" ({card.reason.value})")
+    console.print(card.message)
+
+
+def print_optimality(check: OptimalityCheck) -> None:
+    """Print how a plan meets Pontryagin's conditions."""
+    console = Console(highlight=False)
+    residuals = (
+        f"H is within {check.hamiltonian_residual:.1e} of what is due, λ_ψ within "
+        f"{check.switching_residual:.1e} s/rad of 0 where it must vanish."
+    )
+    match check.arrival:
+        case "at_once":
+            console.print("Pontryagin's conditions ask nothing of a pursuer in the slot.")
+            return
+        case "opening":
+            said = Text("Stationary", "green") + ": it arrives as the slot opens, "
+            console.print(said + "where no way can be faster.")
+            return
+        case "free" if check.switching_ok:
+            console.print(Text("Stationary", "green") + f", as eq. (16) asks: {residuals}")
+        case "free":
+            said = Text("Not stationary", "yellow") + ", a small change would make it faster: "
+            console.print(said + residuals)
+        case _:
+            assert_never(check.arrival)
+    for contact in check.contacts:
+        console.print(
+            f"At {clock(contact.t)} it touches d_min: λ_d rises by {contact.jump:.2e} s/m."
+        )
+    for ride in check.rides:
+        console.print(
+            f"From {clock(ride.start)} to {clock(ride.end)} it rides along d_min: "
+            f"μ is {ride.least_multiplier:.1e} /m or more."
+        )
 
 
 def print_flight(flight: Story, figures: Mapping[str, Any]) -> None:
@@ -85,7 +110,14 @@ def miles(metres: float) -> str:
     return f"{metres / NM:.2f} NM"
 
 
-def _print_plan(console: Console, card: PlanCard, *, min_separation: float) -> None:
+def print_plan(card: PlanCard, *, min_separation: float) -> None:
+    """Print a plan.
+
+    Args:
+        card: what to print.
+        min_separation: d_min [m].
+    """
+    console = Console(highlight=False)
     console.print(
         Text.assemble(
             ("Joins in ", ""),

@@ -7,14 +7,18 @@ from relguide.flying.documents import (
     AlternativeCard,
     AnyAlternativeCard,
     BoundarySegment,
+    ContactCard,
     Direction,
     EarlyAlternativeCard,
     MissingAlternativeCard,
     NoPlanCard,
     OptimalityCard,
+    OptimalityCheck,
+    OptimalityPanel,
     PathPoint,
     PathSegment,
     PlanCard,
+    RideCard,
     Separation,
     StraightSegment,
     TurnSegment,
@@ -31,6 +35,7 @@ from relguide.planning.alternatives import (
     TooEarly,
     alternatives,
 )
+from relguide.planning.optimality import OptimalityReport
 from relguide.planning.plan import NoPlan, Plan
 from relguide.planning.situation import Wind
 from relguide.planning.slot import over_ground
@@ -67,6 +72,32 @@ def plan_card(plan: Plan) -> PlanCard:
         optimality=OptimalityCard(proof=optimality.proof, lower_bound=optimality.lower_bound),
         alternatives=tuple(_alternative_card(a) for a in alternatives(plan)),
         compute=plan.compute_time,
+    )
+
+
+def optimality_check(report: OptimalityReport) -> OptimalityCheck:
+    """What Pontryagin's conditions say of a plan."""
+    along = report.history
+    return OptimalityCheck(
+        arrival=report.arrival,
+        hamiltonian_residual=report.hamiltonian_residual,
+        switching_residual=report.switching_residual,
+        switching_ok=report.holds,
+        contacts=tuple(
+            ContactCard(t=contact.time, bearing=contact.bearing, jump=contact.jump)
+            for contact in report.contacts
+        ),
+        rides=tuple(
+            RideCard(start=ride.start, end=ride.end, least_multiplier=ride.least_multiplier)
+            for ride in report.rides
+        ),
+        panel=OptimalityPanel(
+            t=along.times,
+            hamiltonian=along.hamiltonian,
+            switching=along.switching,
+            separation_costate=along.separation,
+            bearing_costate=along.bearing,
+        ),
     )
 
 

@@ -103,6 +103,33 @@ def test_the_table_is_for_people(run: Run) -> None:
     assert max(map(len, out.splitlines())) <= 100
 
 
+def test_the_table_says_why_each_other_way_lost(run: Run) -> None:
+    _, out, _ = run("plan", written(BODY), "--table")
+    lines = out.splitlines()
+    (head,) = [line for line in lines if line.split()[:1] == ["instead"]]
+    others = lines[lines.index(head) + 2 : -1]
+    assert [line.split()[0] for line in others] == ["LSR", "RSL", "LSL", "LRL", "RLR"]
+    # aligned: each reason begins below its heading
+    at = head.index("why not")
+    assert others[0][at:].rstrip() == "2,115 s slower"
+    assert others[-1][at:].rstrip() == "no such path to the slot"
+
+
+def test_optimality_is_told_on_demand(run: Run) -> None:
+    code, out, _ = run("plan", written(BODY), "--optimality")
+    assert code == 0
+    assert json.loads(out)["optimality"]["switching_ok"] is True
+    assert len(json.loads(out)["optimality"]["panel"]["t_s"]) > 100
+    code, out, _ = run("plan", "situation.json", "--table", "--optimality")
+    assert code == 0
+    assert "Stationary, as eq. (16) asks: H is within " in out
+    assert "Stationary" not in run("plan", "situation.json", "--table")[1]
+    code, out, _ = run("plan", "--batch", written(json.dumps(BODY), "a.jsonl"), "--optimality")
+    assert json.loads(out)["optimality"]["switching_ok"] is True
+    code, out, _ = run("plan", written(UNREACHABLE), "--optimality")
+    assert (code, json.loads(out)["status"]) == (1, "no_plan")
+
+
 @pytest.mark.parametrize("planner", ["network", "regular_dp"])
 def test_planners_to_come_are_refused(run: Run, planner: str) -> None:
     for command in (("plan", written(BODY)), ("fly", "fig_6b")):

@@ -1,7 +1,7 @@
 // Made by `python -m server.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-dd4cbba44f57";
+export const PROTOCOL = "relguide-79c8c2c34770";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -134,6 +134,15 @@ export interface BoundarySegment {
   end: PathPoint;
   /** Points between, close enough to draw straight lines. */
   via: PathPoint[];
+}
+
+/** Where a plan touches d = d_min, or where a ride along it begins or ends. */
+export interface ContactCard {
+  t_s: number;
+  /** From pursuer to leader, clockwise from north, in [−180°, 180°]. */
+  bearing_deg: number;
+  /** By how much λ_d rises there; a minimum asks that it be 0 or more. */
+  jump_s_per_m: number;
 }
 
 /** A word that reaches the place of the slot before it opens. */
@@ -325,10 +334,57 @@ export interface NoPlanCard {
   message: string;
 }
 
-/** What is proved of a plan's time. */
+/** What is proved of a plan's time; and, if asked for, how it meets Pontryagin's conditions. */
 export interface OptimalityCard {
   proof: Proof;
   lower_bound_s: number;
+  /**
+   * What fixes t_f: the plan alone, the slot's opening, or being there from the start.
+   * If asked for.
+   */
+  arrival?: "free" | "opening" | "at_once";
+  /**
+   * Largest |H − H due|.
+   * If asked for.
+   */
+  hamiltonian_residual?: number;
+  /**
+   * Largest |λ_ψ| at a switch or on a straight.
+   * If asked for.
+   */
+  switching_residual_s_per_deg?: number;
+  /**
+   * The plan is stationary: each arc turns the way eq. (16) asks, λ_ψ vanishes where it should,
+   * H is as due, and no jump and no μ is below 0, all to a thousandth of R. If not, a small change
+   * would make it faster.
+   * If asked for.
+   */
+  switching_ok?: boolean;
+  /** If asked for. */
+  contacts?: ContactCard[];
+  /** If asked for. */
+  rides?: RideCard[];
+  /** If asked for. */
+  panel?: OptimalityPanel;
+}
+
+/**
+ * H and the costates along a plan, in columns of one length.
+ *
+ * Each end of a segment and each touch of d_min is there twice, for before and after: there a
+ * column may jump. Between two times that differ it is smooth.
+ */
+export interface OptimalityPanel {
+  /** Ascending. */
+  t_s: number[];
+  /** H of eq. (9): 0 once the leader has no turn to come; 1 on a plan that waits for the slot. */
+  hamiltonian: number[];
+  /** λ_ψ, eq. (16): above 0 the pursuer turns left, below 0 right, at 0 it flies straight. */
+  switching_s_per_deg: number[];
+  /** λ_d; jumps where d_min is touched. */
+  separation_costate_s_per_m: number[];
+  /** λ_θ. */
+  bearing_costate_s_per_deg: number[];
 }
 
 /** A place and a heading along a path, over the ground. */
@@ -387,6 +443,14 @@ export interface PlanUnavailable {
 /** Let the flight go on. */
 export interface PlayCommand {
   command: "play";
+}
+
+/** A stretch flown along d = d_min at partial bank. */
+export interface RideCard {
+  start_s: number;
+  end_s: number;
+  /** Least μ on it; eq. (10) asks that it be 0 or more. */
+  least_multiplier_per_m: number;
 }
 
 /** The flight at one instant. */
