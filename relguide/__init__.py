@@ -25,6 +25,7 @@ from relguide.planning.plan import Plan as Plan
 from relguide.planning.plan import Planner as Planner
 from relguide.planning.plan import Reason as Reason
 from relguide.planning.plan import plan as plan
+from relguide.planning.prove import prove as prove
 from relguide.planning.situation import CALM as CALM
 from relguide.planning.situation import FlyStraight as FlyStraight
 from relguide.planning.situation import Leader as Leader
@@ -73,5 +74,6 @@ __all__ = [
     "certify",
     "check",
     "plan",
+    "prove",
     "wind_from",
 ]

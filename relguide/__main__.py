@@ -59,8 +59,11 @@ def _plan(chosen: argparse.Namespace) -> int:
     if chosen.batch and chosen.table:
         raise ValueError("A batch is answered in JSON, a plan a line: leave out --table.")
     if chosen.batch:
-        return FAILED if plan_batch(chosen.file, optimality=chosen.optimality) else DONE
-    planned = plan_one(chosen.file, table=chosen.table, optimality=chosen.optimality)
+        invalid = plan_batch(chosen.file, optimality=chosen.optimality, prove_for=chosen.prove)
+        return FAILED if invalid else DONE
+    planned = plan_one(
+        chosen.file, table=chosen.table, optimality=chosen.optimality, prove_for=chosen.prove
+    )
     return DONE if planned else FAILED
 
 
@@ -96,6 +99,20 @@ def _seed(text: str) -> int:
     if not (text.isascii() and text.isdigit() and int(text[:12]) < 2**32):
         raise argparse.ArgumentTypeError(f"must be a whole number from 0 to 2³² − 1, not {text}")
     return int(text)
+
+
+def _proof_time(text: str) -> float:
+    from relguide.planning.prove import check_seconds
+
+    try:
+        seconds = float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"must be a number of seconds, not {text}") from None
+    try:
+        check_seconds(seconds)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+    return seconds
 
 
 def _port(text: str) -> int:
@@ -136,11 +153,19 @@ def _parser() -> argparse.ArgumentParser:
         cat situation.json | relguide plan -      from standard input
         relguide plan --batch situations.jsonl    one plan a line, in order
         relguide plan situation.json --optimality with H, λ and what eq. (16) says of it
+        relguide plan situation.json --prove 10   with a better lower bound of its time
         """,
     )
     plan.add_argument("file", metavar="FILE", help="a situation in JSON; - for standard input")
     plan.add_argument("--batch", action="store_true", help="FILE has a situation a line")
     plan.add_argument("--table", action="store_true", help="print tables for people")
+    plan.add_argument(
+        "--prove",
+        metavar="SECONDS",
+        type=_proof_time,
+        default=0.0,
+        help="look so long for a better lower bound of the time, where the limit costs some",
+    )
     plan.add_argument(
         "--optimality",
         action="store_true",

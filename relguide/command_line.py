@@ -20,7 +20,8 @@ from relguide.contract.recorder import record, replay
 from relguide.contract.refusal import parse
 from relguide.contract.story import failures, figures, told
 from relguide.flying.cards import no_plan_card, plan_card
-from relguide.planning.plan import NoPlan, Plan, plan
+from relguide.planning.plan import NoPlan, Plan, Planner, plan
+from relguide.planning.situation import Situation
 from relguide.progress import watched
 
 if TYPE_CHECKING:
@@ -31,13 +32,14 @@ _WARM_UP = 40
 seconds where planning takes a tenth of a millisecond, and is no part of what is measured."""
 
 
-def plan_one(file: str, *, table: bool, optimality: bool) -> bool:
+def plan_one(file: str, *, table: bool, optimality: bool, prove_for: float = 0.0) -> bool:
     """Print the answer to a situation.
 
     Args:
         file: its path; - for standard input.
         table: for people; JSON otherwise.
         optimality: say how the plan meets Pontryagin's conditions, too.
+        prove_for: how long to look for a better lower bound of its time [s].
 
     Returns:
         whether there is a plan.
@@ -45,11 +47,12 @@ def plan_one(file: str, *, table: bool, optimality: bool) -> bool:
     with _opened(file) as stream:
         body = parse(NamedSituationBody, stream.read())
     situation, anchor = situation_from_body(body)
+    planner = _proving(prove_for)
     if table:
         from relguide.tables import print_no_plan, print_optimality, print_plan
 
         plan(situation)  # see `_WARM_UP`
-        match planned := plan(situation):
+        match planned := planner(situation):
             case NoPlan():
                 print_no_plan(no_plan_card(planned))
             case Plan():
@@ -58,24 +61,26 @@ def plan_one(file: str, *, table: bool, optimality: bool) -> bool:
                     print_optimality(checked(planned))
         return isinstance(planned, Plan)
     plan(situation)  # see `_WARM_UP`
-    reply = answer(situation, anchor, plan, optimality=optimality)
+    reply = answer(situation, anchor, planner, optimality=optimality)
     name = {"id": body.id} if "id" in body.model_fields_set else {}
     _print_json(name | reply)
     return bool(reply["status"] == "planned")
 
 
-def plan_batch(file: str, *, optimality: bool) -> int:
+def plan_batch(file: str, *, optimality: bool, prove_for: float = 0.0) -> int:
     """Print the answers to a file of situations, one a line.
 
     Args:
         file: its path; - for standard input.
         optimality: say how each plan meets Pontryagin's conditions, too.
+        prove_for: how long to look for a better lower bound of the time of each [s].
 
     Returns:
         how many lines are no situations.
     """
     invalid: list[int] = []
     read = 0
+    planner = _proving(prove_for, shown=False)  # the bar of the batch goes on
     with _opened(file) as stream:
         size = os.fstat(stream.fileno()).st_size if file != "-" else 0
         lines = watched(
@@ -85,7 +90,7 @@ def plan_batch(file: str, *, optimality: bool) -> int:
             read += len(line)
             if not line.strip():
                 continue
-            reply = answer_line(line, plan, optimality=optimality)
+            reply = answer_line(line, planner, optimality=optimality)
             if reply["status"] == "invalid":
                 invalid.append(number)
             sys.stdout.write(orjson.dumps(reply).decode() + "\n")
@@ -186,6 +191,30 @@ def serve(*, host: str, port: int) -> None:
     shown = f"[{host}]" if ":" in host else host
     _write(f"relguide is on http://{shown}:{port} (Ctrl-C stops it)\n")
     uvicorn.run(app, **settings.uvicorn_options(host=host, port=port))
+
+
+def _proving(seconds: float, *, shown: bool = True) -> Planner:
+    """The exact planner, which then looks for a better lower bound for so long."""
+    if seconds == 0.0:
+        return plan
+    from relguide.planning.prove import Bound, prove
+
+    def progress(bounds: Iterator[Bound]) -> Iterator[Bound]:
+        return watched(
+            bounds,
+            title="proving",
+            total=seconds,
+            done=lambda bound: bound.elapsed,
+            state=lambda bound: f"gap {bound.gap:.3f} s",
+        )
+
+    def planner(situation: Situation) -> Plan | NoPlan:
+        planned = plan(situation)
+        if isinstance(planned, NoPlan):
+            return planned
+        return prove(planned, seconds=seconds, progress=progress if shown else iter)
+
+    return planner
 
 
 def _scenario(name: str) -> "Scenario":
