@@ -1,4 +1,4 @@
-"""The command line: `relguide plan`, `fly`, `replay`, `serve`.
+"""The command line: `relguide plan`, `check`, `fly`, `replay`, `serve`.
 
 What a command needs is loaded when it runs, so that `--help` answers at once.
 """
@@ -65,6 +65,15 @@ def _plan(chosen: argparse.Namespace) -> int:
         chosen.file, table=chosen.table, optimality=chosen.optimality, prove_for=chosen.prove
     )
     return DONE if planned else FAILED
+
+
+def _check(chosen: argparse.Namespace) -> int:
+    from relguide.command_line import check_one
+
+    if chosen.situation == chosen.triplets == "-":
+        raise ValueError("Only one of the two files can come from standard input.")
+    passed = check_one(chosen.situation, chosen.triplets, table=chosen.table, figure=chosen.figure)
+    return DONE if passed else FAILED
 
 
 def _fly(chosen: argparse.Namespace) -> int:
@@ -172,6 +181,35 @@ def _parser() -> argparse.ArgumentParser:
         help="say how the plan meets Pontryagin's conditions, with H and λ along it",
     )
     _add_planner(plan)
+
+    check = _command(
+        commands,
+        "check",
+        _check,
+        "judge a regular trajectory, given as the paper's triplets (ε, θ, l)",
+        """
+        relguide check situation.json triplets.json          what holds of it, as JSON
+        relguide check situation.json triplets.json --table  the same for people
+        relguide check situation.json --figure plan.svg      the fastest plan's own, drawn
+
+        Triplets are numbered backward from the slot, the one flown last comes first:
+        {"triplets": [{"epsilon": 1, "theta_deg": 3.2, "l_m": 0},
+                      {"epsilon": -1, "theta_deg": 43.4, "l_m": 267000}]}
+        epsilon 1 turns left, -1 right; l_m is the straight after the turn.
+        """,
+    )
+    check.add_argument(
+        "situation", metavar="SITUATION", help="a situation in JSON; - for standard input"
+    )
+    check.add_argument(
+        "triplets",
+        metavar="TRIPLETS",
+        nargs="?",
+        default="",
+        help="triplets in JSON; left out: those of the fastest plan",
+    )
+    check.add_argument("--table", action="store_true", help="print tables for people")
+    check.add_argument("--figure", metavar="FILE.svg", default="", help="draw both tracks")
 
     fly = _command(
         commands,

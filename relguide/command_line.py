@@ -19,10 +19,12 @@ from relguide.contract.bodies import NamedSituationBody, situation_from_body
 from relguide.contract.recorder import record, replay
 from relguide.contract.refusal import parse
 from relguide.contract.story import failures, figures, told
+from relguide.contract.wire import to_wire
 from relguide.flying.cards import no_plan_card, plan_card
 from relguide.planning.plan import NoPlan, Plan, Planner, plan
 from relguide.planning.situation import Situation
 from relguide.progress import watched
+from relguide.units import NM
 
 if TYPE_CHECKING:
     from relguide.flying.flight import Scenario
@@ -98,6 +100,57 @@ def plan_batch(file: str, *, optimality: bool, prove_for: float = 0.0) -> int:
         noun = "line is" if len(invalid) == 1 else "lines are"
         _say(f"{len(invalid)} {noun} no valid situation, the first is line {invalid[0]}.")
     return len(invalid)
+
+
+def check_one(file: str, triplets: str, *, table: bool, figure: str) -> bool:
+    """Judge a regular trajectory, given as the paper's triplets, and print what is found.
+
+    Args:
+        file: path of the situation; - for standard input.
+        triplets: path of the triplets; if empty, those of the fastest plan.
+        table: for people; JSON otherwise.
+        figure: path of a picture to draw; none if empty.
+
+    Returns:
+        whether it reaches the slot, keeps d_min and is stationary.
+    """
+    from relguide.contract.triplets import regular_from_json
+    from relguide.flying.regular_card import regular_check
+    from relguide.planning.regular import regular_from_trajectory, trajectory_from_regular
+
+    with _opened(file) as stream:
+        situation, _ = situation_from_body(parse(NamedSituationBody, stream.read()))
+    if triplets:
+        with _opened(triplets) as stream:
+            regular = regular_from_json(stream.read())
+    else:
+        match planned := plan(situation):
+            case NoPlan():
+                _say(planned.message)
+                return False
+            case Plan():
+                radius = situation.pursuer.turn_radius
+                regular = regular_from_trajectory(planned.trajectory, turn_radius=radius)
+    found = regular_check(regular, situation)
+    if figure:
+        from relguide.drawing import draw
+
+        picture = draw(
+            trajectory_from_regular(regular, situation),
+            situation,
+            nodes=found.nodes,
+            closest_at=found.separation.at,
+            title=f"Regular trajectory of order {found.order}: {found.duration:,.0f} s, "
+            f"least separation {found.separation.least / NM:.2f} NM",
+        )
+        Path(figure).write_text(picture, "utf-8")
+    if table:
+        from relguide.tables import print_regular
+
+        print_regular(found, min_separation=situation.min_separation)
+    else:
+        _print_json(to_wire(found))
+    return found.passed
 
 
 def fly_one(name: str, *, record_to: str | None, seed: int, as_json: bool) -> bool:

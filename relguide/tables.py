@@ -18,7 +18,6 @@ from relguide.flying.documents import (
     MissingAlternativeCard,
     ModeChanged,
     NoPlanCard,
-    OptimalityCheck,
     PathPoint,
     PathSegment,
     PlanCard,
@@ -28,6 +27,7 @@ from relguide.flying.documents import (
     TurnSegment,
     UnsafeAlternativeCard,
 )
+from relguide.flying.verdicts import NotAsked, OptimalityCheck, RegularCheck
 from relguide.units import DEG, NM
 
 PROOFS = {
@@ -97,6 +97,55 @@ def print_flight(flight: Story, figures: Mapping[str, Any]) -> None:
     for row in _figure_rows(figures).items():
         summary.add_row(*row)
     console.print(summary)
+
+
+def print_regular(card: RegularCheck, *, min_separation: float) -> None:
+    """Print what is found of a regular trajectory.
+
+    Args:
+        card: what to print.
+        min_separation: d_min [m].
+    """
+    console = Console(highlight=False)
+    console.print(
+        Text.assemble(
+            (f"Regular trajectory of order {card.order}", "bold"),
+            f": {miles(card.length)} in {clock(card.duration)}",
+        )
+    )
+    table = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
+    for heading in ("i", "ε", "θ", "l NM", "turn ≥ NM", "straight ≥ NM", "T* s"):
+        table.add_column(heading, justify="right", no_wrap=True)
+    table.add_column("eq. (20)", no_wrap=True)
+    numbered = enumerate(zip(card.triplets, card.pairs, strict=True), start=1)
+    for i, (triplet, pair) in reversed(list(numbered)):  # in the order flown
+        table.add_row(
+            f"{i}",
+            f"{triplet.epsilon:+d}",
+            f"{triplet.theta / DEG:.2f}°",
+            f"{triplet.l / NM:.2f}",
+            f"{pair.turn_proved_above / NM:.2f}",
+            f"{pair.straight_least / NM:.2f}",
+            f"{pair.t_star:.1f}",
+            "holds" if pair.keeps_separation else "fails",
+        )
+    console.print(table)
+    off = card.final_error
+    console.print(
+        _verdict("Reaches the slot", "Misses the slot", card.reaches_slot)
+        + f" (18), (19): ends {off.along:z,.1f} m along and {off.left:z,.1f} m left of it, "
+        f"heading off by {off.heading_error / DEG:z.3f}°."
+    )
+    near = card.separation
+    console.print(
+        _verdict("Keeps d_min", "Comes too close", card.keeps_separation)
+        + f" (20): least {miles(near.least)} after {clock(near.at)}, limit {miles(min_separation)}."
+    )
+    match card.stationarity:
+        case NotAsked(not_asked=why):
+            console.print(f"Pontryagin's conditions are not asked. {why}")
+        case OptimalityCheck() as check:
+            print_optimality(check)
 
 
 def clock(seconds: float) -> str:
@@ -171,6 +220,10 @@ def _alternative(other: AnyAlternativeCard) -> tuple[str, ...]:
             )
         case _:
             assert_never(other)
+
+
+def _verdict(good: str, bad: str, holds: bool) -> Text:
+    return Text(good, "green") if holds else Text(bad, "red")
 
 
 def _row(segment: PathSegment, tas: float) -> tuple[str, ...]:

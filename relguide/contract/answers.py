@@ -13,7 +13,7 @@ from relguide.contract.bodies import (
 from relguide.contract.refusal import ContractError, loads, parse, printable
 from relguide.contract.wire import to_wire
 from relguide.flying.cards import no_plan_card, optimality_check, plan_card
-from relguide.flying.documents import OptimalityCheck
+from relguide.flying.verdicts import OptimalityCheck
 from relguide.planning.optimality import check
 from relguide.planning.plan import NoPlan, Plan, Planner
 from relguide.planning.situation import Situation

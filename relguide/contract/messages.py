@@ -32,12 +32,12 @@ from relguide.flying.documents import (
     Mode,
     NoPlanCard,
     OptimalityCard,
-    OptimalityCheck,
     PathPoint,
     PathSegment,
     PlanCard,
     ReferenceCard,
 )
+from relguide.flying.verdicts import OptimalityCheck
 
 _TAGS = ("kind", "status", "rejected")
 

@@ -22,10 +22,10 @@ from relguide.flying.documents import (
     AnyAlternativeCard,
     Document,
     NoPlanCard,
-    OptimalityCheck,
     PathPoint,
     PlanCard,
 )
+from relguide.flying.verdicts import OptimalityCheck, RegularCheck
 
 Card = (
     PlanCard
@@ -33,6 +33,7 @@ Card = (
     | PathPoint
     | AnyAlternativeCard
     | OptimalityCheck
+    | RegularCheck
     | AircraftCard
     | AircraftSample
 )

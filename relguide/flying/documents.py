@@ -11,18 +11,14 @@ from typing import Literal
 
 from relguide.flying.announcements import Mode as Mode
 from relguide.flying.announcements import PlanReason as PlanReason
-from relguide.planning.optimality import Arrival
 from relguide.planning.plan import PlannerName, Proof, Reason
 from relguide.units import (
     Metre,
     MetrePerSecond,
     Millisecond,
-    PerMetre,
     Radian,
     RadianPerSecond,
     Second,
-    SecondPerMetre,
-    SecondPerRadian,
 )
 
 Direction = Literal["left", "right"]
@@ -99,66 +95,6 @@ class OptimalityCard:
 
     proof: Proof
     lower_bound: Second
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ContactCard:
-    """Where a plan touches d = d_min, or where a ride along it begins or ends."""
-
-    t: Second
-    bearing: Radian
-    """From pursuer to leader, clockwise from north, in [−180°, 180°]."""
-    jump: SecondPerMetre
-    """By how much λ_d rises there; a minimum asks that it be 0 or more."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RideCard:
-    """A stretch flown along d = d_min at partial bank."""
-
-    start: Second
-    end: Second
-    least_multiplier: PerMetre
-    """Least μ on it; eq. (10) asks that it be 0 or more."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class OptimalityPanel:
-    """H and the costates along a plan, in columns of one length.
-
-    Each end of a segment and each touch of d_min is there twice, for before and after: there a
-    column may jump. Between two times that differ it is smooth.
-    """
-
-    t: tuple[Second, ...]
-    """Ascending."""
-    hamiltonian: tuple[float, ...]
-    """H of eq. (9): 0 once the leader has no turn to come; 1 on a plan that waits for the slot."""
-    switching: tuple[SecondPerRadian, ...]
-    """λ_ψ, eq. (16): above 0 the pursuer turns left, below 0 right, at 0 it flies straight."""
-    separation_costate: tuple[SecondPerMetre, ...]
-    """λ_d; jumps where d_min is touched."""
-    bearing_costate: tuple[SecondPerRadian, ...]
-    """λ_θ."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class OptimalityCheck:
-    """How a plan meets Pontryagin's conditions, eqs. (9)–(16): what `OptimalityCard` gains."""
-
-    arrival: Arrival
-    """What fixes t_f: the plan alone, the slot's opening, or being there from the start."""
-    hamiltonian_residual: float
-    """Largest |H − H due|."""
-    switching_residual: SecondPerRadian
-    """Largest |λ_ψ| at a switch or on a straight."""
-    switching_ok: bool
-    """The plan is stationary: each arc turns the way eq. (16) asks, λ_ψ vanishes where it should,
-    H is as due, and no jump and no μ is below 0, all to a thousandth of R. If not, a small change
-    would make it faster."""
-    contacts: tuple[ContactCard, ...]
-    rides: tuple[RideCard, ...]
-    panel: OptimalityPanel
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
