@@ -1,28 +1,23 @@
 """alternatives(plan): each other way to the slot, with its time and why it is not flown.
 
 Ways are told apart by their word, by the middle arc of a three-turn word (more or less than half a
-turn), and by how they pass the leader. The last is a matter of topology: seen from the leader all
-ways lead from one place to one other, and as long as they keep off it, how far the line of sight
-turns on the way differs only by whole turns. The way that keeps behind the leader is the one whose
-line of sight never sweeps, on balance, over the line ahead of it.
+turn), and by how they pass the leader. The last is a matter of topology, see `passing`.
 """
 
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import islice
-from math import atan2, hypot, pi
+from math import pi
 from typing import Literal
 
 import numpy as np
 
-from relguide.kernels.angles import wrap_signed
 from relguide.kernels.extremals import MAX_ROWS, WORDS, solve
-from relguide.kernels.winding import sight_turn
-from relguide.planning.certificate import certify, kernel_arrays
+from relguide.planning.certificate import certify
+from relguide.planning.passing import Passing, Surroundings, passing, surroundings
 from relguide.planning.plan import Plan
-from relguide.planning.situation import Situation
-from relguide.planning.slot import SlotFrame, slot_frame
-from relguide.planning.trajectory import LEFT, RIGHT, Trajectory, Turn
+from relguide.planning.slot import SlotFrame
+from relguide.planning.trajectory import Trajectory
 from relguide.planning.words import Candidate, Candidates, candidates
 from relguide.units import NM, Metre, Second
 
@@ -33,25 +28,6 @@ SAME_LENGTH: Metre = 0.01
 AT_OPENING = 32
 """Of the ways that arrive as the slot opens so many are looked at, fewest turns first: there may be
 a thousand, all equally fast."""
-NEAREST = 1e-2
-"""Below this separation how the leader is passed is not told [R]."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Passing:
-    """How a way passes the leader."""
-
-    side: Turn
-    """`LEFT`: the line of sight turns counter-clockwise on balance, the pursuer goes round the
-    leader that way and has it on its left hand. `RIGHT`: clockwise. As for rides along d_min."""
-    laps: int
-    """How often it crosses the line ahead of the leader on its final leg, clockwise round it
-    positive, counter-clockwise negative: 0 for a way that passes behind."""
-
-    @property
-    def where(self) -> Literal["behind", "ahead"]:
-        """Whether it passes behind the leader or ahead of it."""
-        return "ahead" if self.laps else "behind"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -141,7 +117,11 @@ def alternatives(plan: Plan) -> tuple[Alternative | TooEarly | NoRoot, ...]:
     scale = found.frame.radius / situation.pursuer.tas
     opens = found.frame.t_open * scale
     late = {WORDS[int(word)] for word in found.rows[:, 1]}
-    listed: list[Alternative | TooEarly] = [*_at_opening(plan, found), *_later(plan, found)]
+    around = surroundings(situation)
+    listed: list[Alternative | TooEarly] = [
+        *_at_opening(plan, found, around),
+        *_later(plan, found, around),
+    ]
     for word, first in early.items():
         time = first * scale
         if time < opens - AS_FAST:
@@ -154,32 +134,6 @@ def alternatives(plan: Plan) -> tuple[Alternative | TooEarly | NoRoot, ...]:
     )
 
 
-def passing(trajectory: Trajectory, situation: Situation) -> Passing:
-    """How a trajectory that ends in the slot passes the leader.
-
-    Angles are those of the pursuer seen from the leader, clockwise from straight behind it on its
-    final leg: from where it is first to where the slot is.
-    """
-    leader = situation.leader.trajectory
-    frame = slot_frame(situation, leader)
-    duration = trajectory.duration
-    turned = sight_turn(
-        *kernel_arrays(trajectory), *kernel_arrays(leader), duration, NEAREST * frame.radius
-    )
-    begins, ends = (_from_behind(trajectory, leader, frame, t) for t in (0.0, duration))
-    return Passing(
-        side=RIGHT if turned > 0.0 else LEFT, laps=round((begins + turned - ends) / (2.0 * pi))
-    )
-
-
-def _from_behind(ours: Trajectory, leader: Trajectory, frame: SlotFrame, t: Second) -> float:
-    here, there = ours.pose_at(t), leader.pose_at(t)
-    dx, dy = here.x - there.x, here.y - there.y
-    if hypot(dx, dy) < NEAREST * frame.radius:  # a slot at the leader's own place
-        return 0.0
-    return wrap_signed(atan2(dx, dy) - frame.heading - pi)
-
-
 def _first_times(frame: SlotFrame) -> dict[str, float]:
     """When each word is first at the slot, open or not [R/V_P]; it need not ever be."""
     rows = np.empty((MAX_ROWS, 5))
@@ -190,13 +144,13 @@ def _first_times(frame: SlotFrame) -> dict[str, float]:
     return times
 
 
-def _later(plan: Plan, found: Candidates) -> Iterator[Alternative]:
+def _later(plan: Plan, found: Candidates, around: Surroundings) -> Iterator[Alternative]:
     """Extremals that arrive once the slot is open."""
     seen: set[tuple[str, bool, int]] = set()
     last: dict[str, Second] = {}
     for row, candidate in zip(found.rows.tolist(), found.later, strict=True):
         word, time = candidate.word, candidate.time_to_converge
-        ours = passing(candidate.trajectory, plan.situation)
+        ours = passing(candidate.trajectory, around)
         way = (word, word[1] != "S" and row[3] > pi, ours.laps)
         faster = time < plan.time_to_converge - AS_FAST
         twice = time - last.get(word, -1.0) <= AS_FAST
@@ -208,11 +162,11 @@ def _later(plan: Plan, found: Candidates) -> Iterator[Alternative]:
             yield _judged(candidate, ours, plan)
 
 
-def _at_opening(plan: Plan, found: Candidates) -> Iterator[Alternative]:
+def _at_opening(plan: Plan, found: Candidates, around: Surroundings) -> Iterator[Alternative]:
     """Of the ways that arrive as the slot opens the one of fewest turns for each passing."""
     seen: set[int] = set()
     for candidate in islice(found.at_opening, AT_OPENING):
-        ours = passing(candidate.trajectory, plan.situation)
+        ours = passing(candidate.trajectory, around)
         if ours.laps not in seen:
             seen.add(ours.laps)
             if candidate.trajectory != plan.trajectory:

@@ -31,8 +31,8 @@ from relguide.planning.alternatives import (
     NoRoot,
     Slower,
     TooEarly,
-    passing,
 )
+from relguide.planning.passing import passing, surroundings
 from relguide.planning.slot import slot_frame
 from relguide.units import DEG
 from tests.plans import golden_plan, planned, straight_behind, unlimited
@@ -139,7 +139,7 @@ def test_how_the_leader_is_passed_is_what_small_steps_show(situation: Situation)
     places -= np.array([(o.x, o.y) for o in map(theirs.pose_at, times)])
     bearing = np.arctan2(places[:, 0], places[:, 1])  # of the pursuer from the leader: turns alike
     turned = float((np.remainder(np.diff(bearing) + pi, 2.0 * pi) - pi).sum())
-    found = passing(ours, situation)
+    found = passing(ours, surroundings(situation))
     if abs(turned) > 1e-3:
         assert found.side == (RIGHT if turned > 0.0 else LEFT)
     off_ahead = np.remainder(bearing - slot_frame(situation, theirs).heading + pi, 2.0 * pi) - pi
@@ -193,7 +193,7 @@ def test_ways_round_the_leader_are_told_apart() -> None:
         min_separation=2_000.0,
     )
     answer = planned(situation)
-    behind = passing(answer.trajectory, situation)
+    behind = passing(answer.trajectory, surroundings(situation))
     assert (behind.where, behind.side, behind.laps) == ("behind", LEFT, 0)
     ahead = [
         other.passing
@@ -203,7 +203,7 @@ def test_ways_round_the_leader_are_told_apart() -> None:
     assert ahead
     assert {(way.side, way.laps) for way in ahead} == {(RIGHT, 1)}
     image = mirrored(situation)
-    other_side = passing(planned(image).trajectory, image)
+    other_side = passing(planned(image).trajectory, surroundings(image))
     assert (other_side.where, other_side.side) == ("behind", RIGHT)
 
 
