@@ -1,4 +1,4 @@
-"""The command line: `relguide plan`, `check`, `fly`, `replay`, `serve`.
+"""The command line: `relguide plan`, `check`, `fly`, `replay`, `serve`, `dataset`, `area`.
 
 What a command needs is loaded when it runs, so that `--help` answers at once.
 """
@@ -7,9 +7,11 @@ import argparse
 import os
 import sys
 from collections.abc import Callable, Sequence
+from functools import partial
 from textwrap import dedent
 
 from relguide import __version__
+from relguide.learn_commands import add_learning
 
 DONE, FAILED, MISUSE, STOPPED = 0, 1, 2, 130
 """Exit codes: done; no plan or a failed check; misuse; stopped by Ctrl-C, as shells number it."""
@@ -258,6 +260,8 @@ def _parser() -> argparse.ArgumentParser:
     )
     serve.add_argument("--host", default="127.0.0.1", help="default: %(default)s")
     serve.add_argument("--port", type=_port, default=8000, help="default: %(default)s")
+
+    add_learning(partial(_command, commands))
     return parser
 
 
