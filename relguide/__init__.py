@@ -14,15 +14,18 @@ d_min. Five conventions hold everywhere:
 5. Time is t [s] from the start of the manoeuvre; segments are numbered forward from 0.
 """
 
+from relguide.planning.alternatives import Alternative as Alternative
+from relguide.planning.alternatives import alternatives as alternatives
 from relguide.planning.certificate import Certificate as Certificate
 from relguide.planning.certificate import certify as certify
-from relguide.planning.plan import Alternative as Alternative
+from relguide.planning.optimality import OptimalityReport as OptimalityReport
+from relguide.planning.optimality import check as check
 from relguide.planning.plan import NoPlan as NoPlan
 from relguide.planning.plan import Plan as Plan
 from relguide.planning.plan import Planner as Planner
 from relguide.planning.plan import Reason as Reason
-from relguide.planning.plan import alternatives as alternatives
 from relguide.planning.plan import plan as plan
+from relguide.planning.prove import prove as prove
 from relguide.planning.situation import CALM as CALM
 from relguide.planning.situation import FlyStraight as FlyStraight
 from relguide.planning.situation import Leader as Leader
@@ -55,6 +58,7 @@ __all__ = [
     "FlyStraight",
     "Leader",
     "NoPlan",
+    "OptimalityReport",
     "Plan",
     "Planner",
     "Pose",
@@ -68,6 +72,8 @@ __all__ = [
     "alternatives",
     "candidates",
     "certify",
+    "check",
     "plan",
+    "prove",
     "wind_from",
 ]

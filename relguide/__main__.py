@@ -1,4 +1,4 @@
-"""The command line: `relguide plan`, `fly`, `replay`, `serve`.
+"""The command line: `relguide plan`, `check`, `fly`, `replay`, `serve`, `dataset`, `area`.
 
 What a command needs is loaded when it runs, so that `--help` answers at once.
 """
@@ -7,9 +7,11 @@ import argparse
 import os
 import sys
 from collections.abc import Callable, Sequence
+from functools import partial
 from textwrap import dedent
 
 from relguide import __version__
+from relguide.learn_commands import add_learning
 
 DONE, FAILED, MISUSE, STOPPED = 0, 1, 2, 130
 """Exit codes: done; no plan or a failed check; misuse; stopped by Ctrl-C, as shells number it."""
@@ -59,8 +61,21 @@ def _plan(chosen: argparse.Namespace) -> int:
     if chosen.batch and chosen.table:
         raise ValueError("A batch is answered in JSON, a plan a line: leave out --table.")
     if chosen.batch:
-        return FAILED if plan_batch(chosen.file) else DONE
-    return DONE if plan_one(chosen.file, table=chosen.table) else FAILED
+        invalid = plan_batch(chosen.file, optimality=chosen.optimality, prove_for=chosen.prove)
+        return FAILED if invalid else DONE
+    planned = plan_one(
+        chosen.file, table=chosen.table, optimality=chosen.optimality, prove_for=chosen.prove
+    )
+    return DONE if planned else FAILED
+
+
+def _check(chosen: argparse.Namespace) -> int:
+    from relguide.command_line import check_one
+
+    if chosen.situation == chosen.triplets == "-":
+        raise ValueError("Only one of the two files can come from standard input.")
+    passed = check_one(chosen.situation, chosen.triplets, table=chosen.table, figure=chosen.figure)
+    return DONE if passed else FAILED
 
 
 def _fly(chosen: argparse.Namespace) -> int:
@@ -95,6 +110,20 @@ def _seed(text: str) -> int:
     if not (text.isascii() and text.isdigit() and int(text[:12]) < 2**32):
         raise argparse.ArgumentTypeError(f"must be a whole number from 0 to 2³² − 1, not {text}")
     return int(text)
+
+
+def _proof_time(text: str) -> float:
+    from relguide.planning.prove import check_seconds
+
+    try:
+        seconds = float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"must be a number of seconds, not {text}") from None
+    try:
+        check_seconds(seconds)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+    return seconds
 
 
 def _port(text: str) -> int:
@@ -134,12 +163,55 @@ def _parser() -> argparse.ArgumentParser:
         relguide plan situation.json --table      the same for people
         cat situation.json | relguide plan -      from standard input
         relguide plan --batch situations.jsonl    one plan a line, in order
+        relguide plan situation.json --optimality with H, λ and what eq. (16) says of it
+        relguide plan situation.json --prove 10   with a better lower bound of its time
         """,
     )
     plan.add_argument("file", metavar="FILE", help="a situation in JSON; - for standard input")
     plan.add_argument("--batch", action="store_true", help="FILE has a situation a line")
     plan.add_argument("--table", action="store_true", help="print tables for people")
+    plan.add_argument(
+        "--prove",
+        metavar="SECONDS",
+        type=_proof_time,
+        default=0.0,
+        help="look so long for a better lower bound of the time, where the limit costs some",
+    )
+    plan.add_argument(
+        "--optimality",
+        action="store_true",
+        help="say how the plan meets Pontryagin's conditions, with H and λ along it",
+    )
     _add_planner(plan)
+
+    check = _command(
+        commands,
+        "check",
+        _check,
+        "judge a regular trajectory, given as the paper's triplets (ε, θ, l)",
+        """
+        relguide check situation.json triplets.json          what holds of it, as JSON
+        relguide check situation.json triplets.json --table  the same for people
+        relguide check situation.json --figure plan.svg      the fastest plan's own, drawn
+
+        Triplets are numbered backward from the slot, the one flown last comes first:
+        {"triplets": [{"epsilon": 1, "theta_deg": 3.2, "l_m": 0},
+                      {"epsilon": -1, "theta_deg": 43.4, "l_m": 267000}]}
+        epsilon 1 turns left, -1 right; l_m is the straight after the turn.
+        """,
+    )
+    check.add_argument(
+        "situation", metavar="SITUATION", help="a situation in JSON; - for standard input"
+    )
+    check.add_argument(
+        "triplets",
+        metavar="TRIPLETS",
+        nargs="?",
+        default="",
+        help="triplets in JSON; left out: those of the fastest plan",
+    )
+    check.add_argument("--table", action="store_true", help="print tables for people")
+    check.add_argument("--figure", metavar="FILE.svg", default="", help="draw both tracks")
 
     fly = _command(
         commands,
@@ -188,6 +260,8 @@ def _parser() -> argparse.ArgumentParser:
     )
     serve.add_argument("--host", default="127.0.0.1", help="default: %(default)s")
     serve.add_argument("--port", type=_port, default=8000, help="default: %(default)s")
+
+    add_learning(partial(_command, commands))
     return parser
 
 

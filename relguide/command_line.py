@@ -14,13 +14,17 @@ from typing import IO, TYPE_CHECKING, Any
 
 import orjson
 
-from relguide.contract.answers import answer, answer_card, answer_line
+from relguide.contract.answers import answer, answer_line, checked
 from relguide.contract.bodies import NamedSituationBody, situation_from_body
 from relguide.contract.recorder import record, replay
 from relguide.contract.refusal import parse
 from relguide.contract.story import failures, figures, told
-from relguide.planning.plan import plan
+from relguide.contract.wire import to_wire
+from relguide.flying.cards import no_plan_card, plan_card
+from relguide.planning.plan import NoPlan, Plan, Planner, plan
+from relguide.planning.situation import Situation
 from relguide.progress import watched
+from relguide.units import NM
 
 if TYPE_CHECKING:
     from relguide.flying.flight import Scenario
@@ -30,12 +34,14 @@ _WARM_UP = 40
 seconds where planning takes a tenth of a millisecond, and is no part of what is measured."""
 
 
-def plan_one(file: str, *, table: bool) -> bool:
+def plan_one(file: str, *, table: bool, optimality: bool, prove_for: float = 0.0) -> bool:
     """Print the answer to a situation.
 
     Args:
         file: its path; - for standard input.
         table: for people; JSON otherwise.
+        optimality: say how the plan meets Pontryagin's conditions, too.
+        prove_for: how long to look for a better lower bound of its time [s].
 
     Returns:
         whether there is a plan.
@@ -43,28 +49,40 @@ def plan_one(file: str, *, table: bool) -> bool:
     with _opened(file) as stream:
         body = parse(NamedSituationBody, stream.read())
     situation, anchor = situation_from_body(body)
+    planner = _proving(prove_for)
     if table:
-        from relguide.tables import print_answer
+        from relguide.tables import print_no_plan, print_optimality, print_plan
 
         plan(situation)  # see `_WARM_UP`
-        card = answer_card(situation, plan)
-        print_answer(card, min_separation=situation.min_separation)
-        return card.status == "planned"
+        match planned := planner(situation):
+            case NoPlan():
+                print_no_plan(no_plan_card(planned))
+            case Plan():
+                print_plan(plan_card(planned), min_separation=situation.min_separation)
+                if optimality:
+                    print_optimality(checked(planned))
+        return isinstance(planned, Plan)
     plan(situation)  # see `_WARM_UP`
-    reply = answer(situation, anchor, plan)
+    reply = answer(situation, anchor, planner, optimality=optimality)
     name = {"id": body.id} if "id" in body.model_fields_set else {}
     _print_json(name | reply)
     return bool(reply["status"] == "planned")
 
 
-def plan_batch(file: str) -> int:
+def plan_batch(file: str, *, optimality: bool, prove_for: float = 0.0) -> int:
     """Print the answers to a file of situations, one a line.
+
+    Args:
+        file: its path; - for standard input.
+        optimality: say how each plan meets Pontryagin's conditions, too.
+        prove_for: how long to look for a better lower bound of the time of each [s].
 
     Returns:
         how many lines are no situations.
     """
     invalid: list[int] = []
     read = 0
+    planner = _proving(prove_for, shown=False)  # the bar of the batch goes on
     with _opened(file) as stream:
         size = os.fstat(stream.fileno()).st_size if file != "-" else 0
         lines = watched(
@@ -74,7 +92,7 @@ def plan_batch(file: str) -> int:
             read += len(line)
             if not line.strip():
                 continue
-            reply = answer_line(line, plan)
+            reply = answer_line(line, planner, optimality=optimality)
             if reply["status"] == "invalid":
                 invalid.append(number)
             sys.stdout.write(orjson.dumps(reply).decode() + "\n")
@@ -82,6 +100,57 @@ def plan_batch(file: str) -> int:
         noun = "line is" if len(invalid) == 1 else "lines are"
         _say(f"{len(invalid)} {noun} no valid situation, the first is line {invalid[0]}.")
     return len(invalid)
+
+
+def check_one(file: str, triplets: str, *, table: bool, figure: str) -> bool:
+    """Judge a regular trajectory, given as the paper's triplets, and print what is found.
+
+    Args:
+        file: path of the situation; - for standard input.
+        triplets: path of the triplets; if empty, those of the fastest plan.
+        table: for people; JSON otherwise.
+        figure: path of a picture to draw; none if empty.
+
+    Returns:
+        whether it reaches the slot, keeps d_min and is stationary.
+    """
+    from relguide.contract.triplets import regular_from_json
+    from relguide.flying.regular_card import regular_check
+    from relguide.planning.regular import regular_from_trajectory, trajectory_from_regular
+
+    with _opened(file) as stream:
+        situation, _ = situation_from_body(parse(NamedSituationBody, stream.read()))
+    if triplets:
+        with _opened(triplets) as stream:
+            regular = regular_from_json(stream.read())
+    else:
+        match planned := plan(situation):
+            case NoPlan():
+                _say(planned.message)
+                return False
+            case Plan():
+                radius = situation.pursuer.turn_radius
+                regular = regular_from_trajectory(planned.trajectory, turn_radius=radius)
+    found = regular_check(regular, situation)
+    if figure:
+        from relguide.drawing import draw
+
+        picture = draw(
+            trajectory_from_regular(regular, situation),
+            situation,
+            nodes=found.nodes,
+            closest_at=found.separation.at,
+            title=f"Regular trajectory of order {found.order}: {found.duration:,.0f} s, "
+            f"least separation {found.separation.least / NM:.2f} NM",
+        )
+        Path(figure).write_text(picture, "utf-8")
+    if table:
+        from relguide.tables import print_regular
+
+        print_regular(found, min_separation=situation.min_separation)
+    else:
+        _print_json(to_wire(found))
+    return found.passed
 
 
 def fly_one(name: str, *, record_to: str | None, seed: int, as_json: bool) -> bool:
@@ -175,6 +244,30 @@ def serve(*, host: str, port: int) -> None:
     shown = f"[{host}]" if ":" in host else host
     _write(f"relguide is on http://{shown}:{port} (Ctrl-C stops it)\n")
     uvicorn.run(app, **settings.uvicorn_options(host=host, port=port))
+
+
+def _proving(seconds: float, *, shown: bool = True) -> Planner:
+    """The exact planner, which then looks for a better lower bound for so long."""
+    if seconds == 0.0:
+        return plan
+    from relguide.planning.prove import Bound, prove
+
+    def progress(bounds: Iterator[Bound]) -> Iterator[Bound]:
+        return watched(
+            bounds,
+            title="proving",
+            total=seconds,
+            done=lambda bound: bound.elapsed,
+            state=lambda bound: f"gap {bound.gap:.3f} s",
+        )
+
+    def planner(situation: Situation) -> Plan | NoPlan:
+        planned = plan(situation)
+        if isinstance(planned, NoPlan):
+            return planned
+        return prove(planned, seconds=seconds, progress=progress if shown else iter)
+
+    return planner
 
 
 def _scenario(name: str) -> "Scenario":

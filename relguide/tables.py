@@ -10,8 +10,12 @@ from rich.text import Text
 
 from relguide.contract.story import Event, Story
 from relguide.flying.documents import (
+    AlternativeCard,
+    AnyAlternativeCard,
     BoundarySegment,
+    EarlyAlternativeCard,
     LeaderChanged,
+    MissingAlternativeCard,
     ModeChanged,
     NoPlanCard,
     PathPoint,
@@ -21,7 +25,9 @@ from relguide.flying.documents import (
     PlanUnavailable,
     StraightSegment,
     TurnSegment,
+    UnsafeAlternativeCard,
 )
+from relguide.flying.verdicts import NotAsked, OptimalityCheck, RegularCheck
 from relguide.units import DEG, NM
 
 PROOFS = {
@@ -31,20 +37,44 @@ PROOFS = {
 }
 
 
-def print_answer(card: PlanCard | NoPlanCard, *, min_separation: float) -> None:
-    """Print a plan, or why there is none.
-
-    Args:
-        card: what to print.
-        min_separation: d_min [m].
-    """
+def print_no_plan(card: NoPlanCard) -> None:
+    """Print why there is no plan."""
     console = Console(highlight=False)
-    match card:
-        case NoPlanCard():
-            console.print(Text("No plan", style="bold red") + f" ({card.reason.value})")
-            console.print(card.message)
-        case PlanCard():
-            _print_plan(console, card, min_separation=min_separation)
+    console.print(Text("No plan", style="bold red") + f" ({card.reason.value})")
+    console.print(card.message)
+
+
+def print_optimality(check: OptimalityCheck) -> None:
+    """Print how a plan meets Pontryagin's conditions."""
+    console = Console(highlight=False)
+    residuals = (
+        f"H is within {check.hamiltonian_residual:.1e} of what is due, λ_ψ within "
+        f"{check.switching_residual:.1e} s/rad of 0 where it must vanish."
+    )
+    match check.arrival:
+        case "at_once":
+            console.print("Pontryagin's conditions ask nothing of a pursuer in the slot.")
+            return
+        case "opening":
+            said = Text("Stationary", "green") + ": it arrives as the slot opens, "
+            console.print(said + "where no way can be faster.")
+            return
+        case "free" if check.switching_ok:
+            console.print(Text("Stationary", "green") + f", as eq. (16) asks: {residuals}")
+        case "free":
+            said = Text("Not stationary", "yellow") + ", a small change would make it faster: "
+            console.print(said + residuals)
+        case _:
+            assert_never(check.arrival)
+    for contact in check.contacts:
+        console.print(
+            f"At {clock(contact.t)} it touches d_min: λ_d rises by {contact.jump:.2e} s/m."
+        )
+    for ride in check.rides:
+        console.print(
+            f"From {clock(ride.start)} to {clock(ride.end)} it rides along d_min: "
+            f"μ is {ride.least_multiplier:.1e} /m or more."
+        )
 
 
 def print_flight(flight: Story, figures: Mapping[str, Any]) -> None:
@@ -69,6 +99,55 @@ def print_flight(flight: Story, figures: Mapping[str, Any]) -> None:
     console.print(summary)
 
 
+def print_regular(card: RegularCheck, *, min_separation: float) -> None:
+    """Print what is found of a regular trajectory.
+
+    Args:
+        card: what to print.
+        min_separation: d_min [m].
+    """
+    console = Console(highlight=False)
+    console.print(
+        Text.assemble(
+            (f"Regular trajectory of order {card.order}", "bold"),
+            f": {miles(card.length)} in {clock(card.duration)}",
+        )
+    )
+    table = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
+    for heading in ("i", "ε", "θ", "l NM", "turn ≥ NM", "straight ≥ NM", "T* s"):
+        table.add_column(heading, justify="right", no_wrap=True)
+    table.add_column("eq. (20)", no_wrap=True)
+    numbered = enumerate(zip(card.triplets, card.pairs, strict=True), start=1)
+    for i, (triplet, pair) in reversed(list(numbered)):  # in the order flown
+        table.add_row(
+            f"{i}",
+            f"{triplet.epsilon:+d}",
+            f"{triplet.theta / DEG:.2f}°",
+            f"{triplet.l / NM:.2f}",
+            f"{pair.turn_proved_above / NM:.2f}",
+            f"{pair.straight_least / NM:.2f}",
+            f"{pair.t_star:.1f}",
+            "holds" if pair.keeps_separation else "fails",
+        )
+    console.print(table)
+    off = card.final_error
+    console.print(
+        _verdict("Reaches the slot", "Misses the slot", card.reaches_slot)
+        + f" (18), (19): ends {off.along:z,.1f} m along and {off.left:z,.1f} m left of it, "
+        f"heading off by {off.heading_error / DEG:z.3f}°."
+    )
+    near = card.separation
+    console.print(
+        _verdict("Keeps d_min", "Comes too close", card.keeps_separation)
+        + f" (20): least {miles(near.least)} after {clock(near.at)}, limit {miles(min_separation)}."
+    )
+    match card.stationarity:
+        case NotAsked(not_asked=why):
+            console.print(f"Pontryagin's conditions are not asked. {why}")
+        case OptimalityCheck() as check:
+            print_optimality(check)
+
+
 def clock(seconds: float) -> str:
     """A time as minutes and seconds: 9:03.4."""
     tenths = round(seconds * 10.0)
@@ -80,7 +159,14 @@ def miles(metres: float) -> str:
     return f"{metres / NM:.2f} NM"
 
 
-def _print_plan(console: Console, card: PlanCard, *, min_separation: float) -> None:
+def print_plan(card: PlanCard, *, min_separation: float) -> None:
+    """Print a plan.
+
+    Args:
+        card: what to print.
+        min_separation: d_min [m].
+    """
+    console = Console(highlight=False)
     console.print(
         Text.assemble(
             ("Joins in ", ""),
@@ -105,16 +191,39 @@ def _print_plan(console: Console, card: PlanCard, *, min_separation: float) -> N
         f" (lower bound {clock(card.optimality.lower_bound)}). "
         f"Planner {card.planner}, {card.compute:.2f} ms."
     )
+    others = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True, style="dim")
+    others.add_column("instead", no_wrap=True)
+    others.add_column("at", justify="right", no_wrap=True)
+    others.add_column("turns", justify="right", no_wrap=True)
+    others.add_column("passes", no_wrap=True)
+    others.add_column("leader on", no_wrap=True)
+    others.add_column("why not", overflow="fold")
     for other in card.alternatives:
-        line = f"{other.word} would take {clock(other.time_to_converge)}"
-        match other.rejected:
-            case "slower":
-                console.print(Text(f"  {line}: slower", style="dim"))
-            case "separation":
-                near = f"{miles(other.least_separation)} after {clock(other.at)}"
-                console.print(Text(f"  {line}: comes to {near}", style="dim"))
-            case _:
-                assert_never(other)
+        others.add_row(*_alternative(other))
+    console.print(others)
+
+
+def _alternative(other: AnyAlternativeCard) -> tuple[str, ...]:
+    match other:
+        case MissingAlternativeCard():
+            return other.word, "", "", "", "", other.why
+        case EarlyAlternativeCard():
+            return other.word, clock(other.time_to_converge), "", "", "", other.why
+        case AlternativeCard() | UnsafeAlternativeCard():
+            return (
+                other.word,
+                clock(other.time_to_converge),
+                f"{other.turning / DEG:.0f}°",
+                other.passes,
+                f"its {other.side}",
+                other.why,
+            )
+        case _:
+            assert_never(other)
+
+
+def _verdict(good: str, bad: str, holds: bool) -> Text:
+    return Text(good, "green") if holds else Text(bad, "red")
 
 
 def _row(segment: PathSegment, tas: float) -> tuple[str, ...]:

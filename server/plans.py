@@ -4,7 +4,7 @@ import asyncio
 from time import perf_counter
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Depends, Request
+from fastapi import APIRouter, Depends, Query, Request
 from pydantic import BaseModel, Field, RootModel, create_model
 from starlette.responses import Response
 
@@ -78,6 +78,13 @@ def _metrics_of(request: Request) -> Metrics:
 
 PlannerOf = Annotated[Planner, Depends(_planner_of)]
 MetricsOf = Annotated[Metrics, Depends(_metrics_of)]
+OptimalityAsked = Annotated[
+    bool,
+    Query(
+        description="Whether `optimality` also says how the plan meets Pontryagin's conditions, "
+        "with H and the costates along it. Takes some milliseconds more."
+    ),
+]
 router = APIRouter(prefix="/api/v1", tags=["plans"])
 
 
@@ -90,11 +97,13 @@ router = APIRouter(prefix="/api/v1", tags=["plans"])
     },
     openapi_extra=takes(one_of(SituationBody), EXAMPLE),
 )
-async def make_plan(request: Request, planner: PlannerOf, metrics: MetricsOf) -> Response:
+async def make_plan(
+    request: Request, planner: PlannerOf, metrics: MetricsOf, optimality: OptimalityAsked = False
+) -> Response:
     """The minimum-time plan with its proof. That there is none is an answer too."""
     situation, anchor = _read(await read_json(request), SituationBody)
     # 0.1 ms as a rule, but tens where the limit binds: the streams must not wait for it
-    given, seconds = await asyncio.to_thread(_answer, situation, anchor, planner)
+    given, seconds = await asyncio.to_thread(_answer, situation, anchor, planner, optimality)
     metrics.plan_answered(given["status"], seconds)
     return json_answer(given)
 
@@ -112,20 +121,24 @@ async def make_plan(request: Request, planner: PlannerOf, metrics: MetricsOf) ->
     },
     openapi_extra=takes(list_of(one_of(NamedSituationBody), most=MAX_BATCH), [EXAMPLE]),
 )
-async def make_plans(request: Request, planner: PlannerOf, metrics: MetricsOf) -> Response:
+async def make_plans(
+    request: Request, planner: PlannerOf, metrics: MetricsOf, optimality: OptimalityAsked = False
+) -> Response:
     """Up to 1,000 situations, an answer for each in order, with its `id` if it has one."""
     bodies = await read_json(request)
     if not isinstance(bodies, list):
         raise Refusal(422, "The body must be a list of situations.")
     if len(bodies) > MAX_BATCH:
         raise Refusal(422, f"At most {MAX_BATCH} situations a request, not {len(bodies)}.")
-    answers = await asyncio.to_thread(_answer_all, bodies, planner)
+    answers = await asyncio.to_thread(_answer_all, bodies, planner, optimality)
     for given, seconds in answers:
         metrics.plan_answered(given["status"], seconds)
     return json_answer([given for given, _ in answers])
 
 
-def _answer_all(bodies: list[object], planner: Planner) -> list[tuple[dict[str, Any], float]]:
+def _answer_all(
+    bodies: list[object], planner: Planner, optimality: bool
+) -> list[tuple[dict[str, Any], float]]:
     # All are read before any is planned: a request is refused whole or served whole.
     read = [
         (_read(body, NamedSituationBody, under=f"[{index}]"), body)
@@ -133,7 +146,7 @@ def _answer_all(bodies: list[object], planner: Planner) -> list[tuple[dict[str, 
     ]
     answers = []
     for (situation, anchor), body in read:
-        given, seconds = _answer(situation, anchor, planner)
+        given, seconds = _answer(situation, anchor, planner, optimality)
         if isinstance(body, dict) and "id" in body:
             given = {"id": body["id"], **given}
         answers.append((given, seconds))
@@ -151,7 +164,10 @@ def _read(
         raise refused(error, under=under) from None
 
 
-def _answer(situation: Situation, anchor: Anchor, planner: Planner) -> tuple[dict[str, Any], float]:
+def _answer(
+    situation: Situation, anchor: Anchor, planner: Planner, optimality: bool
+) -> tuple[dict[str, Any], float]:
     """The answer, and how long it took [s]; counted by the caller, on the loop's own thread."""
     started = perf_counter()
-    return answer(situation, anchor, planner), perf_counter() - started
+    given = answer(situation, anchor, planner, optimality=optimality)
+    return given, perf_counter() - started

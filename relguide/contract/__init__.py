@@ -4,5 +4,5 @@ Read `refusal.py` (how nonsense is refused), `wire.py` (documents to JSON), `bod
 from JSON), `messages.py` (documents back, the stream's ticks, flights and commands) and, for the
 browser, `typescript.py` and `protocol.py` (the same shapes as types, and the stream's name); then
 what is made of them: `answers.py` (a plan for each situation), `recorder.py` (a flight to a file,
-and back) and `story.py` (a flight in short).
+and back) and `story.py` (a flight in short). `triplets.py` reads the paper's regular trajectories.
 """

@@ -12,34 +12,48 @@ from relguide.contract.bodies import (
 )
 from relguide.contract.refusal import ContractError, loads, parse, printable
 from relguide.contract.wire import to_wire
-from relguide.flying.cards import no_plan_card, plan_card
-from relguide.flying.documents import NoPlanCard, PlanCard
+from relguide.flying.cards import no_plan_card, optimality_check, plan_card
+from relguide.flying.verdicts import OptimalityCheck
+from relguide.planning.optimality import check
 from relguide.planning.plan import NoPlan, Plan, Planner
 from relguide.planning.situation import Situation
 
 
-def answer_card(situation: Situation, planner: Planner) -> PlanCard | NoPlanCard:
-    """A plan, or why there is none, as outsiders read it."""
+def answer(
+    situation: Situation, anchor: Anchor, planner: Planner, *, optimality: bool = False
+) -> dict[str, Any]:
+    """A plan, or why there is none, as a JSON object.
+
+    Args:
+        situation: what to plan.
+        anchor: how its world frame lies on the earth.
+        planner: who plans.
+        optimality: whether to say how the plan meets Pontryagin's conditions, too.
+    """
     match planned := planner(situation):
         case Plan():
-            return plan_card(planned)
+            reply = plan_to_wire(plan_card(planned), anchor)
+            if optimality:
+                reply["optimality"] |= to_wire(checked(planned))
+            return reply
         case NoPlan():
-            return no_plan_card(planned)
+            return to_wire(no_plan_card(planned))
 
 
-def answer(situation: Situation, anchor: Anchor, planner: Planner) -> dict[str, Any]:
-    """A plan, or why there is none, as a JSON object."""
-    match card := answer_card(situation, planner):
-        case PlanCard():
-            return plan_to_wire(card, anchor)
-        case NoPlanCard():
-            return to_wire(card)
+def checked(plan: Plan) -> OptimalityCheck:
+    """How a plan meets Pontryagin's conditions. Takes some milliseconds."""
+    return optimality_check(check(plan, plan.situation))
 
 
-def answer_line(line: bytes, planner: Planner) -> dict[str, Any]:
+def answer_line(line: bytes, planner: Planner, *, optimality: bool = False) -> dict[str, Any]:
     """The answer to a line of a batch, with the situation's `id` if it has one.
 
     What is no situation gives `{"status": "invalid", "message": …}` in its place.
+
+    Args:
+        line: a situation in JSON.
+        planner: who plans.
+        optimality: as in `answer`.
     """
     name: dict[str, Any] = {}
     try:
@@ -47,7 +61,7 @@ def answer_line(line: bytes, planner: Planner) -> dict[str, Any]:
         if isinstance(content, dict):
             name = _name(content)
             situation, anchor = situation_from_body(parse(NamedSituationBody, content))
-            return name | answer(situation, anchor, planner)
+            return name | answer(situation, anchor, planner, optimality=optimality)
         raise ContractError([("", "A line must be an object with fields: a situation.")])
     except ContractError as error:
         return name | {"status": "invalid", "message": str(error)}

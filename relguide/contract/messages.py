@@ -26,15 +26,18 @@ from relguide.contract.bodies import SituationBody, Tas
 from relguide.contract.refusal import Strict, loads, refusal
 from relguide.contract.wire import WireField, wire_fields
 from relguide.flying.documents import (
+    AnyAlternativeCard,
     Direction,
     Document,
     Mode,
     NoPlanCard,
+    OptimalityCard,
     PathPoint,
     PathSegment,
     PlanCard,
     ReferenceCard,
 )
+from relguide.flying.verdicts import OptimalityCheck
 
 _TAGS = ("kind", "status", "rejected")
 
@@ -68,11 +71,26 @@ def model_of(document_type: type[Any]) -> type[BaseModel]:
     }
     if document_type is PathPoint:
         members |= _GEODETIC
+    if document_type is OptimalityCard:
+        members |= _on_demand(OptimalityCheck)
     model = create_model(
         document_type.__name__, __base__=Strict, __doc__=document_type.__doc__, **members
     )
     _MODELS[document_type], _DATACLASSES[model] = model, document_type
     return model
+
+
+def _on_demand(document_type: type[Any]) -> dict[str, Any]:
+    """The members of a card that are added to another if asked for."""
+    return {
+        f.wire_name: (
+            _json_type(f.annotation),
+            Field(
+                default=None, description=f"{f.doc}\nIf asked for.", json_schema_extra=_no_default
+            ),
+        )
+        for f in wire_fields(document_type)
+    }
 
 
 def _json_type(annotation: Any) -> Any:
@@ -102,6 +120,8 @@ PlanAnswer: Any = _json_type(PlanCard | NoPlanCard)
 """The answer to a situation."""
 PathSegmentModel: Any = _json_type(PathSegment)
 """A piece of a path over the ground."""
+AlternativeModel: Any = _json_type(AnyAlternativeCard)
+"""Another way to the slot, and why it is not flown."""
 ReferenceModel: Any = _json_type(ReferenceCard)
 """What guidance asks of the autopilot."""
 _DOCUMENT: TypeAdapter[BaseModel] = TypeAdapter(DocumentModel)
@@ -138,7 +158,8 @@ def _decode(field: WireField, value: Any) -> Any:
     if isinstance(value, BaseModel):
         return _from_model(value)
     if isinstance(value, list):
-        return tuple(map(_from_model, value))
+        numbers = field.annotation == tuple[float, ...]
+        return tuple(map(field.decode_number if numbers else _from_model, value))
     if isinstance(field.annotation, type) and issubclass(field.annotation, Enum):
         return field.annotation(value)
     return field.decode_number(value)

@@ -5,6 +5,7 @@ from typing import Any, Literal
 
 from relguide.contract.bodies import Piece, SituationBody
 from relguide.contract.messages import (
+    AlternativeModel,
     Command,
     DocumentModel,
     FlightList,
@@ -32,6 +33,7 @@ _ALIASES: dict[str, tuple[Any, str]] = {
     "LeaderChange": (LeaderChange, "What the leader does anew."),
     "Reason": (Literal[tuple(r.value for r in Reason)], "Why there is no plan."),
     "PathSegment": (PathSegmentModel, "A piece of a path over the ground."),
+    "Alternative": (AlternativeModel, "Another way to the slot, and why it is not flown."),
     "ReferenceCard": (ReferenceModel, "What guidance asks of the autopilot."),
     "Document": (DocumentModel, "What a flight says of itself."),
     "PlanAnswer": (PlanAnswer, "The answer to a situation."),

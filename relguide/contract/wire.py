@@ -19,17 +19,37 @@ import orjson
 from relguide.flying.documents import (
     AircraftCard,
     AircraftSample,
-    AlternativeCard,
+    AnyAlternativeCard,
     Document,
     NoPlanCard,
     PathPoint,
     PlanCard,
 )
+from relguide.flying.verdicts import OptimalityCheck, RegularCheck
 
-Card = PlanCard | NoPlanCard | PathPoint | AlternativeCard | AircraftCard | AircraftSample
+Card = (
+    PlanCard
+    | NoPlanCard
+    | PathPoint
+    | AnyAlternativeCard
+    | OptimalityCheck
+    | RegularCheck
+    | AircraftCard
+    | AircraftSample
+)
 """Parts of documents that also travel alone."""
 
-SUFFIX = {"m": "_m", "s": "_s", "ms": "_ms", "mps": "_mps", "rad": "_deg", "radps": "_degps"}
+SUFFIX = {
+    "m": "_m",
+    "s": "_s",
+    "ms": "_ms",
+    "mps": "_mps",
+    "rad": "_deg",
+    "radps": "_degps",
+    "s/m": "_s_per_m",
+    "s/rad": "_s_per_deg",
+    "1/m": "_per_m",
+}
 """Unit of `units.py` → what the JSON name ends in."""
 COMPASS = ("heading", "track", "from_")
 """Angles with these names are directions, written in [0, 360)."""
@@ -54,7 +74,8 @@ class WireField:
     encode: Convert
     """Python value → JSON value."""
     decode_number: Convert
-    """JSON number → Python number; the identity for what is not an angle."""
+    """JSON number → Python number; the identity for what is not an angle. Of each member of a
+    column of numbers."""
 
 
 def to_wire(document: Document | Card) -> dict[str, Any]:
@@ -141,6 +162,9 @@ def _describe(name: str, hint: Any, doc: str) -> WireField:
     unit, annotation = "", hint
     if get_origin(hint) is Annotated:
         annotation, unit = get_args(hint)
+    elif get_origin(hint) is tuple and get_origin(get_args(hint)[0]) is Annotated:
+        _, unit = get_args(get_args(hint)[0])
+        annotation = tuple[float, ...]
     encode, decode = _conversion(name, annotation, unit)
     return WireField(
         name=name,
@@ -153,6 +177,11 @@ def _describe(name: str, hint: Any, doc: str) -> WireField:
 
 
 def _conversion(name: str, annotation: Any, unit: str) -> tuple[Convert, Convert]:
+    if annotation == tuple[float, ...]:
+        encode_number, decode = _conversion(name, float, unit)
+        return lambda numbers: [encode_number(number) for number in numbers], decode
+    if unit == "s/rad":
+        return _per_degree, degrees
     if unit in ("rad", "radps"):
         return (_compass_degrees if name in COMPASS else _degrees), radians
     if annotation is float:
@@ -184,6 +213,10 @@ def _finite(value: float) -> float:
 
 def _degrees(value: float) -> float:
     return degrees(_finite(value))
+
+
+def _per_degree(value: float) -> float:
+    return radians(_finite(value))
 
 
 def _compass_degrees(value: float) -> float:

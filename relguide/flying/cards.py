@@ -5,7 +5,11 @@ from typing import assert_never
 
 from relguide.flying.documents import (
     AlternativeCard,
+    AnyAlternativeCard,
     BoundarySegment,
+    Direction,
+    EarlyAlternativeCard,
+    MissingAlternativeCard,
     NoPlanCard,
     OptimalityCard,
     PathPoint,
@@ -17,10 +21,31 @@ from relguide.flying.documents import (
     UnsafeAlternativeCard,
     WindCard,
 )
-from relguide.planning.plan import Alternative, LosesSeparation, NoPlan, Plan, Slower, alternatives
+from relguide.flying.verdicts import ContactCard, OptimalityCheck, OptimalityPanel, RideCard
+from relguide.planning.alternatives import (
+    Alternative,
+    AsFast,
+    Faster,
+    LosesSeparation,
+    NoRoot,
+    Slower,
+    TooEarly,
+    alternatives,
+)
+from relguide.planning.optimality import OptimalityReport
+from relguide.planning.plan import NoPlan, Plan
 from relguide.planning.situation import Wind
 from relguide.planning.slot import over_ground
-from relguide.planning.trajectory import LEFT, Arc, BoundaryArc, Pose, Segment, Straight, Trajectory
+from relguide.planning.trajectory import (
+    LEFT,
+    Arc,
+    BoundaryArc,
+    Pose,
+    Segment,
+    Straight,
+    Trajectory,
+    heading_change,
+)
 from relguide.units import G0, Second
 
 VIA: Second = 5.0
@@ -44,6 +69,32 @@ def plan_card(plan: Plan) -> PlanCard:
         optimality=OptimalityCard(proof=optimality.proof, lower_bound=optimality.lower_bound),
         alternatives=tuple(_alternative_card(a) for a in alternatives(plan)),
         compute=plan.compute_time,
+    )
+
+
+def optimality_check(report: OptimalityReport) -> OptimalityCheck:
+    """What Pontryagin's conditions say of a plan."""
+    along = report.history
+    return OptimalityCheck(
+        arrival=report.arrival,
+        hamiltonian_residual=report.hamiltonian_residual,
+        switching_residual=report.switching_residual,
+        switching_ok=report.holds,
+        contacts=tuple(
+            ContactCard(t=contact.time, bearing=contact.bearing, jump=contact.jump)
+            for contact in report.contacts
+        ),
+        rides=tuple(
+            RideCard(start=ride.start, end=ride.end, least_multiplier=ride.least_multiplier)
+            for ride in report.rides
+        ),
+        panel=OptimalityPanel(
+            t=along.times,
+            hamiltonian=along.hamiltonian,
+            switching=along.switching,
+            separation_costate=along.separation,
+            bearing_costate=along.bearing,
+        ),
     )
 
 
@@ -134,18 +185,38 @@ def wind_card(wind: Wind) -> WindCard:
     return WindCard(from_=direction, speed=wind.speed)
 
 
-def _alternative_card(alternative: Alternative) -> AlternativeCard | UnsafeAlternativeCard:
-    match alternative.rejected:
-        case Slower():
-            return AlternativeCard(
-                word=alternative.word, time_to_converge=alternative.time_to_converge
-            )
+def _alternative_card(other: Alternative | TooEarly | NoRoot) -> AnyAlternativeCard:
+    match other:
+        case NoRoot(word=word, why=why):
+            return MissingAlternativeCard(word=word, why=why)
+        case TooEarly(word=word, time_to_converge=time, opens=opens, why=why):
+            return EarlyAlternativeCard(word=word, time_to_converge=time, opens=opens, why=why)
+        case Alternative(candidate=candidate, passing=passing):
+            turning = sum(abs(heading_change(s)) for s in candidate.trajectory.segments)
+            side: Direction = "left" if passing.side == LEFT else "right"
+        case _:
+            assert_never(other)
+    match other.rejected:
         case LosesSeparation(least_separation=least, at_time=at):
             return UnsafeAlternativeCard(
-                word=alternative.word,
-                time_to_converge=alternative.time_to_converge,
+                word=candidate.word,
+                time_to_converge=candidate.time_to_converge,
+                turning=turning,
+                passes=passing.where,
+                side=side,
                 least_separation=least,
                 at=at,
+                why=other.why,
+            )
+        case Slower() | AsFast() | Faster():
+            return AlternativeCard(
+                word=candidate.word,
+                time_to_converge=candidate.time_to_converge,
+                turning=turning,
+                passes=passing.where,
+                side=side,
+                why=other.why,
+                rejected=other.rejected.kind,
             )
         case _:
-            assert_never(alternative.rejected)
+            assert_never(other.rejected)

@@ -22,6 +22,7 @@ from relguide.units import (
 )
 
 Direction = Literal["left", "right"]
+Passes = Literal["behind", "ahead"]
 LeaderChange = Literal["heading", "speed", "intent_received", "intent_withdrawn"]
 
 
@@ -90,7 +91,7 @@ class Separation:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OptimalityCard:
-    """What is proved of a plan's time."""
+    """What is proved of a plan's time; and, if asked for, how it meets Pontryagin's conditions."""
 
     proof: Proof
     lower_bound: Second
@@ -98,22 +99,68 @@ class OptimalityCard:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AlternativeCard:
-    """A candidate that lost because it is slower."""
+    """Another way to the slot that lost because it is no faster.
+
+    `as_fast`: it arrives with the plan. `faster`: it keeps the limit and was not found, which only
+    a planner that is not exact lets happen.
+    """
 
     word: str
     time_to_converge: Second
-    rejected: Literal["slower"] = "slower"
+    turning: Radian
+    """How much it turns in all, left and right added."""
+    passes: Passes
+    """Whether it crosses the line ahead of the leader on its final leg."""
+    side: Direction
+    """How it goes round the leader: left is counter-clockwise, with the leader on its left hand."""
+    why: str
+    """Why it is not flown, e.g. `38 s slower`."""
+    rejected: Literal["slower", "as_fast", "faster"] = "slower"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class UnsafeAlternativeCard:
-    """A candidate that lost because it comes too close."""
+    """Another way to the slot that lost because it comes too close."""
 
     word: str
     time_to_converge: Second
+    turning: Radian
+    """How much it turns in all, left and right added."""
+    passes: Passes
+    """Whether it crosses the line ahead of the leader on its final leg."""
+    side: Direction
+    """How it goes round the leader: left is counter-clockwise, with the leader on its left hand."""
     least_separation: Metre
     at: Second
+    why: str
+    """Why it is not flown, e.g. `comes within 4.22 NM at 212 s`."""
     rejected: Literal["separation"] = "separation"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EarlyAlternativeCard:
+    """A word that reaches the place of the slot before it opens."""
+
+    word: str
+    time_to_converge: Second
+    opens: Second
+    """When the slot opens."""
+    why: str
+    rejected: Literal["not_open"] = "not_open"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MissingAlternativeCard:
+    """A word of which no path reaches the slot."""
+
+    word: str
+    why: str
+    rejected: Literal["no_root"] = "no_root"
+
+
+AnyAlternativeCard = (
+    AlternativeCard | UnsafeAlternativeCard | EarlyAlternativeCard | MissingAlternativeCard
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -128,7 +175,8 @@ class PlanCard:
     segments: tuple[PathSegment, ...]
     separation: Separation
     optimality: OptimalityCard
-    alternatives: tuple[AlternativeCard | UnsafeAlternativeCard, ...]
+    alternatives: tuple[AnyAlternativeCard, ...]
+    """By time; words without any path last."""
     compute: Millisecond
     status: Literal["planned"] = "planned"
 

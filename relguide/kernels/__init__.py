@@ -1,1 +1,3 @@
 """Numbers in, numbers out: the compiled kernels. The files above give these numbers names."""
+
+from relguide.kernels import cache as cache

@@ -8,7 +8,8 @@ The paper lays arcs out as straights; that bounds nothing during a turn. Here, o
 half-width w about its middle, the relative motion differs from its tangent there by at most
 ½ A w², A = V_P|r_P| + V_L|r_L| being the largest relative acceleration. So the closed form for the
 tangent, less ½ A w², is a lower bound; windows whose bound is not above the best value seen are
-halved. The bound closes quadratically, and it is exact where both fly straight.
+halved. The bound closes quadratically, and it is exact where both fly straight. The work is bounded
+too: windows are not halved for less than rounding, and only so many are looked at.
 """
 
 from math import cos, hypot, inf, sin
@@ -21,6 +22,8 @@ from relguide.kernels.roots import FloatArray
 
 ROUNDING = 1e-6
 """Taken off every proved bound for rounding [m]: coordinates of 1e6 m carry 1e-10 m each."""
+_SHARE = 1e-14  # of the way flown, taken off besides: some 50 roundings of its largest coordinate
+_MOST_WINDOWS = 131_072  # looked at; what is pending then keeps the bound it has
 _DEPTH = (
     64  # windows pending at once; a halved window leaves one behind, so this is 2⁻⁶⁴ of a piece
 )
@@ -76,6 +79,9 @@ def least_separation(
     lx, ly, lpsi, lv = leader[0], leader[1], leader[2], leader[3]
     best, best_at = hypot(px - lx, py - ly), 0.0
     proved = best
+    reach = abs(px) + abs(py) + abs(lx) + abs(ly) + (pv + lv) * horizon
+    rounding = ROUNDING + _SHARE * reach
+    looked = 0
     mids = np.empty(_DEPTH)
     halves = np.empty(_DEPTH)
     t, i, j = 0.0, 0, 0
@@ -91,6 +97,7 @@ def least_separation(
         n = 1
         while n > 0:
             n -= 1
+            looked += 1
             mid, half = mids[n], halves[n]
             ax, ay, apsi = advance(px, py, ppsi, pv, p_rate, mid)
             bx, by, bpsi = advance(lx, ly, lpsi, lv, l_rate, mid)
@@ -106,7 +113,7 @@ def least_separation(
                 reached = hypot(ax - bx, ay - by)
                 if reached < best:
                     best, best_at = reached, t + at
-            if bound >= best - tolerance or n + 2 > _DEPTH:
+            if bound >= best - max(tolerance, rounding) or n + 2 > _DEPTH or looked > _MOST_WINDOWS:
                 proved = min(proved, bound)
             else:
                 # the nearer half first: it lowers `best` soonest
@@ -128,4 +135,4 @@ def least_separation(
     last = hypot(px - lx, py - ly)
     if last < best:
         best, best_at = last, horizon
-    return best, best_at, min(proved, best) - ROUNDING
+    return best, best_at, min(proved, best) - rounding

@@ -14,6 +14,7 @@ from relguide.kernels.roots import FloatArray
 
 _DEPTH = 64
 _NARROW = 1e-6  # a window this short that is still undecided touches the limit: counted as lost
+_MOST_WINDOWS = 32_768  # looked at; then too: riding a millimetre outside round a disc takes 10,000
 
 
 @njit(cache=True, nogil=True)
@@ -50,6 +51,7 @@ def piece_clears(
     halves = np.empty(_DEPTH)
     done = 0.0
     i = 0
+    looked = 0
     while i + 1 < len(leader) and leader[i + 1, 0] <= t:
         i += 1
     while done < duration:
@@ -61,6 +63,7 @@ def piece_clears(
         n = 1
         while n > 0:
             n -= 1
+            looked += 1
             mid, half = mids[n], halves[n]
             px, py, ph = fly_rate(x, y, h, rate, mid)
             lx, ly, lh = leader_at(leader, i, alpha, t + mid)
@@ -75,7 +78,8 @@ def piece_clears(
                 continue
             px, py, ph = fly_rate(x, y, h, rate, mid + at)
             lx, ly, lh = leader_at(leader, i, alpha, t + mid + at)
-            if hypot(px - lx, py - ly) < limit or half < _NARROW or n + 2 > _DEPTH:
+            lost = hypot(px - lx, py - ly) < limit
+            if lost or half < _NARROW or n + 2 > _DEPTH or looked > _MOST_WINDOWS:
                 return False
             mids[n], halves[n] = mid - 0.5 * half, 0.5 * half
             mids[n + 1], halves[n + 1] = mid + 0.5 * half, 0.5 * half

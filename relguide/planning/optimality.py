@@ -109,19 +109,27 @@ class _Judgement:
         )
 
 
-def check(flown: Plan | Trajectory, situation: Situation, samples: int = 200) -> OptimalityReport:
+def check(
+    flown: Plan | Trajectory,
+    situation: Situation,
+    samples: int = 200,
+    *,
+    arrives: float = ARRIVES,
+) -> OptimalityReport:
     """Whether Pontryagin's conditions hold along a trajectory.
 
     Args:
         flown: a plan, or any trajectory that reaches the slot.
         situation: what it was made for.
         samples: about how many times to report H and λ at; each piece has two at least.
+        arrives: how far from the slot it may end [R; rad]. The conditions are then those of a slot
+            moved and turned by as much.
 
     Raises:
         ValueError: if the trajectory does not reach the slot.
     """
     trajectory = flown.trajectory if isinstance(flown, Plan) else flown
-    arrival = _arrival(trajectory, situation)
+    arrival = _arrival(trajectory, situation, arrives)
     whole = cut(trajectory, situation)
     judged = _judge(arrival, whole, whole.legs)
     longer = tuple(leg for leg in whole.legs if leg.duration > SLIVER or leg.riding)
@@ -156,14 +164,14 @@ def check(flown: Plan | Trajectory, situation: Situation, samples: int = 200) ->
     )
 
 
-def _arrival(trajectory: Trajectory, situation: Situation) -> Arrival:
+def _arrival(trajectory: Trajectory, situation: Situation, arrives: float) -> Arrival:
     frame = slot_frame(situation, situation.leader.trajectory)
     end = trajectory.pose_at(trajectory.duration)
     x, y = frame.to_slot(end.x, end.y)
     gap = hypot(x - situation.leader.tas * trajectory.duration / frame.radius, y)
     off = abs(wrap_signed(end.heading - frame.heading))
     early = frame.t_open - trajectory.duration * situation.pursuer.tas / frame.radius
-    if gap > ARRIVES or off > ARRIVES:
+    if gap > arrives or off > arrives:
         raise ValueError(
             f"The trajectory ends {gap * frame.radius:.1f} m from the slot and {off / DEG:.3f}° "
             "off the leader's heading; conditions are asked only of one that reaches the slot."

@@ -13,7 +13,7 @@ from relguide.planning.recovery import Recovery, least_bad, restore
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import Trajectory
 from relguide.planning.words import Candidate, Candidates, candidates, detours_at_opening
-from relguide.units import DEG, KT, NM, Metre, Millisecond, Second
+from relguide.units import DEG, KT, NM, Millisecond, Second
 
 Proof = Literal["relaxation", "bound", "none"]
 """Why a plan is optimal: the best plan without the limit keeps it; a lower bound; not shown."""
@@ -75,31 +75,6 @@ Planner = Callable[[Situation], Plan | NoPlan]
 """The one protocol of all planners."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Slower:
-    """An alternative that certifies or not, but arrives later than the plan."""
-
-    kind: Literal["slower"] = "slower"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class LosesSeparation:
-    """An alternative that would come too close."""
-
-    least_separation: Metre
-    at_time: Second
-    kind: Literal["separation"] = "separation"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Alternative:
-    """A candidate that is not the plan, and why."""
-
-    word: str
-    time_to_converge: Second
-    rejected: Slower | LosesSeparation
-
-
 def plan(situation: Situation) -> Plan | NoPlan:
     """The fastest candidate that keeps d_min, with what is proved of it.
 
@@ -145,27 +120,6 @@ def plan(situation: Situation) -> Plan | NoPlan:
         planner="exact",
         compute_time=(perf_counter_ns() - started) * 1e-6,
     )
-
-
-def alternatives(plan: Plan) -> tuple[Alternative, ...]:
-    """What else was there, and why it lost: all that is faster, and the best of each other word."""
-    listed: list[Alternative] = []
-    seen = {plan.word}
-    found = candidates(plan.situation)
-    for candidate in (*found.at_opening[:1], *found.later):
-        time = candidate.time_to_converge
-        if time < plan.time_to_converge - 1e-6:  # a microsecond: the same path found twice
-            certificate = certify(candidate.trajectory, plan.situation)
-            rejected: Slower | LosesSeparation = LosesSeparation(
-                least_separation=certificate.least_separation, at_time=certificate.at_time
-            )
-        elif candidate.word not in seen:
-            rejected = Slower()
-        else:
-            continue
-        seen.add(candidate.word)
-        listed.append(Alternative(word=candidate.word, time_to_converge=time, rejected=rejected))
-    return tuple(listed)
 
 
 def _first_that_holds(

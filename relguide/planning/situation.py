@@ -1,16 +1,18 @@
 """Everything a plan depends on at one instant: both aircraft, the intent, D, d_min, the wind.
 
 A `Situation` is data and its own judge: what cannot be flown is refused when it is made, with a
-sentence that says what would be right. Positions and headings are of the world frame (x east,
-y north, heading clockwise from north), at t = 0, over the ground.
+sentence that says what would be right, always by a `ValueError`. What may be flown is bounded on
+all sides (the constants below), and with it the work that a plan takes. Positions and headings are
+of the world frame (x east, y north, heading clockwise from north), at t = 0, over the ground.
 """
 
 from dataclasses import dataclass
-from math import cos, hypot, isfinite, sin
+from math import cos, hypot, sin
 from typing import Literal
 
 from relguide.kernels.angles import turn_to
 from relguide.kernels.turn import turn_radius
+from relguide.planning.inputs import expect, number, turn_sign, within
 from relguide.planning.trajectory import Arc, Straight, Trajectory, Turn
 from relguide.units import DEG, Metre, MetrePerSecond, Radian, Second
 
@@ -20,6 +22,8 @@ MIN_BANK, MAX_BANK = 1.0 * DEG, 60.0 * DEG
 """Accepted bank angles [rad]."""
 MAX_POSITION = 1_000_000.0
 """Largest accepted |x| and |y| [m]."""
+MAX_HEADING = 1e6
+"""Largest accepted |heading| [rad]: above it the last digit of a float is worth more than 1e-10."""
 MAX_SLOT_DISTANCE = 200_000.0
 """Largest accepted D [m]."""
 MAX_WIND = 150.0
@@ -32,24 +36,27 @@ MAX_PIECES = 20
 """Most pieces an intent may have."""
 
 
-def _check_aircraft(name: str, x: float, y: float, heading: float, tas: float) -> None:
-    _check_range(f"{name}.x", x, -MAX_POSITION, MAX_POSITION, "m")
-    _check_range(f"{name}.y", y, -MAX_POSITION, MAX_POSITION, "m")
-    _check_finite(f"{name}.heading", heading)
-    _check_range(f"{name}.tas", tas, MIN_TAS, MAX_TAS, "m/s")
+def _settle(piece: object, name: str, value: object) -> None:
+    """Set a field of a frozen dataclass while it is being made."""
+    object.__setattr__(piece, name, value)
 
 
-def _check_finite(name: str, value: float) -> None:
-    if not isfinite(value):
-        raise ValueError(f"{name} must be a finite number, not {value}.")
+def _settle_aircraft(name: str, aircraft: "Pursuer | Leader") -> None:
+    position = -MAX_POSITION, MAX_POSITION, "m"
+    _settle(aircraft, "x", within(f"{name}.x", aircraft.x, *position))
+    _settle(aircraft, "y", within(f"{name}.y", aircraft.y, *position))
+    _settle(aircraft, "heading", _heading(f"{name}.heading", aircraft.heading))
+    _settle(aircraft, "tas", within(f"{name}.tas", aircraft.tas, MIN_TAS, MAX_TAS, "m/s"))
 
 
-def _check_range(name: str, value: float, low: float, high: float, unit: str) -> None:
-    _check_finite(name, value)
-    # 1e-9 relative: a bound given in degrees comes back from radians with its last digit changed
-    slack = 1e-9 * max(abs(low), abs(high))
-    if not low - slack <= value <= high + slack:
-        raise ValueError(f"{name} must lie in {low:g} … {high:g} {unit}, not {value:g} {unit}.")
+def _heading(name: str, value: object) -> float:
+    return within(name, value, -MAX_HEADING, MAX_HEADING, "rad")
+
+
+def _bank(name: str, value: object) -> float:
+    bank = number(name, value)
+    within(name, bank / DEG, MIN_BANK / DEG, MAX_BANK / DEG, "°")
+    return bank
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -69,8 +76,8 @@ class Pursuer:
 
     def __post_init__(self) -> None:
         """Refuse what cannot be flown."""
-        _check_aircraft("pursuer", self.x, self.y, self.heading, self.tas)
-        _check_range("pursuer.max_bank", self.max_bank / DEG, MIN_BANK / DEG, MAX_BANK / DEG, "°")
+        _settle_aircraft("pursuer", self)
+        _settle(self, "max_bank", _bank("pursuer.max_bank", self.max_bank))
 
     @property
     def turn_radius(self) -> float:
@@ -88,7 +95,8 @@ class FlyStraight:
 
     def __post_init__(self) -> None:
         """Refuse a duration that is not one."""
-        _check_range("intent straight.duration", self.duration, 0.0, MAX_PIECE, "s")
+        duration = within("intent straight.duration", self.duration, 0.0, MAX_PIECE, "s")
+        _settle(self, "duration", max(duration, 0.0))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -105,12 +113,9 @@ class TurnTo:
 
     def __post_init__(self) -> None:
         """Refuse a turn that cannot be flown."""
-        _check_finite("intent turn.heading", self.heading)
-        if self.turn not in (1, -1):
-            raise ValueError(
-                f"intent turn.turn must be LEFT (+1) or RIGHT (-1), not {self.turn!r}."
-            )
-        _check_range("intent turn.bank", self.bank / DEG, MIN_BANK / DEG, MAX_BANK / DEG, "°")
+        _settle(self, "heading", _heading("intent turn.heading", self.heading))
+        _settle(self, "turn", turn_sign("intent turn.turn", self.turn))
+        _settle(self, "bank", _bank("intent turn.bank", self.bank))
 
 
 IntentPiece = FlyStraight | TurnTo
@@ -133,11 +138,17 @@ class Leader:
 
     def __post_init__(self) -> None:
         """Refuse what cannot be flown."""
-        _check_aircraft("leader", self.x, self.y, self.heading, self.tas)
+        _settle_aircraft("leader", self)
+        if not isinstance(self.intent, tuple | list):
+            raise ValueError("leader.intent must be a tuple of FlyStraight and TurnTo.")
         if len(self.intent) > MAX_PIECES:
             raise ValueError(
                 f"leader.intent must have at most {MAX_PIECES} pieces, not {len(self.intent)}."
             )
+        for i, piece in enumerate(self.intent):
+            if not isinstance(piece, FlyStraight | TurnTo):
+                raise ValueError(f"leader.intent[{i}] must be a FlyStraight or a TurnTo.")
+        _settle(self, "intent", tuple(self.intent))
 
     @property
     def final_heading(self) -> float:
@@ -181,9 +192,9 @@ class Wind:
 
     def __post_init__(self) -> None:
         """Refuse a wind that no atmosphere has."""
-        _check_finite("wind.east", self.east)
-        _check_finite("wind.north", self.north)
-        _check_range("wind.speed", hypot(self.east, self.north), 0.0, MAX_WIND, "m/s")
+        _settle(self, "east", number("wind.east", self.east))
+        _settle(self, "north", number("wind.north", self.north))
+        within("wind.speed", hypot(self.east, self.north), 0.0, MAX_WIND, "m/s")
 
     @property
     def speed(self) -> float:
@@ -202,6 +213,8 @@ def wind_from(direction: float, speed: float) -> Wind:
         direction: where it comes from, clockwise from north [rad].
         speed: [m/s], ≥ 0.
     """
+    direction = _heading("wind direction", direction)
+    speed = within("wind speed", speed, 0.0, MAX_WIND, "m/s")
     return Wind(east=-speed * sin(direction), north=-speed * cos(direction))
 
 
@@ -219,8 +232,11 @@ class Situation:
 
     def __post_init__(self) -> None:
         """Refuse distances that contradict each other."""
-        _check_finite("min_separation", self.min_separation)
-        _check_finite("slot_distance", self.slot_distance)
+        expect("pursuer", self.pursuer, Pursuer)
+        expect("leader", self.leader, Leader)
+        expect("wind", self.wind, Wind)
+        _settle(self, "min_separation", number("min_separation", self.min_separation))
+        _settle(self, "slot_distance", number("slot_distance", self.slot_distance))
         if self.min_separation < 0.0:
             raise ValueError(f"min_separation must be 0 m or more, not {self.min_separation:g} m.")
         if self.slot_distance < self.min_separation:

@@ -4,10 +4,11 @@ The paper numbers the pieces backward from the slot; here they run forward from 
 """
 
 from dataclasses import dataclass
-from math import isfinite, pi
+from math import inf, pi
 from typing import Literal
 
 from relguide.kernels.motion import advance
+from relguide.planning.inputs import number, turn_sign
 from relguide.units import Metre, MetrePerSecond, Radian, RadianPerSecond, Second
 
 Turn = Literal[1, -1]
@@ -127,11 +128,16 @@ class Trajectory:
 
     def __post_init__(self) -> None:
         """Refuse what no aircraft could fly."""
+        for name in ("x", "y", "heading", "tas"):
+            object.__setattr__(self, name, number(name, getattr(self, name)))
+        if self.tas <= 0.0:
+            raise ValueError(f"tas must be above 0 m/s, not {self.tas:g} m/s.")
+        if not isinstance(self.segments, tuple):
+            raise ValueError("segments must be a tuple of Arc, Straight and BoundaryArc.")
         for segment in self.segments:
-            if not (isfinite(segment.length) and segment.length >= 0.0):
-                raise ValueError(
-                    f"A segment must have a finite length of 0 m or more, not {segment.length} m."
-                )
+            _check(segment)
+        if not self.duration < inf:
+            raise ValueError("All segments together must have a finite length and duration.")
 
     @property
     def length(self) -> float:
@@ -171,7 +177,7 @@ class Trajectory:
 
     def pose_at(self, t: Second) -> Pose:
         """Where it is at time t [s]; past the end it goes on straight."""
-        x, y, heading, left = self.x, self.y, self.heading, max(t, 0.0)
+        x, y, heading, left = self.x, self.y, self.heading, max(number("t", t), 0.0)
         for duration, rate in (*self.bends(), (left, 0.0)):
             x, y, heading = advance(x, y, heading, self.tas, rate, min(left, duration))
             left -= duration
@@ -188,6 +194,34 @@ class Trajectory:
                 x, y, heading = advance(x, y, heading, 1.0, curvature, length)
             poses.append(Pose(x=x, y=y, heading=heading % (2.0 * pi)))
         return tuple(poses)
+
+
+def _check(segment: Segment) -> None:
+    match segment:
+        case Straight(length=length):
+            _check_length(number("A straight's length", length))
+        case Arc(turn=turn, turn_angle=angle, radius=radius):
+            turn_sign("A turn's direction", turn)
+            if number("A turn's angle", angle) < 0.0 or number("A turn's radius", radius) <= 0.0:
+                raise ValueError(
+                    f"A turn must have an angle of 0 rad or more and a radius above 0 m, not "
+                    f"{angle:g} rad and {radius:g} m."
+                )
+            _check_length(segment.length)
+        case BoundaryArc(side=side, bends=bends):
+            turn_sign("A ride's side", side)
+            if not (isinstance(bends, tuple) and bends):
+                raise ValueError("A ride must have bends: a tuple of (length, curvature).")
+            for length, curvature in bends:
+                _check_length(number("A ride's piece", length))
+                number("A ride's curvature", curvature)
+        case _:
+            raise ValueError(f"A segment must be an Arc, Straight or BoundaryArc, not {segment!r}.")
+
+
+def _check_length(length: float) -> None:
+    if not 0.0 <= length < inf:
+        raise ValueError(f"A segment must have a finite length of 0 m or more, not {length} m.")
 
 
 def _letter(segment: Segment) -> str:

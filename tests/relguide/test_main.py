@@ -103,6 +103,33 @@ def test_the_table_is_for_people(run: Run) -> None:
     assert max(map(len, out.splitlines())) <= 100
 
 
+def test_the_table_says_why_each_other_way_lost(run: Run) -> None:
+    _, out, _ = run("plan", written(BODY), "--table")
+    lines = out.splitlines()
+    (head,) = [line for line in lines if line.split()[:1] == ["instead"]]
+    others = lines[lines.index(head) + 2 : -1]
+    assert [line.split()[0] for line in others] == ["LSR", "RSL", "LSL", "LRL", "RLR"]
+    # aligned: each reason begins below its heading
+    at = head.index("why not")
+    assert others[0][at:].rstrip() == "2,115 s slower"
+    assert others[-1][at:].rstrip() == "no such path to the slot"
+
+
+def test_optimality_is_told_on_demand(run: Run) -> None:
+    code, out, _ = run("plan", written(BODY), "--optimality")
+    assert code == 0
+    assert json.loads(out)["optimality"]["switching_ok"] is True
+    assert len(json.loads(out)["optimality"]["panel"]["t_s"]) > 100
+    code, out, _ = run("plan", "situation.json", "--table", "--optimality")
+    assert code == 0
+    assert "Stationary, as eq. (16) asks: H is within " in out
+    assert "Stationary" not in run("plan", "situation.json", "--table")[1]
+    code, out, _ = run("plan", "--batch", written(json.dumps(BODY), "a.jsonl"), "--optimality")
+    assert json.loads(out)["optimality"]["switching_ok"] is True
+    code, out, _ = run("plan", written(UNREACHABLE), "--optimality")
+    assert (code, json.loads(out)["status"]) == (1, "no_plan")
+
+
 @pytest.mark.parametrize("planner", ["network", "regular_dp"])
 def test_planners_to_come_are_refused(run: Run, planner: str) -> None:
     for command in (("plan", written(BODY)), ("fly", "fig_6b")):
@@ -144,6 +171,9 @@ def test_a_bad_situation_is_misuse(run: Run, content: Any, sentence: str) -> Non
         ("plan", "--batch", "."),
         ("plan", "none.json", "--planner", "best"),
         ("plan", "none.json", "--batch", "--table"),
+        ("check",),
+        ("check", "none.json"),
+        ("check", "-", "-"),
         ("fly", "fig_7"),
         ("fly", "none.json"),
         ("fly", "none.csv"),
@@ -166,7 +196,7 @@ def test_misuse_is_told_in_a_sentence(run: Run, arguments: tuple[str, ...]) -> N
     assert len(last) > 20
 
 
-@pytest.mark.parametrize("command", ["plan", "fly", "replay", "serve"])
+@pytest.mark.parametrize("command", ["plan", "check", "fly", "replay", "serve"])
 def test_help_has_examples(run: Run, command: str) -> None:
     code, out, _ = run(command, "--help")
     assert code == 0
@@ -200,6 +230,40 @@ def test_a_bad_line_is_answered_in_its_place(run: Run) -> None:
 
 def test_an_empty_batch_has_no_answers(run: Run) -> None:
     assert run("plan", "--batch", written("", "batch.jsonl")) == (0, "", "")
+
+
+# --- check --------------------------------------------------------------------------------------
+
+
+def test_check_judges_the_fastest_plan_and_what_is_entered(run: Run) -> None:
+    situation = written(NEAR)
+    code, out, err = run("check", situation)
+    found = json.loads(out)
+    assert (code, err, found["passed"]) == (0, "", True)
+    triplets = written({"triplets": found["triplets"]}, "triplets.json")
+    code, out, _ = run("check", situation, triplets)
+    assert (code, json.loads(out)["reaches_slot"]) == (0, True)
+    code, out, _ = run("check", situation, triplets, "--table", "--figure", "plan.svg")
+    assert code == 0
+    assert "Reaches the slot (18), (19)" in out
+    assert "Keeps d_min (20)" in out
+    assert "Stationary" in out
+    assert Path("plan.svg").read_text("utf-8").startswith("<svg")
+    found["triplets"][0]["theta_deg"] += 10.0
+    off = written({"triplets": found["triplets"]}, "off.json")
+    code, out, _ = run("check", situation, off, "--table")
+    assert code == 1
+    assert "Misses the slot" in out
+    assert "It does not reach the slot." in out
+
+
+def test_check_without_a_plan_and_with_a_leader_that_turns(run: Run) -> None:
+    code, out, err = run("check", written({**NEAR, "leader": {**NEAR["leader"], "tas_mps": 390}}))
+    assert (code, out) == (1, "")
+    assert "cannot be caught" in err
+    code, out, err = run("check", written(BODY))
+    assert (code, out) == (2, "")
+    assert "the intent of this one turns" in err
 
 
 # --- fly and replay -----------------------------------------------------------------------------

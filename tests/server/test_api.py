@@ -61,6 +61,19 @@ def test_a_batch_is_answered_in_order_with_its_ids(client: TestClient) -> None:
     assert all(plan["status"] == "planned" for plan in answer.json())
 
 
+def test_optimality_is_told_on_demand(client: TestClient) -> None:
+    asked = client.post("/api/v1/plans?optimality=true", json=EXAMPLE).json()["optimality"]
+    assert asked["switching_ok"] is True
+    assert asked["hamiltonian_residual"] < 1e-8
+    assert len(asked["panel"]["t_s"]) == len(asked["panel"]["switching_s_per_deg"]) > 100
+    plain = client.post("/api/v1/plans", json=EXAMPLE).json()["optimality"]
+    assert set(plain) == {"proof", "lower_bound_s"}
+    (batch,) = client.post("/api/v1/plans/batch?optimality=true", json=[EXAMPLE]).json()
+    assert batch["optimality"] == asked
+    wrong = client.post("/api/v1/plans?optimality=perhaps", json=EXAMPLE)
+    assert "optimality" in is_problem(wrong, 422, "/api/v1/plans")["detail"]
+
+
 def test_a_batch_says_which_situation_is_wrong(client: TestClient) -> None:
     wrong = {**EXAMPLE, "pursuer": {**EXAMPLE["pursuer"], "max_bank_deg": 90.0}}
     answer = client.post("/api/v1/plans/batch", json=[EXAMPLE, wrong])

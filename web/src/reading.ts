@@ -2,7 +2,7 @@
 
 import { formatClock, formatHeading, formatKnots, formatMiles, NM } from "./units";
 import type {
-  AlternativeCard,
+  Alternative,
   Direction,
   Mode,
   OptimalityCard,
@@ -10,7 +10,6 @@ import type {
   PlanChanged,
   PlannerName,
   ReferenceCard,
-  UnsafeAlternativeCard,
 } from "./wire";
 
 /** The turn to come, or the one being flown. */
@@ -67,16 +66,28 @@ export function proofSentence(optimality: OptimalityCard, time: number): string 
   }
 }
 
-/** Why an alternative is not flown: how much slower it is, or where it comes too close. */
-export function alternativeSentence(
-  alternative: AlternativeCard | UnsafeAlternativeCard,
-  plan: PlanCard,
-): string {
-  if (alternative.rejected === "separation") {
-    const least = belowLimit(alternative.least_separation_m);
-    return `loses separation: ${least} NM at ${formatClock(alternative.at_s)}`;
+/** Why an alternative is not flown: how much slower it is, where it comes too close, or what else. */
+export function alternativeSentence(alternative: Alternative, plan: PlanCard): string {
+  switch (alternative.rejected) {
+    case "separation": {
+      const least = belowLimit(alternative.least_separation_m);
+      return `loses separation: ${least} NM at ${formatClock(alternative.at_s)}`;
+    }
+    case "slower":
+      return formatDelay(alternative.time_to_converge_s - plan.time_to_converge_s);
+    case "not_open":
+      return `too early: slot opens at ${formatClock(alternative.opens_s)}`;
+    case "as_fast":
+    case "faster":
+    case "no_root":
+      return alternative.why;
   }
-  return formatDelay(alternative.time_to_converge_s - plan.time_to_converge_s);
+}
+
+/** When an alternative would arrive; a dash for a word that never does. */
+export function alternativeTime(alternative: Alternative): string {
+  if (alternative.rejected === "no_root") return "–";
+  return formatClock(alternative.time_to_converge_s);
 }
 
 /** A distance below a limit never rounds up to it [NM]. */

@@ -1,7 +1,7 @@
 // Made by `python -m server.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-cffdf51cc79f";
+export const PROTOCOL = "relguide-79c8c2c34770";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -41,6 +41,13 @@ export type Reason =
 
 /** A piece of a path over the ground. */
 export type PathSegment = TurnSegment | StraightSegment | BoundarySegment;
+
+/** Another way to the slot, and why it is not flown. */
+export type Alternative =
+  | AlternativeCard
+  | UnsafeAlternativeCard
+  | EarlyAlternativeCard
+  | MissingAlternativeCard;
 
 /** What guidance asks of the autopilot. */
 export type ReferenceCard = HeadingReference | TurnRateReference;
@@ -97,11 +104,24 @@ export interface AircraftSample {
   altitude_m: number;
 }
 
-/** A candidate that lost because it is slower. */
+/**
+ * Another way to the slot that lost because it is no faster.
+ *
+ * `as_fast`: it arrives with the plan. `faster`: it keeps the limit and was not found, which only
+ * a planner that is not exact lets happen.
+ */
 export interface AlternativeCard {
   word: string;
   time_to_converge_s: number;
-  rejected: "slower";
+  /** How much it turns in all, left and right added. */
+  turning_deg: number;
+  /** Whether it crosses the line ahead of the leader on its final leg. */
+  passes: "behind" | "ahead";
+  /** How it goes round the leader: left is counter-clockwise, with the leader on its left hand. */
+  side: Direction;
+  /** Why it is not flown, e.g. `38 s slower`. */
+  why: string;
+  rejected: "slower" | "as_fast" | "faster";
 }
 
 /** A ride along d = d_min with less than full bank. */
@@ -114,6 +134,25 @@ export interface BoundarySegment {
   end: PathPoint;
   /** Points between, close enough to draw straight lines. */
   via: PathPoint[];
+}
+
+/** Where a plan touches d = d_min, or where a ride along it begins or ends. */
+export interface ContactCard {
+  t_s: number;
+  /** From pursuer to leader, clockwise from north, in [−180°, 180°]. */
+  bearing_deg: number;
+  /** By how much λ_d rises there; a minimum asks that it be 0 or more. */
+  jump_s_per_m: number;
+}
+
+/** A word that reaches the place of the slot before it opens. */
+export interface EarlyAlternativeCard {
+  word: string;
+  time_to_converge_s: number;
+  /** When the slot opens. */
+  opens_s: number;
+  why: string;
+  rejected: "not_open";
 }
 
 /** How the flight went: the last document. */
@@ -272,6 +311,13 @@ export interface LocalPursuer {
   max_bank_deg: number;
 }
 
+/** A word of which no path reaches the slot. */
+export interface MissingAlternativeCard {
+  word: string;
+  why: string;
+  rejected: "no_root";
+}
+
 /** Guidance went from one mode to another. */
 export interface ModeChanged {
   kind: "mode_changed";
@@ -288,10 +334,57 @@ export interface NoPlanCard {
   message: string;
 }
 
-/** What is proved of a plan's time. */
+/** What is proved of a plan's time; and, if asked for, how it meets Pontryagin's conditions. */
 export interface OptimalityCard {
   proof: Proof;
   lower_bound_s: number;
+  /**
+   * What fixes t_f: the plan alone, the slot's opening, or being there from the start.
+   * If asked for.
+   */
+  arrival?: "free" | "opening" | "at_once";
+  /**
+   * Largest |H − H due|.
+   * If asked for.
+   */
+  hamiltonian_residual?: number;
+  /**
+   * Largest |λ_ψ| at a switch or on a straight.
+   * If asked for.
+   */
+  switching_residual_s_per_deg?: number;
+  /**
+   * The plan is stationary: each arc turns the way eq. (16) asks, λ_ψ vanishes where it should,
+   * H is as due, and no jump and no μ is below 0, all to a thousandth of R. If not, a small change
+   * would make it faster.
+   * If asked for.
+   */
+  switching_ok?: boolean;
+  /** If asked for. */
+  contacts?: ContactCard[];
+  /** If asked for. */
+  rides?: RideCard[];
+  /** If asked for. */
+  panel?: OptimalityPanel;
+}
+
+/**
+ * H and the costates along a plan, in columns of one length.
+ *
+ * Each end of a segment and each touch of d_min is there twice, for before and after: there a
+ * column may jump. Between two times that differ it is smooth.
+ */
+export interface OptimalityPanel {
+  /** Ascending. */
+  t_s: number[];
+  /** H of eq. (9): 0 once the leader has no turn to come; 1 on a plan that waits for the slot. */
+  hamiltonian: number[];
+  /** λ_ψ, eq. (16): above 0 the pursuer turns left, below 0 right, at 0 it flies straight. */
+  switching_s_per_deg: number[];
+  /** λ_d; jumps where d_min is touched. */
+  separation_costate_s_per_m: number[];
+  /** λ_θ. */
+  bearing_costate_s_per_deg: number[];
 }
 
 /** A place and a heading along a path, over the ground. */
@@ -322,7 +415,8 @@ export interface PlanCard {
   segments: PathSegment[];
   separation: Separation;
   optimality: OptimalityCard;
-  alternatives: (AlternativeCard | UnsafeAlternativeCard)[];
+  /** By time; words without any path last. */
+  alternatives: Alternative[];
   compute_ms: number;
 }
 
@@ -349,6 +443,14 @@ export interface PlanUnavailable {
 /** Let the flight go on. */
 export interface PlayCommand {
   command: "play";
+}
+
+/** A stretch flown along d = d_min at partial bank. */
+export interface RideCard {
+  start_s: number;
+  end_s: number;
+  /** Least μ on it; eq. (10) asks that it be 0 or more. */
+  least_multiplier_per_m: number;
 }
 
 /** The flight at one instant. */
@@ -510,12 +612,20 @@ export interface TurnSegment {
   end: PathPoint;
 }
 
-/** A candidate that lost because it comes too close. */
+/** Another way to the slot that lost because it comes too close. */
 export interface UnsafeAlternativeCard {
   word: string;
   time_to_converge_s: number;
+  /** How much it turns in all, left and right added. */
+  turning_deg: number;
+  /** Whether it crosses the line ahead of the leader on its final leg. */
+  passes: "behind" | "ahead";
+  /** How it goes round the leader: left is counter-clockwise, with the leader on its left hand. */
+  side: Direction;
   least_separation_m: number;
   at_s: number;
+  /** Why it is not flown, e.g. `comes within 4.22 NM at 212 s`. */
+  why: string;
   rejected: "separation";
 }
 

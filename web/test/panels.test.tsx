@@ -24,7 +24,13 @@ afterEach(() => render(null, place));
 function flying() {
   const store = createFlightStore();
   store.link("open");
-  const slower = { word: "LSR", time_to_converge_s: 260, rejected: "slower" } as const;
+  const way = { word: "LSR", turning_deg: 90, passes: "behind", side: "left" } as const;
+  const slower = {
+    ...way,
+    time_to_converge_s: 260,
+    why: "10 s slower",
+    rejected: "slower",
+  } as const;
   store.receive(
     tick(0, [STARTED, modeChanged(0), planChanged(0, { alternatives: [slower] }), sample(0)]),
     0,

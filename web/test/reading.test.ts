@@ -1,6 +1,7 @@
 import { describe, expect, test } from "vitest";
 import {
   alternativeSentence,
+  alternativeTime,
   closureText,
   countTurns,
   crossTrackText,
@@ -40,18 +41,37 @@ describe("numbers beside the picture", () => {
 
   test("alternatives say why they are not flown", () => {
     const plan = planCard();
-    const slower = { word: "LSR", time_to_converge_s: 256.2, rejected: "slower" } as const;
+    const way = { word: "LSR", turning_deg: 90, passes: "behind", side: "left" } as const;
+    const slower = { ...way, time_to_converge_s: 256.2, why: "", rejected: "slower" } as const;
     expect(alternativeSentence(slower, plan)).toBe("+6.2 s");
     expect(alternativeSentence({ ...slower, time_to_converge_s: 314 }, plan)).toBe("+64 s");
     expect(alternativeSentence({ ...slower, time_to_converge_s: 1932 }, plan)).toBe("+28:02");
     const close = {
-      word: "LSL",
+      ...way,
       time_to_converge_s: 240,
       rejected: "separation",
       least_separation_m: 4.99 * NM,
       at_s: 208,
+      why: "comes within 4.99 NM at 208 s",
     } as const;
     expect(alternativeSentence(close, plan)).toBe("loses separation: 4.9 NM at 03:28");
+    const equal = { ...slower, rejected: "as_fast", why: "as fast" } as const;
+    expect(alternativeSentence(equal, plan)).toBe("as fast");
+  });
+
+  test("an alternative that comes too early says when the slot opens; one that never comes, so", () => {
+    const early = {
+      word: "RSR",
+      time_to_converge_s: 210,
+      opens_s: 250,
+      why: "reaches the slot 40 s before it opens",
+      rejected: "not_open",
+    } as const;
+    expect(alternativeSentence(early, planCard())).toBe("too early: slot opens at 04:10");
+    expect(alternativeTime(early)).toBe("03:30");
+    const none = { word: "LRL", why: "no such path to the slot", rejected: "no_root" } as const;
+    expect(alternativeSentence(none, planCard())).toBe("no such path to the slot");
+    expect(alternativeTime(none)).toBe("–");
   });
 
   test("signs become words", () => {

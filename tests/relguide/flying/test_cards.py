@@ -18,7 +18,13 @@ from relguide import (
     wind_from,
 )
 from relguide.flying.cards import no_plan_card, path_segments, plan_card, wind_card
-from relguide.flying.documents import TurnSegment
+from relguide.flying.documents import (
+    AlternativeCard,
+    EarlyAlternativeCard,
+    TurnSegment,
+    UnsafeAlternativeCard,
+)
+from relguide.units import DEG
 from tests.oracle import integrate, pieces_of
 from tests.situations import golden, headings, numbers, situations
 
@@ -81,5 +87,28 @@ def test_alternatives_are_listed_with_what_they_lose() -> None:
     situation, _ = next(pair for pair in golden("reference") if pair[1]["id"] == "R061")
     answer = plan(situation)
     assert isinstance(answer, Plan)
-    rejected = {a.rejected for a in plan_card(answer).alternatives}
-    assert rejected == {"slower", "separation"}
+    cards = plan_card(answer).alternatives
+    assert [(card.word, card.rejected) for card in cards] == [
+        ("RLR", "separation"),
+        ("LRL", "slower"),
+        ("RSL", "slower"),
+        ("LSR", "slower"),
+        ("RSR", "slower"),
+        ("LSL", "no_root"),
+    ]
+    close, slower = cards[:2]
+    assert isinstance(close, UnsafeAlternativeCard)
+    assert close.why == "comes within 0.21 NM at 160 s"
+    assert (close.passes, close.side) == ("behind", "left")
+    assert isinstance(slower, AlternativeCard)
+    assert slower.turning == pytest.approx(489.0 * DEG, abs=0.5 * DEG)
+
+
+def test_of_a_slot_that_opens_later_it_is_told_who_comes_too_early() -> None:
+    situation, _ = next(pair for pair in golden("reference") if pair[1]["id"] == "R104")
+    answer = plan(situation)
+    assert isinstance(answer, Plan)
+    first = plan_card(answer).alternatives[0]
+    assert isinstance(first, EarlyAlternativeCard)
+    assert first.opens == pytest.approx(answer.time_to_converge)
+    assert first.time_to_converge < first.opens

@@ -167,6 +167,41 @@ def test_less_bank_than_there_is_fails_eq_16() -> None:
     assert report.switching_residual < 1e-6  # nothing else is wrong with it
 
 
+@pytest.mark.parametrize("ident", ["R001", "R050", "R061"])
+def test_the_panel_is_smooth_between_its_times_and_jumps_only_at_contacts(ident: str) -> None:
+    """A segment's end and a contact are there on both sides: no jump is drawn as a ramp."""
+    answer = golden_plan(ident)
+    report = check(answer, answer.situation, samples=400)
+    history = report.history
+    times = np.array(history.times)
+    ends = np.cumsum(answer.trajectory.durations())[:-1].tolist()
+    touched = [contact.time for contact in report.contacts]
+    assert len(touched) == (0 if ident == "R001" else 1)
+    for end in (*ends, *touched):
+        if history.times[-1] - end > 1e-3:
+            assert (np.abs(times - end) < 1e-6).sum() >= 2, end
+    columns = (history.hamiltonian, history.switching, history.separation, history.bearing)
+    for k, column in enumerate(map(np.array, columns)):
+        steps, gaps = np.abs(np.diff(column)), np.diff(times)
+        together = gaps < 1e-9
+        span = float(np.ptp(column)) + 1e-12
+        at_contact = np.array(
+            [any(abs(t - at) < 1e-6 for at in touched) for t in times[:-1][together]], bool
+        )
+        unbroken = steps[together][~at_contact]
+        # H is of size 1, and met as well as the contact is placed
+        assert unbroken.max(initial=0.0) <= 1e-6 * (span if k > 0 else 1.0)
+        # 400 times along it: a jump drawn as a ramp would be a step of half the range or more
+        if k > 0:
+            assert steps[~together].max() < 0.3 * span
+    rise = [contact.jump for contact in report.contacts]
+    for t, jump in zip(touched, rise, strict=True):
+        before, after = np.flatnonzero(np.abs(times - t) < 1e-6)[[0, -1]]
+        found = history.separation[after] - history.separation[before]
+        assert found == pytest.approx(jump, rel=1e-6)
+        assert history.switching[after] == pytest.approx(history.switching[before], abs=1e-6)
+
+
 def test_a_plan_that_waits_for_the_opening_is_said_to_be_one() -> None:
     answer = golden_plan("R104")
     report = check(answer, answer.situation)

@@ -18,12 +18,10 @@ from relguide import (
     Situation,
     TurnTo,
     Wind,
-    alternatives,
     candidates,
     certify,
     plan,
 )
-from relguide.planning.plan import LosesSeparation
 from relguide.planning.situation import IntentPiece
 from relguide.units import DEG
 from tests.oracle import arrival_error
@@ -168,18 +166,6 @@ def test_no_candidate_that_certifies_beats_the_plan(situation: Situation) -> Non
         if certify(candidate.trajectory, situation).holds:
             assert isinstance(answer, Plan)
             assert candidate.time_to_converge >= answer.time_to_converge - 1e-9
-
-
-@given(situation=situations(reach=40_000.0))
-def test_alternatives_are_faster_and_unsafe_or_slower(situation: Situation) -> None:
-    answer = plan(situation)
-    assume(isinstance(answer, Plan))
-    assert isinstance(answer, Plan)
-    for alternative in alternatives(answer):
-        faster = alternative.time_to_converge < answer.time_to_converge - 1e-6
-        assert isinstance(alternative.rejected, LosesSeparation) == faster
-        if isinstance(alternative.rejected, LosesSeparation):
-            assert alternative.rejected.least_separation < situation.min_separation
 
 
 def two(**changes: object) -> Situation:

@@ -1,9 +1,10 @@
 /** The other ways to the slot that were looked at, and why each is not flown. */
 
 import { Panel } from "../parts";
-import { alternativeSentence } from "../reading";
+import { alternativeSentence, alternativeTime } from "../reading";
 import type { Session } from "../session";
 import { formatClock } from "../units";
+import type { Alternative } from "../wire";
 
 export function Alternatives(props: { session: Session }) {
   const plan = props.session.flight.plan.value?.plan;
@@ -28,9 +29,9 @@ export function Alternatives(props: { session: Session }) {
               <td>flown</td>
             </tr>
             {plan.alternatives.map((alternative) => (
-              <tr key={`${alternative.word} ${alternative.time_to_converge_s}`}>
+              <tr key={alternativeKey(alternative)}>
                 <th scope="row">{alternative.word}</th>
-                <td>{formatClock(alternative.time_to_converge_s)}</td>
+                <td>{alternativeTime(alternative)}</td>
                 <td class={alternative.rejected}>{alternativeSentence(alternative, plan)}</td>
               </tr>
             ))}
@@ -39,4 +40,10 @@ export function Alternatives(props: { session: Session }) {
       )}
     </Panel>
   );
+}
+
+/** Of one word there may be several ways: no two at the same time. */
+function alternativeKey(alternative: Alternative): string {
+  const time = alternative.rejected === "no_root" ? "" : alternative.time_to_converge_s;
+  return `${alternative.word} ${alternative.rejected} ${time}`;
 }

@@ -1,0 +1,160 @@
+"""The commands that learn from many plans: `relguide dataset`, `area`.
+
+What a command needs is loaded when it runs, so that `--help` answers at once.
+"""
+
+import argparse
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from relguide.learn.tree import TreeParameters
+
+METHODS = ("reverse-dp",)
+"""How a data set is made."""
+AddCommand = Callable[[str, Callable[[argparse.Namespace], int], str, str], argparse.ArgumentParser]
+"""Name, what runs it, its purpose, examples → its parser, for the options."""
+
+
+def add_learning(add_command: AddCommand) -> None:
+    """Add these commands to the command line."""
+    dataset = add_command(
+        "dataset",
+        _dataset,
+        "make a data set to learn from",
+        """
+        relguide dataset --method reverse-dp --out tree.npz             the paper's tree
+        relguide dataset --method reverse-dp --order 5 --out tree.npz   with four pairs
+        relguide dataset --method reverse-dp --out tree.npz --resume    go on after a stop
+        """,
+    )
+    dataset.add_argument(
+        "--method", choices=METHODS, required=True, help="reverse-dp: the tree of Fig. 3"
+    )
+    dataset.add_argument("--out", metavar="FILE.npz", type=_npz, required=True)
+    dataset.add_argument(
+        "--resume",
+        action="store_true",
+        help="go on from FILE.npz.part, which a stopped run leaves; the result is the same",
+    )
+    dataset.add_argument("--threads", metavar="N", type=_count, help="default: all cores")
+    dataset.add_argument(
+        "--audit",
+        metavar="N",
+        type=_count,
+        default=2000,
+        help="compare N of its states with the exact planner; 0: none; default: %(default)s",
+    )
+    dataset.add_argument("--json", action="store_true", help="print one JSON object")
+    _add_tree(dataset)
+
+    area = add_command(
+        "area",
+        _area,
+        "draw the convergence area, from a tree and exactly",
+        """
+        relguide area --figure fig_4.svg                    the paper's Fig. 4
+        relguide area --figure fig_4.png --tree tree.npz    from a tree made before
+        relguide area --figure fig_4.svg --headings-deg 0 90 180
+        """,
+    )
+    area.add_argument(
+        "--figure", metavar="FILE", type=Path, required=True, help="an .svg, .png or .pdf file"
+    )
+    area.add_argument(
+        "--tree",
+        metavar="FILE.npz",
+        type=Path,
+        help="made by relguide dataset; else one is grown by the options below",
+    )
+    area.add_argument(
+        "--headings-deg",
+        metavar="DEG",
+        type=float,
+        nargs="+",
+        default=[0.0, 60.0, 120.0, 180.0],
+        help="left of the leader's, whole numbers of Δθ; default: 0 60 120 180",
+    )
+    _add_tree(area)
+
+
+def _add_tree(parser: argparse.ArgumentParser) -> None:
+    options = parser.add_argument_group("the tree", "its defaults are two A300 at 10 min")
+    for name, value, purpose in (
+        ("--delta-theta-deg", 10.0, "Δθ, a whole part of 360°"),
+        ("--delta-l-m", 1000.0, "Δl"),
+        ("--cell-m", 2000.0, "edge of a cell; of the ways from one cell the fastest stays"),
+        ("--horizon-min", 10.0, "longest time-to-converge"),
+        ("--pursuer-tas-mps", 240.0, "V_P"),
+        ("--leader-tas-mps", 200.0, "V_L"),
+        ("--max-bank-deg", 25.0, "φ_max"),
+        ("--slot-distance-m", 12_000.0, "D"),
+        ("--min-separation-m", 9_260.0, "d_min"),
+    ):
+        metavar = name.rsplit("-", 1)[1].upper()
+        options.add_argument(
+            name, metavar=metavar, type=float, default=value, help=f"{purpose}; default: {value:g}"
+        )
+    options.add_argument(
+        "--order", metavar="N", type=int, default=4, help="n: n − 1 pairs; default: 4"
+    )
+
+
+def _tree_parameters(chosen: argparse.Namespace) -> "TreeParameters":
+    from relguide.area import Encounter
+    from relguide.learn.tree import TreeParameters
+    from relguide.units import DEG
+
+    return TreeParameters(
+        encounter=Encounter(
+            pursuer_tas=chosen.pursuer_tas_mps,
+            max_bank=chosen.max_bank_deg * DEG,
+            leader_tas=chosen.leader_tas_mps,
+            slot_distance=chosen.slot_distance_m,
+            min_separation=chosen.min_separation_m,
+        ),
+        order=chosen.order,
+        delta_theta=chosen.delta_theta_deg * DEG,
+        delta_l=chosen.delta_l_m,
+        cell=chosen.cell_m,
+        horizon=chosen.horizon_min * 60.0,
+    )
+
+
+def _dataset(chosen: argparse.Namespace) -> int:
+    from relguide.learning import make_tree
+
+    make_tree(
+        _tree_parameters(chosen),
+        chosen.out,
+        resume=chosen.resume,
+        threads=chosen.threads or None,
+        audit=chosen.audit,
+        as_json=chosen.json,
+    )
+    return 0
+
+
+def _area(chosen: argparse.Namespace) -> int:
+    from relguide.learning import draw_area
+    from relguide.units import DEG
+
+    draw_area(
+        chosen.figure,
+        [degrees * DEG for degrees in chosen.headings_deg],
+        chosen.tree if chosen.tree is not None else _tree_parameters(chosen),
+    )
+    return 0
+
+
+def _npz(text: str) -> Path:
+    if not text.endswith(".npz"):
+        raise argparse.ArgumentTypeError(f"must end in .npz, not {text}")
+    return Path(text)
+
+
+def _count(text: str) -> int:
+    if not (text.isascii() and text.isdigit() and int(text[:12]) <= 10**9):
+        raise argparse.ArgumentTypeError(f"must be a whole number of 0 or more, not {text}")
+    return int(text)

@@ -1,0 +1,226 @@
+"""alternatives(plan): each other way to the slot, with its time and why it is not flown.
+
+Ways are told apart by their word, by the middle arc of a three-turn word (more or less than half a
+turn), and by how they pass the leader. The last is a matter of topology, see `passing`.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import islice
+from math import pi
+from typing import Literal
+
+import numpy as np
+
+from relguide.kernels.extremals import MAX_ROWS, WORDS, solve
+from relguide.planning.certificate import certify
+from relguide.planning.passing import Passing, Surroundings, passing, surroundings
+from relguide.planning.plan import Plan
+from relguide.planning.slot import SlotFrame
+from relguide.planning.trajectory import Trajectory
+from relguide.planning.words import Candidate, Candidates, candidates
+from relguide.units import NM, Metre, Second
+
+AS_FAST: Second = 1e-6
+"""Times nearer than this are one: the same path found twice differs by rounding [s]."""
+SAME_LENGTH: Metre = 0.01
+"""Paths of the same letters whose pieces differ by less are the same path [m]."""
+AT_OPENING = 32
+"""Of the ways that arrive as the slot opens so many are looked at, fewest turns first: there may be
+a thousand, all equally fast."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Slower:
+    """It arrives later than the plan, whether or not it keeps d_min."""
+
+    by: Second
+    kind: Literal["slower"] = "slower"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AsFast:
+    """It arrives with the plan: its mirror image, the same path, or another to an opening slot."""
+
+    kind: Literal["as_fast"] = "as_fast"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Faster:
+    """It is faster and keeps d_min: only a planner that is not exact leaves such a way."""
+
+    by: Second
+    kind: Literal["faster"] = "faster"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LosesSeparation:
+    """It is no slower than the plan, and comes too close."""
+
+    least_separation: Metre
+    at_time: Second
+    kind: Literal["separation"] = "separation"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Alternative:
+    """A way to the slot that is not the plan, and why."""
+
+    candidate: Candidate
+    """Its word and its trajectory."""
+    passing: Passing
+    rejected: Slower | AsFast | Faster | LosesSeparation
+    why: str
+    """The same for people, e.g. `"38 s slower"`."""
+
+    @property
+    def word(self) -> str:
+        """Its letters."""
+        return self.candidate.word
+
+    @property
+    def time_to_converge(self) -> Second:
+        """T [s]."""
+        return self.candidate.time_to_converge
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TooEarly:
+    """A word that reaches the place of the slot before it opens."""
+
+    word: str
+    time_to_converge: Second
+    """When it would be there, of several times the first [s]."""
+    opens: Second
+    """When the slot opens [s]."""
+    why: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NoRoot:
+    """A word of which no path reaches the slot, early or late."""
+
+    word: str
+    why: str
+
+
+def alternatives(plan: Plan) -> tuple[Alternative | TooEarly | NoRoot, ...]:
+    """Every other way to the slot and why it is not flown, by time; words without any come last.
+
+    All that is faster, and of each word, middle arc and passing of the leader the fastest. Where
+    the slot opens later, also the words that would be there before, and of the many ways that
+    arrive with its opening one for each passing.
+    """
+    situation = plan.situation
+    found = candidates(situation)
+    early = _first_times(found.frame)
+    scale = found.frame.radius / situation.pursuer.tas
+    opens = found.frame.t_open * scale
+    late = {WORDS[int(word)] for word in found.rows[:, 1]}
+    around = surroundings(situation)
+    listed: list[Alternative | TooEarly] = [
+        *_at_opening(plan, found, around),
+        *_later(plan, found, around),
+    ]
+    for word, first in early.items():
+        time = first * scale
+        if time < opens - AS_FAST:
+            why = f"reaches the slot {_seconds(opens - time)} before it opens"
+            listed.append(TooEarly(word=word, time_to_converge=time, opens=opens, why=why))
+    none = [word for word in WORDS if word not in late and word not in early]
+    return (
+        *sorted(listed, key=lambda other: other.time_to_converge),
+        *(NoRoot(word=word, why="no such path to the slot") for word in none),
+    )
+
+
+def _first_times(frame: SlotFrame) -> dict[str, float]:
+    """When each word is first at the slot, open or not [R/V_P]; it need not ever be."""
+    rows = np.empty((MAX_ROWS, 5))
+    n = solve(frame.x, frame.y, frame.h, frame.alpha, 0.0, rows)
+    times: dict[str, float] = {}
+    for time, word in rows[:n, :2].tolist():
+        times.setdefault(WORDS[int(word)], time)
+    return times
+
+
+def _later(plan: Plan, found: Candidates, around: Surroundings) -> Iterator[Alternative]:
+    """Extremals that arrive once the slot is open."""
+    seen: set[tuple[str, bool, int]] = set()
+    last: dict[str, Second] = {}
+    for row, candidate in zip(found.rows.tolist(), found.later, strict=True):
+        word, time = candidate.word, candidate.time_to_converge
+        ours = passing(candidate.trajectory, around)
+        way = (word, word[1] != "S" and row[3] > pi, ours.laps)
+        faster = time < plan.time_to_converge - AS_FAST
+        twice = time - last.get(word, -1.0) <= AS_FAST
+        last[word] = time
+        if twice or (way in seen and not faster):
+            continue
+        seen.add(way)
+        if word != plan.word or not _same_time(candidate, plan):
+            yield _judged(candidate, ours, plan)
+
+
+def _at_opening(plan: Plan, found: Candidates, around: Surroundings) -> Iterator[Alternative]:
+    """Of the ways that arrive as the slot opens the one of fewest turns for each passing."""
+    seen: set[int] = set()
+    for candidate in islice(found.at_opening, AT_OPENING):
+        ours = passing(candidate.trajectory, around)
+        if ours.laps not in seen:
+            seen.add(ours.laps)
+            if candidate.trajectory != plan.trajectory:
+                yield _judged(candidate, ours, plan)
+
+
+def _same_time(candidate: Candidate, plan: Plan) -> bool:
+    return abs(candidate.time_to_converge - plan.time_to_converge) <= AS_FAST
+
+
+def _judged(candidate: Candidate, ours: Passing, plan: Plan) -> Alternative:
+    certificate = certify(candidate.trajectory, plan.situation)
+    near = _near(certificate.least_separation, plan.situation.min_separation)
+    near = f"comes {near} at {certificate.at_time:.0f} s"
+    by = candidate.time_to_converge - plan.time_to_converge
+    rejected: Slower | AsFast | Faster | LosesSeparation
+    if by > AS_FAST:
+        rejected = Slower(by=by)
+        why = f"{_seconds(by)} slower"
+        if not certificate.holds:
+            why += f", and {near}"
+    elif not certificate.holds:
+        rejected = LosesSeparation(
+            least_separation=certificate.least_separation, at_time=certificate.at_time
+        )
+        why = near
+    elif by < -AS_FAST:
+        rejected = Faster(by=-by)
+        why = f"{_seconds(-by)} faster, and not found by the planner {plan.planner}"
+    else:
+        rejected = AsFast()
+        why = _as_fast(candidate.trajectory, plan.trajectory)
+    return Alternative(candidate=candidate, passing=ours, rejected=rejected, why=why)
+
+
+def _as_fast(other: Trajectory, flown: Trajectory) -> str:
+    pieces = zip(other.segments, flown.segments, strict=False)
+    if other.letters == flown.letters and all(
+        abs(a.length - b.length) < SAME_LENGTH for a, b in pieces
+    ):
+        return "as fast: the same path"
+    if other.turns > flown.turns:
+        return f"as fast, with {other.turns} turns in place of {flown.turns}"
+    return "as fast"
+
+
+def _near(least: Metre, limit: Metre) -> str:
+    """How close it comes; a distance that rounds to the limit is told by what it lacks."""
+    if f"{least / NM:.2f}" == f"{limit / NM:.2f}":
+        return f"{limit - least:.1f} m too close"
+    return f"within {least / NM:.2f} NM"
+
+
+def _seconds(time: Second) -> str:
+    if time < 0.05:
+        return "less than 0.1 s"
+    return f"{time:.1f} s" if time < 9.95 else f"{time:,.0f} s"

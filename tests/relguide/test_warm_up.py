@@ -1,0 +1,110 @@
+"""After `python -m relguide.warm_up` nothing is left to compile, and stale code is never run."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from relguide.kernels import cache
+
+FRESH = """
+import sys
+from itertools import islice
+from numba.core import event
+from relguide import Plan, alternatives, certify, check, plan
+from relguide.flying.flight import fly
+from relguide.flying.scenarios import scenario
+from relguide.planning.batch import Situations, plan_arrays
+from tests.situations import golden
+
+compiled = []
+
+class Listener(event.Listener):
+    def on_start(self, happened):
+        compiled.append(happened.data["dispatcher"].py_func.__qualname__)
+    def on_end(self, happened):
+        pass
+
+event.register("numba:compile", Listener())
+for situation, _ in golden("reference")[::7]:
+    planned = plan(situation)
+    if isinstance(planned, Plan):
+        alternatives(planned)
+        check(planned, situation)
+for name in ("fig_6a", "fig_6b"):
+    for _ in islice(fly(scenario(name), plan), 3000):
+        pass
+plan_arrays(Situations(
+    pursuer_x=range(-9000, 9000, 3000), pursuer_y=12000, pursuer_heading=1, pursuer_tas=240,
+    max_bank=0.4, leader_tas=200, slot_distance=9000, min_separation=8000,
+))
+sys.exit(", ".join(compiled) or 0)
+"""
+"""What a user may do; its exit status tells what had to be compiled."""
+
+
+def _run(*command: str, **environment: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, *command],
+        env=os.environ | environment,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+@pytest.mark.slow
+def test_nothing_is_left_to_compile() -> None:
+    warmed = _run("-m", "relguide.warm_up")
+    assert warmed.returncode == 0, warmed.stderr
+    assert "The kernels are compiled" in warmed.stdout
+    fresh = _run("-c", FRESH)
+    assert fresh.returncode == 0, f"compiled after all: {fresh.stderr}"
+    again = _run("-m", "relguide.warm_up")
+    assert (again.stdout, again.stderr) == ("The kernels are compiled.\n", "")
+
+
+def test_a_stamp_changes_with_what_is_imported(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    kernels = tmp_path / "kernels"
+    kernels.mkdir()
+    (tmp_path / "units.py").write_text("G0 = 9.8\n")
+    (kernels / "top.py").write_text("from relguide.kernels.middle import f\n")
+    (kernels / "middle.py").write_text("from relguide.kernels.base import g\n")
+    (kernels / "base.py").write_text("from relguide.units import G0\n")
+    (kernels / "apart.py").write_text("")
+    monkeypatch.setattr(cache, "HERE", kernels)
+
+    def stamps() -> dict[str, str]:
+        cache._made_of.cache_clear()
+        return {file.stem: cache._stamp([file]) for file in kernels.iterdir()}
+
+    before = stamps()
+    (tmp_path / "units.py").write_text("G0 = 9.80665\n")
+    after = stamps()
+    assert {name for name in before if before[name] != after[name]} == {"top", "middle", "base"}
+
+
+def test_a_folder_that_can_only_be_read_serves_if_it_was_filled(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    read_only, empty = tmp_path / "read_only", tmp_path / "empty"
+    read_only.mkdir()
+    monkeypatch.setattr(cache, "_places", lambda: [empty, read_only])
+    monkeypatch.setattr(cache, "_can_write", lambda place: False)
+    assert not cache.filled(read_only)
+    assert cache.folder.__wrapped__().name.startswith("relguide-")
+    cache.record(read_only)
+    assert cache.filled(read_only)
+    assert cache.folder.__wrapped__() == read_only
+    (read_only / cache.RECORD).write_text("{")
+    assert not cache.filled(read_only)
+
+
+def test_kernels_are_kept_where_we_say() -> None:
+    from relguide.kernels.motion import advance
+
+    assert advance.stats.cache_path == str(cache.folder())
