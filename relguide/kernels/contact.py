@@ -18,7 +18,7 @@ from math import acos, cos, inf, sin, sqrt
 from numba import njit
 
 _STEP = 0.07  # bearing step of Simpson's rule: 4°, right to 1e-9
-_SLOWLY = 0.2  # or this much of the speed round the leader, where the ride is slow
+_SLOWLY = 0.1  # or this much of the speed round the leader, where the ride is slow
 _STILL = 0.01  # slower round the leader than this, a ride gets nowhere [V_P]
 _BANK_SLACK = 1e-9  # ends of what can be ridden are found by bisection, and count as inside
 

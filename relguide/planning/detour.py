@@ -16,7 +16,7 @@ from relguide.units import Second
 
 HORIZON: Second = 43_200.0
 """Plans longer than this are not given: 12 hours, longer than any aircraft's fuel lasts [s]."""
-SAME = 1e-4
+SAME = 2e-4
 """A way handed over as segments takes as long as the one searched, to this [R/V_P]: some ms."""
 BEARINGS = 36
 """How finely the disc is scanned round a leader that keeps straight: every 10°."""
