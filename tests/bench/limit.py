@@ -205,7 +205,7 @@ def report(outcomes: list[Outcome], effort: int) -> int:
             str(len(kind)),
             str(sum(o.loss > WORSE for o in kind)),
             str(sum(o.loss == inf for o in kind)),
-            f"{max(late, default=0.0):.3f}",
+            f"{max([0.0, *late]):.3f}",
             f"{np.median(cpu):.1f}",
             f"{np.percentile(cpu, 99):.1f}",
         )
