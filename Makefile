@@ -28,6 +28,7 @@ help:
 	@echo 'make check    the fast part: lint, types, page, quick tests'
 	@echo 'make bench    the planner beside its peers, in one table'
 	@echo 'make picture  take docs/cockpit.png anew'
+	@echo 'make planner-figures  measure as bench does, and draw and write docs/planner.md anew'
 	@echo 'make image    build the container image (needs Docker)'
 	@echo 'make clean    remove all that was installed and built'
 	@echo 'Variables: PYTHON, HOST, PORT, TORCH_INDEX (an index with CPU wheels of torch)'
@@ -119,10 +120,15 @@ page: .make/dev
 # ---- the rest --------------------------------------------------------------------------------
 
 .PHONY: bench
-bench: .make/dev .make/bench/ready
-	@$(BIN)/python -m pytest tests/bench -s
+bench: .make/dev .make/kernels .make/bench/ready
+	@$(BIN)/python -m tests.bench
 
-.make/bench/ready: .make/dev
+# The pictures and tables of docs/planner.md; some minutes.
+.PHONY: planner-figures
+planner-figures: .make/dev .make/kernels .make/bench/ready
+	@$(BIN)/python -m tests.bench.figures
+
+.make/bench/ready: .make/dev pyproject.toml
 	@mkdir -p .make/bench
 	@echo "== Fetching the planners to compare with"
 	@RELGUIDE_SKIP_WEB=1 $(PIP) install --editable '.[dev,bench]'

@@ -42,9 +42,7 @@ _STRIDE = 0.02  # least step of the look for a breach [R/V_P]
 
 
 @njit(cache=True, nogil=True)
-def intercept_span(
-    ex: float, ey: float, ax: float, ay: float, blur: float
-) -> tuple[float, float]:
+def intercept_span(ex: float, ey: float, ax: float, ay: float, blur: float) -> tuple[float, float]:
     """Least and greatest l ≥ 0 with |a l + e'| = l for some e' within blur of e.
 
     The least is infinite if there is none, the greatest if it is not bounded (α ≥ 1).
@@ -154,7 +152,7 @@ def breaks_limit(
 @njit(cache=True, nogil=True)
 def soonest(
     x: float, y: float, h: float, blur_left: float, blur_right: float, blur_h: float,
-    ax: float, ay: float, not_before: float, enough: float, beat: float,
+    blur_end: float, ax: float, ay: float, not_before: float, beat: float,
     kept: bool, back: tuple[float, float, float], leader: FloatArray, alpha: float, limit: float,
 ) -> float:  # fmt: skip
     """No word meets the target sooner than this, from any pose of the set.
@@ -166,10 +164,10 @@ def soonest(
         blur_left: how far the centre of the left circle may lie from that of the middle [R].
         blur_right: the same of the right circle [R].
         blur_h: how much the heading may differ [rad].
+        blur_end: how much of that is because the heading to meet the target on may [rad].
         ax: the target's velocity along the heading to meet it on [V_P].
         ay: and to the left of it [V_P].
         not_before: words that meet it sooner do not count [R/V_P].
-        enough: the caller is content with any value up to this one [R/V_P].
         beat: bounds from here on do not matter, and come back as infinite [R/V_P].
         kept: whether words that certainly break the limit are left out. They are then read
             backward: from the middle of the set back in time to where the path began.
@@ -185,26 +183,22 @@ def soonest(
         m = 1.0 - 2.0 * hand
         blur = (blur_left if hand == 0 else blur_right) + _ROUNDING
         best = _same_side(
-            x, m * y, wrap(m * h), blur, blur_h + _ROUNDING, ax, m * ay, not_before, best,
-            kept, m, back, leader, alpha, limit,
+            x, m * y, wrap(m * h), blur, blur_h + _ROUNDING, blur_end, ax, m * ay, not_before,
+            best, kept, m, back, leader, alpha, limit,
         )  # fmt: skip
-        if best <= enough:
-            return best
         for turns in range(2):
             best = _by_halves(
-                turns == 1, x, m * y, wrap(m * h), blur, blur_h + _ROUNDING, ax, m * ay,
-                not_before, enough, best, kept, m, back, leader, alpha, limit,
+                turns == 1, x, m * y, wrap(m * h), blur, blur_h + _ROUNDING, blur_end, ax,
+                m * ay, not_before, best, kept, m, back, leader, alpha, limit,
             )  # fmt: skip
-            if best <= enough:
-                return best
     return best if best < beat else inf
 
 
 @njit(cache=True, nogil=True)
 def _same_side(
-    x: float, y: float, h: float, blur: float, blur_h: float, ax: float, ay: float,
-    not_before: float, beat: float, kept: bool, m: float, back: tuple[float, float, float],
-    leader: FloatArray, alpha: float, limit: float,
+    x: float, y: float, h: float, blur: float, blur_h: float, blur_end: float, ax: float,
+    ay: float, not_before: float, beat: float, kept: bool, m: float,
+    back: tuple[float, float, float], leader: FloatArray, alpha: float, limit: float,
 ) -> float:  # fmt: skip
     """The bound for LSL; `beat` if it is not lower."""
     best = beat
@@ -237,8 +231,8 @@ def _same_side(
         for j in range(3):
             last = TWO_PI * j - course
             if (
-                last < -astray
-                or last > TWO_PI + astray
+                last < -astray - blur_end
+                or last > TWO_PI + astray + blur_end
                 or turned - last < -astray - blur_h
                 or turned - last > TWO_PI + astray + blur_h
             ):
@@ -255,8 +249,8 @@ def _same_side(
 
 @njit(cache=True, nogil=True)
 def _by_halves(
-    three_turns: bool, x: float, y: float, h: float, blur: float, blur_h: float, ax: float,
-    ay: float, not_before: float, enough: float, beat: float, kept: bool, m: float,
+    three_turns: bool, x: float, y: float, h: float, blur: float, blur_h: float, blur_end: float,
+    ax: float, ay: float, not_before: float, beat: float, kept: bool, m: float,
     back: tuple[float, float, float], leader: FloatArray, alpha: float, limit: float,
 ) -> float:  # fmt: skip
     """The bound for LSR, or for LRL if `three_turns`; `beat` if it is not lower."""
@@ -267,8 +261,9 @@ def _by_halves(
     mids, halves = np.empty(_DEPTH), np.empty(_DEPTH)
     for k in range(-1, 4):
         # where both outer turns are between none and a full one
-        low = max(h - blur_h - TWO_PI * k, 0.0)
-        high = min((2.0 if three_turns else 1.0) * TWO_PI + h + blur_h - TWO_PI * k, TWO_PI)
+        past = 0.0 if three_turns else blur_end
+        low = max(h - blur_h - TWO_PI * k, -past)
+        high = min((2.0 if three_turns else 1.0) * TWO_PI + h + blur_h - TWO_PI * k, TWO_PI + past)
         if high < low:
             continue
         mids[0], halves[0] = 0.5 * (low + high), 0.5 * (high - low) + _FINEST
@@ -339,17 +334,16 @@ def _by_halves(
                 for j in range(2):
                     end = last + TWO_PI * j
                     if (
-                        -astray <= end <= TWO_PI + astray
-                        and turned - end >= -astray - half - blur_h
-                        and turned - end <= TWO_PI + astray + half + blur_h
-                        and not (
-                            kept
-                            and breaks_limit(
-                                back[0], back[1], back[2], (-m, m, -m), end, astray, length,
-                                length_blur, time, leader, alpha, limit, _STRIDE,
-                            )  # fmt: skip
-                        )
+                        end < -astray - blur_end
+                        or end > TWO_PI + astray + blur_end
+                        or turned - end < -astray - half - blur_h
+                        or turned - end > TWO_PI + astray + half + blur_h
                     ):
+                        continue
+                    if not kept or not breaks_limit(
+                        back[0], back[1], back[2], (-m, m, -m), end, astray, length, length_blur,
+                        time, leader, alpha, limit, _STRIDE,
+                    ):  # fmt: skip
                         possible = True
             elif kept:
                 possible = not breaks_limit(
@@ -358,6 +352,4 @@ def _by_halves(
                 )  # fmt: skip
             if possible:
                 best = time
-                if best <= enough:
-                    return best
     return best

@@ -1,16 +1,18 @@
-"""How soon a path can arrive that first touches d = d_min in one cell of contacts: proved.
+"""How soon a path can arrive that touches d = d_min somewhere in a cell of contacts: proved.
 
-A contact is fixed by its time t, its bearing b and a side (see `contact`). A cell holds those with a
-bearing in b ± w, in a window of time on one piece of the leader's intent. A path whose first contact
-lies in it takes at least as long as the soonest word to any of its poses, and then as the soonest
-word from any of its poses on (see `bounds`). Words that certainly break the limit before lead to no
-first contact.
+A contact is fixed by its time t, its bearing b and a side (see `contact`). A cell holds those with
+a bearing in b ± w, in a window of time on one piece of the leader's intent. A path whose first
+contact lies in it takes at least as long as the soonest word to any of its poses, and then as the
+soonest word from any of its poses on (see `bounds`). Words that certainly break the limit on the
+way lead to no first contact, nor to the slot from a last one. Between the first contact and the
+last, whatever happens, a path takes at least as long as the soonest word from pose to pose, and as
+the way round the disc takes something that need not turn: a ride comes as close to that as it can.
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader is a table as in
 `clearance`.
 """
 
-from math import acos, cos, hypot, inf, sin, sqrt
+from math import acos, ceil, cos, floor, hypot, inf, pi, sin, sqrt
 
 import numpy as np
 from numba import njit
@@ -26,6 +28,9 @@ _EDGE = 1e-9
 """What rounding may do to a time or a heading; and a leader within this of V_P counts as faster."""
 _INSIDE = 2e-6
 """A path must come this much closer than d_min to count as breaking it [R]: 2 cm at R = 12 km."""
+_FAST = 0.999  # for a leader faster than this the way round the disc is not bounded
+_ROUND = 16_384
+"""Points of `ways_round`: every 0.02°."""
 _STRIDE = 1e-4  # least step of the look for a breach on a path that is known [R/V_P]
 
 
@@ -36,8 +41,8 @@ def contacts_within(
     """The contacts of a cell whose bearings lie in no more than one quadrant.
 
     Returns:
-        heading of the middle relative to the leader's, how much others may differ [rad], and how far
-        the centres of their left and right circles may lie from those of (b, that heading) [R];
+        heading of the middle relative to the leader's, how much others may differ [rad], and how
+        far the centres of their left and right circles may lie from those of (b, that heading) [R];
         the second is infinite if there is no contact.
     """
     low, high = alpha * cos(bearing - half), alpha * cos(bearing + half)
@@ -72,8 +77,8 @@ def cell_bound(
     x: float, y: float, h: float, leader: FloatArray, i: int, alpha: float, delta: float,
     goal_x: float, goal_speed: float, t_open: float, side: float, bearing: float, half: float,
     low: float, high: float, beat: float,
-) -> float:  # fmt: skip
-    """No path whose first contact lies in the cell arrives sooner than this.
+) -> tuple[float, float]:  # fmt: skip
+    """How soon a path can be at a contact of the cell, its first, and how soon at the goal from it.
 
     Args:
         x: start, slot frame [R].
@@ -91,11 +96,11 @@ def cell_bound(
         half: half of its width [rad]; the cell lies within a quadrant.
         low: start of its window of time, within the piece [R/V_P].
         high: end of it; infinite only on the final leg.
-        beat: bounds from here on do not matter, and come back as infinite [R/V_P].
+        beat: arrivals from here on do not matter, and both times come back as infinite [R/V_P].
     """
     turned, differs, blur_left, blur_right = contacts_within(bearing, half, side, alpha, delta)
     if differs == inf:
-        return inf
+        return inf, inf
     t = low if high == inf else 0.5 * (low + high)
     span = 0.0 if high == inf else 0.5 * (high - low)
     rate = leader[i, 4]
@@ -114,11 +119,11 @@ def cell_bound(
         drifts = strays + span * hypot(vx - goal_speed, vy)
     onward = soonest(
         cx - goal_x - goal_speed * t, cy, course, blur_left + drifts, blur_right + drifts,
-        differs + swing, goal_speed, 0.0, max(t_open - high, 0.0) - _EDGE, -1.0,
-        beat - low, False, (0.0, 0.0, 0.0), leader, alpha, 0.0,
+        differs + swing, 0.0, goal_speed, 0.0, max(t_open - high, 0.0) - _EDGE, beat - low,
+        False, (0.0, 0.0, 0.0), leader, alpha, 0.0,
     )  # fmt: skip
     if onward == inf:
-        return inf
+        return inf, inf
     # to the contact: read backward, the start is what is to be met, and left is right
     soon = inf
     for loops in range(3):
@@ -129,16 +134,128 @@ def cell_bound(
         latest = min(beat - onward, high + _EDGE) - looped
         found = soonest(
             -dx * c - dy * s, dx * s - dy * c, course - h, blur_right + strays,
-            blur_left + strays, differs + swing, vx * c + vy * s, vy * c - vx * s,
-            low - _EDGE - looped, -1.0, latest, loops == 1, (x, y, h), leader, alpha,
-            delta - _INSIDE,
+            blur_left + strays, differs + swing, 0.0, vx * c + vy * s, vy * c - vx * s,
+            low - _EDGE - looped, latest, loops == 1, (x, y, h), leader, alpha, delta - _INSIDE,
         ) + looped  # fmt: skip
         if loops == 0:
             if found == inf:
-                return inf
+                return inf, inf
         else:
             soon = min(soon, found)
-    return max(max(soon, low) + onward, t_open)
+    return max(soon, low), onward
+
+
+@njit(cache=True, nogil=True)
+def leaving_bound(
+    leader: FloatArray, alpha: float, delta: float, side: float, bearing: float, half: float,
+    beat: float,
+) -> float:  # fmt: skip
+    """How soon a path can be at the slot from its last contact, if that is one of the cell's.
+
+    On the final leg, where the place of a contact from the slot does not change. Arguments as
+    `cell_bound`; infinite from `beat` on.
+    """
+    turned, differs, blur_left, blur_right = contacts_within(bearing, half, side, alpha, delta)
+    if differs == inf:
+        return inf
+    lx, ly, lh = leader_at(leader, len(leader) - 1, alpha, 0.0)
+    # read backward from the slot, the leader flies backward too
+    astern = np.array([[0.0, lx, ly, lh + pi, 0.0]])
+    cx, cy = lx + delta * cos(lh + bearing), ly + delta * sin(lh + bearing)
+    found = inf
+    for looped in (0.0, TWO_PI):
+        word = looped + soonest(
+            cx - looped * alpha, cy, lh + turned, blur_left, blur_right, differs, 0.0, alpha, 0.0,
+            0.0, beat - looped, looped == 0.0, (0.0, 0.0, pi), astern, alpha, delta - _INSIDE,
+        )  # fmt: skip
+        found = min(found, word)
+    return found
+
+
+@njit(cache=True, nogil=True)
+def between_bound(
+    alpha: float, delta: float, side: float, bearing: float, half: float, other_side: float,
+    other_bearing: float, other_half: float, beat: float,
+) -> float:  # fmt: skip
+    """How soon a path can be at a contact of the other cell from one of this, on the final leg.
+
+    Arguments as `cell_bound`; infinite from `beat` on.
+    """
+    turned, differs, left, right = contacts_within(bearing, half, side, alpha, delta)
+    to, to_differs, to_left, to_right = contacts_within(
+        other_bearing, other_half, other_side, alpha, delta
+    )
+    if differs == inf or to_differs == inf:
+        return inf
+    dx = delta * (cos(bearing) - cos(other_bearing))
+    dy = delta * (sin(bearing) - sin(other_bearing))
+    c, s = cos(to), sin(to)
+    to_blur = max(to_left, to_right)
+    return soonest(
+        dx * c + dy * s, dy * c - dx * s, turned - to, left + to_blur, right + to_blur,
+        differs + to_differs, to_differs, alpha * c, -alpha * s, 0.0, beat, False,
+        (0.0, 0.0, 0.0), np.zeros((1, 5)), alpha, 0.0,
+    )  # fmt: skip
+
+
+@njit(cache=True, nogil=True)
+def ways_round(alpha: float, delta: float) -> FloatArray:
+    """How long the way round the disc takes at least, by bearing from −π on.
+
+    For something that needs no time to turn. Outside the disc it is fastest along its edge, since
+    that is convex and the leader's motion is the same everywhere: as a ride (see `contact`), so
+
+        dt/db = δ / (√(1 − α² cos² b) + s α sin b) = δ (√(1 − α² cos² b) − s α sin b) / (1 − α²).
+
+    Row 0 is counter-clockwise (s = 1), row 1 clockwise, both growing with b. shape (2, ·)
+    """
+    table = np.zeros((2, _ROUND + 1))
+    if alpha > _FAST:
+        return table
+    step = TWO_PI / _ROUND
+    # |d²/db² √(1 − α² cos² b)| is less than this: what the trapezia may be too large by
+    bend = 2.0 * alpha * alpha / sqrt(1.0 - alpha * alpha)
+    scale = delta / (1.0 - alpha * alpha)
+    arc, last = 0.0, sqrt(1.0 - alpha * alpha)
+    for k in range(1, _ROUND + 1):
+        b = k * step - pi
+        here = sqrt(1.0 - (alpha * cos(b)) ** 2)
+        arc += 0.5 * step * (last + here) - bend * step * step * step / 12.0
+        last = here
+        table[0, k] = scale * (arc + alpha * (cos(b) + 1.0))
+        table[1, k] = scale * (arc - alpha * (cos(b) + 1.0))
+    return table
+
+
+@njit(cache=True, nogil=True)
+def round_bound(
+    table: FloatArray, bearing: float, half: float, other_bearing: float, other_half: float
+) -> float:
+    """The least time from any bearing of one cell to any of another, outside the disc.
+
+    Args:
+        table: of `ways_round`.
+        bearing: middle of the cell, in [−π, π] [rad].
+        half: half of its width [rad].
+        other_bearing: of the other cell.
+        other_half: of the other cell.
+    """
+    least = inf
+    for way in range(2):
+        sign = 1.0 - 2.0 * way
+        gap = (sign * (other_bearing - bearing)) % TWO_PI - half - other_half
+        if gap <= 0.0 or gap + 2.0 * (half + other_half) >= TWO_PI:
+            return 0.0
+        begin, end = bearing + sign * half, other_bearing - sign * other_half
+        low, high = (begin, end) if way == 0 else (end, begin)
+        # inward to points of the table, so that it is never too much
+        first, last = ceil((low + pi) / TWO_PI * _ROUND), floor((high + pi) / TWO_PI * _ROUND)
+        first, last = min(max(first, 0), _ROUND), min(max(last, 0), _ROUND)
+        took = table[way, last] - table[way, first]
+        if low > high:
+            took += table[way, _ROUND]
+        least = min(least, max(took, 0.0))
+    return least
 
 
 @njit(cache=True, nogil=True)

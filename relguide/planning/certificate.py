@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from relguide.kernels.approach import least_separation
+from relguide.planning.inputs import expect
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import Trajectory
 from relguide.units import Metre, Second
@@ -39,6 +40,8 @@ def certify(trajectory: Trajectory, situation: Situation) -> Certificate:
         trajectory: the pursuer's, from t = 0 to its end.
         situation: gives the leader with its intent, and d_min. Uniform wind moves both alike.
     """
+    expect("trajectory", trajectory, Trajectory)
+    expect("situation", situation, Situation)
     radius = situation.pursuer.turn_radius
     least, at, bound = least_separation(
         *kernel_arrays(trajectory),

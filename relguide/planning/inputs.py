@@ -37,7 +37,7 @@ def within(name: str, value: object, low: float, high: float, unit: str) -> floa
     # 1e-9 relative: a bound given in degrees comes back from radians with its last digit changed
     slack = 1e-9 * max(abs(low), abs(high))
     if not low - slack <= value <= high + slack:
-        raise ValueError(f"{name} must lie in {low:g} … {high:g} {unit}, not {value:g} {unit}.")
+        raise ValueError(f"{name} must lie in {low:g} … {high:g} {unit}, not {value:.9g} {unit}.")
     return value
 
 

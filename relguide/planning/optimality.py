@@ -16,11 +16,13 @@ from relguide.kernels.angles import wrap_signed
 from relguide.kernels.costate import least_switching
 from relguide.planning.adjoint import AdjointHistory, adjoint_history
 from relguide.planning.costates import Costates, dot, find_costates, multiplier
+from relguide.planning.inputs import expect, within
 from relguide.planning.legs import ROUNDING, Cut, Leg, cut, joined, partial
 from relguide.planning.plan import Plan
 from relguide.planning.situation import Situation
 from relguide.planning.slot import slot_frame
 from relguide.planning.trajectory import Trajectory
+from relguide.planning.words import HORIZON
 from relguide.units import DEG, Radian, Second
 
 Arrival = Literal["free", "opening", "at_once"]
@@ -34,7 +36,8 @@ SLIVER = 2e-3
 MET = 1e-3
 """To how much conditions are met, in R and R/V_P: what is left to gain goes with its square, some
 tens of microseconds for an airliner."""
-
+MAX_SAMPLES = 100_000
+"""Most times that H and λ are reported at."""
 TOGETHER = 0.05
 """Contacts nearer together than this share their jumps [R/V_P]: some three seconds for an airliner.
 A ride is flown a millimetre outside, and a path may touch d_min just before it or after."""
@@ -126,9 +129,17 @@ def check(
             moved and turned by as much.
 
     Raises:
-        ValueError: if the trajectory does not reach the slot.
+        ValueError: if the trajectory does not reach the slot, or only after 12 hours.
     """
     trajectory = flown.trajectory if isinstance(flown, Plan) else flown
+    expect("flown", trajectory, Trajectory)
+    expect("situation", situation, Situation)
+    within("samples", samples, 1, MAX_SAMPLES, "")
+    if trajectory.duration > HORIZON:
+        raise ValueError(
+            f"The trajectory takes {trajectory.duration / 3600.0:.3g} h; conditions are asked of "
+            f"{HORIZON / 3600.0:.0f} h at most."
+        )
     arrival = _arrival(trajectory, situation, arrives)
     whole = cut(trajectory, situation)
     judged = _judge(arrival, whole, whole.legs)

@@ -9,6 +9,7 @@ from typing import Literal
 
 from relguide.planning.certificate import SLACK, Certificate, certify
 from relguide.planning.detour import HORIZON, detour
+from relguide.planning.inputs import expect
 from relguide.planning.recovery import Recovery, least_bad, restore
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import Trajectory
@@ -83,6 +84,7 @@ def plan(situation: Situation) -> Plan | NoPlan:
     touch d_min once are searched too, and the fastest of all that certify is given with the time of
     the fastest candidate as the bound it is proved to within (`proof="bound"`).
     """
+    expect("situation", situation, Situation)
     started = perf_counter_ns()
     radius = situation.pursuer.turn_radius
     pursuer, leader = situation.pursuer, situation.leader
@@ -96,6 +98,12 @@ def plan(situation: Situation) -> Plan | NoPlan:
     found = candidates(situation)
     if len(found) == 0:
         return NoPlan(reason=Reason.SLOT_UNREACHABLE, message=_unreachable(situation))
+    if found.bound > HORIZON:
+        return NoPlan(
+            reason=Reason.BEYOND_HORIZON,
+            message=f"The slot is reached only after {found.bound / 3600.0:,.0f} h, beyond the "
+            f"horizon of {HORIZON / 3600.0:.0f} h: a larger speed difference helps.",
+        )
     chosen = _first_that_holds(found, situation)
     if chosen is None:
         return NoPlan(
@@ -105,12 +113,6 @@ def plan(situation: Situation) -> Plan | NoPlan:
             f"{_least_bad(least_bad(situation))}",
         )
     candidate, certificate, optimality = chosen
-    if candidate.time_to_converge > HORIZON:
-        return NoPlan(
-            reason=Reason.BEYOND_HORIZON,
-            message=f"The slot is reached only after {candidate.time_to_converge / 3600.0:.0f} h, "
-            f"beyond the horizon of {HORIZON / 3600.0:.0f} h: a larger speed difference helps.",
-        )
     return Plan(
         situation=situation,
         trajectory=candidate.trajectory,

@@ -12,9 +12,9 @@ CSC is of order 3, with l₁ = 0; CCC of order 4, with l₁ = l₂ = l₃ = 0; S
 """
 
 from dataclasses import dataclass
-from math import isfinite
 from typing import assert_never
 
+from relguide.planning.inputs import expect, number, turn_sign
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import LEFT, Arc, BoundaryArc, Segment, Straight, Trajectory, Turn
 from relguide.units import Metre, Radian
@@ -36,10 +36,9 @@ class Triplet:
 
     def __post_init__(self) -> None:
         """Refuse what (17) does not allow."""
-        if self.turn not in (1, -1):
-            raise ValueError(f"ε must be +1 (left) or −1 (right), not {self.turn!r}.")
+        turn_sign("ε", self.turn)
         for name, value, unit in (("θ", self.turn_angle, "rad"), ("l", self.length, "m")):
-            if not (isfinite(value) and value >= 0.0):
+            if number(name, value) < 0.0:
                 raise ValueError(
                     f"{name} must be a finite number of 0 or more, not {value} {unit}."
                 )
@@ -51,6 +50,12 @@ class RegularTrajectory:
 
     triplets: tuple[Triplet, ...]
     """Numbered backward from the slot: the first is i = 1, flown last."""
+
+    def __post_init__(self) -> None:
+        """Refuse what is no list of triplets."""
+        expect("triplets", self.triplets, tuple)
+        for i, triplet in enumerate(self.triplets, start=1):
+            expect(f"triplet {i}", triplet, Triplet)
 
     @property
     def order(self) -> int:
@@ -72,6 +77,8 @@ def regular_from_trajectory(trajectory: Trajectory, *, turn_radius: Metre) -> Re
     Raises:
         ValueError: if it turns at another bank, or rides along d_min.
     """
+    expect("trajectory", trajectory, Trajectory)
+    turn_radius = number("turn_radius", turn_radius)
     pairs: list[Triplet] = []
     turning: Arc | None = None
     for segment in trajectory.segments:
@@ -107,6 +114,8 @@ def trajectory_from_regular(regular: RegularTrajectory, situation: Situation) ->
         regular: the parameters.
         situation: gives the pursuer and R_min.
     """
+    expect("regular", regular, RegularTrajectory)
+    expect("situation", situation, Situation)
     pursuer = situation.pursuer
     segments: list[Segment] = []
     for pair in reversed(regular.triplets):

@@ -15,6 +15,7 @@ from relguide.kernels.angles import wrap_signed
 from relguide.kernels.approach import closest_of_straights, least_separation
 from relguide.kernels.motion import advance
 from relguide.planning.certificate import SLACK, TOLERANCE
+from relguide.planning.inputs import expect
 from relguide.planning.regular import RegularTrajectory, Triplet
 from relguide.planning.situation import Situation
 from relguide.planning.slot import slot_offset
@@ -81,6 +82,8 @@ def evaluate(regular: RegularTrajectory, situation: Situation) -> RegularEvaluat
     Raises:
         ValueError: if the leader's intent turns.
     """
+    expect("regular", regular, RegularTrajectory)
+    expect("situation", situation, Situation)
     pursuer, leader = situation.pursuer, situation.leader.trajectory
     if any(isinstance(s, Arc) and s.turn_angle > 0.0 for s in leader.segments):
         raise ValueError(

@@ -8,11 +8,15 @@ import numpy as np
 
 from relguide.kernels.extremals import MAX_ROWS, SIGNS, WORDS, solve
 from relguide.kernels.hold import HOLD_PIECES, MAX_HOLDS, holds
+from relguide.planning.inputs import expect
 from relguide.planning.situation import Situation
 from relguide.planning.slot import SlotFrame, slot_frame
 from relguide.planning.trajectory import LEFT, RIGHT, Arc, Segment, Straight, Trajectory
 from relguide.units import Second
 
+HORIZON: Second = 43_200.0
+"""Plans longer than this are not given: 12 hours, longer than any aircraft's fuel lasts [s]. At
+speeds that hardly differ paths have up to 10¹⁸ s, where rounding is all there is."""
 NO_TURN = 1e-9
 """A turn below this is rounding [rad]; likewise a straight, in R."""
 SIGN_ROWS: list[list[float]] = SIGNS.tolist()
@@ -41,7 +45,8 @@ class Candidates:
     situation: Situation
     frame: SlotFrame
     rows: np.ndarray
-    """The extremals that arrive after the slot opens, fastest first, as `solve` gives them."""
+    """The extremals that arrive after the slot opens, fastest first, as `solve` gives them: those
+    within the horizon, and in any case the first."""
     at_opening: tuple[Candidate, ...]
     """Paths that arrive exactly when the slot opens, all equally fast; fewest turns first."""
     reachable_at_opening: bool
@@ -74,9 +79,13 @@ def candidates(situation: Situation) -> Candidates:
     With no separation limit the first is the global optimum; an empty answer means that the slot
     cannot be reached (possible only for V_L ≥ V_P).
     """
+    expect("situation", situation, Situation)
     frame = slot_frame(situation, situation.leader.trajectory)
     rows = np.empty((MAX_ROWS, 5))
     n = solve(frame.x, frame.y, frame.h, frame.alpha, frame.t_open, rows)
+    within = HORIZON * situation.pursuer.tas / frame.radius
+    while n > 1 and rows[n - 1, 0] > within:
+        n -= 1
     reachable = frame.t_open > 0.0 and _dubins_length(frame) <= frame.t_open + NO_TURN
     return Candidates(
         situation=situation,

@@ -22,8 +22,7 @@ def turned(regular: RegularTrajectory) -> RegularTrajectory:
     return replace(
         regular,
         triplets=tuple(
-            replace(t, turn=-t.turn if t.turn_angle > 0.0 else t.turn)
-            for t in regular.triplets
+            replace(t, turn=-t.turn if t.turn_angle > 0.0 else t.turn) for t in regular.triplets
         ),
     )
 

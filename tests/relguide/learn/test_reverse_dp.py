@@ -12,9 +12,10 @@ from relguide.area import exact_times
 from relguide.kernels.angles import wrap_signed
 from relguide.kernels.reverse import compass
 from relguide.learn import reverse_dp
-from relguide.learn.reverse_dp import Growth, grow_order, planted, tree_from
+from relguide.learn.reverse_dp import Growth, grow_order, planted, reverse_tree, tree_from
 from relguide.learn.tree import (
     Tree,
+    TreeParameters,
     losses,
     nodes_at,
     pairs_of,
@@ -48,17 +49,31 @@ def grown(growth: Growth, *, threads: int | None = None) -> Tree:
 # --- what the ways are --------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("order", [2, 3, 4])
-def test_every_way_flown_forward_reaches_the_slot_and_keeps_d_min(order: int) -> None:
-    grown_tree = tree(order)
-    radius = A300.turn_radius
-    assert len(grown_tree) > 30 * (order - 1) ** 3
+@pytest.mark.parametrize(
+    "grown_from",
+    [
+        parameters(2),
+        parameters(3),
+        parameters(4),
+        parameters(4, encounter=replace(A300, slot_distance=A300.min_separation)),  # it touches
+        parameters(3, encounter=replace(A300, leader_tas=A300.pursuer_tas)),
+        parameters(3, encounter=replace(A300, leader_tas=260.0, min_separation=6_000.0)),
+        parameters(3, delta_theta_deg=40.0),  # nine headings: none opposite the leader's
+    ],
+)
+def test_every_way_flown_forward_reaches_the_slot_and_keeps_d_min(
+    grown_from: TreeParameters,
+) -> None:
+    grown_tree = reverse_tree(grown_from)
+    encounter, order = grown_from.encounter, grown_from.order
+    radius = encounter.turn_radius
+    assert len(grown_tree) > 20 * (order - 1) ** 3
     for node in range(0, len(grown_tree), 1 + len(grown_tree) // 1500):
         situation = situation_of(grown_tree, node)
         regular = regular_of(grown_tree, node)
         way = trajectory_from_regular(regular, situation)
         end = way.pose_at(way.duration)
-        slot = A300.leader_tas * way.duration - A300.slot_distance
+        slot = encounter.leader_tas * way.duration - encounter.slot_distance
         assert hypot(end.x - slot, end.y) <= 1e-6 * radius
         assert abs(wrap_signed(end.heading - 0.5 * pi)) <= 1e-9
         assert way.duration == pytest.approx(grown_tree.time[node], rel=1e-12)
@@ -164,8 +179,7 @@ def test_a_mirrored_way_flies_the_mirrored_path() -> None:
         flipped = replace(
             regular,
             triplets=tuple(
-                replace(t, turn=-t.turn if t.turn_angle > 0.0 else t.turn)
-                for t in regular.triplets
+                replace(t, turn=-t.turn if t.turn_angle > 0.0 else t.turn) for t in regular.triplets
             ),
         )
         one = trajectory_from_regular(regular, situation)

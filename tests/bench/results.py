@@ -1,0 +1,55 @@
+"""All that `make bench` measures, in one run."""
+
+from dataclasses import dataclass, field
+
+from tests.bench import detours, throughput, unlimited
+from tests.bench.cases import Case, limited_cases, unlimited_cases
+from tests.bench.detours import Contest
+from tests.bench.throughput import Throughput
+from tests.bench.unlimited import Row
+
+
+def _count(default: int, told: str) -> int:
+    """A field of `Counts`, and what the command line tells of it."""
+    count: int = field(default=default, metadata={"help": told})
+    return count
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Counts:
+    """How much is measured."""
+
+    fresh: int = _count(240, "situations drawn beside the golden ones, the limit left out")
+    limited: int = _count(40, "drawn of each kind beside the golden ones, the limit active")
+    batch: int = _count(500_000, "situations of a batch, the limit left out")
+    limited_batch: int = _count(2048, "situations of a batch, the limit active")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Results:
+    """What was measured."""
+
+    cases: list[Case]
+    rows: dict[str, Row]
+    """Without the limit, by contender."""
+    groups: dict[str, list[Contest]]
+    """Where it binds, by kind of situation."""
+    batches: list[Throughput]
+
+    @property
+    def beaten(self) -> list[Contest]:
+        """Where IPOPT found something better, the worst first."""
+        return detours.won_by_ipopt([one for group in self.groups.values() for one in group])
+
+
+def measure(counts: Counts) -> Results:
+    """Some minutes; bars on standard error."""
+    cases = unlimited_cases(counts.fresh)
+    rows = unlimited.measure(cases)
+    groups = {
+        name: detours.measure(limited_cases(counts.limited, tight=tight), title=f"Limit, {name}")
+        for name, tight in (("R > d_min", False), ("R < d_min", True))
+    }
+    active = [contest.case for group in groups.values() for contest in group]
+    batches = throughput.measure(counts.batch, counts.limited_batch, active)
+    return Results(cases=cases, rows=rows, groups=groups, batches=batches)
