@@ -46,7 +46,7 @@ def integrate(
     track = [(t, x, y, psi)]
     for duration, rate in [*pieces, (max(until - sum(d for d, _ in pieces), 0.0), 0.0)]:
         duration = min(duration, until - t)
-        if duration <= 0.0:
+        if duration <= 1e-9:  # shorter than scipy can part; 0.4 µm at most
             continue
         flown = solve_ivp(
             lambda _, s, r=rate: (speed * sin(s[2]) + wind[0], speed * cos(s[2]) + wind[1], r),

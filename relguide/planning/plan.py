@@ -80,9 +80,9 @@ def plan(situation: Situation) -> Plan | NoPlan:
     """The fastest candidate that keeps d_min, with what is proved of it.
 
     Without the limit the candidates are all the extremals there are, so if the fastest of them
-    keeps the limit it is the global optimum (`proof="relaxation"`). If it does not, the ways that
-    touch d_min once are searched too, and the fastest of all that certify is given with the time of
-    the fastest candidate as the bound it is proved to within (`proof="bound"`).
+    keeps the limit it is the global optimum (`proof="relaxation"`). If it does not, ways that
+    touch d_min or ride along it are searched too, and the fastest of all that certify is given with
+    the time of the fastest candidate as the bound it is proved to within (`proof="bound"`).
     """
     expect("situation", situation, Situation)
     started = perf_counter_ns()
