@@ -76,5 +76,5 @@ def test_radius_and_rate_belong_together() -> None:
 
 @pytest.mark.parametrize("length", [-1.0, float("nan"), float("inf")])
 def test_a_segment_that_cannot_be_flown_is_refused(length: float) -> None:
-    with pytest.raises(ValueError, match="must (be|have) a finite"):
+    with pytest.raises(ValueError, match=r"must (be|have) a finite"):
         path(Straight(length=length))
