@@ -25,14 +25,15 @@ LABEL org.opencontainers.image.title="relguide" \
       org.opencontainers.image.licenses="Apache-2.0"
 RUN useradd --uid 10001 --create-home relguide
 COPY --from=build /opt/relguide /opt/relguide
+# The kernels are compiled here, once, for any CPU of this kind: that costs no speed, and the image
+# may run elsewhere than it was built, as any user, with a read-only disk.
 ENV PATH=/opt/relguide/bin:$PATH \
     PYTHONUNBUFFERED=1 \
-    NUMBA_CACHE_DIR=/home/relguide/.cache/numba
+    NUMBA_CPU_NAME=generic \
+    NUMBA_CACHE_DIR=/opt/relguide/kernels
+RUN python -m relguide.warm_up
 USER 10001
 WORKDIR /home/relguide
-
-# Compiles the kernels into the cache, so that the first plan is quick.
-RUN relguide fly fig_6b --json
 
 EXPOSE 8000
 HEALTHCHECK --interval=10s --timeout=3s --start-period=20s \

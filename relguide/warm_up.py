@@ -67,7 +67,7 @@ def _steps() -> tuple[Step, ...]:
         ("the extremals and the certificate", 11.0, _plan_free),
         ("the ways round the limit", 30.0, _plan_limited),
         ("what to do where there is none", 4.0, _plan_none),
-        ("the optimality conditions", 4.0, _conditions),
+        ("the proofs of optimality", 15.0, _conditions),
         ("plans in bulk", 30.0, _bulk),
         ("the closed loop", 3.0, _flight),
     )
@@ -98,6 +98,7 @@ def _conditions() -> None:
     from relguide.planning.alternatives import alternatives
     from relguide.planning.optimality import check
     from relguide.planning.plan import Plan, plan
+    from relguide.planning.prove import prove
     from relguide.planning.regular import regular_from_trajectory
     from relguide.planning.regular_evaluation import evaluate
 
@@ -106,6 +107,7 @@ def _conditions() -> None:
         if isinstance(planned, Plan):
             alternatives(planned)
             check(planned, situation)
+            prove(planned, seconds=0.1)
             if "B" not in planned.word and not situation.leader.intent:
                 radius = situation.pursuer.turn_radius
                 regular = regular_from_trajectory(planned.trajectory, turn_radius=radius)

@@ -6,8 +6,8 @@ install another version over this one, and numba would go on running what was. S
 one of a file and all files of ours that it imports. Numba asks the class below first.
 
 They are kept in `NUMBA_CACHE_DIR` if that is set, else beside the sources, else in the user's own
-cache: the first that can be written. One that can only be read (another user's installation, a
-container with a read-only disk) serves too once `python -m relguide.warm_up` has filled it.
+cache: in the first that can be written, or that `python -m relguide.warm_up` has filled and that
+can be read (another user's installation, a container with a read-only disk).
 """
 
 import json
@@ -54,14 +54,14 @@ class KernelLocator(InTreeCacheLocator):
 @cache
 def folder() -> Path:
     """Where kernels are kept."""
-    places = _places()
-    for place in places:
-        if _can_write(place):
+    for place in _places():
+        if _can_write(place) or filled(place):
             return place
-    for place in places:
-        if filled(place):
-            return place
-    return Path(mkdtemp(prefix="relguide-"))  # compiled for this process alone
+    try:
+        return Path(mkdtemp(prefix="relguide-"))  # compiled for this process alone
+    except OSError:
+        sentence = "Compiled kernels can be kept nowhere: set NUMBA_CACHE_DIR to a writable folder."
+        raise OSError(sentence) from None
 
 
 def filled(place: Path) -> bool:

@@ -13,7 +13,7 @@ FRESH = """
 import sys
 from itertools import islice
 from numba.core import event
-from relguide import Plan, alternatives, certify, check, plan
+from relguide import Plan, alternatives, check, plan, prove
 from relguide.flying.flight import fly
 from relguide.flying.scenarios import scenario
 from relguide.planning.batch import Situations, plan_arrays
@@ -33,6 +33,7 @@ for situation, _ in golden("reference")[::7]:
     if isinstance(planned, Plan):
         alternatives(planned)
         check(planned, situation)
+        prove(planned, seconds=0.01)
 for name in ("fig_6a", "fig_6b"):
     for _ in islice(fly(scenario(name), plan), 3000):
         pass
