@@ -186,14 +186,8 @@ def draw_area(figure: Path, headings: Sequence[Radian], of: Path | TreeParameter
     else:
         numbers = [_number(heading, of) for heading in headings]
         tree = tree_from(_grown(planted(of), None, None), {})
-    parameters = tree.parameters
     columns = [_column(tree, number) for number in numbers]
-    subtitle = (
-        f"{tree.laid / 1e6:.0f} million regular trajectories of order ≤ {parameters.order}, "
-        f"Δθ = {parameters.delta_theta / DEG:g}°, Δl = {parameters.delta_l:g} m, cells of "
-        f"{parameters.cell:g} m"
-    )
-    draw_areas(columns, parameters, figure, subtitle=subtitle)
+    draw_areas(columns, tree, figure)
     _write(f"{figure}: the convergence area on {len(columns)} headings.\n")
 
 

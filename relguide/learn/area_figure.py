@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from relguide.area import Area
-from relguide.learn.tree import TreeParameters
+from relguide.learn.tree import Tree, TreeParameters
 from relguide.units import DEG
 
 if TYPE_CHECKING:
@@ -58,21 +58,19 @@ def check_figure(file: Path) -> None:
         ) from None
 
 
-def draw_areas(
-    columns: Sequence[Column], parameters: TreeParameters, file: Path, *, subtitle: str
-) -> None:
+def draw_areas(columns: Sequence[Column], tree: Tree, file: Path) -> None:
     """Draw the convergence area and write it.
 
     Args:
         columns: the headings shown, from left to right.
-        parameters: of the tree.
+        tree: what they are of.
         file: where to; its suffix says as what.
-        subtitle: what the figure says of the tree below its title.
     """
     from matplotlib import rc_context
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
+    parameters = tree.parameters
     # the same data give the same file, letters stay letters
     with rc_context({"svg.hashsalt": "relguide", "svg.fonttype": "none", "font.size": 9}):
         figure = Figure(figsize=(PANEL * len(columns) + 1.2, 3 * PANEL + 1.0), layout="constrained")
@@ -80,11 +78,11 @@ def draw_areas(
         figure.get_layout_engine().set(w_pad=0.06, h_pad=0.06)  # type: ignore[union-attr, call-arg]
         figure.suptitle(
             f"Convergence area: every place from where the slot is joined within "
-            f"{parameters.horizon / MINUTE:g} min\n",
+            f"{parameters.horizon / MINUTE:g} min\n\n",
             color=INK,
             fontsize=13,
         )
-        figure.text(0.5, 0.962, subtitle, color=FAINT, ha="center", va="top")
+        figure.text(0.5, 0.965, _subtitle(tree), color=FAINT, ha="center", va="top")
         grid = figure.subplots(3, len(columns), sharex=True, sharey=True, squeeze=False)
         most = parameters.horizon / MINUTE
         for axes, column in zip(grid.T, columns, strict=True):
@@ -107,6 +105,18 @@ def draw_areas(
         # no date in it: the same data give the same file
         metadata = {"Date": None} if file.suffix.lower() == ".svg" else None
         figure.savefig(file, dpi=160, metadata=metadata)
+
+
+def _subtitle(tree: Tree) -> str:
+    parameters, encounter = tree.parameters, tree.parameters.encounter
+    return (
+        f"V_P {encounter.pursuer_tas:g} m/s at {encounter.max_bank / DEG:g}° of bank, V_L "
+        f"{encounter.leader_tas:g} m/s, D {encounter.slot_distance / KM:g} km, d_min "
+        f"{encounter.min_separation / KM:g} km (the circle)\n"
+        f"the tree: {tree.laid / 1e6:,.1f} million regular trajectories of order ≤ "
+        f"{parameters.order}, Δθ {parameters.delta_theta / DEG:g}°, Δl {parameters.delta_l:g} m, "
+        f"the fastest from each cell of {parameters.cell:g} m"
+    )
 
 
 def _crop(axes: "Axes", columns: Sequence[Column]) -> None:

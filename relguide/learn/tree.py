@@ -10,7 +10,7 @@ The tree is kept on one side, y ≥ 0; a node may hold the mirror image of what 
 """
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from math import ceil, isfinite, pi
 from typing import Any
 
@@ -261,15 +261,26 @@ def losses(tree: Tree, nodes: Ints, exact: Floats) -> Losses:
     return Losses(nodes=nodes, exact=exact, loss=tree.time[nodes] / exact - 1.0)
 
 
+ENCOUNTER_NAMES = {
+    "pursuer_tas_mps": "pursuer_tas",
+    "max_bank_rad": "max_bank",
+    "leader_tas_mps": "leader_tas",
+    "slot_distance_m": "slot_distance",
+    "min_separation_m": "min_separation",
+}
+"""An encounter's fields by the names they have in files."""
+
+
 def parameters_as_json(parameters: TreeParameters) -> dict[str, Any]:
-    """Parameters as they are written into a file: SI, and Δθ as the number of headings."""
+    """Parameters as they are written into a file; Δθ as the number of headings, which is exact."""
+    encounter = parameters.encounter
     return {
-        **asdict(parameters.encounter),
+        **{name: getattr(encounter, field) for name, field in ENCOUNTER_NAMES.items()},
         "order": parameters.order,
         "headings": parameters.headings,
-        "delta_l": parameters.delta_l,
-        "cell": parameters.cell,
-        "horizon": parameters.horizon,
+        "delta_l_m": parameters.delta_l,
+        "cell_m": parameters.cell,
+        "horizon_s": parameters.horizon,
     }
 
 
@@ -280,14 +291,14 @@ def parameters_from_json(content: Mapping[str, Any]) -> TreeParameters:
         ValueError: if they are not such parameters.
     """
     try:
-        encounter = {name: float(content[name]) for name in Encounter.__slots__}
+        encounter = {field: float(content[name]) for name, field in ENCOUNTER_NAMES.items()}
         return TreeParameters(
             encounter=Encounter(**encounter),
             order=int(content["order"]),
             delta_theta=2.0 * pi / int(content["headings"]),
-            delta_l=float(content["delta_l"]),
-            cell=float(content["cell"]),
-            horizon=float(content["horizon"]),
+            delta_l=float(content["delta_l_m"]),
+            cell=float(content["cell_m"]),
+            horizon=float(content["horizon_s"]),
         )
     except (KeyError, TypeError, ZeroDivisionError) as error:
         raise ValueError(f"The parameters of the tree are not whole: {error}.") from None

@@ -194,5 +194,5 @@ def test_the_same_data_give_the_same_file(tmp_path: Path) -> None:
     )
     column = Column(tree=area, exact=area, loss=area)
     for name in ("one.svg", "two.svg"):
-        draw_areas([column], parameters(), tmp_path / name, subtitle="a test")
+        draw_areas([column], tree(), tmp_path / name)
     assert (tmp_path / "one.svg").read_bytes() == (tmp_path / "two.svg").read_bytes()

@@ -146,6 +146,17 @@ def test_a_cell_holds_the_state_that_is_in_it() -> None:
         assert grown_tree.y[node] >= 0.0
 
 
+def test_no_way_is_kept_twice() -> None:
+    grown_tree = tree(4)
+    kept = np.column_stack(
+        [
+            getattr(grown_tree, name)
+            for name in ("parent", "length_number", "angle_number", "turn", "mirrored")
+        ]
+    )
+    assert len(np.unique(kept, axis=0)) == len(grown_tree)
+
+
 def test_a_higher_order_is_never_slower() -> None:
     for order in (3, 4):
         lower, higher = tree(order - 1), tree(order)

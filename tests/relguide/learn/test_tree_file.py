@@ -46,9 +46,9 @@ def test_parameters_come_back_to_the_last_digit() -> None:
     again = parameters_from_json(json.loads(json.dumps(parameters_as_json(parameters()))))
     assert parameters_as_json(again) == parameters_as_json(parameters())
     assert again.delta_theta == pytest.approx(parameters().delta_theta, rel=1e-15)
-    with pytest.raises(ValueError, match="are not whole: 'cell'"):
+    with pytest.raises(ValueError, match="are not whole: 'cell_m'"):
         parameters_from_json(
-            {k: v for k, v in parameters_as_json(parameters()).items() if k != "cell"}
+            {k: v for k, v in parameters_as_json(parameters()).items() if k != "cell_m"}
         )
 
 
