@@ -8,7 +8,7 @@ Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader i
 `clearance`.
 """
 
-from math import ceil, cos, hypot, inf, sin, sqrt
+from math import ceil, cos, hypot, inf, isnan, pi, sin, sqrt
 
 import numpy as np
 from numba import njit
@@ -22,6 +22,9 @@ from relguide.kernels.roots import FloatArray
 
 GRAZE = 3e-7
 """The contact is flown this far outside d_min [R], so that rounding cannot break it."""
+
+
+_TURNING_STEP = 0.15  # the leader turns by some 10° in it [R/V_P]
 
 
 @njit(cache=True, nogil=True)
@@ -136,38 +139,82 @@ def _ways_while_turning(
 ) -> int:  # fmt: skip
     """As `ways_to_contact` while the leader turns: the contact moves on a circle, so roots in t."""
     start, end = max(leader[i, 0], t_start), leader[i + 1, 0]
-    steps = ceil((end - start) / 0.15) + 1  # 0.15 R/V: the leader turns by some 10° in it
+    steps = ceil((end - start) / _TURNING_STEP) + 1
     piece = np.empty(3)
+    turns = np.empty((3, 2))  # first and last turn at the last time, at this one, and between
     n = 0
     for branch in range(8):
+        word = t_start, leader, i, alpha, delta, bearing, side, branch
         last, last_t = np.nan, start
         for k in range(steps + 1):
             t = start + (end - start) * k / steps
-            gap = _excess(
-                x, y, h, t_start, leader, i, alpha, delta, bearing, side, branch, t, piece
-            )  # fmt: skip
-            if last * gap <= 0.0 and n < MAX_ROWS:
-                low, high = last_t, t
-                for _ in range(50):
-                    middle = 0.5 * (low + high)
-                    value = _excess(
-                        x, y, h, t_start, leader, i, alpha, delta, bearing, side, branch, middle,
-                        piece,
-                    )  # fmt: skip
-                    if (value < 0.0) == (last < 0.0):
-                        low = middle
-                    else:
-                        high = middle
-                value = _excess(
-                    x, y, h, t_start, leader, i, alpha, delta, bearing, side, branch, high, piece
-                )
-                if abs(value) < 1e-9:  # a jump of a turn by 2π changes sign too
-                    rows[n, 0] = high
-                    rows[n, 1] = branch if branch < 6 else branch - 2
-                    rows[n, 2:5] = piece
-                    n += 1
+            gap = _excess(x, y, h, *word, t, piece)
+            turns[1, 0], turns[1, 1] = piece[0], piece[2]
+            if k > 0 and not (isnan(last) and isnan(gap)):
+                if _unbroken(last, turns[0], gap, turns[1]):
+                    n = _root(x, y, h, *word, last_t, last, t, gap, piece, rows, n)
+                else:
+                    # a turn passes 0, or the word ends to exist: a root on each side of that
+                    low, high, at_low, at_high = last_t, t, last, gap
+                    for _ in range(40):
+                        middle = 0.5 * (low + high)
+                        value = _excess(x, y, h, *word, middle, piece)
+                        turns[2, 0], turns[2, 1] = piece[0], piece[2]
+                        if (isnan(value) and isnan(last)) or _unbroken(
+                            last, turns[0], value, turns[2]
+                        ):
+                            low, at_low = middle, value
+                        else:
+                            high, at_high = middle, value
+                    n = _root(x, y, h, *word, last_t, last, low, at_low, piece, rows, n)
+                    n = _root(x, y, h, *word, high, at_high, t, gap, piece, rows, n)
             last, last_t = gap, t
+            turns[0] = turns[1]
     return n
+
+
+@njit(cache=True, nogil=True)
+def _unbroken(value: float, turns: FloatArray, other: float, others: FloatArray) -> bool:
+    """Whether a word's length goes on smoothly: it exists at both times, and no turn jumps."""
+    return bool(
+        not isnan(value)
+        and not isnan(other)
+        and abs(turns[0] - others[0]) < pi
+        and abs(turns[1] - others[1]) < pi
+    )
+
+
+@njit(cache=True, nogil=True)
+def _root(
+    x: float, y: float, h: float, t_start: float, leader: FloatArray, i: int, alpha: float,
+    delta: float, bearing: float, side: float, branch: int, low: float, at_low: float,
+    high: float, at_high: float, piece: FloatArray, rows: FloatArray, n: int,
+) -> int:  # fmt: skip
+    """Append the row of a word that arrives between two times, if there is one (Illinois)."""
+    if not at_low * at_high <= 0.0 or n == MAX_ROWS:
+        return n
+    at, value = (low, at_low) if abs(at_low) < abs(at_high) else (high, at_high)
+    for k in range(60):
+        if abs(value) < 1e-13 or high - low < 1e-14:
+            break
+        share = 0.5 if k % 4 == 3 else at_high / (at_high - at_low)
+        at = high - share * (high - low)
+        value = _excess(
+            x, y, h, t_start, leader, i, alpha, delta, bearing, side, branch, at, piece
+        )
+        if (value < 0.0) == (at_low < 0.0):
+            low, at_low = at, value
+            at_high *= 0.5
+        else:
+            high, at_high = at, value
+            at_low *= 0.5
+    value = _excess(x, y, h, t_start, leader, i, alpha, delta, bearing, side, branch, at, piece)
+    if not abs(value) < 1e-9:
+        return n
+    rows[n, 0] = at
+    rows[n, 1] = branch if branch < 6 else branch - 2
+    rows[n, 2:5] = piece
+    return n + 1
 
 
 @njit(cache=True, nogil=True)

@@ -172,15 +172,22 @@ def tangents(
 def tangents_from_start(
     x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float
 ) -> FloatArray:
-    """Tangent contacts of the start, in the slot frame: rows of bearing, side, time.
+    """Tangent contacts of the start on the final leg, in the slot frame: bearing, side, time.
 
-    None where the leader has turns to come, or is so far away that the scan sees all there is.
+    None where the leader is so far away that the scan sees all there is.
     """
     found = np.empty((MAX_TANGENTS, 3))
-    lx, ly, _ = leader_at(leader, len(leader) - 1, alpha, 0.0)
-    if len(leader) > 1 or hypot(x - lx, y - ly) > delta + NEAR:
+    last = len(leader) - 1
+    lx, ly, _ = leader_at(leader, last, alpha, 0.0)
+    if last == 0 and hypot(x - lx, y - ly) > delta + NEAR:
         return found[:0]
-    return found[: tangent_contacts(x - lx, y - ly, h, alpha, delta, found)]
+    n = tangent_contacts(x - lx, y - ly, h, alpha, delta, found)
+    kept = 0
+    for j in range(n):
+        if found[j, 2] >= leader[last, 0]:
+            found[kept] = found[j]
+            kept += 1
+    return found[:kept]
 
 
 @njit(cache=True, nogil=True)
