@@ -19,8 +19,8 @@ from relguide.kernels.contact import contact_exists, contact_heading, ride_withi
 from relguide.kernels.passage import GRAZE, best_word, ways_to_contact, word_clears
 from relguide.kernels.roots import FloatArray
 
-WORD, RIDE = 0.0, 1.0
-"""How a contact is reached."""
+WORD, RIDE, WAIT = 0.0, 1.0, 2.0
+"""How a contact is reached, or the slot: by a path of just the right length, in the last case."""
 MAX_CONTACTS = 8
 """Longest chain."""
 _FINEST = 1e-7  # bearing steps end here: 1 mm at R = 12 km, 10 µs where the time has an edge

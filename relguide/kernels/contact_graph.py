@@ -25,9 +25,12 @@ from relguide.kernels.chain import (
 )
 from relguide.kernels.contact import contact_exists, ride_way, ride_within
 from relguide.kernels.extremals import MAX_ROWS, solve
+from relguide.kernels.hold import HOLD_PIECES
 from relguide.kernels.passage import GRAZE, not_before, not_before_slot, word_clears
 from relguide.kernels.roots import FloatArray
+from relguide.kernels.waiting import wait_for_opening
 
+_TRIES = 4  # so many times as many nodes may be left by a path that waits: 0.3 ms each
 _ROUNDS = 3  # of hops, each followed by rides: chains with up to two hops and three rides
 _BETTER = 1e-9  # a label must fall by more than this [R/V_P], or rounding goes round in circles
 
@@ -71,17 +74,44 @@ def _onward(
     leader: FloatArray, t: float, bearing: float, side: float, alpha: float, delta: float,
     t_open: float, beat: float, rows: FloatArray,
 ) -> tuple[float, float]:  # fmt: skip
-    """From a contact to the slot: arrival without the limit, and with it if before `beat`."""
+    """From a contact to the slot: a bound on the arrival, and the arrival if before `beat`.
+
+    The bound is the arrival without the limit, or when the slot opens: what is early may wait.
+    """
     x, y, h = contact_at(leader, t, bearing, side, alpha, delta)
-    n = solve(x - alpha * t, y, h % TWO_PI, alpha, max(t_open - t, 0.0), rows)
+    n = solve(x - alpha * t, y, h % TWO_PI, alpha, 0.0, rows)
     if n == 0:
         return inf, inf
+    lower = max(t + rows[0, 0], t_open)
     for k in range(n):
-        if t + rows[k, 0] >= beat:
+        arrival = t + rows[k, 0]
+        if arrival >= beat:
             break
-        if word_clears(x, y, h, t, rows[k], leader, alpha, delta - GRAZE):
-            return t + rows[0, 0], t + rows[k, 0]
-    return t + rows[0, 0], inf
+        if arrival >= t_open and word_clears(x, y, h, t, rows[k], leader, alpha, delta - GRAZE):
+            return lower, arrival
+    return lower, inf
+
+
+@njit(cache=True, nogil=True)
+def _waits(
+    leader: FloatArray, alpha: float, delta: float, t_open: float, sides: FloatArray,
+    bearings: FloatArray, time: FloatArray, lower: FloatArray, tried: FloatArray, tries: int,
+) -> tuple[int, int]:  # fmt: skip
+    """A node from which a clear path arrives just as the slot opens, −1 if none; tries left."""
+    pieces = np.empty((HOLD_PIECES, 2))
+    while tries > 0:
+        n = -1
+        for m in range(len(time)):
+            if lower[m] <= t_open and time[m] < tried[m] and (n < 0 or time[m] < time[n]):
+                n = m
+        if n < 0:
+            break
+        tried[n] = time[n]
+        tries -= 1
+        x, y, h = contact_at(leader, time[n], bearings[n], sides[n], alpha, delta)
+        if wait_for_opening(x, y, h, time[n], leader, alpha, delta - GRAZE, t_open, pieces):
+            return n, tries
+    return -1, tries
 
 
 @njit(cache=True, nogil=True)
@@ -100,12 +130,14 @@ def best_chains(
         sides: of the nodes, k groups of both sides. shape (n,)
         bearings: of the nodes [rad]. shape (n,)
         time: earliest arrival at each node from the start, infinite where none matters; falls.
-        lower: before what no way by that node's label arrives at the slot.
+        lower: before what no way by that node's label arrives at the slot; the time it opens where
+            it could be reached sooner.
         beat: an arrival already known [R/V_P].
         slack: chains on the grid that arrive this much later are kept, to be refined [R/V_P].
         hops: from how many nodes words to other nodes are looked for, in each round.
         chains: takes the chains: a row with their arrival and number of contacts, then rows as in
-            `fly_links`. shape (·, MAX_CONTACTS + 1, 4)
+            `fly_links`. One that arrives at t_open itself waits for that behind its last contact.
+            shape (·, MAX_CONTACTS + 1, 4)
 
     Returns:
         how many.
@@ -117,6 +149,7 @@ def best_chains(
     arrive = np.full(count, inf)
     hopped = np.full(count, inf)  # the label with which a node was last followed
     fresh = np.zeros(count)
+    tried, tries = np.full(count, inf), _TRIES * hops
     waiting = np.zeros(count)  # nodes whose label has fallen since they were last ridden from
     rows = np.empty((MAX_ROWS, 5))
     # on the final leg the way on without the limit takes as long at any time
@@ -157,6 +190,16 @@ def best_chains(
             best = min(best, arrive[n])
             if n >= final and t_open <= time[n]:
                 free[n] = lower[n] - time[n]
+        if lower.min() <= t_open < best:
+            end, tries = _waits(
+                leader, alpha, delta, t_open, sides, bearings, time, lower, tried, tries
+            )
+            if end >= 0:
+                # what arrives as the slot opens cannot be beaten
+                arrive[:] = inf
+                arrive[end] = t_open
+                best = t_open
+                break
         if turn == _ROUNDS - 1:
             break
         for _ in range(hops):

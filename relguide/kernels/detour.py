@@ -19,6 +19,7 @@ from relguide.kernels.angles import TWO_PI, wrap
 from relguide.kernels.chain import (
     GAIN,
     MAX_CONTACTS,
+    WAIT,
     WORD,
     contact_at,
     fly_links,
@@ -190,6 +191,14 @@ def best_detour(
         leader, alpha, delta, t_open, sides, placed, time, lower, best, _NEARLY,
         bearings // _PER_HOP, chains,
     )  # fmt: skip
+    if kept > 0 and chains[0, 0, 0] == t_open:
+        contacts = int(chains[0, 0, 1])
+        fly_links(
+            x, y, h, 0.0, leader, alpha, delta, t_open, chains[0, 1 : contacts + 1], 0,
+            contacts - 1, inf, rows, legs,
+        )  # fmt: skip
+        legs[contacts, 0] = WAIT
+        return t_open, contacts + 1
     won = -1
     for k in range(kept):
         here = refine_chain(

@@ -25,6 +25,9 @@ GRAZE = 3e-7
 
 
 _TURNING_STEP = 0.15  # the leader turns by some 10° in it [R/V_P]
+_LONGEST_DETOUR = 24.0  # 6π + 4, rounded up
+_EARLY = 1e-9  # this much before it opens the slot counts as open [R/V_P], as in `solve`
+_JUMP = 1.0  # a word's length does not change by more within one step, unless it jumps [R]
 
 
 @njit(cache=True, nogil=True)
@@ -140,34 +143,40 @@ def _ways_while_turning(
     """As `ways_to_contact` while the leader turns: the contact moves on a circle, so roots in t."""
     start, end = max(leader[i, 0], t_start), leader[i + 1, 0]
     steps = ceil((end - start) / _TURNING_STEP) + 1
+    # a word is at least as long as the way is far, and hardly longer than three full turns more
+    most = (1.0 + alpha + delta * abs(leader[i, 4])) * (end - start) / steps
+    earliest, latest = steps + 1, -1
+    for k in range(steps + 1):
+        t = start + (end - start) * k / steps
+        lx, ly, lh = leader_at(leader, i, alpha, t)
+        away = hypot(lx + delta * cos(lh + bearing) - x, ly + delta * sin(lh + bearing) - y)
+        if -most <= t - t_start - away <= _LONGEST_DETOUR + most:
+            earliest, latest = min(earliest, k), k
     piece = np.empty(3)
     turns = np.empty((3, 2))  # first and last turn at the last time, at this one, and between
     n = 0
     for branch in range(8):
         word = t_start, leader, i, alpha, delta, bearing, side, branch
         last, last_t = np.nan, start
-        for k in range(steps + 1):
+        for k in range(earliest, latest + 1):
             t = start + (end - start) * k / steps
             gap = _excess(x, y, h, *word, t, piece)
             turns[1, 0], turns[1, 1] = piece[0], piece[2]
-            if k > 0 and not (isnan(last) and isnan(gap)):
-                if _unbroken(last, turns[0], gap, turns[1]):
-                    n = _root(x, y, h, *word, last_t, last, t, gap, piece, rows, n)
-                else:
-                    # a turn passes 0, or the word ends to exist: a root on each side of that
-                    low, high, at_low, at_high = last_t, t, last, gap
-                    for _ in range(40):
-                        middle = 0.5 * (low + high)
-                        value = _excess(x, y, h, *word, middle, piece)
-                        turns[2, 0], turns[2, 1] = piece[0], piece[2]
-                        if (isnan(value) and isnan(last)) or _unbroken(
-                            last, turns[0], value, turns[2]
-                        ):
-                            low, at_low = middle, value
-                        else:
-                            high, at_high = middle, value
-                    n = _root(x, y, h, *word, last_t, last, low, at_low, piece, rows, n)
-                    n = _root(x, y, h, *word, high, at_high, t, gap, piece, rows, n)
+            if k > earliest and _unbroken(last, turns[0], gap, turns[1]):
+                n = _root(x, y, h, *word, last_t, last, t, gap, piece, rows, n)
+            elif k > earliest and (abs(last) < _JUMP or abs(gap) < _JUMP):
+                # a turn passes 0, or the word ceases to exist: there may be a root on either side
+                low, high, at_low, at_high = last_t, t, last, gap
+                for _ in range(25):
+                    middle = 0.5 * (low + high)
+                    value = _excess(x, y, h, *word, middle, piece)
+                    turns[2, 0], turns[2, 1] = piece[0], piece[2]
+                    if (isnan(value) and isnan(last)) or _unbroken(last, turns[0], value, turns[2]):
+                        low, at_low = middle, value
+                    else:
+                        high, at_high = middle, value
+                n = _root(x, y, h, *word, last_t, last, low, at_low, piece, rows, n)
+                n = _root(x, y, h, *word, high, at_high, t, gap, piece, rows, n)
             last, last_t = gap, t
             turns[0] = turns[1]
     return n
@@ -199,9 +208,7 @@ def _root(
             break
         share = 0.5 if k % 4 == 3 else at_high / (at_high - at_low)
         at = high - share * (high - low)
-        value = _excess(
-            x, y, h, t_start, leader, i, alpha, delta, bearing, side, branch, at, piece
-        )
+        value = _excess(x, y, h, t_start, leader, i, alpha, delta, bearing, side, branch, at, piece)
         if (value < 0.0) == (at_low < 0.0):
             low, at_low = at, value
             at_high *= 0.5
@@ -275,21 +282,25 @@ def through_contact(
         ch = lh + contact_heading(bearing, side, alpha)
         if not_before_slot(cx, cy, ch, t, alpha, t_open) >= beat:
             continue
-        if m < 0 or i + 1 < len(leader) or t < t_open:
+        if m < 0 or i + 1 < len(leader):
             # on the final leg the ways on are the same at any time
-            m = solve(cx - alpha * t, cy, wrap(ch), alpha, max(t_open - t, 0.0), onward)
-        # the cheap test first: could it be in time at all?
-        if m == 0 or t + onward[0, 0] >= beat:
+            m = solve(cx - alpha * t, cy, wrap(ch), alpha, 0.0, onward)
+        if m == 0:
             continue
-        if not word_clears(x, y, h, 0.0, rows[k], leader, alpha, limit):
+        # the cheap test first: could it be in time at all? What is too early may wait
+        lower = max(t + onward[0, 0], t_open)
+        if lower >= beat or not word_clears(x, y, h, 0.0, rows[k], leader, alpha, limit):
             continue
         if t < reached[0]:
-            reached[0], reached[1] = t, t + onward[0, 0]
+            reached[0], reached[1] = t, lower
         for j in range(m):
-            if t + onward[j, 0] >= beat:
+            arrival = t + onward[j, 0]
+            if arrival >= beat:
                 break
-            if word_clears(cx, cy, ch, t, onward[j], leader, alpha, limit):
-                beat = t + onward[j, 0]
+            if arrival >= t_open - _EARLY and word_clears(
+                cx, cy, ch, t, onward[j], leader, alpha, limit
+            ):
+                beat = arrival
                 way[0] = rows[k]
                 way[1] = onward[j]
                 break

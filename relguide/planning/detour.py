@@ -2,12 +2,14 @@
 
 import numpy as np
 
-from relguide.kernels.chain import RIDE
+from relguide.kernels.chain import RIDE, WAIT
 from relguide.kernels.detour import MAX_LEGS, any_way, best_detour
 from relguide.kernels.extremals import MAX_ROWS, fly_piece
+from relguide.kernels.hold import HOLD_PIECES
 from relguide.kernels.passage import GRAZE, best_word
 from relguide.kernels.ride import MAX_NODES, ride_pieces
 from relguide.kernels.tangent import tangents
+from relguide.kernels.waiting import wait_for_opening
 from relguide.planning.situation import Situation
 from relguide.planning.slot import SlotFrame
 from relguide.planning.trajectory import LEFT, RIGHT, BoundaryArc, Segment, Trajectory
@@ -20,8 +22,8 @@ SAME = 2e-4
 """A way handed over as segments takes as long as the one searched, to this [R/V_P]: some ms."""
 BEARINGS = 36
 """How finely the disc is scanned round a leader that keeps straight: every 10°."""
-TURNING_BEARINGS = 144
-"""Round one that turns: every 2.5°, since contacts must fall into the time of one piece."""
+TURNING_BEARINGS = 72
+"""Round one that turns: every 5°, since contacts must fall into the time of one piece."""
 
 
 def detour(found: Candidates, *, beat: Second) -> Candidate | None:
@@ -91,17 +93,28 @@ def _flown(
                 x, y, h = fly_piece(x, y, h, sign, amount)
                 t += amount
     last_row = legs[-1, 1:]
-    if any(isinstance(segment, BoundaryArc) for segment in segments):
-        rows = np.empty((MAX_ROWS, 5))
-        # a ride's last node lies within rounding of the limit, which must not cost the best word
-        _, i = best_word(
-            x, y, h, t, leader, frame.alpha, limit - GRAZE, frame.t_open, float("inf"), rows
-        )
-        if i < 0:
+    rode = any(isinstance(segment, BoundaryArc) for segment in segments)
+    if legs[-1, 0] == WAIT:
+        pieces = np.empty((HOLD_PIECES, 2))
+        if not wait_for_opening(
+            x, y, h, t, leader, frame.alpha, limit - GRAZE, frame.t_open, pieces
+        ):
             return None
-        last_row = rows[i]
-    signs += SIGN_ROWS[int(last_row[1])]
-    segments += segments_of(frame, signs, amounts + last_row[2:].tolist())
+        signs += pieces[:, 0].tolist()
+        amounts += pieces[:, 1].tolist()
+    else:
+        if rode:
+            rows = np.empty((MAX_ROWS, 5))
+            # a ride's last node lies within rounding of the limit: it must not cost the best word
+            _, i = best_word(
+                x, y, h, t, leader, frame.alpha, limit - GRAZE, frame.t_open, float("inf"), rows
+            )
+            if i < 0:
+                return None
+            last_row = rows[i]
+        signs += SIGN_ROWS[int(last_row[1])]
+        amounts += last_row[2:].tolist()
+    segments += segments_of(frame, signs, amounts)
     pursuer = situation.pursuer
     trajectory = Trajectory(
         x=pursuer.x,
