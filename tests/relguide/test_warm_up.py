@@ -14,8 +14,11 @@ import sys
 from itertools import islice
 from numba.core import event
 from relguide import Plan, alternatives, check, plan, prove
+from relguide.area import Encounter
 from relguide.flying.flight import fly
 from relguide.flying.scenarios import scenario
+from relguide.learn.reverse_dp import reverse_tree
+from relguide.learn.tree import TreeParameters
 from relguide.planning.batch import Situations, plan_arrays
 from tests.situations import golden
 
@@ -40,6 +43,12 @@ for name in ("fig_6a", "fig_6b"):
 plan_arrays(Situations(
     pursuer_x=range(-9000, 9000, 3000), pursuer_y=12000, pursuer_heading=1, pursuer_tas=240,
     max_bank=0.4, leader_tas=200, slot_distance=9000, min_separation=8000,
+))
+encounter = Encounter(
+    pursuer_tas=240, max_bank=0.4, leader_tas=200, slot_distance=9000, min_separation=8000
+)
+reverse_tree(TreeParameters(
+    encounter=encounter, order=3, delta_theta=0.7853981633974483, delta_l=5000, cell=9000
 ))
 sys.exit(", ".join(compiled) or 0)
 """
