@@ -67,9 +67,9 @@ def test_dataset_tells_people_in_sentences(run: Run) -> None:
     code, out, _ = run(*DATASET, *SMALL, "--audit", "50", "--threads", "1")
     assert code == 0
     assert f"the best ways from {len(tree().minima):,} cells" in out
-    assert "They are ways, not the fastest: of 50 of them" in out
+    assert "They are ways, not the fastest ones: of 50 of them" in out
     code, out, _ = run(*DATASET, *SMALL, "--audit", "0")
-    assert (code, "not the fastest" in out) == (0, False)
+    assert (code, "not the fastest ones" in out) == (0, False)
 
 
 def test_a_stopped_run_is_resumed_to_the_same_tree(run: Run) -> None:
