@@ -116,8 +116,8 @@ def _told(found: Losses) -> str:
     missed = int(np.sum(found.exact == inf))
     exact = f" The exact planner found no way from {missed} of them." if missed else ""
     return (
-        f"They are ways, not the fastest ones: of {len(found.nodes):,} of them, compared with exact "
-        f"plans from the same\nstates, {none} are optimal, {within}; the worst\nloses "
+        f"They are ways, not the fastest ones: of {len(found.nodes):,} of them, compared with "
+        f"exact plans from the same\nstates, {none} are optimal, {within}; the worst\nloses "
         f"{100.0 * float(found.loss.max()):.0f} %.{exact}\n"
     )
 
