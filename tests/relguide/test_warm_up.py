@@ -90,7 +90,8 @@ def test_a_stamp_changes_with_what_is_imported(
 
     def stamps() -> dict[str, str]:
         cache._made_of.cache_clear()
-        return {file.stem: cache._stamp([file]) for file in kernels.iterdir()}
+        cache._stamp.cache_clear()
+        return {file.stem: cache._stamp((file,)) for file in kernels.iterdir()}
 
     before = stamps()
     (tmp_path / "units.py").write_text("G0 = 9.80665\n")
