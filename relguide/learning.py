@@ -117,7 +117,7 @@ def _told(found: Losses) -> str:
     exact = f" The exact planner found no way from {missed} of them." if missed else ""
     return (
         f"They are ways, not the fastest ones: of {len(found.nodes):,} of them, compared with "
-        f"exact plans from the same\nstates, {none} are optimal, {within}; the worst\nloses "
+        f"exact plans from the same\nstates, {none} are optimal, {within};\nthe worst loses "
         f"{100.0 * float(found.loss.max()):.0f} %.{exact}\n"
     )
 
