@@ -72,6 +72,34 @@ def test_no_pose_of_the_set_meets_the_target_sooner(
                     assert row[0] >= lowest - ROUNDING * (1.0 + row[0])
 
 
+@given(
+    pose=st.tuples(places, places, courses),
+    ratio=ratios,
+    toward=courses,
+    blur=blurs,
+    turn=blurs,
+    way=courses,
+    share=st.one_of(st.sampled_from([-1.0, 0.0, 1.0]), numbers(-1.0, 1.0)),
+)
+def test_no_word_of_a_pose_at_the_edge_of_the_set_is_ruled_out(
+    pose: tuple[float, float, float], ratio: float, toward: float, blur: float, turn: float,
+    way: float, share: float,
+) -> None:  # fmt: skip
+    a = ratio * cos(toward), ratio * sin(toward)
+    x, y, h = pose
+    for row in exact(x, y, h, a, 0.0):
+        side = 1.0 if WORDS[int(row[1])][0] == "L" else -1.0
+        course = h - share * turn
+        cx = x - side * sin(h) - blur * cos(way)
+        cy = y + side * cos(h) - blur * sin(way)
+        middle = cx + side * sin(course), cy - side * cos(course), course
+        # in so narrow a window of time there is nothing but this word
+        slack = 1e-7 * (1.0 + row[0])
+        if row[0] < 1e6:
+            found = bound(middle, a, blur, turn, row[0] - slack, row[0] + slack)
+            assert found <= row[0] + slack
+
+
 def test_of_a_single_pose_it_is_the_exact_time() -> None:
     rng = np.random.default_rng(0)
     for _ in range(1_000):
