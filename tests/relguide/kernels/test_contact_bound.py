@@ -117,11 +117,11 @@ def test_no_contact_of_a_cell_is_reached_or_left_sooner(
         return
     assert onward <= on[0, 0] + SLACK * (1.0 + on[0, 0])
     for row in to_it:
-        if keeps(*start, row, leader, alpha, delta):
+        if row[0] + on[0, 0] < FAR and keeps(*start, row, leader, alpha, delta):
             assert soon <= row[0] + SLACK * (1.0 + row[0])
             break
     for row in on:
-        if keeps(*at, row, leader, alpha, delta - 1e-9):
+        if row[0] < FAR and keeps(*at, row, leader, alpha, delta - 1e-9):
             assert leaving <= row[0] + SLACK * (1.0 + row[0])
             break
 
