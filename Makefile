@@ -60,9 +60,10 @@ endif
 	@$(PIP) install --editable .
 	@touch $@
 
-# Numba keeps what it compiles beside the sources, so this happens once.
+# What is compiled is kept beside the sources, so this happens once.
 .make/kernels: .make/installed $(KERNELS)
-	@sh .ci/dots "== Compiling the kernels" $(BIN)/relguide fly fig_6b --json
+	@echo "== Compiling the kernels (the first time: a minute or two)"
+	@$(BIN)/python -m relguide.warm_up
 	@touch $@
 
 # ---- test ------------------------------------------------------------------------------------

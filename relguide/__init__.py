@@ -16,6 +16,9 @@ d_min. Five conventions hold everywhere:
 
 from relguide.planning.alternatives import Alternative as Alternative
 from relguide.planning.alternatives import alternatives as alternatives
+from relguide.planning.batch import Situations as Situations
+from relguide.planning.batch import Times as Times
+from relguide.planning.batch import plan_arrays as plan_arrays
 from relguide.planning.certificate import Certificate as Certificate
 from relguide.planning.certificate import certify as certify
 from relguide.planning.optimality import OptimalityReport as OptimalityReport
@@ -43,6 +46,7 @@ from relguide.planning.trajectory import Straight as Straight
 from relguide.planning.trajectory import Trajectory as Trajectory
 from relguide.planning.words import Candidate as Candidate
 from relguide.planning.words import candidates as candidates
+from relguide.progress import progress_bar as progress_bar
 
 __version__ = "0.1.0"
 
@@ -65,7 +69,9 @@ __all__ = [
     "Pursuer",
     "Reason",
     "Situation",
+    "Situations",
     "Straight",
+    "Times",
     "Trajectory",
     "TurnTo",
     "Wind",
@@ -74,6 +80,8 @@ __all__ = [
     "certify",
     "check",
     "plan",
+    "plan_arrays",
+    "progress_bar",
     "prove",
     "wind_from",
 ]

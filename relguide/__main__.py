@@ -58,6 +58,7 @@ def _plan(chosen: argparse.Namespace) -> int:
     from relguide.command_line import plan_batch, plan_one
 
     _only_exact(chosen.planner)
+    _compile_first()
     if chosen.batch and chosen.table:
         raise ValueError("A batch is answered in JSON, a plan a line: leave out --table.")
     if chosen.batch:
@@ -82,6 +83,7 @@ def _fly(chosen: argparse.Namespace) -> int:
     from relguide.command_line import fly_one
 
     _only_exact(chosen.planner)
+    _compile_first()
     passed = fly_one(
         chosen.scenario, record_to=chosen.record, seed=chosen.seed, as_json=chosen.json
     )
@@ -99,6 +101,14 @@ def _serve(chosen: argparse.Namespace) -> int:
 
     serve(host=chosen.host, port=chosen.port)
     return DONE
+
+
+def _compile_first() -> None:
+    """Where installation has not compiled the kernels, who waits for them sees a bar."""
+    if sys.stderr.isatty():
+        from relguide.warm_up import warm_up
+
+        warm_up()
 
 
 def _only_exact(planner: str) -> None:

@@ -110,13 +110,15 @@ def make_tree(
 def _told(found: Losses) -> str:
     none, *some = (f"{100.0 * found.share_within(w or ROUNDING):.1f} %" for w in WITHIN)
     within = ", ".join(
-        f"{share} within {100.0 * loss:g} %" for share, loss in zip(some, WITHIN[1:], strict=True)
+        f"{share} lose at most {100.0 * loss:g} %"
+        for share, loss in zip(some, WITHIN[1:], strict=True)
     )
     missed = int(np.sum(found.exact == inf))
     exact = f" The exact planner found no way from {missed} of them." if missed else ""
     return (
-        f"They are ways, not the fastest: of {len(found.nodes):,} of them {none} are optimal, "
-        f"{within};\nthe worst loses {100.0 * float(found.loss.max()):.0f} %.{exact}\n"
+        f"They are ways, not the fastest ones: of {len(found.nodes):,} of them, compared with "
+        f"exact plans from the same\nstates, {none} are optimal, {within};\nthe worst loses "
+        f"{100.0 * float(found.loss.max()):.0f} %.{exact}\n"
     )
 
 

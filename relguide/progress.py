@@ -48,6 +48,26 @@ def watched(
 
 
 @contextmanager
+def progress_bar(title: str, *, total: float) -> Iterator[Callable[[float], None]]:
+    """A bar once it has taken longer than two seconds; yields what to call with each advance.
+
+    Args:
+        title: what the bar is called.
+        total: what the advances sum up to.
+    """
+    reached = 0.0
+    with _bar(title, total) as bars:
+
+        def count(advance: float) -> None:
+            nonlocal reached
+            reached += advance
+            for progress, task in bars:
+                progress.update(task, completed=reached)
+
+        yield count
+
+
+@contextmanager
 def _bar(title: str, total: float) -> Iterator["list[tuple[Progress, TaskID]]"]:
     """The bar in a list, which stays empty until it is shown.
 

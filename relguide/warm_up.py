@@ -69,6 +69,7 @@ def _steps() -> tuple[Step, ...]:
         ("what to do where there is none", 4.0, _plan_none),
         ("the proofs of optimality", 15.0, _conditions),
         ("plans in bulk", 30.0, _bulk),
+        ("reverse dynamic programming", 4.0, _tree),
         ("the closed loop", 3.0, _flight),
     )
 
@@ -123,6 +124,23 @@ def _bulk() -> None:
             max_bank=25 * DEG, leader_tas=200.0, slot_distance=12e3, min_separation=9e3,
         )
     )  # fmt: skip
+
+
+def _tree() -> None:
+    from relguide.area import Encounter
+    from relguide.learn.reverse_dp import reverse_tree
+    from relguide.learn.tree import TreeParameters
+
+    encounter = Encounter(
+        pursuer_tas=240.0,
+        max_bank=25 * DEG,
+        leader_tas=200.0,
+        slot_distance=12e3,
+        min_separation=9e3,
+    )
+    reverse_tree(
+        TreeParameters(encounter=encounter, order=2, delta_theta=0.5 * pi, delta_l=12e3, cell=12e3)
+    )
 
 
 def _flight() -> None:

@@ -32,8 +32,8 @@ from relguide.kernels.clearance import leader_at
 from relguide.kernels.extremals import fly_piece
 from relguide.kernels.roots import FloatArray
 
-_ROUNDING = 1e-9
-"""Added to every blur: what rounding may displace [R]."""
+_ROUNDING = 2e-7
+"""Added to every blur: twice what an accepted path may miss its end by, `extremals.CLOSURE` [R]."""
 _DEPTH = 192
 _FINEST = 1e-12  # an interval this short is not halved again [rad]
 _FAST = 0.95  # a target at this speed may be met twice, or late [V_P]

@@ -23,7 +23,7 @@ from numba import __version__ as numba_version
 from numba.core.caching import CacheImpl, InTreeCacheLocator, UserWideCacheLocator
 from numba.core.registry import cpu_target
 
-HERE = Path(__file__).resolve().parent
+HERE = Path(__file__).parent
 """The kernels' sources."""
 RECORD = "relguide-kernels.json"
 """The file that says for what a folder has been filled."""
@@ -37,7 +37,7 @@ class KernelLocator(InTreeCacheLocator):
     @classmethod
     def from_function(cls, py_func: Any, py_file: str) -> Self | None:
         """For our own files; numba's other classes see to all the rest."""
-        if Path(py_file).resolve().parent != HERE:
+        if not py_file.startswith(str(HERE)):
             return None
         self = cls(py_func, py_file)
         self._cache_path = str(folder())
@@ -45,7 +45,7 @@ class KernelLocator(InTreeCacheLocator):
 
     def get_source_stamp(self) -> str:
         """Changes with whatever the kernel is made of."""
-        return _stamp([Path(self._py_file).resolve()])
+        return _stamp((Path(self._py_file),))
 
     def ensure_cache_path(self) -> None:
         """Nothing to do: `folder` has looked."""
@@ -79,10 +79,11 @@ def record(place: Path) -> None:
 
 def _wanted() -> list[str]:
     machine = cpu_target.target_context.codegen().magic_tuple()
-    return [_stamp(sorted(HERE.glob("*.py"))), numba_version, *map(str, machine)]
+    return [_stamp(tuple(sorted(HERE.glob("*.py")))), numba_version, *map(str, machine)]
 
 
-def _stamp(files: list[Path]) -> str:
+@cache
+def _stamp(files: tuple[Path, ...]) -> str:
     """A digest of files and of all that they import, directly or not."""
     seen: set[Path] = set()
     pending = list(files)

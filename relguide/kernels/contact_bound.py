@@ -12,7 +12,7 @@ Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader i
 `clearance`.
 """
 
-from math import acos, ceil, cos, floor, hypot, inf, pi, sin, sqrt
+from math import acos, cos, hypot, inf, pi, sin, sqrt
 
 import numpy as np
 from numba import njit
@@ -21,7 +21,7 @@ from relguide.kernels.angles import TWO_PI, wrap
 from relguide.kernels.bounds import breaks_limit, soonest
 from relguide.kernels.clearance import leader_at
 from relguide.kernels.contact import contact_heading
-from relguide.kernels.extremals import MAX_ROWS, SIGNS, solve
+from relguide.kernels.extremals import MAX_ROWS, SIGNS, fly_piece, solve
 from relguide.kernels.roots import FloatArray
 
 _EDGE = 1e-9
@@ -31,6 +31,10 @@ _INSIDE = 2e-6
 _FAST = 0.999  # for a leader faster than this the way round the disc is not bounded
 _ROUND = 16_384
 """Points of `ways_round`: every 0.02°."""
+_ROUND_SLACK = 1e-6
+"""What is between two points of it may differ by, as part of a whole round: ten times the square of
+the step, which is more than the curvature makes of it."""
+_LOOP_STRIDE = 0.01  # from one look to the next where there may be a loop [R/V_P]
 _STRIDE = 1e-4  # least step of the look for a breach on a path that is known [R/V_P]
 
 
@@ -127,7 +131,8 @@ def cell_bound(
     # to the contact: read backward, the start is what is to be met, and left is right
     soon = inf
     for loops in range(3):
-        # 0: every word; 1: those that may keep the limit; 2: a word and a full loop
+        # 0: every word; 1: those that may keep the limit; 2: a word and a full loop, or more of
+        # them, since without one they are paths that arrive no sooner than the soonest word
         looped = TWO_PI if loops == 2 else 0.0
         dx, dy = cx - (t - looped) * vx - x, cy - (t - looped) * vy - y
         c, s = cos(h), sin(h)
@@ -135,7 +140,8 @@ def cell_bound(
         found = soonest(
             -dx * c - dy * s, dx * s - dy * c, course - h, blur_right + strays,
             blur_left + strays, differs + swing, 0.0, vx * c + vy * s, vy * c - vx * s,
-            low - _EDGE - looped, latest, loops == 1, (x, y, h), leader, alpha, delta - _INSIDE,
+            0.0 if loops == 2 else low - _EDGE, latest, loops == 1, (x, y, h), leader, alpha,
+            delta - _INSIDE,
         ) + looped  # fmt: skip
         if loops == 0:
             if found == inf:
@@ -228,34 +234,37 @@ def ways_round(alpha: float, delta: float) -> FloatArray:
 
 
 @njit(cache=True, nogil=True)
+def round_time(table: FloatArray, way: int, bearing: float) -> float:
+    """A row of `ways_round` at any bearing of [−π, π]; differences are right to `_ROUND_SLACK`."""
+    place = min(max((bearing + pi) / TWO_PI, 0.0), 1.0) * _ROUND
+    k = min(int(place), _ROUND - 1)
+    return float(table[way, k] + (place - k) * (table[way, k + 1] - table[way, k]))
+
+
+@njit(cache=True, nogil=True)
 def round_bound(
-    table: FloatArray, bearing: float, half: float, other_bearing: float, other_half: float
-) -> float:
+    table: FloatArray, way: int, bearing: float, half: float, other_bearing: float,
+    other_half: float,
+) -> float:  # fmt: skip
     """The least time from any bearing of one cell to any of another, outside the disc.
 
     Args:
         table: of `ways_round`.
+        way: 0 counter-clockwise round the leader, 1 clockwise.
         bearing: middle of the cell, in [−π, π] [rad].
         half: half of its width [rad].
         other_bearing: of the other cell.
         other_half: of the other cell.
     """
-    least = inf
-    for way in range(2):
-        sign = 1.0 - 2.0 * way
-        gap = (sign * (other_bearing - bearing)) % TWO_PI - half - other_half
-        if gap <= 0.0 or gap + 2.0 * (half + other_half) >= TWO_PI:
-            return 0.0
-        begin, end = bearing + sign * half, other_bearing - sign * other_half
-        low, high = (begin, end) if way == 0 else (end, begin)
-        # inward to points of the table, so that it is never too much
-        first, last = ceil((low + pi) / TWO_PI * _ROUND), floor((high + pi) / TWO_PI * _ROUND)
-        first, last = min(max(first, 0), _ROUND), min(max(last, 0), _ROUND)
-        took = table[way, last] - table[way, first]
-        if low > high:
-            took += table[way, _ROUND]
-        least = min(least, max(took, 0.0))
-    return least
+    sign = 1.0 - 2.0 * way
+    gap = (sign * (other_bearing - bearing)) % TWO_PI - half - other_half
+    if gap <= 0.0 or gap + 2.0 * (half + other_half) >= TWO_PI:
+        return 0.0
+    begin, end = bearing + sign * half, other_bearing - sign * other_half
+    took = sign * (round_time(table, way, end) - round_time(table, way, begin))
+    if sign * (end - begin) < 0.0:
+        took += table[way, _ROUND]
+    return float(max(took - _ROUND_SLACK * table[way, _ROUND], 0.0))
 
 
 @njit(cache=True, nogil=True)
@@ -268,8 +277,12 @@ def untouched_bound(
     It is an extremal that keeps the limit, or has a full loop in it.
     """
     rows = np.empty((MAX_ROWS, 5))
+    best = inf
     n = solve(x - goal_x - goal_speed * TWO_PI, y, wrap(h), goal_speed, t_open - TWO_PI, rows)
-    best = TWO_PI + rows[0, 0] if n > 0 else inf
+    for k in range(n):
+        if not _breaks_with_loop(x, y, h, rows[k], leader, alpha, delta - _INSIDE):
+            best = TWO_PI + rows[k, 0]
+            break
     n = solve(x - goal_x, y, wrap(h), goal_speed, t_open, rows)
     for k in range(n):
         if rows[k, 0] >= best:
@@ -279,5 +292,41 @@ def untouched_bound(
             x, y, h, (signs[0], signs[1], signs[2]), rows[k, 2], 0.0, rows[k, 3], 0.0, rows[k, 0],
             leader, alpha, delta - _INSIDE, _STRIDE,
         ):  # fmt: skip
-            return float(rows[k, 0])
-    return best
+            best = rows[k, 0]
+            break
+    # with two loops and more: no sooner than the soonest of all paths that are to wait so long
+    n = solve(x - goal_x - goal_speed * 2.0 * TWO_PI, y, wrap(h), goal_speed, 0.0, rows)
+    return min(best, max(2.0 * TWO_PI + rows[0, 0], t_open)) if n > 0 else best
+
+
+@njit(cache=True, nogil=True)
+def _breaks_with_loop(
+    x: float, y: float, h: float, row: FloatArray, leader: FloatArray, alpha: float, limit: float
+) -> bool:  # fmt: skip
+    """Whether a word with a full loop in it, wherever that is, certainly breaks the limit.
+
+    Up to the loop it is flown as it is, and then 2π later. So it does if it breaks the limit as it
+    is no later along the way than it does when flown 2π later.
+    """
+    word = int(row[1])
+    steps = int(row[0] / _LOOP_STRIDE)
+    soonest_breach, last_breach = inf, -inf
+    for k in range(steps + 1):
+        along = k * _LOOP_STRIDE
+        px, py, ph, left = x, y, h, along
+        for piece in range(3):
+            amount = min(left, row[piece + 2])
+            px, py, ph = fly_piece(px, py, ph, SIGNS[word, piece], amount)
+            left -= amount
+        for late in range(2):
+            t = along + late * TWO_PI
+            i = 0
+            while i + 1 < len(leader) and leader[i + 1, 0] <= t:
+                i += 1
+            lx, ly, _ = leader_at(leader, i, alpha, t)
+            if hypot(px - lx, py - ly) < limit:
+                if late == 0:
+                    soonest_breach = min(soonest_breach, along)
+                else:
+                    last_breach = along
+    return soonest_breach <= last_breach

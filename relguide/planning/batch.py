@@ -2,11 +2,14 @@
 
 For straight leaders: an intent makes each situation its own shape, and `plan` takes those one by
 one. Every number comes from the same kernels as a `Plan`.
+
+Ten million situations may be given at once: they are taken in blocks, so that beside what is given
+and the answer, 18 bytes a situation, there are some 40 MB.
 """
 
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from math import inf
 from os import cpu_count
 
 import numpy as np
@@ -16,19 +19,28 @@ from relguide.kernels import batch as kernel
 from relguide.kernels.extremals import WORDS
 from relguide.planning import situation as limits
 from relguide.planning.detour import BEARINGS
+from relguide.planning.inputs import expect
+from relguide.planning.words import HORIZON
 from relguide.units import G0
 
 Floats = NDArray[np.float64]
 CHUNK = 512
 """Situations a thread takes at a time: a few ms of work, or a few s where the limit binds."""
+BLOCK = 131_072
+"""Situations whose rows for the kernel are held at a time."""
 VERDICTS = (
     "planned",
     "planned",
     "slot_unreachable",
     "separation_already_lost",
     "separation_unavoidable",
+    "beyond_horizon",
 )
-"""Status or reason of each verdict of the kernel."""
+"""Status or reason of each verdict of the kernel, and of the one made here."""
+BEYOND = VERDICTS.index("beyond_horizon")
+NAMES = (*WORDS, "detour", "")
+"""Words by their number."""
+DETOUR, NO_WORD = len(WORDS), len(WORDS) + 1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -53,33 +65,21 @@ class Situations:
         """All columns at full length, checked as `Situation` checks itself.
 
         Raises:
-            ValueError: naming the first row that cannot be flown.
+            ValueError: naming the first row that cannot be flown, and why.
         """
-        names = self.__slots__
-        columns = np.broadcast_arrays(
-            *(np.atleast_1d(np.asarray(getattr(self, name), dtype=np.float64)) for name in names)
-        )
-        by_name = dict(zip(names, columns, strict=True))
-        _check("finite numbers", np.logical_and.reduce([np.isfinite(c) for c in columns]))
-        for name in ("pursuer_x", "pursuer_y", "leader_x", "leader_y"):
-            near = abs(by_name[name]) <= limits.MAX_POSITION
-            _check(f"|{name}| ≤ {limits.MAX_POSITION:g} m", near)
-        for name in ("pursuer_tas", "leader_tas"):
-            tas = by_name[name]
-            fits = (tas >= limits.MIN_TAS) & (tas <= limits.MAX_TAS)
-            _check(f"{name} in {limits.MIN_TAS:g} … {limits.MAX_TAS:g} m/s", fits)
-        bank = by_name["max_bank"]
-        slack = 1e-9  # a bound in degrees comes back from radians with its last digit changed
-        _check(
-            "max_bank in 1 … 60°",
-            (bank >= limits.MIN_BANK - slack) & (bank <= limits.MAX_BANK + slack),
-        )
-        nearest, distance = by_name["min_separation"], by_name["slot_distance"]
-        fits = (nearest >= 0.0) & (nearest <= distance) & (distance <= limits.MAX_SLOT_DISTANCE)
-        _check(f"0 ≤ min_separation ≤ slot_distance ≤ {limits.MAX_SLOT_DISTANCE:g} m", fits)
-        wind = np.hypot(by_name["wind_east"], by_name["wind_north"])
-        _check(f"wind of at most {limits.MAX_WIND:g} m/s", wind <= limits.MAX_WIND)
-        return tuple(columns)
+        given = {f.name: _column(f.name, getattr(self, f.name)) for f in fields(self)}
+        sizes = {name: len(column) for name, column in given.items() if len(column) != 1}
+        size = next(iter(sizes.values()), 1)
+        for name, other in sizes.items():
+            if other != size:
+                raise ValueError(
+                    f"All columns must have one length, but {next(iter(sizes))} has {size} and "
+                    f"{name} has {other}."
+                )
+        columns = tuple(np.broadcast_to(column, size) for column in given.values())
+        for start in range(0, size, BLOCK):
+            _check(start, *(column[start : start + BLOCK] for column in columns))
+        return columns
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -90,12 +90,31 @@ class Times:
     """T [s]; infinite where there is no plan."""
     lower_bound: Floats
     """No plan that keeps d_min is faster [s]; infinite where the slot is out of reach."""
-    verdict: NDArray[np.str_]
-    """`planned`, or the reason why not."""
-    proved: NDArray[np.bool_]
-    """Whether T is the global optimum, proved; elsewhere it lies within `lower_bound`."""
-    word: NDArray[np.str_]
-    """The extremal's word; `detour` for a way that touches or rides along d_min."""
+    verdicts: NDArray[np.int8]
+    """Numbers of `VERDICTS`."""
+    words: NDArray[np.int8]
+    """Numbers of `NAMES`."""
+
+    @property
+    def planned(self) -> NDArray[np.bool_]:
+        """Whether there is a plan."""
+        return np.isin(self.verdicts, (int(kernel.PROVED), int(kernel.BOUNDED)))
+
+    @property
+    def proved(self) -> NDArray[np.bool_]:
+        """Whether T is the global optimum, proved; elsewhere it lies within `lower_bound`."""
+        proved: NDArray[np.bool_] = self.verdicts == int(kernel.PROVED)
+        return proved
+
+    @property
+    def verdict(self) -> NDArray[np.str_]:
+        """`planned`, or the reason why not. 92 bytes a situation, made anew each time."""
+        return np.array(VERDICTS)[self.verdicts]
+
+    @property
+    def word(self) -> NDArray[np.str_]:
+        """The extremal's word; `detour` for a way that touches or rides along d_min."""
+        return np.array(NAMES)[self.words]
 
 
 def plan_arrays(
@@ -107,10 +126,14 @@ def plan_arrays(
 ) -> Times:
     """Plan many situations with straight leaders.
 
-    The answers do not depend on the number of threads: each row is computed by itself.
+    The answers do not depend on the number of threads: each row is computed by itself. With a
+    progress bar:
+
+        with progress_bar("planning", total=n) as count:
+            times = plan_arrays(situations, progress=count)
 
     Args:
-        situations: as columns.
+        situations: as columns. All are checked before the first is planned.
         limited: whether d_min counts; without it the six words alone decide.
         threads: how many cores to use; all of them if not given.
         progress: called with the number of situations done since the last call.
@@ -118,44 +141,107 @@ def plan_arrays(
     Raises:
         ValueError: for situations that cannot be flown.
     """
-    rows, scale = _in_slot_frame(situations)
-    answers = np.empty((len(rows), 4))
-    starts = range(0, len(rows), CHUNK)
+    from concurrent.futures import ThreadPoolExecutor  # 15 ms to import, which `plan` need not pay
 
-    def work(start: int) -> int:
-        end = min(start + CHUNK, len(rows))
-        kernel.plan_rows(rows, BEARINGS, limited, start, end, answers)
-        return end - start
-
+    expect("situations", situations, Situations)
+    if threads is not None and not (isinstance(threads, int) and threads > 0):
+        raise ValueError(f"threads must be a whole number of 1 or more, not {threads!r}.")
+    columns = situations.columns()
+    size = len(columns[0])
+    times = Times(
+        time_to_converge=np.empty(size),
+        lower_bound=np.empty(size),
+        verdicts=np.empty(size, np.int8),
+        words=np.empty(size, np.int8),
+    )
     with ThreadPoolExecutor(threads or cpu_count() or 1) as pool:
-        for done in pool.map(work, starts):
-            if progress is not None:
-                progress(done)
-    verdict = answers[:, 2].astype(int)
-    number = answers[:, 3].astype(int)
-    return Times(
-        time_to_converge=answers[:, 0] * scale,
-        lower_bound=answers[:, 1] * scale,
-        verdict=np.array(VERDICTS)[verdict],
-        proved=verdict == int(kernel.PROVED),
-        word=np.where(verdict < 2, np.array((*WORDS, "detour"))[number], ""),
+        for start in range(0, size, BLOCK):
+            block = slice(start, min(start + BLOCK, size))
+            rows, scale = _in_slot_frame(*(column[block] for column in columns))
+            answers = np.empty((len(rows), 4))
+
+            def work(first: int, rows: Floats = rows, answers: Floats = answers) -> int:
+                last = min(first + CHUNK, len(rows))
+                kernel.plan_rows(rows, BEARINGS, limited, first, last, answers)
+                return last - first
+
+            for done in pool.map(work, range(0, len(rows), CHUNK)):
+                if progress is not None:
+                    progress(done)
+            _take(times, block, answers, scale)
+    return times
+
+
+def _take(times: Times, block: slice, answers: Floats, scale: Floats) -> None:
+    """Put the kernel's answers, in R/V_P, where they belong."""
+    verdict, word = answers[:, 2].astype(np.int8), answers[:, 3].astype(np.int8)
+    time, bound = answers[:, 0] * scale, answers[:, 1] * scale
+    far = (bound > HORIZON) & (bound < inf)
+    verdict[far], time[far] = BEYOND, inf
+    times.time_to_converge[block] = time
+    times.lower_bound[block] = bound
+    times.verdicts[block] = verdict
+    word[word < 0] = DETOUR
+    times.words[block] = np.where(time < inf, word, NO_WORD)
+
+
+def _column(name: str, given: ArrayLike) -> Floats:
+    """A column of floats, of length 1 if one number was given."""
+    column = np.asarray(given)
+    if column.dtype.kind not in "fiu":
+        raise ValueError(f"{name} must be numbers, not {column.dtype}.")
+    if column.ndim > 1:
+        raise ValueError(f"{name} must be a number or a column of them, not of {column.ndim} axes.")
+    return np.atleast_1d(column.astype(np.float64, copy=False))
+
+
+def _check(
+    start: int, px: Floats, py: Floats, psi: Floats, tas: Floats, bank: Floats, lx: Floats,
+    ly: Floats, leading: Floats, leader_tas: Floats, distance: Floats, nearest: Floats,
+    east: Floats, north: Floats,
+) -> None:  # fmt: skip
+    """Refuse a block with a row that cannot be flown; `start` is the number of its first."""
+    slack = 1e-9  # a bound in degrees comes back from radians with its last digit changed
+    with np.errstate(invalid="ignore", over="ignore"):  # what is not finite breaks a rule below
+        wind = np.hypot(east, north)
+        ground_speed = np.hypot(
+            leader_tas * np.sin(leading) + east, leader_tas * np.cos(leading) + north
+        )
+    rules: dict[str, NDArray[np.bool_]] = {}
+    places = {"pursuer_x": px, "pursuer_y": py, "leader_x": lx, "leader_y": ly}
+    for name, place in places.items():
+        rules[f"|{name}| ≤ {limits.MAX_POSITION:g} m"] = abs(place) <= limits.MAX_POSITION
+    for name, heading in (("pursuer", psi), ("leader", leading)):
+        rules[f"|{name}_heading| ≤ {limits.MAX_HEADING:g} rad"] = abs(heading) <= limits.MAX_HEADING
+    for name, speed in (("pursuer", tas), ("leader", leader_tas)):
+        rule = f"{name}_tas in {limits.MIN_TAS:g} … {limits.MAX_TAS:g} m/s"
+        rules[rule] = (speed >= limits.MIN_TAS) & (speed <= limits.MAX_TAS)
+    rules["max_bank in 1 … 60°"] = (bank >= limits.MIN_BANK - slack) & (
+        bank <= limits.MAX_BANK + slack
     )
+    rules[f"0 ≤ min_separation ≤ slot_distance ≤ {limits.MAX_SLOT_DISTANCE:g} m"] = (
+        (nearest >= 0.0) & (nearest <= distance) & (distance <= limits.MAX_SLOT_DISTANCE)
+    )
+    rules[f"wind of at most {limits.MAX_WIND:g} m/s"] = wind <= limits.MAX_WIND
+    rules[f"a leader that makes {limits.MIN_HEADWAY:g} m/s over the ground"] = (
+        ground_speed >= limits.MIN_HEADWAY
+    )
+    broken = {rule: int(np.argmin(holds)) for rule, holds in rules.items() if not holds.all()}
+    if broken:  # NaN breaks every rule it meets
+        rule = min(broken, key=lambda rule: broken[rule])
+        raise ValueError(f"Situation {start + broken[rule]} breaks a rule: there must be {rule}.")
 
 
-def _in_slot_frame(situations: Situations) -> tuple[Floats, Floats]:
+def _in_slot_frame(
+    px: Floats, py: Floats, psi: Floats, tas: Floats, bank: Floats, lx: Floats, ly: Floats,
+    leading: Floats, leader_tas: Floats, distance: Floats, nearest: Floats, east: Floats,
+    north: Floats,
+) -> tuple[Floats, Floats]:  # fmt: skip
     """Rows for the kernel, shape (n, 7), and R/V_P of each [s]."""
-    px, py, psi, tas, bank, lx, ly, leading, leader_tas, distance, nearest, east, north = (
-        situations.columns()
-    )
     along_east, along_north = np.sin(leading), np.cos(leading)
     ground_east, ground_north = leader_tas * along_east + east, leader_tas * along_north + north
-    ground_speed = np.hypot(ground_east, ground_north)
-    _check(
-        f"a leader that makes {limits.MIN_HEADWAY:g} m/s over the ground",
-        ground_speed >= limits.MIN_HEADWAY,
-    )
     # the slot is D behind along the leader's ground track
-    share = distance / ground_speed
+    share = distance / np.hypot(ground_east, ground_north)
     back_east, back_north = share * ground_east, share * ground_north
     radius = tas**2 / (G0 * np.tan(bank))
 
@@ -171,9 +257,3 @@ def _in_slot_frame(situations: Situations) -> tuple[Floats, Floats]:
         (x, y, leading - psi, leader_tas / tas, leader_x, leader_y, nearest / radius)
     )
     return np.ascontiguousarray(rows), radius / tas
-
-
-def _check(rule: str, holds: NDArray[np.bool_]) -> None:
-    if not holds.all():
-        row = int(np.flatnonzero(~holds)[0])
-        raise ValueError(f"Situation {row} breaks a rule: there must be {rule}.")

@@ -11,7 +11,7 @@ bound is proved, at any moment.
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from heapq import heappop, heappush
@@ -25,6 +25,7 @@ from relguide.kernels.contact_bound import (
     cell_bound,
     leaving_bound,
     round_bound,
+    round_time,
     untouched_bound,
     ways_round,
 )
@@ -33,6 +34,10 @@ MAX_BRANCHES = 400_000
 """Most branches kept, some 100 MB; the search ends there."""
 _SMALLEST = 1e-10  # a cell no wider than this is not halved: rounding counts for more [rad]
 _REMEMBERED = 65_536  # cells whose bounds are kept at hand, for the branches that share them
+_EASED = 0.03  # cells narrower than this are looked at closely [rad]
+_CLOSELY = 50  # times a cell is halved to find what is least in it
+_NARROW = 1e-6  # and how narrow its parts may become: what is left counts for some 1e-5 R/V_P [rad]
+_SLACK = 1e-6  # of `round_time`, as part of a whole round
 _QUADRANT_CELLS = 2
 """Cells a quadrant is cut into at first; none may reach into two."""
 
@@ -64,9 +69,10 @@ class Cell:
         )
 
 
-_Branch = tuple[float, int, Cell, Cell | None]
+_Branch = tuple[float, int, Cell, Cell | None, bool]
 """Paths, by how soon they can arrive: a number that tells them apart, the cell of their first
-contact, and that of their last one if it is of the final leg and matters."""
+contact, that of their last one if it is of the final leg and matters, and whether the way round
+between them was looked at closely."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -80,6 +86,8 @@ class Question:
     goal_x: float
     goal_speed: float
     t_open: float
+    never_at_opening: bool
+    """Whether no path at all can be at the goal the moment t_open: who is not too early is late."""
     horizon: float
     """Contacts after this time do not matter [R/V_P]."""
 
@@ -103,9 +111,10 @@ class Question:
 
     def reached(self, cell: Cell, beat: float) -> tuple[float, float]:
         """How soon a first contact can be in the cell, and the goal from there."""
+        late = self.t_open if self.never_at_opening else 0.0
         return cell_bound(
             *self.start, self.leader, cell.piece, self.alpha, self.delta, self.goal_x,
-            self.goal_speed, self.t_open, cell.side, cell.bearing, cell.half, cell.start, cell.end,
+            self.goal_speed, late, cell.side, cell.bearing, cell.half, cell.start, cell.end,
             beat,
         )  # fmt: skip
 
@@ -118,7 +127,7 @@ class Question:
     def between(self, first: Cell, last: Cell, table: np.ndarray, beat: float) -> float:
         """How soon one contact can follow the other, on the final leg."""
         here, there = (first.bearing, first.half), (last.bearing, last.half)
-        way_round = round_bound(table, *here, *there)
+        way_round = min(round_bound(table, way, *here, *there) for way in (0, 1))
         if way_round >= beat:
             return inf
         word = between_bound(
@@ -132,8 +141,21 @@ class Question:
         self.untouched()
         self.reached(cell, 0.0)
         self.left(cell, 0.0)
-        self.between(cell, cell, ways_round(self.alpha, self.delta), 0.0)
+        table = ways_round(self.alpha, self.delta)
+        round_time(table, 0, 0.0)
+        self.between(cell, cell, table, 0.0)
         between_bound(self.alpha, self.delta, 1.0, 0.1, 0.1, 1.0, 0.1, 0.1, 0.0)
+
+    def least(self, cell: Cell, bound: Callable[[Cell], float]) -> float:
+        """The least that a bound comes to in a cell, looked at closely."""
+        numbers = count()
+        parts = [(bound(cell), next(numbers), cell)]
+        for _ in range(_CLOSELY):
+            if parts[0][0] == inf or parts[0][2].half < _NARROW:
+                break
+            for half in heappop(parts)[2].halves(self.delta):
+                heappush(parts, (bound(half), next(numbers), half))
+        return parts[0][0]
 
     def bounds(self, beat: float) -> Iterator[float]:
         """Ever better bounds of the time of all paths, up to `beat`, where they end."""
@@ -143,6 +165,30 @@ class Question:
         left = lru_cache(_REMEMBERED)(lambda cell: self.left(cell, beat))
         table = ways_round(self.alpha, self.delta)
         last_contacts = tuple(_all_round(final, 0.0, inf)) if self.goal_speed == self.alpha else ()
+        # the way round is the difference of two times, one for each contact: so each may be
+        # looked at with its own, and much more closely than both together
+
+        @lru_cache(_REMEMBERED)
+        def round_from(cell: Cell, way: int) -> float:
+            def bound(part: Cell) -> float:
+                edge = part.bearing + (1.0 - 2.0 * way) * part.half
+                return reached(part)[0] - (1.0 - 2.0 * way) * round_time(table, way, edge)
+
+            return self.least(cell, bound)
+
+        @lru_cache(_REMEMBERED)
+        def round_to(cell: Cell, way: int) -> float:
+            def bound(part: Cell) -> float:
+                edge = part.bearing - (1.0 - 2.0 * way) * part.half
+                return left(part) + (1.0 - 2.0 * way) * round_time(table, way, edge)
+
+            return self.least(cell, bound)
+
+        def round_trip(first: Cell, last: Cell, way: int) -> float:
+            behind = (1.0 - 2.0 * way) * (first.bearing - last.bearing) >= first.half + last.half
+            whole = float(table[way, -1]) * (behind - 2.0 * _SLACK)
+            return float(round_from(first, way) + round_to(last, way) + whole)
+
         branches: list[_Branch] = []
         numbers = count()
 
@@ -157,12 +203,12 @@ class Question:
                 bound = soon + leaving + self.between(first, last, table, beat - soon - leaving)
             bound = max(bound, least, self.t_open)
             if bound < beat:
-                heappush(branches, (bound, next(numbers), first, last))
+                heappush(branches, (bound, next(numbers), first, last, False))
 
         for cell in self.first_contacts():
             add(cell, None, 0.0)
         while branches and len(branches) < MAX_BRANCHES:
-            bound, _, first, last = heappop(branches)
+            bound, _, first, last, eased = heappop(branches)
             yield bound
             if max(first.half, last.half if last else 0.0) < _SMALLEST:
                 return
@@ -171,6 +217,12 @@ class Question:
                 if left(first) > reached(first)[1] + _SMALLEST:
                     for cell in last_contacts:
                         add(first, cell, bound)
+                    continue
+            if last is not None and max(first.half, last.half) < _EASED and not eased:
+                closer = min(round_trip(first, last, way) for way in (0, 1))
+                if bound < closer:
+                    if closer < beat:
+                        heappush(branches, (closer, next(numbers), first, last, True))
                     continue
             if last is not None and last.half >= first.half:
                 for half in last.halves(self.delta):

@@ -113,6 +113,7 @@ def _steps(plan: Plan, time: float) -> Iterator[float]:
         goal_x=0.0,
         goal_speed=frame.alpha,
         t_open=frame.t_open,
+        never_at_opening=not found.reachable_at_opening,
         horizon=inf,
     )
     slot.warm_up()

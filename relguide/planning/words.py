@@ -46,7 +46,7 @@ class Candidates:
     frame: SlotFrame
     rows: np.ndarray
     """The extremals that arrive after the slot opens, fastest first, as `solve` gives them: those
-    within the horizon, and in any case the first."""
+    within the horizon; the first in any case, if no other path is known."""
     at_opening: tuple[Candidate, ...]
     """Paths that arrive exactly when the slot opens, all equally fast; fewest turns first."""
     reachable_at_opening: bool
@@ -83,15 +83,16 @@ def candidates(situation: Situation) -> Candidates:
     frame = slot_frame(situation, situation.leader.trajectory)
     rows = np.empty((MAX_ROWS, 5))
     n = solve(frame.x, frame.y, frame.h, frame.alpha, frame.t_open, rows)
-    within = HORIZON * situation.pursuer.tas / frame.radius
-    while n > 1 and rows[n - 1, 0] > within:
-        n -= 1
     reachable = frame.t_open > 0.0 and _dubins_length(frame) <= frame.t_open + NO_TURN
+    at_opening = _at_opening(situation, frame, first_turns=False) if reachable else ()
+    within = HORIZON * situation.pursuer.tas / frame.radius
+    while n > (0 if at_opening else 1) and rows[n - 1, 0] > within:
+        n -= 1
     return Candidates(
         situation=situation,
         frame=frame,
         rows=rows[:n],
-        at_opening=_at_opening(situation, frame, first_turns=False) if reachable else (),
+        at_opening=at_opening,
         reachable_at_opening=reachable,
     )
 

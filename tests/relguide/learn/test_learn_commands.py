@@ -1,12 +1,10 @@
 """`relguide dataset` and `relguide area`: what they write, what they say, how they are stopped."""
 
 import json
-import signal
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from time import sleep
 
 import numpy as np
 import pytest
@@ -14,9 +12,10 @@ import pytest
 from relguide import learning
 from relguide.__main__ import main
 from relguide.area import Area
+from relguide.learn import reverse_dp
 from relguide.learn.area_figure import Column, draw_areas
-from relguide.learn.reverse_dp import grow_order, planted
-from relguide.learn.tree_file import load_tree, save_growth
+from relguide.learn.reverse_dp import Growth, grow_order, planted
+from relguide.learn.tree_file import load_growth, load_tree, save_growth
 from tests.relguide.learn.test_reverse_dp import same
 from tests.relguide.learn.trees import parameters, tree
 
@@ -67,9 +66,9 @@ def test_dataset_tells_people_in_sentences(run: Run) -> None:
     code, out, _ = run(*DATASET, *SMALL, "--audit", "50", "--threads", "1")
     assert code == 0
     assert f"the best ways from {len(tree().minima):,} cells" in out
-    assert "They are ways, not the fastest: of 50 of them" in out
+    assert "They are ways, not the fastest ones: of 50 of them" in out
     code, out, _ = run(*DATASET, *SMALL, "--audit", "0")
-    assert (code, "not the fastest" in out) == (0, False)
+    assert (code, "not the fastest ones" in out) == (0, False)
 
 
 def test_a_stopped_run_is_resumed_to_the_same_tree(run: Run) -> None:
@@ -90,24 +89,23 @@ def test_a_stopped_run_is_resumed_to_the_same_tree(run: Run) -> None:
     assert not part.exists()
 
 
-@pytest.mark.slow
-def test_ctrl_c_leaves_what_resume_goes_on_with(tmp_path: Path) -> None:
-    command = [
-        sys.executable, "-m", "relguide", *DATASET, "--audit", "0", "--threads", "1",
-    ]  # fmt: skip
-    with subprocess.Popen(
-        command, cwd=tmp_path, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True
-    ) as running:
-        while not (tmp_path / "tree.npz.part").exists() and running.poll() is None:
-            sleep(0.05)
-        running.send_signal(signal.SIGINT)
-        _, err = running.communicate(timeout=60)
-    assert running.returncode == 130
-    assert err.strip() == "relguide: stopped."
-    assert [path.name for path in tmp_path.iterdir()] == ["tree.npz.part"]
-    done = subprocess.run([*command, "--resume"], cwd=tmp_path, timeout=120, check=False)
-    assert done.returncode == 0
-    assert [path.name for path in tmp_path.iterdir()] == ["tree.npz"]
+def test_ctrl_c_leaves_what_resume_goes_on_with(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    def stopped(start: Growth, *, threads: int | None = None) -> Iterator[Growth]:
+        for growth in grow_order(start, threads=threads):
+            yield growth
+            if growth.order == 2 and growth.next > 9:
+                raise KeyboardInterrupt
+
+    with monkeypatch.context() as patched:
+        patched.setattr(reverse_dp, "BLOCK", 3)
+        patched.setattr(learning, "SAVE_EVERY", 0.0)
+        patched.setattr(learning, "grow_order", stopped)
+        code, out, err = run(*DATASET, *SMALL)
+    assert (code, out, err) == (130, "", "\nrelguide: stopped.\n")
+    assert [path.name for path in Path().iterdir()] == ["tree.npz.part"]
+    assert load_growth(Path("tree.npz.part")).next == 12
+    assert run(*DATASET, *SMALL, "--resume", "--audit", "0")[0] == 0
+    assert same(load_tree(Path("tree.npz")), tree())
 
 
 @pytest.mark.parametrize(

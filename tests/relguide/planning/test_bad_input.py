@@ -292,6 +292,22 @@ HARDEST = {
         y=0.00139830782, heading=1.6445210717989738, bank_deg=28.2, leader_heading=1.64452107179897,
         slot_distance=0.018981078775320823, min_separation=0.014997066039490105,
     ),
+    # a plan that waits for the slot, and beside it a path of thousands of hours
+    "waits_for_the_slot": Situation(
+        pursuer=Pursuer(
+            x=-88958.66, y=-1e6, heading=3.3887623889153224, tas=334.63013137517675,
+            max_bank=25 * DEG,
+        ),
+        leader=Leader(
+            x=0.0, y=0.0, heading=1.4195093006653126, tas=334.6301379293355,
+            intent=(
+                TurnTo(heading=-1.7220833529244806, turn=RIGHT, bank=1 * DEG),
+                TurnTo(heading=3.3887623889153224, turn=LEFT, bank=60 * DEG),
+            ),
+        ),
+        slot_distance=1862.0566739348305, min_separation=0.0,
+        wind=Wind(east=-145.44131381662126, north=36.699104012156646),
+    ),
     "twenty_full_turns": replace(
         SITUATION,
         leader=replace(

@@ -1,13 +1,14 @@
 """Many at once: the same answers as one by one, whatever the number of threads."""
 
-from dataclasses import replace
+from dataclasses import fields, replace
 from math import inf, nan, pi
 
 import numpy as np
 import pytest
 
 from relguide import Leader, NoPlan, Plan, Pursuer, Situation, Wind, plan
-from relguide.planning.batch import Situations, plan_arrays
+from relguide.planning import batch
+from relguide.planning.batch import BLOCK, Situations, Times, plan_arrays
 from relguide.units import DEG
 
 RNG = np.random.default_rng(3)
@@ -25,6 +26,9 @@ COLUMNS = Situations(
     wind_east=RNG.uniform(-30.0, 30.0, N),
     wind_north=10.0,
 )
+
+
+PER_ROW = [f.name for f in fields(COLUMNS) if np.ndim(getattr(COLUMNS, f.name)) == 1]
 
 
 def one(i: int) -> Situation:
@@ -81,14 +85,84 @@ def test_without_the_limit_nothing_is_lost() -> None:
 @pytest.mark.parametrize(
     ("changes", "rule"),
     [
-        ({"pursuer_x": nan}, "finite numbers"),
+        ({"pursuer_x": nan}, r"\|pursuer_x\| ≤ 1e\+06 m"),
         ({"leader_tas": 20.0}, "leader_tas in 30 … 400 m/s"),
         ({"max_bank": 1.2}, "max_bank in 1 … 60°"),
         ({"slot_distance": 8e3}, "0 ≤ min_separation ≤ slot_distance"),
         ({"wind_east": 200.0}, "wind of at most 150 m/s"),
         ({"pursuer_y": 2e6}, "pursuer_y"),
+        ({"leader_tas": inf}, "leader_tas in"),
+        ({"leader_heading": nan}, r"\|leader_heading\| ≤ 1e\+06 rad"),
+        ({"pursuer_heading": 1e300}, r"\|pursuer_heading\|"),
+        ({"leader_tas": 30.0, "wind_east": 0.0, "wind_north": 0.0, "min_separation": nan}, "min_s"),
     ],
 )
 def test_a_row_that_cannot_be_flown_is_named(changes: dict[str, float], rule: str) -> None:
     with pytest.raises(ValueError, match=r"^Situation 0 breaks a rule: there must be .*" + rule):
         plan_arrays(replace(COLUMNS, **changes))  # type: ignore[arg-type]
+
+
+def test_the_first_bad_row_is_named_wherever_it_is() -> None:
+    x = np.zeros(2 * BLOCK + 5)
+    tas = np.full(2 * BLOCK + 5, 240.0)
+    x[BLOCK + 3], x[BLOCK + 7], tas[BLOCK + 2] = nan, nan, 10.0
+    many = Situations(
+        pursuer_x=x, pursuer_y=9e3, pursuer_heading=0.0, pursuer_tas=tas, max_bank=0.4,
+        leader_tas=200.0, slot_distance=12e3, min_separation=9e3,
+    )  # fmt: skip
+    with pytest.raises(ValueError, match=rf"^Situation {BLOCK + 2} breaks a rule: .*pursuer_tas"):
+        plan_arrays(many)
+    tas[BLOCK + 2] = 240.0
+    with pytest.raises(ValueError, match=rf"^Situation {BLOCK + 3} breaks a rule: .*pursuer_x"):
+        plan_arrays(many)
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"max_bank": "0.4"}, "max_bank must be numbers"),
+        ({"max_bank": None}, "max_bank must be numbers"),
+        ({"max_bank": True}, "max_bank must be numbers, not bool"),
+        ({"max_bank": 1j}, "max_bank must be numbers, not complex128"),
+        ({"max_bank": 10**400}, "max_bank must be numbers"),
+        ({"max_bank": np.full((N, 1), 0.4)}, "max_bank must be a number or a column"),
+        ({"max_bank": np.full(N + 1, 0.4)}, "pursuer_x has 200 and max_bank has 201"),
+    ],
+)
+def test_columns_that_are_none_are_named(changes: dict[str, object], sentence: str) -> None:
+    with pytest.raises(ValueError, match=sentence):
+        plan_arrays(replace(COLUMNS, **changes))  # type: ignore[arg-type]
+
+
+def test_what_is_asked_must_make_sense() -> None:
+    for wrong in (None, {}, COLUMNS.columns()):
+        with pytest.raises(ValueError, match="must be a Situations"):
+            plan_arrays(wrong)  # type: ignore[arg-type]
+    for threads in (0, -1, 1.5):
+        with pytest.raises(ValueError, match="threads must be"):
+            plan_arrays(COLUMNS, threads=threads)  # type: ignore[arg-type]
+
+
+def test_blocks_change_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    whole = plan_arrays(COLUMNS)
+    monkeypatch.setattr(batch, "BLOCK", 64)
+    parts = plan_arrays(COLUMNS)
+    for field in fields(Times):
+        assert np.array_equal(getattr(whole, field.name), getattr(parts, field.name))
+    assert np.array_equal(whole.planned, whole.verdict == "planned")
+
+
+def test_no_situations_are_answered_too() -> None:
+    assert len(plan_arrays(replace(COLUMNS, **dict.fromkeys(PER_ROW, ()))).word) == 0
+
+
+def test_beyond_the_horizon_as_plan_says() -> None:
+    tas = 272.1898354009719
+    slow = Situations(
+        pursuer_x=-212e3, pursuer_y=460e3, pursuer_heading=0.4, pursuer_tas=tas, max_bank=0.43,
+        leader_heading=3.4, leader_tas=np.nextafter(tas, 0.0), slot_distance=200e3,
+        min_separation=140e3,
+    )  # fmt: skip
+    answers = plan_arrays(slow, limited=False)
+    assert answers.verdict.tolist() == ["beyond_horizon"]
+    assert answers.time_to_converge.tolist() == [inf]

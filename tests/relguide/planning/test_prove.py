@@ -1,0 +1,192 @@
+"""A proof never claims more than there is, gets better with time, and says what it reached."""
+
+import json
+import sys
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import islice, pairwise
+from math import inf, nan
+from pathlib import Path
+
+import pytest
+from hypothesis import assume, given
+
+from relguide import NoPlan, Plan, Situation, plan, prove
+from relguide.__main__ import main
+from relguide.planning.contact_search import Question
+from relguide.planning.detour import leader_table
+from relguide.planning.prove import MAX_SECONDS, TOLERANCE, Bound, bounds
+from relguide.planning.words import candidates
+from tests.plans import golden_plan, straight_behind
+from tests.relguide.contract.test_contract import BODY
+from tests.situations import GOLDEN, golden, situations
+
+ACTIVE = [
+    (name, situation, answer)
+    for name in ("reference", "wind")
+    for situation, answer in golden(name)
+    if answer["status"] == "best_known"
+]
+NAMES = [answer["id"] for _, _, answer in ACTIVE]
+SHORTFALL = 0.05
+"""Golden plans keep d_min but for half a metre, which is worth some hundredths of a second."""
+QUICK = "R051"
+"""Its plan is proved optimal at once."""
+
+
+def question(situation: Situation) -> tuple[Question, float]:
+    """How soon the slot can be reached, and how many seconds R/V_P is."""
+    found = candidates(situation)
+    frame = found.frame
+    asked = Question(
+        start=(frame.x, frame.y, frame.h),
+        leader=leader_table(situation, frame),
+        alpha=frame.alpha,
+        delta=situation.min_separation / frame.radius,
+        goal_x=0.0,
+        goal_speed=frame.alpha,
+        t_open=frame.t_open,
+        never_at_opening=not found.reachable_at_opening,
+        horizon=inf,
+    )
+    return asked, frame.radius / situation.pursuer.tas
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("name", "situation", "answer"), ACTIVE, ids=NAMES)
+def test_plans_that_d_min_made_longer_are_proved(
+    name: str, situation: Situation, answer: dict[str, float]
+) -> None:
+    planned = plan(situation)
+    assert isinstance(planned, Plan)
+    proved = prove(planned, seconds=20.0).optimality
+    assert proved.proof == planned.optimality.proof == "bound"
+    assert proved.lower_bound <= planned.time_to_converge
+    assert proved.lower_bound <= answer["time_to_converge_s"] + SHORTFALL
+    assert proved.lower_bound >= planned.time_to_converge - 0.05
+
+
+@pytest.mark.slow
+@given(situation=situations())
+def test_no_plan_is_faster_than_what_is_proved(situation: Situation) -> None:
+    planned = plan(situation)
+    assume(isinstance(planned, Plan) and not candidates(situation).reachable_at_opening)
+    assert isinstance(planned, Plan)
+    asked, scale = question(situation)
+    # with a horizon beyond the plan, so that the plan itself does not end the search
+    steps = list(islice(asked.bounds(1.5 * planned.time_to_converge / scale), 400))
+    assert max(steps) * scale <= planned.time_to_converge * (1.0 + 1e-9) + 1e-5
+    assert all(later >= earlier for earlier, later in pairwise(steps))
+
+
+def test_reports_never_get_worse() -> None:
+    reports = list(bounds(golden_plan("R101"), seconds=1.0))
+    assert len(reports) > 3
+    assert all(b.lower_bound >= a.lower_bound for a, b in pairwise(reports))
+    assert all(b.elapsed >= a.elapsed for a, b in pairwise(reports))
+    time = golden_plan("R101").time_to_converge
+    assert all(b.gap == pytest.approx(time - b.lower_bound) for b in reports)
+
+
+def test_it_ends_as_soon_as_the_gap_is_closed() -> None:
+    planned = golden_plan(QUICK)
+    reports = list(bounds(planned, seconds=MAX_SECONDS))
+    assert reports[-1].elapsed < 10.0
+    assert 0.0 <= reports[-1].gap <= TOLERANCE
+
+
+def test_no_time_changes_nothing_but_costs_nothing() -> None:
+    planned = golden_plan(QUICK)
+    proved = prove(planned, seconds=0.0)
+    assert proved.optimality.lower_bound >= planned.optimality.lower_bound
+    assert replace(proved, optimality=planned.optimality) == planned
+
+
+def test_what_is_optimal_already_comes_back_as_it_is() -> None:
+    planned = plan(straight_behind())
+    assert isinstance(planned, Plan)
+    assert planned.optimality.proof == "relaxation"
+    assert prove(planned, seconds=1.0) is planned
+
+
+def test_progress_sees_every_report() -> None:
+    seen: list[Bound] = []
+
+    def progress(reports: Iterator[Bound]) -> Iterator[Bound]:
+        for report in reports:
+            seen.append(report)
+            yield report
+
+    proved = prove(golden_plan(QUICK), seconds=1.0, progress=progress)
+    assert seen[-1].lower_bound == proved.optimality.lower_bound
+
+
+@pytest.mark.parametrize("seconds", [-1.0, nan, inf, -inf, MAX_SECONDS * 1.001])
+def test_times_that_make_no_sense_are_refused(seconds: float) -> None:
+    with pytest.raises(ValueError, match="between 0 and 3600 s"):
+        prove(golden_plan(QUICK), seconds=seconds)
+
+
+def test_a_faster_plan_than_the_bound_would_be_found_out() -> None:
+    """The bound of the limit as it is must not hold for a smaller one, or it is worth nothing."""
+    _, situation, _ = next(case for case in ACTIVE if case[2]["id"] == "R049")
+    smaller = replace(situation, min_separation=0.9 * situation.min_separation)
+    proved, faster = prove(plan_of(situation), seconds=5.0), plan_of(smaller)
+    assert proved.optimality.lower_bound > faster.time_to_converge + 1.0
+
+
+def plan_of(situation: Situation) -> Plan:
+    answer = plan(situation)
+    assert not isinstance(answer, NoPlan)
+    return answer
+
+
+# --- the command --------------------------------------------------------------------------------
+
+
+def written(tmp_path: Path, ident: str) -> str:
+    lines = (GOLDEN / "reference.situations.jsonl").read_text().splitlines()
+    file = tmp_path / "situation.json"
+    file.write_text(next(line for line in lines if json.loads(line)["id"] == ident))
+    return str(file)
+
+
+def test_the_command_proves(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for options in ((), ("--batch",)):
+        assert main(["plan", written(tmp_path, QUICK), "--prove", "5", *options]) == 0
+        reply = json.loads(capsys.readouterr().out)
+        assert reply["optimality"]["proof"] == "bound"
+        gap = reply["time_to_converge_s"] - reply["optimality"]["lower_bound_s"]
+        assert 0.0 <= gap <= TOLERANCE
+
+
+def test_the_command_says_no_plan_as_without(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "situation.json"
+    unreachable = {**BODY, "leader": {**BODY["leader"], "tas_mps": 300}}
+    file.write_text(json.dumps(unreachable))
+    assert main(["plan", str(file), "--prove", "1"]) == 1
+    assert json.loads(capsys.readouterr().out)["status"] == "no_plan"
+
+
+@pytest.mark.parametrize("seconds", ["-1", "nan", "inf", "1e9", "soon"])
+def test_the_command_refuses_times_that_make_no_sense(
+    seconds: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit) as end:
+        main(["plan", written(tmp_path, QUICK), f"--prove={seconds}"])
+    assert end.value.code == 2
+    said = capsys.readouterr().err
+    assert "--prove" in said
+    assert "seconds" in said or "between 0 and 3600 s" in said
+
+
+def test_the_bar_shows_the_gap(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("relguide.progress.PATIENCE", 0.05)
+    monkeypatch.setattr("relguide.planning.prove.TOLERANCE", -1.0)  # so that it goes on
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
+    assert main(["plan", written(tmp_path, "R101"), "--prove", "1.5"]) == 0
+    assert "proving gap" in capsys.readouterr().err
