@@ -19,6 +19,7 @@ from relguide.planning.situation import (
     Pursuer,
     Situation,
     TurnTo,
+    Wind,
 )
 from relguide.planning.trajectory import LEFT, RIGHT
 from relguide.progress import watched
@@ -179,8 +180,24 @@ LIMITED = (
     _situation(0.0, 30e3, 180.0),
     _situation(-300.0, 11e3, 3.0, tas=205.0, intent=TURNING),
     _situation(-2800.0, 24.7e3, 310.0, tas=205.0, bank_deg=60.0),
+    Situation(
+        pursuer=Pursuer(x=0.0, y=0.0, heading=1.438, tas=189.58, max_bank=0.3291),
+        leader=Leader(
+            x=3_975.0,
+            y=-63_096.0,
+            heading=4.5376,
+            tas=122.58,
+            intent=(
+                FlyStraight(duration=104.67),
+                TurnTo(heading=0.0231, turn=LEFT, bank=0.3117),
+            ),
+        ),
+        slot_distance=68_297.0,
+        min_separation=42_018.0,
+        wind=Wind(east=2.52, north=3.99),
+    ),
 )
-"""Where d_min is touched: at one point, while the leader turns, along a ride."""
+"""Where d_min is touched: once, while the leader turns, along a ride, before the slot opens."""
 
 if __name__ == "__main__":
     main()

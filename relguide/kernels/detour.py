@@ -54,44 +54,42 @@ def _nodes(
     """Sides and bearings of the contacts looked at: for each piece both sides, ascending.
 
     A grid; both sides of each tangent contact, since the words that end there exist on one of them
-    only; and the ends of what can be ridden on the final leg.
+    only; and the ends of what can be ridden.
     """
-    last = len(leader) - 1
-    own = np.empty((2, 2 * bearings + 2 * len(tangents)))
-    sizes = np.zeros(2, dtype=np.int64)
-    for k in range(2):
-        side = 1.0 - 2.0 * k
+    groups = 2 * len(leader)
+    own = np.empty((groups, 2 * bearings + 2 * len(tangents)))
+    sizes = np.zeros(groups, dtype=np.int64)
+    for group in range(groups):
+        i, side = group // 2, 1.0 - 2.0 * (group % 2)
         n = 0
         for j in range(bearings):
             low, high = TWO_PI * j / bearings, TWO_PI * (j + 1) / bearings
-            own[k, n] = low
+            own[group, n] = low
             n += 1
-            way = ride_way(low, side, alpha, delta, leader[last, 4])
-            if way != ride_way(high, side, alpha, delta, leader[last, 4]):
+            way = ride_way(low, side, alpha, delta, leader[i, 4])
+            if way != ride_way(high, side, alpha, delta, leader[i, 4]):
                 for _ in range(50):
                     middle = 0.5 * (low + high)
-                    if ride_way(middle, side, alpha, delta, leader[last, 4]) == way:
+                    if ride_way(middle, side, alpha, delta, leader[i, 4]) == way:
                         low = middle
                     else:
                         high = middle
-                own[k, n] = low if way != 0.0 else high
+                own[group, n] = low if way != 0.0 else high
                 n += 1
         for tangent in tangents:
-            if tangent[1] == side:
-                own[k, n] = wrap(tangent[0] - _BESIDE)
-                own[k, n + 1] = wrap(tangent[0] + _BESIDE)
+            if tangent[1] == side and tangent[3] == i:
+                own[group, n] = wrap(tangent[0] - _BESIDE)
+                own[group, n + 1] = wrap(tangent[0] + _BESIDE)
                 n += 2
-        sizes[k] = n
-    # both sides get as many, so that groups are alike in length: the spare ones are far from all
-    size = max(sizes[0], sizes[1])
-    for k in range(2):
-        for n in range(sizes[k], size):
-            own[k, n] = TWO_PI * (n - sizes[k] + 0.5) / bearings
-    sides = np.empty(2 * len(leader) * size)
-    placed = np.empty(2 * len(leader) * size)
-    for group in range(2 * len(leader)):
+        sizes[group] = n
+    # all groups are made alike in length: spare ones fill the grid
+    size = sizes.max()
+    sides, placed = np.empty(groups * size), np.empty(groups * size)
+    for group in range(groups):
+        for n in range(sizes[group], size):
+            own[group, n] = TWO_PI * (n - sizes[group] + 0.5) / bearings
         sides[group * size : (group + 1) * size] = 1.0 - 2.0 * (group % 2)
-        placed[group * size : (group + 1) * size] = np.sort(own[group % 2, :size])
+        placed[group * size : (group + 1) * size] = np.sort(own[group, :size])
     return sides, placed
 
 
@@ -111,7 +109,7 @@ def best_detour(
         delta: distance at the contacts, d_min and a graze more [R].
         t_open: when the slot opens [R/V_P].
         bearings: how finely the disc is scanned.
-        tangents: contacts to be looked at besides, from `tangent.tangents`. shape (·, 3)
+        tangents: contacts to be looked at besides, from `tangent.tangents`. shape (·, 4)
         beat: an arrival already known [R/V_P]; only earlier ones are looked for.
         legs: takes the legs of the way, as `chain.fly_links`. shape (MAX_LEGS, 6)
 

@@ -2,10 +2,9 @@
 
 When the slot could be reached before it opens, every path of length exactly t_open is optimal. Here
 they are made by one free amount put before or after a Dubins word to the slot's place at t_open: a
-straight before, a straight after, both, or a turn before; where those will not do, a straight
-behind a first turn of every size. For each the total length is a scalar function of the free
-amount; its crossings of t_open are bracketed on a grid and refined. The grid may miss a path: it is
-a choice among many, and never an argument for a time.
+straight before, a straight after, both, or a turn before. For each the total length is a scalar
+function of the free amount; its crossings of t_open are bracketed on a grid and refined. The grid
+may miss a path: it is a choice among many, and never an argument for a time.
 """
 
 from math import asin, atan2, cos, hypot, sin, sqrt
@@ -19,10 +18,9 @@ from relguide.kernels.roots import FloatArray
 
 MAX_HOLDS = 1024
 """Room for exact-length paths."""
-HOLD_PIECES = 6
-"""Pieces of a holding path: a first turn, one before, three of the word, one after."""
+HOLD_PIECES = 5
+"""Pieces of a holding path: one before, three of the word, one after."""
 _GRID = 96  # steps of the free amount: a straight of 30 R in steps of R/3 on average, a turn in 4°
-_FIRST_TURNS = 60  # sizes of a first turn either way: 6° apart
 _BRANCHES = 8  # the six words; LRL and RLR twice, with the long and the short middle arc
 
 
@@ -89,8 +87,8 @@ def _total(
 
 @njit(cache=True, nogil=True)
 def holds(
-    x: float, y: float, h: float, alpha: float, t_open: float, first_turns: bool,
-    signs: FloatArray, amounts: FloatArray,
+    x: float, y: float, h: float, alpha: float, t_open: float, signs: FloatArray,
+    amounts: FloatArray,
 ) -> int:  # fmt: skip
     """Paths of length exactly t_open from (x, y, h) to the slot's place when it opens.
 
@@ -100,38 +98,16 @@ def holds(
         h: its heading, counter-clockwise from the leader's [rad].
         alpha: V_L/V_P.
         t_open: the exact length [R].
-        first_turns: the paths behind a first turn, instead of those without.
         signs: takes ε of the pieces, 0 for straights. shape (MAX_HOLDS, HOLD_PIECES)
         amounts: takes the turn angles [rad] and lengths [R] of the pieces, same shape.
 
     Returns:
         how many paths.
     """
-    if hypot(alpha * t_open - x, y) > t_open:
-        return 0
-    if not first_turns:
-        return _families(x, y, h, alpha * t_open, t_open, 0.0, 0.0, signs, amounts, 0)
     n = 0
-    for i in range(1, _FIRST_TURNS):
-        angle = TWO_PI * i / _FIRST_TURNS
-        for sign in (1.0, -1.0):
-            at_x, at_y, at_h = fly_piece(x, y, h, sign, angle)
-            left = t_open - angle
-            if left > 0.0:
-                n = _families(
-                    at_x, at_y, at_h, alpha * t_open, left, sign, angle, signs, amounts, n
-                )
-    return n
-
-
-@njit(cache=True, nogil=True)
-def _families(
-    x: float, y: float, h: float, end_x: float, length: float, first_sign: float, first: float,
-    signs: FloatArray, amounts: FloatArray, n: int,
-) -> int:  # fmt: skip
-    """Append the paths of one exact length from (x, y, h), which a first turn has led to."""
-    # behind a first turn only a straight is put before the word: the rest repeats what was tried
-    for family in range(1 if first > 0.0 else 3 + 8):
+    if hypot(alpha * t_open - x, y) > t_open:
+        return n
+    for family in range(3 + 8):
         # three ways to put the amount first; eight leads before a straight that comes last
         before = 2.0
         lead = 0.0
@@ -142,15 +118,13 @@ def _families(
         elif family == 2:
             before = -1.0
         else:
-            lead = length * ((family - 3) / 12.0)
+            lead = t_open * ((family - 3) / 12.0)
         straight_amount = before == 0.0 or before == 2.0
-        span = length if straight_amount else min(TWO_PI - 1e-6, length)
+        span = t_open if straight_amount else min(TWO_PI - 1e-6, t_open)
         for branch in range(4 if before == 2.0 else _BRANCHES):
-            m = _cross(x, y, h, end_x, length, branch, before, lead, span, signs, amounts, n)
-            for i in range(n, m):
-                signs[i, 0] = first_sign
-                amounts[i, 0] = first
-            n = m
+            n = _cross(
+                x, y, h, alpha * t_open, t_open, branch, before, lead, span, signs, amounts, n
+            )
     return n
 
 
@@ -182,13 +156,13 @@ def _cross(
             # a jump of a turn by 2π changes sign too: only a true crossing has the right length
             if total >= 0.0 and abs(total - length) < 1e-9:
                 word = branch if branch < 6 else branch - 2
-                signs[n, 1] = 0.0 if before == 2.0 else before
-                amounts[n, 1] = lead if before == 2.0 else high
+                signs[n, 0] = 0.0 if before == 2.0 else before
+                amounts[n, 0] = lead if before == 2.0 else high
                 for k in range(3):
-                    signs[n, k + 2] = SIGNS[word, k]
-                    amounts[n, k + 2] = piece[k]
-                signs[n, 5] = 0.0
-                amounts[n, 5] = high if before == 2.0 else 0.0
+                    signs[n, k + 1] = SIGNS[word, k]
+                    amounts[n, k + 1] = piece[k]
+                signs[n, 4] = 0.0
+                amounts[n, 4] = high if before == 2.0 else 0.0
                 n += 1
         last_amount, last = amount, gap
     return n

@@ -13,7 +13,7 @@ Lengths in R, times in R/V_P, angles counter-clockwise; positions are relative t
 keeps heading 0.
 """
 
-from math import atan2, cos, hypot, pi, sin
+from math import atan2, cos, hypot, inf, pi, sin
 
 import numpy as np
 from numba import njit
@@ -163,40 +163,43 @@ def tangent_contacts(
 def tangents(
     x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float
 ) -> FloatArray:
-    """Tangent contacts of the start and of the slot: rows of bearing, side, time."""
-    near = tangents_from_start(x, y, h, leader, alpha, delta)
-    return np.concatenate((near, tangents_to_slot(leader, alpha, delta)))
+    """Tangent contacts of the start and of the slot, in the slot frame.
 
+    Of the start while the leader keeps straight, on any of its pieces; none where it keeps straight
+    for ever and is so far away that the scan sees all there is. Of the slot on the final leg.
 
-@njit(cache=True, nogil=True)
-def tangents_from_start(
-    x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float
-) -> FloatArray:
-    """Tangent contacts of the start on the final leg, in the slot frame: bearing, side, time.
+    Args:
+        x: start, slot frame [R].
+        y: start [R].
+        h: start heading [rad].
+        leader: table of its pieces, as in `clearance`. shape (k, 5)
+        alpha: V_L/V_P.
+        delta: distance of the contacts [R].
 
-    None where the leader is so far away that the scan sees all there is.
+    Returns:
+        rows of bearing [rad], side, time [R/V_P], number of the leader's piece.
     """
+    pieces = len(leader)
+    kept = np.empty(((pieces + 1) * MAX_TANGENTS, 4))
     found = np.empty((MAX_TANGENTS, 3))
-    last = len(leader) - 1
-    lx, ly, _ = leader_at(leader, last, alpha, 0.0)
-    if last == 0 and hypot(x - lx, y - ly) > delta + NEAR:
-        return found[:0]
-    n = tangent_contacts(x - lx, y - ly, h, alpha, delta, found)
-    kept = 0
-    for j in range(n):
-        if found[j, 2] >= leader[last, 0]:
-            found[kept] = found[j]
-            kept += 1
-    return found[:kept]
-
-
-@njit(cache=True, nogil=True)
-def tangents_to_slot(leader: FloatArray, alpha: float, delta: float) -> FloatArray:
-    """Contacts from which a straight and a turn, or two turns, lead to the slot (final leg)."""
-    found = np.empty((MAX_TANGENTS, 3))
-    lx, ly, _ = leader_at(leader, len(leader) - 1, alpha, 0.0)
-    n = tangent_contacts(lx, ly, 0.0, alpha, delta, found)
-    for j in range(n):
-        found[j, 0] = wrap(found[j, 0] + pi)
-        found[j, 1] = -found[j, 1]
-    return found[:n]
+    n = 0
+    for i in range(pieces):
+        lx, ly, lh = leader_at(leader, i, alpha, 0.0)
+        if leader[i, 4] != 0.0 or (pieces == 1 and hypot(x - lx, y - ly) > delta + NEAR):
+            continue
+        end = leader[i + 1, 0] if i + 1 < pieces else inf
+        c, s = cos(lh), sin(lh)
+        dx, dy = x - lx, y - ly
+        m = tangent_contacts(dx * c + dy * s, dy * c - dx * s, h - lh, alpha, delta, found)
+        for j in range(m):
+            if leader[i, 0] <= found[j, 2] <= end:
+                kept[n, :3] = found[j]
+                kept[n, 3] = i
+                n += 1
+    lx, ly, _ = leader_at(leader, pieces - 1, alpha, 0.0)
+    m = tangent_contacts(lx, ly, 0.0, alpha, delta, found)
+    for j in range(m):
+        kept[n, 0], kept[n, 1] = wrap(found[j, 0] + pi), -found[j, 1]
+        kept[n, 2], kept[n, 3] = found[j, 2], pieces - 1
+        n += 1
+    return kept[:n]

@@ -37,7 +37,7 @@ def wait_for_opening(
     signs = np.empty((MAX_HOLDS, HOLD_PIECES))
     amounts = np.empty((MAX_HOLDS, HOLD_PIECES))
     fewest = HOLD_PIECES + 1
-    n = holds(x - alpha * t, y, h, alpha, t_open - t, False, signs, amounts)
+    n = holds(x - alpha * t, y, h, alpha, t_open - t, signs, amounts)
     for j in range(n):
         turns = 0
         for k in range(HOLD_PIECES):

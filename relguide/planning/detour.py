@@ -1,5 +1,7 @@
 """detour(candidates): the fastest way to the slot that touches d_min, or rides along it."""
 
+from math import inf
+
 import numpy as np
 
 from relguide.kernels.chain import RIDE, WAIT
@@ -13,11 +15,17 @@ from relguide.kernels.waiting import wait_for_opening
 from relguide.planning.situation import Situation
 from relguide.planning.slot import SlotFrame
 from relguide.planning.trajectory import LEFT, RIGHT, BoundaryArc, Segment, Trajectory
-from relguide.planning.words import SIGN_ROWS, Candidate, Candidates, assemble, segments_of
+from relguide.planning.words import (
+    HORIZON,
+    NO_TURN,
+    SIGN_ROWS,
+    Candidate,
+    Candidates,
+    assemble,
+    segments_of,
+)
 from relguide.units import Second
 
-HORIZON: Second = 43_200.0
-"""Plans longer than this are not given: 12 hours, longer than any aircraft's fuel lasts [s]."""
 SAME = 2e-4
 """A way handed over as segments takes as long as the one searched, to this [R/V_P]: some ms."""
 BEARINGS = 36
@@ -107,7 +115,7 @@ def _flown(
             rows = np.empty((MAX_ROWS, 5))
             # a ride's last node lies within rounding of the limit: it must not cost the best word
             _, i = best_word(
-                x, y, h, t, leader, frame.alpha, limit - GRAZE, frame.t_open, float("inf"), rows
+                x, y, h, t, leader, frame.alpha, limit - GRAZE, frame.t_open, inf, rows
             )
             if i < 0:
                 return None
@@ -141,17 +149,13 @@ def leader_table(situation: Situation, frame: SlotFrame) -> np.ndarray:
     Lengths in R, times in R/V_P, angles counter-clockwise; the last row is the endless final leg.
     """
     leader, tas = situation.leader.trajectory, situation.pursuer.tas
-    table = np.empty((len(leader.segments) + 1, 5))  # (pieces, 5)
+    table: list[tuple[float, ...]] = []
     t = 0.0
-    pieces = zip((*leader.durations(), 0.0), (*leader.turn_rates(), 0.0), strict=True)
-    for row, pose, (duration, rate) in zip(table, leader.breakpoints(), pieces, strict=True):
-        x, y = frame.to_slot(pose.x, pose.y)
-        row[:] = (
-            t * tas / frame.radius,
-            x,
-            y,
-            frame.heading - pose.heading,
-            -rate * frame.radius / tas,
-        )
+    pieces = zip((*leader.durations(), inf), (*leader.turn_rates(), 0.0), strict=True)
+    for pose, (duration, rate) in zip(leader.breakpoints(), pieces, strict=True):
+        if duration * tas / frame.radius > NO_TURN:  # shorter pieces are rounding
+            x, y = frame.to_slot(pose.x, pose.y)
+            turning = -rate * frame.radius / tas
+            table.append((t * tas / frame.radius, x, y, frame.heading - pose.heading, turning))
         t += duration
-    return table
+    return np.array(table)

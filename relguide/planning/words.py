@@ -84,7 +84,7 @@ def candidates(situation: Situation) -> Candidates:
     rows = np.empty((MAX_ROWS, 5))
     n = solve(frame.x, frame.y, frame.h, frame.alpha, frame.t_open, rows)
     reachable = frame.t_open > 0.0 and _dubins_length(frame) <= frame.t_open + NO_TURN
-    at_opening = _at_opening(situation, frame, first_turns=False) if reachable else ()
+    at_opening = _at_opening(situation, frame) if reachable else ()
     within = HORIZON * situation.pursuer.tas / frame.radius
     while n > (0 if at_opening else 1) and rows[n - 1, 0] > within:
         n -= 1
@@ -97,22 +97,10 @@ def candidates(situation: Situation) -> Candidates:
     )
 
 
-def detours_at_opening(situation: Situation) -> tuple[Candidate, ...]:
-    """More paths that arrive exactly when the slot opens: those that begin with one more turn.
-
-    For when none of `Candidates.at_opening` keeps d_min; fewest turns first. Costs some 20 ms.
-    """
-    return _at_opening(
-        situation, slot_frame(situation, situation.leader.trajectory), first_turns=True
-    )
-
-
-def _at_opening(
-    situation: Situation, frame: SlotFrame, *, first_turns: bool
-) -> tuple[Candidate, ...]:
+def _at_opening(situation: Situation, frame: SlotFrame) -> tuple[Candidate, ...]:
     signs = np.empty((MAX_HOLDS, HOLD_PIECES))
     amounts = np.empty((MAX_HOLDS, HOLD_PIECES))
-    n = holds(frame.x, frame.y, frame.h, frame.alpha, frame.t_open, first_turns, signs, amounts)
+    n = holds(frame.x, frame.y, frame.h, frame.alpha, frame.t_open, signs, amounts)
     pieces = zip(signs[:n].tolist(), amounts[:n].tolist(), strict=True)
     found = [assemble(situation, frame, *piece, "") for piece in pieces]
     return tuple(sorted(found, key=_canonical_order))

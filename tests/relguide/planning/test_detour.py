@@ -7,14 +7,27 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from relguide import BoundaryArc, Leader, NoPlan, Plan, Pursuer, Situation, plan
+from relguide import (
+    RIGHT,
+    BoundaryArc,
+    FlyStraight,
+    Leader,
+    NoPlan,
+    Plan,
+    Pursuer,
+    Situation,
+    TurnTo,
+    Wind,
+    candidates,
+    certify,
+    plan,
+)
 from relguide.kernels.detour import MAX_LEGS, best_detour
 from relguide.kernels.passage import GRAZE
 from relguide.kernels.tangent import tangents
 from relguide.kernels.turn import turn_radius
 from relguide.planning.detour import BEARINGS, TURNING_BEARINGS, leader_table
 from relguide.planning.optimality import check
-from relguide.planning.words import candidates
 from tests.oracle import arrival_error
 from tests.situations import headings, numbers
 
@@ -121,6 +134,40 @@ def test_two_contacts_without_a_ride_between_beat_one(
     report = check(answer, situation, samples=1)
     assert report.holds
     assert len(report.contacts) == 2
+
+
+WAITING_BEHIND = Situation(
+    pursuer=Pursuer(x=0.0, y=0.0, heading=1.776, tas=183.895, max_bank=0.5062),
+    leader=Leader(
+        x=11_576.7,
+        y=22_624.6,
+        heading=0.3594,
+        tas=143.232,
+        intent=(
+            FlyStraight(duration=87.822),
+            TurnTo(heading=1.611, turn=RIGHT, bank=0.514),
+            FlyStraight(duration=67.951),
+            TurnTo(heading=3.8517, turn=RIGHT, bank=0.3992),
+        ),
+    ),
+    slot_distance=26_796.2,
+    min_separation=24_528.0,
+    wind=Wind(east=16.367, north=7.389),
+)
+"""The slot could be reached before it opens, but no path of the right length keeps d_min alone."""
+
+
+def test_a_way_that_touches_the_limit_may_wait_for_the_slot() -> None:
+    found = candidates(WAITING_BEHIND)
+    assert not any(certify(c.trajectory, WAITING_BEHIND).holds for c in found.at_opening)
+    answer = plan(WAITING_BEHIND)
+    assert isinstance(answer, Plan)
+    assert answer.time_to_converge == pytest.approx(found.bound, abs=1e-6)
+    assert answer.optimality.proof == "relaxation"
+    distance, heading_error, least = arrival_error(WAITING_BEHIND, answer.trajectory)
+    assert distance < 0.02
+    assert heading_error < 1e-6
+    assert least > WAITING_BEHIND.min_separation - 0.5
 
 
 @pytest.mark.parametrize("off", [0.0, 1e-7, -1e-7, 1e-5])

@@ -6,7 +6,6 @@ import pytest
 from hypothesis import given
 
 from relguide import RIGHT, FlyStraight, Leader, Pursuer, Situation, TurnTo, candidates
-from relguide.planning.words import detours_at_opening
 from relguide.units import DEG
 from tests.oracle import arrival_error
 from tests.situations import situations
@@ -54,13 +53,3 @@ def test_a_slot_reached_too_soon_is_waited_for_by_paths_of_exact_length() -> Non
     assert all(c.time_to_converge >= found.bound for c in found.later)
     turns = [c.trajectory.turns for c in found.at_opening]
     assert turns == sorted(turns)
-
-
-def test_detours_begin_with_one_more_turn_and_arrive_at_the_same_time() -> None:
-    found = detours_at_opening(WAITING)
-    opens = candidates(WAITING).bound
-    assert len(found) > 50
-    for candidate in found[::40]:
-        assert candidate.time_to_converge == pytest.approx(opens, abs=1e-6)
-        distance, _, _ = arrival_error(WAITING, candidate.trajectory)
-        assert distance < 0.02
