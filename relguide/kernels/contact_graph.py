@@ -14,7 +14,7 @@ from math import inf
 import numpy as np
 from numba import njit
 
-from relguide.kernels.angles import TWO_PI
+from relguide.kernels.angles import TWO_PI, wrap_signed
 from relguide.kernels.chain import (
     MAX_CONTACTS,
     RIDE,
@@ -32,6 +32,7 @@ from relguide.kernels.waiting import wait_for_opening
 
 _TRIES = 4  # so many times as many nodes may be left by a path that waits: 0.3 ms each
 _ROUNDS = 3  # of hops, each followed by rides: chains with up to two hops and three rides
+_BESIDE = 0.05  # nodes this close lead to the same places: 3° [rad]
 _BETTER = 1e-9  # a label must fall by more than this [R/V_P], or rounding goes round in circles
 
 
@@ -202,13 +203,23 @@ def best_chains(
                 break
         if turn == _ROUNDS - 1:
             break
+        near = np.zeros(count)  # nodes beside one that was followed in this round
         for _ in range(hops):
             n = -1
             for m in range(count):
-                if lower[m] < best and time[m] < hopped[m] and (n < 0 or lower[m] < lower[n]):
+                if (
+                    near[m] == 0.0
+                    and lower[m] < best
+                    and time[m] < hopped[m]
+                    and (n < 0 or lower[m] < lower[n])
+                ):
                     n = m
             if n < 0:
                 break
+            group = n // size * size
+            for m in range(group, group + size):
+                if abs(wrap_signed(bearings[m] - bearings[n])) < _BESIDE:
+                    near[m] = 1.0
             hopped[n] = time[n]
             x, y, h = contact_at(leader, time[n], bearings[n], sides[n], alpha, delta)
             for m in range(count):
