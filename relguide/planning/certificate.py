@@ -63,5 +63,6 @@ def kernel_arrays(trajectory: Trajectory) -> tuple[np.ndarray, np.ndarray]:
     Returns:
         x, y, ψ, V at t = 0, shape (4,); duration and turn rate of each piece, shape (pieces, 2).
     """
-    start = np.array((trajectory.x, trajectory.y, trajectory.heading, trajectory.tas), float)
-    return start, np.array(trajectory.bends(), float).reshape(-1, 2)
+    start = np.array((trajectory.x, trajectory.y, trajectory.heading, trajectory.tas))
+    bends = trajectory.bends()
+    return start, np.array(bends) if bends else np.empty((0, 2))

@@ -129,14 +129,17 @@ class Trajectory:
     def __post_init__(self) -> None:
         """Refuse what no aircraft could fly."""
         for name in ("x", "y", "heading", "tas"):
-            object.__setattr__(self, name, number(name, getattr(self, name)))
+            given = getattr(self, name)
+            if type(given) is not float or not -inf < given < inf:
+                object.__setattr__(self, name, number(name, given))
         if self.tas <= 0.0:
             raise ValueError(f"tas must be above 0 m/s, not {self.tas:g} m/s.")
         if not isinstance(self.segments, tuple):
             raise ValueError("segments must be a tuple of Arc, Straight and BoundaryArc.")
         for segment in self.segments:
-            _check(segment)
-        if not self.duration < inf:
+            if not _is_sound(segment):
+                _check(segment)
+        if self.segments and not self.duration < inf:
             raise ValueError("All segments together must have a finite length and duration.")
 
     @property
@@ -194,6 +197,20 @@ class Trajectory:
                 x, y, heading = advance(x, y, heading, 1.0, curvature, length)
             poses.append(Pose(x=x, y=y, heading=heading % (2.0 * pi)))
         return tuple(poses)
+
+
+def _is_sound(segment: Segment) -> bool:
+    """The short way to say that of most segments: a planner makes some for every candidate."""
+    if type(segment) is Arc:
+        turn, angle, radius = segment.turn, segment.turn_angle, segment.radius
+        return (
+            type(turn) is int
+            and (turn == LEFT or turn == RIGHT)
+            and type(angle) is type(radius) is float
+            and 0.0 <= angle < inf
+            and 0.0 < radius < inf
+        )
+    return type(segment) is Straight and type(segment.length) is float and segment.length >= 0.0
 
 
 def _check(segment: Segment) -> None:
