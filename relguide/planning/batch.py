@@ -25,7 +25,9 @@ from relguide.units import G0
 
 Floats = NDArray[np.float64]
 CHUNK = 512
-"""Situations a thread takes at a time: a few ms of work, or a few s where the limit binds."""
+"""Situations a thread takes at a time without the limit: a few ms of work."""
+LIMITED_CHUNK = 32
+"""As many with it: 100 ms at most, so that all threads finish together."""
 BLOCK = 131_072
 """Situations whose rows for the kernel are held at a time."""
 VERDICTS = (
@@ -146,6 +148,7 @@ def plan_arrays(
     expect("situations", situations, Situations)
     if threads is not None and not (isinstance(threads, int) and threads > 0):
         raise ValueError(f"threads must be a whole number of 1 or more, not {threads!r}.")
+    chunk = LIMITED_CHUNK if limited else CHUNK
     columns = situations.columns()
     size = len(columns[0])
     times = Times(
@@ -161,11 +164,11 @@ def plan_arrays(
             answers = np.empty((len(rows), 4))
 
             def work(first: int, rows: Floats = rows, answers: Floats = answers) -> int:
-                last = min(first + CHUNK, len(rows))
+                last = min(first + chunk, len(rows))
                 kernel.plan_rows(rows, BEARINGS, limited, first, last, answers)
                 return last - first
 
-            for done in pool.map(work, range(0, len(rows), CHUNK)):
+            for done in pool.map(work, range(0, len(rows), chunk)):
                 if progress is not None:
                     progress(done)
             _take(times, block, answers, scale)
