@@ -42,6 +42,7 @@ _CHAINS = 4  # of the graph, refined
 _PER_HOP = 4  # so many bearings on the disc let one contact be followed to all others
 _NEARLY = 0.07  # how much a chain may fall below what the graph sees of it [R/V_P]
 _SLACK = 0.14  # how much a basin may fall below what the scan sees of it [R/V_P]
+_PARTS = 4  # into which the bearings beside a basin without a neighbour are cut
 _FIRST_TURNS = 48  # sizes of a first turn in `any_way`: every 7.5°
 _LONGEST = 64.0  # longest straight tried there [R]: 200 NM for an airliner
 _FINEST = 1e-7  # bearing steps end here: 1 mm at R = 12 km, 10 µs where the time has an edge
@@ -179,6 +180,35 @@ def best_detour(
         if here < best:
             best, found = here, 2
             way[:] = nearby
+        if len(leader) == 1:
+            continue
+        # while the leader turns windows are narrow: it may fall towards either end of this one
+        for k in range(2):
+            if values[before if k == 0 else after] < inf:
+                continue
+            away = (2.0 * k - 1.0) * TWO_PI / bearings
+            edge, there = inf, placed[at]
+            for part in range(1, _PARTS):
+                value = through_contact(
+                    x, y, h, leader, at // (2 * size), alpha, delta, t_open,
+                    placed[at] + away * part / _PARTS, sides[at], best + _SLACK, rows, onward,
+                    trial, reached,
+                )  # fmt: skip
+                if value >= best + _SLACK:
+                    break
+                edge, there = value, placed[at] + away * part / _PARTS
+                if edge < best:
+                    best, found = edge, 2
+                    way[:] = trial
+            if edge == inf:
+                continue
+            here = _descend(
+                x, y, h, leader, at // (2 * size), alpha, delta, t_open, there, sides[at], edge,
+                0.5 * abs(away) / _PARTS, rows, onward, trial, reached, nearby,
+            )  # fmt: skip
+            if here < best:
+                best, found = here, 2
+                way[:] = nearby
     tried = np.empty((MAX_LEGS, 6))
     stride = 0.5 * TWO_PI / bearings
     for k in range(found):
