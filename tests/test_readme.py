@@ -48,8 +48,8 @@ def test_one_request() -> None:
 
 def test_commands_are_there(capsys: pytest.CaptureFixture[str]) -> None:
     listed = re.findall(r"^relguide (\w+)", "".join(blocks("sh")), re.MULTILINE)
-    assert set(listed) == {"plan", "fly", "replay", "serve"}
-    for command in listed:
+    assert set(listed) == {"plan", "check", "fly", "replay", "serve", "dataset", "area"}
+    for command in set(listed):
         with pytest.raises(SystemExit) as end:
             main([command, "--help"])
         assert end.value.code == 0
@@ -66,6 +66,22 @@ def test_figures_6a_and_6b() -> None:
         # a percent: what the reader learns stays true when a gain is tuned
         assert ended.join_time == pytest.approx(float(seconds), rel=0.01)
         assert degrees(ended.heading_swing) == pytest.approx(float(degrees_turned), rel=0.01, abs=1)
+
+
+@pytest.mark.slow
+def test_the_figures_of_the_tree(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = str(tmp_path / "tree.npz")
+    assert main(["dataset", "--method", "reverse-dp", "--out", file, "--json"]) == 0
+    made = json.loads(capsys.readouterr().out)
+    millions, cells = re.findall(r"([\d.]+) million regular.*? ([\d,]+) cells", README, re.DOTALL)[
+        0
+    ]
+    assert f"{made['trajectories'] / 1e6:.1f}" == millions
+    assert f"{made['states']:,}" == cells
+    order, optimal, nearly = re.findall(r"order (\d), (\d+) % .*?(\d+) % within 1 %", README)[0]
+    assert made["parameters"]["order"] == int(order)
+    assert made["audit"]["share_within_0_percent"] == pytest.approx(int(optimal) / 100, abs=0.01)
+    assert made["audit"]["share_within_1_percent"] == pytest.approx(int(nearly) / 100, abs=0.01)
 
 
 def test_make_targets_are_there() -> None:
@@ -85,8 +101,10 @@ def test_map_and_links_lead_somewhere() -> None:
             assert (folders[-1] / name).exists(), name
         if names[2].strip().endswith("/"):
             folders.append(folders[-1] / names[2].strip())
-    for link in re.findall(r"\]\((?!http|#)([^)]+)\)", README):
+    for link, heading in re.findall(r"\]\((?!http|#)([^)#]+)(?:#([^)]*))?\)", README):
         assert (ROOT / link).exists(), link
+        titles = re.findall(r"^#+ (.*)", (ROOT / link).read_text(), re.MULTILINE) if heading else []
+        assert not heading or heading in {title.lower().replace(" ", "-") for title in titles}
 
 
 def test_errata_name_tests_that_exist() -> None:
