@@ -70,6 +70,7 @@ def _steps() -> tuple[Step, ...]:
         ("what to do where there is none", 4.0, _plan_none),
         ("the proofs of optimality", 15.0, _conditions),
         ("plans in bulk", 30.0, _bulk),
+        ("the convergence area", 6.0, _area),
         ("reverse dynamic programming", 4.0, _tree),
         ("the closed loop", 3.0, _flight),
     )
@@ -125,6 +126,12 @@ def _bulk() -> None:
             max_bank=25 * DEG, leader_tas=200.0, slot_distance=12e3, min_separation=9e3,
         )
     )  # fmt: skip
+
+
+def _area() -> None:
+    from relguide.isochrones import Grid, isochrones
+
+    isochrones(LIMITED[1], Grid(x=0.0, y=0.0, columns=9, rows=9))
 
 
 def _tree() -> None:

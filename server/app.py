@@ -10,7 +10,7 @@ from starlette.responses import PlainTextResponse, Response
 
 from relguide import __version__
 from relguide.planning.plan import Planner, plan
-from server import flights, pages, plans, scene_relay
+from server import areas, flights, pages, plans, scene_relay
 from server.departures import Departures, library_departures
 from server.errors import Refusal, install_handlers, survives
 from server.fleet import Fleet
@@ -71,10 +71,17 @@ def create_app(
     )
     app.state.planner, app.state.departures = planner, departures
     app.state.fleet, app.state.metrics, app.state.warm = fleet, metrics, warm
-    for part in (router, plans.router, flights.router, scene_relay.router, pages.router):
+    for part in (
+        router,
+        plans.router,
+        areas.router,
+        flights.router,
+        scene_relay.router,
+        pages.router,
+    ):
         app.include_router(part)
     install_handlers(app)
-    describe(app, (*plans.MODELS, *flights.MODELS))
+    describe(app, (*plans.MODELS, *areas.MODELS, *flights.MODELS))
     # The last one added is the first one passed.
     app.add_middleware(Page)
     app.add_middleware(BodyLimit, max_body=settings.max_body)

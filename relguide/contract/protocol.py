@@ -3,6 +3,7 @@
 from hashlib import sha256
 from typing import Any, Literal
 
+from relguide.contract.areas import AreaAnswer
 from relguide.contract.bodies import Piece, SituationBody
 from relguide.contract.messages import (
     AlternativeModel,
@@ -41,7 +42,7 @@ _ALIASES: dict[str, tuple[Any, str]] = {
     "FlightRequest": (FlightRequest, "What starts a flight."),
     "Command": (Command, "What a flight can be told."),
 }
-_ROOTS = (Tick, SituationBody, ScenarioList, FlightList)
+_ROOTS = (Tick, SituationBody, ScenarioList, FlightList, AreaAnswer)
 
 
 def typescript_body(*, docs: bool) -> str:

@@ -94,8 +94,10 @@ def _type(annotation: Any, names: Mapping[Any, str]) -> str:
     if origin in (UnionType, Union, Literal):
         return " | ".join(_union(annotation, names))
     if origin is list:
-        member = _type(get_args(annotation)[0], names)
-        return f"({member})[]" if " " in member else f"{member}[]"
+        inside = get_args(annotation)[0]
+        member = _type(inside, names)
+        union = " " in member and get_origin(inside) is not list
+        return f"({member})[]" if union else f"{member}[]"
     if issubclass(annotation, BaseModel):
         return str(annotation.__name__)
     return NUMBERS_AND_TEXTS[annotation]

@@ -1,7 +1,7 @@
 // Made by `python -m server.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-79c8c2c34770";
+export const PROTOCOL = "relguide-4930fe2117a2";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -122,6 +122,72 @@ export interface AlternativeCard {
   /** Why it is not flown, e.g. `38 s slower`. */
   why: string;
   rejected: "slower" | "as_fast" | "faster";
+}
+
+/** A convergence area: lines of equal time-to-converge, and regions of equal word. */
+export interface AreaAnswer {
+  grid: AreaGrid;
+  /** Clockwise from true north: everywhere the same. */
+  pursuer_heading_deg: number;
+  levels_s: number[];
+  /** One a level, in their order. */
+  contours: AreaContour[];
+  /** Together they cover the grid. */
+  regions: AreaRegion[];
+  count: AreaCount;
+  /** What is exact here and what is a bound, in sentences. */
+  notes: string[];
+  compute_ms: number;
+  /** Of the nodes, a list a row from the south, if asked for; null where there is no plan. */
+  times_s?: (number | null)[][] | null;
+  /** No plan from there is faster; as `times_s`. */
+  lower_bounds_s?: (number | null)[][] | null;
+}
+
+/** Where the time-to-converge is that of a level. */
+export interface AreaContour {
+  level_s: number;
+  /**
+   * Lines of [x_m, y_m], or of [x_m, y_m, lat_deg, lon_deg] if the situation came with latitudes;
+   * closed where the first vertex is also the last.
+   */
+  lines: number[][][];
+}
+
+/** How many nodes of the grid have which answer. */
+export interface AreaCount {
+  /** The optimum, proved. */
+  proved: number;
+  /** A plan and a lower bound. */
+  limited: number;
+  no_plan: number;
+}
+
+/** Where the pursuer was put: the nodes of a rectangle, its edges east and north. */
+export interface AreaGrid {
+  /** Its middle, east. */
+  x_m: number;
+  /** Its middle, north. */
+  y_m: number;
+  /** From the first column to the last. */
+  width_m: number;
+  /** From the first row to the last. */
+  height_m: number;
+  columns: number;
+  rows: number;
+}
+
+/** Where one word is the answer. */
+export interface AreaRegion {
+  /**
+   * `hold`: a path that arrives exactly when the slot opens; `detour`: one that touches the
+   * minimum separation; empty: no plan.
+   */
+  word: string;
+  /** Whether the fastest way without the limit comes too close there. */
+  limited: boolean;
+  /** Each an outline and its holes, closed, of points as in a contour: to be filled even-odd. */
+  polygons: number[][][][];
 }
 
 /** A ride along d = d_min with less than full bank. */

@@ -1,0 +1,79 @@
+"""The situation a flight is in now, read from what it said of itself."""
+
+from collections.abc import Sequence
+from math import pi
+
+from relguide.flying.documents import (
+    FlightStarted,
+    LeaderRoute,
+    Sample,
+    StraightSegment,
+    TurnSegment,
+)
+from relguide.planning.situation import (
+    FlyStraight,
+    IntentPiece,
+    Leader,
+    Pursuer,
+    Situation,
+    TurnTo,
+    wind_from,
+)
+from relguide.planning.trajectory import LEFT, RIGHT
+from relguide.units import DEG, Radian, Second
+
+LATE: Second = 10.0
+"""A turn may end so much later than its exact arc: rolling in and out takes time."""
+OVER: Radian = 5.0 * DEG
+"""A turn with less to go is over: the last degrees are the roll-out."""
+
+
+def situation_now(started: FlightStarted, routes: Sequence[LeaderRoute], now: Sample) -> Situation:
+    """What would be planned for at this instant, by what guidance expects of the leader.
+
+    Args:
+        started: gives D, d_min, the wind and the bank of the plans.
+        routes: the last one counts; without any the leader keeps straight.
+        now: gives both aircraft, at their present airspeeds.
+
+    Raises:
+        ValueError: if no plan can be made at such an instant, e.g. outside accepted speeds.
+    """
+    pursuer, leader = now.pursuer, now.leader
+    return Situation(
+        pursuer=Pursuer(
+            x=pursuer.x,
+            y=pursuer.y,
+            heading=pursuer.heading,
+            tas=pursuer.tas,
+            max_bank=started.pursuer.max_bank,
+        ),
+        leader=Leader(
+            x=leader.x,
+            y=leader.y,
+            heading=leader.heading,
+            tas=leader.tas,
+            intent=_left_of(routes[-1], now) if routes else (),
+        ),
+        slot_distance=started.slot_distance,
+        min_separation=started.min_separation,
+        wind=wind_from(started.wind.from_, started.wind.speed),
+    )
+
+
+def _left_of(route: LeaderRoute, now: Sample) -> tuple[IntentPiece, ...]:
+    """What remains of a route, without its last straight, which goes on for ever."""
+    pieces: list[IntentPiece] = []
+    for segment in route.segments:
+        match segment:
+            case StraightSegment() if segment.end.t > now.t:
+                left = segment.end.t - max(segment.start.t, now.t)
+                pieces.append(FlyStraight(duration=left))
+            case TurnSegment() if segment.end.t + LATE > now.t:
+                turn = LEFT if segment.direction == "left" else RIGHT
+                to_go = -turn * (segment.end.heading - now.leader.heading) % (2.0 * pi)
+                if segment.start.t >= now.t or OVER < to_go <= segment.angle + OVER:
+                    pieces.append(TurnTo(heading=segment.end.heading, turn=turn, bank=segment.bank))
+    while pieces and isinstance(pieces[-1], FlyStraight):
+        pieces.pop()
+    return tuple(pieces)
