@@ -1,4 +1,4 @@
-"""The command line: `relguide plan`, `check`, `fly`, `replay`, `serve`, `dataset`, `area`.
+"""The command line: `relguide plan`, `fly`, `serve`, `dataset`, `train`, `audit` and others.
 
 What a command needs is loaded when it runs, so that `--help` answers at once.
 """
@@ -57,15 +57,24 @@ def _refuse(sentence: str) -> int:
 def _plan(chosen: argparse.Namespace) -> int:
     from relguide.command_line import plan_batch, plan_one
 
-    _only_exact(chosen.planner)
+    _not_yet(chosen.planner)
     _compile_first()
     if chosen.batch and chosen.table:
         raise ValueError("A batch is answered in JSON, a plan a line: leave out --table.")
     if chosen.batch:
-        invalid = plan_batch(chosen.file, optimality=chosen.optimality, prove_for=chosen.prove)
+        invalid = plan_batch(
+            chosen.file,
+            planner_name=chosen.planner,
+            optimality=chosen.optimality,
+            prove_for=chosen.prove,
+        )
         return FAILED if invalid else DONE
     planned = plan_one(
-        chosen.file, table=chosen.table, optimality=chosen.optimality, prove_for=chosen.prove
+        chosen.file,
+        planner_name=chosen.planner,
+        table=chosen.table,
+        optimality=chosen.optimality,
+        prove_for=chosen.prove,
     )
     return DONE if planned else FAILED
 
@@ -82,10 +91,14 @@ def _check(chosen: argparse.Namespace) -> int:
 def _fly(chosen: argparse.Namespace) -> int:
     from relguide.command_line import fly_one
 
-    _only_exact(chosen.planner)
+    _not_yet(chosen.planner)
     _compile_first()
     passed = fly_one(
-        chosen.scenario, record_to=chosen.record, seed=chosen.seed, as_json=chosen.json
+        chosen.scenario,
+        planner_name=chosen.planner,
+        record_to=chosen.record,
+        seed=chosen.seed,
+        as_json=chosen.json,
     )
     return DONE if passed else FAILED
 
@@ -111,8 +124,8 @@ def _compile_first() -> None:
         warm_up()
 
 
-def _only_exact(planner: str) -> None:
-    if planner != "exact":
+def _not_yet(planner: str) -> None:
+    if planner == "regular_dp":
         raise ValueError(f"The planner {planner} is not part of this version: use exact.")
 
 

@@ -34,11 +34,14 @@ _WARM_UP = 40
 seconds where planning takes a tenth of a millisecond, and is no part of what is measured."""
 
 
-def plan_one(file: str, *, table: bool, optimality: bool, prove_for: float = 0.0) -> bool:
+def plan_one(
+    file: str, *, planner_name: str, table: bool, optimality: bool, prove_for: float = 0.0
+) -> bool:
     """Print the answer to a situation.
 
     Args:
         file: its path; - for standard input.
+        planner_name: exact or network.
         table: for people; JSON otherwise.
         optimality: say how the plan meets Pontryagin's conditions, too.
         prove_for: how long to look for a better lower bound of its time [s].
@@ -49,11 +52,12 @@ def plan_one(file: str, *, table: bool, optimality: bool, prove_for: float = 0.0
     with _opened(file) as stream:
         body = parse(NamedSituationBody, stream.read())
     situation, anchor = situation_from_body(body)
-    planner = _proving(prove_for)
+    asked = _planner(planner_name)
+    planner = _proving(asked, prove_for)
+    asked(situation)  # see `_WARM_UP`
     if table:
         from relguide.tables import print_no_plan, print_optimality, print_plan
 
-        plan(situation)  # see `_WARM_UP`
         match planned := planner(situation):
             case NoPlan():
                 print_no_plan(no_plan_card(planned))
@@ -62,18 +66,18 @@ def plan_one(file: str, *, table: bool, optimality: bool, prove_for: float = 0.0
                 if optimality:
                     print_optimality(checked(planned))
         return isinstance(planned, Plan)
-    plan(situation)  # see `_WARM_UP`
     reply = answer(situation, anchor, planner, optimality=optimality)
     name = {"id": body.id} if "id" in body.model_fields_set else {}
     _print_json(name | reply)
     return bool(reply["status"] == "planned")
 
 
-def plan_batch(file: str, *, optimality: bool, prove_for: float = 0.0) -> int:
+def plan_batch(file: str, *, planner_name: str, optimality: bool, prove_for: float = 0.0) -> int:
     """Print the answers to a file of situations, one a line.
 
     Args:
         file: its path; - for standard input.
+        planner_name: exact or network.
         optimality: say how each plan meets Pontryagin's conditions, too.
         prove_for: how long to look for a better lower bound of the time of each [s].
 
@@ -82,7 +86,8 @@ def plan_batch(file: str, *, optimality: bool, prove_for: float = 0.0) -> int:
     """
     invalid: list[int] = []
     read = 0
-    planner = _proving(prove_for, shown=False)  # the bar of the batch goes on
+    # no bar of its own: that of the batch goes on
+    planner = _proving(_planner(planner_name), prove_for, shown=False)
     with _opened(file) as stream:
         size = os.fstat(stream.fileno()).st_size if file != "-" else 0
         lines = watched(
@@ -153,11 +158,14 @@ def check_one(file: str, triplets: str, *, table: bool, figure: str) -> bool:
     return found.passed
 
 
-def fly_one(name: str, *, record_to: str | None, seed: int, as_json: bool) -> bool:
+def fly_one(
+    name: str, *, planner_name: str, record_to: str | None, seed: int, as_json: bool
+) -> bool:
     """Fly a scenario, or a file, and print how it went.
 
     Args:
         name: of a scenario, or the path of a situation (.json) or a recorded track (.csv).
+        planner_name: exact or network.
         record_to: where to write the recording, if anywhere.
         seed: of the flight's random numbers.
         as_json: one JSON object; a table otherwise.
@@ -168,14 +176,15 @@ def fly_one(name: str, *, record_to: str | None, seed: int, as_json: bool) -> bo
     from relguide.flying.flight import fly
 
     scenario = _scenario(name)
-    for _ in islice(fly(scenario, plan, sample_period=1.0), _WARM_UP):
+    planner = _planner(planner_name)
+    for _ in islice(fly(scenario, planner, sample_period=1.0), _WARM_UP):
         pass
     started = perf_counter()
     if record_to is None:
         # nobody looks at the samples: one a second is enough for the progress bar
-        documents = fly(scenario, plan, seed=seed, sample_period=1.0)
+        documents = fly(scenario, planner, seed=seed, sample_period=1.0)
     else:
-        documents = record(fly(scenario, plan, seed=seed), record_to)
+        documents = record(fly(scenario, planner, seed=seed), record_to)
     flight = told(
         watched(
             documents,
@@ -246,10 +255,20 @@ def serve(*, host: str, port: int) -> None:
     uvicorn.run(app, **settings.uvicorn_options(host=host, port=port))
 
 
-def _proving(seconds: float, *, shown: bool = True) -> Planner:
-    """The exact planner, which then looks for a better lower bound for so long."""
-    if seconds == 0.0:
+def _planner(name: str) -> Planner:
+    """A planner by its name on the command line."""
+    if name == "exact":
         return plan
+    from relguide.learn.network import load_network
+    from relguide.learn.planner import network_planner
+
+    return network_planner(load_network())
+
+
+def _proving(asked: Planner, seconds: float, *, shown: bool = True) -> Planner:
+    """A planner which then looks for a better lower bound for so long."""
+    if seconds == 0.0:
+        return asked
     from relguide.planning.prove import Bound, prove
 
     def progress(bounds: Iterator[Bound]) -> Iterator[Bound]:
@@ -262,7 +281,7 @@ def _proving(seconds: float, *, shown: bool = True) -> Planner:
         )
 
     def planner(situation: Situation) -> Plan | NoPlan:
-        planned = plan(situation)
+        planned = asked(situation)
         if isinstance(planned, NoPlan):
             return planned
         return prove(planned, seconds=seconds, progress=progress if shown else iter)

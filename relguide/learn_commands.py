@@ -1,4 +1,4 @@
-"""The commands that learn from many plans: `relguide dataset`, `area`.
+"""The commands that learn from many plans: `relguide dataset`, `train`, `audit`, `area`.
 
 What a command needs is loaded when it runs, so that `--help` answers at once.
 """
@@ -8,10 +8,12 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from relguide.learn.options import add_options
+
 if TYPE_CHECKING:
     from relguide.learn.tree import TreeParameters
 
-METHODS = ("reverse-dp",)
+METHODS = ("reverse-dp", "exact")
 """How a data set is made."""
 AddCommand = Callable[[str, Callable[[argparse.Namespace], int], str, str], argparse.ArgumentParser]
 """Name, what runs it, its purpose, examples → its parser, for the options."""
@@ -27,16 +29,20 @@ def add_learning(add_command: AddCommand) -> None:
         relguide dataset --method reverse-dp --out tree.npz             the paper's tree
         relguide dataset --method reverse-dp --order 5 --out tree.npz   with four pairs
         relguide dataset --method reverse-dp --out tree.npz --resume    go on after a stop
+        relguide dataset --method exact --count 1200000 --out labels.npz    for relguide train
         """,
     )
     dataset.add_argument(
-        "--method", choices=METHODS, required=True, help="reverse-dp: the tree of Fig. 3"
+        "--method",
+        choices=METHODS,
+        required=True,
+        help="reverse-dp: the tree of Fig. 3; exact: situations with the exact time of each word",
     )
     dataset.add_argument("--out", metavar="FILE.npz", type=_npz, required=True)
     dataset.add_argument(
         "--resume",
         action="store_true",
-        help="go on from FILE.npz.part, which a stopped run leaves; the result is the same",
+        help="reverse-dp: go on from FILE.npz.part, which a stopped run leaves; same result",
     )
     dataset.add_argument("--threads", metavar="N", type=_count, help="default: all cores")
     dataset.add_argument(
@@ -44,10 +50,22 @@ def add_learning(add_command: AddCommand) -> None:
         metavar="N",
         type=_count,
         default=2000,
-        help="compare N of its states with the exact planner; 0: none; default: %(default)s",
+        help="reverse-dp: compare N of its states with the exact planner; 0: none; "
+        "default: %(default)s",
+    )
+    dataset.add_argument(
+        "--count",
+        metavar="N",
+        type=_count,
+        default=1_200_000,
+        help="exact: how many situations; default: %(default)s",
+    )
+    dataset.add_argument(
+        "--seed", metavar="N", type=_count, default=7, help="exact: default: %(default)s"
     )
     dataset.add_argument("--json", action="store_true", help="print one JSON object")
     _add_tree(dataset)
+    _add_network(add_command)
 
     area = add_command(
         "area",
@@ -77,6 +95,44 @@ def add_learning(add_command: AddCommand) -> None:
         help="left of the leader's, whole numbers of Δθ; default: 0 60 120 180",
     )
     _add_tree(area)
+
+
+def _add_network(add_command: AddCommand) -> None:
+    train = add_command(
+        "train",
+        _train,
+        "train the network that says which words to solve",
+        """
+        relguide train labels.npz weights.safetensors               on what device there is
+        relguide train labels.npz weights.safetensors --resume      go on after a stop
+        relguide train labels.npz small.safetensors --width 32 --epochs 10
+        """,
+    )
+    add_options(train)
+
+    audit = add_command(
+        "audit",
+        _audit,
+        "say how good a network is, against exact answers",
+        """
+        relguide audit                               of the weights that come with the program
+        relguide audit weights.safetensors --json    of your own; the figures as JSON
+        relguide audit --count 1000000 --seed 2
+        """,
+    )
+    audit.add_argument("weights", metavar="WEIGHTS.safetensors", type=Path, nargs="?")
+    audit.add_argument(
+        "--count",
+        metavar="N",
+        type=_count,
+        default=100_000,
+        help="fresh situations to judge it in; default: %(default)s",
+    )
+    audit.add_argument(
+        "--seed", metavar="N", type=_count, default=1, help="of them; default: %(default)s"
+    )
+    audit.add_argument("--threads", metavar="N", type=_count, help="default: all cores")
+    audit.add_argument("--json", action="store_true", help="print one JSON object")
 
 
 def _add_tree(parser: argparse.ArgumentParser) -> None:
@@ -123,6 +179,8 @@ def _tree_parameters(chosen: argparse.Namespace) -> "TreeParameters":
 
 
 def _dataset(chosen: argparse.Namespace) -> int:
+    if chosen.method == "exact":
+        return _labels(chosen)
     from relguide.learning import make_tree
 
     make_tree(
@@ -131,6 +189,43 @@ def _dataset(chosen: argparse.Namespace) -> int:
         resume=chosen.resume,
         threads=chosen.threads or None,
         audit=chosen.audit,
+        as_json=chosen.json,
+    )
+    return 0
+
+
+def _labels(chosen: argparse.Namespace) -> int:
+    from relguide.learn.labels import LabelRequest
+    from relguide.training import make_label_file
+
+    if chosen.resume:
+        raise ValueError("Labels are made in a minute or two, and nothing is left to resume.")
+    make_label_file(
+        LabelRequest(count=chosen.count, seed=chosen.seed),
+        chosen.out,
+        threads=chosen.threads or None,
+        command=f"relguide dataset --method exact --count {chosen.count} --seed {chosen.seed} "
+        f"--out {chosen.out.name}",
+        as_json=chosen.json,
+    )
+    return 0
+
+
+def _train(chosen: argparse.Namespace) -> int:
+    from relguide.training import train_network
+
+    train_network(chosen)
+    return 0
+
+
+def _audit(chosen: argparse.Namespace) -> int:
+    from relguide.training import audit_network
+
+    audit_network(
+        chosen.weights,
+        count=chosen.count,
+        seed=chosen.seed,
+        threads=chosen.threads or None,
         as_json=chosen.json,
     )
     return 0

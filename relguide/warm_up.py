@@ -72,6 +72,7 @@ def _steps() -> tuple[Step, ...]:
         ("plans in bulk", 30.0, _bulk),
         ("the convergence area", 6.0, _area),
         ("reverse dynamic programming", 4.0, _tree),
+        ("the network", 8.0, _network),
         ("the closed loop", 3.0, _flight),
     )
 
@@ -149,6 +150,19 @@ def _tree() -> None:
     reverse_tree(
         TreeParameters(encounter=encounter, order=2, delta_theta=0.5 * pi, delta_l=12e3, cell=12e3)
     )
+
+
+def _network() -> None:
+    from relguide.learn.audit import audit_request, judge_chunk, latencies
+    from relguide.learn.labels import LabelRequest, label_chunk
+    from relguide.learn.network import features_of, load_network
+    from relguide.learn.planner import network_planner
+
+    network = load_network()
+    network_planner(network)(_situation(-40e3, 40e3, 90.0))
+    features_of(label_chunk(LabelRequest(count=10), 0).situations)
+    judge_chunk(network, audit_request(network, 10, 1), 0)
+    latencies(network, audit_request(network, 10, 1))
 
 
 def _flight() -> None:

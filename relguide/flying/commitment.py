@@ -63,7 +63,7 @@ class Choice:
     plan: Plan
     cause: Cause
     fell_back: bool
-    """Whether the planner's own answer did not certify and the exact plan stood in."""
+    """Whether the planner had none of its own that certifies and the exact plan stood in."""
 
 
 def choose(
@@ -123,10 +123,12 @@ def choose(
 
 
 def _ask(planner: Planner, situation: Situation) -> tuple[Plan | NoPlan, bool]:
-    """The planner's answer if it certifies, else the exact plan."""
+    """The planner's answer if it certifies, else the exact plan; whether that stood in."""
     answer = planner(situation)
-    if isinstance(answer, NoPlan) or certify(answer.trajectory, situation).holds:
+    if isinstance(answer, NoPlan):
         return answer, False
+    if certify(answer.trajectory, situation).holds:
+        return answer, answer.fell_back
     return exact_plan(situation), True
 
 

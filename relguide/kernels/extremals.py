@@ -70,35 +70,61 @@ def solve_toward(
         rows: as in `solve`.
     """
     found = np.empty((MAX_ROWS, 4))
-    mirrored_h = TWO_PI - h if h > 0.0 else 0.0
     n = 0
     for word in range(6):
-        if word == 0:
-            end = lsl(x, y, h, ax, ay, found, 0)
-        elif word == 1:
-            end = lsl(x, -y, mirrored_h, ax, -ay, found, 0)
-        elif word == 2:
-            end = lsr(x, y, h, ax, ay, found, 0)
-        elif word == 3:
-            end = lsr(x, -y, mirrored_h, ax, -ay, found, 0)
-        elif word == 4:
-            end = lrl(x, y, h, ax, ay, found, 0)
-        else:
-            end = lrl(x, -y, mirrored_h, ax, -ay, found, 0)
-        for i in range(end):
-            time = found[i, 0]
-            if time < t_open - 1e-9 or not _closes(x, y, h, ax, ay, word, found[i]):
-                continue
-            at = n
-            while at > 0 and rows[at - 1, 0] > time:
-                rows[at] = rows[at - 1]
-                at -= 1
-            rows[at, 0] = time
-            rows[at, 1] = word
-            rows[at, 2] = found[i, 1]
-            rows[at, 3] = found[i, 2]
-            rows[at, 4] = found[i, 3]
-            n += 1
+        n = solve_word(x, y, h, ax, ay, t_open, word, found, rows, n)
+    return n
+
+
+@njit(cache=True, nogil=True)
+def solve_word(
+    x: float, y: float, h: float, ax: float, ay: float, t_open: float, word: int,
+    found: FloatArray, rows: FloatArray, n: int,
+) -> int:  # fmt: skip
+    """All extremals of one word, put among others by time.
+
+    Args:
+        x: as in `solve_toward`.
+        y: as there.
+        h: as there.
+        ax: as there.
+        ay: as there.
+        t_open: as there.
+        word: its number.
+        found: room to work in. shape (MAX_ROWS, 4)
+        rows: holds n rows already, in order of time.
+        n: how many.
+
+    Returns:
+        how many rows there are now.
+    """
+    mirrored_h = TWO_PI - h if h > 0.0 else 0.0
+    if word == 0:
+        end = lsl(x, y, h, ax, ay, found, 0)
+    elif word == 1:
+        end = lsl(x, -y, mirrored_h, ax, -ay, found, 0)
+    elif word == 2:
+        end = lsr(x, y, h, ax, ay, found, 0)
+    elif word == 3:
+        end = lsr(x, -y, mirrored_h, ax, -ay, found, 0)
+    elif word == 4:
+        end = lrl(x, y, h, ax, ay, found, 0)
+    else:
+        end = lrl(x, -y, mirrored_h, ax, -ay, found, 0)
+    for i in range(end):
+        time = found[i, 0]
+        if time < t_open - 1e-9 or not _closes(x, y, h, ax, ay, word, found[i]):
+            continue
+        at = n
+        while at > 0 and rows[at - 1, 0] > time:
+            rows[at] = rows[at - 1]
+            at -= 1
+        rows[at, 0] = time
+        rows[at, 1] = word
+        rows[at, 2] = found[i, 1]
+        rows[at, 3] = found[i, 2]
+        rows[at, 4] = found[i, 3]
+        n += 1
     return n
 
 

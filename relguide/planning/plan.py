@@ -54,6 +54,8 @@ class Plan:
     planner: PlannerName
     compute_time: Millisecond
     """Wall time it took to find [ms]."""
+    fell_back: bool = False
+    """Whether another planner was asked first, and could not answer."""
     status: Literal["planned"] = "planned"
 
     @property

@@ -130,12 +130,25 @@ def test_optimality_is_told_on_demand(run: Run) -> None:
     assert (code, json.loads(out)["status"]) == (1, "no_plan")
 
 
-@pytest.mark.parametrize("planner", ["network", "regular_dp"])
-def test_planners_to_come_are_refused(run: Run, planner: str) -> None:
+def test_a_planner_to_come_is_refused(run: Run) -> None:
     for command in (("plan", written(BODY)), ("fly", "fig_6b")):
-        code, out, err = run(*command, "--planner", planner)
+        code, out, err = run(*command, "--planner", "regular_dp")
         assert (code, out) == (2, "")
-        assert err == f"relguide: The planner {planner} is not part of this version: use exact.\n"
+        assert err == "relguide: The planner regular_dp is not part of this version: use exact.\n"
+
+
+def test_the_network_plans_a_situation_and_a_batch(run: Run) -> None:
+    code, out, err = run("plan", written(BODY), "--planner", "network")
+    by_network, exact = json.loads(out), json.loads(run("plan", written(BODY))[1])
+    assert (code, err) == (0, "")
+    assert (by_network["planner"], exact["planner"]) == ("network", "exact")
+    assert by_network["time_to_converge_s"] == exact["time_to_converge_s"]
+    assert by_network["optimality"]["proof"] == "bound"
+    assert by_network["optimality"]["lower_bound_s"] < exact["time_to_converge_s"]
+    table = run("plan", written(BODY), "--planner", "network", "--table")[1]
+    assert "Planner network, " in table
+    out = run("plan", "--batch", written(json.dumps(BODY), "a.jsonl"), "--planner", "network")[1]
+    assert json.loads(out)["planner"] == "network"
 
 
 @pytest.mark.parametrize(

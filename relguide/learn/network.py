@@ -1,0 +1,173 @@
+"""The network of strategies: which words may be the fastest. Its torch model, its file, its set.
+
+    situation → features → layers → score, existence and log(1 + τ) of each strategy
+
+What flies is never the network's number: the words it holds possible are solved exactly. Torch is
+needed to train and to compare; who only asks evaluates the weights with `kernels/network`.
+
+The file is in safetensors: arrays, and in its header one JSON text that tells all the rest.
+"""
+
+import json
+import os
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from importlib.resources import files
+from math import isfinite
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from relguide.kernels.network import Layers
+from relguide.kernels.strategies import FEATURES, SIZE, STRATEGIES, feature_rows
+from relguide.learn.labels import Box, Floats
+from relguide.learn.options import NetworkShape
+
+if TYPE_CHECKING:
+    from torch import nn
+
+Singles = NDArray[np.float32]
+FILE = "relguide strategy network 1"
+"""What a file says it is, with the version of its arrays."""
+OUTPUTS = 3 * SIZE
+"""Score, logit of existence and log(1 + τ) of each strategy."""
+SHIPPED = Path(str(files("relguide.learn") / "strategies.safetensors"))
+"""The weights that come with the program."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StrategyNetwork:
+    """A trained network, ready to be asked."""
+
+    layers: Layers
+    """Its weights, with the scale of its inputs worked into the first."""
+    box: Box
+    """Where it was trained."""
+    least_share: float
+    """Strategies with a smaller share are left out: calibrated, so that the fastest seldom is."""
+    most: int
+    """With more strategies than this the network is not sure enough to be asked."""
+    about: Mapping[str, Any]
+    """Who made it, from what, with what and when."""
+
+    @property
+    def shape(self) -> NetworkShape:
+        """How large it is."""
+        return NetworkShape(
+            width=len(self.layers.first_bias), depth=len(self.layers.hidden_bias) + 1
+        )
+
+
+def features_of(situations: Floats) -> Singles:
+    """What the network is told of situations on the left of the route, shape (n, FEATURES)."""
+    told = np.empty((len(situations), FEATURES))
+    feature_rows(np.ascontiguousarray(situations), told)
+    return told.astype(np.float32)
+
+
+def torch_model(shape: NetworkShape) -> "nn.Sequential":
+    """A network to be trained, on features less their mean over their deviation."""
+    from torch import nn
+
+    layers: list[nn.Module] = [nn.Linear(FEATURES, shape.width), nn.SiLU()]
+    for _ in range(shape.depth - 1):
+        layers += [nn.Linear(shape.width, shape.width), nn.SiLU()]
+    return nn.Sequential(*layers, nn.Linear(shape.width, OUTPUTS))
+
+
+def layers_of(state: Mapping[str, Singles], mean: Singles, deviation: Singles) -> Layers:
+    """A trained model's weights as the kernels take them, for features as they are.
+
+    Args:
+        state: of the torch model, as arrays, in its order.
+        mean: of each feature.
+        deviation: of each feature.
+    """
+    weights = [value.T for name, value in state.items() if name.endswith("weight")]
+    biases = [value for name, value in state.items() if name.endswith("bias")]
+    width = len(biases[0])
+    first = weights[0].astype(float) / deviation[:, None]
+    middle, bias = weights[1:-1], biases[1:-1]
+    return _as_layers(
+        first=first,
+        first_bias=biases[0] - mean @ first,
+        hidden=np.stack(middle) if middle else np.empty((0, width, width)),
+        hidden_bias=np.stack(bias) if bias else np.empty((0, width)),
+        last=weights[-1],
+        last_bias=biases[-1],
+    )
+
+
+def save_network(network: StrategyNetwork, file: Path) -> None:
+    """Write a network, in one piece or not at all."""
+    from safetensors.numpy import save
+
+    about = {
+        "file": FILE,
+        "strategies": STRATEGIES,
+        "box": asdict(network.box),
+        "least_share": network.least_share,
+        "most": network.most,
+        "about": dict(network.about),
+    }
+    content = save(
+        network.layers._asdict(), metadata={"about": json.dumps(about, ensure_ascii=False)}
+    )
+    beside = file.with_name(file.name + ".new")
+    beside.write_bytes(content)
+    os.replace(beside, file)
+
+
+def load_network(file: Path = SHIPPED) -> StrategyNetwork:
+    """Read a network.
+
+    Raises:
+        ValueError: if the file is none, or does not fit this version.
+    """
+    from safetensors import SafetensorError, safe_open
+
+    file.stat()  # says that a file is missing in the system's words
+    try:
+        with safe_open(file, framework="numpy") as content:
+            about = json.loads(content.metadata()["about"])
+            arrays = {name: content.get_tensor(name) for name in Layers._fields}
+        if about["file"] != FILE or tuple(about["strategies"]) != STRATEGIES:
+            raise KeyError(about["file"])
+        network = StrategyNetwork(
+            layers=_as_layers(**arrays),
+            box=Box(**about["box"]),
+            least_share=float(about["least_share"]),
+            most=int(about["most"]),
+            about=about["about"],
+        )
+    except (SafetensorError, KeyError, TypeError, ValueError):
+        raise ValueError(
+            f"{file} holds no network of relguide train, of this version, or is cut short."
+        ) from None
+    return network
+
+
+def _as_layers(**arrays: NDArray[Any]) -> Layers:
+    """Weights in the kernels' form.
+
+    Raises:
+        ValueError: if they do not fit together, or are not finite.
+    """
+    layers = Layers(
+        **{name: np.ascontiguousarray(a, dtype=np.float32) for name, a in arrays.items()}
+    )
+    width, depth = layers.first_bias.shape[0], layers.hidden_bias.shape[0]
+    shapes = {
+        "first": (FEATURES, width),
+        "first_bias": (width,),
+        "hidden": (depth, width, width),
+        "hidden_bias": (depth, width),
+        "last": (width, OUTPUTS),
+        "last_bias": (OUTPUTS,),
+    }
+    for name, array in layers._asdict().items():
+        if array.shape != shapes[name] or not all(map(isfinite, array.ravel().tolist())):
+            raise ValueError(f"{name} has not the shape {shapes[name]}, or is not finite.")
+    return layers

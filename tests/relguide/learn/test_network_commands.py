@@ -1,0 +1,90 @@
+"""`relguide dataset --method exact`, `train` and `audit`: the chain from labels to figures."""
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from relguide.__main__ import main
+from relguide.learn.labels import LabelRequest, label_chunk, load_labels, save_labels
+from relguide.learn.network import load_network
+
+Run = Callable[..., tuple[int, str, str]]
+EXACT = ("dataset", "--method", "exact", "--out", "labels.npz", "--count", "3000")
+
+
+@pytest.fixture
+def run(capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
+    """Run a command in a folder of its own: exit code, standard output, standard error."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(*arguments: str) -> tuple[int, str, str]:
+        try:
+            code = main(arguments)
+        except SystemExit as end:  # argparse ends so
+            code = int(end.code or 0)
+        out, err = capsys.readouterr()
+        assert "Traceback" not in err
+        return code, out, err
+
+    return run
+
+
+def test_labels_train_weights_and_audit(run: Run) -> None:
+    code, out, err = run(*EXACT, "--json")
+    assert (code, err) == (0, "")
+    told = json.loads(out)
+    read, about = load_labels(Path("labels.npz"))
+    assert told["labels"] == len(read) == sum(told["fastest"].values()) == 3000
+    assert np.array_equal(read.times, label_chunk(LabelRequest(count=3000, seed=7), 0).times)
+    assert about["provenance"]["command"] == (
+        "relguide dataset --method exact --count 3000 --seed 7 --out labels.npz"
+    )
+    size = ("--width", "16", "--depth", "1", "--epochs", "3", "--batch", "128", "--threads", "1")
+    code, out, err = run("train", "labels.npz", "w.safetensors", *size)
+    assert (code, err) == (0, "")
+    assert "w.safetensors: the best of 3 epochs is the " in out
+    assert load_network(Path("w.safetensors")).about["program"].startswith("relguide ")
+    code, out, err = run("audit", "w.safetensors", "--count", "1000", "--json")
+    assert (code, err) == (0, "")
+    told = json.loads(out)
+    assert told["groups"]["random"]["situations"] > 600
+    assert told["network"]["options"]["shape"] == {"width": 16, "depth": 1}
+    assert 0.0 < told["latency"]["network"]["p50_us"] <= told["latency"]["network"]["p99_us"]
+    assert sorted(path.name for path in Path().iterdir()) == ["labels.npz", "w.safetensors"]
+
+
+def test_people_get_sentences_and_a_table(run: Run) -> None:
+    code, out, _ = run(*EXACT, "--threads", "1")
+    assert (code, "Fastest: LSL " in out) == (0, True)
+    code, out, err = run("audit", "--count", "1000")
+    assert (code, err) == (0, "")
+    lines = out.splitlines()
+    assert max(map(len, lines)) <= 100
+    assert "…" not in lines[1]
+    names = [line.split("  ")[0].strip() for line in lines]
+    for name in ("random", "at switching surfaces", "unseen range 6 … 7 R", "RLR long"):
+        assert name in names
+    assert lines[-1].startswith("One query, median and 99th percentile: network ")
+
+
+def test_misuse_is_said_in_a_sentence(run: Run) -> None:
+    assert run(*EXACT, "--resume")[::2] == (
+        2, "relguide: Labels are made in a minute or two, and nothing is left to resume.\n",
+    )  # fmt: skip
+    assert run("dataset", "--method", "exact", "--out", "none/labels.npz")[0] == 2
+    assert run("audit", "none.safetensors")[2] == (
+        "relguide: none.safetensors: No such file or directory.\n"
+    )
+    seed = load_network().about["dataset"]["seed"]
+    assert f"seen the situations of seed {seed}" in run("audit", "--seed", f"{seed}")[2]
+    assert "labels.npz: No such file" in run("train", "labels.npz", "w.safetensors")[2]
+    Path("labels.npz").write_bytes(b"PK")
+    assert "holds no labels" in run("train", "labels.npz", "w.safetensors")[2]
+    save_labels(
+        label_chunk(LabelRequest(count=100), 0), LabelRequest(count=100), {}, Path("labels.npz")
+    )
+    code, _, err = run("train", "labels.npz", "w.safetensors", "--epochs", "0")
+    assert (code, err) == (2, "relguide: epochs must be 1 or more, not 0.\n")
