@@ -28,8 +28,8 @@ from relguide.units import Second
 
 SAME = 2e-4
 """A way handed over as segments takes as long as the one searched, to this [R/V_P]: some ms."""
-BEARINGS = 36
-"""How finely the disc is scanned round a leader that keeps straight: every 10°."""
+BEARINGS = 48
+"""How finely the disc is scanned round a leader that keeps straight: every 7.5°."""
 TURNING_BEARINGS = 72
 """Round one that turns: every 5°, since contacts must fall into the time of one piece."""
 
