@@ -19,22 +19,20 @@ Who gives the times is an argument (`Evaluate`): lines and regions are drawn fro
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import inf
 from os import cpu_count
 from time import perf_counter_ns
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from relguide.contours import Contour, Evaluate, Field, Floats, Region, contours, regions
 from relguide.kernels.extremals import WORDS
-from relguide.kernels.field import HOLD, NO_WORD, field_rows
-from relguide.planning.batch import Situations, plan_arrays
+from relguide.kernels.field import NO_WORD, field_rows
+from relguide.limited_times import DETOUR, between_nodes, searched
 from relguide.planning.detour import leader_table
 from relguide.planning.inputs import expect, number, within
-from relguide.planning.plan import Plan, plan
 from relguide.planning.situation import MAX_POSITION, Situation
 from relguide.planning.slot import SlotFrame, slot_frame
 from relguide.planning.words import HORIZON
@@ -43,7 +41,7 @@ from relguide.units import Metre, Millisecond, Second
 NAMES = (*WORDS, "hold", "detour", "")
 """What a number in `Field.words` means: the extremal's word; a path that arrives exactly when the
 slot opens; a way that touches d_min or rides along it; no plan."""
-DETOUR, NONE = HOLD + 1, HOLD + 2
+NONE = DETOUR + 1
 WIDTH, HEIGHT = 160_000.0, 120_000.0
 """Extent of a grid if none is given [m]."""
 COLUMNS, ROWS = 160, 120
@@ -60,9 +58,6 @@ WANTED_LEVELS = 15
 """About so many levels if none are given."""
 CHUNK = 512
 """Places a thread takes at a time: some ms of work."""
-
-SEARCHED = 64
-"""Nodes searched for ways along d_min between two reports: about a second."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -151,8 +146,8 @@ def isochrones(
     east, north = (axis.ravel() for axis in np.meshgrid(x, y))
     field = evaluate(east, north)
     if exact:
-        field = _searched(situation, field, east, north, threads, progress)
-        evaluate = _between(field, x, y, evaluate)
+        field = searched(situation, field, east, north, threads, progress)
+        evaluate = between_nodes(field, x, y, evaluate)
     levels = levels or round_levels(field)
     return Isochrones(
         grid=grid,
@@ -246,91 +241,3 @@ def _field(time: Floats, lower_bound: Floats, words: Floats) -> Field:
         words=numbers,
         limited=(time > lower_bound) & ~beyond,
     )
-
-
-def _searched(
-    situation: Situation, field: Field, x: Floats, y: Floats,
-    threads: int | None, progress: Callable[[int], object],
-) -> Field:  # fmt: skip
-    """The same field, and where the limit binds the times of the exact planner's full search."""
-    time, words = field.time.copy(), field.words.copy()
-    binding = np.flatnonzero(field.limited)
-    for first in range(0, len(binding), SEARCHED):
-        nodes = binding[first : first + SEARCHED]
-        search = _search_each if situation.leader.intent else _search_many
-        found = search(situation, x[nodes], y[nodes], threads)
-        better = found < time[nodes]
-        time[nodes[better]], words[nodes[better]] = found[better], DETOUR
-        progress(len(nodes))
-    return Field(time=time, lower_bound=field.lower_bound, words=words, limited=field.limited)
-
-
-def _between(field: Field, x: Floats, y: Floats, evaluate: Evaluate) -> Evaluate:
-    """Where the limit binds, what lies between nodes that were searched: a mean of the four.
-
-    Elsewhere what `evaluate` says.
-    """
-    times = field.time.reshape(len(y), len(x))
-    words = field.words.reshape(len(y), len(x))
-
-    def between(east: Floats, north: Floats) -> Field:
-        found = evaluate(east, north)
-        column = (east - x[0]) / (x[1] - x[0])
-        row = (north - y[0]) / (y[1] - y[0])
-        i = np.clip(column.astype(np.int64), 0, len(x) - 2)
-        j = np.clip(row.astype(np.int64), 0, len(y) - 2)
-        u, v = column - i, row - j
-        mean = np.zeros(len(east))
-        for di, dj, weight in (
-            (0, 0, (1.0 - u) * (1.0 - v)),
-            (1, 0, u * (1.0 - v)),
-            (0, 1, (1.0 - u) * v),
-            (1, 1, u * v),
-        ):
-            counts = weight > 1e-9  # a corner that does not count may be infinite
-            mean[counts] += weight[counts] * times[j[counts] + dj, i[counts] + di]
-        nearest = words[j + (v > 0.5), i + (u > 0.5)]
-        return Field(
-            time=np.where(found.limited, mean, found.time),
-            lower_bound=found.lower_bound,
-            words=np.where(found.limited, nearest, found.words),
-            limited=found.limited,
-        )
-
-    return between
-
-
-def _search_many(
-    situation: Situation, x: Floats, y: Floats, threads: int | None
-) -> NDArray[np.float64]:
-    pursuer, leader, wind = situation.pursuer, situation.leader, situation.wind
-    return plan_arrays(
-        Situations(
-            pursuer_x=x,
-            pursuer_y=y,
-            pursuer_heading=pursuer.heading,
-            pursuer_tas=pursuer.tas,
-            max_bank=pursuer.max_bank,
-            leader_x=leader.x,
-            leader_y=leader.y,
-            leader_heading=leader.heading,
-            leader_tas=leader.tas,
-            slot_distance=situation.slot_distance,
-            min_separation=situation.min_separation,
-            wind_east=wind.east,
-            wind_north=wind.north,
-        ),
-        threads=threads,
-    ).time_to_converge
-
-
-def _search_each(
-    situation: Situation, x: Floats, y: Floats, threads: int | None
-) -> NDArray[np.float64]:
-    del threads  # a plan is made by one
-    times = np.full(len(x), inf)
-    for i, (east, north) in enumerate(zip(x.tolist(), y.tolist(), strict=True)):
-        planned = plan(replace(situation, pursuer=replace(situation.pursuer, x=east, y=north)))
-        if isinstance(planned, Plan):
-            times[i] = planned.time_to_converge
-    return times

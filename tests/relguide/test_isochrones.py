@@ -9,8 +9,6 @@ import pytest
 from relguide import LEFT, RIGHT, FlyStraight, Leader, Plan, Pursuer, Situation, TurnTo, Wind, plan
 from relguide.contours import JUMP, TOLERANCE, Contour, Field
 from relguide.isochrones import (
-    DETOUR,
-    HOLD,
     MAX_LEVELS,
     NAMES,
     Grid,
@@ -19,6 +17,8 @@ from relguide.isochrones import (
     round_levels,
     times_around,
 )
+from relguide.kernels.field import HOLD
+from relguide.limited_times import DETOUR
 from relguide.units import DEG
 
 STRAIGHT = Situation(
