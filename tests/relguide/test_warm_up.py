@@ -18,6 +18,10 @@ from numba.core.dispatcher import Dispatcher
 from relguide import Plan, Situations, alternatives, check, kernels, plan, plan_arrays, prove
 from relguide.flying.flight import fly
 from relguide.flying.scenarios import scenario
+from relguide.learn.audit import audit_request, judge_chunk, latencies
+from relguide.learn.labels import LabelRequest, label_chunk
+from relguide.learn.network import features_of, load_network
+from relguide.learn.planner import network_planner
 from relguide.warm_up import _steps
 from tests.situations import golden
 
@@ -42,6 +46,12 @@ plan_arrays(Situations(
     pursuer_x=range(-9000, 9000, 3000), pursuer_y=12000, pursuer_heading=1, pursuer_tas=240,
     max_bank=0.4, leader_tas=200, slot_distance=9000, min_separation=8000,
 ))
+network = load_network()
+for situation, _ in golden("reference")[::7]:
+    network_planner(network)(situation)
+latencies(network, audit_request(network, 100, 1))
+judge_chunk(network, audit_request(network, 100, 1), 0)
+features_of(label_chunk(LabelRequest(count=100), 0).situations)
 sys.exit(", ".join(called() - compiled) or 0)
 """
 """What a user may do; its exit status names the kernels that are then compiled after all."""

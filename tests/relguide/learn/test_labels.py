@@ -114,6 +114,7 @@ def test_lost_workers_lose_nothing_and_double_nothing() -> None:
     assert set(executor.begun.values()) == {3}
     whole = {number: label_chunk(SMALL, number) for number in range(SMALL.chunks)}
     assert same(joined(dict(chunks)), joined(whole))
+    assert len(np.unique(joined(whole).situations, axis=0)) == SMALL.count
 
 
 def test_a_chunk_lost_for_good_is_said() -> None:

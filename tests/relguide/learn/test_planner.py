@@ -150,11 +150,13 @@ def test_a_turning_leader_is_met_on_the_final_leg() -> None:
     assert (planned.planner, planned.fell_back) == ("network", False)
     assert certify(planned.trajectory, far).holds
     assert planned.time_to_converge == pytest.approx(exact.time_to_converge, rel=1e-9)
-    # so near that it must wait for the slot to open: that is the exact planner's
-    pursuer = replace(far.pursuer, x=-600.0, y=-5200.0, heading=45 * DEG)
+    # it would be there before the slot opens, and how to wait is the exact planner's to say
+    pursuer = replace(far.pursuer, x=-7600.0, y=-12_200.0, heading=45 * DEG)
     near = replace(far, pursuer=pursuer, min_separation=0.0)
     assert candidates(near).reachable_at_opening
-    assert propose(network(), near) is None
+    assert propose(load_network(), near) is None
+    unannounced = replace(near.leader, x=7900.0, y=3300.0, heading=45 * DEG, intent=())
+    assert propose(load_network(), replace(near, leader=unannounced)) is not None
 
 
 @pytest.mark.slow
