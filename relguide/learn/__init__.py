@@ -1,8 +1,13 @@
 """Learning the optimal convergence: the paper's method as it writes it, and what became of it.
 
-Read downward: `tree` is what reverse dynamic programming makes, a tree of regular trajectories that
+The paper's: `tree` is what reverse dynamic programming makes, a tree of regular trajectories that
 all end in the slot; `reverse_dp` grows it (Fig. 3); `nearest` looks a situation up in it, which is
 the paper's method without its network; `area_figure` draws the convergence area from it, with the
-exact one beside it (Fig. 4). Only this package may load torch or matplotlib, and it does so when
-they are used.
+exact one beside it (Fig. 4).
+
+Ours: `labels` are situations with their exact answers; `train` makes a `network` of them that says
+which words may be the fastest; `planner` solves those exactly and certifies what is found; `audit`
+says how good all that is.
+
+Only this package may load torch or matplotlib, and it does so when they are used.
 """

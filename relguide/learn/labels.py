@@ -35,6 +35,8 @@ FILE = "relguide exact labels 1"
 """What a file says it is, with the version of its columns."""
 PROPOSALS = 4
 """Reversed paths laid back for each that is kept."""
+FEWEST = 128
+"""Proposals drawn at least: of fewer, none might serve."""
 BISECTIONS = 14
 """Halvings of the way to a switching surface: 1e-4 of it is left."""
 
@@ -187,7 +189,9 @@ def _in_box(rng: np.random.Generator, box: Box, size: int) -> Floats:
 
 def _reversed(rng: np.random.Generator, box: Box, size: int) -> Floats:
     """Starts of random paths to the slot, all fastest strategies as nearly alike as may be."""
-    laid = PROPOSALS * size
+    if size == 0:
+        return np.empty((0, 4))
+    laid = max(PROPOSALS * size, FEWEST)
     strategy = rng.integers(SIZE, size=laid)
     signs = SIGNS[WORD_OF[strategy]]  # (laid, 3)
     amounts = rng.uniform(0.0, 2.0 * pi, (laid, 3))
@@ -216,7 +220,8 @@ def _at_edges(rng: np.random.Generator, box: Box, size: int) -> Floats:
     """Places next to where the fastest strategy changes, at distances even in their logarithm."""
     if size == 0:
         return np.empty((0, 4))
-    here = np.concatenate((_in_box(rng, box, size), _reversed(rng, box, size)))
+    begun = max(size, FEWEST)
+    here = np.concatenate((_in_box(rng, box, begun), _reversed(rng, box, begun)))
     there = _moved(rng, box, here, np.ones(len(here)))
     at_here = times_of(here).argmin(axis=1)
     between = at_here != times_of(there).argmin(axis=1)

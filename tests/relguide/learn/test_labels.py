@@ -88,6 +88,13 @@ def test_a_mirror_image_is_looked_at_from_the_left() -> None:
     assert canonical(right) == pytest.approx(left)
 
 
+def test_few_labels_are_labels_too() -> None:
+    for shares in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)):
+        for seed in range(5):
+            request = LabelRequest(count=1, seed=seed, shares=shares)
+            assert len(label_chunk(request, 0)) == 1
+
+
 class Losing(Executor):
     """Loses every chunk's worker the first `times` times, and makes some chunks twice."""
 
