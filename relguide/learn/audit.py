@@ -105,7 +105,8 @@ class Audit:
     """All that is found."""
 
     groups: tuple[Group, ...]
-    """By source, without the regions held out; then those regions."""
+    """By source, without the regions held out; those regions, evenly drawn; what the other sources
+    have in them. Together they are all situations."""
     classes: tuple[Group, ...]
     """The random situations by their fastest strategy."""
 
@@ -174,6 +175,7 @@ def audit_of(chunks: Mapping[int, Judged]) -> Audit:
         _group(f"unseen {name}", whole, drawn & whole.regions[:, region])
         for region, name in enumerate(names)
     ]
+    groups.append(_group("unseen, harder sources", whole, ~seen & ~drawn))
     classes = [
         _group(name, whole, drawn & seen & (whole.best == number))
         for number, name in enumerate(STRATEGIES)

@@ -43,6 +43,8 @@ def test_what_it_counts_adds_up() -> None:
     groups = {group.name: group for group in found.groups}
     held_out = [group for name, group in groups.items() if name.startswith("unseen ")]
     assert len(held_out) == 3
+    # a situation in two regions counts in both
+    assert 3000 <= sum(group.size for group in found.groups) < 3050
     assert sum(group.size for group in found.classes) == groups["random"].size
     assert [group.name for group in found.classes] == list(STRATEGIES)
     for group in (*found.groups, *found.classes):
