@@ -27,6 +27,7 @@ _FINEST = 1e-7  # bearing steps end here: 1 mm at R = 12 km, 10 µs where the ti
 GAIN = 1e-8
 """Or where a parabola promises less than this [R/V_P]: 1 µs."""
 _SWEEPS = 16  # over all bearings of a chain
+_FURTHEST = 64.0  # times the way of a sweep
 _NEAR = 0.3  # values farther above the least say nothing about a minimum [R/V_P]
 
 
@@ -152,8 +153,9 @@ def refine_chain(
     """
     strides = np.full(len(chain), stride)
     finest = 0.1 * stride
+    further = np.empty_like(chain)
     for _ in range(_SWEEPS):
-        before = here
+        before, begun = here, chain.copy()
         for k in range(len(chain)):
             ax, ay, ah, t = fly_links(
                 x, y, h, 0.0, leader, alpha, delta, t_open, chain, 0, k - 1, inf, rows, legs
@@ -166,6 +168,21 @@ def refine_chain(
                 ax, ay, ah, t, leader, alpha, delta, t_open, chain, k, last, here, strides, finest,
                 rows, legs,
             )  # fmt: skip
+        gain = before - here
+        # a valley that no bearing goes down alone: on the way that this sweep went together
+        reach = 1.0
+        while gain > GAIN and len(chain) > 1 and reach <= _FURTHEST:
+            further[:] = chain
+            further[:, 2] += reach * (chain[:, 2] - begun[:, 2])
+            _, _, _, there = fly_links(
+                x, y, h, 0.0, leader, alpha, delta, t_open, further, 0, len(chain), here, rows, legs
+            )
+            if there >= here:
+                break
+            here = there
+            begun[:] = chain
+            chain[:] = further
+            reach *= 2.0
         gain = before - here
         if here - 2.0 * gain > beat or (gain < GAIN and finest == _FINEST):
             break
