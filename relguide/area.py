@@ -5,21 +5,19 @@ leader's heading, y to the left [m], headings counter-clockwise from the leader'
 frame the leader stands at (D, 0) and the disc of d_min round it does not move.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import pi
 
 import numpy as np
 from numpy.typing import NDArray
 
-from relguide.planning.batch import CHUNK, Situations, Times, plan_arrays
+from relguide.planning.batch import Situations, Times, plan_arrays
 from relguide.planning.situation import Leader, Pursuer, Situation
 from relguide.planning.slot import slot_frame
 from relguide.units import Metre, MetrePerSecond, Radian, Second
 
 Floats = NDArray[np.float64]
-BLOCK = 8 * CHUNK
-"""Places planned between two reports: each of up to eight threads has work, and seconds pass."""
 SAME = 1e-6
 """Ratios that differ by less than this part of themselves belong to one encounter: rounding of
 numbers that people typed."""
@@ -102,20 +100,16 @@ class Encounter:
         return frame.x * radius, frame.y * radius, frame.h
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ExactTimes:
-    """Exact answers so far, for the first places of a list."""
-
-    done: int
-    """How many places have an answer."""
-    times: Times
-    """The answers of the latest block alone."""
-
-
 def exact_times(
-    encounter: Encounter, x: Floats, y: Floats, heading: Floats, *, threads: int | None = None
-) -> Iterator[ExactTimes]:
-    """Plan from every place, a block after another.
+    encounter: Encounter,
+    x: Floats,
+    y: Floats,
+    heading: Floats,
+    *,
+    threads: int | None = None,
+    progress: Callable[[int], object] | None = None,
+) -> Times:
+    """Plan from every place.
 
     Args:
         encounter: who joins whom.
@@ -123,24 +117,23 @@ def exact_times(
         y: and left of it [m]. shape (n,)
         heading: counter-clockwise from the leader's [rad]. shape (n,)
         threads: how many; all cores if left out.
+        progress: called with the number of places done since the last call.
     """
-    for start in range(0, len(x), BLOCK):
-        block = slice(start, start + BLOCK)
-        times = plan_arrays(
-            Situations(
-                pursuer_x=x[block] - encounter.slot_distance,
-                pursuer_y=y[block],
-                pursuer_heading=0.5 * pi - heading[block],
-                pursuer_tas=encounter.pursuer_tas,
-                max_bank=encounter.max_bank,
-                leader_heading=0.5 * pi,
-                leader_tas=encounter.leader_tas,
-                slot_distance=encounter.slot_distance,
-                min_separation=encounter.min_separation,
-            ),
-            threads=threads,
-        )
-        yield ExactTimes(done=min(start + BLOCK, len(x)), times=times)
+    return plan_arrays(
+        Situations(
+            pursuer_x=x - encounter.slot_distance,
+            pursuer_y=y,
+            pursuer_heading=0.5 * pi - heading,
+            pursuer_tas=encounter.pursuer_tas,
+            max_bank=encounter.max_bank,
+            leader_heading=0.5 * pi,
+            leader_tas=encounter.leader_tas,
+            slot_distance=encounter.slot_distance,
+            min_separation=encounter.min_separation,
+        ),
+        threads=threads,
+        progress=progress,
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

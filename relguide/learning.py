@@ -14,6 +14,7 @@ import orjson
 from relguide import __version__
 from relguide.area import Floats, exact_times, middles
 from relguide.learn.area_figure import Column, check_figure, draw_areas
+from relguide.learn.files import expect_part
 from relguide.learn.reverse_dp import Growth, grow_order, planted, reverse_tree, tree_from
 from relguide.learn.tree import (
     LEAST_HORIZON,
@@ -26,7 +27,7 @@ from relguide.learn.tree import (
     tree_area,
 )
 from relguide.learn.tree_file import load_growth, load_tree, save_growth, save_tree
-from relguide.progress import watched
+from relguide.progress import progress_bar, watched
 from relguide.units import DEG, Radian
 
 SAVE_EVERY = 5.0
@@ -57,7 +58,8 @@ def make_tree(
         as_json: one JSON object; sentences otherwise.
     """
     part = file.with_name(f"{file.name}.part")
-    growth = _resumed(parameters, part) if resume else _begun(parameters, part)
+    expect_part(part, resume=resume)
+    growth = _resumed(parameters, part) if resume else planted(parameters)
     save_growth(growth, part)  # also tells at once if the file cannot be written
     reverse_tree(_tiny(parameters))  # loads the compiled kernels, which is no part of the time
     laid_before, started = growth.laid, perf_counter()
@@ -122,18 +124,7 @@ def _told(found: Losses) -> str:
     )
 
 
-def _begun(parameters: TreeParameters, part: Path) -> Growth:
-    if part.exists():
-        raise ValueError(
-            f"{part} is left from a run that was stopped: --resume goes on with it; delete it to "
-            "begin anew."
-        )
-    return planted(parameters)
-
-
 def _resumed(parameters: TreeParameters, part: Path) -> Growth:
-    if not part.exists():
-        raise ValueError(f"There is nothing to resume: {part} does not exist.")
     growth = load_growth(part)
     asked, begun = parameters_as_json(parameters), parameters_as_json(growth.parameters)
     for name, value in asked.items():
@@ -251,13 +242,9 @@ def _planned(
     threads: int | None = None,
 ) -> Floats:
     """Exact times from many places relative to the slot [s]."""
-    blocks = watched(
-        exact_times(parameters.encounter, x, y, heading, threads=threads),
-        title=title,
-        total=len(x),
-        done=lambda found: found.done,
-    )
-    return np.concatenate([np.empty(0), *(found.times.time_to_converge for found in blocks)])
+    with progress_bar(title, total=len(x)) as count:
+        times = exact_times(parameters.encounter, x, y, heading, threads=threads, progress=count)
+    return times.time_to_converge
 
 
 def _write(text: str) -> None:

@@ -10,8 +10,6 @@ Labels are made in chunks. A chunk is a function of the request and its number, 
 make it, anywhere and as often as need be, and the result is the same.
 """
 
-import json
-import os
 from collections.abc import Iterator
 from concurrent.futures import Executor
 from dataclasses import asdict, dataclass, field
@@ -19,7 +17,6 @@ from functools import partial
 from math import inf, isfinite, pi
 from pathlib import Path
 from typing import Any
-from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,12 +24,16 @@ from numpy.typing import NDArray
 from relguide.kernels.extremals import SIGNS
 from relguide.kernels.strategies import SIZE, STRATEGIES, WORD_OF, strategy_times
 from relguide.learn.chunks import gathered
+from relguide.learn.files import load_columns, save_columns
 
 Floats = NDArray[np.float64]
 SOURCES = ("box", "reverse", "edge")
 """Where a situation comes from, by number."""
 FILE = "relguide exact labels 1"
 """What a file says it is, with the version of its columns."""
+COLUMNS = ("situations", "times_r_per_v", "sources")
+NONE = "holds no labels of relguide dataset --method exact, or is cut short."
+"""What is said of a file that is not one."""
 PROPOSALS = 4
 """Reversed paths laid back for each that is kept."""
 FEWEST = 128
@@ -261,16 +262,8 @@ def save_labels(
         "sources": SOURCES,
         "provenance": provenance,
     }
-    beside = file.with_name(file.name + ".new")
-    content: dict[str, Any] = {
-        "about": np.array(json.dumps(about, ensure_ascii=False)),
-        "situations": labels.situations,
-        "times_r_per_v": labels.times,
-        "sources": labels.sources,
-    }
-    with beside.open("wb") as stream:
-        np.savez(stream, **content)
-    os.replace(beside, file)
+    columns = (labels.situations, labels.times, labels.sources)
+    save_columns(file, about, {n: c for n, c in zip(COLUMNS, columns, strict=True)})
 
 
 def load_labels(file: Path) -> tuple[Labels, dict[str, Any]]:
@@ -279,20 +272,9 @@ def load_labels(file: Path) -> tuple[Labels, dict[str, Any]]:
     Raises:
         ValueError: if the file is none of labels.
     """
-    try:
-        with file.open("rb") as stream, np.load(stream, allow_pickle=False) as content:
-            about: dict[str, Any] = json.loads(str(content["about"]))
-            if about["file"] != FILE:
-                raise KeyError(about["file"])
-            labels = Labels(
-                situations=content["situations"],
-                times=content["times_r_per_v"],
-                sources=content["sources"],
-            )
-    except (KeyError, TypeError, ValueError, EOFError, BadZipFile):
-        raise ValueError(
-            f"{file} holds no labels of relguide dataset --method exact, or is cut short."
-        ) from None
+    about, columns = load_columns(file, FILE, COLUMNS, NONE)
+    situations, times, sources = (columns[name] for name in COLUMNS)
+    labels = Labels(situations=situations, times=times, sources=sources)
     n = len(labels)
     if labels.times.shape != (n, SIZE) or labels.sources.shape != (n,) or n == 0:
         raise ValueError(f"{file}: its columns do not fit together; make the labels again.")

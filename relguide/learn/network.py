@@ -9,7 +9,6 @@ The file is in safetensors: arrays, and in its header one JSON text that tells a
 """
 
 import json
-import os
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from importlib.resources import files
@@ -22,6 +21,7 @@ from numpy.typing import NDArray
 
 from relguide.kernels.network import Layers
 from relguide.kernels.strategies import FEATURES, SIZE, STRATEGIES, feature_rows
+from relguide.learn.files import whole
 from relguide.learn.labels import Box, Floats
 from relguide.learn.options import NetworkShape
 
@@ -115,9 +115,8 @@ def save_network(network: StrategyNetwork, file: Path) -> None:
     content = save(
         network.layers._asdict(), metadata={"about": json.dumps(about, ensure_ascii=False)}
     )
-    beside = file.with_name(file.name + ".new")
-    beside.write_bytes(content)
-    os.replace(beside, file)
+    with whole(file) as stream:
+        stream.write(content)
 
 
 def load_network(file: Path = SHIPPED) -> StrategyNetwork:

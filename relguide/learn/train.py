@@ -10,7 +10,6 @@ exist. The same labels, options and number of threads give the same weights on t
 
 import argparse
 import json
-import os
 import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass
@@ -23,6 +22,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from relguide.kernels.strategies import SIZE
+from relguide.learn.files import expect_part, whole
 from relguide.learn.labels import Box, Labels, held_out, load_labels
 from relguide.learn.network import (
     StrategyNetwork,
@@ -252,12 +252,9 @@ def _save(
         "file": CHECKPOINT, "digest": digest, "done": done, "best": best,
         "best_accuracy": best_accuracy,
     }  # fmt: skip
-    beside = file.with_name(file.name + ".new")
-    beside.write_bytes(
-        save({name: value.contiguous() for name, value in tensors.items()},
-             metadata={"about": json.dumps(about)})
-    )  # fmt: skip
-    os.replace(beside, file)
+    contiguous = {name: value.contiguous() for name, value in tensors.items()}
+    with whole(file) as stream:
+        stream.write(save(contiguous, metadata={"about": json.dumps(about)}))
 
 
 def _load(
@@ -301,11 +298,7 @@ def run(chosen: argparse.Namespace, program: str) -> Iterator[Epoch]:
     labels, made = load_labels(chosen.labels)
     chosen.weights.parent.stat()  # nothing is trained that could not be written
     part = chosen.weights.with_name(f"{chosen.weights.name}.part")
-    if part.exists() and not chosen.resume:
-        raise ValueError(
-            f"{part} is left from a run that was stopped: --resume goes on with it; delete it to "
-            "begin anew."
-        )
+    expect_part(part, resume=chosen.resume)
     for epoch in train(
         labels,
         options_of(chosen),

@@ -1,23 +1,17 @@
-"""Trees, and trees still growing, as .npz files: plain arrays and one text, never pickled objects.
+"""Trees, and trees still growing, as .npz files."""
 
-A file is written beside its name and then moved there: a reader never meets half of one.
-"""
-
-import json
-import os
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
-from zipfile import BadZipFile
 
 import numpy as np
-from numpy.typing import NDArray
 
+from relguide.learn.files import load_columns, save_columns
 from relguide.learn.reverse_dp import CELL_COLUMNS, Growth
 from relguide.learn.tree import Tree, parameters_as_json, parameters_from_json
 
 TREE, GROWTH = "relguide reverse-dp tree 1", "relguide reverse-dp growth 1"
 """What a file says it is, with the version of its columns."""
+NONE = "is no file of relguide dataset, or it is cut short."
+"""What is said of a file that is not one."""
 TREE_COLUMNS = {
     "x_m": "x",
     "y_m": "y",
@@ -49,7 +43,7 @@ def save_tree(tree: Tree, file: Path) -> None:
         "close": tree.close,
         "provenance": dict(tree.provenance),
     }
-    _write(file, about, columns)
+    save_columns(file, about, columns)
 
 
 def load_tree(file: Path) -> Tree:
@@ -58,7 +52,7 @@ def load_tree(file: Path) -> Tree:
     Raises:
         ValueError: if the file is not one.
     """
-    about, columns = _read(file, TREE, tuple(TREE_COLUMNS))
+    about, columns = load_columns(file, TREE, tuple(TREE_COLUMNS), NONE)
     tree = Tree(
         parameters=parameters_from_json(about["parameters"]),
         laid=int(about["laid"]),
@@ -89,7 +83,7 @@ def save_growth(growth: Growth, file: Path) -> None:
         "laid": growth.laid,
         "close": growth.close,
     }
-    _write(file, about, {name: getattr(growth, name) for name in GROWTH_COLUMNS})
+    save_columns(file, about, {name: getattr(growth, name) for name in GROWTH_COLUMNS})
 
 
 def load_growth(file: Path) -> Growth:
@@ -98,7 +92,7 @@ def load_growth(file: Path) -> Growth:
     Raises:
         ValueError: if the file is not one.
     """
-    about, columns = _read(file, GROWTH, GROWTH_COLUMNS)
+    about, columns = load_columns(file, GROWTH, GROWTH_COLUMNS, NONE)
     return Growth(
         parameters=parameters_from_json(about["parameters"]),
         order=int(about["order"]),
@@ -107,27 +101,3 @@ def load_growth(file: Path) -> Growth:
         close=int(about["close"]),
         **columns,
     )
-
-
-def _write(file: Path, about: Mapping[str, Any], columns: Mapping[str, NDArray[Any]]) -> None:
-    beside = file.with_name(file.name + ".new")
-    content: dict[str, Any] = {"about": np.array(json.dumps(about, ensure_ascii=False)), **columns}
-    with beside.open("wb") as stream:
-        np.savez(stream, **content)
-    os.replace(beside, file)
-
-
-def _read(
-    file: Path, kind: str, names: tuple[str, ...]
-) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
-    try:
-        with file.open("rb") as stream, np.load(stream, allow_pickle=False) as content:
-            about: dict[str, Any] = json.loads(str(content["about"]))
-            found = about["file"]
-            columns = {name: content[name] for name in names} if found == kind else {}
-    # numpy says ValueError of what is no .npz file at all, and of pickled objects
-    except (KeyError, TypeError, ValueError, EOFError, BadZipFile):
-        raise ValueError(f"{file} is no file of relguide dataset, or it is cut short.") from None
-    if found != kind:
-        raise ValueError(f"{file} is a file of another kind: {found}, not {kind}.")
-    return about, columns

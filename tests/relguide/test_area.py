@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from relguide import Plan, plan
-from relguide.area import BLOCK, Area, Encounter, exact_times, middles, reach
+from relguide.area import Area, Encounter, exact_times, middles, reach
 from relguide.planning.slot import slot_frame
 from tests.relguide.learn.trees import A300
 
@@ -26,21 +26,18 @@ def test_exact_times_are_those_of_plan() -> None:
     rng = np.random.default_rng(2)
     x, y = rng.uniform(-60e3, 60e3, 60), rng.uniform(-60e3, 60e3, 60)
     heading = rng.uniform(0.0, 2.0 * pi, 60)
-    (found,) = exact_times(A300, x, y, heading)
-    assert found.done == 60
+    counted: list[int] = []
+    found = exact_times(A300, x, y, heading, progress=counted.append)
+    assert sum(counted) == 60
     for i in range(60):
         answer = plan(A300.situation(x[i], y[i], heading[i]))
         expected = answer.time_to_converge if isinstance(answer, Plan) else np.inf
-        assert found.times.time_to_converge[i] == pytest.approx(expected, abs=1e-3)
+        assert found.time_to_converge[i] == pytest.approx(expected, abs=1e-3)
 
 
-def test_many_places_come_in_blocks() -> None:
-    far = np.full(BLOCK + 5, 300e3)
-    done = [
-        (found.done, len(found.times.word))
-        for found in exact_times(A300, far, 0.0 * far, 0.0 * far, threads=1)
-    ]
-    assert done == [(BLOCK, BLOCK), (BLOCK + 5, 5)]
+def test_no_places_have_no_times() -> None:
+    none = np.empty(0)
+    assert len(exact_times(A300, none, none, none).time_to_converge) == 0
 
 
 def test_nothing_outside_reach_joins_in_time() -> None:
@@ -48,8 +45,8 @@ def test_nothing_outside_reach_joins_in_time() -> None:
     assert (least, greatest, aside) == (-24_000.0, 264_000.0, 144_000.0)
     rng = np.random.default_rng(3)
     x, y = rng.uniform(-60e3, 300e3, 2000), rng.uniform(-200e3, 200e3, 2000)
-    ((found),) = exact_times(A300, x, y, rng.uniform(0.0, 2.0 * pi, 2000))
-    joins = found.times.time_to_converge <= 600.0
+    found = exact_times(A300, x, y, rng.uniform(0.0, 2.0 * pi, 2000))
+    joins = found.time_to_converge <= 600.0
     assert joins.sum() > 100
     assert np.all((x[joins] >= least) & (x[joins] <= greatest) & (abs(y[joins]) <= aside))
 

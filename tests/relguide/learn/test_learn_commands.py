@@ -3,45 +3,27 @@
 import json
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from relguide import learning
-from relguide.__main__ import main
 from relguide.area import Area
 from relguide.learn import reverse_dp
 from relguide.learn.area_figure import Column, draw_areas
 from relguide.learn.reverse_dp import Growth, grow_order, planted
 from relguide.learn.tree_file import load_growth, load_tree, save_growth
+from tests.command_line import Run
 from tests.relguide.learn.test_reverse_dp import same
 from tests.relguide.learn.trees import parameters, tree
 
-Run = Callable[..., tuple[int, str, str]]
 SMALL = (
     "--order", "3", "--delta-theta-deg", "30", "--delta-l-m", "4000", "--cell-m", "6000",
     "--horizon-min", str(400.0 / 60.0),
 )  # fmt: skip
 DATASET = ("dataset", "--method", "reverse-dp", "--out", "tree.npz")
-
-
-@pytest.fixture
-def run(capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
-    """Run a command in a folder of its own: exit code, standard output, standard error."""
-    monkeypatch.chdir(tmp_path)
-
-    def run(*arguments: str) -> tuple[int, str, str]:
-        try:
-            code = main(arguments)
-        except SystemExit as end:  # argparse ends so
-            code = int(end.code or 0)
-        out, err = capsys.readouterr()
-        assert "Traceback" not in err
-        return code, out, err
-
-    return run
 
 
 def test_dataset_writes_the_tree_and_says_what_it_is(run: Run) -> None:

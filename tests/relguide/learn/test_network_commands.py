@@ -1,35 +1,15 @@
 """`relguide dataset --method exact`, `train` and `audit`: the chain from labels to figures."""
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-import pytest
 
-from relguide.__main__ import main
 from relguide.learn.labels import LabelRequest, label_chunk, load_labels, save_labels
 from relguide.learn.network import load_network
+from tests.command_line import Run
 
-Run = Callable[..., tuple[int, str, str]]
 EXACT = ("dataset", "--method", "exact", "--out", "labels.npz", "--count", "3000")
-
-
-@pytest.fixture
-def run(capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
-    """Run a command in a folder of its own: exit code, standard output, standard error."""
-    monkeypatch.chdir(tmp_path)
-
-    def run(*arguments: str) -> tuple[int, str, str]:
-        try:
-            code = main(arguments)
-        except SystemExit as end:  # argparse ends so
-            code = int(end.code or 0)
-        out, err = capsys.readouterr()
-        assert "Traceback" not in err
-        return code, out, err
-
-    return run
 
 
 def test_labels_train_weights_and_audit(run: Run) -> None:

@@ -97,9 +97,9 @@ def test_no_way_is_faster_than_the_exact_plan() -> None:
     grown_tree = tree(4)
     nodes = grown_tree.minima[:: 1 + len(grown_tree.minima) // 400]
     places = grown_tree.x[nodes], grown_tree.y[nodes], grown_tree.heading[nodes]
-    (found,) = exact_times(A300, *places)
-    compared = losses(grown_tree, nodes, found.times.time_to_converge)
-    assert np.all(found.times.verdict == "planned")
+    found = exact_times(A300, *places)
+    compared = losses(grown_tree, nodes, found.time_to_converge)
+    assert np.all(found.verdict == "planned")
     assert compared.loss.min() >= -1e-9
     # coarse as it is, the tree holds exact optima: a turn, a straight, a turn is an extremal
     assert compared.share_within(1e-9) > 0.1

@@ -17,8 +17,8 @@ from relguide.planning.contact_search import Question
 from relguide.planning.detour import leader_table
 from relguide.planning.prove import MAX_SECONDS, TOLERANCE, Bound, bounds
 from relguide.planning.words import candidates
+from tests.bodies import BODY
 from tests.plans import golden_plan, straight_behind
-from tests.relguide.contract.test_contract import BODY
 from tests.situations import GOLDEN, golden, situations
 
 ACTIVE = [

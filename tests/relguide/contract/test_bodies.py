@@ -1,10 +1,8 @@
-"""What outsiders send: situations and commands, and how bad ones are refused."""
+"""Situations as outsiders send them, and how bad ones are refused."""
 
-import copy
 import json
-from dataclasses import replace
 from math import atan2, hypot, pi
-from typing import Any, get_args
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
@@ -12,66 +10,16 @@ from hypothesis import strategies as st
 from pydantic import TypeAdapter
 from pyproj import Geod
 
-from relguide import LEFT, RIGHT, Arc, FlyStraight, NoPlan, Situation, TurnTo, check, plan
-from relguide.contract.answers import answer, answer_line
+from relguide import LEFT, RIGHT, FlyStraight, TurnTo, plan
+from relguide.contract.answers import answer
 from relguide.contract.bodies import Unanchored, plan_to_wire, situation_from_json
-from relguide.contract.messages import (
-    Command,
-    FlightRequest,
-    PlanAnswer,
-    ScenarioFlightRequest,
-    SituationFlightRequest,
-)
+from relguide.contract.messages import PlanAnswer
 from relguide.contract.refusal import ContractError
 from relguide.flying.cards import plan_card
 from relguide.planning.frames import LocalPlane
 from relguide.planning.plan import Plan
 from relguide.units import DEG
-
-BODY: dict[str, Any] = {
-    "pursuer": {
-        "x_m": -40000,
-        "y_m": 40000,
-        "heading_deg": 90,
-        "tas_mps": 235,
-        "max_bank_deg": 25,
-    },
-    "leader": {
-        "x_m": 0,
-        "y_m": 0,
-        "heading_deg": 90,
-        "tas_mps": 200,
-        "intent": [
-            {"straight_s": 60},
-            {"turn_to_heading_deg": 135, "direction": "right", "bank_deg": 20},
-        ],
-    },
-    "slot_distance_m": 12000,
-    "min_separation_m": 9260,
-    "wind": {"from_deg": 270, "speed_mps": 15},
-}
-
-
-def changed(path: str, value: Any) -> dict[str, Any]:
-    """BODY with one field set, or removed if the value is `...`."""
-    body = copy.deepcopy(BODY)
-    *way, last = path.split(".")
-    here: Any = body
-    for step in way:
-        here = here[int(step)] if step.isdigit() else here[step]
-    if value is ...:
-        del here[last]
-    else:
-        here[last] = value
-    return body
-
-
-def on_earth(pursuer: tuple[float, float], leader: tuple[float, float]) -> dict[str, Any]:
-    body = copy.deepcopy(BODY)
-    for name, (lat, lon) in (("pursuer", pursuer), ("leader", leader)):
-        del body[name]["x_m"], body[name]["y_m"]
-        body[name] |= {"lat_deg": lat, "lon_deg": lon}
-    return body
+from tests.bodies import BODY, changed, on_earth
 
 
 def problem_of(body: Any) -> tuple[str, str]:
@@ -301,209 +249,3 @@ def test_both_aircraft_are_placed_alike() -> None:
 
 def test_both_ways_at_once_are_refused() -> None:
     assert problem_of(changed("pursuer.lat_deg", 1.0))[0] == "pursuer.lon_deg"
-
-
-# --- answers ------------------------------------------------------------------------------------
-
-
-def test_a_plan_has_the_contracts_names() -> None:
-    situation, anchor = situation_from_json(BODY)
-    reply = answer(situation, anchor, plan)
-    assert list(reply) == [
-        "status",
-        "planner",
-        "word",
-        "time_to_converge_s",
-        "length_m",
-        "segments",
-        "separation",
-        "optimality",
-        "alternatives",
-        "compute_ms",
-    ]
-    assert set(reply["separation"]) == {"least_m", "at_s", "proved_above_m"}
-    assert set(reply["optimality"]) == {"proof", "lower_bound_s"}
-    for segment in reply["segments"]:
-        names = {
-            "turn": {"kind", "direction", "angle_deg", "bank_deg", "radius_m", "duration_s"},
-            "straight": {"kind", "length_m", "duration_s"},
-        }[segment["kind"]]
-        assert set(segment) == names | {"start", "end"}
-        assert set(segment["start"]) == {"t_s", "x_m", "y_m", "heading_deg"}
-    way = {"time_to_converge_s", "turning_deg", "passes", "side"}
-    names_of = {
-        "slower": way,
-        "separation": way | {"least_separation_m", "at_s"},
-        "not_open": {"time_to_converge_s", "opens_s"},
-        "no_root": set(),
-    }
-    for other in reply["alternatives"]:
-        assert set(other) == names_of[other["rejected"]] | {"word", "why", "rejected"}
-    assert {other["rejected"] for other in reply["alternatives"]} == {"slower", "no_root"}
-    TypeAdapter(PlanAnswer).validate_python(reply)
-
-
-def test_no_plan_has_the_contracts_names() -> None:
-    situation, anchor = situation_from_json(changed("leader.tas_mps", 300))
-    reply = answer(situation, anchor, plan)
-    assert set(reply) == {"status", "reason", "message"}
-    assert reply["status"] == "no_plan"
-    TypeAdapter(PlanAnswer).validate_python(reply)
-
-
-@pytest.mark.parametrize("name", ["a", "", 7, "é"])
-def test_a_batch_line_carries_its_id(name: Any) -> None:
-    reply = answer_line(json.dumps({"id": name, **BODY}).encode(), plan)
-    assert (reply["id"], reply["status"]) == (name, "planned")
-    refused = answer_line(json.dumps({"id": name}).encode(), plan)
-    assert (refused["id"], refused["status"]) == (name, "invalid")
-    assert "pursuer: is missing." in refused["message"]
-
-
-@pytest.mark.parametrize("name", [True, 1.5, None, [], 2**70, "\ud800", "a" * 201])
-def test_an_id_that_is_none_makes_the_line_invalid(name: Any) -> None:
-    reply = answer_line(json.dumps({"id": name, **BODY}).encode(), plan)
-    assert set(reply) == {"status", "message"}
-    assert "id" in reply["message"]
-
-
-# --- flights ------------------------------------------------------------------------------------
-
-
-def test_a_flight_is_asked_for_by_scenario_or_situation() -> None:
-    read = TypeAdapter(FlightRequest).validate_python
-    asked = read({"scenario": "fig_6b", "rate": 10})
-    assert isinstance(asked, ScenarioFlightRequest)
-    assert (asked.rate, asked.paused, asked.intent_known, asked.seed) == (10.0, False, None, 0)
-    assert isinstance(read({"situation": BODY, "paused": True}), SituationFlightRequest)
-    for bad in ({}, {"scenario": "a", "situation": BODY}, {"scenario": "a", "rate": 61}):
-        with pytest.raises(ValueError, match="validation error"):
-            read(bad)
-
-
-@pytest.mark.parametrize(
-    "command",
-    [
-        {"command": "play"},
-        {"command": "pause"},
-        {"command": "set_rate", "rate": 60},
-        {"command": "leader_heading", "heading_deg": 135},
-        {"command": "leader_heading", "heading_deg": 135, "direction": "left"},
-        {"command": "leader_speed", "tas_mps": 200},
-        {"command": "set_intent_known", "known": True},
-    ],
-)
-def test_commands_are_read(command: dict[str, Any]) -> None:
-    read = TypeAdapter(Command).validate_python
-    assert read(command).model_dump(exclude_unset=True) == command
-    with pytest.raises(ValueError, match="validation error"):
-        read({**command, "extra": 1})
-
-
-def test_every_command_has_its_name() -> None:
-    models = get_args(get_args(Command)[0])
-    assert len({get_args(m.model_fields["command"].annotation)[0] for m in models}) == 6
-
-
-# --- optimality on demand -----------------------------------------------------------------------
-
-
-def test_without_the_demand_nothing_is_added() -> None:
-    situation, anchor = situation_from_json(BODY)
-    asked = answer(situation, anchor, plan, optimality=True)
-    reply = answer(situation, anchor, plan)
-    assert set(reply["optimality"]) == {"proof", "lower_bound_s"}
-    assert list(asked) == list(reply)
-    asked["optimality"] = {name: asked["optimality"][name] for name in reply["optimality"]}
-    asked["compute_ms"] = reply["compute_ms"]
-    assert json.dumps(asked) == json.dumps(reply)
-
-
-def test_on_demand_optimality_has_its_names_and_columns_of_one_length() -> None:
-    situation, anchor = situation_from_json(BODY)
-    reply = answer(situation, anchor, plan, optimality=True)
-    told = reply["optimality"]
-    assert list(told) == [
-        "proof",
-        "lower_bound_s",
-        "arrival",
-        "hamiltonian_residual",
-        "switching_residual_s_per_deg",
-        "switching_ok",
-        "contacts",
-        "rides",
-        "panel",
-    ]
-    assert (told["switching_ok"], told["arrival"]) == (True, "free")
-    assert told["hamiltonian_residual"] < 1e-8
-    assert list(told["panel"]) == [
-        "t_s",
-        "hamiltonian",
-        "switching_s_per_deg",
-        "separation_costate_s_per_m",
-        "bearing_costate_s_per_deg",
-    ]
-    assert {len(column) for column in told["panel"].values()} == {len(told["panel"]["t_s"])}
-    # every end of a segment is there twice
-    for segment in reply["segments"][1:]:
-        start = segment["start"]["t_s"]
-        assert sum(t == pytest.approx(start, abs=1e-6) for t in told["panel"]["t_s"]) == 2
-    # a card read by its model is the card that was written
-    read = TypeAdapter(PlanAnswer).validate_python(reply)
-    assert json.loads(read.model_dump_json(exclude_unset=True)) == json.loads(json.dumps(reply))
-
-
-def test_the_switching_function_is_per_degree_and_turns_as_eq_16_asks() -> None:
-    situation, anchor = situation_from_json(BODY)
-    planned = plan(situation)
-    assert isinstance(planned, Plan)
-    history = check(planned, situation).history
-    panel = answer(situation, anchor, plan, optimality=True)["optimality"]["panel"]
-    assert panel["switching_s_per_deg"] == pytest.approx([s * DEG for s in history.switching])
-    assert panel["t_s"] == pytest.approx(history.times)
-    # the word is RSR: right turns where λ_ψ < 0, and 0 on the straight
-    middle = len(panel["t_s"]) // 2
-    first, straight = panel["switching_s_per_deg"][0], panel["switching_s_per_deg"][middle]
-    assert first < -1e-3
-    assert abs(straight) < 1e-9
-
-
-def test_a_plan_that_is_not_stationary_says_so() -> None:
-    """One that begins with a weave, and is the fastest after it."""
-    situation, anchor = situation_from_json(changed("leader.intent", []))
-    first = planned_for(situation)
-    radius = situation.pursuer.turn_radius
-    weave = tuple(Arc(turn=turn, turn_angle=0.3, radius=radius) for turn in (LEFT, RIGHT))
-    woven = replace(first.trajectory, segments=weave)
-    ours = woven.pose_at(woven.duration)
-    theirs = situation.leader.trajectory.pose_at(woven.duration)
-    onward = planned_for(
-        replace(
-            situation,
-            pursuer=replace(situation.pursuer, x=ours.x, y=ours.y, heading=ours.heading),
-            leader=replace(situation.leader, x=theirs.x, y=theirs.y),
-        )
-    )
-    whole = replace(woven, segments=(*weave, *onward.trajectory.segments))
-
-    def weaving(_: Situation) -> Plan | NoPlan:
-        return replace(first, trajectory=whole)
-
-    told = answer(situation, anchor, weaving, optimality=True)["optimality"]
-    assert told["switching_ok"] is False
-    assert told["switching_residual_s_per_deg"] > 0.01
-
-
-def planned_for(situation: Situation) -> Plan:
-    planned = plan(situation)
-    assert isinstance(planned, Plan)
-    return planned
-
-
-def test_a_batch_line_says_it_on_demand() -> None:
-    reply = answer_line(json.dumps({"id": 1, **BODY}).encode(), plan, optimality=True)
-    assert reply["optimality"]["switching_ok"] is True
-    no_plan = answer_line(
-        json.dumps(changed("leader.tas_mps", 300)).encode(), plan, optimality=True
-    )
-    assert set(no_plan) == {"status", "reason", "message"}

@@ -1,0 +1,74 @@
+"""Files of this package: written whole or not at all, and read as plain arrays and one text.
+
+A file is written beside its name and then moved there: a reader never meets half of one. What may
+be gone on with after a stop lies in another, named `.part`.
+"""
+
+import json
+import os
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import IO, Any
+from zipfile import BadZipFile
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@contextmanager
+def whole(file: Path) -> Iterator[IO[bytes]]:
+    """A stream to write a file by, which has its name once all is written."""
+    beside = file.with_name(file.name + ".new")
+    with beside.open("wb") as stream:
+        yield stream
+    os.replace(beside, file)
+
+
+def save_columns(file: Path, about: Mapping[str, Any], columns: Mapping[str, NDArray[Any]]) -> None:
+    """Write an .npz file: arrays, and a JSON text `about` that tells the rest."""
+    content: dict[str, Any] = {"about": np.array(json.dumps(about, ensure_ascii=False)), **columns}
+    with whole(file) as stream:
+        np.savez(stream, **content)
+
+
+def load_columns(
+    file: Path, kind: str, names: tuple[str, ...], refusal: str
+) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
+    """Read an .npz file; never pickled objects.
+
+    Args:
+        file: to read.
+        kind: what it must say it is, by `file` in its text.
+        names: of the arrays wanted.
+        refusal: what to say of a file that is none, behind its name.
+
+    Raises:
+        ValueError: if it is none, or one of another kind.
+    """
+    try:
+        with file.open("rb") as stream, np.load(stream, allow_pickle=False) as content:
+            about: dict[str, Any] = json.loads(str(content["about"]))
+            found = about["file"]
+            columns = {name: content[name] for name in names} if found == kind else {}
+    # numpy says ValueError of what is no .npz file at all, and of pickled objects
+    except (KeyError, TypeError, ValueError, EOFError, BadZipFile):
+        raise ValueError(f"{file} {refusal}") from None
+    if found != kind:
+        raise ValueError(f"{file} is a file of another kind: {found}, not {kind}.")
+    return about, columns
+
+
+def expect_part(part: Path, *, resume: bool) -> None:
+    """Refuse to begin where a stopped run has left something, and to resume where none has.
+
+    Raises:
+        ValueError: saying what to do instead.
+    """
+    if resume and not part.exists():
+        raise ValueError(f"There is nothing to resume: {part} does not exist.")
+    if part.exists() and not resume:
+        raise ValueError(
+            f"{part} is left from a run that was stopped: --resume goes on with it; delete it to "
+            "begin anew."
+        )

@@ -1,0 +1,49 @@
+"""A situation as outsiders send it, to be changed a field at a time, and placed on the earth."""
+
+import copy
+from typing import Any
+
+BODY: dict[str, Any] = {
+    "pursuer": {
+        "x_m": -40000,
+        "y_m": 40000,
+        "heading_deg": 90,
+        "tas_mps": 235,
+        "max_bank_deg": 25,
+    },
+    "leader": {
+        "x_m": 0,
+        "y_m": 0,
+        "heading_deg": 90,
+        "tas_mps": 200,
+        "intent": [
+            {"straight_s": 60},
+            {"turn_to_heading_deg": 135, "direction": "right", "bank_deg": 20},
+        ],
+    },
+    "slot_distance_m": 12000,
+    "min_separation_m": 9260,
+    "wind": {"from_deg": 270, "speed_mps": 15},
+}
+
+
+def changed(path: str, value: Any) -> dict[str, Any]:
+    """BODY with one field set, or removed if the value is `...`."""
+    body = copy.deepcopy(BODY)
+    *way, last = path.split(".")
+    here: Any = body
+    for step in way:
+        here = here[int(step)] if step.isdigit() else here[step]
+    if value is ...:
+        del here[last]
+    else:
+        here[last] = value
+    return body
+
+
+def on_earth(pursuer: tuple[float, float], leader: tuple[float, float]) -> dict[str, Any]:
+    body = copy.deepcopy(BODY)
+    for name, (lat, lon) in (("pursuer", pursuer), ("leader", leader)):
+        del body[name]["x_m"], body[name]["y_m"]
+        body[name] |= {"lat_deg": lat, "lon_deg": lon}
+    return body

@@ -1,0 +1,181 @@
+"""Answers to situations: their names, a batch's lines, and optimality on demand."""
+
+import json
+from dataclasses import replace
+from typing import Any
+
+import pytest
+from pydantic import TypeAdapter
+
+from relguide import LEFT, RIGHT, Arc, NoPlan, Situation, check, plan
+from relguide.contract.answers import answer, answer_line
+from relguide.contract.bodies import situation_from_json
+from relguide.contract.messages import PlanAnswer
+from relguide.planning.plan import Plan
+from relguide.units import DEG
+from tests.bodies import BODY, changed
+
+
+def test_a_plan_has_the_contracts_names() -> None:
+    situation, anchor = situation_from_json(BODY)
+    reply = answer(situation, anchor, plan)
+    assert list(reply) == [
+        "status",
+        "planner",
+        "word",
+        "time_to_converge_s",
+        "length_m",
+        "segments",
+        "separation",
+        "optimality",
+        "alternatives",
+        "compute_ms",
+    ]
+    assert set(reply["separation"]) == {"least_m", "at_s", "proved_above_m"}
+    assert set(reply["optimality"]) == {"proof", "lower_bound_s"}
+    for segment in reply["segments"]:
+        names = {
+            "turn": {"kind", "direction", "angle_deg", "bank_deg", "radius_m", "duration_s"},
+            "straight": {"kind", "length_m", "duration_s"},
+        }[segment["kind"]]
+        assert set(segment) == names | {"start", "end"}
+        assert set(segment["start"]) == {"t_s", "x_m", "y_m", "heading_deg"}
+    way = {"time_to_converge_s", "turning_deg", "passes", "side"}
+    names_of = {
+        "slower": way,
+        "separation": way | {"least_separation_m", "at_s"},
+        "not_open": {"time_to_converge_s", "opens_s"},
+        "no_root": set(),
+    }
+    for other in reply["alternatives"]:
+        assert set(other) == names_of[other["rejected"]] | {"word", "why", "rejected"}
+    assert {other["rejected"] for other in reply["alternatives"]} == {"slower", "no_root"}
+    TypeAdapter(PlanAnswer).validate_python(reply)
+
+
+def test_no_plan_has_the_contracts_names() -> None:
+    situation, anchor = situation_from_json(changed("leader.tas_mps", 300))
+    reply = answer(situation, anchor, plan)
+    assert set(reply) == {"status", "reason", "message"}
+    assert reply["status"] == "no_plan"
+    TypeAdapter(PlanAnswer).validate_python(reply)
+
+
+@pytest.mark.parametrize("name", ["a", "", 7, "é"])
+def test_a_batch_line_carries_its_id(name: Any) -> None:
+    reply = answer_line(json.dumps({"id": name, **BODY}).encode(), plan)
+    assert (reply["id"], reply["status"]) == (name, "planned")
+    refused = answer_line(json.dumps({"id": name}).encode(), plan)
+    assert (refused["id"], refused["status"]) == (name, "invalid")
+    assert "pursuer: is missing." in refused["message"]
+
+
+@pytest.mark.parametrize("name", [True, 1.5, None, [], 2**70, "\ud800", "a" * 201])
+def test_an_id_that_is_none_makes_the_line_invalid(name: Any) -> None:
+    reply = answer_line(json.dumps({"id": name, **BODY}).encode(), plan)
+    assert set(reply) == {"status", "message"}
+    assert "id" in reply["message"]
+
+
+# --- optimality on demand -----------------------------------------------------------------------
+
+
+def test_without_the_demand_nothing_is_added() -> None:
+    situation, anchor = situation_from_json(BODY)
+    asked = answer(situation, anchor, plan, optimality=True)
+    reply = answer(situation, anchor, plan)
+    assert set(reply["optimality"]) == {"proof", "lower_bound_s"}
+    assert list(asked) == list(reply)
+    asked["optimality"] = {name: asked["optimality"][name] for name in reply["optimality"]}
+    asked["compute_ms"] = reply["compute_ms"]
+    assert json.dumps(asked) == json.dumps(reply)
+
+
+def test_on_demand_optimality_has_its_names_and_columns_of_one_length() -> None:
+    situation, anchor = situation_from_json(BODY)
+    reply = answer(situation, anchor, plan, optimality=True)
+    told = reply["optimality"]
+    assert list(told) == [
+        "proof",
+        "lower_bound_s",
+        "arrival",
+        "hamiltonian_residual",
+        "switching_residual_s_per_deg",
+        "switching_ok",
+        "contacts",
+        "rides",
+        "panel",
+    ]
+    assert (told["switching_ok"], told["arrival"]) == (True, "free")
+    assert told["hamiltonian_residual"] < 1e-8
+    assert list(told["panel"]) == [
+        "t_s",
+        "hamiltonian",
+        "switching_s_per_deg",
+        "separation_costate_s_per_m",
+        "bearing_costate_s_per_deg",
+    ]
+    assert {len(column) for column in told["panel"].values()} == {len(told["panel"]["t_s"])}
+    # every end of a segment is there twice
+    for segment in reply["segments"][1:]:
+        start = segment["start"]["t_s"]
+        assert sum(t == pytest.approx(start, abs=1e-6) for t in told["panel"]["t_s"]) == 2
+    # a card read by its model is the card that was written
+    read = TypeAdapter(PlanAnswer).validate_python(reply)
+    assert json.loads(read.model_dump_json(exclude_unset=True)) == json.loads(json.dumps(reply))
+
+
+def test_the_switching_function_is_per_degree_and_turns_as_eq_16_asks() -> None:
+    situation, anchor = situation_from_json(BODY)
+    planned = plan(situation)
+    assert isinstance(planned, Plan)
+    history = check(planned, situation).history
+    panel = answer(situation, anchor, plan, optimality=True)["optimality"]["panel"]
+    assert panel["switching_s_per_deg"] == pytest.approx([s * DEG for s in history.switching])
+    assert panel["t_s"] == pytest.approx(history.times)
+    # the word is RSR: right turns where λ_ψ < 0, and 0 on the straight
+    middle = len(panel["t_s"]) // 2
+    first, straight = panel["switching_s_per_deg"][0], panel["switching_s_per_deg"][middle]
+    assert first < -1e-3
+    assert abs(straight) < 1e-9
+
+
+def test_a_plan_that_is_not_stationary_says_so() -> None:
+    """One that begins with a weave, and is the fastest after it."""
+    situation, anchor = situation_from_json(changed("leader.intent", []))
+    first = planned_for(situation)
+    radius = situation.pursuer.turn_radius
+    weave = tuple(Arc(turn=turn, turn_angle=0.3, radius=radius) for turn in (LEFT, RIGHT))
+    woven = replace(first.trajectory, segments=weave)
+    ours = woven.pose_at(woven.duration)
+    theirs = situation.leader.trajectory.pose_at(woven.duration)
+    onward = planned_for(
+        replace(
+            situation,
+            pursuer=replace(situation.pursuer, x=ours.x, y=ours.y, heading=ours.heading),
+            leader=replace(situation.leader, x=theirs.x, y=theirs.y),
+        )
+    )
+    whole = replace(woven, segments=(*weave, *onward.trajectory.segments))
+
+    def weaving(_: Situation) -> Plan | NoPlan:
+        return replace(first, trajectory=whole)
+
+    told = answer(situation, anchor, weaving, optimality=True)["optimality"]
+    assert told["switching_ok"] is False
+    assert told["switching_residual_s_per_deg"] > 0.01
+
+
+def planned_for(situation: Situation) -> Plan:
+    planned = plan(situation)
+    assert isinstance(planned, Plan)
+    return planned
+
+
+def test_a_batch_line_says_it_on_demand() -> None:
+    reply = answer_line(json.dumps({"id": 1, **BODY}).encode(), plan, optimality=True)
+    assert reply["optimality"]["switching_ok"] is True
+    no_plan = answer_line(
+        json.dumps(changed("leader.tas_mps", 300)).encode(), plan, optimality=True
+    )
+    assert set(no_plan) == {"status", "reason", "message"}
