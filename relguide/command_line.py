@@ -41,7 +41,7 @@ def plan_one(
 
     Args:
         file: its path; - for standard input.
-        planner_name: exact or network.
+        planner_name: exact, network or regular_dp.
         table: for people; JSON otherwise.
         optimality: say how the plan meets Pontryagin's conditions, too.
         prove_for: how long to look for a better lower bound of its time [s].
@@ -77,7 +77,7 @@ def plan_batch(file: str, *, planner_name: str, optimality: bool, prove_for: flo
 
     Args:
         file: its path; - for standard input.
-        planner_name: exact or network.
+        planner_name: exact, network or regular_dp.
         optimality: say how each plan meets Pontryagin's conditions, too.
         prove_for: how long to look for a better lower bound of the time of each [s].
 
@@ -165,7 +165,7 @@ def fly_one(
 
     Args:
         name: of a scenario, or the path of a situation (.json) or a recorded track (.csv).
-        planner_name: exact or network.
+        planner_name: exact, network or regular_dp.
         record_to: where to write the recording, if anywhere.
         seed: of the flight's random numbers.
         as_json: one JSON object; a table otherwise.
@@ -259,6 +259,10 @@ def _planner(name: str) -> Planner:
     """A planner by its name on the command line."""
     if name == "exact":
         return plan
+    if name == "regular_dp":
+        from relguide.learn.regular_planner import regular_planner
+
+        return regular_planner
     from relguide.learn.network import load_network
     from relguide.learn.planner import network_planner
 
