@@ -49,11 +49,4 @@ def keeps_clear(seen: Offsets, to_slot: Metre, situation: Situation) -> bool:
 
 
 def _path(situation: Situation, arc: Arc, straight: Metre) -> Trajectory:
-    pursuer = situation.pursuer
-    return Trajectory(
-        x=pursuer.x,
-        y=pursuer.y,
-        heading=pursuer.heading,
-        tas=pursuer.tas,
-        segments=(arc, Straight(length=straight)),
-    )
+    return situation.pursuer.flying((arc, Straight(length=straight)))

@@ -42,12 +42,22 @@ def certify(trajectory: Trajectory, situation: Situation) -> Certificate:
     """
     expect("trajectory", trajectory, Trajectory)
     expect("situation", situation, Situation)
+    return judge(trajectory, situation, kernel_arrays(situation.leader.trajectory))
+
+
+def judge(
+    trajectory: Trajectory, situation: Situation, leader: tuple[np.ndarray, np.ndarray]
+) -> Certificate:
+    """As `certify`, for many trajectories of one situation.
+
+    Args:
+        trajectory: the pursuer's.
+        situation: gives d_min and R.
+        leader: the situation's leader, as the kernels take it.
+    """
     radius = situation.pursuer.turn_radius
     least, at, bound = least_separation(
-        *kernel_arrays(trajectory),
-        *kernel_arrays(situation.leader.trajectory),
-        trajectory.duration,
-        TOLERANCE * radius,
+        *kernel_arrays(trajectory), *leader, trajectory.duration, TOLERANCE * radius
     )
     return Certificate(
         least_separation=least,

@@ -14,7 +14,7 @@ from relguide.kernels.tangent import tangents
 from relguide.kernels.waiting import wait_for_opening
 from relguide.planning.situation import Situation
 from relguide.planning.slot import SlotFrame
-from relguide.planning.trajectory import LEFT, RIGHT, BoundaryArc, Segment, Trajectory
+from relguide.planning.trajectory import LEFT, RIGHT, BoundaryArc, Segment
 from relguide.planning.words import (
     HORIZON,
     NO_TURN,
@@ -91,7 +91,10 @@ def _flown(
             n, x, y, h, t = ride_pieces(
                 x, y, h, t, leader, frame.alpha, limit + GRAZE, side, first, last, bends
             )
-            segments += (*segments_of(frame, signs, amounts), _ridden(frame, side, bends[:n]))
+            segments += (
+                *segments_of(frame.radius, signs, amounts),
+                _ridden(frame, side, bends[:n]),
+            )
             signs, amounts = [], []
         else:
             word = SIGN_ROWS[int(leg[2])]
@@ -122,15 +125,8 @@ def _flown(
             last_row = rows[i]
         signs += SIGN_ROWS[int(last_row[1])]
         amounts += last_row[2:].tolist()
-    segments += segments_of(frame, signs, amounts)
-    pursuer = situation.pursuer
-    trajectory = Trajectory(
-        x=pursuer.x,
-        y=pursuer.y,
-        heading=pursuer.heading,
-        tas=pursuer.tas,
-        segments=tuple(segments),
-    )
+    segments += segments_of(frame.radius, signs, amounts)
+    trajectory = situation.pursuer.flying(tuple(segments))
     return Candidate(word=trajectory.letters, trajectory=trajectory)
 
 

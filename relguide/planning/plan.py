@@ -7,14 +7,17 @@ from math import hypot, inf
 from time import perf_counter_ns
 from typing import Literal
 
-from relguide.planning.certificate import SLACK, Certificate, certify
+import numpy as np
+
+from relguide.planning.certificate import SLACK, Certificate, certify, judge, kernel_arrays
 from relguide.planning.detour import detour
+from relguide.planning.direct import direct
 from relguide.planning.inputs import expect
 from relguide.planning.recovery import Recovery, least_bad, restore
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import Trajectory
 from relguide.planning.words import HORIZON, Candidate, Candidates, candidates
-from relguide.units import DEG, KT, NM, Millisecond, Second
+from relguide.units import DEG, KT, NM, Metre, Millisecond, Second
 
 Proof = Literal["relaxation", "bound", "none"]
 """Why a plan is optimal: the best plan without the limit keeps it; a lower bound; not shown."""
@@ -78,6 +81,7 @@ AS_FAST: Second = 1e-6
 """Times this close are the same [s]."""
 Planner = Callable[[Situation], Plan | NoPlan]
 """The one protocol of all planners."""
+_Chosen = tuple[Candidate, Certificate, Optimality]
 
 
 def plan(situation: Situation) -> Plan | NoPlan:
@@ -104,23 +108,9 @@ def plan(situation: Situation) -> Plan | NoPlan:
             message=f"The aircraft are {separation:,.0f} m ({_nm(separation)}) apart, closer than "
             f"the minimum of {situation.min_separation:,.0f} m. {_way_out(restore(situation))}",
         )
-    found = candidates(situation)
-    if len(found) == 0:
-        return NoPlan(reason=Reason.SLOT_UNREACHABLE, message=_unreachable(situation))
-    if found.bound > HORIZON:
-        return NoPlan(
-            reason=Reason.BEYOND_HORIZON,
-            message=f"The slot is reached only after {found.bound / 3600.0:,.0f} h, beyond the "
-            f"horizon of {HORIZON / 3600.0:.0f} h: a larger speed difference helps.",
-        )
-    chosen = _first_that_holds(found, situation)
-    if chosen is None:
-        return NoPlan(
-            reason=Reason.SEPARATION_UNAVOIDABLE,
-            message=f"Each of the {len(found)} direct trajectories to the slot comes closer "
-            f"than {_nm(situation.min_separation)} to the leader, and no way round it was found. "
-            f"{_least_bad(least_bad(situation))}",
-        )
+    chosen = _at_once(situation, radius) or _searched(situation)
+    if isinstance(chosen, NoPlan):
+        return chosen
     candidate, certificate, optimality = chosen
     return Plan(
         situation=situation,
@@ -133,17 +123,46 @@ def plan(situation: Situation) -> Plan | NoPlan:
     )
 
 
-def _first_that_holds(
-    found: Candidates, situation: Situation
-) -> tuple[Candidate, Certificate, Optimality] | None:
-    bound = found.bound
+def _at_once(situation: Situation, radius: Metre) -> _Chosen | None:
+    """The fastest extremal to a slot that is open, if it keeps d_min."""
+    first = direct(situation, radius)
+    if first is None:
+        return None
+    candidate, time = first
+    certificate = certify(candidate.trajectory, situation)
+    if not certificate.holds:
+        return None
+    return candidate, certificate, Optimality(proof="relaxation", lower_bound=time)
+
+
+def _searched(situation: Situation) -> _Chosen | NoPlan:
+    """The fastest of all extremals and of all ways that touch d_min, or why there is none."""
+    found = candidates(situation)
+    if len(found) == 0:
+        return NoPlan(reason=Reason.SLOT_UNREACHABLE, message=_unreachable(situation))
+    if found.bound > HORIZON:
+        return NoPlan(
+            reason=Reason.BEYOND_HORIZON,
+            message=f"The slot is reached only after {found.bound / 3600.0:,.0f} h, beyond the "
+            f"horizon of {HORIZON / 3600.0:.0f} h: a larger speed difference helps.",
+        )
+    return _first_that_holds(found, situation) or NoPlan(
+        reason=Reason.SEPARATION_UNAVOIDABLE,
+        message=f"Each of the {len(found)} direct trajectories to the slot comes closer "
+        f"than {_nm(situation.min_separation)} to the leader, and no way round it was found. "
+        f"{_least_bad(least_bad(situation))}",
+    )
+
+
+def _first_that_holds(found: Candidates, situation: Situation) -> _Chosen | None:
+    bound, leader = found.bound, kernel_arrays(found.leader)
     if found.reachable_at_opening:
-        best = _canonical(found.at_opening, situation)
+        best = _canonical(found.at_opening, situation, leader)
         if best is not None:
             return *best, Optimality(proof="relaxation", lower_bound=bound)
     chosen: tuple[Candidate, Certificate] | None = None
     for i, candidate in enumerate(found.later):
-        certificate = certify(candidate.trajectory, situation)
+        certificate = judge(candidate.trajectory, situation, leader)
         if certificate.holds:
             chosen = candidate, certificate
             if i == 0 and not found.reachable_at_opening:
@@ -151,7 +170,7 @@ def _first_that_holds(
             break
     around = detour(found, beat=chosen[0].time_to_converge if chosen else HORIZON)
     if around is not None:
-        certificate = certify(around.trajectory, situation)
+        certificate = judge(around.trajectory, situation, leader)
         if certificate.holds:
             chosen = around, certificate
     if chosen is None:
@@ -163,14 +182,16 @@ def _first_that_holds(
 
 
 def _canonical(
-    equally_fast: tuple[Candidate, ...], situation: Situation
+    equally_fast: tuple[Candidate, ...],
+    situation: Situation,
+    leader: tuple[np.ndarray, np.ndarray],
 ) -> tuple[Candidate, Certificate] | None:
     """Of candidates that arrive together: fewest turns, then separation, then least turning."""
     best: tuple[Candidate, Certificate] | None = None
     for candidate in equally_fast:
         if best is not None and candidate.trajectory.turns > best[0].trajectory.turns:
             break
-        certificate = certify(candidate.trajectory, situation)
+        certificate = judge(candidate.trajectory, situation, leader)
         # 1 m: separations this close count as equal, and the one with less turning stays
         if certificate.holds and (
             best is None or certificate.least_separation > best[1].least_separation + 1.0

@@ -9,7 +9,6 @@ from relguide.kernels.recovery import soonest_apart, widest_miss
 from relguide.planning.certificate import kernel_arrays
 from relguide.planning.situation import Situation
 from relguide.planning.slot import over_ground
-from relguide.planning.trajectory import Trajectory
 from relguide.units import Metre, Radian, Second
 
 HORIZON: Second = 900.0
@@ -63,8 +62,7 @@ def _recovery(situation: Situation, angle: float, least: float, at: float) -> Re
 
 
 def _arrays(situation: Situation) -> tuple[np.ndarray, float, np.ndarray, np.ndarray]:
-    p = situation.pursuer
-    start = Trajectory(x=p.x, y=p.y, heading=p.heading, tas=p.tas, segments=())
-    pursuer, _ = kernel_arrays(start)
+    pursuer = situation.pursuer
+    start, _ = kernel_arrays(pursuer.flying(()))
     leader, pieces = kernel_arrays(situation.leader.trajectory)
-    return pursuer, p.tas / p.turn_radius, leader, pieces
+    return start, pursuer.tas / pursuer.turn_radius, leader, pieces

@@ -125,13 +125,7 @@ def trajectory_from_regular(regular: RegularTrajectory, situation: Situation) ->
             )
         if pair.length > 0.0:
             segments.append(Straight(length=pair.length))
-    return Trajectory(
-        x=pursuer.x,
-        y=pursuer.y,
-        heading=pursuer.heading,
-        tas=pursuer.tas,
-        segments=tuple(segments),
-    )
+    return pursuer.flying(tuple(segments))
 
 
 def _pair(turning: Arc | None, length: Metre) -> Triplet:

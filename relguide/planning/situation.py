@@ -13,7 +13,7 @@ from typing import Literal
 from relguide.kernels.angles import turn_to
 from relguide.kernels.turn import turn_radius
 from relguide.planning.inputs import expect, number, turn_sign, within
-from relguide.planning.trajectory import Arc, Straight, Trajectory, Turn
+from relguide.planning.trajectory import Arc, Segment, Straight, Trajectory, Turn
 from relguide.units import DEG, Metre, MetrePerSecond, Radian, Second
 
 MIN_TAS, MAX_TAS = 30.0, 400.0
@@ -83,6 +83,10 @@ class Pursuer:
     def turn_radius(self) -> float:
         """R at φ_max [m]."""
         return turn_radius(self.tas, self.max_bank)
+
+    def flying(self, segments: tuple[Segment, ...]) -> Trajectory:
+        """Segments flown from its present state, in the air mass."""
+        return Trajectory(x=self.x, y=self.y, heading=self.heading, tas=self.tas, segments=segments)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

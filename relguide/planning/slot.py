@@ -11,8 +11,11 @@ angles counter-clockwise from it, lengths in R and times in R/V_P. What remains 
 """
 
 from dataclasses import dataclass
-from math import cos, hypot, pi, sin
+from math import cos, sin
 
+from relguide.kernels import slot as kernel
+from relguide.kernels.angles import wrap
+from relguide.kernels.slot import to_slot
 from relguide.planning.situation import Situation, Wind
 from relguide.planning.trajectory import Arc, Pose, Trajectory
 
@@ -42,12 +45,7 @@ class SlotFrame:
 
     def to_slot(self, x: float, y: float) -> tuple[float, float]:
         """A point of the air mass [m] in this frame [R]."""
-        dx, dy = x - self.origin_x, y - self.origin_y
-        along_x, along_y = sin(self.heading), cos(self.heading)
-        return (
-            (dx * along_x + dy * along_y) / self.radius,
-            (dy * along_x - dx * along_y) / self.radius,
-        )
+        return to_slot(x - self.origin_x, y - self.origin_y, self.heading, self.radius)
 
 
 def slot_frame(situation: Situation, leader: Trajectory) -> SlotFrame:
@@ -59,21 +57,17 @@ def slot_frame(situation: Situation, leader: Trajectory) -> SlotFrame:
     """
     pursuer = situation.pursuer
     radius = pursuer.turn_radius
-    if leader.segments:
-        end, flown = leader.breakpoints()[-1], leader.duration
-        turns = any(isinstance(s, Arc) and s.turn_angle > 0.0 for s in leader.segments)
-    else:
-        end, flown, turns = Pose(x=leader.x, y=leader.y, heading=leader.heading), 0.0, False
-    along_x, along_y = sin(end.heading), cos(end.heading)
+    end, flown = leader.breakpoints()[-1], leader.duration
+    turns = any(isinstance(s, Arc) and s.turn_angle > 0.0 for s in leader.segments)
     offset_x, offset_y, ground_speed = slot_offset(end.heading, leader.tas, situation)
     t_open = flown + situation.slot_distance / ground_speed if turns else 0.0
-    origin_x = end.x - leader.tas * flown * along_x + offset_x
-    origin_y = end.y - leader.tas * flown * along_y + offset_y
-    dx, dy = pursuer.x - origin_x, pursuer.y - origin_y
+    origin_x = end.x - leader.tas * flown * sin(end.heading) + offset_x
+    origin_y = end.y - leader.tas * flown * cos(end.heading) + offset_y
+    x, y = to_slot(pursuer.x - origin_x, pursuer.y - origin_y, end.heading, radius)
     return SlotFrame(
-        x=(dx * along_x + dy * along_y) / radius,
-        y=(dy * along_x - dx * along_y) / radius,
-        h=(end.heading - pursuer.heading) % (2.0 * pi),
+        x=x,
+        y=y,
+        h=wrap(end.heading - pursuer.heading),
         alpha=leader.tas / pursuer.tas,
         t_open=t_open * pursuer.tas / radius,
         radius=radius,
@@ -94,11 +88,8 @@ def slot_offset(heading: float, tas: float, situation: Situation) -> tuple[float
     Returns:
         offset east and north [m], and the leader's ground speed [m/s].
     """
-    east = tas * sin(heading) + situation.wind.east
-    north = tas * cos(heading) + situation.wind.north
-    ground_speed = hypot(east, north)
-    back = -situation.slot_distance / ground_speed
-    return back * east, back * north, ground_speed
+    wind = situation.wind
+    return kernel.slot_offset(heading, tas, wind.east, wind.north, situation.slot_distance)
 
 
 def over_ground(pose: Pose, t: float, wind: Wind) -> Pose:

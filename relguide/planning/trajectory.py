@@ -4,7 +4,7 @@ The paper numbers the pieces backward from the slot; here they run forward from 
 """
 
 from dataclasses import dataclass
-from math import inf, pi
+from math import inf, isfinite, pi
 from typing import Literal
 
 from relguide.kernels.motion import advance
@@ -128,24 +128,33 @@ class Trajectory:
 
     def __post_init__(self) -> None:
         """Refuse what no aircraft could fly."""
-        for name in ("x", "y", "heading", "tas"):
-            given = getattr(self, name)
-            if type(given) is not float or not -inf < given < inf:
-                object.__setattr__(self, name, number(name, given))
+        # a planner makes one for every candidate: nearly always all four are finite floats
+        x, y, heading, tas = self.x, self.y, self.heading, self.tas
+        if not (
+            type(x) is type(y) is type(heading) is type(tas) is float
+            and isfinite(x + y + heading + tas)
+        ):
+            for name in ("x", "y", "heading", "tas"):
+                object.__setattr__(self, name, number(name, getattr(self, name)))
         if self.tas <= 0.0:
             raise ValueError(f"tas must be above 0 m/s, not {self.tas:g} m/s.")
         if not isinstance(self.segments, tuple):
             raise ValueError("segments must be a tuple of Arc, Straight and BoundaryArc.")
+        length = 0.0
         for segment in self.segments:
             if not _is_sound(segment):
                 _check(segment)
-        if self.segments and not self.duration < inf:
+            length += segment.length
+        if not length / self.tas < inf:
             raise ValueError("All segments together must have a finite length and duration.")
 
     @property
     def length(self) -> float:
         """Path length in the air mass [m], Σ (l_k + R θ_k) of eq. (17)."""
-        return sum(segment.length for segment in self.segments)
+        length = 0.0
+        for segment in self.segments:
+            length += segment.length
+        return length
 
     @property
     def duration(self) -> Second:
@@ -172,11 +181,11 @@ class Trajectory:
 
     def bends(self) -> tuple[tuple[Second, RadianPerSecond], ...]:
         """Duration [s] and turn rate [rad/s] of each piece of constant curvature."""
-        return tuple(
-            (length / self.tas, curvature * self.tas)
-            for segment in self.segments
-            for length, curvature in segment.bends
-        )
+        pieces: list[tuple[Second, RadianPerSecond]] = []
+        for segment in self.segments:
+            for length, curvature in segment.bends:
+                pieces.append((length / self.tas, curvature * self.tas))
+        return tuple(pieces)
 
     def pose_at(self, t: Second) -> Pose:
         """Where it is at time t [s]; past the end it goes on straight."""
@@ -200,7 +209,7 @@ class Trajectory:
 
 
 def _is_sound(segment: Segment) -> bool:
-    """The short way to say that of most segments: a planner makes some for every candidate."""
+    """The short way to say that of most segments."""
     if type(segment) is Arc:
         turn, angle, radius = segment.turn, segment.turn_angle, segment.radius
         return (

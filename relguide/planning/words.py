@@ -1,6 +1,6 @@
 """candidates(situation): every extremal that reaches the slot, whether or not it keeps d_min."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import hypot
 
@@ -12,7 +12,7 @@ from relguide.planning.inputs import expect
 from relguide.planning.situation import Situation
 from relguide.planning.slot import SlotFrame, slot_frame
 from relguide.planning.trajectory import LEFT, RIGHT, Arc, Segment, Straight, Trajectory
-from relguide.units import Second
+from relguide.units import Metre, Second
 
 HORIZON: Second = 43_200.0
 """Plans longer than this are not given: 12 hours, longer than any aircraft's fuel lasts [s]. At
@@ -43,6 +43,8 @@ class Candidates:
     """All candidates of a situation, and what is known without the separation limit."""
 
     situation: Situation
+    leader: Trajectory
+    """What the leader flies, `situation.leader.trajectory`: made once."""
     frame: SlotFrame
     rows: np.ndarray
     """The extremals that arrive after the slot opens, fastest first, as `solve` gives them: those
@@ -80,7 +82,8 @@ def candidates(situation: Situation) -> Candidates:
     cannot be reached (possible only for V_L ≥ V_P).
     """
     expect("situation", situation, Situation)
-    frame = slot_frame(situation, situation.leader.trajectory)
+    leader = situation.leader.trajectory
+    frame = slot_frame(situation, leader)
     rows = np.empty((MAX_ROWS, 5))
     n = solve(frame.x, frame.y, frame.h, frame.alpha, frame.t_open, rows)
     reachable = frame.t_open > 0.0 and _dubins_length(frame) <= frame.t_open + NO_TURN
@@ -90,6 +93,7 @@ def candidates(situation: Situation) -> Candidates:
         n -= 1
     return Candidates(
         situation=situation,
+        leader=leader,
         frame=frame,
         rows=rows[:n],
         at_opening=at_opening,
@@ -135,30 +139,31 @@ def assemble(
         amounts: turn angles [rad] and lengths [R].
         word: its name; the letters of its segments if empty.
     """
-    pursuer = situation.pursuer
-    trajectory = Trajectory(
-        x=pursuer.x,
-        y=pursuer.y,
-        heading=pursuer.heading,
-        tas=pursuer.tas,
-        segments=segments_of(frame, signs, amounts),
-    )
+    trajectory = situation.pursuer.flying(segments_of(frame.radius, signs, amounts))
     return Candidate(word=word or trajectory.letters, trajectory=trajectory)
 
 
-def segments_of(frame: SlotFrame, signs: list[float], amounts: list[float]) -> tuple[Segment, ...]:
-    """Pieces of the slot frame as segments; what is only rounding is left out, like meets like."""
+def segments_of(
+    radius: Metre, signs: Sequence[float], amounts: Sequence[float]
+) -> tuple[Segment, ...]:
+    """Pieces of the slot frame as segments; what is only rounding is left out, like meets like.
+
+    Args:
+        radius: R [m].
+        signs: ε of each piece, 0 for straights.
+        amounts: turn angles [rad] and lengths [R].
+    """
     segments: list[Segment] = []
     last = 2.0
     for sign, amount in zip(signs, amounts, strict=True):
         if amount <= NO_TURN:
             continue
         if sign == last:  # two pieces that meet in a contact may be one turn, or one straight
-            amount += segments.pop().length / frame.radius
+            amount += segments.pop().length / radius
         if sign == 0.0:
-            segments.append(Straight(length=amount * frame.radius))
+            segments.append(Straight(length=amount * radius))
         else:
             turn = LEFT if sign > 0.0 else RIGHT
-            segments.append(Arc(turn=turn, turn_angle=amount, radius=frame.radius))
+            segments.append(Arc(turn=turn, turn_angle=amount, radius=radius))
         last = sign
     return tuple(segments)
