@@ -30,6 +30,7 @@ def add_learning(add_command: AddCommand) -> None:
         relguide dataset --method reverse-dp --order 5 --out tree.npz   with four pairs
         relguide dataset --method reverse-dp --out tree.npz --resume    go on after a stop
         relguide dataset --method exact --count 1200000 --out labels.npz    for relguide train
+        relguide dataset --method exact --out labels.npz --dask tcp://host:8786   many machines
         """,
     )
     dataset.add_argument(
@@ -44,7 +45,7 @@ def add_learning(add_command: AddCommand) -> None:
         action="store_true",
         help="reverse-dp: go on from FILE.npz.part, which a stopped run leaves; same result",
     )
-    dataset.add_argument("--threads", metavar="N", type=_count, help="default: all cores")
+    _add_workers(dataset)
     dataset.add_argument(
         "--audit",
         metavar="N",
@@ -118,6 +119,7 @@ def _add_network(add_command: AddCommand) -> None:
         relguide audit                               of the weights that come with the program
         relguide audit weights.safetensors --json    of your own; the figures as JSON
         relguide audit --count 1000000 --seed 2
+        relguide audit --count 100000000 --dask tcp://host:8786     on many machines
         """,
     )
     audit.add_argument("weights", metavar="WEIGHTS.safetensors", type=Path, nargs="?")
@@ -131,8 +133,18 @@ def _add_network(add_command: AddCommand) -> None:
     audit.add_argument(
         "--seed", metavar="N", type=_count, default=1, help="of them; default: %(default)s"
     )
-    audit.add_argument("--threads", metavar="N", type=_count, help="default: all cores")
+    _add_workers(audit)
     audit.add_argument("--json", action="store_true", help="print one JSON object")
+
+
+def _add_workers(parser: argparse.ArgumentParser) -> None:
+    workers = parser.add_mutually_exclusive_group()
+    workers.add_argument("--threads", metavar="N", type=_count, help="default: all cores")
+    workers.add_argument(
+        "--dask",
+        metavar="tcp://HOST:PORT",
+        help="work on the Dask cluster of this scheduler: the same result, from many machines",
+    )
 
 
 def _add_tree(parser: argparse.ArgumentParser) -> None:
@@ -183,6 +195,8 @@ def _dataset(chosen: argparse.Namespace) -> int:
         return _labels(chosen)
     from relguide.learning import make_tree
 
+    if chosen.dask is not None:
+        raise ValueError("A tree is grown on one machine: --dask is for --method exact.")
     make_tree(
         _tree_parameters(chosen),
         chosen.out,
@@ -204,6 +218,7 @@ def _labels(chosen: argparse.Namespace) -> int:
         LabelRequest(count=chosen.count, seed=chosen.seed),
         chosen.out,
         threads=chosen.threads or None,
+        scheduler=chosen.dask,
         command=f"relguide dataset --method exact --count {chosen.count} --seed {chosen.seed} "
         f"--out {chosen.out.name}",
         as_json=chosen.json,
@@ -226,6 +241,7 @@ def _audit(chosen: argparse.Namespace) -> int:
         count=chosen.count,
         seed=chosen.seed,
         threads=chosen.threads or None,
+        scheduler=chosen.dask,
         as_json=chosen.json,
     )
     return 0

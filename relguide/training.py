@@ -5,7 +5,8 @@ import os
 import sys
 from collections import deque
 from collections.abc import Iterator
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Executor, ThreadPoolExecutor
+from contextlib import contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
 from time import perf_counter
@@ -42,7 +43,13 @@ T = TypeVar("T")
 
 
 def make_label_file(
-    request: LabelRequest, file: Path, *, threads: int | None, command: str, as_json: bool
+    request: LabelRequest,
+    file: Path,
+    *,
+    threads: int | None,
+    scheduler: str | None,
+    command: str,
+    as_json: bool,
 ) -> None:
     """Make labels, write them and print what they are.
 
@@ -50,12 +57,13 @@ def make_label_file(
         request: what to make.
         file: where to.
         threads: how many; all cores if none is given.
+        scheduler: of the Dask cluster to make them on, as an address; this machine if none.
         command: what was typed, for the file's provenance.
         as_json: one JSON object; sentences otherwise.
     """
     file.parent.stat()  # nothing is made that could not be written
     started = perf_counter()
-    with ThreadPoolExecutor(threads or os.cpu_count() or 1) as pool:
+    with _workers(threads, scheduler) as pool:
         labels = joined(_collected(make_labels(request, pool), request, "labelling"))
     seconds = perf_counter() - started
     provenance = {
@@ -124,7 +132,13 @@ def train_network(chosen: argparse.Namespace) -> None:
 
 
 def audit_network(
-    file: Path | None, *, count: int, seed: int, threads: int | None, as_json: bool
+    file: Path | None,
+    *,
+    count: int,
+    seed: int,
+    threads: int | None,
+    scheduler: str | None,
+    as_json: bool,
 ) -> None:
     """Audit a network and print what is found.
 
@@ -133,11 +147,12 @@ def audit_network(
         count: how many fresh situations to judge it in.
         seed: of them; not the training's.
         threads: how many; all cores if none is given.
+        scheduler: of the Dask cluster to judge them on, as an address; this machine if none.
         as_json: one JSON object; a table otherwise.
     """
     network = load_network() if file is None else load_network(file)
     request = audit_request(network, count, seed)
-    with ThreadPoolExecutor(threads or os.cpu_count() or 1) as pool:
+    with _workers(threads, scheduler) as pool:
         audit = audit_of(_collected(judged(network, request, pool), request, "auditing"))
     asked = latencies(network, request)
     if as_json:
@@ -156,6 +171,19 @@ def audit_network(
         + ", ".join(f"{name} {low:.1f} / {high:.1f} µs" for name, (low, high) in asked.items())
         + ".\n"
     )
+
+
+@contextmanager
+def _workers(threads: int | None, scheduler: str | None) -> Iterator[Executor]:
+    """Where parts are made: this process's threads, or a Dask cluster."""
+    if scheduler is None:
+        with ThreadPoolExecutor(threads or os.cpu_count() or 1) as pool:
+            yield pool
+        return
+    from relguide.cluster import cluster
+
+    with cluster(scheduler, _note) as machines:
+        yield machines
 
 
 def _collected(chunks: Iterator[tuple[int, T]], request: LabelRequest, title: str) -> dict[int, T]:
@@ -207,6 +235,11 @@ def _percent(share: Share) -> str:
 
 def _print_json(content: dict[str, Any]) -> None:
     _write(orjson.dumps(content, option=orjson.OPT_INDENT_2).decode() + "\n")
+
+
+def _note(sentence: str) -> None:
+    sys.stderr.write(f"relguide: {sentence}\n")
+    sys.stderr.flush()
 
 
 def _write(text: str) -> None:
