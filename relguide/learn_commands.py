@@ -234,7 +234,7 @@ def _train(chosen: argparse.Namespace) -> int:
 
 
 def _audit(chosen: argparse.Namespace) -> int:
-    from relguide.training import audit_network
+    from relguide.auditing import audit_network
 
     audit_network(
         chosen.weights,

@@ -1,4 +1,4 @@
-"""What `relguide dataset --method exact`, `train` and `audit` do: files, bars and tables."""
+"""What `relguide dataset --method exact` and `train` do: files, bars and tables."""
 
 import argparse
 import os
@@ -17,16 +17,6 @@ import orjson
 
 from relguide import __version__
 from relguide.kernels.strategies import STRATEGIES
-from relguide.learn.audit import (
-    Audit,
-    Group,
-    Share,
-    audit_as_json,
-    audit_of,
-    audit_request,
-    judged,
-    latencies,
-)
 from relguide.learn.labels import (
     SOURCES,
     LabelRequest,
@@ -35,7 +25,6 @@ from relguide.learn.labels import (
     make_labels,
     save_labels,
 )
-from relguide.learn.network import load_network
 from relguide.learn.train import run, told
 from relguide.progress import progress_bar, watched
 
@@ -63,8 +52,8 @@ def make_label_file(
     """
     file.parent.stat()  # nothing is made that could not be written
     started = perf_counter()
-    with _workers(threads, scheduler) as pool:
-        labels = joined(_collected(make_labels(request, pool), request, "labelling"))
+    with workers(threads, scheduler) as pool:
+        labels = joined(collected(make_labels(request, pool), request, "labelling"))
     seconds = perf_counter() - started
     provenance = {
         "program": f"relguide {__version__}",
@@ -131,51 +120,14 @@ def train_network(chosen: argparse.Namespace) -> None:
     )
 
 
-def audit_network(
-    file: Path | None,
-    *,
-    count: int,
-    seed: int,
-    threads: int | None,
-    scheduler: str | None,
-    as_json: bool,
-) -> None:
-    """Audit a network and print what is found.
+@contextmanager
+def workers(threads: int | None, scheduler: str | None) -> Iterator[Executor]:
+    """Where parts are made: this process's threads, or a Dask cluster.
 
     Args:
-        file: its weights; those that come with the program if none is given.
-        count: how many fresh situations to judge it in.
-        seed: of them; not the training's.
         threads: how many; all cores if none is given.
-        scheduler: of the Dask cluster to judge them on, as an address; this machine if none.
-        as_json: one JSON object; a table otherwise.
+        scheduler: of the cluster, as an address.
     """
-    network = load_network() if file is None else load_network(file)
-    request = audit_request(network, count, seed)
-    with _workers(threads, scheduler) as pool:
-        audit = audit_of(_collected(judged(network, request, pool), request, "auditing"))
-    asked = latencies(network, request)
-    if as_json:
-        about = {
-            "situations": count,
-            "seed": seed,
-            "least_share": network.least_share,
-            "network": network.about,
-        }
-        latency = {name: {"p50_us": low, "p99_us": high} for name, (low, high) in asked.items()}
-        _print_json(about | audit_as_json(audit) | {"latency": latency})
-        return
-    _print_audit(audit)
-    _write(
-        "One query, median and 99th percentile: "
-        + ", ".join(f"{name} {low:.1f} / {high:.1f} µs" for name, (low, high) in asked.items())
-        + ".\n"
-    )
-
-
-@contextmanager
-def _workers(threads: int | None, scheduler: str | None) -> Iterator[Executor]:
-    """Where parts are made: this process's threads, or a Dask cluster."""
     if scheduler is None:
         with ThreadPoolExecutor(threads or os.cpu_count() or 1) as pool:
             yield pool
@@ -186,7 +138,7 @@ def _workers(threads: int | None, scheduler: str | None) -> Iterator[Executor]:
         yield machines
 
 
-def _collected(chunks: Iterator[tuple[int, T]], request: LabelRequest, title: str) -> dict[int, T]:
+def collected(chunks: Iterator[tuple[int, T]], request: LabelRequest, title: str) -> dict[int, T]:
     """Chunks by their number, with a bar."""
     found: dict[int, T] = {}
     with progress_bar(title, total=request.chunks) as count:
@@ -194,43 +146,6 @@ def _collected(chunks: Iterator[tuple[int, T]], request: LabelRequest, title: st
             found[number] = chunk
             count(1.0)
     return found
-
-
-def _print_audit(audit: Audit) -> None:
-    from rich.box import SIMPLE_HEAD
-    from rich.console import Console
-    from rich.table import Table
-
-    table = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
-    table.add_column("situations", no_wrap=True)
-    headings = ("number", "right, % (95 %)", "in 2", "set", "passed", "gap p99.9", "max, %")
-    for heading in headings:
-        table.add_column(heading, justify="right", no_wrap=True)
-    for group in audit.groups:
-        table.add_row(*_row(group))
-    table.add_section()
-    for group in audit.classes:
-        table.add_row(*_row(group))
-    Console(width=100).print(table)
-
-
-def _row(group: Group) -> tuple[str, ...]:
-    first, second, _ = group.tops
-    low, high = first.interval
-    return (
-        group.name,
-        f"{group.size:,}",
-        f"{_percent(first)} ({100.0 * low:.2f}–{100.0 * high:.2f})",
-        _percent(second),
-        f"{group.mean_set:.2f}",
-        _percent(group.fallbacks),
-        f"{100.0 * group.gaps[-2]:.2g}",
-        f"{100.0 * group.gaps[-1]:.2g}",
-    )
-
-
-def _percent(share: Share) -> str:
-    return f"{100.0 * share.hits / share.of:.2f}" if share.of else "–"
 
 
 def _print_json(content: dict[str, Any]) -> None:

@@ -153,7 +153,7 @@ def _tree() -> None:
 
 
 def _network() -> None:
-    from relguide.learn.audit import audit_request, judge_chunk, latencies
+    from relguide.learn.judging import audit_request, judge_chunk, latencies
     from relguide.learn.labels import LabelRequest, label_chunk
     from relguide.learn.network import features_of, load_network
     from relguide.learn.planner import network_planner

@@ -1,32 +1,23 @@
-"""audit(network, …) → Audit: how good a network is, per strategy and region, against exact answers.
+"""audit_of(judged parts) → Audit: how good a network is, per strategy and region.
 
-Fresh situations are drawn as for training, with another seed: evenly in the box, starts of rare
-strategies, places next to a switching surface. Every share comes with its 95 % interval (Wilson).
-The gap is what a plan loses once the set of the network is solved exactly, before the certificate:
-the limit plays no part in it.
+Every share comes with its 95 % interval (Wilson); every gap above 0.01 % with what explains it.
 """
 
-from collections.abc import Iterator, Mapping
-from concurrent.futures import Executor
+from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import partial
-from math import inf, sqrt
-from time import perf_counter_ns
+from math import inf
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from relguide.kernels.extremals import MAX_ROWS, solve
-from relguide.kernels.network import choose, judge_rows
-from relguide.kernels.strategies import SIZE, STRATEGIES
-from relguide.learn.chunks import gathered
-from relguide.learn.labels import SOURCES, Floats, LabelRequest, held_out, label_chunk
-from relguide.learn.network import StrategyNetwork
+from relguide.kernels.strategies import STRATEGIES
+from relguide.learn.gaps import surfaces
+from relguide.learn.judging import LEAST_SHARES, WORTH, Judged
+from relguide.learn.labels import SOURCES, Floats, held_out
+from relguide.learn.shares import Share
 from relguide.learn.train import NEAR
 
-SHARES = (0.8, 0.1, 0.1)
-"""Of the sources of an audit's situations."""
 GROUPS = {
     "box": "random",
     "reverse": "rare strategies",
@@ -35,51 +26,10 @@ GROUPS = {
 """What each source is called in an audit."""
 PERCENTILES = (50.0, 99.0, 99.9, 100.0)
 TOPS = (1, 2, 3)
-ROUNDING = 1e-9
-"""A gap below this is none."""
-SAMPLES = 2000
-"""Queries that the latency is measured on."""
-Z = 1.959964
-"""Of a 95 % interval."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Judged:
-    """What is found of each situation of an audit, as columns."""
-
-    groups: NDArray[np.int8]
-    """Its source."""
-    best: NDArray[np.int8]
-    """Its fastest strategy."""
-    ranks: NDArray[np.int8]
-    """The place, from 0 on, that the network gives to the fastest strategy."""
-    held: NDArray[np.int8]
-    """How many strategies are in its set; 0 where the network hands over."""
-    gap: NDArray[np.float64]
-    """How much longer than the optimum the decoded path is, relative; infinite if handed over."""
-    regions: NDArray[np.bool_]
-    """Whether it lies in each region that was held out. shape (n, regions)"""
-
-    def __len__(self) -> int:
-        return len(self.best)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Share:
-    """How often something holds."""
-
-    hits: int
-    of: int
-
-    @property
-    def interval(self) -> tuple[float, float]:
-        """Its 95 % interval (Wilson)."""
-        if self.of == 0:
-            return 0.0, 1.0
-        p, n = self.hits / self.of, self.of
-        middle = (p + Z * Z / (2.0 * n)) / (1.0 + Z * Z / n)
-        half = Z / (1.0 + Z * Z / n) * sqrt(p * (1.0 - p) / n + Z * Z / (4.0 * n * n))
-        return max(middle - half, 0.0), min(middle + half, 1.0)
+DOUBTS = (0.0, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 3e-2, 0.1, 0.2, 0.3, 0.5, 1.0)
+"""Edges of the bins of doubt: 1 less the highest share."""
+EXPLAINED = 1000
+"""Gaps that are explained at most, the largest: a poor network has no end of them."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -101,6 +51,49 @@ class Group:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Miss:
+    """A gap above `WORTH`, and what explains it."""
+
+    gap: float
+    """How much longer than the optimum what was answered is, relative."""
+    situation: tuple[float, float, float, float]
+    """x, y [R], h [rad], α."""
+    fastest: str
+    """The strategy missed."""
+    answered: str
+    """The one given."""
+    birth: float
+    """How far it is to where the fastest strategy does not exist [R, rad]; see `gaps`."""
+    switch: float
+    """And to where it is not the fastest."""
+    explained: bool
+    """Whether one of them is near."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Doubt:
+    """Situations that the network is about as sure of: whether it is right to be."""
+
+    said: float
+    """1 less the highest share, on average: how often it says it is wrong."""
+    wrong: Share
+    """How often it is."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SetSize:
+    """What a larger or smaller set would give, in random situations."""
+
+    least_share: float
+    mean_set: float
+    """Strategies in a set on average; none is too large here."""
+    lost: Share
+    """How often the path decoded is not the fastest."""
+    worth: Share
+    """How often by more than `WORTH`."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Audit:
     """All that is found."""
 
@@ -109,50 +102,18 @@ class Audit:
     have in them. Together they are all situations."""
     classes: tuple[Group, ...]
     """The random situations by their fastest strategy."""
+    doubts: tuple[Doubt, ...]
+    """The random situations by how sure the network is of them, those it is surest of first."""
+    sets: tuple[SetSize, ...]
+    misses: tuple[Miss, ...]
+    """Gaps above `WORTH`, the largest first; of more than `EXPLAINED`, only those."""
+    worth: Share
+    """How many answers have such a gap."""
 
-
-def audit_request(network: StrategyNetwork, count: int, seed: int) -> LabelRequest:
-    """What situations to audit with.
-
-    Raises:
-        ValueError: if they would be those of the training.
-    """
-    if seed == network.about.get("dataset", {}).get("seed"):
-        raise ValueError(f"The network has seen the situations of seed {seed}: use another.")
-    return LabelRequest(count=count, seed=seed, box=network.box, shares=SHARES)
-
-
-def judged(
-    network: StrategyNetwork, request: LabelRequest, executor: Executor
-) -> Iterator[tuple[int, Judged]]:
-    """Judge chunk by chunk, as they are ready; see `chunks.gathered`."""
-    return gathered(partial(judge_chunk, network, request), request.chunks, executor)
-
-
-def judge_chunk(network: StrategyNetwork, request: LabelRequest, number: int) -> Judged:
-    """Label a chunk exactly and hold the network against it."""
-    labels = label_chunk(request, number)
-    n = len(labels)
-    scores, decoded = np.empty((n, 3, SIZE)), np.empty((n, 3))
-    judge_rows(
-        labels.situations, network.layers, network.least_share, network.most, 0, n, scores, decoded
-    )
-    least = labels.times.min(axis=1, keepdims=True)
-    # strategies as fast as the fastest are as right: their best place counts
-    right = labels.times <= least * (1.0 + NEAR)
-    places = (-scores[:, 0]).argsort(axis=1).argsort(axis=1)
-    given = decoded[:, 1] < inf
-    gap = np.full(n, inf)
-    gap[given] = decoded[given, 1] / least[given, 0] - 1.0
-    gap[gap < ROUNDING] = 0.0
-    return Judged(
-        groups=labels.sources,
-        best=labels.best.astype(np.int8),
-        ranks=np.where(right, places, SIZE).min(axis=1).astype(np.int8),
-        held=np.where(given, decoded[:, 0], 0).astype(np.int8),
-        gap=gap,
-        regions=np.column_stack(list(held_out(labels.situations).values())),
-    )
+    @property
+    def unexplained(self) -> int:
+        """How many of the misses have no explanation."""
+        return sum(not miss.explained for miss in self.misses)
 
 
 def audit_of(chunks: Mapping[int, Judged]) -> Audit:
@@ -180,7 +141,55 @@ def audit_of(chunks: Mapping[int, Judged]) -> Audit:
         _group(name, whole, drawn & seen & (whole.best == number))
         for number, name in enumerate(STRATEGIES)
     ]
-    return Audit(groups=tuple(groups), classes=tuple(classes))
+    return Audit(
+        groups=tuple(groups),
+        classes=tuple(classes),
+        doubts=_doubts(whole.doubt[drawn], whole.ranks[drawn] == 0),
+        sets=_set_sizes(whole.sets.sum(axis=0)),
+        misses=_misses(whole),
+        worth=Share(hits=len(whole.missed), of=int((whole.gap < inf).sum())),
+    )
+
+
+def _doubts(doubt: NDArray[np.float32], right: NDArray[np.bool_]) -> tuple[Doubt, ...]:
+    bins = np.searchsorted(DOUBTS[1:-1], doubt)
+    return tuple(
+        Doubt(
+            said=float(doubt[bins == k].mean()),
+            wrong=Share(hits=int((~right[bins == k]).sum()), of=int((bins == k).sum())),
+        )
+        for k in np.unique(bins)
+    )
+
+
+def _set_sizes(sums: Floats) -> tuple[SetSize, ...]:
+    return tuple(
+        SetSize(
+            least_share=float(least_share),
+            mean_set=float(held / max(of, 1.0)),
+            lost=Share(hits=int(of - fastest), of=int(of)),
+            worth=Share(hits=int(worth), of=int(of)),
+        )
+        for least_share, (held, fastest, worth, of) in zip(LEAST_SHARES, sums.T, strict=True)
+    )
+
+
+def _misses(whole: Judged) -> tuple[Miss, ...]:
+    rows = np.flatnonzero((whole.gap > WORTH) & (whole.gap < inf))
+    largest = np.argsort(-whole.gap[rows], kind="stable")[:EXPLAINED]
+    near = surfaces(whole.missed[largest])
+    return tuple(
+        Miss(
+            gap=float(whole.gap[rows[at]]),
+            situation=tuple(whole.missed[at].tolist()),
+            fastest=STRATEGIES[whole.best[rows[at]]],
+            answered=STRATEGIES[whole.answered[at]],
+            birth=float(near.birth[i]),
+            switch=float(near.switch[i]),
+            explained=bool(near.near[i]),
+        )
+        for i, at in enumerate(largest.tolist())
+    )
 
 
 def _group(name: str, whole: Judged, chosen: NDArray[np.bool_]) -> Group:
@@ -199,35 +208,39 @@ def _group(name: str, whole: Judged, chosen: NDArray[np.bool_]) -> Group:
     )
 
 
-def latencies(network: StrategyNetwork, request: LabelRequest) -> dict[str, tuple[float, float]]:
-    """Median and 99th percentile of one query [µs]: by the network, and by all words solved."""
-    situations: Floats = label_chunk(request, 0).situations[:SAMPLES]
-    rows = np.empty((MAX_ROWS, 5))
-    layers, least, most = network.layers, network.least_share, network.most
-
-    def by_network(x: float, y: float, h: float, alpha: float) -> object:
-        return choose(x, y, h, alpha, layers, least, most, rows)
-
-    def by_all_words(x: float, y: float, h: float, alpha: float) -> object:
-        return solve(x, y, h, alpha, 0.0, rows)
-
-    found: dict[str, tuple[float, float]] = {}
-    for name, ask in (("network", by_network), ("all words", by_all_words)):
-        spent: list[float] = []
-        for situation in situations.tolist():
-            begun = perf_counter_ns()
-            ask(*situation)
-            spent.append((perf_counter_ns() - begun) * 1e-3)
-        middle, late = np.percentile(spent, (50.0, 99.0))
-        found[name] = float(middle), float(late)
-    return found
-
-
 def audit_as_json(audit: Audit) -> dict[str, Any]:
     """An audit as it is printed."""
     return {
         "groups": {group.name: _group_as_json(group) for group in audit.groups},
         "strategies": {group.name: _group_as_json(group) for group in audit.classes},
+        "doubts": [
+            {"said": doubt.said, "wrong": share_as_json(doubt.wrong)} for doubt in audit.doubts
+        ],
+        "sets": [
+            {
+                "least_share": size.least_share,
+                "mean_set": size.mean_set,
+                "not_fastest": share_as_json(size.lost),
+                "gap_above_0.01_percent": share_as_json(size.worth),
+            }
+            for size in audit.sets
+        ],
+        "gaps_above_0.01_percent": share_as_json(audit.worth),
+        "unexplained": audit.unexplained,
+        "largest_gaps": [_miss_as_json(miss) for miss in audit.misses],
+    }
+
+
+def _miss_as_json(miss: Miss) -> dict[str, Any]:
+    x, y, h, alpha = miss.situation
+    return {
+        "gap_percent": 100.0 * miss.gap,
+        "situation": {"x_r": x, "y_r": y, "h_rad": h, "speed_ratio": alpha},
+        "fastest": miss.fastest,
+        "answered": miss.answered,
+        "to_birth": miss.birth if miss.birth < inf else None,
+        "to_switch": miss.switch if miss.switch < inf else None,
+        "explained": miss.explained,
     }
 
 
@@ -235,9 +248,9 @@ def _group_as_json(group: Group) -> dict[str, Any]:
     tops = zip(TOPS, group.tops, strict=True)
     return {
         "situations": group.size,
-        **{f"top_{top}": _share_as_json(share) for top, share in tops},
-        "optimal_of_answered": _share_as_json(group.covered),
-        "fallbacks": _share_as_json(group.fallbacks),
+        **{f"top_{top}": share_as_json(share) for top, share in tops},
+        "optimal_of_answered": share_as_json(group.covered),
+        "fallbacks": share_as_json(group.fallbacks),
         "mean_set": group.mean_set,
         "gap_percent": {
             "max" if percentile == 100.0 else f"p{percentile:g}": 100.0 * gap
@@ -246,5 +259,6 @@ def _group_as_json(group: Group) -> dict[str, Any]:
     }
 
 
-def _share_as_json(share: Share) -> dict[str, Any]:
+def share_as_json(share: Share) -> dict[str, Any]:
+    """A share with its interval."""
     return {"hits": share.hits, "of": share.of, "interval_95": list(share.interval)}

@@ -18,7 +18,7 @@ from numba.core.dispatcher import Dispatcher
 from relguide import Plan, Situations, alternatives, check, kernels, plan, plan_arrays, prove
 from relguide.flying.flight import fly
 from relguide.flying.scenarios import scenario
-from relguide.learn.audit import audit_request, judge_chunk, latencies
+from relguide.learn.judging import audit_request, judge_chunk, latencies
 from relguide.learn.labels import LabelRequest, label_chunk
 from relguide.learn.network import features_of, load_network
 from relguide.learn.planner import network_planner

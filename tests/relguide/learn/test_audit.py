@@ -8,19 +8,11 @@ import numpy as np
 import pytest
 
 from relguide.kernels.strategies import STRATEGIES
-from relguide.learn.audit import (
-    Audit,
-    Judged,
-    Share,
-    audit_as_json,
-    audit_of,
-    audit_request,
-    judge_chunk,
-    judged,
-    latencies,
-)
+from relguide.learn.audit import Audit, audit_as_json, audit_of
+from relguide.learn.judging import Judged, audit_request, judge_chunk, judged, latencies
 from relguide.learn.labels import label_chunk
 from relguide.learn.network import load_network
+from relguide.learn.shares import Share
 from tests.relguide.learn.networks import REQUEST, network
 
 
