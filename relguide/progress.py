@@ -7,6 +7,8 @@ from threading import Timer
 from time import monotonic
 from typing import TYPE_CHECKING, TypeVar
 
+from relguide.planning.inputs import number
+
 if TYPE_CHECKING:
     from rich.progress import Progress, TaskID
 
@@ -54,13 +56,17 @@ def progress_bar(title: str, *, total: float) -> Iterator[Callable[[float], None
     Args:
         title: what the bar is called.
         total: what the advances sum up to.
+
+    Raises:
+        ValueError: if `total` or an advance is no number.
     """
+    total = number("total", total)
     reached = 0.0
     with _bar(title, total) as bars:
 
         def count(advance: float) -> None:
             nonlocal reached
-            reached += advance
+            reached += number("advance", advance)
             for progress, task in bars:
                 progress.update(task, completed=reached)
 

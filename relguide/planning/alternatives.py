@@ -14,6 +14,7 @@ import numpy as np
 
 from relguide.kernels.extremals import MAX_ROWS, WORDS, solve
 from relguide.planning.certificate import certify
+from relguide.planning.inputs import expect
 from relguide.planning.passing import Passing, Surroundings, passing, surroundings
 from relguide.planning.plan import Plan
 from relguide.planning.slot import SlotFrame
@@ -111,6 +112,7 @@ def alternatives(plan: Plan) -> tuple[Alternative | TooEarly | NoRoot, ...]:
     the slot opens later, also the words that would be there before, and of the many ways that
     arrive with its opening one for each passing.
     """
+    expect("plan", plan, Plan)
     situation = plan.situation
     found = candidates(situation)
     early = _first_times(found.frame)

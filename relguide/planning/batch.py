@@ -19,7 +19,7 @@ from relguide.kernels import batch as kernel
 from relguide.kernels.extremals import WORDS
 from relguide.planning import situation as limits
 from relguide.planning.detour import BEARINGS
-from relguide.planning.inputs import expect
+from relguide.planning.inputs import expect, expect_function, truth, whole
 from relguide.planning.words import HORIZON
 from relguide.units import G0
 
@@ -146,8 +146,11 @@ def plan_arrays(
     from concurrent.futures import ThreadPoolExecutor  # 15 ms to import, which `plan` need not pay
 
     expect("situations", situations, Situations)
-    if threads is not None and not (isinstance(threads, int) and threads > 0):
-        raise ValueError(f"threads must be a whole number of 1 or more, not {threads!r}.")
+    limited = truth("limited", limited)
+    if threads is not None:
+        threads = whole("threads", threads, 1)
+    if progress is not None:
+        expect_function("progress", progress)
     chunk = LIMITED_CHUNK if limited else CHUNK
     columns = situations.columns()
     size = len(columns[0])
@@ -190,7 +193,10 @@ def _take(times: Times, block: slice, answers: Floats, scale: Floats) -> None:
 
 def _column(name: str, given: ArrayLike) -> Floats:
     """A column of floats, of length 1 if one number was given."""
-    column = np.asarray(given)
+    try:
+        column = np.asarray(given)
+    except ValueError:
+        raise ValueError(f"{name} must be a column, not rows of different lengths.") from None
     if column.dtype.kind not in "fiu":
         raise ValueError(f"{name} must be numbers, not {column.dtype}.")
     if column.ndim > 1:

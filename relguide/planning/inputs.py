@@ -7,6 +7,8 @@ from math import inf, isfinite
 from numbers import Integral, Real
 from reprlib import repr as brief
 
+import numpy as np
+
 
 def number(name: str, value: object) -> float:
     """A finite float; −0 becomes 0.
@@ -37,8 +39,31 @@ def within(name: str, value: object, low: float, high: float, unit: str) -> floa
     # 1e-9 relative: a bound given in degrees comes back from radians with its last digit changed
     slack = 1e-9 * max(abs(low), abs(high))
     if not low - slack <= value <= high + slack:
-        raise ValueError(f"{name} must lie in {low:g} … {high:g} {unit}, not {value:.9g} {unit}.")
+        unit = f" {unit}" if unit else ""
+        raise ValueError(f"{name} must lie in {low:g} … {high:g}{unit}, not {value:.9g}{unit}.")
     return value
+
+
+def whole(name: str, value: object, low: int) -> int:
+    """A whole number, `low` or more.
+
+    Raises:
+        ValueError: for anything else.
+    """
+    if isinstance(value, Integral) and not isinstance(value, bool) and int(value) >= low:
+        return int(value)
+    raise ValueError(f"{name} must be a whole number of {low} or more, not {_shown(value)}.")
+
+
+def truth(name: str, value: object) -> bool:
+    """A truth value, numpy's too.
+
+    Raises:
+        ValueError: for anything else.
+    """
+    if isinstance(value, bool | np.bool_):
+        return bool(value)
+    raise ValueError(f"{name} must be True or False, not {_shown(value)}.")
 
 
 def turn_sign(name: str, value: object) -> int:
@@ -53,15 +78,29 @@ def turn_sign(name: str, value: object) -> int:
     raise ValueError(f"{name} must be LEFT (+1) or RIGHT (-1), not {_shown(value)}.")
 
 
-def expect(name: str, value: object, kind: type) -> None:
-    """Refuse what is not of a kind.
+def expect(name: str, value: object, *kinds: type) -> None:
+    """Refuse what is of none of some kinds.
 
     Raises:
         ValueError: naming what was given instead.
     """
-    if not isinstance(value, kind):
-        article = "an" if kind.__name__[0] in "AEIOU" else "a"
-        raise ValueError(f"{name} must be {article} {kind.__name__}, not {_shown(value)}.")
+    if not isinstance(value, kinds):
+        wanted = " or ".join(_with_article(kind.__name__) for kind in kinds)
+        raise ValueError(f"{name} must be {wanted}, not {_shown(value)}.")
+
+
+def expect_function(name: str, value: object) -> None:
+    """Refuse what cannot be called.
+
+    Raises:
+        ValueError: naming what was given instead.
+    """
+    if not callable(value):
+        raise ValueError(f"{name} must be a function, not {_shown(value)}.")
+
+
+def _with_article(noun: str) -> str:
+    return f"{'an' if noun[0] in 'AEIOU' else 'a'} {noun}"
 
 
 def _shown(value: object) -> str:

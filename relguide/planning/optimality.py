@@ -29,6 +29,8 @@ Arrival = Literal["free", "opening", "at_once"]
 """What fixes t_f: the trajectory alone, the opening of the slot, or being there from the start."""
 ARRIVES = 1e-5
 """A trajectory reaches the slot if it ends this near to it [R; rad]: 12 cm for an airliner."""
+MAX_ARRIVES = 10.0
+"""Most that may be asked for instead [R; rad]: what ends farther off does not arrive."""
 AT_OPENING = 1e-6
 """An arrival this near to the opening is at the opening [R/V_P]: 60 µs for an airliner."""
 SLIVER = 2e-3
@@ -131,10 +133,11 @@ def check(
     Raises:
         ValueError: if the trajectory does not reach the slot, or only after 12 hours.
     """
-    trajectory = flown.trajectory if isinstance(flown, Plan) else flown
-    expect("flown", trajectory, Trajectory)
+    expect("flown", flown, Plan, Trajectory)
     expect("situation", situation, Situation)
     within("samples", samples, 1, MAX_SAMPLES, "")
+    within("arrives", arrives, 0.0, MAX_ARRIVES, "R")
+    trajectory = flown.trajectory if isinstance(flown, Plan) else flown
     if trajectory.duration > HORIZON:
         raise ValueError(
             f"The trajectory takes {trajectory.duration / 3600.0:.3g} h; conditions are asked of "

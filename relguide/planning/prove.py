@@ -8,11 +8,12 @@ search of the same kind.
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
-from math import inf, isfinite
+from math import inf
 from time import perf_counter
 
 from relguide.planning.contact_search import Question
 from relguide.planning.detour import leader_table
+from relguide.planning.inputs import expect, expect_function, within
 from relguide.planning.plan import Optimality, Plan
 from relguide.planning.words import candidates
 from relguide.units import Second
@@ -54,9 +55,11 @@ def prove(
         progress: passes the reports through, to show them.
 
     Raises:
-        ValueError: if `seconds` is not such a time.
+        ValueError: if `seconds` is not such a time, or `plan` is no plan.
     """
-    check_seconds(seconds)
+    expect("plan", plan, Plan)
+    seconds = check_seconds(seconds)
+    expect_function("progress", progress)
     if plan.optimality.proof == "relaxation" or plan.situation.min_separation == 0.0:
         return plan
     lower_bound = plan.optimality.lower_bound
@@ -65,16 +68,13 @@ def prove(
     return replace(plan, optimality=Optimality(proof="bound", lower_bound=lower_bound))
 
 
-def check_seconds(seconds: Second) -> None:
-    """Refuse a time that no proof may take.
+def check_seconds(seconds: object) -> Second:
+    """The time that a proof may take [s].
 
     Raises:
-        ValueError: saying which ones may be.
+        ValueError: if it may take no such time, saying which ones it may.
     """
-    if not (isfinite(seconds) and 0.0 <= seconds <= MAX_SECONDS):
-        raise ValueError(
-            f"The time for a proof must be between 0 and {MAX_SECONDS:.0f} s, not {seconds} s."
-        )
+    return within("The time for a proof", seconds, 0.0, MAX_SECONDS, "s")
 
 
 def bounds(plan: Plan, *, seconds: Second) -> Iterator[Bound]:

@@ -140,12 +140,9 @@ class Trajectory:
             raise ValueError(f"tas must be above 0 m/s, not {self.tas:g} m/s.")
         if not isinstance(self.segments, tuple):
             raise ValueError("segments must be a tuple of Arc, Straight and BoundaryArc.")
-        length = 0.0
-        for segment in self.segments:
-            if not _is_sound(segment):
-                _check(segment)
-            length += segment.length
-        if not length / self.tas < inf:
+        if not all(map(_is_sound, self.segments)):
+            object.__setattr__(self, "segments", tuple(map(_settled, self.segments)))
+        if not self.duration < inf:
             raise ValueError("All segments together must have a finite length and duration.")
 
     @property
@@ -222,32 +219,42 @@ def _is_sound(segment: Segment) -> bool:
     return type(segment) is Straight and type(segment.length) is float and segment.length >= 0.0
 
 
-def _check(segment: Segment) -> None:
+def _settled(segment: Segment) -> Segment:
+    """A segment with numbers that are floats, or a sentence that says what would be right."""
     match segment:
         case Straight(length=length):
-            _check_length(number("A straight's length", length))
+            segment = Straight(length=number("A straight's length", length))
         case Arc(turn=turn, turn_angle=angle, radius=radius):
-            turn_sign("A turn's direction", turn)
-            if number("A turn's angle", angle) < 0.0 or number("A turn's radius", radius) <= 0.0:
+            segment = Arc(
+                turn=LEFT if turn_sign("A turn's direction", turn) == LEFT else RIGHT,
+                turn_angle=number("A turn's angle", angle),
+                radius=number("A turn's radius", radius),
+            )
+            if segment.turn_angle < 0.0 or segment.radius <= 0.0:
                 raise ValueError(
                     f"A turn must have an angle of 0 rad or more and a radius above 0 m, not "
-                    f"{angle:g} rad and {radius:g} m."
+                    f"{segment.turn_angle:g} rad and {segment.radius:g} m."
                 )
-            _check_length(segment.length)
         case BoundaryArc(side=side, bends=bends):
-            turn_sign("A ride's side", side)
-            if not (isinstance(bends, tuple) and bends):
+            if not (isinstance(bends, tuple) and bends and all(map(_is_pair, bends))):
                 raise ValueError("A ride must have bends: a tuple of (length, curvature).")
-            for length, curvature in bends:
-                _check_length(number("A ride's piece", length))
-                number("A ride's curvature", curvature)
+            segment = BoundaryArc(
+                side=LEFT if turn_sign("A ride's side", side) == LEFT else RIGHT,
+                bends=tuple(
+                    (number("A ride's piece", length), number("A ride's curvature", curvature))
+                    for length, curvature in bends
+                ),
+            )
         case _:
             raise ValueError(f"A segment must be an Arc, Straight or BoundaryArc, not {segment!r}.")
+    for length, _ in segment.bends:
+        if not 0.0 <= length < inf:
+            raise ValueError(f"A segment must have a finite length of 0 m or more, not {length} m.")
+    return segment
 
 
-def _check_length(length: float) -> None:
-    if not 0.0 <= length < inf:
-        raise ValueError(f"A segment must have a finite length of 0 m or more, not {length} m.")
+def _is_pair(bend: object) -> bool:
+    return isinstance(bend, tuple) and len(bend) == 2
 
 
 def _letter(segment: Segment) -> str:

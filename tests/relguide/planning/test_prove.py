@@ -123,7 +123,9 @@ def test_progress_sees_every_report() -> None:
 
 @pytest.mark.parametrize("seconds", [-1.0, nan, inf, -inf, MAX_SECONDS * 1.001])
 def test_times_that_make_no_sense_are_refused(seconds: float) -> None:
-    with pytest.raises(ValueError, match="between 0 and 3600 s"):
+    with pytest.raises(
+        ValueError, match="The time for a proof must (lie in 0 … 3600 s|be a finite number)"
+    ):
         prove(golden_plan(QUICK), seconds=seconds)
 
 
@@ -179,7 +181,7 @@ def test_the_command_refuses_times_that_make_no_sense(
     assert end.value.code == 2
     said = capsys.readouterr().err
     assert "--prove" in said
-    assert "seconds" in said or "between 0 and 3600 s" in said
+    assert "seconds" in said or "The time for a proof must" in said
 
 
 def test_the_bar_shows_the_gap(

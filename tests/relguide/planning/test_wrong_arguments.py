@@ -1,0 +1,265 @@
+"""Whatever a public function is given, only a ValueError comes out, with a sentence."""
+
+from collections.abc import Callable
+from decimal import Decimal
+from fractions import Fraction
+from math import inf, nan
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import relguide
+from relguide import (
+    CALM,
+    LEFT,
+    RIGHT,
+    Arc,
+    BoundaryArc,
+    FlyStraight,
+    Leader,
+    NoPlan,
+    Plan,
+    Pursuer,
+    Reason,
+    Situation,
+    Situations,
+    Straight,
+    Trajectory,
+    TurnTo,
+    Wind,
+    alternatives,
+    candidates,
+    certify,
+    check,
+    plan,
+    plan_arrays,
+    progress_bar,
+    prove,
+    wind_from,
+)
+from relguide.units import DEG
+
+PURSUER = Pursuer(x=-40e3, y=-20e3, heading=1.0, tas=240.0, max_bank=25 * DEG)
+LEADER = Leader(x=0.0, y=0.0, heading=0.0, tas=200.0)
+SITUATION = Situation(pursuer=PURSUER, leader=LEADER, slot_distance=12e3, min_separation=9e3)
+COLUMNS = {
+    "pursuer_x": -20e3,
+    "pursuer_y": 19e3,
+    "pursuer_heading": 1.0,
+    "pursuer_tas": 240.0,
+    "max_bank": 25 * DEG,
+    "leader_x": 0.0,
+    "leader_y": 0.0,
+    "leader_heading": 0.0,
+    "leader_tas": 200.0,
+    "slot_distance": 12e3,
+    "min_separation": 9e3,
+    "wind_east": 0.0,
+    "wind_north": 0.0,
+}
+
+
+def planned() -> Plan:
+    answer = plan(SITUATION)
+    assert isinstance(answer, Plan)
+    return answer
+
+
+PLAN = planned()
+PATH = PLAN.trajectory
+CALLS: dict[str, tuple[Callable[..., object], dict[str, Any]]] = {
+    "Leader": (
+        Leader,
+        {"x": 0.0, "y": 0.0, "heading": 0.0, "tas": 200.0, "intent": (FlyStraight(duration=1.0),)},
+    ),
+    "FlyStraight": (FlyStraight, {"duration": 60.0}),
+    "Pursuer": (
+        Pursuer,
+        {"x": 0.0, "y": 0.0, "heading": 0.0, "tas": 200.0, "max_bank": 25 * DEG},
+    ),
+    "Situation": (
+        Situation,
+        {
+            "pursuer": PURSUER,
+            "leader": LEADER,
+            "slot_distance": 12e3,
+            "min_separation": 9e3,
+            "wind": CALM,
+        },
+    ),
+    "Situations": (lambda **columns: Situations(**columns).columns(), COLUMNS),
+    "Trajectory": (
+        Trajectory,
+        {"x": 0.0, "y": 0.0, "heading": 0.0, "tas": 200.0, "segments": (Straight(length=1.0),)},
+    ),
+    "TurnTo": (TurnTo, {"heading": 1.0, "turn": LEFT, "bank": 20 * DEG}),
+    "Wind": (Wind, {"east": 1.0, "north": 2.0}),
+    "alternatives": (alternatives, {"plan": PLAN}),
+    "candidates": (candidates, {"situation": SITUATION}),
+    "certify": (certify, {"trajectory": PATH, "situation": SITUATION}),
+    "check": (check, {"flown": PLAN, "situation": SITUATION, "samples": 3, "arrives": 1e-5}),
+    "plan": (plan, {"situation": SITUATION}),
+    "plan_arrays": (
+        plan_arrays,
+        {"situations": Situations(**COLUMNS), "limited": True, "threads": 1, "progress": None},
+    ),
+    "pose_at": (PATH.pose_at, {"t": 1.0}),
+    "progress_bar": (lambda title, total: list(shown(title, total)), {"title": "", "total": 1.0}),
+    "prove": (prove, {"plan": PLAN, "seconds": 0.0, "progress": iter}),
+    "wind_from": (wind_from, {"direction": 1.0, "speed": 10.0}),
+}
+"""What may be called, with arguments that are right."""
+ANSWERS = {
+    "Alternative", "Candidate", "Certificate", "NoPlan", "OptimalityReport", "Plan", "Planner",
+    "Pose", "Reason", "Times",
+}  # fmt: skip
+"""What calls give back, and is not asked for."""
+PARTS = {"Arc", "BoundaryArc", "Straight"}
+"""What a `Trajectory` checks as it is made of them."""
+ARGUMENTS = [(name, argument) for name, (_, given) in CALLS.items() for argument in given]
+
+junk = st.one_of(
+    st.none(),
+    st.booleans(),
+    st.text(max_size=3),
+    st.binary(max_size=3),
+    st.integers(),
+    st.floats(),
+    st.complex_numbers(),
+    st.fractions(),
+    st.decimals(),
+    st.lists(st.floats(), max_size=3),
+    st.tuples(st.floats()),
+    st.dictionaries(st.text(max_size=2), st.floats(), max_size=2),
+    st.sampled_from(
+        [
+            nan,
+            inf,
+            -inf,
+            10**400,
+            np.True_,
+            np.float64(nan),
+            np.float32(inf),
+            np.int64(-3),
+            np.array(1.0),
+            np.array([1.0, nan]),
+            np.array(["a"]),
+            np.datetime64("2003-08-11"),
+            Decimal("NaN"),
+            Fraction(-1, 3),
+            object(),
+            ((1.0,), 2.0),
+            [[1.0], [1.0, 2.0]],
+            PURSUER,
+            LEADER,
+            SITUATION,
+            PATH,
+            PLAN,
+            NoPlan(reason=Reason.SLOT_UNREACHABLE, message="None."),
+        ]
+    ),
+)
+
+
+def shown(title: Any, total: Any) -> Any:
+    with progress_bar(title, total=total) as count:
+        yield count(0.0)
+
+
+def test_all_that_can_be_called_is() -> None:
+    public = {name for name in relguide.__all__ if name not in ("CALM", "LEFT", "RIGHT")}
+    assert public == (set(CALLS) | ANSWERS | PARTS) - {"pose_at"}
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_right_arguments_are_answered(name: str) -> None:
+    call, right = CALLS[name]
+    call(**right)
+
+
+@pytest.mark.parametrize(("name", "argument"), ARGUMENTS)
+@settings(max_examples=40)
+@given(wrong=junk)
+def test_a_wrong_argument_is_refused_with_a_sentence(name: str, argument: str, wrong: Any) -> None:
+    call, right = CALLS[name]
+    try:
+        call(**{**right, argument: wrong})
+    except ValueError as refusal:
+        said = str(refusal)
+    else:
+        return
+    assert said.endswith(".")
+    assert any(word in said for word in ("must", "at least", "at most", "reaches", "headway"))
+
+
+@given(amount=junk, other=junk, ride=junk)
+def test_a_wrong_segment_is_refused_with_a_sentence(amount: Any, other: Any, ride: Any) -> None:
+    for segment in (
+        Straight(length=amount),
+        Arc(turn=LEFT, turn_angle=amount, radius=1e3),
+        Arc(turn=LEFT, turn_angle=1.0, radius=amount),
+        Arc(turn=other, turn_angle=amount, radius=1e3),
+        BoundaryArc(side=LEFT, bends=ride),
+        BoundaryArc(side=LEFT, bends=(ride,)),  # type: ignore[arg-type]
+        BoundaryArc(side=LEFT, bends=((amount, other),)),
+        BoundaryArc(side=other, bends=((1.0, 0.0),)),
+        amount,
+    ):
+        try:
+            path = Trajectory(x=0.0, y=0.0, heading=0.0, tas=200.0, segments=(segment,))
+        except ValueError as refusal:
+            said = str(refusal)
+        else:
+            certify(path, SITUATION)
+            path.breakpoints()
+            continue
+        assert "must" in said
+        assert said.endswith(".")
+
+
+@pytest.mark.parametrize(
+    ("call", "sentence"),
+    [
+        (lambda: prove(None, seconds=1.0), "plan must be a Plan, not None"),  # type: ignore[arg-type]
+        (lambda: prove(PLAN, seconds="1"), "must be a number, not '1' .str."),  # type: ignore[arg-type]
+        (lambda: prove(PLAN, seconds=True), "must be a number, not True"),
+        (lambda: prove(PLAN, seconds=nan), "must be a finite number"),
+        (lambda: prove(PLAN, seconds=1.0, progress=3), "must be a function"),  # type: ignore[arg-type]
+        (lambda: alternatives(SITUATION), "plan must be a Plan"),  # type: ignore[arg-type]
+        (lambda: check(None, SITUATION), "must be a Plan or a Trajectory"),  # type: ignore[arg-type]
+        (lambda: check(PLAN, SITUATION, arrives=nan), "arrives must be a finite number"),
+        (lambda: list(shown("", "ten")), "total must be a number, not 'ten'"),
+        (lambda: Situations(**{**COLUMNS, "leader_x": [[1.0], []]}).columns(), "leader_x must be"),
+        (lambda: plan_arrays(Situations(**COLUMNS), threads=True), "a whole number of 1 or more"),
+        (lambda: plan_arrays(Situations(**COLUMNS), limited=None), "limited must be True or"),  # type: ignore[arg-type]
+        (lambda: check(PLAN, SITUATION, samples=0), "samples must lie in 1 … 100000, not 0"),
+    ],
+)
+def test_sentences_say_what_would_be_right(call: Callable[[], object], sentence: str) -> None:
+    with pytest.raises(ValueError, match=sentence):
+        call()
+
+
+@pytest.mark.parametrize("value", [1, np.float32(1.0), np.int64(1), Fraction(1)])
+def test_segments_are_of_floats(value: Any) -> None:
+    segments = (
+        Straight(length=value),
+        Arc(turn=np.int64(1), turn_angle=value, radius=value),  # type: ignore[arg-type]
+        BoundaryArc(side=np.int64(-1), bends=((value, value),)),  # type: ignore[arg-type]
+    )
+    path = Trajectory(x=0.0, y=0.0, heading=0.0, tas=200.0, segments=segments)
+    assert repr(path.segments) == repr(
+        (
+            Straight(length=1.0),
+            Arc(turn=LEFT, turn_angle=1.0, radius=1.0),
+            BoundaryArc(side=RIGHT, bends=((1.0, 1.0),)),
+        )
+    )
+
+
+@pytest.mark.parametrize("seconds", [0, np.float64(0.0), np.int64(0), Fraction(0)])
+def test_other_numbers_will_do(seconds: Any) -> None:
+    assert prove(PLAN, seconds=seconds) == PLAN
