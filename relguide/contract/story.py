@@ -14,6 +14,7 @@ from relguide.flying.documents import (
     PlanChanged,
     PlanUnavailable,
 )
+from relguide.planning.phrases import distance, too_close
 from relguide.units import NM
 
 Event = LeaderChanged | PlanChanged | PlanUnavailable | ModeChanged
@@ -91,7 +92,7 @@ def failures(flight: Story) -> tuple[str, ...]:
         for started in flight.started:
             if ended.least_separation < started.min_separation:
                 sentences.append(
-                    f"The separation fell to {ended.least_separation / NM:.2f} NM, "
-                    f"below {started.min_separation / NM:.2f} NM."
+                    f"The separation fell below {distance(started.min_separation)}: they came "
+                    f"{too_close(ended.least_separation, started.min_separation)}."
                 )
     return tuple(sentences)

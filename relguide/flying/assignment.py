@@ -4,7 +4,15 @@ from dataclasses import dataclass
 
 from relguide.flying.aircraft import AircraftModel, AircraftState
 from relguide.flying.capture import Slot
-from relguide.planning.situation import IntentPiece, Leader, Pursuer, Situation, TurnTo, Wind
+from relguide.planning.situation import (
+    IntentPiece,
+    Leader,
+    Pursuer,
+    Situation,
+    TurnTo,
+    Wind,
+    final_heading,
+)
 from relguide.planning.slot import slot_frame
 from relguide.units import Metre, MetrePerSecond, Radian, RadianPerSecond, Second
 
@@ -46,8 +54,7 @@ class Seen:
     @property
     def final_heading(self) -> Radian:
         """The leader's heading on its final leg as far as is known, clockwise from north [rad]."""
-        turns = [piece.heading for piece in self.intent if isinstance(piece, TurnTo)]
-        return turns[-1] if turns else self.leader.heading
+        return final_heading(self.leader.heading, self.intent)
 
 
 def situation_of(seen: Seen, assignment: Assignment, min_separation: Metre) -> Situation:

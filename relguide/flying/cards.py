@@ -1,5 +1,6 @@
 """Plans and trajectories as outsiders read them: over the ground, piece by piece."""
 
+from dataclasses import replace
 from math import atan, atan2, ceil, pi
 from typing import assert_never
 
@@ -32,6 +33,7 @@ from relguide.planning.alternatives import (
     TooEarly,
     alternatives,
 )
+from relguide.planning.certificate import Certificate
 from relguide.planning.optimality import OptimalityReport
 from relguide.planning.plan import NoPlan, Plan
 from relguide.planning.situation import Wind
@@ -61,14 +63,19 @@ def plan_card(plan: Plan) -> PlanCard:
         time_to_converge=plan.time_to_converge,
         length=plan.trajectory.length,
         segments=path_segments(plan.trajectory, wind=plan.situation.wind),
-        separation=Separation(
-            least=certificate.least_separation,
-            at=certificate.at_time,
-            proved_above=certificate.lower_bound,
-        ),
+        separation=separation_card(certificate),
         optimality=OptimalityCard(proof=optimality.proof, lower_bound=optimality.lower_bound),
         alternatives=tuple(_alternative_card(a) for a in alternatives(plan)),
         compute=plan.compute_time,
+    )
+
+
+def separation_card(certificate: Certificate) -> Separation:
+    """The least separation of a trajectory, and what is proved of it."""
+    return Separation(
+        least=certificate.least_separation,
+        at=certificate.at_time,
+        proved_above=certificate.lower_bound,
     )
 
 
@@ -103,9 +110,17 @@ def no_plan_card(answer: NoPlan) -> NoPlanCard:
     return NoPlanCard(reason=answer.reason, message=answer.message)
 
 
-def path_point(pose: Pose, t: float, wind: Wind) -> PathPoint:
-    """A pose of the air mass at time t [s], over the ground."""
-    return _point(pose, t, wind, 0.0)
+def path_point(pose: Pose, t: float, wind: Wind, start_time: float = 0.0) -> PathPoint:
+    """A pose of the air mass, over the ground.
+
+    Args:
+        pose: in the air mass, which is the world frame at t = 0.
+        t: when [s].
+        wind: moves the air mass over the ground.
+        start_time: added to t for the reader [s].
+    """
+    ground = over_ground(pose, t, wind)
+    return PathPoint(t=start_time + t, x=ground.x, y=ground.y, heading=ground.heading)
 
 
 def path_segments(
@@ -123,17 +138,11 @@ def path_segments(
     pieces: list[Segment] = list(trajectory.segments)
     if horizon is not None and horizon > trajectory.duration:
         pieces.append(Straight(length=(horizon - trajectory.duration) * trajectory.tas))
-    flown = Trajectory(
-        x=trajectory.x,
-        y=trajectory.y,
-        heading=trajectory.heading,
-        tas=trajectory.tas,
-        segments=tuple(pieces),
-    )
+    flown = replace(trajectory, segments=tuple(pieces))
     points: list[PathPoint] = []
     t = 0.0
     for pose, duration in zip(flown.breakpoints(), (*flown.durations(), 0.0), strict=True):
-        points.append(_point(pose, t, wind, start_time))
+        points.append(path_point(pose, t, wind, start_time))
         t += duration
     segments: list[PathSegment] = []
     t = 0.0
@@ -165,18 +174,13 @@ def path_segments(
                         duration=duration,
                         start=start,
                         end=end,
-                        via=tuple(_point(flown.pose_at(s), s, wind, start_time) for s in times),
+                        via=tuple(path_point(flown.pose_at(s), s, wind, start_time) for s in times),
                     )
                 )
             case _:
                 assert_never(piece)
         t += duration
     return tuple(segments)
-
-
-def _point(pose: Pose, t: float, wind: Wind, start_time: float) -> PathPoint:
-    ground = over_ground(pose, t, wind)
-    return PathPoint(t=start_time + t, x=ground.x, y=ground.y, heading=ground.heading)
 
 
 def wind_card(wind: Wind) -> WindCard:

@@ -5,14 +5,14 @@ Flown as it comes, it would chatter. So the same strategy is solved again from w
 is, and given up only for a reason.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import cos, hypot, sin
 from typing import Literal
 
 from relguide.flying.aircraft import AircraftModel
 from relguide.flying.steering import rest, steer
 from relguide.planning.certificate import certify
-from relguide.planning.plan import NoPlan, Optimality, Plan, Planner
+from relguide.planning.plan import AS_FAST, NoPlan, Optimality, Plan, Planner
 from relguide.planning.plan import plan as exact_plan
 from relguide.planning.situation import Situation
 from relguide.planning.slot import slot_frame
@@ -47,13 +47,7 @@ class Commitment:
         elapsed = t - self.made_at
         left = rest(self.plan.trajectory, elapsed)
         wind = situation.wind
-        return Trajectory(
-            x=left.x + wind.east * elapsed,
-            y=left.y + wind.north * elapsed,
-            heading=left.heading,
-            tas=left.tas,
-            segments=left.segments,
-        )
+        return replace(left, x=left.x + wind.east * elapsed, y=left.y + wind.north * elapsed)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -149,7 +143,7 @@ def _solved_again(left: Trajectory, situation: Situation) -> Plan | None:
 
 
 def _as_plan(candidate: Candidate, situation: Situation, bound: Second) -> Plan:
-    fastest = candidate.time_to_converge <= bound + 1e-6  # a microsecond: the same root, rounded
+    fastest = candidate.time_to_converge <= bound + AS_FAST  # the same root, rounded
     return Plan(
         situation=situation,
         trajectory=candidate.trajectory,

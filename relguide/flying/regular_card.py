@@ -1,7 +1,6 @@
 """regular_check(regular, situation): the paper's own form, judged, as outsiders read it."""
 
-from relguide.flying.cards import optimality_check, path_point, path_segments
-from relguide.flying.documents import Separation
+from relguide.flying.cards import optimality_check, path_point, path_segments, separation_card
 from relguide.flying.verdicts import (
     EndErrorCard,
     NotAsked,
@@ -57,11 +56,7 @@ def regular_check(regular: RegularTrajectory, situation: Situation) -> RegularCh
         initial_error=_end_error(found.initial),
         final_error=_end_error(found.final),
         keeps_separation=found.keeps_separation,
-        separation=Separation(
-            least=certificate.least_separation,
-            at=certificate.at_time,
-            proved_above=certificate.lower_bound,
-        ),
+        separation=separation_card(certificate),
         stationarity=stationarity,
         triplets=tuple(
             TripletCard(epsilon=t.turn, theta=t.turn_angle, l=t.length) for t in regular.triplets

@@ -16,14 +16,13 @@ from relguide.kernels.extremals import MAX_ROWS, WORDS, solve
 from relguide.planning.certificate import certify
 from relguide.planning.inputs import expect
 from relguide.planning.passing import Passing, Surroundings, passing, surroundings
-from relguide.planning.plan import Plan
+from relguide.planning.phrases import duration, too_close
+from relguide.planning.plan import AS_FAST, Plan
 from relguide.planning.slot import SlotFrame
 from relguide.planning.trajectory import Trajectory
 from relguide.planning.words import Candidate, Candidates, candidates
-from relguide.units import NM, Metre, Second
+from relguide.units import Metre, Second
 
-AS_FAST: Second = 1e-6
-"""Times nearer than this are one: the same path found twice differs by rounding [s]."""
 SAME_LENGTH: Metre = 0.01
 """Paths of the same letters whose pieces differ by less are the same path [m]."""
 AT_OPENING = 32
@@ -127,7 +126,7 @@ def alternatives(plan: Plan) -> tuple[Alternative | TooEarly | NoRoot, ...]:
     for word, first in early.items():
         time = first * scale
         if time < opens - AS_FAST:
-            why = f"reaches the slot {_seconds(opens - time)} before it opens"
+            why = f"reaches the slot {duration(opens - time)} before it opens"
             listed.append(TooEarly(word=word, time_to_converge=time, opens=opens, why=why))
     none = [word for word in WORDS if word not in late and word not in early]
     return (
@@ -181,13 +180,13 @@ def _same_time(candidate: Candidate, plan: Plan) -> bool:
 
 def _judged(candidate: Candidate, ours: Passing, plan: Plan) -> Alternative:
     certificate = certify(candidate.trajectory, plan.situation)
-    near = _near(certificate.least_separation, plan.situation.min_separation)
+    near = too_close(certificate.least_separation, plan.situation.min_separation)
     near = f"comes {near} at {certificate.at_time:.0f} s"
     by = candidate.time_to_converge - plan.time_to_converge
     rejected: Slower | AsFast | Faster | LosesSeparation
     if by > AS_FAST:
         rejected = Slower(by=by)
-        why = f"{_seconds(by)} slower"
+        why = f"{duration(by)} slower"
         if not certificate.holds:
             why += f", and {near}"
     elif not certificate.holds:
@@ -197,7 +196,7 @@ def _judged(candidate: Candidate, ours: Passing, plan: Plan) -> Alternative:
         why = near
     elif by < -AS_FAST:
         rejected = Faster(by=-by)
-        why = f"{_seconds(-by)} faster, and not found by the planner {plan.planner}"
+        why = f"{duration(-by)} faster, and not found by the planner {plan.planner}"
     else:
         rejected = AsFast()
         why = _as_fast(candidate.trajectory, plan.trajectory)
@@ -213,16 +212,3 @@ def _as_fast(other: Trajectory, flown: Trajectory) -> str:
     if other.turns > flown.turns:
         return f"as fast, with {other.turns} turns in place of {flown.turns}"
     return "as fast"
-
-
-def _near(least: Metre, limit: Metre) -> str:
-    """How close it comes; a distance that rounds to the limit is told by what it lacks."""
-    if f"{least / NM:.2f}" == f"{limit / NM:.2f}":
-        return f"{limit - least:.1f} m too close"
-    return f"within {least / NM:.2f} NM"
-
-
-def _seconds(time: Second) -> str:
-    if time < 0.05:
-        return "less than 0.1 s"
-    return f"{time:.1f} s" if time < 9.95 else f"{time:,.0f} s"

@@ -22,6 +22,7 @@ from relguide.planning.words import (
     Candidate,
     Candidates,
     assemble,
+    candidate_of,
     segments_of,
 )
 from relguide.units import Second
@@ -126,8 +127,7 @@ def _flown(
         signs += SIGN_ROWS[int(last_row[1])]
         amounts += last_row[2:].tolist()
     segments += segments_of(frame.radius, signs, amounts)
-    trajectory = situation.pursuer.flying(tuple(segments))
-    return Candidate(word=trajectory.letters, trajectory=trajectory)
+    return candidate_of(situation.pursuer, tuple(segments))
 
 
 def _ridden(frame: SlotFrame, side: float, bends: np.ndarray) -> BoundaryArc:

@@ -8,7 +8,7 @@ is, `candidates` lists for those that need it.
 from relguide.kernels import direct as kernel
 from relguide.kernels.extremals import WORDS
 from relguide.planning.situation import Situation
-from relguide.planning.words import HORIZON, SIGN_ROWS, Candidate, segments_of
+from relguide.planning.words import HORIZON, SIGN_ROWS, Candidate, candidate_of, segments_of
 from relguide.units import Metre
 
 
@@ -33,5 +33,5 @@ def direct(situation: Situation, radius: Metre) -> tuple[Candidate, float] | Non
     time = arrival * radius / pursuer.tas
     if time > HORIZON:
         return None
-    trajectory = pursuer.flying(segments_of(radius, SIGN_ROWS[word], amounts))
-    return Candidate(word=WORDS[word], trajectory=trajectory), time
+    segments = segments_of(radius, SIGN_ROWS[word], amounts)
+    return candidate_of(pursuer, segments, WORDS[word]), time

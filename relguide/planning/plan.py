@@ -9,15 +9,17 @@ from typing import Literal
 
 import numpy as np
 
-from relguide.planning.certificate import SLACK, Certificate, certify, judge, kernel_arrays
+from relguide.kernels.clearance import SLACK
+from relguide.planning.certificate import Certificate, certify, judge, kernel_arrays
 from relguide.planning.detour import detour
 from relguide.planning.direct import direct
 from relguide.planning.inputs import expect
+from relguide.planning.phrases import distance
 from relguide.planning.recovery import Recovery, least_bad, restore
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import Trajectory
 from relguide.planning.words import HORIZON, Candidate, Candidates, candidates
-from relguide.units import DEG, KT, NM, Metre, Millisecond, Second
+from relguide.units import DEG, KT, Metre, Millisecond, Second
 
 Proof = Literal["relaxation", "bound", "none"]
 """Why a plan is optimal: the best plan without the limit keeps it; a lower bound; not shown."""
@@ -78,7 +80,7 @@ class NoPlan:
 
 
 AS_FAST: Second = 1e-6
-"""Times this close are the same [s]."""
+"""Times nearer than this are one: the same path found twice differs by rounding [s]."""
 Planner = Callable[[Situation], Plan | NoPlan]
 """The one protocol of all planners."""
 _Chosen = tuple[Candidate, Certificate, Optimality]
@@ -105,8 +107,9 @@ def plan(situation: Situation) -> Plan | NoPlan:
     if separation < situation.min_separation - SLACK * radius:
         return NoPlan(
             reason=Reason.SEPARATION_ALREADY_LOST,
-            message=f"The aircraft are {separation:,.0f} m ({_nm(separation)}) apart, closer than "
-            f"the minimum of {situation.min_separation:,.0f} m. {_way_out(restore(situation))}",
+            message=f"The aircraft are {separation:,.0f} m ({distance(separation)}) apart, closer "
+            f"than the minimum of {situation.min_separation:,.0f} m. "
+            f"{_way_out(restore(situation))}",
         )
     chosen = _at_once(situation, radius) or _searched(situation)
     if isinstance(chosen, NoPlan):
@@ -149,7 +152,7 @@ def _searched(situation: Situation) -> _Chosen | NoPlan:
     return _first_that_holds(found, situation) or NoPlan(
         reason=Reason.SEPARATION_UNAVOIDABLE,
         message=f"Each of the {len(found)} direct trajectories to the slot comes closer "
-        f"than {_nm(situation.min_separation)} to the leader, and no way round it was found. "
+        f"than {distance(situation.min_separation)} to the leader, and no way round it was found. "
         f"{_least_bad(least_bad(situation))}",
     )
 
@@ -208,11 +211,6 @@ def _unreachable(situation: Situation) -> str:
     )
 
 
-def _nm(distance: float) -> str:
-    # of less than a tenth of a mile two decimals would say little
-    return f"{distance / NM:.2f} NM" if distance >= 0.1 * NM else f"{distance:.3g} m"
-
-
 def _way_out(recovery: Recovery) -> str:
     if recovery.at_time == inf:
         return "No turn restores separation within 15 minutes: the leader would have to turn away."
@@ -226,8 +224,8 @@ def _least_bad(recovery: Recovery) -> str:
             f"{_turn(recovery)} keeps clear meanwhile."
         )
     return (
-        f"Least bad: {_turn(recovery)}, which keeps {_nm(recovery.least_separation)}, least in "
-        f"{recovery.at_time:.0f} s with the leader at x {recovery.leader_x / 1000.0:.1f} km, "
+        f"Least bad: {_turn(recovery)}, which keeps {distance(recovery.least_separation)}, least "
+        f"in {recovery.at_time:.0f} s with the leader at x {recovery.leader_x / 1000.0:.1f} km, "
         f"y {recovery.leader_y / 1000.0:.1f} km. A smaller minimum separation would help."
     )
 

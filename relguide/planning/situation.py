@@ -125,6 +125,12 @@ class TurnTo:
 IntentPiece = FlyStraight | TurnTo
 
 
+def final_heading(heading: Radian, intent: tuple[IntentPiece, ...]) -> Radian:
+    """Where an intent leads from a heading, clockwise from north [rad]."""
+    turns = [piece.heading for piece in intent if isinstance(piece, TurnTo)]
+    return turns[-1] if turns else heading
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Leader:
     """The aircraft to be joined, at t = 0, with what it has declared it will do."""
@@ -157,8 +163,7 @@ class Leader:
     @property
     def final_heading(self) -> float:
         """Heading of the final leg, clockwise from north [rad]."""
-        turns = [piece.heading for piece in self.intent if isinstance(piece, TurnTo)]
-        return turns[-1] if turns else self.heading
+        return final_heading(self.heading, self.intent)
 
     @property
     def trajectory(self) -> Trajectory:

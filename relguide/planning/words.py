@@ -9,7 +9,7 @@ import numpy as np
 from relguide.kernels.extremals import MAX_ROWS, SIGNS, WORDS, solve
 from relguide.kernels.hold import HOLD_PIECES, MAX_HOLDS, holds
 from relguide.planning.inputs import expect
-from relguide.planning.situation import Situation
+from relguide.planning.situation import Pursuer, Situation
 from relguide.planning.slot import SlotFrame, slot_frame
 from relguide.planning.trajectory import LEFT, RIGHT, Arc, Segment, Straight, Trajectory
 from relguide.units import Metre, Second
@@ -139,7 +139,12 @@ def assemble(
         amounts: turn angles [rad] and lengths [R].
         word: its name; the letters of its segments if empty.
     """
-    trajectory = situation.pursuer.flying(segments_of(frame.radius, signs, amounts))
+    return candidate_of(situation.pursuer, segments_of(frame.radius, signs, amounts), word)
+
+
+def candidate_of(pursuer: Pursuer, segments: tuple[Segment, ...], word: str = "") -> Candidate:
+    """Segments that lead the pursuer to the slot; their letters are the word if none is given."""
+    trajectory = pursuer.flying(segments)
     return Candidate(word=word or trajectory.letters, trajectory=trajectory)
 
 

@@ -47,7 +47,7 @@ def test_a_good_flight_has_no_failures() -> None:
 
 def test_a_lost_separation_is_a_failure() -> None:
     lost = told([STARTED, replace(ENDED, least_separation=4.0 * NM)])
-    assert failures(lost) == ("The separation fell to 4.00 NM, below 5.00 NM.",)
+    assert failures(lost) == ("The separation fell below 5.00 NM: they came within 4.00 NM.",)
 
 
 def test_not_joining_is_a_failure() -> None:

@@ -24,7 +24,6 @@ from relguide import (
 )
 from relguide.kernels.extremals import WORDS
 from relguide.planning.alternatives import (
-    AS_FAST,
     AsFast,
     Faster,
     LosesSeparation,
@@ -33,6 +32,7 @@ from relguide.planning.alternatives import (
     TooEarly,
 )
 from relguide.planning.passing import passing, surroundings
+from relguide.planning.plan import AS_FAST
 from relguide.planning.slot import slot_frame
 from relguide.units import DEG
 from tests.plans import golden_plan, planned, straight_behind, unlimited

@@ -124,7 +124,7 @@ def test_progress_sees_every_report() -> None:
 @pytest.mark.parametrize("seconds", [-1.0, nan, inf, -inf, MAX_SECONDS * 1.001])
 def test_times_that_make_no_sense_are_refused(seconds: float) -> None:
     with pytest.raises(
-        ValueError, match="The time for a proof must (lie in 0 … 3600 s|be a finite number)"
+        ValueError, match=r"The time for a proof must (lie in 0 … 3600 s|be a finite number)"
     ):
         prove(golden_plan(QUICK), seconds=seconds)
 

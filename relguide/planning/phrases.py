@@ -1,0 +1,24 @@
+"""Distances and times in sentences: no more digits than say something."""
+
+from relguide.units import NM, Metre, Second
+
+
+def distance(length: Metre) -> str:
+    """A distance in nautical miles, in metres below a tenth of one: `2.31 NM`, `92.6 m`."""
+    if length >= 0.1 * NM:
+        return f"{length / NM:.2f} NM"
+    return f"{round(length, 3):.3g} m"  # no certificate proves less than a millimetre
+
+
+def too_close(least: Metre, limit: Metre) -> str:
+    """How close a path comes; what reads like the limit is told by what it lacks."""
+    if distance(least) == distance(limit):
+        return f"{limit - least:.1f} m too close"
+    return f"within {distance(least)}"
+
+
+def duration(time: Second) -> str:
+    """A time to a tenth of a second, to a second from ten on."""
+    if time < 0.05:
+        return "less than 0.1 s"
+    return f"{time:.1f} s" if time < 9.95 else f"{time:,.0f} s"
