@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
 METHODS = ("reverse-dp", "exact")
 """How a data set is made."""
+TAUGHT = ("strategies", "paper", "direct")
+"""What a network is taught."""
 AddCommand = Callable[[str, Callable[[argparse.Namespace], int], str, str], argparse.ArgumentParser]
 """Name, what runs it, its purpose, examples → its parser, for the options."""
 
@@ -102,14 +104,22 @@ def _add_network(add_command: AddCommand) -> None:
     train = add_command(
         "train",
         _train,
-        "train the network that says which words to solve",
+        "train the network that says which words to solve, or the paper's own",
         """
         relguide train labels.npz weights.safetensors               on what device there is
         relguide train labels.npz weights.safetensors --resume      go on after a stop
         relguide train labels.npz small.safetensors --width 32 --epochs 10
+        relguide train tree.npz paper.safetensors --method paper    Fig. 5, from the paper's tree
         """,
     )
     add_options(train)
+    train.add_argument(
+        "--method",
+        choices=TAUGHT,
+        default=TAUGHT[0],
+        help="strategies: from LABELS.npz; paper: the tree's (ε, θ, l), from a TREE.npz in its "
+        "place; direct: the exact ones from the tree's states; default: %(default)s",
+    )
 
     audit = add_command(
         "audit",
@@ -227,9 +237,12 @@ def _labels(chosen: argparse.Namespace) -> int:
 
 
 def _train(chosen: argparse.Namespace) -> int:
-    from relguide.training import train_network
+    from relguide.training import train_network, train_regular_network
 
-    train_network(chosen)
+    if chosen.method == TAUGHT[0]:
+        train_network(chosen)
+    else:
+        train_regular_network(chosen)
     return 0
 
 

@@ -25,7 +25,10 @@ from relguide.learn.labels import (
     make_labels,
     save_labels,
 )
+from relguide.learn.options import command_of, options_of
+from relguide.learn.paper import save_regular, train_regular
 from relguide.learn.train import run, told
+from relguide.learn.tree_file import load_tree
 from relguide.progress import progress_bar, watched
 
 T = TypeVar("T")
@@ -117,6 +120,39 @@ def train_network(chosen: argparse.Namespace) -> None:
         f"{perf_counter() - started:.0f} s on {about['device']}, "
         f"{chosen.weights.stat().st_size / 1e3:.0f} kB. relguide audit "
         f"{chosen.weights} says more.\n"
+    )
+
+
+def train_regular_network(chosen: argparse.Namespace) -> None:
+    """Train the paper's network, or the one of exact answers, on a tree, and write it.
+
+    Args:
+        chosen: the options of `options.add_options`, a tree's file for the labels', and the method.
+    """
+    if chosen.resume:
+        raise ValueError("Such a network is trained in a minute, and nothing is left to resume.")
+    tree = load_tree(chosen.labels)
+    chosen.weights.parent.stat()  # nothing is trained that could not be written
+    started = perf_counter()
+    about = {
+        "program": f"relguide {__version__}",
+        "command": f"{command_of(chosen)} --method {chosen.method}",
+        "tree": dict(tree.provenance),
+    }
+    epochs = watched(
+        train_regular(tree, options_of(chosen), method=chosen.method, about=about),
+        title="training",
+        total=chosen.epochs,
+        done=lambda epoch: epoch.number,
+        state=lambda epoch: f"misses {100.0 * epoch.loss:.1f} % of the variance",
+    )
+    last = deque(epochs, maxlen=1)[0]
+    save_regular(last.network, chosen.weights)
+    _write(
+        f"{chosen.weights}: after {last.number} epochs it misses {100.0 * last.loss:.1f} % of the "
+        f"variance of (ε, θ, l) in states not trained on.\n"
+        f"{perf_counter() - started:.0f} s on {last.network.about['device']}, "
+        f"{chosen.weights.stat().st_size / 1e3:.0f} kB. relguide audit says what it is worth.\n"
     )
 
 
