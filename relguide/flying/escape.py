@@ -8,7 +8,7 @@ from relguide.planning.situation import Situation
 from relguide.planning.trajectory import LEFT, RIGHT, Arc, Straight, Trajectory
 from relguide.units import DEG, Metre, Radian, Second
 
-LOOK_AHEAD: Second = 180.0  # DAIDALUS looks as far; a full half turn at 240 m/s takes 170 s
+LOOK_AHEAD: Second = 180.0  # DAIDALUS looks as far; a half turn at 240 m/s and 25° takes 165 s
 TRIED_EVERY: Radian = 10.0 * DEG  # finer than a crew would be told
 ON_ROUTE: Radian = 15.0 * DEG  # so aligned, speed alone keeps the spacing
 
@@ -23,7 +23,7 @@ def safe_heading(situation: Situation) -> Radian:
     for turn_angle in (k * TRIED_EVERY for k in range(round(pi / TRIED_EVERY) + 1)):
         for turn in (LEFT, RIGHT):
             arc = Arc(turn=turn, turn_angle=turn_angle, radius=pursuer.turn_radius)
-            away = _path(situation, arc, pursuer.tas * LOOK_AHEAD - arc.length)
+            away = _path(situation, arc, LOOK_AHEAD)
             certificate = certify(away, situation)
             heading = (pursuer.heading - turn * turn_angle) % (2.0 * pi)
             if certificate.holds:
@@ -44,9 +44,10 @@ def keeps_clear(seen: Offsets, to_slot: Metre, situation: Situation) -> bool:
     arc = Arc(turn=turn, turn_angle=abs(seen.heading), radius=situation.pursuer.turn_radius)
     closing = situation.pursuer.tas - situation.leader.tas
     until = to_slot / closing if closing > 0.0 and to_slot > 0.0 else 0.0
-    left = min(until, LOOK_AHEAD) * situation.pursuer.tas - arc.length
-    return certify(_path(situation, arc, max(left, 0.0)), situation).holds
+    return certify(_path(situation, arc, min(until, LOOK_AHEAD)), situation).holds
 
 
-def _path(situation: Situation, arc: Arc, straight: Metre) -> Trajectory:
+def _path(situation: Situation, arc: Arc, until: Second) -> Trajectory:
+    """A turn, and straight on until then; at a gentle bank the turn itself may take longer."""
+    straight = max(situation.pursuer.tas * until - arc.length, 0.0)
     return situation.pursuer.flying((arc, Straight(length=straight)))

@@ -49,6 +49,12 @@ def test_too_close_already_turns_away() -> None:
     assert safe_heading(situation) != pytest.approx(270.0 * DEG)
 
 
+def test_a_gentle_bank_may_not_have_turned_round_in_three_minutes() -> None:
+    situation = pursuer_at(4.0 * NM, 0.0, 270.0)
+    gentle = replace(situation, pursuer=replace(situation.pursuer, max_bank=12.0 * DEG))
+    assert 0.0 <= safe_heading(gentle) < 2.0 * pi
+
+
 def test_on_the_route_speed_is_the_answer() -> None:
     assert keeps_clear(Offsets(500.0, 0.0, 0.0), -500.0, pursuer_at(-9.4e3, 0.0, 90.0))
 
