@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
-from math import hypot, inf
+from math import hypot
 from time import perf_counter_ns
 from typing import Literal
 
@@ -15,11 +15,16 @@ from relguide.planning.detour import detour
 from relguide.planning.direct import direct
 from relguide.planning.inputs import expect
 from relguide.planning.phrases import distance
-from relguide.planning.recovery import Recovery, least_bad, restore
+from relguide.planning.recovery import (
+    least_bad,
+    least_bad_sentence,
+    restore,
+    restore_sentence,
+)
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import Trajectory
 from relguide.planning.words import HORIZON, Candidate, Candidates, candidates
-from relguide.units import DEG, KT, Metre, Millisecond, Second
+from relguide.units import KT, Metre, Millisecond, Second
 
 Proof = Literal["relaxation", "bound", "none"]
 """Why a plan is optimal: the best plan without the limit keeps it; a lower bound; not shown."""
@@ -109,7 +114,7 @@ def plan(situation: Situation) -> Plan | NoPlan:
             reason=Reason.SEPARATION_ALREADY_LOST,
             message=f"The aircraft are {separation:,.0f} m ({distance(separation)}) apart, closer "
             f"than the minimum of {situation.min_separation:,.0f} m. "
-            f"{_way_out(restore(situation))}",
+            f"{restore_sentence(restore(situation))}",
         )
     chosen = _at_once(situation, radius) or _searched(situation)
     if isinstance(chosen, NoPlan):
@@ -153,7 +158,7 @@ def _searched(situation: Situation) -> _Chosen | NoPlan:
         reason=Reason.SEPARATION_UNAVOIDABLE,
         message=f"Each of the {len(found)} direct trajectories to the slot comes closer "
         f"than {distance(situation.min_separation)} to the leader, and no way round it was found. "
-        f"{_least_bad(least_bad(situation))}",
+        f"{least_bad_sentence(least_bad(situation))}",
     )
 
 
@@ -209,29 +214,3 @@ def _unreachable(situation: Situation) -> str:
         f"The leader flies {leader:.0f} kt and the pursuer {pursuer:.0f} kt, and from here the "
         "slot cannot be caught: a pursuer faster than the leader always can."
     )
-
-
-def _way_out(recovery: Recovery) -> str:
-    if recovery.at_time == inf:
-        return "No turn restores separation within 15 minutes: the leader would have to turn away."
-    return f"Soonest out: {_turn(recovery)}; separation is restored in {recovery.at_time:.0f} s."
-
-
-def _least_bad(recovery: Recovery) -> str:
-    if recovery.at_time == 0.0:
-        return (
-            "A smaller minimum separation or a larger slot distance would help; "
-            f"{_turn(recovery)} keeps clear meanwhile."
-        )
-    return (
-        f"Least bad: {_turn(recovery)}, which keeps {distance(recovery.least_separation)}, least "
-        f"in {recovery.at_time:.0f} s with the leader at x {recovery.leader_x / 1000.0:.1f} km, "
-        f"y {recovery.leader_y / 1000.0:.1f} km. A smaller minimum separation would help."
-    )
-
-
-def _turn(recovery: Recovery) -> str:
-    heading = f"heading {round(recovery.heading / DEG) % 360:03d}°"
-    if recovery.turn_angle == 0.0:
-        return f"hold {heading}"
-    return f"turn {'right' if recovery.turn_angle > 0.0 else 'left'} to {heading}"

@@ -35,13 +35,15 @@ class Triplet:
     """l_i [m], ≥ 0."""
 
     def __post_init__(self) -> None:
-        """Refuse what (17) does not allow."""
-        turn_sign("ε", self.turn)
-        for name, value, unit in (("θ", self.turn_angle, "rad"), ("l", self.length, "m")):
-            if number(name, value) < 0.0:
+        """Refuse what (17) does not allow; its numbers become floats."""
+        object.__setattr__(self, "turn", turn_sign("ε", self.turn))
+        for field, name, unit in (("turn_angle", "θ", "rad"), ("length", "l", "m")):
+            value = number(name, getattr(self, field))
+            if value < 0.0:
                 raise ValueError(
-                    f"{name} must be a finite number of 0 or more, not {value} {unit}."
+                    f"{name} must be a finite number of 0 or more, not {value:g} {unit}."
                 )
+            object.__setattr__(self, field, value)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -7,8 +7,19 @@ import numpy as np
 import pytest
 from hypothesis import assume, given
 
-from relguide import LEFT, RIGHT, Arc, NoPlan, Situation, Straight, Trajectory, plan
-from relguide.planning.recovery import least_bad, restore
+from relguide import (
+    LEFT,
+    RIGHT,
+    Arc,
+    Leader,
+    NoPlan,
+    Pursuer,
+    Situation,
+    Straight,
+    Trajectory,
+    plan,
+)
+from relguide.planning.recovery import least_bad, least_bad_sentence, restore
 from relguide.units import DEG
 from tests.situations import golden, numbers, situations
 
@@ -62,6 +73,21 @@ def test_the_least_bad_turn_keeps_what_it_says(case: str) -> None:
     assert least < situation.min_separation
     for angle in np.linspace(-2.0 * pi, 2.0 * pi, 41):
         assert flown(situation, float(angle), 300.0)[1] <= found.least_separation + 100.0
+
+
+def test_a_leader_that_never_stops_closing_is_no_matter_of_infinite_seconds() -> None:
+    """Twice as fast, and 400 km behind: after a quarter of an hour it still comes nearer."""
+    situation = Situation(
+        pursuer=Pursuer(x=0.0, y=400e3, heading=0.0, tas=150.0, max_bank=25 * DEG),
+        leader=Leader(x=0.0, y=0.0, heading=0.0, tas=300.0),
+        slot_distance=12e3,
+        min_separation=9e3,
+    )
+    found = least_bad(situation)
+    assert found.at_time == inf
+    said = least_bad_sentence(found)
+    assert "inf" not in said
+    assert "after 15 minutes" in said
 
 
 def test_the_answer_says_what_to_do() -> None:
