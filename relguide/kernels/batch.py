@@ -11,14 +11,13 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.angles import wrap
+from relguide.kernels.clearance import SLACK
 from relguide.kernels.detour import MAX_LEGS, best_detour
 from relguide.kernels.extremals import MAX_ROWS, solve
 from relguide.kernels.passage import GRAZE, word_clears
 from relguide.kernels.roots import FloatArray
 from relguide.kernels.tangent import tangents
 
-SLACK = 1e-6
-"""Touching d_min counts as keeping it, to this much of R."""
 PROVED, BOUNDED, UNREACHABLE, ALREADY_LOST, NO_WAY = 0.0, 1.0, 2.0, 3.0, 4.0
 """What a row of the answer says: the optimum, proved; a plan with its bound; no plan, and why."""
 

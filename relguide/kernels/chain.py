@@ -3,71 +3,26 @@
 A chain is a row a contact: the leader's piece, the side, the bearing, and whether the way to it is
 a word or a ride from the contact before (the leader may go on to its next pieces meanwhile).
 Between contacts the way is the earliest extremal that clears, so the arrival is a function of the
-bearings alone, and they are refined one after another.
+bearings alone.
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader is a table as in
 `clearance`.
 """
 
-from math import cos, inf, sin
+from math import inf
 
-import numpy as np
 from numba import njit
 
-from relguide.kernels.clearance import leader_at
-from relguide.kernels.contact import contact_exists, contact_heading, ride_within
-from relguide.kernels.passage import GRAZE, best_word, ways_to_contact, word_clears
+from relguide.kernels.contact import contact_at, contact_exists
+from relguide.kernels.contact_ways import ways_to_contact
+from relguide.kernels.passage import GRAZE, best_word, word_clears
+from relguide.kernels.ride import ride_arrival
 from relguide.kernels.roots import FloatArray
 
 WORD, RIDE, WAIT = 0.0, 1.0, 2.0
 """How a contact is reached, or the slot: by a path of just the right length, in the last case."""
 MAX_CONTACTS = 8
 """Longest chain."""
-_FINEST = 1e-7  # bearing steps end here: 1 mm at R = 12 km, 10 µs where the time has an edge
-GAIN = 1e-8
-"""Or where a parabola promises less than this [R/V_P]: 1 µs."""
-_SWEEPS = 16  # over all bearings of a chain
-_FURTHEST = 64.0  # times the way of a sweep
-_NEAR = 0.3  # values farther above the least say nothing about a minimum [R/V_P]
-
-
-@njit(cache=True, nogil=True)
-def piece_at(leader: FloatArray, t: float) -> int:
-    """The leader's piece at time t."""
-    i = 0
-    while i + 1 < len(leader) and leader[i + 1, 0] <= t:
-        i += 1
-    return i
-
-
-@njit(cache=True, nogil=True)
-def ride_arrival(
-    leader: FloatArray, t: float, bearing: float, goal: float, side: float, alpha: float,
-    delta: float,
-) -> float:  # fmt: skip
-    """When a ride that begins at time t reaches a bearing; infinite if it cannot be flown."""
-    i = piece_at(leader, t)
-    while bearing != goal:
-        left = leader[i + 1, 0] - t if i + 1 < len(leader) else inf
-        bearing, took = ride_within(bearing, goal, side, alpha, delta, leader[i, 4], left)
-        if took == inf:
-            return inf
-        t += took
-        i += 1
-    return t
-
-
-@njit(cache=True, nogil=True)
-def contact_at(
-    leader: FloatArray, t: float, bearing: float, side: float, alpha: float, delta: float
-) -> tuple[float, float, float]:
-    """The pursuer's pose at a contact at time t."""
-    lx, ly, lh = leader_at(leader, piece_at(leader, t), alpha, t)
-    return (
-        lx + delta * cos(lh + bearing),
-        ly + delta * sin(lh + bearing),
-        lh + contact_heading(bearing, side, alpha),
-    )
 
 
 @njit(cache=True, nogil=True)
@@ -139,148 +94,3 @@ def fly_links(
         if at >= 0:
             legs[last, 1:6] = rows[at]
     return x, y, h, t
-
-
-@njit(cache=True, nogil=True)
-def refine_chain(
-    x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float, t_open: float,
-    chain: FloatArray, here: float, stride: float, beat: float, rows: FloatArray, legs: FloatArray,
-) -> float:  # fmt: skip
-    """The least arrival near a chain, whose bearings are moved.
-
-    From the chain's arrival `here` on, looking as far as `stride` [rad] at first; given up where
-    the last sweep gained less than what is missing to `beat`. Other arguments as `fly_links`.
-    """
-    strides = np.full(len(chain), stride)
-    finest = 0.1 * stride
-    further = np.empty_like(chain)
-    for _ in range(_SWEEPS):
-        before, begun = here, chain.copy()
-        for k in range(len(chain)):
-            ax, ay, ah, t = fly_links(
-                x, y, h, 0.0, leader, alpha, delta, t_open, chain, 0, k - 1, inf, rows, legs
-            )
-            # on the final leg nothing depends on time: past the next contact all stays as it is
-            last = len(chain)
-            if t >= t_open and chain[k, 0] == len(leader) - 1:
-                last = min(k + 1, last)
-            here = _refine_one(
-                ax, ay, ah, t, leader, alpha, delta, t_open, chain, k, last, here, strides, finest,
-                rows, legs,
-            )  # fmt: skip
-        gain = before - here
-        # a valley that no bearing goes down alone: on the way that this sweep went together
-        reach = 1.0
-        while gain > GAIN and len(chain) > 1 and reach <= _FURTHEST:
-            further[:] = chain
-            further[:, 2] += reach * (chain[:, 2] - begun[:, 2])
-            _, _, _, there = fly_links(
-                x, y, h, 0.0, leader, alpha, delta, t_open, further, 0, len(chain), here, rows, legs
-            )
-            if there >= here:
-                break
-            here = there
-            begun[:] = chain
-            chain[:] = further
-            reach *= 2.0
-        gain = before - here
-        if here - 2.0 * gain > beat or (gain < GAIN and finest == _FINEST):
-            break
-        finest = max(0.1 * finest, _FINEST)
-    return here
-
-
-@njit(cache=True, nogil=True)
-def simplify_chain(
-    x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float, t_open: float,
-    chain: FloatArray, here: float, stride: float, rows: FloatArray, legs: FloatArray,
-) -> tuple[float, int]:  # fmt: skip
-    """Leave out contacts that a chain does as well without, or better.
-
-    As `refine_chain`; `chain` takes the shorter one. Returns its arrival and how many contacts.
-    """
-    contacts = len(chain)
-    k = 0
-    while k < contacts and contacts > 1:
-        fewer = np.empty((contacts - 1, 4))
-        fewer[:k] = chain[:k]
-        fewer[k:] = chain[k + 1 : contacts]
-        if k < contacts - 1 and chain[k, 3] == WORD:
-            fewer[k, 3] = WORD  # the ride that began at k is left out with it
-        _, _, _, there = fly_links(
-            x, y, h, 0.0, leader, alpha, delta, t_open, fewer, 0, contacts - 1, here + _NEAR, rows,
-            legs,
-        )  # fmt: skip
-        if there < inf:
-            there = refine_chain(
-                x, y, h, leader, alpha, delta, t_open, fewer, there, stride, here, rows, legs
-            )
-        if there <= here + GAIN:
-            contacts -= 1
-            here = there
-            chain[:contacts] = fewer
-            k = 0
-        else:
-            k += 1
-    return here, contacts
-
-
-@njit(cache=True, nogil=True)
-def _refine_one(
-    x: float, y: float, h: float, t: float, leader: FloatArray, alpha: float, delta: float,
-    t_open: float, chain: FloatArray, k: int, last: int, arrival: float, strides: FloatArray,
-    finest: float, rows: FloatArray, legs: FloatArray,
-) -> float:  # fmt: skip
-    """One bearing of a chain: parabolas where the arrival is smooth, smaller steps at edges.
-
-    Only the links up to `last` depend on it; the arrival falls by as much as their end.
-    """
-    stride, moved_by = strides[k], 0.0
-    link = t, leader, alpha, delta, t_open, chain, k, last
-    _, _, _, begun = fly_links(x, y, h, *link, inf, rows, legs)
-    here = begun
-    while stride >= finest and here < inf:
-        bearing = chain[k, 2]
-        beat = here + _NEAR
-        chain[k, 2] = bearing - stride
-        _, _, _, below = fly_links(x, y, h, *link, beat, rows, legs)
-        chain[k, 2] = bearing + stride
-        _, _, _, above = fly_links(x, y, h, *link, beat, rows, legs)
-        shift, promised = vertex(below, here, above, stride)
-        to, least, smooth = bearing, here, False
-        if promised > 0.0:
-            chain[k, 2] = bearing + shift
-            _, _, _, found = fly_links(x, y, h, *link, beat, rows, legs)
-            smooth = abs(here - found - promised) <= 0.1 * promised + GAIN
-            if found < least:
-                to, least = bearing + shift, found
-        if below < least:
-            to, least = bearing - stride, below
-        if above < least:
-            to, least = bearing + stride, above
-        chain[k, 2] = to
-        moved_by = max(moved_by, abs(to - bearing))
-        here = least
-        if smooth and promised < GAIN:
-            break
-        if smooth:
-            stride *= 0.1
-        elif abs(to - bearing) < stride:
-            stride *= 0.4
-    strides[k] = max(2.0 * moved_by, finest)
-    return arrival - (begun - here) if here < inf else arrival
-
-
-@njit(cache=True, nogil=True)
-def vertex(below: float, here: float, above: float, stride: float) -> tuple[float, float]:
-    """The least point of the parabola through three values: how far it is, and what it promises.
-
-    Both 0 where there is none within two strides.
-    """
-    bend = below - 2.0 * here + above
-    if not 0.0 < bend < inf:
-        return 0.0, 0.0
-    shift = 0.5 * stride * (below - above) / bend
-    if abs(shift) > 2.0 * stride:
-        return 0.0, 0.0
-    return shift, shift * shift * bend / (2.0 * stride * stride)

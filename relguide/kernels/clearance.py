@@ -12,9 +12,20 @@ from numba import njit
 
 from relguide.kernels.roots import FloatArray
 
+SLACK = 1e-6
+"""Touching d_min counts as keeping it, to this much of R: 1 cm for an airliner."""
 _DEPTH = 64
 _NARROW = 1e-6  # a window this short that is still undecided touches the limit: counted as lost
 _MOST_WINDOWS = 32_768  # looked at; then too: riding a millimetre outside round a disc takes 10,000
+
+
+@njit(cache=True, nogil=True)
+def piece_at(leader: FloatArray, t: float) -> int:
+    """The leader's piece at time t."""
+    i = 0
+    while i + 1 < len(leader) and leader[i + 1, 0] <= t:
+        i += 1
+    return i
 
 
 @njit(cache=True, nogil=True)
@@ -50,10 +61,8 @@ def piece_clears(
     mids = np.empty(_DEPTH)
     halves = np.empty(_DEPTH)
     done = 0.0
-    i = 0
+    i = piece_at(leader, t)
     looked = 0
-    while i + 1 < len(leader) and leader[i + 1, 0] <= t:
-        i += 1
     while done < duration:
         end = duration
         if i + 1 < len(leader):

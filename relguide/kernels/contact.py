@@ -17,6 +17,9 @@ from math import acos, cos, inf, sin, sqrt
 
 from numba import njit
 
+from relguide.kernels.clearance import leader_at, piece_at
+from relguide.kernels.roots import FloatArray
+
 _STEP = 0.07  # bearing step of Simpson's rule: 4°, right to 1e-9
 _SLOWLY = 0.1  # or this much of the speed round the leader, where the ride is slow
 _STILL = 0.01  # slower round the leader than this, a ride gets nowhere [V_P]
@@ -39,6 +42,37 @@ def contact_heading(bearing: float, side: float, alpha: float) -> float:
         alpha: V_L/V_P.
     """
     return bearing + side * acos(alpha * cos(bearing))
+
+
+@njit(cache=True, nogil=True)
+def contact_on(
+    leader: FloatArray, i: int, t: float, bearing: float, side: float, alpha: float, delta: float
+) -> tuple[float, float, float]:
+    """The pursuer's pose at a contact at time t, the leader on its piece i.
+
+    Args:
+        leader: table of its pieces, as in `clearance`. shape (k, 5)
+        i: piece; it may begin later, and is then thought to go back to t.
+        t: time [R/V_P].
+        bearing: as in `contact_heading` [rad].
+        side: as there.
+        alpha: V_L/V_P.
+        delta: distance [R].
+    """
+    lx, ly, lh = leader_at(leader, i, alpha, t)
+    return (
+        lx + delta * cos(lh + bearing),
+        ly + delta * sin(lh + bearing),
+        lh + contact_heading(bearing, side, alpha),
+    )
+
+
+@njit(cache=True, nogil=True)
+def contact_at(
+    leader: FloatArray, t: float, bearing: float, side: float, alpha: float, delta: float
+) -> tuple[float, float, float]:
+    """The pursuer's pose at a contact at time t, on whatever piece the leader then is."""
+    return contact_on(leader, piece_at(leader, t), t, bearing, side, alpha, delta)
 
 
 @njit(cache=True, nogil=True)

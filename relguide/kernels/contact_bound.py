@@ -19,7 +19,7 @@ from numba import njit
 
 from relguide.kernels.angles import TWO_PI, wrap
 from relguide.kernels.bounds import breaks_limit, soonest
-from relguide.kernels.clearance import leader_at
+from relguide.kernels.clearance import leader_at, piece_at
 from relguide.kernels.contact import contact_heading
 from relguide.kernels.extremals import MAX_ROWS, SIGNS, fly_piece, solve
 from relguide.kernels.roots import FloatArray
@@ -320,10 +320,7 @@ def _breaks_with_loop(
             left -= amount
         for late in range(2):
             t = along + late * TWO_PI
-            i = 0
-            while i + 1 < len(leader) and leader[i + 1, 0] <= t:
-                i += 1
-            lx, ly, _ = leader_at(leader, i, alpha, t)
+            lx, ly, _ = leader_at(leader, piece_at(leader, t), alpha, t)
             if hypot(px - lx, py - ly) < limit:
                 if late == 0:
                     soonest_breach = min(soonest_breach, along)

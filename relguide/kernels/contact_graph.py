@@ -15,22 +15,17 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.angles import TWO_PI, wrap_signed
-from relguide.kernels.chain import (
-    MAX_CONTACTS,
-    RIDE,
-    WORD,
-    contact_at,
-    earliest_contact,
-    piece_at,
-)
-from relguide.kernels.contact import contact_exists, ride_way, ride_within
+from relguide.kernels.chain import MAX_CONTACTS, RIDE, WORD, earliest_contact
+from relguide.kernels.clearance import piece_at
+from relguide.kernels.contact import contact_at, contact_exists, ride_way, ride_within
+from relguide.kernels.contact_ways import not_before, not_before_slot
 from relguide.kernels.extremals import MAX_ROWS, solve
 from relguide.kernels.hold import HOLD_PIECES
-from relguide.kernels.passage import GRAZE, not_before, not_before_slot, word_clears
+from relguide.kernels.passage import GRAZE, first_clear
 from relguide.kernels.roots import FloatArray
 from relguide.kernels.waiting import wait_for_opening
 
-_TRIES = 4  # so many times as many nodes may be left by a path that waits: 0.3 ms each
+_TRIES = 4  # times the hops of a round: so many nodes are left by a path that waits, 0.3 ms each
 _ROUNDS = 3  # of hops, each followed by rides: chains with up to two hops and three rides
 _BESIDE = 0.05  # nodes this close lead to the same places: 3° [rad]
 _BETTER = 1e-9  # a label must fall by more than this [R/V_P], or rounding goes round in circles
@@ -84,13 +79,8 @@ def _onward(
     if n == 0:
         return inf, inf
     lower = max(t + rows[0, 0], t_open)
-    for k in range(n):
-        arrival = t + rows[k, 0]
-        if arrival >= beat:
-            break
-        if arrival >= t_open and word_clears(x, y, h, t, rows[k], leader, alpha, delta - GRAZE):
-            return lower, arrival
-    return lower, inf
+    arrival, _ = first_clear(x, y, h, t, rows[:n], leader, alpha, delta - GRAZE, t_open, beat)
+    return lower, arrival
 
 
 @njit(cache=True, nogil=True)

@@ -8,26 +8,35 @@ Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader i
 `clearance`.
 """
 
-from math import ceil, cos, hypot, inf, isnan, pi, sin, sqrt
+from math import inf
 
-import numpy as np
 from numba import njit
 
-from relguide.kernels.angles import wrap, wrap_signed
-from relguide.kernels.clearance import leader_at, piece_clears
-from relguide.kernels.contact import contact_exists, contact_heading
-from relguide.kernels.extremals import MAX_ROWS, SIGNS, fly_piece, solve, solve_toward
-from relguide.kernels.hold import word_to_point
+from relguide.kernels.angles import wrap
+from relguide.kernels.clearance import piece_clears
+from relguide.kernels.contact import contact_exists, contact_on
+from relguide.kernels.contact_ways import not_before_slot, ways_to_contact
+from relguide.kernels.extremals import SIGNS, fly_piece, solve
 from relguide.kernels.roots import FloatArray
 
 GRAZE = 3e-7
 """The contact is flown this far outside d_min [R], so that rounding cannot break it."""
-
-
-_TURNING_STEP = 0.15  # the leader turns by some 10° in it [R/V_P]
-_LONGEST_DETOUR = 24.0  # 6π + 4, rounded up
 _EARLY = 1e-9  # this much before it opens the slot counts as open [R/V_P], as in `solve`
-_JUMP = 1.0  # a word's length does not change by more within one step, unless it jumps [R]
+
+
+@njit(cache=True, nogil=True)
+def pieces_clear(
+    x: float, y: float, h: float, t: float, signs: FloatArray, amounts: FloatArray,
+    leader: FloatArray, alpha: float, limit: float,
+) -> bool:  # fmt: skip
+    """Whether pieces at full bank or straight, flown from time t, stay `limit` away."""
+    for k in range(len(signs)):
+        sign, amount = signs[k], amounts[k]
+        if amount > 0.0 and not piece_clears(x, y, h, sign, t, amount, leader, alpha, limit):
+            return False
+        x, y, h = fly_piece(x, y, h, sign, amount)
+        t += amount
+    return True
 
 
 @njit(cache=True, nogil=True)
@@ -36,14 +45,26 @@ def word_clears(
     limit: float,
 ) -> bool:  # fmt: skip
     """Whether a row of `solve`, flown from time t, stays `limit` away from the leader."""
-    word = int(row[1])
-    for k in range(3):
-        sign, amount = SIGNS[word, k], row[k + 2]
-        if amount > 0.0 and not piece_clears(x, y, h, sign, t, amount, leader, alpha, limit):
-            return False
-        x, y, h = fly_piece(x, y, h, sign, amount)
-        t += amount
-    return True
+    return pieces_clear(x, y, h, t, SIGNS[int(row[1])], row[2:5], leader, alpha, limit)
+
+
+@njit(cache=True, nogil=True)
+def first_clear(
+    x: float, y: float, h: float, t: float, rows: FloatArray, leader: FloatArray, alpha: float,
+    limit: float, t_open: float, beat: float,
+) -> tuple[float, int]:  # fmt: skip
+    """The first of the rows of `solve`, flown from time t, that is not early and clears.
+
+    Returns:
+        arrival time and its number; infinite and −1 if none arrives before `beat`.
+    """
+    for k in range(len(rows)):
+        arrival = t + rows[k, 0]
+        if arrival >= beat:
+            break
+        if arrival >= t_open - _EARLY and word_clears(x, y, h, t, rows[k], leader, alpha, limit):
+            return arrival, k
+    return inf, -1
 
 
 @njit(cache=True, nogil=True)
@@ -56,186 +77,7 @@ def best_word(
     Infinite and −1 if none arrives before `beat`.
     """
     n = solve(x - alpha * t, y, wrap(h), alpha, max(t_open - t, 0.0), rows)
-    for i in range(n):
-        if t + rows[i, 0] >= beat:
-            break
-        if word_clears(x, y, h, t, rows[i], leader, alpha, limit):
-            return t + rows[i, 0], i
-    return inf, -1
-
-
-@njit(cache=True, nogil=True)
-def intercept(dx: float, dy: float, ax: float, ay: float) -> float:
-    """Least time to a point at (dx, dy) that moves at a, by the straight way; 0 where unknown."""
-    closing = dx * ax + dy * ay
-    one_less = 1.0 - ax * ax - ay * ay
-    if one_less <= 1e-9:
-        return 0.0
-    return float((closing + sqrt(closing * closing + one_less * (dx * dx + dy * dy))) / one_less)
-
-
-@njit(cache=True, nogil=True)
-def not_before(
-    x: float, y: float, h: float, t: float, leader: FloatArray, i: int, alpha: float, delta: float,
-    bearing: float, side: float,
-) -> float:  # fmt: skip
-    """Before this time no way from a pose at time t reaches a contact on the leader's piece i."""
-    start = max(leader[i, 0], t)
-    if leader[i, 4] != 0.0:
-        return float(start)
-    lx, ly, lh = leader_at(leader, i, alpha, t)
-    course = lh + contact_heading(bearing, side, alpha)
-    cx, cy = lx + delta * cos(lh + bearing), ly + delta * sin(lh + bearing)
-    straight = intercept(cx - x, cy - y, alpha * cos(lh), alpha * sin(lh))
-    return float(max(t + max(straight, abs(wrap_signed(course - h))), start))
-
-
-@njit(cache=True, nogil=True)
-def not_before_slot(x: float, y: float, h: float, t: float, alpha: float, t_open: float) -> float:
-    """Before this time no way from a pose at time t reaches the slot."""
-    onward = max(intercept(alpha * t - x, -y, alpha, 0.0), abs(wrap_signed(h)))
-    return float(max(t + onward, t_open))
-
-
-@njit(cache=True, nogil=True)
-def ways_to_contact(
-    x: float, y: float, h: float, t: float, leader: FloatArray, i: int, alpha: float, delta: float,
-    bearing: float, side: float, rows: FloatArray,
-) -> int:  # fmt: skip
-    """All words from (x, y, h) at time t to a contact while the leader is on its piece i.
-
-    Returns:
-        how many rows, with the time of arrival in place of how long they take; those of a straight
-        piece come in order of time.
-    """
-    start, rate = leader[i, 0], leader[i, 4]
-    end = leader[i + 1, 0] if i + 1 < len(leader) else inf
-    if end <= t:
-        return 0
-    if rate != 0.0:
-        return _ways_while_turning(x, y, h, t, leader, i, alpha, delta, bearing, side, rows)
-    lx, ly, lh = leader_at(leader, i, alpha, t)
-    contact_x = lx + delta * cos(lh + bearing)
-    contact_y = ly + delta * sin(lh + bearing)
-    left = end - t
-    if left < inf and (
-        hypot(contact_x + alpha * left * cos(lh) - x, contact_y + alpha * left * sin(lh) - y) > left
-    ):
-        return 0  # not even straight there
-    course = lh + contact_heading(bearing, side, alpha)
-    c, s = cos(course), sin(course)
-    dx, dy = x - contact_x, y - contact_y
-    n = solve_toward(
-        dx * c + dy * s, dy * c - dx * s, wrap(h - course), alpha * cos(lh - course),
-        alpha * sin(lh - course), max(start - t, 0.0), rows,
-    )  # fmt: skip
-    while n > 0 and rows[n - 1, 0] > left:
-        n -= 1
-    rows[:n, 0] += t
-    return n
-
-
-@njit(cache=True, nogil=True)
-def _ways_while_turning(
-    x: float, y: float, h: float, t_start: float, leader: FloatArray, i: int, alpha: float,
-    delta: float, bearing: float, side: float, rows: FloatArray,
-) -> int:  # fmt: skip
-    """As `ways_to_contact` while the leader turns: the contact moves on a circle, so roots in t."""
-    start, end = max(leader[i, 0], t_start), leader[i + 1, 0]
-    steps = ceil((end - start) / _TURNING_STEP) + 1
-    # a word is at least as long as the way is far, and hardly longer than three full turns more
-    most = (1.0 + alpha + delta * abs(leader[i, 4])) * (end - start) / steps
-    earliest, latest = steps + 1, -1
-    for k in range(steps + 1):
-        t = start + (end - start) * k / steps
-        lx, ly, lh = leader_at(leader, i, alpha, t)
-        away = hypot(lx + delta * cos(lh + bearing) - x, ly + delta * sin(lh + bearing) - y)
-        if -most <= t - t_start - away <= _LONGEST_DETOUR + most:
-            earliest, latest = min(earliest, k), k
-    piece = np.empty(3)
-    turns = np.empty((3, 2))  # first and last turn at the last time, at this one, and between
-    n = 0
-    for branch in range(8):
-        word = t_start, leader, i, alpha, delta, bearing, side, branch
-        last, last_t = np.nan, start
-        for k in range(earliest, latest + 1):
-            t = start + (end - start) * k / steps
-            gap = _excess(x, y, h, *word, t, piece)
-            turns[1, 0], turns[1, 1] = piece[0], piece[2]
-            if k > earliest and _unbroken(last, turns[0], gap, turns[1]):
-                n = _root(x, y, h, *word, last_t, last, t, gap, piece, rows, n)
-            elif k > earliest and (abs(last) < _JUMP or abs(gap) < _JUMP):
-                # a turn passes 0, or the word ceases to exist: there may be a root on either side
-                low, high, at_low, at_high = last_t, t, last, gap
-                for _ in range(25):
-                    middle = 0.5 * (low + high)
-                    value = _excess(x, y, h, *word, middle, piece)
-                    turns[2, 0], turns[2, 1] = piece[0], piece[2]
-                    if (isnan(value) and isnan(last)) or _unbroken(last, turns[0], value, turns[2]):
-                        low, at_low = middle, value
-                    else:
-                        high, at_high = middle, value
-                n = _root(x, y, h, *word, last_t, last, low, at_low, piece, rows, n)
-                n = _root(x, y, h, *word, high, at_high, t, gap, piece, rows, n)
-            last, last_t = gap, t
-            turns[0] = turns[1]
-    return n
-
-
-@njit(cache=True, nogil=True)
-def _unbroken(value: float, turns: FloatArray, other: float, others: FloatArray) -> bool:
-    """Whether a word's length goes on smoothly: it exists at both times, and no turn jumps."""
-    return bool(
-        not isnan(value)
-        and not isnan(other)
-        and abs(turns[0] - others[0]) < pi
-        and abs(turns[1] - others[1]) < pi
-    )
-
-
-@njit(cache=True, nogil=True)
-def _root(
-    x: float, y: float, h: float, t_start: float, leader: FloatArray, i: int, alpha: float,
-    delta: float, bearing: float, side: float, branch: int, low: float, at_low: float,
-    high: float, at_high: float, piece: FloatArray, rows: FloatArray, n: int,
-) -> int:  # fmt: skip
-    """Append the row of a word that arrives between two times, if there is one (Illinois)."""
-    if not at_low * at_high <= 0.0 or n == MAX_ROWS:
-        return n
-    at, value = (low, at_low) if abs(at_low) < abs(at_high) else (high, at_high)
-    for k in range(60):
-        if abs(value) < 1e-13 or high - low < 1e-14:
-            break
-        share = 0.5 if k % 4 == 3 else at_high / (at_high - at_low)
-        at = high - share * (high - low)
-        value = _excess(x, y, h, t_start, leader, i, alpha, delta, bearing, side, branch, at, piece)
-        if (value < 0.0) == (at_low < 0.0):
-            low, at_low = at, value
-            at_high *= 0.5
-        else:
-            high, at_high = at, value
-            at_low *= 0.5
-    value = _excess(x, y, h, t_start, leader, i, alpha, delta, bearing, side, branch, at, piece)
-    if not abs(value) < 1e-9:
-        return n
-    rows[n, 0] = at
-    rows[n, 1] = branch if branch < 6 else branch - 2
-    rows[n, 2:5] = piece
-    return n + 1
-
-
-@njit(cache=True, nogil=True)
-def _excess(
-    x: float, y: float, h: float, t_start: float, leader: FloatArray, i: int, alpha: float,
-    delta: float, bearing: float, side: float, branch: int, t: float, piece: FloatArray,
-) -> float:  # fmt: skip
-    """Length of a word to where the contact is at t, less the time for it; NaN if out of reach."""
-    lx, ly, lh = leader_at(leader, i, alpha, t)
-    course = lh + contact_heading(bearing, side, alpha)
-    c, s = cos(course), sin(course)
-    dx, dy = x - lx - delta * cos(lh + bearing), y - ly - delta * sin(lh + bearing)
-    length = word_to_point(dx * c + dy * s, dy * c - dx * s, h - course, 0.0, branch, piece)
-    return length - (t - t_start) if length >= 0.0 else np.nan
+    return first_clear(x, y, h, t, rows[:n], leader, alpha, limit, t_open, beat)
 
 
 @njit(cache=True, nogil=True)
@@ -277,9 +119,7 @@ def through_contact(
         t = rows[k, 0]
         if t >= beat:
             continue
-        lx, ly, lh = leader_at(leader, i, alpha, t)
-        cx, cy = lx + delta * cos(lh + bearing), ly + delta * sin(lh + bearing)
-        ch = lh + contact_heading(bearing, side, alpha)
+        cx, cy, ch = contact_on(leader, i, t, bearing, side, alpha, delta)
         if not_before_slot(cx, cy, ch, t, alpha, t_open) >= beat:
             continue
         if m < 0 or i + 1 < len(leader):
@@ -293,15 +133,9 @@ def through_contact(
             continue
         if t < reached[0]:
             reached[0], reached[1] = t, lower
-        for j in range(m):
-            arrival = t + onward[j, 0]
-            if arrival >= beat:
-                break
-            if arrival >= t_open - _EARLY and word_clears(
-                cx, cy, ch, t, onward[j], leader, alpha, limit
-            ):
-                beat = arrival
-                way[0] = rows[k]
-                way[1] = onward[j]
-                break
+        arrival, j = first_clear(cx, cy, ch, t, onward[:m], leader, alpha, limit, t_open, beat)
+        if j >= 0:
+            beat = arrival
+            way[0] = rows[k]
+            way[1] = onward[j]
     return beat

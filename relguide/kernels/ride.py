@@ -10,14 +10,31 @@ from math import ceil, hypot, inf
 from numba import njit
 
 from relguide.kernels.angles import wrap_signed
-from relguide.kernels.clearance import fly_rate, leader_at
-from relguide.kernels.contact import contact_heading, ride_within
+from relguide.kernels.clearance import fly_rate, leader_at, piece_at
+from relguide.kernels.contact import contact_on, ride_within
 from relguide.kernels.roots import FloatArray
 
 NODE = 0.03
 """Time between nodes of a ride [R/V_P]: between them it strays from d_min by some 1e-8 R."""
 MAX_NODES = 600
 """Longest ride in nodes: three times the time to circle any disc that can be ridden."""
+
+
+@njit(cache=True, nogil=True)
+def ride_arrival(
+    leader: FloatArray, t: float, bearing: float, goal: float, side: float, alpha: float,
+    delta: float,
+) -> float:  # fmt: skip
+    """When a ride that begins at time t reaches a bearing; infinite if it cannot be flown."""
+    i = piece_at(leader, t)
+    while bearing != goal:
+        left = leader[i + 1, 0] - t if i + 1 < len(leader) else inf
+        bearing, took = ride_within(bearing, goal, side, alpha, delta, leader[i, 4], left)
+        if took == inf:
+            return inf
+        t += took
+        i += 1
+    return t
 
 
 @njit(cache=True, nogil=True)
@@ -45,9 +62,7 @@ def ride_pieces(
     """
     n = 0
     bearing = first
-    i = 0
-    while i + 1 < len(leader) and leader[i + 1, 0] <= t:
-        i += 1
+    i = piece_at(leader, t)
     while bearing != last and n < len(pieces):
         left = leader[i + 1, 0] - t if i + 1 < len(leader) else inf
         begun = bearing
@@ -61,11 +76,9 @@ def ride_pieces(
             _, duration = ride_within(reached, goal, side, alpha, delta, leader[i, 4], inf)
             if duration <= 0.0 or duration == inf:
                 continue
-            lx, ly, lh = leader_at(leader, i, alpha, t + duration)
-            x, y, h = _two_arcs(
-                x, y, h, duration, lx, ly, lh + contact_heading(goal, side, alpha), delta, side,
-                pieces[n : n + 2],
-            )  # fmt: skip
+            lx, ly, _ = leader_at(leader, i, alpha, t + duration)
+            _, _, course = contact_on(leader, i, t + duration, goal, side, alpha, delta)
+            x, y, h = _two_arcs(x, y, h, duration, lx, ly, course, delta, side, pieces[n : n + 2])
             n += 2
             t += duration
             reached = goal

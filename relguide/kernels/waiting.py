@@ -7,9 +7,8 @@ Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader i
 import numpy as np
 from numba import njit
 
-from relguide.kernels.clearance import piece_clears
-from relguide.kernels.extremals import fly_piece
 from relguide.kernels.hold import HOLD_PIECES, MAX_HOLDS, holds
+from relguide.kernels.passage import pieces_clear
 from relguide.kernels.roots import FloatArray
 
 
@@ -43,23 +42,8 @@ def wait_for_opening(
         for k in range(HOLD_PIECES):
             if signs[j, k] != 0.0 and amounts[j, k] > 0.0:
                 turns += 1
-        if turns < fewest and _clears(x, y, h, t, signs[j], amounts[j], leader, alpha, limit):
+        if turns < fewest and pieces_clear(x, y, h, t, signs[j], amounts[j], leader, alpha, limit):
             fewest = turns
             pieces[:, 0] = signs[j]
             pieces[:, 1] = amounts[j]
     return fewest <= HOLD_PIECES
-
-
-@njit(cache=True, nogil=True)
-def _clears(
-    x: float, y: float, h: float, t: float, signs: FloatArray, amounts: FloatArray,
-    leader: FloatArray, alpha: float, limit: float,
-) -> bool:  # fmt: skip
-    """Whether pieces flown from time t on stay `limit` away from the leader."""
-    for k in range(len(signs)):
-        sign, amount = signs[k], amounts[k]
-        if amount > 0.0 and not piece_clears(x, y, h, sign, t, amount, leader, alpha, limit):
-            return False
-        x, y, h = fly_piece(x, y, h, sign, amount)
-        t += amount
-    return True

@@ -8,13 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from relguide.kernels.approach import least_separation
+from relguide.kernels.clearance import SLACK
 from relguide.planning.inputs import expect
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import Trajectory
 from relguide.units import Metre, Second
 
-SLACK = 1e-6
-"""Touching d_min counts as keeping it, to this much of R: 1 cm for an airliner."""
 TOLERANCE = 1e-7
 """How far below the least separation found the proof may stop [R]: 1 mm for an airliner."""
 

@@ -29,8 +29,8 @@ from relguide.units import Second
 
 SAME = 2e-4
 """A way handed over as segments takes as long as the one searched, to this [R/V_P]: some ms."""
-BEARINGS = 48
-"""How finely the disc is scanned round a leader that keeps straight: every 7.5°."""
+BEARINGS = 60
+"""How finely the disc is scanned round a leader that keeps straight: every 6°."""
 TURNING_BEARINGS = 72
 """Round one that turns: every 5°, since contacts must fall into the time of one piece."""
 
@@ -62,7 +62,7 @@ def detour(found: Candidates, *, beat: Second) -> Candidate | None:
         legs,
     )
     if count > 0:
-        around = _flown(found, leader, limit, legs[:count])
+        around = flown(situation, frame, leader, limit, legs[:count])
         if around is not None and around.time_to_converge <= (time + SAME) * scale:
             return around
     if beat < HORIZON:
@@ -76,11 +76,21 @@ def detour(found: Candidates, *, beat: Second) -> Candidate | None:
     return assemble(situation, frame, signs, [turned, straight, *row[2:].tolist()], "")
 
 
-def _flown(
-    found: Candidates, leader: np.ndarray, limit: float, legs: np.ndarray
+def flown(
+    situation: Situation, frame: SlotFrame, leader: np.ndarray, limit: float, legs: np.ndarray
 ) -> Candidate | None:
-    """The legs of a way as segments; the last word anew, from where the rides really end."""
-    situation, frame = found.situation, found.frame
+    """The legs of a way as segments; the last word anew, from where the rides really end.
+
+    Args:
+        situation: gives the pursuer.
+        frame: its slot frame.
+        leader: table of its pieces in there. shape (k, 5)
+        limit: d_min [R].
+        legs: as `chain.fly_links` gives them. shape (n, 6)
+
+    Returns:
+        `None` if no word leads on from there.
+    """
     x, y, h, t = frame.x, frame.y, frame.h, 0.0
     segments: list[Segment] = []
     signs: list[float] = []  # of the words since the last ride: where they meet, turns may be one

@@ -9,7 +9,8 @@ from typing import Literal
 
 import numpy as np
 
-from relguide.planning.certificate import SLACK, Certificate, certify, judge, kernel_arrays
+from relguide.kernels.clearance import SLACK
+from relguide.planning.certificate import Certificate, certify, judge, kernel_arrays
 from relguide.planning.detour import detour
 from relguide.planning.direct import direct
 from relguide.planning.inputs import expect

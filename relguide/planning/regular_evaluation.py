@@ -13,8 +13,9 @@ import numpy as np
 
 from relguide.kernels.angles import wrap_signed
 from relguide.kernels.approach import closest_of_straights, least_separation
+from relguide.kernels.clearance import SLACK
 from relguide.kernels.motion import advance
-from relguide.planning.certificate import SLACK, TOLERANCE
+from relguide.planning.certificate import TOLERANCE
 from relguide.planning.inputs import expect
 from relguide.planning.regular import RegularTrajectory, Triplet
 from relguide.planning.situation import Situation

@@ -7,16 +7,16 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from relguide.kernels.chain import contact_at, ride_arrival
 from relguide.kernels.clearance import fly_rate, leader_at
 from relguide.kernels.contact import (
+    contact_at,
     contact_exists,
     contact_heading,
     ride_rates,
     ride_way,
     ride_within,
 )
-from relguide.kernels.ride import MAX_NODES, ride_pieces
+from relguide.kernels.ride import MAX_NODES, ride_arrival, ride_pieces
 from relguide.kernels.tangent import tangent_contacts
 from tests.situations import headings, numbers
 

@@ -26,6 +26,7 @@ from relguide.kernels.detour import MAX_LEGS, best_detour
 from relguide.kernels.passage import GRAZE
 from relguide.kernels.tangent import tangents
 from relguide.kernels.turn import turn_radius
+from relguide.planning import detour
 from relguide.planning.detour import BEARINGS, TURNING_BEARINGS, leader_table
 from relguide.planning.optimality import check
 from tests.oracle import arrival_error
@@ -170,6 +171,25 @@ def test_a_way_that_touches_the_limit_may_wait_for_the_slot() -> None:
     assert least > WAITING_BEHIND.min_separation - 0.5
 
 
+LEAVING_STRAIGHT = Situation(
+    pursuer=Pursuer(
+        x=0.0,
+        y=0.0,
+        heading=5.003938900113391,
+        tas=253.64906842643038,
+        max_bank=0.31838441440708265,
+    ),
+    leader=Leader(
+        x=-6103.098383733249,
+        y=-63004.07444338067,
+        heading=6.031701696726068,
+        tas=180.84985388857436,
+    ),
+    slot_distance=59045.122562230295,
+    min_separation=52036.27189395513,
+)
+
+
 @pytest.mark.parametrize("off", [0.0, 1e-7, -1e-7, 1e-5])
 def test_a_ride_is_closed_by_the_word_it_was_searched_with(off: float) -> None:
     """Rounding of the ride's last node once cost the right word, and 1,553 s."""
@@ -184,6 +204,14 @@ def test_a_ride_is_closed_by_the_word_it_was_searched_with(off: float) -> None:
     answer = plan(situation)
     assert isinstance(answer, Plan)
     assert 219.0 < answer.time_to_converge < 227.70
+
+
+def test_two_contacts_move_along_an_edge_together(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It rides, leaves straight and comes back to touch: 0.11 s are lost if each moves alone."""
+    monkeypatch.setattr(detour, "BEARINGS", 48)
+    answer = plan(LEAVING_STRAIGHT)
+    assert isinstance(answer, Plan)
+    assert answer.time_to_converge == pytest.approx(655.925, abs=2e-3)
 
 
 def searched(situation: Situation, effort: int = 1) -> float:

@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from relguide.kernels.chain import contact_at
 from relguide.kernels.clearance import leader_at
+from relguide.kernels.contact import contact_at
+from relguide.kernels.contact_ways import ways_to_contact
 from relguide.kernels.extremals import MAX_ROWS, SIGNS, fly_piece
-from relguide.kernels.passage import ways_to_contact
 from relguide.kernels.roots import FloatArray
 from tests.situations import headings, numbers
 
