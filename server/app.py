@@ -1,5 +1,6 @@
 """The service as an ASGI app: `uvicorn server.app:app`, or `relguide serve`."""
 
+import asyncio
 import os
 import threading
 from collections.abc import AsyncIterator
@@ -12,6 +13,7 @@ from relguide import __version__
 from relguide.planning.plan import Planner, plan
 from server import areas, flights, pages, plans, scene_relay
 from server.departures import Departures, library_departures
+from server.drift import DriftCheck
 from server.errors import Refusal, install_handlers, survives
 from server.fleet import Fleet
 from server.guards import BodyLimit, StrictHeaders
@@ -32,19 +34,21 @@ router = APIRouter(tags=["service"])
 def create_app(
     settings: Settings | None = None,
     *,
-    planner: Planner = plan,
+    planner: Planner | None = None,
     departures: Departures | None = None,
 ) -> FastAPI:
     """The whole service.
 
     Args:
         settings: limits; from the environment if left out.
-        planner: who plans, for REST and for flights.
+        planner: who plans, for REST and for flights; the settings' if left out.
         departures: what can be flown; the library's scenarios if left out.
     """
     settings = settings or settings_from(os.environ)
-    departures = departures or library_departures(planner)
     metrics = Metrics()
+    drift = DriftCheck(metrics, every=settings.drift_check)
+    planner = drift.watching(planner or _planner(settings.planner))
+    departures = departures or library_departures(planner)
     fleet = Fleet(settings, metrics)
     warm = threading.Event()
 
@@ -56,9 +60,11 @@ def create_app(
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         # Compiling the kernels takes seconds the first time ever: the page need not wait for it.
         threading.Thread(target=warm_up, name="warm up", daemon=True).start()
+        drift.start()
         fleet.start()
         yield
         await fleet.stop()
+        await asyncio.to_thread(drift.stop)
 
     app = FastAPI(
         title="relguide",
@@ -87,6 +93,16 @@ def create_app(
     app.add_middleware(BodyLimit, max_body=settings.max_body)
     app.add_middleware(StrictHeaders)
     return app
+
+
+def _planner(name: str) -> Planner:
+    """A planner by its name in the settings."""
+    if name == "exact":
+        return plan
+    from relguide.learn.network import load_network
+    from relguide.learn.planner import network_planner
+
+    return network_planner(load_network())
 
 
 @router.get("/healthz", summary="Is it alive?")

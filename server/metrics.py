@@ -10,7 +10,7 @@ some ten where the separation limit binds."""
 
 @dataclass(slots=True, kw_only=True)
 class Metrics:
-    """Counters of one running service; they only grow."""
+    """Counters of one running service, and one largest value; they only grow."""
 
     plans: dict[str, int] = field(default_factory=lambda: {"planned": 0, "no_plan": 0})
     """Plans answered, by status."""
@@ -24,12 +24,35 @@ class Metrics:
     """Messages put on the streams."""
     ticks_dropped: int = 0
     """Messages that a slow client never got because newer ones took their place."""
+    network_answers: int = 0
+    """Plans by network, for REST and for flights."""
+    network_fallbacks: int = 0
+    """Plans by the exact planner because the network could not say."""
+    drift_answers: dict[str, int] = field(default_factory=lambda: {"same": 0, "different": 0})
+    """Plans by network that were planned again exactly, by what came of it."""
+    drift_dropped: int = 0
+    """Plans by network whose turn it was to be audited while too many waited."""
+    drift_loss: float = 0.0
+    """Sum of what audited plans lost [s]."""
+    drift_largest_loss: float = 0.0
+    """The largest of those losses [s]."""
 
     def plan_answered(self, status: str, seconds: float) -> None:
         """Count one plan."""
         self.plans[status] += 1
         self.plan_seconds += seconds
         self.plan_counts[bisect_left(BUCKETS, seconds)] += 1
+
+    def drift_audited(self, *, differs: bool, loss: float) -> None:
+        """Count one plan by network that was planned again exactly.
+
+        Args:
+            differs: whether the two arrive at different times.
+            loss: how much later the network's arrives [s]; below 0 if it arrives sooner.
+        """
+        self.drift_answers["different" if differs else "same"] += 1
+        self.drift_loss += max(loss, 0.0)
+        self.drift_largest_loss = max(loss, self.drift_largest_loss)
 
     def text(self, *, flights_running: int, stream_clients: int, scene_clients: int) -> str:
         """The whole page in the text format 0.0.4; the gauges are given by who knows them now."""
@@ -45,6 +68,21 @@ class Metrics:
             f'relguide_plan_seconds_bucket{{le="+Inf"}} {total}',
             f"relguide_plan_seconds_sum {self.plan_seconds:.6f}",
             f"relguide_plan_seconds_count {total}",
+            *_single("relguide_network_plans_total", "counter", "Plans by network.",
+                     self.network_answers),
+            *_single("relguide_network_fallbacks_total", "counter",
+                     "Plans by the exact planner in place of the network.", self.network_fallbacks),
+            *_header("relguide_drift_audits_total", "counter",
+                     "Plans by network that were planned again exactly."),
+            *(f'relguide_drift_audits_total{{answer="{k}"}} {n}'
+              for k, n in self.drift_answers.items()),
+            *_single("relguide_drift_dropped_total", "counter",
+                     "Plans by network not audited because too many waited.", self.drift_dropped),
+            *_single("relguide_drift_loss_seconds_total", "counter",
+                     "Sum of what audited plans by network lost.", f"{self.drift_loss:.6f}"),
+            *_single("relguide_drift_largest_loss_seconds", "gauge",
+                     "Most that an audited plan by network lost.",
+                     f"{self.drift_largest_loss:.6f}"),
             *_single("relguide_flights_started_total", "counter", "Flights started.",
                      self.flights_started),
             *_single("relguide_stream_ticks_sent_total", "counter", "Ticks sent to clients.",
@@ -62,5 +100,5 @@ def _header(name: str, kind: str, text: str) -> tuple[str, str]:
     return f"# HELP {name} {text}", f"# TYPE {name} {kind}"
 
 
-def _single(name: str, kind: str, text: str, value: int) -> tuple[str, str, str]:
+def _single(name: str, kind: str, text: str, value: int | str) -> tuple[str, str, str]:
     return *_header(name, kind, text), f"{name} {value}"

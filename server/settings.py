@@ -5,6 +5,9 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import Any
 
+PLANNERS = ("exact", "network")
+"""Planners that are fast enough to fly and to serve with."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Settings:
@@ -20,9 +23,18 @@ class Settings:
     """Largest request body [bytes]: 1,000 situations with 20 pieces of intent each fit in 3 MB."""
     stream_rate: float = 20.0
     """Ticks a wall-clock second [1/s]."""
+    planner: str = "exact"
+    """Who plans, for REST and for flights: one of `PLANNERS`."""
+    drift_check: int = 100
+    """One in so many plans by network is planned again exactly, for `/metrics`; 0: none. Where the
+    limit binds that takes tens of milliseconds, on a thread of its own."""
 
     def __post_init__(self) -> None:
         """Refuse limits under which nothing could run."""
+        if self.planner not in PLANNERS:
+            raise ValueError(f"planner must be {' or '.join(PLANNERS)}, not {self.planner}.")
+        if self.drift_check < 0:
+            raise ValueError(f"drift_check must be 0 or more, not {self.drift_check}.")
         for name in ("max_flights", "max_body"):
             if getattr(self, name) < 1:
                 raise ValueError(f"{name} must be 1 or more, not {getattr(self, name)}.")

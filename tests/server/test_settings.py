@@ -17,6 +17,8 @@ def test_the_environment_overrides() -> None:
         ({"RELGUIDE_KEEP_UNSEEN": "long"}, "RELGUIDE_KEEP_UNSEEN must be a number"),
         ({"RELGUIDE_KEEP_UNSEEN": "nan"}, "keep_unseen must be a positive number"),
         ({"RELGUIDE_MAX_BODY": "0"}, "max_body must be 1 or more"),
+        ({"RELGUIDE_PLANNER": "regular_dp"}, "planner must be exact or network, not regular_dp"),
+        ({"RELGUIDE_DRIFT_CHECK": "-1"}, "drift_check must be 0 or more, not -1"),
     ],
 )
 def test_nonsense_is_refused_with_a_sentence(environment: dict[str, str], sentence: str) -> None:
