@@ -1,16 +1,41 @@
-"""What `relguide audit` does: bars, tables and figures around `learn/audit` and its like."""
+"""What `relguide audit` does: bars, tables and figures around `learn/audit` and `side_by_side`."""
 
 import sys
+from collections.abc import Sequence
+from math import hypot, inf
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import orjson
 
-from relguide.learn.audit import Audit, Group, audit_as_json, audit_of
+from relguide.learn.area_figure import check_figure
+from relguide.learn.audit import Audit, Group, Miss, audit_as_json, audit_of
 from relguide.learn.judging import audit_request, judged, latencies
-from relguide.learn.network import load_network
+from relguide.learn.nearest import lookup_in
+from relguide.learn.network import StrategyNetwork, load_network
+from relguide.learn.paper import load_regular, shipped
+from relguide.learn.reverse_dp import grow_order, planted, tree_from
 from relguide.learn.shares import Share
+from relguide.learn.side_by_side import (
+    Ground,
+    Method,
+    drawn_ground,
+    method_as_json,
+    side_by_side,
+    two,
+)
+from relguide.learn.tree import Tree, TreeParameters
+from relguide.progress import progress_bar, watched
 from relguide.training import collected, workers
+from relguide.units import DEG
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+WIDTH = 100
+"""Of what is printed."""
+LARGEST = 10
+"""Gaps printed."""
 
 
 def audit_network(
@@ -18,6 +43,8 @@ def audit_network(
     *,
     count: int,
     seed: int,
+    beside: int,
+    figures: Path | None,
     threads: int | None,
     scheduler: str | None,
     as_json: bool,
@@ -28,15 +55,25 @@ def audit_network(
         file: its weights; those that come with the program if none is given.
         count: how many fresh situations to judge it in.
         seed: of them; not the training's.
+        beside: in how many others to judge it side by side with the baselines; 0: in none.
+        figures: a folder to draw into, if any.
         threads: how many; all cores if none is given.
         scheduler: of the Dask cluster to judge them on, as an address; this machine if none.
-        as_json: one JSON object; a table otherwise.
+        as_json: one JSON object; tables otherwise.
     """
+    if figures is not None:
+        figures.mkdir(parents=True, exist_ok=True)
+        check_figure(figures / "audit.svg")
     network = load_network() if file is None else load_network(file)
     request = audit_request(network, count, seed)
     with workers(threads, scheduler) as pool:
         audit = audit_of(collected(judged(network, request, pool), request, "auditing"))
     asked = latencies(network, request)
+    ground, methods = _beside(network, beside, seed) if beside else (None, [])
+    if figures is not None:
+        from relguide.learn.audit_figures import draw_audit
+
+        draw_audit(audit, methods, network.least_share, figures)
     if as_json:
         about = {
             "situations": count,
@@ -45,23 +82,56 @@ def audit_network(
             "network": network.about,
         }
         latency = {name: {"p50_us": low, "p99_us": high} for name, (low, high) in asked.items()}
-        _print_json(about | audit_as_json(audit) | {"latency": latency})
+        found: dict[str, Any] = about | audit_as_json(audit) | {"latency": latency}
+        if ground is not None:
+            found["side_by_side"] = {
+                "situations": len(ground),
+                "left_out_the_limit_binds": ground.binding,
+                "methods": {method.name: method_as_json(method) for method in methods},
+            }
+        _print_json(found)
         return
     _print_audit(audit)
     _write(
-        "One query, median and 99th percentile: "
+        "One query, median and 99th percentile of CPU time: "
         + ", ".join(f"{name} {low:.1f} / {high:.1f} µs" for name, (low, high) in asked.items())
         + ".\n"
     )
+    _print_gaps(audit)
+    if ground is not None:
+        _print_methods(ground, methods)
+
+
+def _beside(network: StrategyNetwork, count: int, seed: int) -> tuple[Ground, list[Method]]:
+    """Draw the ground, grow the tree, and judge all on it."""
+    regressions = [load_regular(shipped(method)) for method in ("paper", "direct")]
+    parameters = regressions[0].parameters
+    with progress_bar("drawing situations", total=count) as advance:
+        ground = drawn_ground(parameters, count, seed, advance)
+    lookup = lookup_in(_grown(parameters))
+    found = watched(
+        enumerate(side_by_side(ground, network, lookup, regressions), start=1),
+        title="side by side",
+        total=2 + len(regressions),
+        done=lambda item: item[0],
+    )
+    return ground, [method for _, method in found]
+
+
+def _grown(parameters: TreeParameters) -> Tree:
+    growth = planted(parameters)
+    while not growth.finished:
+        *_, growth = watched(
+            grow_order(growth),
+            title=f"growing order {growth.order + 1}",
+            total=len(growth.latest),
+            done=lambda block: block.next,
+        )
+    return tree_from(growth, {})
 
 
 def _print_audit(audit: Audit) -> None:
-    from rich.box import SIMPLE_HEAD
-    from rich.console import Console
-    from rich.table import Table
-
-    table = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
-    table.add_column("situations", no_wrap=True)
+    table = _table("situations")
     headings = ("number", "right, % (95 %)", "in 2", "set", "passed", "gap p99.9", "max, %")
     for heading in headings:
         table.add_column(heading, justify="right", no_wrap=True)
@@ -70,16 +140,15 @@ def _print_audit(audit: Audit) -> None:
     table.add_section()
     for group in audit.classes:
         table.add_row(*_row(group))
-    Console(width=100).print(table)
+    _print(table)
 
 
 def _row(group: Group) -> tuple[str, ...]:
     first, second, _ = group.tops
-    low, high = first.interval
     return (
         group.name,
         f"{group.size:,}",
-        f"{_percent(first)} ({100.0 * low:.2f}–{100.0 * high:.2f})",
+        _with_interval(first),
         _percent(second),
         f"{group.mean_set:.2f}",
         _percent(group.fallbacks),
@@ -88,8 +157,127 @@ def _row(group: Group) -> tuple[str, ...]:
     )
 
 
-def _percent(share: Share) -> str:
-    return f"{100.0 * share.hits / share.of:.2f}" if share.of else "–"
+def _print_gaps(audit: Audit) -> None:
+    """The gaps above 0.01 %, and what explains them."""
+    looked_at = (
+        f" of the {len(audit.misses):,} largest" if len(audit.misses) < audit.worth.hits else ""
+    )
+    _write(
+        f"Slower than the fastest by more than 0.01 %: {audit.worth.hits:,} of "
+        f"{audit.worth.of:,} answers. Unexplained{looked_at}: {audit.unexplained:,}.\n"
+    )
+    if not audit.misses:
+        return
+    table = _table("gap, %", right=True)
+    for heading in ("fastest", "answered"):
+        table.add_column(heading, no_wrap=True)
+    for heading in (
+        "to its birth",
+        "to a switch",
+        "V_L/V_P",
+        "range, R",
+        "heading, °",
+        "explained",
+    ):
+        table.add_column(heading, justify="right", no_wrap=True)
+    for miss in audit.misses[:LARGEST]:
+        table.add_row(*_gap_row(miss))
+    _print(table)
+    _write(
+        "A gap is explained where the fastest strategy is born, or another becomes the fastest, "
+        "within\n0.02 R or rad of place and heading.\n"
+    )
+
+
+def _gap_row(miss: Miss) -> tuple[str, ...]:
+    x, y, h, alpha = miss.situation
+    return (
+        f"{100.0 * miss.gap:.2g}",
+        miss.fastest,
+        miss.answered,
+        *(f"{far:.1e}" if far < inf else "none near" for far in (miss.birth, miss.switch)),
+        f"{alpha:.3f}",
+        f"{hypot(x, y):.2f}",
+        f"{h / DEG:.0f}",
+        "yes" if miss.explained else "no",
+    )
+
+
+def _print_methods(ground: Ground, methods: Sequence[Method]) -> None:
+    encounter = ground.parameters.encounter
+    _write(
+        f"\nSide by side: {len(ground):,} situations within "
+        f"{ground.parameters.horizon / 60.0:g} min of the slot, V_P {encounter.pursuer_tas:g} m/s "
+        f"at {encounter.max_bank / DEG:g}° of bank,\nV_L {encounter.leader_tas:g} m/s, D "
+        f"{encounter.slot_distance / 1e3:g} km, d_min {encounter.min_separation / 1e3:g} km "
+        f"({ground.binding:,} more in which the limit binds left out).\n"
+    )
+    table = _table("")
+    for method in methods:
+        table.add_column(method.name, justify="right", no_wrap=True)
+    rows = [_column(method) for method in methods]
+    for name in rows[0]:
+        table.add_row(name, *(row[name] for row in rows))
+    _print(table)
+
+
+def _column(method: Method) -> dict[str, str]:
+    """What is printed of a method, by the name of its line."""
+    low, high = method.right.interval
+    gaps = [_short(100.0 * gap) for gap in method.gaps]
+    return {
+        "fastest strategy named, %": _percent(method.right),
+        "  95 % interval": f"{100.0 * low:.2f}–{100.0 * high:.2f}",
+        "strategies held": f"{method.mean_set:.2f}",
+        **_flown(method),
+        "solved: the fastest path, %": _percent(method.fastest, 3),
+        "  gap, %, 50 / 99 %": " / ".join(gaps[:2]),
+        "  gap, %, 99.9 % / largest": " / ".join(gaps[2:]),
+        "  passed on, %": _percent(method.passed_on, 3),
+        "one query, µs, 50 / 99 %": " / ".join(f"{spent:.0f}" for spent in method.latency),
+    }
+
+
+def _flown(method: Method) -> dict[str, str]:
+    """Of what a method gives, flown as it is; ours gives no path of its own."""
+    names = "as given: in the slot, %", "  off by km, 50 / 99 %", "  off by °, 50 / 99 %"
+    if method.reached is None or method.places is None or method.headings is None:
+        return dict.fromkeys(names, "–")
+    place, heading = two(method.places), two(method.headings)
+    values = (
+        _percent(method.reached, 3),
+        f"{place[0] / 1e3:.2f} / {place[1] / 1e3:.1f}",
+        f"{heading[0] / DEG:.1f} / {heading[1] / DEG:.0f}",
+    )
+    return dict(zip(names, values, strict=True))
+
+
+def _short(value: float) -> str:
+    return f"{value:,.0f}" if value >= 100.0 else f"{value:.2g}"
+
+
+def _table(first: str, *, right: bool = False) -> "Table":
+    from rich.box import SIMPLE_HEAD
+    from rich.table import Table
+
+    table = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
+    table.add_column(first, no_wrap=True, justify="right" if right else "left")
+    return table
+
+
+def _print(table: "Table") -> None:
+    from rich.console import Console
+
+    Console(width=WIDTH).print(table)
+
+
+def _with_interval(share: Share) -> str:
+    low, high = share.interval
+    return f"{_percent(share)} ({100.0 * low:.2f}–{100.0 * high:.2f})"
+
+
+def _percent(share: Share, digits: int = 2) -> str:
+    return f"{100.0 * share.value:.{digits}f}" if share.of else "–"
 
 
 def _print_json(content: dict[str, Any]) -> None:

@@ -129,6 +129,7 @@ def _add_network(add_command: AddCommand) -> None:
         relguide audit                               of the weights that come with the program
         relguide audit weights.safetensors --json    of your own; the figures as JSON
         relguide audit --count 1000000 --seed 2
+        relguide audit --figures docs/figures        its pictures
         relguide audit --count 100000000 --dask tcp://host:8786     on many machines
         """,
     )
@@ -143,6 +144,15 @@ def _add_network(add_command: AddCommand) -> None:
     audit.add_argument(
         "--seed", metavar="N", type=_count, default=1, help="of them; default: %(default)s"
     )
+    audit.add_argument(
+        "--beside",
+        metavar="N",
+        type=_count,
+        default=20_000,
+        help="situations to judge it in beside the paper's network, the nearest way of its tree "
+        "and direct regression; 0: none; default: %(default)s",
+    )
+    audit.add_argument("--figures", metavar="FOLDER", type=Path, help="draw what is found, as .svg")
     _add_workers(audit)
     audit.add_argument("--json", action="store_true", help="print one JSON object")
 
@@ -253,6 +263,8 @@ def _audit(chosen: argparse.Namespace) -> int:
         chosen.weights,
         count=chosen.count,
         seed=chosen.seed,
+        beside=chosen.beside,
+        figures=chosen.figures,
         threads=chosen.threads or None,
         scheduler=chosen.dask,
         as_json=chosen.json,

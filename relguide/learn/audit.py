@@ -15,7 +15,7 @@ from relguide.kernels.strategies import STRATEGIES
 from relguide.learn.gaps import surfaces
 from relguide.learn.judging import LEAST_SHARES, WORTH, Judged
 from relguide.learn.labels import SOURCES, Floats, held_out
-from relguide.learn.shares import Share
+from relguide.learn.shares import Share, share_as_json
 from relguide.learn.train import NEAR
 
 GROUPS = {
@@ -26,7 +26,7 @@ GROUPS = {
 """What each source is called in an audit."""
 PERCENTILES = (50.0, 99.0, 99.9, 100.0)
 TOPS = (1, 2, 3)
-DOUBTS = (0.0, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 3e-2, 0.1, 0.2, 0.3, 0.5, 1.0)
+DOUBTS = (0.0, 1e-5, 1e-4, 1e-3, 1e-2, 3e-2, 0.1, 0.2, 0.3, 0.5, 1.0)
 """Edges of the bins of doubt: 1 less the highest share."""
 EXPLAINED = 1000
 """Gaps that are explained at most, the largest: a poor network has no end of them."""
@@ -257,8 +257,3 @@ def _group_as_json(group: Group) -> dict[str, Any]:
             for percentile, gap in zip(PERCENTILES, group.gaps, strict=True)
         },
     }
-
-
-def share_as_json(share: Share) -> dict[str, Any]:
-    """A share with its interval."""
-    return {"hits": share.hits, "of": share.of, "interval_95": list(share.interval)}

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from math import sqrt
+from typing import Any
 
 Z = 1.959964
 """Of a 95 % interval."""
@@ -28,3 +29,8 @@ class Share:
         middle = (p + Z * Z / (2.0 * n)) / (1.0 + Z * Z / n)
         half = Z / (1.0 + Z * Z / n) * sqrt(p * (1.0 - p) / n + Z * Z / (4.0 * n * n))
         return max(middle - half, 0.0), min(middle + half, 1.0)
+
+
+def share_as_json(share: Share) -> dict[str, Any]:
+    """A share as it is printed."""
+    return {"hits": share.hits, "of": share.of, "interval_95": list(share.interval)}

@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from math import inf, pi
 from time import thread_time_ns
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,20 +21,20 @@ from numpy.typing import NDArray
 from relguide.area import exact_times, reach
 from relguide.kernels.extremals import MAX_ROWS, WORDS, solve_word
 from relguide.kernels.network import choose, judge_rows
-from relguide.kernels.strategies import SIZE, WORD_OF
+from relguide.kernels.strategies import SIZE, STRATEGIES, WORD_OF
 from relguide.learn.judging import ROUNDING
 from relguide.learn.labels import Floats, times_of
 from relguide.learn.nearest import Lookup, neighbours
 from relguide.learn.network import StrategyNetwork
 from relguide.learn.paper import RegularNetwork, pairs_given
 from relguide.learn.regular_words import Piece, pieces_of, words_like
-from relguide.learn.shares import Share
+from relguide.learn.shares import Share, share_as_json
 from relguide.learn.train import NEAR
 from relguide.learn.tree import TreeParameters, pairs_of
-from relguide.units import Metre, Radian
+from relguide.units import DEG, Metre, Radian
 
 Flags = NDArray[np.bool_]
-REACHED: tuple[Metre, Radian] = (200.0, pi / 180.0)
+REACHED: tuple[Metre, Radian] = (200.0, 1.0 * DEG)
 """A path flown as it is reaches the slot if it ends so near: place and heading."""
 PERCENTILES = (50.0, 99.0, 99.9, 100.0)
 """Of the gaps."""
@@ -170,7 +171,7 @@ def side_by_side(
 
     yield _method("ours", ground, _of_network(ground, network), ours)
     asked: list[tuple[str, Callable[[Floats, Floats, Floats], Floats]]] = [
-        ("nearest in the tree", lambda x, y, h: nearest_given(lookup, x, y, h))
+        ("nearest in tree", lambda x, y, h: nearest_given(lookup, x, y, h))
     ]
     for regression in regressions:
         name = "paper's network" if regression.method == "paper" else "direct regression"
@@ -305,3 +306,30 @@ def two(values: Floats) -> tuple[float, float]:
     """Median and 99th percentile."""
     middle, late = np.percentile(values, (50.0, 99.0)).tolist()
     return middle, late
+
+
+def method_as_json(method: Method) -> dict[str, Any]:
+    """What is found of a method, as it is printed."""
+    found: dict[str, Any] = {
+        "strategy_right": share_as_json(method.right),
+        "strategies": {
+            name: share_as_json(share)
+            for name, share in zip(STRATEGIES, method.classes, strict=True)
+        },
+        "mean_set": method.mean_set,
+        "optimal_of_answered": share_as_json(method.fastest),
+        "fallbacks": share_as_json(method.passed_on),
+        "gap_percent": {
+            "max" if percentile == 100.0 else f"p{percentile:g}": 100.0 * gap
+            for percentile, gap in zip(PERCENTILES, method.gaps, strict=True)
+        },
+        "latency": {"p50_us": method.latency[0], "p99_us": method.latency[1]},
+    }
+    if method.reached is not None and method.places is not None and method.headings is not None:
+        place, heading = two(method.places), two(method.headings)
+        found["flown_as_given"] = {
+            "reaches_the_slot": share_as_json(method.reached),
+            "from_the_slot_m": {"p50": place[0], "p99": place[1]},
+            "off_heading_deg": {"p50": heading[0] / DEG, "p99": heading[1] / DEG},
+        }
+    return found

@@ -9,8 +9,9 @@ import pytest
 
 from relguide.kernels.strategies import STRATEGIES
 from relguide.learn.audit import Audit, audit_as_json, audit_of
-from relguide.learn.judging import Judged, audit_request, judge_chunk, judged, latencies
-from relguide.learn.labels import label_chunk
+from relguide.learn.gaps import SMALL
+from relguide.learn.judging import WORTH, Judged, audit_request, judge_chunk, judged, latencies
+from relguide.learn.labels import label_chunk, times_of
 from relguide.learn.network import load_network
 from relguide.learn.shares import Share
 from tests.relguide.learn.networks import REQUEST, network
@@ -47,6 +48,9 @@ def test_what_it_counts_adds_up() -> None:
     assert groups["random"].tops[0].hits > 0.9 * groups["random"].size
     assert groups["random"].covered.hits > 0.98 * groups["random"].covered.of
     assert groups["at switching surfaces"].mean_set > groups["random"].mean_set
+    assert sum(doubt.wrong.of for doubt in found.doubts) == 2400
+    assert [doubt.said for doubt in found.doubts] == sorted(doubt.said for doubt in found.doubts)
+    assert all(size.lost.of == 2400 for size in found.sets)
     told = audit_as_json(found)
     assert told["groups"]["random"]["top_1"]["hits"] == groups["random"].tops[0].hits
     assert set(told["strategies"]["LSL"]["gap_percent"]) == {"p50", "p99", "p99.9", "max"}
@@ -81,6 +85,34 @@ def test_the_gap_is_that_of_what_would_be_flown() -> None:
     for row in np.flatnonzero((found.gap > 0.0) & (found.gap < inf)):
         others = labels.times[row] / labels.times[row].min() - 1.0
         assert np.abs(others - found.gap[row]).min() < 1e-9
+
+
+def test_a_larger_set_loses_less() -> None:
+    sizes = audited(3000).sets
+    assert [size.mean_set for size in sizes] == sorted((s.mean_set for s in sizes), reverse=True)
+    assert [size.lost.hits for size in sizes] == sorted(size.lost.hits for size in sizes)
+    assert sizes[0].lost.hits < sizes[-1].lost.hits
+    assert all(size.worth.hits <= size.lost.hits for size in sizes)
+
+
+def test_every_gap_is_told_with_what_explains_it() -> None:
+    found = audited(3000)
+    gaps = [miss.gap for miss in found.misses]
+    assert gaps == sorted(gaps, reverse=True)
+    assert 0 < len(gaps) == found.worth.hits
+    assert gaps[0] == max(group.gaps[-1] for group in found.groups)
+    assert gaps[-1] > WORTH
+    for miss in found.misses:
+        times = times_of(np.array([miss.situation]))[0]
+        assert STRATEGIES[times.argmin()] == miss.fastest
+        assert times[STRATEGIES.index(miss.answered)] == pytest.approx(
+            times.min() * (1.0 + miss.gap)
+        )
+        assert miss.explained == (min(miss.birth, miss.switch) <= SMALL)
+    assert found.unexplained == sum(not miss.explained for miss in found.misses)
+    told = audit_as_json(found)
+    assert told["largest_gaps"][0]["gap_percent"] == 100.0 * gaps[0]
+    assert told["unexplained"] == found.unexplained
 
 
 def test_the_weights_that_come_along_are_good() -> None:

@@ -2,8 +2,10 @@
 
 import json
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
+import pytest
 
 from relguide.learn.labels import LabelRequest, label_chunk, load_labels, save_labels
 from relguide.learn.network import load_network
@@ -27,19 +29,20 @@ def test_labels_train_weights_and_audit(run: Run) -> None:
     assert (code, err) == (0, "")
     assert "w.safetensors: the best of 3 epochs is the " in out
     assert load_network(Path("w.safetensors")).about["program"].startswith("relguide ")
-    code, out, err = run("audit", "w.safetensors", "--count", "1000", "--json")
+    code, out, err = run("audit", "w.safetensors", "--count", "1000", "--beside", "0", "--json")
     assert (code, err) == (0, "")
     told = json.loads(out)
     assert told["groups"]["random"]["situations"] > 600
     assert told["network"]["options"]["shape"] == {"width": 16, "depth": 1}
     assert 0.0 < told["latency"]["network"]["p50_us"] <= told["latency"]["network"]["p99_us"]
+    assert "side_by_side" not in told
     assert sorted(path.name for path in Path().iterdir()) == ["labels.npz", "w.safetensors"]
 
 
 def test_people_get_sentences_and_a_table(run: Run) -> None:
     code, out, _ = run(*EXACT, "--threads", "1")
     assert (code, "Fastest: LSL " in out) == (0, True)
-    code, out, err = run("audit", "--count", "1000")
+    code, out, err = run("audit", "--count", "1000", "--beside", "0")
     assert (code, err) == (0, "")
     lines = out.splitlines()
     assert max(map(len, lines)) <= 100
@@ -47,7 +50,37 @@ def test_people_get_sentences_and_a_table(run: Run) -> None:
     names = [line.split("  ")[0].strip() for line in lines]
     for name in ("random", "at switching surfaces", "unseen range 6 … 7 R", "RLR long"):
         assert name in names
-    assert lines[-1].startswith("One query, median and 99th percentile: network ")
+    queries, gaps = lines[lines.index(next(line for line in lines if line.startswith("One q"))) :][
+        :2
+    ]
+    assert queries.startswith("One query, median and 99th percentile of CPU time: network ")
+    assert gaps.startswith("Slower than the fastest by more than 0.01 %: ")
+
+
+@pytest.mark.slow
+def test_four_are_audited_side_by_side_and_drawn(run: Run) -> None:
+    asked = ("audit", "--count", "1000", "--beside", "200", "--figures", "docs/figures")
+    code, out, err = run(*asked)
+    assert (code, err) == (0, "")
+    lines = out.splitlines()
+    assert max(map(len, lines)) <= 100
+    assert "…" not in out.partition("Side by side: 200 situations within 10 min")[2]
+    header = next(line for line in lines if "nearest in tree" in line)
+    names = ("ours", "nearest in tree", "paper's network", "direct regression")
+    assert [header.index(name) for name in names] == sorted(header.index(name) for name in names)
+    drawn = sorted(Path("docs/figures").iterdir())
+    assert [file.name for file in drawn] == [
+        "network_accuracy.svg", "network_calibration.svg", "network_gaps.svg",
+    ]  # fmt: skip
+    for file in drawn:
+        picture = file.read_text("utf-8")
+        assert "[%]" in picture
+        assert ElementTree.fromstring(picture).tag.endswith("svg")
+    code, out, err = run(*asked[:5], "--json")
+    assert (code, err) == (0, "")
+    beside = json.loads(out)["side_by_side"]
+    assert beside["situations"] == 200
+    assert list(beside["methods"]) == list(names)
 
 
 def test_misuse_is_said_in_a_sentence(run: Run) -> None:
