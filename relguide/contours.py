@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from math import inf
 
 import numpy as np
-from contourpy import LineType, contour_generator
+from contourpy import FillType, LineType, contour_generator
 from numpy.typing import NDArray
 
 from relguide.units import Second
@@ -55,7 +55,7 @@ class Field:
     @property
     def proved(self) -> Bools:
         """Where the time is the optimum, proved."""
-        return (self.time < inf) & ~self.limited
+        return (self.time < inf) & (self.time <= self.lower_bound)
 
 
 Evaluate = Callable[[Floats, Floats], Field]
@@ -228,12 +228,22 @@ def _labels(field: Field) -> NDArray[np.int64]:
 
 def _outlines(inside: Bools) -> list[list[Floats]]:
     """Outlines with their holes, in columns and rows; each vertex half way between two nodes."""
-    generator = contour_generator(z=inside.astype(np.float64), fill_type="OuterOffset")
+    # contourpy looks at what it is given whole: most labels hold in a small part of the grid
+    columns, rows = (_around(np.any(inside, axis=axis)) for axis in (0, 1))
+    part = inside[rows, columns].astype(np.float64)
+    generator = contour_generator(z=part, fill_type=FillType.OuterOffset)
     points, offsets = generator.filled(0.5, inf)[:2]
+    corner = np.array((columns.start, rows.start), np.float64)
     return [
-        np.split(np.asarray(ring, np.float64), np.asarray(offset, np.int64)[1:-1])
+        np.split(np.asarray(ring, np.float64) + corner, np.asarray(offset, np.int64)[1:-1])
         for ring, offset in zip(points, offsets, strict=True)
     ]
+
+
+def _around(held: NDArray[np.bool_]) -> slice:
+    """From one before the first to one past the last, as far as there are any; at least two."""
+    where = np.flatnonzero(held)
+    return slice(max(int(where[0]) - 1, 0), int(where[-1]) + 2)
 
 
 def _to_change(
@@ -241,7 +251,9 @@ def _to_change(
 ) -> Floats:
     """Move vertices along their edges to where the label changes; all on one edge alike."""
     doubled = np.rint(2.0 * vertices).astype(np.int64)
-    edges, which = np.unique(doubled, axis=0, return_inverse=True)
+    wide = 2 * labels.shape[1]
+    keys, which = np.unique(doubled[:, 1] * wide + doubled[:, 0], return_inverse=True)
+    edges = np.column_stack((keys % wide, keys // wide))
     low, high = edges // 2, (edges + 1) // 2
     along = (high - low).astype(np.float64)
     before = labels[low[:, 1], low[:, 0]]

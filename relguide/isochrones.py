@@ -26,10 +26,13 @@ from time import perf_counter_ns
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from relguide.contours import Contour, Evaluate, Field, Floats, Region, contours, regions
+from relguide.kernels.clearance import SLACK
 from relguide.kernels.extremals import WORDS
 from relguide.kernels.field import NO_WORD, field_rows
+from relguide.kernels.final_leg import last_turns
 from relguide.limited_times import DETOUR, between_nodes, searched
 from relguide.planning.detour import leader_table
 from relguide.planning.inputs import expect, number, within
@@ -58,6 +61,11 @@ WANTED_LEVELS = 15
 """About so many levels if none are given."""
 CHUNK = 512
 """Places a thread takes at a time: some ms of work."""
+
+
+Words = Callable[[Floats, Floats], NDArray[np.int8]]
+"""Places east and north [m], each of shape (n,), over the ground at t = 0 → the number of the only
+word that need be solved there, −1 for all of them."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -188,28 +196,34 @@ def round_levels(field: Field) -> tuple[Second, ...]:
     )[:MAX_LEVELS]
 
 
-def times_around(situation: Situation, *, threads: int | None = None) -> Evaluate:
-    """Times from the exact kernels, all but the ways along d_min: some 200,000 places a second.
+def times_around(
+    situation: Situation, *, threads: int | None = None, words: Words | None = None
+) -> Evaluate:
+    """Times from the exact kernels, all but the ways along d_min: some 500,000 places a second.
 
     Args:
         situation: all but the pursuer's place counts.
         threads: how many; all cores if left out.
+        words: who says where one word alone need be solved; all of them everywhere if left out.
     """
     frame = slot_frame(situation, situation.leader.trajectory)
     table = leader_table(situation, frame)
     limit = situation.min_separation / frame.radius
+    longest = last_turns(table, frame.alpha, limit - SLACK)
     scale = frame.radius / situation.pursuer.tas
     workers = threads or cpu_count() or 1
 
     def evaluate(x: Floats, y: Floats) -> Field:
         places = np.column_stack(_to_slot(frame, x, y))
-        answers = np.empty((len(places), 3))
+        alone = np.full(len(places), -1, np.int8) if words is None else words(x, y)
+        answers = np.empty((len(places), 4))
 
         def work(first: int) -> None:
             last = min(first + CHUNK, len(places))
             field_rows(
-                places, frame.h, frame.alpha, frame.t_open, table, limit, first, last, answers
-            )
+                places, alone, frame.h, frame.alpha, frame.t_open, table, limit, longest, first,
+                last, answers,
+            )  # fmt: skip
 
         if len(places) <= CHUNK or workers == 1:
             for first in range(0, len(places), CHUNK):
@@ -218,7 +232,7 @@ def times_around(situation: Situation, *, threads: int | None = None) -> Evaluat
             with ThreadPoolExecutor(workers) as pool:
                 for _ in pool.map(work, range(0, len(places), CHUNK)):
                     pass
-        return _field(answers[:, 0] * scale, answers[:, 1] * scale, answers[:, 2])
+        return _field(answers[:, 0] * scale, answers[:, 1] * scale, *answers.T[2:])
 
     return evaluate
 
@@ -228,7 +242,7 @@ def _to_slot(frame: SlotFrame, x: Floats, y: Floats) -> tuple[Floats, Floats]:
     return to_slot(x, y)
 
 
-def _field(time: Floats, lower_bound: Floats, words: Floats) -> Field:
+def _field(time: Floats, lower_bound: Floats, words: Floats, limited: Floats) -> Field:
     numbers = words.astype(np.int8)
     numbers[numbers == NO_WORD] = NONE
     # as in `plan`: only what is known to take longer is left out
@@ -239,5 +253,5 @@ def _field(time: Floats, lower_bound: Floats, words: Floats) -> Field:
         time=time,
         lower_bound=np.where(beyond, inf, lower_bound),
         words=numbers,
-        limited=(time > lower_bound) & ~beyond,
+        limited=(limited > 0.0) & ~beyond,
     )

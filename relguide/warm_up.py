@@ -131,8 +131,12 @@ def _bulk() -> None:
 
 def _area() -> None:
     from relguide.isochrones import Grid, isochrones
+    from relguide.learn.area_words import area_words
+    from relguide.learn.network import load_network
 
-    isochrones(LIMITED[1], Grid(x=0.0, y=0.0, columns=9, rows=9))
+    grid = Grid(x=0.0, y=0.0, columns=9, rows=9)
+    isochrones(LIMITED[1], grid)
+    area_words(load_network(), LIMITED[1], grid)
 
 
 def _tree() -> None:

@@ -1,8 +1,9 @@
 """The route of convergence areas: lines of equal time-to-converge round a leader."""
 
 import asyncio
+from functools import cache
 from inspect import signature
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Query, Request
 from starlette.responses import Response
@@ -22,7 +23,10 @@ from relguide.isochrones import (
     WIDTH,
     Grid,
     isochrones,
+    times_around,
 )
+from relguide.learn.area_words import area_words
+from relguide.learn.network import StrategyNetwork, load_network
 from relguide.planning.situation import MAX_POSITION, Situation
 from relguide.planning.words import HORIZON
 from relguide.units import Second
@@ -69,6 +73,13 @@ Exact = Annotated[
         f"seconds, at most {MOST_SEARCHED} nodes, and a leader without turns to come."
     ),
 ]
+PlannerAsked = Annotated[
+    Literal["exact", "network"],
+    Query(
+        description="`network`: a network of strategies says where one word alone need be solved; "
+        "all others are solved where it is not sure, and where the word changes."
+    ),
+]
 TimesAsked = Annotated[bool, Query(description="Whether to give the times of all nodes.")]
 
 
@@ -93,6 +104,7 @@ async def draw_area(
     rows: Count = ROWS,
     level_s: Levels = [],  # noqa: B006 (FastAPI makes a new one each time)
     exact: Exact = False,
+    planner: PlannerAsked = "exact",
     times: TimesAsked = False,
 ) -> Response:
     """How long the convergence takes from round the leader, on the pursuer's present heading.
@@ -117,7 +129,9 @@ async def draw_area(
     if exact:
         _refuse_long(asked, grid)
     return json_answer(
-        await asyncio.to_thread(_draw, asked, anchor, grid, level_s, exact=exact, times=times)
+        await asyncio.to_thread(
+            _draw, asked, anchor, grid, level_s, planner=planner, exact=exact, times=times
+        )
     )
 
 
@@ -160,8 +174,17 @@ def _draw(
     grid: Grid,
     levels: list[Second],
     *,
+    planner: Literal["exact", "network"],
     exact: bool,
     times: bool,
 ) -> dict[str, Any]:
-    area = isochrones(situation, grid, levels, exact=exact)
+    words = area_words(_network(), situation, grid) if planner == "network" else None
+    evaluate = times_around(situation, words=words)
+    area = isochrones(situation, grid, levels, evaluate=evaluate, exact=exact)
     return area_to_wire(area, situation, anchor, exact=exact, times=times)
+
+
+@cache
+def _network() -> StrategyNetwork:
+    """The network that comes with the program, read once."""
+    return load_network()

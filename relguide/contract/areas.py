@@ -24,6 +24,11 @@ SEARCHED = (
     "the grid, too, and lines between nodes are interpolated; no plan is faster than the lower "
     "bound."
 )
+ASKED = (
+    "Where a network of strategies is sure of the word, that word alone was solved, exactly: the "
+    "time is that of a plan, seldom not the least; such nodes are counted as limited, with the "
+    "time of a straight line as their bound. Elsewhere all words were."
+)
 INTENT = (
     "The leader is taken to be on its final leg all along, and the slot to open when it gets "
     "there; each plan keeps the minimum separation from the leader as it really flies."
@@ -180,9 +185,11 @@ def _rows(column: Floats, grid: Grid) -> list[list[float | None]]:
 
 
 def _notes(area: Isochrones, situation: Situation, *, exact: bool) -> list[str]:
-    limited = bool(area.field.limited.any())
+    field = area.field
+    limited = bool(field.limited.any())
+    asked = bool(np.any((field.time < np.inf) & ~field.limited & ~field.proved))
     return [
-        EXACT,
+        ASKED if asked else EXACT,
         *((SEARCHED if exact else BOUND,) if limited else ()),
         *((INTENT,) if situation.leader.intent else ()),
         DRAWN,

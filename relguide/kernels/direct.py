@@ -10,9 +10,9 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.angles import wrap
-from relguide.kernels.extremals import MAX_ROWS
 from relguide.kernels.fastest import fastest
 from relguide.kernels.slot import slot_offset, to_slot
+from relguide.kernels.sooner import MOST_ROOTS, work_room
 
 
 @njit(cache=True, nogil=True)
@@ -42,8 +42,8 @@ def direct(
     """
     east, north, _ = slot_offset(leader_heading, leader_tas, wind_east, wind_north, slot_distance)
     along, left = to_slot(x - leader_x - east, y - leader_y - north, leader_heading, radius)
-    found, rows = np.empty((MAX_ROWS, 4)), np.empty((MAX_ROWS, 5))
-    n = fastest(along, left, wrap(leader_heading - heading), leader_tas / tas, 0.0, found, rows)
-    if n == 0:
+    h, alpha = wrap(leader_heading - heading), leader_tas / tas
+    row = np.empty(5)
+    if not fastest(along, left, h, alpha, 0.0, 0, work_room(), np.empty((MOST_ROOTS, 4)), row):
         return inf, 0, 0.0, 0.0, 0.0
-    return rows[0, 0], int(rows[0, 1]), rows[0, 2], rows[0, 3], rows[0, 4]
+    return row[0], int(row[1]), row[2], row[3], row[4]

@@ -113,7 +113,7 @@ def solve_word(
         end = lrl(x, -y, mirrored_h, ax, -ay, found, 0)
     for i in range(end):
         time = found[i, 0]
-        if time < t_open - 1e-9 or not _closes(x, y, h, ax, ay, word, found[i]):
+        if time < t_open - 1e-9 or not closes(x, y, h, ax, ay, word, found[i]):
             continue
         at = n
         while at > 0 and rows[at - 1, 0] > time:
@@ -129,7 +129,7 @@ def solve_word(
 
 
 @njit(cache=True, nogil=True)
-def _closes(x: float, y: float, h: float, ax: float, ay: float, word: int, row: FloatArray) -> bool:
+def closes(x: float, y: float, h: float, ax: float, ay: float, word: int, row: FloatArray) -> bool:
     """Does the path really end at the target? A root found next to a tangency may not."""
     for piece in range(3):
         x, y, h = fly_piece(x, y, h, SIGNS[word, piece], row[piece + 1])

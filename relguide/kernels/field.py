@@ -2,26 +2,29 @@
 
 The cheap part of the chain of `plan`: every extremal in order of time, and the first that clears.
 Ways that touch d_min or ride along it are not looked for, so where the fastest extremal does not
-clear the answer is a time that can be flown, and a bound below it.
+clear the answer is a time that can be flown, and a bound below it. Who knows which word is the
+fastest may say so: then it alone is solved, and the bound is that of a straight line.
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader is a table as in
 `clearance`.
 """
 
-from math import hypot, inf
+from math import cos, hypot, inf, sin
 
 import numpy as np
 from numba import njit
 
-from relguide.kernels.clearance import piece_clears
-from relguide.kernels.extremals import MAX_ROWS, WORDS, fly_piece, solve
-from relguide.kernels.fastest import fastest
+from relguide.kernels.clearance import SLACK, piece_clears
+from relguide.kernels.extremals import MAX_ROWS, WORDS, closes, fly_piece, solve
+from relguide.kernels.fastest import fastest, word_before
+from relguide.kernels.final_leg import keeps_clear
 from relguide.kernels.hold import word_to_point
 from relguide.kernels.passage import word_clears
 from relguide.kernels.roots import FloatArray
+from relguide.kernels.sooner import MOST_ROOTS, work_room
+from relguide.kernels.strategies import direct_time
 
-SLACK = 1e-6
-"""Touching d_min counts as keeping it, to this much of R."""
+ByteArray = np.ndarray[tuple[int, ...], np.dtype[np.int8]]
 ON_TIME = 1e-9
 """A way this much too long still arrives when the slot opens [R]: rounding."""
 HOLD = len(WORDS)
@@ -33,31 +36,35 @@ _STEPS = 24  # of false position; ten are enough where nothing jumps
 
 @njit(cache=True, nogil=True)
 def field_rows(
-    places: FloatArray, h: float, alpha: float, t_open: float, leader: FloatArray, limit: float,
-    first: int, last: int, answers: FloatArray,
+    places: FloatArray, words: ByteArray, h: float, alpha: float, t_open: float,
+    leader: FloatArray, limit: float, longest: FloatArray, first: int, last: int,
+    answers: FloatArray,
 ) -> None:  # fmt: skip
     """Answers for places first … last − 1.
 
     Args:
         places: x, y of the pursuer. shape (n, 2)
+        words: the only word that need be solved at each, −1 for all of them. shape (n,)
         h: its heading [rad], in [0, 2π).
         alpha: V_L/V_P.
         t_open: when the slot opens; 0 for a leader that keeps straight.
         leader: table of its pieces. shape (k, 5)
         limit: d_min; 0 for none.
+        longest: of `final_leg.last_turns`, for d_min less `SLACK`.
         first: from this place on.
         last: up to this place.
         answers: takes the arrival by the fastest path found that clears; before what nothing
             arrives (infinite if the slot is out of reach, or the limit broken from the start); the
-            path's word number. shape (n, 3)
+            path's word number; 1 if the fastest way without the limit comes too close. shape (n, 4)
     """
-    found = np.empty((MAX_ROWS, 4))
+    room, found = work_room(), np.empty((MOST_ROOTS, 4))
     rows = np.empty((MAX_ROWS, 5))
     piece = np.empty(3)
+    hint = 0
     for n in range(first, last):
         x, y = places[n, 0], places[n, 1]
         answer = answers[n]
-        answer[0], answer[1], answer[2] = inf, inf, NO_WORD
+        answer[0], answer[1], answer[2], answer[3] = inf, inf, NO_WORD, 0.0
         if hypot(x - leader[0, 1], y - leader[0, 2]) < limit - SLACK:
             continue
         if t_open > 0.0 and _reaches(x, y, h, alpha * t_open, t_open, piece):
@@ -65,18 +72,46 @@ def field_rows(
             if limit <= 0.0 or _hold_clears(x, y, h, alpha, t_open, leader, limit - SLACK, piece):
                 answer[0], answer[2] = t_open, HOLD
                 continue
-        if fastest(x, y, h, alpha, t_open, found, rows) == 0:
+            answer[3] = 1.0
+        elif words[n] >= 0 and _alone(x, y, h, alpha, words[n], room, found, rows[0]):
+            time = rows[0, 0]
+            if time >= t_open and (
+                limit <= 0.0 or keeps_clear(x, y, h, rows[0], leader, alpha, limit - SLACK, longest)
+            ):
+                answer[0], answer[2] = time, words[n]
+                answer[1] = min(max(direct_time(x, y, alpha), t_open), time)
+                continue
+        if not fastest(x, y, h, alpha, t_open, hint, room, found, rows[0]):
             continue
+        hint = int(rows[0, 1])
         if answer[1] == inf:
             answer[1] = rows[0, 0]
-        if limit <= 0.0 or word_clears(x, y, h, 0.0, rows[0], leader, alpha, limit - SLACK):
+        if limit <= 0.0 or keeps_clear(x, y, h, rows[0], leader, alpha, limit - SLACK, longest):
             answer[0], answer[2] = rows[0, 0], rows[0, 1]
             continue
+        answer[3] = 1.0
         count = solve(x, y, h, alpha, t_open, rows)
         for k in range(1, count):
-            if word_clears(x, y, h, 0.0, rows[k], leader, alpha, limit - SLACK):
+            if keeps_clear(x, y, h, rows[k], leader, alpha, limit - SLACK, longest):
                 answer[0], answer[2] = rows[k, 0], rows[k, 1]
                 break
+
+
+@njit(cache=True, nogil=True)
+def _alone(
+    x: float, y: float, h: float, alpha: float, word: int, room: FloatArray, found: FloatArray,
+    row: FloatArray,
+) -> bool:  # fmt: skip
+    """The first path of one word, as a row of `solve`; whether there is one."""
+    n = word_before(x, y, h, sin(h), cos(h), alpha, 0.0, word, inf, False, room, found)
+    row[0] = inf
+    best = 0
+    for i in range(n):
+        if found[i, 0] < row[0]:
+            row[0], best = found[i, 0], i
+    row[1] = word
+    row[2], row[3], row[4] = found[best, 1], found[best, 2], found[best, 3]
+    return bool(n > 0 and closes(x, y, h, alpha, 0.0, word, found[best]))
 
 
 @njit(cache=True, nogil=True)

@@ -7,7 +7,7 @@ every zero of f′ is found by a change of sign, f is monotone between those, an
 is found, tangential ones included: no grid, nothing to miss.
 """
 
-from math import cos, sin
+from math import cos, inf, sin
 
 import numpy as np
 from numba import njit
@@ -18,44 +18,61 @@ MAX_CUTS = 16
 """Room for the cuts of one equation, its two ends included."""
 TOUCH = 1e-12
 """|f| at an extremum that still counts as a (double) root: some hundred roundings of f's terms."""
+_DIGITS = 1e-15  # a root is right to this, or to what rounding leaves of f
 
 
 @njit(cache=True, nogil=True)
-def _value(k: FloatArray, u: float) -> float:
-    return float(k[0] * u * u + k[1] * u + k[2] + (k[3] * u + k[4]) * sin(u) + k[5] * cos(u))
+def _at(k: FloatArray, u: float) -> tuple[float, float, float]:
+    """f, f′ and f″."""
+    s, c = sin(u), cos(u)
+    p = k[3] * u + k[4]
+    return (
+        (k[0] * u + k[1]) * u + k[2] + p * s + k[5] * c,
+        2.0 * k[0] * u + k[1] + (k[3] - k[5]) * s + p * c,
+        2.0 * k[0] + (2.0 * k[3] - k[5]) * c - p * s,
+    )
 
 
 @njit(cache=True, nogil=True)
-def _slope(k: FloatArray, u: float) -> float:
-    return float(2.0 * k[0] * u + k[1] + (k[3] - k[5]) * sin(u) + (k[3] * u + k[4]) * cos(u))
-
-
-@njit(cache=True, nogil=True)
-def _bend(k: FloatArray, u: float) -> float:
-    return float(2.0 * k[0] + (2.0 * k[3] - k[5]) * cos(u) - (k[3] * u + k[4]) * sin(u))
-
-
-@njit(cache=True, nogil=True)
-def _zero_between(
-    k: FloatArray, of_slope: bool, low: float, high: float, f_low: float, tolerance: float
-) -> float:
-    """The one zero of f (or f′) in [low, high]: Newton kept inside a bracket."""
+def _root_between(k: FloatArray, low: float, high: float, f_low: float) -> float:
+    """The one root of f in [low, high]: Newton kept inside a bracket."""
     u = 0.5 * (low + high)
     for _ in range(100):
-        if of_slope:
-            value, slope = _slope(k, u), _bend(k, u)
-        else:
-            value, slope = _value(k, u), _slope(k, u)
+        value, slope, bend = _at(k, u)
         if value == 0.0:
             return u
         if (value < 0.0) == (f_low < 0.0):
             low = u
         else:
             high = u
-        step_to = u - value / slope if slope != 0.0 else low
+        step = value / slope if slope != 0.0 else inf
+        if not low < u - step < high:
+            step = u - 0.5 * (low + high)
+        # what Newton's next step would be, as f″ foretells it, or what the bracket leaves
+        elif abs(bend) * step * step <= _DIGITS * abs(slope):
+            return u - step
+        if high - low <= _DIGITS:
+            return u - step
+        u -= step
+    return u
+
+
+@njit(cache=True, nogil=True)
+def _extremum_between(k: FloatArray, low: float, high: float, slope_low: float) -> float:
+    """The one zero of f′ in [low, high], so right that f there is right to 1e-17."""
+    u = 0.5 * (low + high)
+    for _ in range(100):
+        _, slope, bend = _at(k, u)
+        if slope == 0.0:
+            return u
+        if (slope < 0.0) == (slope_low < 0.0):
+            low = u
+        else:
+            high = u
+        step_to = u - slope / bend if bend != 0.0 else low
         if not low < step_to < high:
             step_to = 0.5 * (low + high)
-        if abs(step_to - u) <= tolerance or high - low <= tolerance:
+        if abs(step_to - u) <= 1e-9 or high - low <= 1e-9:
             return step_to
         u = step_to
     return u
@@ -74,36 +91,43 @@ def all_roots(k: FloatArray, cuts: FloatArray, n_cuts: int, out: FloatArray) -> 
     Returns:
         how many roots.
     """
+    low = cuts[0]
+    f_low, slope_low, _ = _at(k, low)
     n = 0
-    left, f_left = cuts[0], _value(k, cuts[0])
-    if abs(f_left) <= TOUCH:
-        out[n] = left
+    if abs(f_low) <= TOUCH:
+        out[n] = low
         n += 1
-    slope_low = _slope(k, cuts[0])
     for i in range(1, n_cuts):
-        low, high = cuts[i - 1], cuts[i]
-        slope_high = _slope(k, high)
-        turning = (slope_low < 0.0) != (slope_high < 0.0)
-        # an end of the last interval closes a monotone stretch, and so does an extremum
-        for stretch in range(2):
-            if stretch == 0:
-                if not turning:
-                    continue
-                # 1e-9: f at the extremum is then right to 1e-17
-                right = _zero_between(k, True, low, high, slope_low, 1e-9)
+        high = cuts[i]
+        f_high, slope_high, _ = _at(k, high)
+        touched = abs(f_low) <= TOUCH or abs(f_high) <= TOUCH
+        crossed = (f_low < 0.0) != (f_high < 0.0)
+        if (slope_low < 0.0) == (slope_high < 0.0):
+            if crossed and not touched:
+                out[n] = _root_between(k, low, high, f_low)
+                n += 1
+        elif crossed and not touched:
+            # on its way to the far side f may turn, but crosses once
+            out[n] = _root_between(k, low, high, f_low)
+            n += 1
+        elif touched or (f_low < 0.0) != (slope_low < 0.0):
+            # toward zero and back: two roots, one, or none
+            turn = _extremum_between(k, low, high, slope_low)
+            f_turn, _, _ = _at(k, turn)
+            if abs(f_turn) <= TOUCH:
+                out[n] = turn
+                n += 1
             else:
-                if i < n_cuts - 1:
-                    break
-                right = high
-            f_right = _value(k, right)
-            if abs(f_right) <= TOUCH:
-                out[n] = right
-                n += 1
-            elif abs(f_left) > TOUCH and (f_left < 0.0) != (f_right < 0.0):
-                out[n] = _zero_between(k, False, left, right, f_left, 1e-15)
-                n += 1
-            left, f_left = right, f_right
-        slope_low = slope_high
+                if abs(f_low) > TOUCH and (f_low < 0.0) != (f_turn < 0.0):
+                    out[n] = _root_between(k, low, turn, f_low)
+                    n += 1
+                if abs(f_high) > TOUCH and (f_turn < 0.0) != (f_high < 0.0):
+                    out[n] = _root_between(k, turn, high, f_turn)
+                    n += 1
+        if abs(f_high) <= TOUCH:
+            out[n] = high
+            n += 1
+        low, f_low, slope_low = high, f_high, slope_high
     return n
 
 

@@ -112,6 +112,19 @@ def test_exactly_is_never_slower(client: TestClient) -> None:
     assert any("searched at each node" in note for note in exact["notes"])
 
 
+def test_by_network_times_are_the_exact_ones(client: TestClient) -> None:
+    few = {"columns": "40", "rows": "30", "times": "true"}
+    exact = client.get(URL, params=asked(**few)).json()
+    answer = client.get(URL, params=asked(**few, planner="network"))
+    assert answer.status_code == 200
+    area = answer.json()
+    assert area["times_s"] == exact["times_s"]
+    assert area["count"]["proved"] < exact["count"]["proved"]
+    assert area["count"]["no_plan"] == exact["count"]["no_plan"]
+    assert "network of strategies" in area["notes"][0]
+    assert "proved" in exact["notes"][0]
+
+
 @pytest.mark.parametrize(
     ("parameters", "sentence"),
     [
@@ -131,6 +144,7 @@ def test_exactly_is_never_slower(client: TestClient) -> None:
         (asked(level_s=["300", "-1"]), "level_s"),
         (asked(level_s=["1"] * 65), "level_s"),
         (asked(exact="perhaps"), "exact"),
+        (asked(planner="oracle"), "planner"),
         (asked(exact="true", columns="60"), f"at most {MOST_SEARCHED:,} nodes"),
         (asked(EXAMPLE, exact="true"), "leader without intent"),
         (asked(levels="3"), "'levels' is not a parameter"),
