@@ -47,9 +47,12 @@ class TrainingOptions:
     validation: float = 0.05
     """Share of the labels that are kept to stop by, and to calibrate the set."""
     coverage: float = 0.9999
-    """How often the set shall hold the fastest strategy."""
+    """How often the set shall hold the fastest strategy, at the share it is calibrated to."""
+    margin: float = 100.0
+    """The set takes in what has a share this many times smaller: a word more is solved in 1 µs."""
     most: int = 4
-    """Largest set; above it the exact planner is asked."""
+    """Largest set of ways; above it the exact planner is asked. No set of strategies is too large:
+    all eight are the exact answer."""
     seed: int = 0
     threads: int = 2
     device: str = "auto"
@@ -63,6 +66,8 @@ class TrainingOptions:
         for name in ("learning_rate", "temperature"):
             if not (isfinite(getattr(self, name)) and getattr(self, name) > 0.0):
                 raise ValueError(f"{name} must be above 0, not {getattr(self, name)}.")
+        if not (isfinite(self.margin) and self.margin >= 1.0):
+            raise ValueError(f"margin must be 1 or more, not {self.margin}.")
         for name in ("validation", "coverage"):
             if not 0.0 < getattr(self, name) < 1.0:
                 raise ValueError(f"{name} must lie between 0 and 1, not {getattr(self, name)}.")

@@ -163,8 +163,8 @@ def train(
                     mean, deviation,
                 ),
                 box=box,
-                least_share=_calibrated(shares, fastest[:kept], options.coverage),
-                most=options.most,
+                least_share=_calibrated(shares, fastest[:kept], options.coverage) / options.margin,
+                most=SIZE,
                 about={
                     **about,
                     "made": datetime.now(UTC).isoformat(timespec="seconds"),
