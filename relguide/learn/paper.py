@@ -119,11 +119,10 @@ def train_regular(
 
     torch.set_num_threads(options.threads)
     torch.manual_seed(options.seed)
-    device = torch.device(
-        ("cuda" if torch.cuda.is_available() else "cpu")
-        if options.device == "auto"
-        else options.device
-    )
+    there = torch.cuda.is_available()
+    if options.device == "cuda" and not there:
+        raise ValueError("There is no CUDA device here: use --device cpu.")
+    device = torch.device("cuda" if there and options.device != "cpu" else "cpu")
 
     # What is learnt from, and what is kept to judge by.
     nodes = np.random.default_rng(options.seed).permutation(tree.minima)

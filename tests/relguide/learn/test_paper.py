@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import torch
 
 from relguide.learn.files import save_columns
 from relguide.learn.options import NetworkShape, TrainingOptions
@@ -132,3 +133,8 @@ def test_the_command_trains_it_on_a_tree(run: Run) -> None:
     code, _, err = run("train", "labels.npz", "w.safetensors", "--method", "paper")
     assert code == 2
     assert "is a file of another kind" in err
+    if not torch.cuda.is_available():
+        asked = ("train", "tree.npz", "w.safetensors", "--method", "direct", "--device", "cuda")
+        assert run(*asked)[::2] == (
+            2, "relguide: There is no CUDA device here: use --device cpu.\n",
+        )  # fmt: skip
