@@ -71,7 +71,7 @@ def make_label_file(
         "file": str(file),
         "labels": len(labels),
         "sources": dict(
-            zip(SOURCES, np.bincount(labels.sources, minlength=3).tolist(), strict=True)
+            zip(SOURCES, np.bincount(labels.sources, minlength=len(SOURCES)).tolist(), strict=True)
         ),
         "fastest": dict(zip(STRATEGIES, counts, strict=True)),
         "held_out": {

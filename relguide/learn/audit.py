@@ -22,6 +22,7 @@ GROUPS = {
     "box": "random",
     "reverse": "rare strategies",
     "edge": "at switching surfaces",
+    "loop": "in closed loops",
 }
 """What each source is called in an audit."""
 PERCENTILES = (50.0, 99.0, 99.9, 100.0)

@@ -25,6 +25,8 @@ from relguide.learn.train import NEAR
 
 SHARES = (0.8, 0.1, 0.1)
 """Of the sources of an audit's situations."""
+LOOPS = 0.005
+"""For each of them so many more of closed loops: a flight for each chunk."""
 ROUNDING = 1e-9
 """A gap below this is none."""
 WORTH = 1e-4
@@ -74,7 +76,7 @@ def audit_request(network: StrategyNetwork, count: int, seed: int) -> LabelReque
     """
     if seed == network.about.get("dataset", {}).get("seed"):
         raise ValueError(f"The network has seen the situations of seed {seed}: use another.")
-    return LabelRequest(count=count, seed=seed, box=network.box, shares=SHARES)
+    return LabelRequest(count=count, seed=seed, box=network.box, shares=SHARES, loops=LOOPS)
 
 
 def judged(

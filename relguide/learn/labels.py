@@ -4,7 +4,8 @@ Three sources, as the box alone hardly ever meets what is hard: `box`, places dr
 `reverse` of random paths, laid back from the slot as `reverse_dp` does, of which those are kept
 whose fastest strategies are rare (of such paths only a quarter is optimal: they propose situations,
 the exact solution labels them); `edge`, places next to a switching surface, found by bisection
-between situations with different answers.
+between situations with different answers. Beside them, where it is asked for, the `loop`: what
+flights meet.
 
 Labels are made in chunks. A chunk is a function of the request and its number, so any executor may
 make it, anywhere and as often as need be, and the result is the same.
@@ -25,9 +26,10 @@ from relguide.kernels.extremals import SIGNS
 from relguide.kernels.strategies import SIZE, STRATEGIES, WORD_OF, strategy_times
 from relguide.learn.chunks import gathered
 from relguide.learn.files import load_columns, save_columns
+from relguide.learn.visited import visited
 
 Floats = NDArray[np.float64]
-SOURCES = ("box", "reverse", "edge")
+SOURCES = ("box", "reverse", "edge", "loop")
 """Where a situation comes from, by number."""
 FILE = "relguide exact labels 1"
 """What a file says it is, with the version of its columns."""
@@ -72,9 +74,11 @@ class LabelRequest:
     seed: int = 0
     box: Box = field(default_factory=Box)
     shares: tuple[float, float, float] = (0.4, 0.3, 0.3)
-    """Of `SOURCES`."""
+    """Of the first three `SOURCES`."""
     chunk: int = 10_000
     """Labels made at a time."""
+    loops: float = 0.0
+    """For each of them so many more that flights met; they take 5 ms each, the others 0.02."""
 
     def __post_init__(self) -> None:
         """Refuse what is no request."""
@@ -85,6 +89,8 @@ class LabelRequest:
             )
         if not (min(self.shares) >= 0.0 and abs(sum(self.shares) - 1.0) < 1e-9):
             raise ValueError(f"shares must be 0 or more and sum up to 1, not {self.shares}.")
+        if not 0.0 <= self.loops <= 1.0:
+            raise ValueError(f"loops must be a share from 0 to 1, not {self.loops:g}.")
 
     @property
     def chunks(self) -> int:
@@ -155,8 +161,10 @@ def label_chunk(request: LabelRequest, number: int) -> Labels:
     box = size - reverse - edge
     parts = [_in_box(rng, request.box, box), _reversed(rng, request.box, reverse)]
     parts.append(_at_edges(rng, request.box, edge))
+    # the last, so that those before are the same with and without them
+    parts.append(_in_flight(rng, request.box, round(size * request.loops)))
     situations = np.concatenate(parts)
-    sources = np.repeat(np.arange(3, dtype=np.int8), [len(part) for part in parts])
+    sources = np.repeat(np.arange(len(SOURCES), dtype=np.int8), [len(part) for part in parts])
     return Labels(situations=situations, times=times_of(situations), sources=sources)
 
 
@@ -235,6 +243,18 @@ def _at_edges(rng: np.random.Generator, box: Box, size: int) -> Floats:
     return _moved(rng, box, chosen, 0.3 * 10.0 ** (-3.0 * rng.random(size)))
 
 
+def _in_flight(rng: np.random.Generator, box: Box, size: int) -> Floats:
+    """What the exact planner was asked in flights."""
+    met = visited(
+        rng,
+        size,
+        max_range=box.max_range,
+        min_ratio=box.min_ratio,
+        max_ratio=box.max_ratio,
+    )
+    return canonical(met[:, :4])
+
+
 def _moved(rng: np.random.Generator, box: Box, situations: Floats, by: Floats) -> Floats:
     """Situations moved at random, by a share of their size, and kept in the box."""
     x, y, h, alpha = situations.T
@@ -262,8 +282,8 @@ def save_labels(
         "sources": SOURCES,
         "provenance": provenance,
     }
-    columns = (labels.situations, labels.times, labels.sources)
-    save_columns(file, about, {n: c for n, c in zip(COLUMNS, columns, strict=True)})
+    columns: tuple[NDArray[Any], ...] = (labels.situations, labels.times, labels.sources)
+    save_columns(file, about, dict(zip(COLUMNS, columns, strict=True)))
 
 
 def load_labels(file: Path) -> tuple[Labels, dict[str, Any]]:

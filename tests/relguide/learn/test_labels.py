@@ -61,7 +61,7 @@ def test_the_least_time_is_the_exact_planners() -> None:
 
 def test_every_source_brings_what_it_is_for() -> None:
     found = labels()
-    box, reverse, edge = (found.best[found.sources == n] for n in range(len(SOURCES)))
+    box, reverse, edge = (found.best[found.sources == n] for n in range(3))
     shares = [np.bincount(best, minlength=8) / len(best) for best in (box, reverse)]
     rare = STRATEGIES.index("RSR")
     assert shares[1][rare] > 5.0 * shares[0][rare]
@@ -69,6 +69,23 @@ def test_every_source_brings_what_it_is_for() -> None:
     close = two[:, 1] < 1.02 * two[:, 0]
     assert np.mean(close[found.sources == 2]) > 2.0 * np.mean(close[found.sources == 0])
     assert len(edge) == round(0.3 * 4000) * 3
+
+
+@pytest.mark.slow
+def test_closed_loops_bring_more_and_leave_the_others_as_they_are() -> None:
+    found = label_chunk(replace(SMALL, loops=0.2), 1)
+    loop = found.sources == SOURCES.index("loop")
+    assert loop.sum() == 20
+    assert np.array_equal(found.situations[~loop], label_chunk(SMALL, 1).situations)
+    assert same(found, label_chunk(replace(SMALL, loops=0.2), 1))
+    x, y, _, alpha = found.situations[loop].T
+    assert np.hypot(x, y).max() <= SMALL.box.max_range
+    assert SMALL.box.min_ratio <= alpha.min() <= alpha.max() <= SMALL.box.max_ratio
+    assert y.min() >= 0.0
+    assert found.times[loop].min(axis=1).max() < inf
+    assert np.ptp(alpha) < 0.1  # of one flight, whose leader keeps its speed
+    with pytest.raises(ValueError, match="loops must be a share from 0 to 1, not 2"):
+        replace(SMALL, loops=2.0)
 
 
 def test_labels_are_in_the_box_and_on_the_left() -> None:

@@ -48,7 +48,13 @@ def test_people_get_sentences_and_a_table(run: Run) -> None:
     assert max(map(len, lines)) <= 100
     assert "…" not in lines[1]
     names = [line.split("  ")[0].strip() for line in lines]
-    for name in ("random", "at switching surfaces", "unseen range 6 … 7 R", "RLR long"):
+    for name in (
+        "random",
+        "at switching surfaces",
+        "in closed loops",
+        "unseen range 6 … 7 R",
+        "RLR long",
+    ):
         assert name in names
     queries, gaps = lines[lines.index(next(line for line in lines if line.startswith("One q"))) :][
         :2
