@@ -1,8 +1,8 @@
 """Many situations with a straight leader, one after another: time, bound and proof of each.
 
-The same chain as `plan`: every extremal in order of time, the first that clears; where that is not
-the very first, the ways that touch d_min or ride along it. Slot frame: lengths in
-R, times in R/V_P, angles counter-clockwise.
+The same chain as `plan`: the fastest extremal, alone; where that does not clear all others in order
+of time, and the ways that touch d_min or ride along it. Slot frame: lengths in R, times in R/V_P,
+angles counter-clockwise.
 """
 
 from math import inf
@@ -14,8 +14,10 @@ from relguide.kernels.angles import wrap
 from relguide.kernels.clearance import SLACK
 from relguide.kernels.detour import MAX_LEGS, best_detour
 from relguide.kernels.extremals import MAX_ROWS, solve
+from relguide.kernels.fastest import fastest
 from relguide.kernels.passage import GRAZE, word_clears
 from relguide.kernels.roots import FloatArray
+from relguide.kernels.sooner import MOST_ROOTS, work_room
 from relguide.kernels.tangent import tangents
 
 PROVED, BOUNDED, UNREACHABLE, ALREADY_LOST, NO_WAY = 0.0, 1.0, 2.0, 3.0, 4.0
@@ -36,6 +38,7 @@ def plan_rows(
         last: up to this row.
         answers: takes arrival, lower bound, verdict, the word's number (−1: a detour). (n, 4)
     """
+    room, found = work_room(), np.empty((MOST_ROOTS, 4))
     rows = np.empty((MAX_ROWS, 5))
     leader = np.zeros((1, 5))
     legs = np.empty((MAX_LEGS, 6))
@@ -49,19 +52,19 @@ def plan_rows(
         if limited and gap < limit - SLACK:
             answer[2] = ALREADY_LOST
             continue
-        found = solve(x, y, h, alpha, 0.0, rows)
-        if found == 0:
+        if not fastest(x, y, h, alpha, 0.0, 0, room, found, rows[0]):
             answer[2] = UNREACHABLE
             continue
         answer[1] = rows[0, 0]
         answer[2] = NO_WAY
-        for k in range(found):
-            clears = not limited or word_clears(x, y, h, 0.0, rows[k], leader, alpha, limit - SLACK)
-            if clears:
-                answer[0], answer[3] = rows[k, 0], rows[k, 1]
-                answer[2] = PROVED if k == 0 else BOUNDED
+        if not limited or word_clears(x, y, h, 0.0, rows[0], leader, alpha, limit - SLACK):
+            answer[0], answer[2], answer[3] = rows[0, 0], PROVED, rows[0, 1]
+            continue
+        for k in range(1, solve(x, y, h, alpha, 0.0, rows)):
+            if word_clears(x, y, h, 0.0, rows[k], leader, alpha, limit - SLACK):
+                answer[0], answer[2], answer[3] = rows[k, 0], BOUNDED, rows[k, 1]
                 break
-        if answer[2] == PROVED or limit <= 0.0:
+        if limit <= 0.0:
             continue
         near = tangents(x, y, h, leader, alpha, limit + GRAZE)
         arrival, legs_flown = best_detour(
