@@ -84,8 +84,13 @@ def test_the_commands_give_what_they_give_here(run: Run, machines: LocalCluster)
     assert (code, err) == (0, "")
     code, told_there, err = run(*audit, "--dask", machines.address)
     assert (code, err) == (0, "")
-    # the last line is the time of a query, which is measured
-    assert told_here.splitlines()[:-1] == told_there.splitlines()[:-1]
+    assert "in closed loops" in told_here
+    assert found_in(told_here) == found_in(told_there)
+
+
+def found_in(told: str) -> list[str]:
+    """What an audit says, less how long a query took."""
+    return [line for line in told.splitlines() if not line.startswith("One query")]
 
 
 def test_a_part_that_kills_its_workers_is_given_up(
@@ -184,9 +189,7 @@ def test_misuse_is_said_in_a_sentence(run: Run) -> None:
     assert code == 2
     assert err.startswith("relguide: nowhere is no address of a Dask scheduler: ")
     tree = ("dataset", "--method", "reverse-dp", "--out", "tree.npz", "--dask", "tcp://h:1")
-    assert run(*tree)[2] == (
-        "relguide: A tree is grown on one machine: --dask is for --method exact.\n"
-    )
+    assert run(*tree)[2].startswith("relguide: A tree is grown on one machine: --dask is for ")
     assert "not allowed with argument" in run("audit", "--dask", "tcp://h:1", "--threads", "2")[2]
 
 
