@@ -59,8 +59,8 @@ STEPS = (15.0, 30.0, 60.0, 120.0, 300.0, 600.0, 1200.0, 1800.0, 3600.0, 7200.0, 
 """Steps between levels that people read well [s]."""
 WANTED_LEVELS = 15
 """About so many levels if none are given."""
-CHUNK = 512
-"""Places a thread takes at a time: some ms of work."""
+LEAST_CHUNK, CHUNK = 64, 512
+"""Places a thread takes at a time: 0.1 to 1 ms of work."""
 
 
 Words = Callable[[Floats, Floats], NDArray[np.int8]]
@@ -218,19 +218,21 @@ def times_around(
         alone = np.full(len(places), -1, np.int8) if words is None else words(x, y)
         answers = np.empty((len(places), 4))
 
+        chunk = min(max(len(places) // (4 * workers), LEAST_CHUNK), CHUNK)
+
         def work(first: int) -> None:
-            last = min(first + CHUNK, len(places))
+            last = min(first + chunk, len(places))
             field_rows(
                 places, alone, frame.h, frame.alpha, frame.t_open, table, limit, longest, first,
                 last, answers,
             )  # fmt: skip
 
-        if len(places) <= CHUNK or workers == 1:
-            for first in range(0, len(places), CHUNK):
+        if len(places) <= chunk or workers == 1:
+            for first in range(0, len(places), chunk):
                 work(first)
         else:
             with ThreadPoolExecutor(workers) as pool:
-                for _ in pool.map(work, range(0, len(places), CHUNK)):
+                for _ in pool.map(work, range(0, len(places), chunk)):
                     pass
         return _field(answers[:, 0] * scale, answers[:, 1] * scale, *answers.T[2:])
 

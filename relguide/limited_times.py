@@ -2,7 +2,8 @@
 
 It takes some ten ms a node, or up to a second if the leader turns: too long to ask it for each
 vertex of a line, so between nodes its times are interpolated. What is found is still given with its
-bound: nothing proves the ways along d_min to be optimal.
+bound: nothing proves the ways along d_min to be optimal. At each node the work is bounded as that
+of `plan` is; how many nodes are searched is the caller's choice, and a server's limit.
 """
 
 from collections.abc import Callable
