@@ -141,6 +141,7 @@ def _area() -> None:
 
 def _tree() -> None:
     from relguide.area import Encounter
+    from relguide.learn.regular_planner import regular_planner
     from relguide.learn.reverse_dp import reverse_tree
     from relguide.learn.tree import TreeParameters
 
@@ -154,6 +155,8 @@ def _tree() -> None:
     reverse_tree(
         TreeParameters(encounter=encounter, order=2, delta_theta=0.5 * pi, delta_l=12e3, cell=12e3)
     )
+    regular_planner(_situation(-40e3, 40e3, 90.0))
+    regular_planner(_situation(0.0, 30e3, 180.0))
 
 
 def _network() -> None:

@@ -81,7 +81,7 @@ def _calibration(audit: Audit, methods: Sequence[Method], least_share: float) ->
     """Whether it is as often wrong as it says, and what a larger set would give."""
     del methods
     figure, (left, right) = _two_panels("How sure the network is, and what its set costs")
-    low, high = 1e-4, 100.0
+    low, high = 1e-5, 100.0
     said = [max(PERCENT * doubt.said, low) for doubt in audit.doubts]
     left.plot([low, high], [low, high], color=FAINT, lw=0.9, label="as often as it says")
     _rates(left, said, [doubt.wrong for doubt in audit.doubts], "is wrong")
@@ -92,7 +92,7 @@ def _calibration(audit: Audit, methods: Sequence[Method], least_share: float) ->
     left.set_ylabel("is wrong [%], 95 % interval", color=INK)
     left.set_title("calibration, random situations", color=INK, fontsize=10)
     sizes = [size.mean_set for size in audit.sets]
-    _rates(right, sizes, [size.worth for size in audit.sets], "slower than the fastest by 0.01 %")
+    _rates(right, sizes, [size.worth for size in audit.sets], "slower than the fastest by over 0.01 %")
     logs = np.log([size.least_share for size in audit.sets])
     chosen = float(np.interp(np.log(least_share), logs, sizes))
     right.axvline(chosen, color=FAINT, ls="--", lw=1.0, label="the network's set")

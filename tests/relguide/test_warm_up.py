@@ -22,6 +22,7 @@ from relguide.learn.judging import audit_request, judge_chunk, latencies
 from relguide.learn.labels import LabelRequest, label_chunk
 from relguide.learn.network import features_of, load_network
 from relguide.learn.planner import network_planner
+from relguide.learn.regular_planner import regular_planner
 from relguide.warm_up import _steps
 from tests.situations import golden
 
@@ -49,6 +50,7 @@ plan_arrays(Situations(
 network = load_network()
 for situation, _ in golden("reference")[::7]:
     network_planner(network)(situation)
+    regular_planner(situation)
 latencies(network, audit_request(network, 100, 1))
 judge_chunk(network, audit_request(network, 100, 1), 0)
 features_of(label_chunk(LabelRequest(count=100), 0).situations)
