@@ -13,10 +13,12 @@ from relguide.learn.options import add_options
 if TYPE_CHECKING:
     from relguide.learn.tree import TreeParameters
 
-METHODS = ("reverse-dp", "exact")
+METHODS = ("reverse-dp", "exact", "limit")
 """How a data set is made."""
-TAUGHT = ("strategies", "paper", "direct")
+TAUGHT = ("strategies", "ways", "paper", "direct")
 """What a network is taught."""
+LABELS, LIMIT_LABELS = 1_200_000, 400_000
+"""How many labels are made: one to two minutes, and half an hour to an hour."""
 AddCommand = Callable[[str, Callable[[argparse.Namespace], int], str, str], argparse.ArgumentParser]
 """Name, what runs it, its purpose, examples → its parser, for the options."""
 
@@ -33,19 +35,21 @@ def add_learning(add_command: AddCommand) -> None:
         relguide dataset --method reverse-dp --out tree.npz --resume    go on after a stop
         relguide dataset --method exact --count 1200000 --out labels.npz    for relguide train
         relguide dataset --method exact --out labels.npz --dask tcp://host:8786   many machines
+        relguide dataset --method limit --count 400000 --out limit.npz   for train --method ways
         """,
     )
     dataset.add_argument(
         "--method",
         choices=METHODS,
         required=True,
-        help="reverse-dp: the tree of Fig. 3; exact: situations with the exact time of each word",
+        help="reverse-dp: the tree of Fig. 3; exact: situations with the exact time of each word; "
+        "limit: situations in which the limit binds with the fastest way",
     )
     dataset.add_argument("--out", metavar="FILE.npz", type=_npz, required=True)
     dataset.add_argument(
         "--resume",
         action="store_true",
-        help="reverse-dp: go on from FILE.npz.part, which a stopped run leaves; same result",
+        help="reverse-dp, limit: go on from FILE.npz.part, which a stopped run leaves; same result",
     )
     _add_workers(dataset)
     dataset.add_argument(
@@ -60,11 +64,17 @@ def add_learning(add_command: AddCommand) -> None:
         "--count",
         metavar="N",
         type=_count,
-        default=1_200_000,
-        help="exact: how many situations; default: %(default)s",
+        help=f"exact: how many situations, default: {LABELS}; limit: {LIMIT_LABELS}",
     )
     dataset.add_argument(
-        "--seed", metavar="N", type=_count, default=7, help="exact: default: %(default)s"
+        "--seed", metavar="N", type=_count, default=7, help="exact, limit: default: %(default)s"
+    )
+    dataset.add_argument(
+        "--loops",
+        metavar="SHARE",
+        type=float,
+        default=0.0,
+        help="exact: so many more that closed loops meet, e.g. 0.02; default: none",
     )
     dataset.add_argument("--json", action="store_true", help="print one JSON object")
     _add_tree(dataset)
@@ -109,6 +119,7 @@ def _add_network(add_command: AddCommand) -> None:
         relguide train labels.npz weights.safetensors               on what device there is
         relguide train labels.npz weights.safetensors --resume      go on after a stop
         relguide train labels.npz small.safetensors --width 32 --epochs 10
+        relguide train limit.npz ways.safetensors --method ways     ways round the limit
         relguide train tree.npz paper.safetensors --method paper    Fig. 5, from the paper's tree
         """,
     )
@@ -117,8 +128,9 @@ def _add_network(add_command: AddCommand) -> None:
         "--method",
         choices=TAUGHT,
         default=TAUGHT[0],
-        help="strategies: from LABELS.npz; paper: the tree's (ε, θ, l), from a TREE.npz in its "
-        "place; direct: the exact ones from the tree's states; default: %(default)s",
+        help="strategies, ways: from LABELS.npz of --method exact, limit; paper: the tree's "
+        "(ε, θ, l), from a TREE.npz in its place; direct: the exact ones from the tree's states; "
+        "default: %(default)s",
     )
 
     audit = add_command(
@@ -213,10 +225,12 @@ def _tree_parameters(chosen: argparse.Namespace) -> "TreeParameters":
 def _dataset(chosen: argparse.Namespace) -> int:
     if chosen.method == "exact":
         return _labels(chosen)
+    if chosen.method == "limit":
+        return _limit_labels(chosen)
     from relguide.learning import make_tree
 
     if chosen.dask is not None:
-        raise ValueError("A tree is grown on one machine: --dask is for --method exact.")
+        raise ValueError("A tree is grown on one machine: --dask is for --method exact and limit.")
     make_tree(
         _tree_parameters(chosen),
         chosen.out,
@@ -234,12 +248,32 @@ def _labels(chosen: argparse.Namespace) -> int:
 
     if chosen.resume:
         raise ValueError("Labels are made in a minute or two, and nothing is left to resume.")
+    count = LABELS if chosen.count is None else chosen.count
+    loops = f"--loops {chosen.loops:g} " if chosen.loops else ""
     make_label_file(
-        LabelRequest(count=chosen.count, seed=chosen.seed),
+        LabelRequest(count=count, seed=chosen.seed, loops=chosen.loops),
         chosen.out,
         threads=chosen.threads or None,
         scheduler=chosen.dask,
-        command=f"relguide dataset --method exact --count {chosen.count} --seed {chosen.seed} "
+        command=f"relguide dataset --method exact --count {count} --seed {chosen.seed} "
+        f"{loops}--out {chosen.out.name}",
+        as_json=chosen.json,
+    )
+    return 0
+
+
+def _limit_labels(chosen: argparse.Namespace) -> int:
+    from relguide.learn.limit_labels import LimitRequest
+    from relguide.limit_training import make_limit_label_file
+
+    count = LIMIT_LABELS if chosen.count is None else chosen.count
+    make_limit_label_file(
+        LimitRequest(count=count, seed=chosen.seed),
+        chosen.out,
+        resume=chosen.resume,
+        threads=chosen.threads or None,
+        scheduler=chosen.dask,
+        command=f"relguide dataset --method limit --count {count} --seed {chosen.seed} "
         f"--out {chosen.out.name}",
         as_json=chosen.json,
     )
@@ -247,6 +281,11 @@ def _labels(chosen: argparse.Namespace) -> int:
 
 
 def _train(chosen: argparse.Namespace) -> int:
+    if chosen.method == "ways":
+        from relguide.limit_training import train_way_network
+
+        train_way_network(chosen)
+        return 0
     from relguide.training import train_network, train_regular_network
 
     if chosen.method == TAUGHT[0]:

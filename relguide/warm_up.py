@@ -72,7 +72,7 @@ def _steps() -> tuple[Step, ...]:
         ("plans in bulk", 30.0, _bulk),
         ("the convergence area", 6.0, _area),
         ("reverse dynamic programming", 4.0, _tree),
-        ("the network", 8.0, _network),
+        ("the networks", 40.0, _network),
         ("the closed loop", 3.0, _flight),
     )
 
@@ -162,11 +162,19 @@ def _tree() -> None:
 def _network() -> None:
     from relguide.learn.judging import audit_request, judge_chunk, latencies
     from relguide.learn.labels import LabelRequest, label_chunk
+    from relguide.learn.limit_labels import LimitRequest, limit_chunk
     from relguide.learn.network import features_of, load_network
     from relguide.learn.planner import network_planner
+    from relguide.learn.train_ways import taught
+    from relguide.learn.way_network import way_features_of
 
     network = load_network()
-    network_planner(network)(_situation(-40e3, 40e3, 90.0))
+    planner = network_planner(network)
+    for situation in (_situation(-40e3, 40e3, 90.0), *LIMITED):
+        planner(situation)
+    limited = limit_chunk(LimitRequest(count=10), 0)
+    way_features_of(limited.situations)
+    taught(limited)
     features_of(label_chunk(LabelRequest(count=10), 0).situations)
     judge_chunk(network, audit_request(network, 10, 1), 0)
     latencies(network, audit_request(network, 10, 1))

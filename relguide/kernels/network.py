@@ -30,7 +30,7 @@ class Layers(NamedTuple):
     """Weights by layer, inputs along the first axis. float32."""
 
     first: Any
-    """shape (FEATURES, width)"""
+    """shape (features, width)"""
     first_bias: Any
     """shape (width,)"""
     hidden: Any
@@ -38,9 +38,9 @@ class Layers(NamedTuple):
     hidden_bias: Any
     """shape (depth − 1, width)"""
     last: Any
-    """shape (width, 3 SIZE)"""
+    """shape (width, outputs)"""
     last_bias: Any
-    """shape (3 SIZE,)"""
+    """shape (outputs,)"""
 
 
 @njit(cache=True, nogil=True)
@@ -63,9 +63,28 @@ def evaluate(
         features(x, -y, TWO_PI - h if h > 0.0 else 0.0, alpha, told)
     else:
         features(x, y, h, alpha, told)
+    a = last_hidden(told, layers)
+    out = layers.last_bias.copy()
+    for i in range(len(a)):
+        value = a[i]
+        for j in range(3 * SIZE):
+            out[j] += value * layers.last[i, j]
+    for kind in range(3):
+        for s in range(SIZE):
+            scores[kind, MIRROR_OF[s] if mirrored else s] = out[kind * SIZE + s]
+
+
+@njit(cache=True, nogil=True)
+def last_hidden(told: FloatArray, layers: Layers) -> FloatArray:
+    """The layer before the outputs, float32.
+
+    Args:
+        told: features, as they are. shape (features,)
+        layers: the weights.
+    """
     width = len(layers.first_bias)
-    a = layers.first_bias.copy()
-    for i in range(FEATURES):
+    a: FloatArray = layers.first_bias.copy()
+    for i in range(len(told)):
         value = np.float32(told[i])
         for j in range(width):
             a[j] += value * layers.first[i, j]
@@ -78,14 +97,7 @@ def evaluate(
                 b[j] += value * layers.hidden[k, i, j]
         _silu(b)
         a = b
-    out = layers.last_bias.copy()
-    for i in range(width):
-        value = a[i]
-        for j in range(3 * SIZE):
-            out[j] += value * layers.last[i, j]
-    for kind in range(3):
-        for s in range(SIZE):
-            scores[kind, MIRROR_OF[s] if mirrored else s] = out[kind * SIZE + s]
+    return a
 
 
 @njit(cache=True, nogil=True, fastmath=True)

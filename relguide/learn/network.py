@@ -67,14 +67,16 @@ def features_of(situations: Floats) -> Singles:
     return told.astype(np.float32)
 
 
-def torch_model(shape: NetworkShape) -> "nn.Sequential":
+def torch_model(
+    shape: NetworkShape, *, features: int = FEATURES, outputs: int = OUTPUTS
+) -> "nn.Sequential":
     """A network to be trained, on features less their mean over their deviation."""
     from torch import nn
 
-    layers: list[nn.Module] = [nn.Linear(FEATURES, shape.width), nn.SiLU()]
+    layers: list[nn.Module] = [nn.Linear(features, shape.width), nn.SiLU()]
     for _ in range(shape.depth - 1):
         layers += [nn.Linear(shape.width, shape.width), nn.SiLU()]
-    return nn.Sequential(*layers, nn.Linear(shape.width, OUTPUTS))
+    return nn.Sequential(*layers, nn.Linear(shape.width, outputs))
 
 
 def layers_of(state: Mapping[str, Singles], mean: Singles, deviation: Singles) -> Layers:
@@ -90,7 +92,9 @@ def layers_of(state: Mapping[str, Singles], mean: Singles, deviation: Singles) -
     width = len(biases[0])
     first = weights[0].astype(float) / deviation[:, None]
     middle, bias = weights[1:-1], biases[1:-1]
-    return _as_layers(
+    return as_layers(
+        first.shape[0],
+        len(biases[-1]),
         first=first,
         first_bias=biases[0] - mean @ first,
         hidden=np.stack(middle) if middle else np.empty((0, width, width)),
@@ -135,7 +139,7 @@ def load_network(file: Path = SHIPPED) -> StrategyNetwork:
         if about["file"] != FILE or tuple(about["strategies"]) != STRATEGIES:
             raise KeyError(about["file"])
         network = StrategyNetwork(
-            layers=_as_layers(**arrays),
+            layers=as_layers(FEATURES, OUTPUTS, **arrays),
             box=Box(**about["box"]),
             least_share=float(about["least_share"]),
             most=int(about["most"]),
@@ -148,8 +152,13 @@ def load_network(file: Path = SHIPPED) -> StrategyNetwork:
     return network
 
 
-def _as_layers(**arrays: NDArray[Any]) -> Layers:
+def as_layers(features: int, outputs: int, **arrays: NDArray[Any]) -> Layers:
     """Weights in the kernels' form.
+
+    Args:
+        features: how many numbers go in.
+        outputs: and come out.
+        arrays: the weights, by their names in `Layers`.
 
     Raises:
         ValueError: if they do not fit together, or are not finite.
@@ -159,12 +168,12 @@ def _as_layers(**arrays: NDArray[Any]) -> Layers:
     )
     width, depth = layers.first_bias.shape[0], layers.hidden_bias.shape[0]
     shapes = {
-        "first": (FEATURES, width),
+        "first": (features, width),
         "first_bias": (width,),
         "hidden": (depth, width, width),
         "hidden_bias": (depth, width),
-        "last": (width, OUTPUTS),
-        "last_bias": (OUTPUTS,),
+        "last": (width, outputs),
+        "last_bias": (outputs,),
     }
     for name, array in layers._asdict().items():
         if array.shape != shapes[name] or not all(map(isfinite, array.ravel().tolist())):

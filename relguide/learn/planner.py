@@ -1,15 +1,14 @@
-"""network_planner(network) → Planner: the network says which words to solve, proofs say the rest.
+"""network_planner(network) → Planner: networks say what to solve, proofs say the rest.
 
     network → calibrated set of strategies → their words, solved exactly → the fastest → certificate
+    the limit binds → network of ways → kinds of ways round it, solved next to guesses → certificate
 
-All roots of a word are found to their last digit, so there is nothing left to polish. Whatever
-stands in the way leads to the exact planner: a situation outside the box the network was trained
-in, a set too large, no path among those words, one that arrives before the slot opens, and above
-all a path that does not keep d_min. So every answer is certified, whoever gave it; the network can
-only make an answer slower than the best, never unsafe.
-
-Ways that touch or ride along d_min are not learnt: where the limit binds, the search of `plan` is
-asked, and the network has cost its 10 µs.
+All roots of a word are found to their last digit, so there is nothing left to polish. If the
+fastest of them does not keep d_min, another network is asked for the way round the limit (see
+`way_round`). Whatever stands in the way leads to the exact planner: a situation outside the box the
+networks were trained in, a set too large, no path among those words, one that arrives before the
+slot opens, and above all a path that does not keep d_min. So every answer is certified, whoever
+gave it; a network can only make an answer slower than the best, never unsafe.
 """
 
 from dataclasses import dataclass, replace
@@ -18,11 +17,15 @@ from time import perf_counter_ns
 
 import numpy as np
 
+from relguide.kernels.clearance import SLACK
 from relguide.kernels.extremals import MAX_ROWS, WORDS
 from relguide.kernels.network import choose
+from relguide.kernels.passage import word_clears
 from relguide.kernels.strategies import direct_time
 from relguide.learn.labels import Box
 from relguide.learn.network import StrategyNetwork
+from relguide.learn.way_network import WayNetwork, load_way_network
+from relguide.learn.way_round import slot_ahead, way_round
 from relguide.planning.certificate import Certificate, certify
 from relguide.planning.inputs import expect
 from relguide.planning.plan import NoPlan, Optimality, Plan, Planner, plan
@@ -34,31 +37,38 @@ from relguide.units import Second
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Proposal:
-    """What the network's words lead to, judged."""
+    """What a network leads to, judged."""
 
     candidate: Candidate
-    """The fastest of them."""
+    """The fastest path of those it holds possible."""
     certificate: Certificate
     lower_bound: Second
     """No plan is faster: the time of a straight line to where the slot then is [s]."""
 
 
-def network_planner(network: StrategyNetwork) -> Planner:
-    """A planner that asks a network which words to solve, and the exact planner in need.
+def network_planner(network: StrategyNetwork, ways: WayNetwork | None = None) -> Planner:
+    """A planner that asks networks what to solve, and the exact planner in need.
 
-    A leader who turns is met on the final leg: the network sees a leader who has been on it all
+    A leader who turns is met on the final leg: the networks see a leader who has been on it all
     along, the certificate the real one.
 
+    Args:
+        network: for the words to the slot.
+        ways: for the ways round the limit, where it binds; by default the one that comes with the
+            program.
+
     Returns:
-        a `Planner`; its plans say by `planner` who gave them, and by `fell_back` if the network
+        a `Planner`; its plans say by `planner` who gave them, and by `fell_back` if the networks
         could not.
     """
     expect("network", network, StrategyNetwork)
+    round_limit = load_way_network() if ways is None else ways
+    expect("ways", round_limit, WayNetwork)
 
     def planner(situation: Situation) -> Plan | NoPlan:
         expect("situation", situation, Situation)
         started = perf_counter_ns()
-        proposal = propose(network, situation)
+        proposal = propose(network, situation, round_limit)
         if proposal is None or not proposal.certificate.holds:
             exact = plan(situation)
             if isinstance(exact, NoPlan):
@@ -78,8 +88,13 @@ def network_planner(network: StrategyNetwork) -> Planner:
     return planner
 
 
-def propose(network: StrategyNetwork, situation: Situation) -> Proposal | None:
-    """The fastest path of the words that the network holds possible; `None` if it cannot say."""
+def propose(
+    network: StrategyNetwork, situation: Situation, ways: WayNetwork | None = None
+) -> Proposal | None:
+    """The fastest path of the words that the network holds possible; `None` if it cannot say.
+
+    If that does not keep d_min and there is a network of ways, its way round the limit.
+    """
     frame = slot_frame(situation, situation.leader.trajectory)
     if not _within(network.box, frame):
         return None
@@ -93,13 +108,35 @@ def propose(network: StrategyNetwork, situation: Situation) -> Proposal | None:
     # had another word been open before, it would be the exact planner's to find how to wait for it
     if found == 0 or time < frame.t_open or time * scale > HORIZON:
         return None
-    candidate = assemble(situation, frame, SIGN_ROWS[int(word)], amounts, WORDS[int(word)])
-    least = max(direct_time(frame.x, frame.y, frame.alpha), frame.t_open)
+    least = max(direct_time(frame.x, frame.y, frame.alpha), frame.t_open) * scale
+    if ways is None or not _breaks(situation, frame, rows[0]):
+        candidate = assemble(situation, frame, SIGN_ROWS[int(word)], amounts, WORDS[int(word)])
+        free = _judged(candidate, situation, least)
+        if ways is None or free.certificate.holds:
+            return free
+    around = way_round(ways, situation, frame)
+    return None if around is None else _judged(around, situation, least)
+
+
+def _judged(candidate: Candidate, situation: Situation, lower_bound: Second) -> Proposal:
     return Proposal(
         candidate=candidate,
         certificate=certify(candidate.trajectory, situation),
-        lower_bound=least * scale,
+        lower_bound=lower_bound,
     )
+
+
+def _breaks(situation: Situation, frame: SlotFrame, row: np.ndarray) -> bool:
+    """Whether a word comes too close to a leader that keeps straight: soon told, no certificate.
+
+    Of a leader who turns only the certificate knows.
+    """
+    slot = slot_ahead(situation, frame)
+    if slot is None or situation.leader.intent:
+        return False
+    leader = np.array([[0.0, slot, 0.0, 0.0, 0.0]])
+    limit = situation.min_separation / frame.radius
+    return not word_clears(frame.x, frame.y, frame.h, 0.0, row, leader, frame.alpha, limit - SLACK)
 
 
 def _within(box: Box, frame: SlotFrame) -> bool:

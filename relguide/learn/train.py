@@ -15,14 +15,14 @@ from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 from hashlib import sha256
-from math import cos, pi
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from relguide.kernels.strategies import SIZE
-from relguide.learn.files import expect_part, whole
+from relguide.learn.checkpoint import device_of, load_checkpoint, pace, save_checkpoint
+from relguide.learn.files import expect_part
 from relguide.learn.labels import Box, Labels, held_out, load_labels
 from relguide.learn.network import (
     StrategyNetwork,
@@ -36,8 +36,6 @@ from relguide.learn.options import TrainingOptions, add_options, command_of, opt
 if TYPE_CHECKING:
     import torch
 
-CHECKPOINT = "relguide training 1"
-"""What a checkpoint says it is."""
 NEAR = 1e-6
 """A strategy this close to the fastest is as fast, relative."""
 
@@ -82,7 +80,7 @@ def train(
 
     torch.set_num_threads(options.threads)
     torch.manual_seed(options.seed)
-    device = _device(options.device)
+    device = device_of(options.device)
 
     # What is learnt from, and what is kept to stop by.
     outside = ~np.logical_or.reduce(list(held_out(labels.situations).values()))
@@ -107,9 +105,9 @@ def train(
     done, best, best_accuracy = 0, 0, -1.0
     best_state = {name: value.clone() for name, value in model.state_dict().items()}
     if resume:
-        if checkpoint is None or not checkpoint.exists():
-            raise ValueError(f"There is nothing to resume: {checkpoint} does not exist.")
-        done, best, best_accuracy = _load(checkpoint, digest, model, optimiser, best_state)
+        done, best, best_accuracy = load_checkpoint(
+            checkpoint, digest, model, optimiser, best_state
+        )
 
     batches = -(-(len(rows) - kept) // options.batch)
     for epoch in range(done, options.epochs):
@@ -120,7 +118,7 @@ def train(
         for number in range(batches):
             share = (epoch * batches + number + 1) / (options.epochs * batches)
             for group in optimiser.param_groups:
-                group["lr"] = options.learning_rate * _pace(share)
+                group["lr"] = options.learning_rate * pace(share)
             chosen = order[number * options.batch : (number + 1) * options.batch]
             score, exists, time = model(scaled[chosen]).split(SIZE, dim=1)
             target = {name: value[chosen] for name, value in targets.items()}
@@ -147,7 +145,9 @@ def train(
             best, best_accuracy = epoch + 1, accuracy
             best_state = {name: value.clone() for name, value in model.state_dict().items()}
         if checkpoint is not None:
-            _save(checkpoint, digest, model, optimiser, best_state, epoch + 1, best, best_accuracy)
+            save_checkpoint(
+                checkpoint, digest, model, optimiser, best_state, epoch + 1, best, best_accuracy
+            )
         current = model.state_dict()
         model.load_state_dict(best_state)
         shares = _shares(model, scaled[:kept])
@@ -183,11 +183,6 @@ def train(
             return
 
 
-def _pace(share: float) -> float:
-    """The learning rate over its largest: up in the first 3 %, then down like a cosine."""
-    return min(share / 0.03, 0.5 + 0.5 * cos(pi * min(share, 1.0)))
-
-
 def _targets(times: np.ndarray, temperature: float) -> dict[str, np.ndarray]:
     """What each part of the loss asks for; a strategy that does not exist loses all."""
     least = times.min(axis=1, keepdims=True)
@@ -220,72 +215,12 @@ def _calibrated(shares: np.ndarray, fastest: np.ndarray, coverage: float) -> flo
     return float(reached[max(missed - 1, 0)])
 
 
-def _device(name: str) -> "torch.device":
-    import torch
-
-    if name == "auto":
-        name = "cuda" if torch.cuda.is_available() else "cpu"
-    if name == "cuda" and not torch.cuda.is_available():
-        raise ValueError("There is no CUDA device here: use --device cpu.")
-    return torch.device(name)
-
-
 def _digest(labels: Labels, options: TrainingOptions) -> str:
     """Changes with whatever the result depends on."""
     digest = sha256(json.dumps(asdict(options), sort_keys=True).encode())
     for column in (labels.situations, labels.times):
         digest.update(np.ascontiguousarray(column).data)
     return digest.hexdigest()
-
-
-def _save(
-    file: Path, digest: str, model: "torch.nn.Module", optimiser: "torch.optim.Optimizer",
-    best_state: Mapping[str, "torch.Tensor"], done: int, best: int, best_accuracy: float,
-) -> None:  # fmt: skip
-    from safetensors.torch import save
-
-    tensors = {f"model.{name}": value for name, value in model.state_dict().items()}
-    tensors |= {f"best.{name}": value for name, value in best_state.items()}
-    for number, moments in optimiser.state_dict()["state"].items():
-        tensors |= {f"optimiser.{number}.{name}": value for name, value in moments.items()}
-    about = {
-        "file": CHECKPOINT, "digest": digest, "done": done, "best": best,
-        "best_accuracy": best_accuracy,
-    }  # fmt: skip
-    contiguous = {name: value.contiguous() for name, value in tensors.items()}
-    with whole(file) as stream:
-        stream.write(save(contiguous, metadata={"about": json.dumps(about)}))
-
-
-def _load(
-    file: Path, digest: str, model: "torch.nn.Module", optimiser: "torch.optim.Optimizer",
-    best_state: dict[str, "torch.Tensor"],
-) -> tuple[int, int, float]:  # fmt: skip
-    """Put the training where a checkpoint left it."""
-    from safetensors import SafetensorError, safe_open
-
-    try:
-        with safe_open(file, framework="pt") as content:
-            about = json.loads(content.metadata()["about"])
-            tensors = {name: content.get_tensor(name) for name in content.keys()}
-        if about["file"] != CHECKPOINT:
-            raise KeyError(about["file"])
-    except (SafetensorError, KeyError, TypeError, ValueError):
-        raise ValueError(f"{file} is no checkpoint of relguide train, or is cut short.") from None
-    if about["digest"] != digest:
-        raise ValueError(
-            f"{file} was begun with other labels or options: give the same, or delete it to begin "
-            "anew."
-        )
-    model.load_state_dict({name: tensors[f"model.{name}"] for name in model.state_dict()})
-    best_state.update({name: tensors[f"best.{name}"] for name in best_state})
-    moments: dict[int, dict[str, Any]] = {}
-    for name, value in tensors.items():
-        if name.startswith("optimiser."):
-            _, number, moment = name.split(".")
-            moments.setdefault(int(number), {})[moment] = value
-    optimiser.load_state_dict(optimiser.state_dict() | {"state": moments})
-    return int(about["done"]), int(about["best"]), float(about["best_accuracy"])
 
 
 def run(chosen: argparse.Namespace, program: str) -> Iterator[Epoch]:

@@ -26,6 +26,7 @@ from relguide.flying.scenarios import scenario
 from relguide.kernels.network import Layers
 from relguide.learn.network import StrategyNetwork, load_network
 from relguide.learn.planner import network_planner, propose
+from relguide.learn.way_network import load_way_network
 from relguide.units import DEG
 from tests.relguide.learn.networks import network
 from tests.situations import golden, situations
@@ -91,12 +92,13 @@ def test_out_of_the_box_the_exact_planner_answers() -> None:
             assert planned == exact
 
 
-def test_where_the_limit_binds_the_exact_planner_answers() -> None:
+def test_where_the_limit_binds_and_no_way_is_known_the_exact_planner_answers() -> None:
+    unsure = network_planner(network(), replace(load_way_network(), most=0))
     seen = 0
     for situation, _ in golden("reference"):
         exact = plan(situation)
         if isinstance(exact, Plan) and exact.optimality.proof == "bound":
-            planned = asked(situation)
+            planned = unsure(situation)
             assert isinstance(planned, Plan)
             assert (planned.planner, planned.fell_back) == ("exact", True)
             assert planned.trajectory == exact.trajectory

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from relguide.learn import train as training
+from relguide.learn.checkpoint import device_of
 from relguide.learn.labels import Box, save_labels
 from relguide.learn.network import StrategyNetwork, load_network
 from relguide.learn.options import TrainingOptions, command_of, options_of
@@ -108,6 +109,6 @@ def test_too_few_labels_and_a_missing_gpu_are_said() -> None:
     )
     with pytest.raises(ValueError, match="too few to train"):
         next(train(few, OPTIONS, box=Box(), about={}))
-    if not training._device("auto").type == "cuda":
+    if not device_of("auto").type == "cuda":
         with pytest.raises(ValueError, match="no CUDA device here: use --device cpu"):
             next(train(labels(), replace(OPTIONS, device="cuda"), box=Box(), about={}))

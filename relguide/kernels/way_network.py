@@ -1,0 +1,186 @@
+"""A network of ways round the limit, evaluated for one situation, and decoded.
+
+Out come a score of each kind, by which it is chosen, and its guess of two numbers; weights are
+float32, as they were trained. Guesses are worked out for the kinds that are solved, and no others.
+Situations on the right of the route are mirrored before, and the way after.
+
+Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader is at (D/R, 0) at
+t = 0 and keeps heading 0.
+"""
+
+from math import exp, inf
+
+import numpy as np
+from numba import njit
+
+from relguide.kernels.angles import TWO_PI
+from relguide.kernels.chain import MAX_CONTACTS, RIDE, WORD
+from relguide.kernels.extremals import MAX_ROWS, solve
+from relguide.kernels.network import Layers, last_hidden
+from relguide.kernels.passage import GRAZE, word_clears
+from relguide.kernels.roots import FloatArray
+from relguide.kernels.strategies import needs_mirror
+from relguide.kernels.way_features import FEATURES, way_features
+from relguide.kernels.way_solutions import solve_kind
+from relguide.kernels.ways import FREE, NONE, SEVERAL, SIZE
+
+OUTPUTS = 3 * SIZE
+"""Score of each kind, then its guess."""
+LEGS = MAX_CONTACTS + 1
+"""Room for the legs of a way, as the search has it."""
+
+
+@njit(cache=True, nogil=True)
+def way_shares(
+    x: float, y: float, h: float, slot: float, alpha: float, limit: float, free: FloatArray,
+    layers: Layers, share: FloatArray,
+) -> FloatArray:  # fmt: skip
+    """How likely the network takes each kind to be that of the fastest way.
+
+    Args:
+        x: pursuer ahead of the slot [R].
+        y: and left of it [R]; not `needs_mirror`.
+        h: its heading [rad], in [0, 2π).
+        slot: D [R].
+        alpha: V_L/V_P, below 1.
+        limit: d_min [R].
+        free: the fastest extremal without the limit, a row of `solve`. shape (5,)
+        layers: the weights.
+        share: takes the shares, which sum up to 1. shape (SIZE,)
+
+    Returns:
+        the layer before the outputs, for `guess_of`.
+    """
+    told = np.empty(FEATURES)
+    way_features(x, y, h, slot, alpha, limit, free, told)
+    hidden = last_hidden(told, layers)
+    score = layers.last_bias[:SIZE].copy()
+    for i in range(len(hidden)):
+        value = hidden[i]
+        for kind in range(SIZE):
+            score[kind] += value * layers.last[i, kind]
+    most = score.max()
+    for kind in range(SIZE):
+        share[kind] = exp(score[kind] - most)
+    share /= share.sum()
+    return hidden
+
+
+@njit(cache=True, nogil=True)
+def guess_of(hidden: FloatArray, layers: Layers, kind: int, guess: FloatArray) -> None:
+    """The two numbers of a kind's guess, as in `ways`."""
+    for k in range(2):
+        at = SIZE + 2 * kind + k
+        value = layers.last_bias[at]
+        for i in range(len(hidden)):
+            value += hidden[i] * layers.last[i, at]
+        guess[k] = value
+
+
+@njit(cache=True, nogil=True)
+def choose_way(
+    x: float, y: float, h: float, slot: float, alpha: float, limit: float, layers: Layers,
+    least_share: float, most: int, doubt: float, legs: FloatArray,
+) -> tuple[int, int, float, int]:  # fmt: skip
+    """Solve the kinds of ways that the network holds possible, next to its guesses, and no others.
+
+    Args:
+        x: pursuer ahead of the slot [R].
+        y: and left of it [R].
+        h: its heading [rad], in [0, 2π).
+        slot: D [R].
+        alpha: V_L/V_P, below 1.
+        limit: d_min [R].
+        layers: the weights.
+        least_share: kinds with a smaller share than this are left out.
+        most: with more kinds than this, nothing is solved.
+        doubt: nor is there an answer where the share of ways of other kinds, of none, and of those
+            likelier than the first that was found, is more.
+        legs: takes the legs of the fastest way, as `chain.fly_links`. shape (LEGS, 6)
+
+    Returns:
+        how many kinds are held possible, the kind of the way, its arrival [R/V_P] and how many
+        legs it has; infinite and 0 if there is none.
+    """
+    mirrored = needs_mirror(y, h)
+    if mirrored:
+        y, h = -y, TWO_PI - h if h > 0.0 else 0.0
+    rows = np.empty((MAX_ROWS, 5))
+    share = np.empty(SIZE)
+    found = solve(x, y, h, alpha, 0.0, rows)
+    if found == 0:
+        return 0, NONE, inf, 0
+    hidden = way_shares(x, y, h, slot, alpha, limit, rows[0], layers, share)
+    held = 0
+    for kind in range(SIZE):
+        held += share[kind] >= least_share and kind != SEVERAL and kind != NONE
+    unknown = share[SEVERAL] + share[NONE]
+    if held > most or unknown > doubt:
+        return held, SEVERAL, inf, 0
+    leader = np.zeros((1, 5))
+    leader[0, 1] = slot
+    guess = np.empty(2)
+    trial = np.zeros((LEGS, 6))
+    best, count, chosen = inf, 0, NONE
+    for _ in range(held):
+        # the likeliest first: what is found makes the others cheaper
+        kind = -1
+        for k in range(SIZE):
+            if k != SEVERAL and k != NONE and (kind < 0 or share[k] > share[kind]):
+                kind = k
+        held_share = share[kind]
+        share[kind] = 0.0
+        if kind == FREE:
+            for i in range(found):
+                if rows[i, 0] >= best:
+                    break
+                if word_clears(x, y, h, 0.0, rows[i], leader, alpha, limit - GRAZE):
+                    best, count, chosen = rows[i, 0], 1, FREE
+                    legs[0, 0] = WORD
+                    legs[0, 1:6] = rows[i]
+                    break
+        else:
+            guess_of(hidden, layers, kind, guess)
+            time, n = solve_kind(x, y, h, slot, alpha, limit, kind, guess, best, trial)
+            if n > 0:
+                best, count, chosen = time, n, kind
+                legs[:n] = trial[:n]
+        if best == inf:
+            unknown += held_share
+    # kinds of which there is none next to its guess were held possible in vain
+    if unknown > doubt:
+        return held, SEVERAL, inf, 0
+    if mirrored:
+        for k in range(count):
+            if legs[k, 0] == RIDE:
+                legs[k, 1:4] *= -1.0
+            else:
+                # words stand beside their mirror images
+                legs[k, 2] = int(legs[k, 2]) ^ 1
+    return held, chosen, best, count
+
+
+@njit(cache=True, nogil=True)
+def choose_ways(
+    situations: FloatArray, layers: Layers, least_share: float, most: int, doubt: float,
+    first: int, last: int, chosen: FloatArray,
+) -> None:  # fmt: skip
+    """`choose_way` for situations first … last − 1.
+
+    Args:
+        situations: x, y, h in [0, 2π), α, D/R, d_min/R. shape (n, 6)
+        layers: as in `choose_way`.
+        least_share: as there.
+        most: as there.
+        doubt: as there.
+        first: from this row on.
+        last: up to this row.
+        chosen: takes how many kinds are held possible, the way's kind and arrival. shape (n, 3)
+    """
+    legs = np.zeros((LEGS, 6))
+    for n in range(first, last):
+        x, y, h, alpha, slot, limit = situations[n]
+        held, kind, time, _ = choose_way(
+            x, y, h, slot, alpha, limit, layers, least_share, most, doubt, legs
+        )
+        chosen[n, 0], chosen[n, 1], chosen[n, 2] = held, kind, time

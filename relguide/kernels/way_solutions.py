@@ -1,0 +1,277 @@
+"""Ways round the limit of one kind, solved next to a guess.
+
+Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader is at (D/R, 0) at
+t = 0 and keeps heading 0.
+"""
+
+from math import atan2, cos, inf, isnan, pi, sin
+
+import numpy as np
+from numba import njit
+
+from relguide.kernels.chain import RIDE, WORD
+from relguide.kernels.contact import contact_heading
+from relguide.kernels.extremals import MAX_ROWS, SIGNS, fly_piece, solve
+from relguide.kernels.guided import (
+    AGAIN_RIDES,
+    LR,
+    ON_LR,
+    RIDES,
+    RIDES_AGAIN,
+    RS,
+    descend,
+    enter,
+    leave,
+)
+from relguide.kernels.passage import GRAZE, word_clears
+from relguide.kernels.roots import FloatArray
+from relguide.kernels.touching import ride_end, ride_on, straight_tangents, turn_tangent
+from relguide.kernels.ways import FREE, NONE, PARTS, SEVERAL, kind_of
+
+_STRIDE = 0.03  # of the first look beside a guess: 2°, about as good as guesses are [rad]
+
+
+@njit(cache=True, nogil=True)
+def solve_kind(
+    x: float, y: float, h: float, slot: float, alpha: float, limit: float, kind: int,
+    guess: FloatArray, beat: float, legs: FloatArray,
+) -> tuple[float, int]:  # fmt: skip
+    """The fastest way of a kind next to a guess, if it keeps the limit.
+
+    Args:
+        x: start, slot frame [R].
+        y: start [R].
+        h: start heading [rad], in [0, 2π).
+        slot: D [R].
+        alpha: V_L/V_P, below 1.
+        limit: d_min [R].
+        kind: number of `KINDS`; neither `SEVERAL` nor `NONE`.
+        guess: of its two numbers. shape (2,)
+        beat: arrivals from here on do not matter [R/V_P].
+        legs: takes the legs, as `chain.fly_links`. shape (≥ 3, 6)
+
+    Returns:
+        arrival time [R/V_P] and the number of legs; infinite and 0 if there is none.
+    """
+    leader = np.zeros((1, 5))
+    leader[0, 1] = slot
+    rows = np.empty((MAX_ROWS, 5))
+    if kind == FREE:
+        for k in range(solve(x, y, h, alpha, 0.0, rows)):
+            if rows[k, 0] >= beat:
+                break
+            if word_clears(x, y, h, 0.0, rows[k], leader, alpha, limit - GRAZE):
+                legs[0, 0] = WORD
+                legs[0, 1:6] = rows[k]
+                return rows[k, 0], 1
+        return inf, 0
+    entry, side, on = int(PARTS[kind, 0]), float(PARTS[kind, 1]), int(PARTS[kind, 2])
+    delta = limit + GRAZE
+    found = np.empty((MAX_ROWS, 4))
+    way = np.zeros((2, 5))
+    link, fixed = np.zeros(5), np.zeros(2)
+    bearing = 0.0
+    if on == RIDES or on == RIDES_AGAIN:
+        time, bearing = _by_ride(
+            x, y, h, slot, alpha, delta, entry, side, on, guess, beat, leader, found, rows, way,
+            link,
+        )  # fmt: skip
+    elif on == AGAIN_RIDES:
+        end, straight, turn = ride_end(slot, alpha, delta, side)
+        if isnan(end):
+            return inf, 0
+        fixed[0], fixed[1] = end, straight + turn
+        time, bearing = descend(
+            x, y, h, slot, alpha, delta, atan2(guess[1], guess[0]), side, entry, on, fixed, _STRIDE,
+            found, rows, way, link,
+        )  # fmt: skip
+        _straight_turn(side, straight, turn, way[1])
+    elif entry >= LR:
+        sign = 1.0 if entry == LR else -1.0
+        bearing, first, second = turn_tangent(
+            x - slot, y, h, alpha, delta, sign, side, pi * (guess[0] + 1.0), pi * (guess[1] + 1.0)
+        )
+        if isnan(first):
+            return inf, 0
+        _two_turns(sign, first, second, 0.0, way[0])
+        i = leave(slot, alpha, delta, bearing, side, on, found, rows)
+        if i < 0:
+            return inf, 0
+        way[1] = rows[i]
+        time = way[0, 0] + way[1, 0]
+    elif on >= ON_LR:
+        # backward in time, with the world turned by π: two turns from the slot
+        sign = 1.0 if on == ON_LR else -1.0
+        bearing, last, middle = turn_tangent(
+            slot, 0.0, 0.0, alpha, delta, sign, -side, pi * (guess[1] + 1.0), pi * (guess[0] + 1.0)
+        )
+        if isnan(last):
+            return inf, 0
+        bearing += pi
+        _two_turns(-sign, 0.0, middle, last, way[1])
+        i = enter(x, y, h, slot, alpha, delta, bearing, side, entry, found, rows)
+        if i < 0:
+            return inf, 0
+        way[0] = rows[i]
+        time = way[0, 0] + way[1, 0]
+    else:
+        time, bearing = descend(
+            x, y, h, slot, alpha, delta, atan2(guess[1], guess[0]), side, entry, on, fixed, _STRIDE,
+            found, rows, way, link,
+        )  # fmt: skip
+    if time >= beat:
+        return inf, 0
+    count = _as_legs(side, on, bearing, way, link, legs)
+    return (time, count) if _clears(x, y, h, leader, alpha, delta, side, legs[:count]) else (inf, 0)
+
+
+@njit(cache=True, nogil=True)
+def _as_legs(
+    side: float, on: int, bearing: float, way: FloatArray, link: FloatArray, legs: FloatArray
+) -> int:
+    """A way as legs; returns how many."""
+    legs[0, 0] = WORD
+    legs[0, 1:6] = way[0]
+    count = 1
+    if on == AGAIN_RIDES:
+        legs[1, 0] = WORD
+        _turn_straight(side, link[1], link[2], legs[1, 1:6])
+        legs[2, 0], legs[2, 1], legs[2, 2], legs[2, 3] = RIDE, side, link[0], link[3]
+        count = 3
+    elif on == RIDES or on == RIDES_AGAIN:
+        legs[1, 0], legs[1, 1], legs[1, 2], legs[1, 3] = RIDE, side, bearing, link[3]
+        count = 2
+        if on == RIDES_AGAIN:
+            legs[2, 0] = WORD
+            _straight_turn(side, link[2], link[1], legs[2, 1:6])
+            count = 3
+    legs[count, 0] = WORD
+    legs[count, 1:6] = way[1]
+    return count + 1
+
+
+@njit(cache=True, nogil=True)
+def _clears(
+    x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float, side: float,
+    legs: FloatArray,
+) -> bool:  # fmt: skip
+    """Whether the words of a way keep the limit; rides do."""
+    slot, t = leader[0, 1], 0.0
+    for k in range(len(legs)):
+        if legs[k, 0] == RIDE:
+            bearing = legs[k, 3]
+            _, took = ride_on(legs[k, 2], bearing, side, alpha, delta)
+            t += took
+            x, y = slot + alpha * t + delta * cos(bearing), delta * sin(bearing)
+            h = contact_heading(bearing, side, alpha)
+            continue
+        row = legs[k, 1:6]
+        if not word_clears(x, y, h, t, row, leader, alpha, delta - 2.0 * GRAZE):
+            return False
+        for piece in range(3):
+            x, y, h = fly_piece(x, y, h, SIGNS[int(row[1]), piece], row[2 + piece])
+            t += row[2 + piece]
+    return True
+
+
+@njit(cache=True, nogil=True)
+def _turn_straight(side: float, turn: float, straight: float, row: FloatArray) -> None:
+    """A turn and a straight as a row; the turn is to this side."""
+    row[0], row[1] = turn + straight, 0.0 if side > 0.0 else 1.0
+    row[2], row[3], row[4] = turn, straight, 0.0
+
+
+@njit(cache=True, nogil=True)
+def _straight_turn(side: float, straight: float, turn: float, row: FloatArray) -> None:
+    """A straight and a turn as a row; the turn is to this side."""
+    row[0], row[1] = straight + turn, 0.0 if side > 0.0 else 1.0
+    row[2], row[3], row[4] = 0.0, straight, turn
+
+
+@njit(cache=True, nogil=True)
+def _two_turns(sign: float, first: float, middle: float, last: float, row: FloatArray) -> None:
+    """Two of the three turns of a word as a row; the first one of the three has this sign."""
+    row[0] = first + middle + last
+    row[1] = 4.0 if sign > 0.0 else 5.0
+    row[2], row[3], row[4] = first, middle, last
+
+
+@njit(cache=True, nogil=True)
+def _by_ride(
+    x: float, y: float, h: float, slot: float, alpha: float, delta: float, entry: int, side: float,
+    on: int, guess: FloatArray, beat: float, leader: FloatArray, found: FloatArray,
+    rows: FloatArray, way: FloatArray, link: FloatArray,
+) -> tuple[float, float]:  # fmt: skip
+    """The soonest way that begins with a ride: its arrival and the ride's first bearing.
+
+    `way` takes the rows before and after, `link` the rest, as in `guided.through`.
+    """
+    end, straight, turn = 0.0, 0.0, 0.0
+    if on == RIDES:
+        end, straight, turn = ride_end(slot, alpha, delta, side)
+        if isnan(end):
+            return inf, 0.0
+        _straight_turn(side, straight, turn, way[1])
+    if entry >= LR:
+        sign = 1.0 if entry == LR else -1.0
+        begin, first, second = turn_tangent(
+            x - slot, y, h, alpha, delta, sign, side, pi * (guess[0] + 1.0), pi * (guess[1] + 1.0)
+        )
+        if isnan(first):
+            return inf, 0.0
+        link[3], link[4] = ride_on(begin, end, side, alpha, delta)
+        _two_turns(sign, first, second, 0.0, way[0])
+        return first + second + link[4] + straight + turn, begin
+    sign = -1.0 if entry == RS else 1.0
+    contacts, row, fixed = np.empty((4, 3)), np.zeros(5), np.zeros(2)
+    trial, joint = np.zeros((2, 5)), np.zeros(5)
+    best, begun = beat, 0.0
+    for k in range(straight_tangents(x - slot, y, h, alpha, delta, sign, side, contacts)):
+        begin, before = contacts[k, 0], contacts[k, 1] + contacts[k, 2]
+        if on == RIDES:
+            joint[3], joint[4] = ride_on(begin, end, side, alpha, delta)
+            time = before + joint[4] + straight + turn
+        else:
+            fixed[0], fixed[1] = begin, before
+            time, _ = descend(
+                x, y, h, slot, alpha, delta, atan2(guess[1], guess[0]), side, entry, on, fixed,
+                _STRIDE, found, rows, trial, joint,
+            )  # fmt: skip
+        if time >= best:
+            continue
+        _turn_straight(sign, contacts[k, 1], contacts[k, 2], row)
+        # where two turns of a sign touch, the straight of the sooner one may lead through the disc
+        if word_clears(x, y, h, 0.0, row, leader, alpha, delta - 2.0 * GRAZE):
+            best, begun = time, begin
+            way[0] = row
+            link[:] = joint
+            if on == RIDES_AGAIN:
+                way[1] = trial[1]
+    return (best, begun) if best < beat else (inf, 0.0)
+
+
+@njit(cache=True, nogil=True)
+def taught_kinds(
+    situations: FloatArray, times: FloatArray, counts: FloatArray, legs: FloatArray, within: float,
+    kinds: FloatArray, guesses: FloatArray,
+) -> None:  # fmt: skip
+    """What is to be learnt of exact answers: the kind of each, if its guess leads back to it.
+
+    Args:
+        situations: x, y, h in [0, 2π), α, D/R, d_min/R. shape (n, 6)
+        times: of the answers [R/V_P]. shape (n,)
+        counts: legs of each. shape (n,)
+        legs: as `chain.fly_links`. shape (n, ·, 6)
+        within: a kind that is solved this much later is not that of the answer [R/V_P].
+        kinds: takes their numbers. shape (n,)
+        guesses: takes their guesses. shape (n, 2)
+    """
+    trial = np.zeros((3, 6))
+    for n in range(len(situations)):
+        x, y, h, alpha, slot, limit = situations[n]
+        kind = kind_of(x, y, h, slot, alpha, int(counts[n]), legs[n], guesses[n])
+        if kind > NONE:
+            time, _ = solve_kind(x, y, h, slot, alpha, limit, kind, guesses[n], inf, trial)
+            if not time <= times[n] + within:
+                kind = SEVERAL
+        kinds[n] = kind

@@ -1,0 +1,132 @@
+"""The networks beside the search: whole certified answers, without the limit and where it binds.
+
+python -m tests.bench.network --count 400
+"""
+
+import argparse
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+
+from relguide import Plan, Planner, Situation, plan
+from relguide.learn.network import load_network
+from relguide.learn.planner import network_planner
+from relguide.progress import watched
+from tests.bench.draws import active, anywhere, is_active
+from tests.bench.options import positive
+from tests.bench.timing import timed
+
+REPEATS = 5
+LATER = 0.1
+"""Answers later than the search's by more than this are counted [s]."""
+SEED = 20
+HEADINGS = (
+    "", "cases", "by network", "median µs", "99 % µs", "plan() µs", "99 % µs", "×",
+    f"> {LATER} s later", "99 % s", "worst s",
+)  # fmt: skip
+"""Of the table."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Pair:
+    """Both answers to one situation, where there is one."""
+
+    by_network: bool
+    """Whether the networks answered, or passed it on to `plan`."""
+    late: float
+    """How much later than the search's the answer is [s]."""
+    network_cpu: float
+    """CPU time of a whole answer [s]."""
+    plan_cpu: float
+    """The same of `plan` [s]."""
+
+
+def drawn(count: int) -> dict[str, list[Situation]]:
+    """So many situations each: where the limit does not bind, and where it does."""
+    rng = np.random.default_rng(SEED)
+    free: list[Situation] = []
+    while len(free) < count:
+        situation = anywhere(rng)
+        if not is_active(situation):
+            free.append(situation)
+    return {
+        "it does not bind": free,
+        "it binds, R > d_min": [active(rng, tight=False) for _ in range(count)],
+        "it binds, R < d_min": [active(rng, tight=True) for _ in range(count)],
+    }
+
+
+def measure(count: int) -> dict[str, list[Pair]]:
+    """Ask both planners the same, in turns; with bars."""
+    ours = network_planner(load_network())
+    measured: dict[str, list[Pair]] = {}
+    for name, situations in drawn(count).items():
+        pairs = [_pair(situation, ours) for situation in _shown(situations, f"Networks, {name}")]
+        measured[name] = [pair for pair in pairs if pair is not None]
+    return measured
+
+
+def _shown(situations: list[Situation], title: str) -> Iterator[Situation]:
+    """One after the other, with a bar."""
+    numbered = watched(
+        enumerate(situations), title=title, total=len(situations), done=lambda pair: pair[0]
+    )
+    return (situation for _, situation in numbered)
+
+
+def _pair(situation: Situation, ours: Planner) -> Pair | None:
+    ours(situation), plan(situation)  # what was compiled is read from disk
+    network_cpu, found = timed(lambda: ours(situation), REPEATS)
+    plan_cpu, exact = timed(lambda: plan(situation), REPEATS)
+    if not (isinstance(found, Plan) and isinstance(exact, Plan)):
+        return None
+    return Pair(
+        by_network=found.planner == "network",
+        late=found.time_to_converge - exact.time_to_converge,
+        network_cpu=network_cpu,
+        plan_cpu=plan_cpu,
+    )
+
+
+def table(measured: dict[str, list[Pair]]) -> Table:
+    """What was measured, for people. Times are of all answers, those that were passed on too."""
+    drawn = Table(title="Networks beside the search: whole certified answers; CPU time")
+    for heading in HEADINGS:
+        drawn.add_column(heading, justify="right" if heading else "left")
+    for name, pairs in measured.items():
+        drawn.add_row(name, *_cells(pairs))
+    return drawn
+
+
+def _cells(pairs: list[Pair]) -> list[str]:
+    ours, theirs = (
+        1e6 * np.array([getattr(pair, name) for pair in pairs])
+        for name in ("network_cpu", "plan_cpu")
+    )
+    late = np.array([pair.late for pair in pairs])
+    return [
+        f"{len(pairs)}",
+        f"{np.mean([pair.by_network for pair in pairs]):.1%}",
+        *(f"{np.percentile(ours, share):,.0f}" for share in (50, 99)),
+        *(f"{np.percentile(theirs, share):,.0f}" for share in (50, 99)),
+        f"{np.median(theirs) / np.median(ours):.1f}",
+        f"{np.sum(late > LATER)}",
+        f"{max(np.percentile(late, 99), 0.0):.2f}",
+        f"{max(late.max(), 0.0):.1f}",
+    ]
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Measure, and print the table."""
+    parser = argparse.ArgumentParser(prog="python -m tests.bench.network", description=__doc__)
+    parser.add_argument("--count", metavar="N", type=positive, default=400)
+    Console(width=118).print(table(measure(parser.parse_args(arguments).count)))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,89 @@
+"""Kinds of ways: told of exact answers, and solved again from a guess."""
+
+from collections import Counter
+from math import cos, hypot, sin
+
+import numpy as np
+
+from relguide.kernels.chain import RIDE
+from relguide.kernels.contact import contact_heading, ride_within
+from relguide.kernels.extremals import SIGNS, fly_piece
+from relguide.kernels.way_solutions import solve_kind
+from relguide.kernels.ways import KINDS, NONE, SEVERAL, kind_of
+from tests.relguide.learn.way_networks import labels
+
+FOUND = labels()
+SLACK = 1e-6  # what the certificate allows, too [R]
+
+
+def solved(n: int, off: float = 0.0) -> tuple[int, float, np.ndarray]:
+    """Kind, time and legs of answer n, solved again from its guess, which is put off by so much."""
+    x, y, h, alpha, slot, limit = FOUND.situations[n].tolist()
+    guess, legs = np.zeros(2), np.zeros((9, 6))
+    kind = kind_of(x, y, h, slot, alpha, int(FOUND.counts[n]), FOUND.legs[n], guess)
+    if kind in (SEVERAL, NONE):
+        return kind, np.inf, legs[:0]
+    time, count = solve_kind(x, y, h, slot, alpha, limit, kind, guess + off, np.inf, legs)
+    return kind, time, legs[:count]
+
+
+def test_exact_answers_lead_back_to_themselves() -> None:
+    kinds: Counter[str] = Counter()
+    missed, late = 0, []
+    for n in range(len(FOUND)):
+        kind, time, legs = solved(n)
+        kinds[KINDS[kind]] += 1
+        if kind in (SEVERAL, NONE):
+            continue
+        missed += len(legs) == 0
+        if len(legs) > 0:
+            late.append(time - FOUND.times[n, 2])
+    there = len(FOUND) - kinds["none"]
+    assert kinds["several"] < 0.04 * there
+    assert missed < 0.02 * there
+    # a few µs, where the search ends beside the bearings that touch by themselves
+    assert np.mean(np.array(late) < 1e-5) > 0.995
+    for commonest in ("free", "LS left ride", "RSR right RLR long", "LSL left LSL", "RL left LSR"):
+        assert kinds[commonest] > 0.03 * there
+
+
+def test_a_guess_that_is_off_leads_to_the_same_way() -> None:
+    same = total = 0
+    for n in range(0, len(FOUND), 2):
+        _, time, legs = solved(n)
+        if len(legs) > 1:
+            _, again, _ = solved(n, off=0.02)
+            same += abs(again - time) < 1e-5
+            total += 1
+    assert total > 200
+    assert same > 0.97 * total
+
+
+def test_ways_arrive_and_keep_the_limit() -> None:
+    seen = 0
+    for n in range(0, len(FOUND), 3):
+        _, time, legs = solved(n)
+        if len(legs) < 2:
+            continue
+        seen += 1
+        x, y, h, alpha, slot, limit = FOUND.situations[n].tolist()
+        t = 0.0
+        for leg in legs.tolist():
+            if leg[0] == RIDE:
+                _, side, first, last = leg[:4]
+                delta = hypot(x - slot - alpha * t, y)
+                assert delta > limit - SLACK
+                t += ride_within(first, last, side, alpha, delta, 0.0, np.inf)[1]
+                x, y = slot + alpha * t + delta * cos(last), delta * sin(last)
+                h = contact_heading(last, side, alpha)
+                continue
+            for sign, amount in zip(SIGNS[int(leg[2])].tolist(), leg[3:], strict=True):
+                for part in np.linspace(0.0, amount, 40).tolist():
+                    px, py, _ = fly_piece(x, y, h, sign, part)
+                    assert hypot(px - slot - alpha * (t + part), py) > limit - SLACK
+                x, y, h = fly_piece(x, y, h, sign, amount)
+                t += amount
+        assert abs(t - time) < 1e-9
+        assert hypot(x - alpha * t, y) < 1e-6
+        assert cos(h) > 1.0 - 1e-9
+    assert seen > 200
