@@ -26,8 +26,9 @@ from relguide.learn.labels import (
     save_labels,
 )
 from relguide.learn.options import command_of, options_of
-from relguide.learn.paper import save_regular, train_regular
+from relguide.learn.paper import save_regular
 from relguide.learn.train import run, told
+from relguide.learn.train_paper import train_regular
 from relguide.learn.tree_file import load_tree
 from relguide.progress import progress_bar, watched
 

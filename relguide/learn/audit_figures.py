@@ -92,7 +92,9 @@ def _calibration(audit: Audit, methods: Sequence[Method], least_share: float) ->
     left.set_ylabel("is wrong [%], 95 % interval", color=INK)
     left.set_title("calibration, random situations", color=INK, fontsize=10)
     sizes = [size.mean_set for size in audit.sets]
-    _rates(right, sizes, [size.worth for size in audit.sets], "slower than the fastest by over 0.01 %")
+    _rates(
+        right, sizes, [size.worth for size in audit.sets], "slower than the fastest by over 0.01 %"
+    )
     logs = np.log([size.least_share for size in audit.sets])
     chosen = float(np.interp(np.log(least_share), logs, sizes))
     right.axvline(chosen, color=FAINT, ls="--", lw=1.0, label="the network's set")

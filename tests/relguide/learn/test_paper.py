@@ -13,13 +13,12 @@ from relguide.learn.options import NetworkShape, TrainingOptions
 from relguide.learn.paper import (
     Method,
     RegularNetwork,
-    exact_pairs,
     load_regular,
     pairs_given,
     save_regular,
     shipped,
-    train_regular,
 )
+from relguide.learn.train_paper import exact_pairs, train_regular
 from relguide.learn.tree import regular_from_pairs
 from relguide.learn.tree_file import save_tree
 from relguide.planning.regular import trajectory_from_regular

@@ -11,7 +11,6 @@ from relguide.kernels.strategies import STRATEGIES
 from relguide.learn.labels import times_of
 from relguide.learn.nearest import lookup_in
 from relguide.learn.options import NetworkShape, TrainingOptions
-from relguide.learn.paper import train_regular
 from relguide.learn.regular_words import Piece
 from relguide.learn.side_by_side import (
     Ground,
@@ -23,6 +22,7 @@ from relguide.learn.side_by_side import (
     side_by_side,
     strategies_like,
 )
+from relguide.learn.train_paper import train_regular
 from relguide.learn.tree import regular_from_pairs
 from relguide.planning.regular import trajectory_from_regular
 from tests.relguide.learn.networks import network
