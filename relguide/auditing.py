@@ -67,7 +67,9 @@ def audit_network(
     network = load_network() if file is None else load_network(file)
     request = audit_request(network, count, seed)
     with workers(threads, scheduler) as pool:
-        audit = audit_of(collected(judged(network, request, pool), request, "auditing"))
+        chunks = collected(judged(network, request, pool), request, "auditing")
+    with progress_bar("explaining gaps", total=0.0) as advance:
+        audit = audit_of(chunks, advance)
     asked = latencies(network, request)
     ground, methods = _beside(network, beside, seed) if beside else (None, [])
     if figures is not None:

@@ -3,7 +3,7 @@
 Every share comes with its 95 % interval (Wilson); every gap above 0.01 % with what explains it.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import inf
 from typing import Any
@@ -29,7 +29,7 @@ PERCENTILES = (50.0, 99.0, 99.9, 100.0)
 TOPS = (1, 2, 3)
 DOUBTS = (0.0, 1e-5, 1e-4, 1e-3, 1e-2, 3e-2, 0.1, 0.2, 0.3, 0.5, 1.0)
 """Edges of the bins of doubt: 1 less the highest share."""
-EXPLAINED = 1000
+EXPLAINED = 200
 """Gaps that are explained at most, the largest: a poor network has no end of them."""
 
 
@@ -117,8 +117,15 @@ class Audit:
         return sum(not miss.explained for miss in self.misses)
 
 
-def audit_of(chunks: Mapping[int, Judged]) -> Audit:
-    """Sum up an audit's chunks."""
+def audit_of(
+    chunks: Mapping[int, Judged], progress: Callable[[float], object] = lambda _: None
+) -> Audit:
+    """Sum up an audit's chunks.
+
+    Args:
+        chunks: by their number.
+        progress: called with 1 for each gap that is explained.
+    """
     parts = [chunks[number] for number in sorted(chunks)]
     whole = Judged(
         **{
@@ -147,7 +154,7 @@ def audit_of(chunks: Mapping[int, Judged]) -> Audit:
         classes=tuple(classes),
         doubts=_doubts(whole.doubt[drawn], whole.ranks[drawn] == 0),
         sets=_set_sizes(whole.sets.sum(axis=0)),
-        misses=_misses(whole),
+        misses=_misses(whole, progress),
         worth=Share(hits=len(whole.missed), of=int((whole.gap < inf).sum())),
     )
 
@@ -175,10 +182,10 @@ def _set_sizes(sums: Floats) -> tuple[SetSize, ...]:
     )
 
 
-def _misses(whole: Judged) -> tuple[Miss, ...]:
+def _misses(whole: Judged, progress: Callable[[float], object]) -> tuple[Miss, ...]:
     rows = np.flatnonzero((whole.gap > WORTH) & (whole.gap < inf))
     largest = np.argsort(-whole.gap[rows], kind="stable")[:EXPLAINED]
-    near = surfaces(whole.missed[largest])
+    near = surfaces(whole.missed[largest], progress)
     return tuple(
         Miss(
             gap=float(whole.gap[rows[at]]),

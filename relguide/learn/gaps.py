@@ -46,18 +46,20 @@ class Surfaces:
         return near
 
 
-def surfaces(situations: Floats) -> Surfaces:
+def surfaces(situations: Floats, progress: Callable[[float], object] = lambda _: None) -> Surfaces:
     """Find the distances; 20 ms a situation.
 
     Args:
         situations: x, y [R], h [rad], α. shape (n, 4)
+        progress: called with 1 after each.
     """
-    best = times_of(situations).argmin(axis=1)
-    pairs = list(zip(situations, best.tolist(), strict=True))
-    return Surfaces(
-        birth=np.array([_distance(situation, partial(_gone, at)) for situation, at in pairs]),
-        switch=np.array([_distance(situation, partial(_beaten, at)) for situation, at in pairs]),
-    )
+    birth, switch = np.empty(len(situations)), np.empty(len(situations))
+    best = times_of(situations).argmin(axis=1).tolist()
+    for i, (situation, strategy) in enumerate(zip(situations, best, strict=True)):
+        birth[i] = _distance(situation, partial(_gone, strategy))
+        switch[i] = _distance(situation, partial(_beaten, strategy))
+        progress(1.0)
+    return Surfaces(birth=birth, switch=switch)
 
 
 def _gone(strategy: int, times: Floats) -> NDArray[np.bool_]:
