@@ -23,8 +23,9 @@ GAIN = 1e-8
 _SWEEPS = 16  # over all bearings of a chain
 _FURTHEST = 64.0  # times the way of a sweep
 _NEAR = 0.3  # values farther above the least say nothing about a minimum [R/V_P]
-_EDGE = 1e-3  # an edge is looked for this near to a contact [rad] …
-_CLIFF = 3e-3  # … where the arrival rises by more than this [R/V_P]
+_BESIDE = 5e-3  # an edge is looked for this near to a contact [rad] …
+_CLIFF = 2e-3  # … where to both sides together the arrival rises by more than this [R/V_P]
+_NARROW = 1e-3  # it is followed in steps down to this [rad]
 _ACROSS = 3  # places looked at either way across a valley
 
 
@@ -95,14 +96,16 @@ def follow_edges(
         link = t, leader, alpha, delta, t_open
         last = _last_moved(leader, t, t_open, chain, k, 2)
         _, _, _, begun = fly_links(ax, ay, ah, *link, chain, k, last, inf, rows, legs)
-        edge = False
+        rise = -2.0 * begun
         for way in (-1.0, 1.0):
             tried[:] = chain
-            tried[k + 1, 2] += way * _EDGE
+            tried[k + 1, 2] += way * _BESIDE
             _, _, _, there = fly_links(ax, ay, ah, *link, tried, k, last, inf, rows, legs)
-            edge = edge or there > begun + _CLIFF
+            rise += there
+        if not rise > _CLIFF:
+            continue
         least, step = begun, stride
-        while edge and step > _EDGE:
+        while step > _NARROW:
             moved = False
             for way in (-1.0, 1.0):
                 tried[:] = chain

@@ -29,6 +29,7 @@ MAX_LEGS = MAX_CONTACTS + 1
 _CHAINS = 4  # of the graph, refined
 _PER_HOP = 5  # so many bearings on the disc let one contact be followed to all others
 _NEARLY = 0.07  # how much a chain may fall below what the graph sees of it [R/V_P]
+_AT_EDGE = 0.02  # or below where its bearings, one by one, get stuck at an edge [R/V_P]
 _FIRST_TURNS = 48  # sizes of a first turn in `any_way`: every 7.5°
 _LONGEST = 64.0  # longest straight tried there [R]: 200 NM for an airliner
 
@@ -94,21 +95,19 @@ def _refined(
     stride = 0.5 * TWO_PI / bearings
     won = -1
     for k in range(len(chains)):
-        here = refine_chain(
-            x, y, h, leader, alpha, delta, t_open, chains[k, 1 : int(chains[k, 0, 1]) + 1],
-            chains[k, 0, 0], stride, best, rows, tried,
-        )  # fmt: skip
+        chain = chains[k, 1 : int(chains[k, 0, 1]) + 1]
+        link = leader, alpha, delta, t_open, chain
+        here = refine_chain(x, y, h, *link, chains[k, 0, 0], stride, best, rows, tried)
+        if here < best + _AT_EDGE:
+            along = follow_edges(x, y, h, *link, here, stride, rows, tried)
+            if along < here - GAIN:
+                here = refine_chain(x, y, h, *link, along, 0.1 * stride, best, rows, tried)
         if here < best - GAIN:
             best, won = here, k
     if won < 0:
         return best, found
     contacts = int(chains[won, 0, 1])
     chain = chains[won, 1 : contacts + 1]
-    along = follow_edges(x, y, h, leader, alpha, delta, t_open, chain, best, stride, rows, tried)
-    if along < best - GAIN:
-        best = refine_chain(
-            x, y, h, leader, alpha, delta, t_open, chain, along, 0.1 * stride, inf, rows, tried
-        )
     if contacts > 2:
         best, contacts = simplify_chain(
             x, y, h, leader, alpha, delta, t_open, chain, best, stride, rows, tried
