@@ -30,8 +30,9 @@ LS, RS, LR, RL = 8, 9, 10, 11
 RIDES, ON_LR, ON_RL, AGAIN_RIDES, RIDES_AGAIN = 8, 9, 10, 11, 12
 """Ways on: along the disc; by two turns that touch it; by a turn and a straight to a ride; by a
 ride, a straight and a turn to one more contact. Before them come the sheets."""
-_ASIDE = 6  # strides that are looked at beside a guess where the word does not exist
-_MOST = 60  # evaluations of t₁ + t₂
+_STRIDE = 0.03  # of the first look beside a guess: 2°, about as good as guesses are [rad]
+_PROBE, _PROBES = 0.09, 3  # where it is looked again, either way: every 5° [rad]
+_MOST = 60  # evaluations of t₁ + t₂ at one go
 _FINEST = 1e-6  # bearing steps end here: 1 cm at R = 12 km
 _GAIN = 1e-9  # or where a parabola promises less [R/V_P]
 
@@ -137,23 +138,44 @@ def through(
 @njit(cache=True, nogil=True)
 def descend(
     x: float, y: float, h: float, slot: float, alpha: float, delta: float, bearing: float,
-    side: float, entry: int, on: int, fixed: FloatArray, stride: float, found: FloatArray,
-    rows: FloatArray, way: FloatArray, link: FloatArray,
+    side: float, entry: int, on: int, fixed: FloatArray, found: FloatArray, rows: FloatArray,
+    way: FloatArray, link: FloatArray,
 ) -> tuple[float, float]:  # fmt: skip
     """The least time of `through` next to a bearing, and where; infinite if there is none there.
 
-    Parabolas where it is smooth, smaller steps where a word begins or ends.
+    Where a word begins or ends a guess may lie on the wrong side, and what is least there is an
+    edge, minutes later: then it is looked for a little farther away.
     """
+    where = x, y, h, slot, alpha, delta, side, entry, on, fixed, found, rows, way, link
+    time, least_at, settled = _descend_from(bearing, *where)
+    if settled:
+        return time, least_at
+    least = inf
+    for k in range(1, _PROBES + 1):
+        for direction in range(2):
+            there = bearing + k * _PROBE * (2.0 * direction - 1.0)
+            value = through(there, *where)
+            if value < least:
+                least, least_at = value, there
+    if least == inf:
+        return inf, bearing
+    time, least_at, settled = _descend_from(least_at, *where)
+    return (time, least_at) if settled else (inf, bearing)
+
+
+@njit(cache=True, nogil=True)
+def _descend_from(
+    bearing: float, x: float, y: float, h: float, slot: float, alpha: float, delta: float,
+    side: float, entry: int, on: int, fixed: FloatArray, found: FloatArray, rows: FloatArray,
+    way: FloatArray, link: FloatArray,
+) -> tuple[float, float, bool]:  # fmt: skip
+    """Downhill from a bearing by parabolas: the time reached, where, and whether it is a valley."""
     trial, joint = np.zeros((2, 5)), np.zeros(5)
     where = x, y, h, slot, alpha, delta, side, entry, on, fixed, found, rows, trial, joint
+    stride, count = _STRIDE, 1
     here = through(bearing, *where)
-    guess, count = bearing, 1
-    while here == inf and count <= 2 * _ASIDE:
-        bearing = guess + (count + 1) // 2 * stride * (1.0 if count % 2 == 1 else -1.0)
-        here = through(bearing, *where)
-        count += 1
     if here == inf:
-        return inf, guess
+        return inf, bearing, False
     way[:], link[:] = trial, joint
     while stride > _FINEST and count < _MOST:
         beside = (inf, inf)
@@ -179,7 +201,7 @@ def descend(
             shift = 0.5 * stride * (below - above) / bend
             promised = 0.5 * shift * shift * bend / (stride * stride)
             if promised < _GAIN:
-                break
+                return here, bearing, True
             value = through(bearing + shift, *where)
             count += 1
             smooth = abs(here - value - promised) <= 0.1 * promised + _GAIN
@@ -187,6 +209,6 @@ def descend(
                 way[:], link[:] = trial, joint
                 here, bearing = value, bearing + shift
             if smooth and promised < 1e3 * _GAIN:
-                break
+                return here, bearing, True
         stride *= 0.1 if smooth else 0.3
-    return here, bearing
+    return here, bearing, False

@@ -28,6 +28,7 @@ OUTPUTS = 3 * SIZE
 """Score of each kind, then its guess."""
 LEGS = MAX_CONTACTS + 1
 """Room for the legs of a way, as the search has it."""
+_MOST_LATE = 9.5  # the limit costs more in 1 of 200 situations, and then it is mostly a wrong way
 
 
 @njit(cache=True, nogil=True)
@@ -100,7 +101,7 @@ def choose_way(
 
     Returns:
         how many kinds are held possible, the kind of the way, its arrival [R/V_P] and how many
-        legs it has; infinite and 0 if there is none.
+        legs it has; infinite and 0 if there is none, or the limit does not bind.
     """
     mirrored = needs_mirror(y, h)
     if mirrored:
@@ -110,6 +111,10 @@ def choose_way(
     found = solve(x, y, h, alpha, 0.0, rows)
     if found == 0:
         return 0, NONE, inf, 0
+    leader = np.zeros((1, 5))
+    leader[0, 1] = slot
+    if word_clears(x, y, h, 0.0, rows[0], leader, alpha, limit - GRAZE):
+        return 0, FREE, inf, 0  # the limit does not bind: that is not what was learnt
     hidden = way_shares(x, y, h, slot, alpha, limit, rows[0], layers, share)
     held = 0
     for kind in range(SIZE):
@@ -117,8 +122,6 @@ def choose_way(
     unknown = share[SEVERAL] + share[NONE]
     if held > most or unknown > doubt:
         return held, SEVERAL, inf, 0
-    leader = np.zeros((1, 5))
-    leader[0, 1] = slot
     guess = np.empty(2)
     trial = np.zeros((LEGS, 6))
     best, count, chosen = inf, 0, NONE
@@ -148,7 +151,7 @@ def choose_way(
         if best == inf:
             unknown += held_share
     # kinds of which there is none next to its guess were held possible in vain
-    if unknown > doubt:
+    if unknown > doubt or best > rows[0, 0] + _MOST_LATE:
         return held, SEVERAL, inf, 0
     if mirrored:
         for k in range(count):

@@ -28,8 +28,6 @@ from relguide.kernels.roots import FloatArray
 from relguide.kernels.touching import ride_end, ride_on, straight_tangents, turn_tangent
 from relguide.kernels.ways import FREE, NONE, PARTS, SEVERAL, kind_of
 
-_STRIDE = 0.03  # of the first look beside a guess: 2°, about as good as guesses are [rad]
-
 
 @njit(cache=True, nogil=True)
 def solve_kind(
@@ -82,7 +80,7 @@ def solve_kind(
             return inf, 0
         fixed[0], fixed[1] = end, straight + turn
         time, bearing = descend(
-            x, y, h, slot, alpha, delta, atan2(guess[1], guess[0]), side, entry, on, fixed, _STRIDE,
+            x, y, h, slot, alpha, delta, atan2(guess[1], guess[0]), side, entry, on, fixed,
             found, rows, way, link,
         )  # fmt: skip
         _straight_turn(side, straight, turn, way[1])
@@ -116,7 +114,7 @@ def solve_kind(
         time = way[0, 0] + way[1, 0]
     else:
         time, bearing = descend(
-            x, y, h, slot, alpha, delta, atan2(guess[1], guess[0]), side, entry, on, fixed, _STRIDE,
+            x, y, h, slot, alpha, delta, atan2(guess[1], guess[0]), side, entry, on, fixed,
             found, rows, way, link,
         )  # fmt: skip
     if time >= beat:
@@ -235,7 +233,7 @@ def _by_ride(
             fixed[0], fixed[1] = begin, before
             time, _ = descend(
                 x, y, h, slot, alpha, delta, atan2(guess[1], guess[0]), side, entry, on, fixed,
-                _STRIDE, found, rows, trial, joint,
+                found, rows, trial, joint,
             )  # fmt: skip
         if time >= best:
             continue

@@ -5,10 +5,11 @@
 
 All roots of a word are found to their last digit, so there is nothing left to polish. If the
 fastest of them does not keep d_min, another network is asked for the way round the limit (see
-`way_round`). Whatever stands in the way leads to the exact planner: a situation outside the box the
-networks were trained in, a set too large, no path among those words, one that arrives before the
-slot opens, and above all a path that does not keep d_min. So every answer is certified, whoever
-gave it; a network can only make an answer slower than the best, never unsafe.
+`way_round`), as it is where ratios of speeds are beyond the first one's box, but not its own.
+Whatever stands in the way leads to the exact planner: a situation outside of what was trained, a
+set too large, no path among those words, one that arrives before the slot opens, and above all a
+path that does not keep d_min. So every answer is certified, whoever gave it; a network can only
+make an answer slower than the best, never unsafe.
 """
 
 from dataclasses import dataclass, replace
@@ -97,7 +98,7 @@ def propose(
     """
     frame = slot_frame(situation, situation.leader.trajectory)
     if not _within(network.box, frame):
-        return None
+        return None if ways is None else _round(ways, situation, frame)
     rows = np.empty((MAX_ROWS, 5))
     _, found = choose(
         frame.x, frame.y, frame.h, frame.alpha,
@@ -108,21 +109,25 @@ def propose(
     # had another word been open before, it would be the exact planner's to find how to wait for it
     if found == 0 or time < frame.t_open or time * scale > HORIZON:
         return None
-    least = max(direct_time(frame.x, frame.y, frame.alpha), frame.t_open) * scale
     if ways is None or not _breaks(situation, frame, rows[0]):
         candidate = assemble(situation, frame, SIGN_ROWS[int(word)], amounts, WORDS[int(word)])
-        free = _judged(candidate, situation, least)
+        free = _judged(candidate, situation, frame)
         if ways is None or free.certificate.holds:
             return free
+    return _round(ways, situation, frame)
+
+
+def _round(ways: WayNetwork, situation: Situation, frame: SlotFrame) -> Proposal | None:
     around = way_round(ways, situation, frame)
-    return None if around is None else _judged(around, situation, least)
+    return None if around is None else _judged(around, situation, frame)
 
 
-def _judged(candidate: Candidate, situation: Situation, lower_bound: Second) -> Proposal:
+def _judged(candidate: Candidate, situation: Situation, frame: SlotFrame) -> Proposal:
+    least = max(direct_time(frame.x, frame.y, frame.alpha), frame.t_open)
     return Proposal(
         candidate=candidate,
         certificate=certify(candidate.trajectory, situation),
-        lower_bound=lower_bound,
+        lower_bound=least * frame.radius / situation.pursuer.tas,
     )
 
 

@@ -44,7 +44,7 @@ DECAY = 1e-3
 LEAST_SHARE = 0.001
 """Kinds with a smaller share are left out. Of fresh answers 0.1 % are then more than 0.1 s later
 than the search's; with 0.01 it is 0.2 %."""
-MOST = 6
+MOST = 8
 """With more kinds than this, all solved, the search would hardly take longer."""
 DOUBT = 0.8
 """Ways of no kind, none, and kinds without a way next to their guess may together be this likely.
