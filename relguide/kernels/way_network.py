@@ -161,29 +161,3 @@ def choose_way(
                 # words stand beside their mirror images
                 legs[k, 2] = int(legs[k, 2]) ^ 1
     return held, chosen, best, count
-
-
-@njit(cache=True, nogil=True)
-def choose_ways(
-    situations: FloatArray, layers: Layers, least_share: float, most: int, doubt: float,
-    first: int, last: int, chosen: FloatArray,
-) -> None:  # fmt: skip
-    """`choose_way` for situations first … last − 1.
-
-    Args:
-        situations: x, y, h in [0, 2π), α, D/R, d_min/R. shape (n, 6)
-        layers: as in `choose_way`.
-        least_share: as there.
-        most: as there.
-        doubt: as there.
-        first: from this row on.
-        last: up to this row.
-        chosen: takes how many kinds are held possible, the way's kind and arrival. shape (n, 3)
-    """
-    legs = np.zeros((LEGS, 6))
-    for n in range(first, last):
-        x, y, h, alpha, slot, limit = situations[n]
-        held, kind, time, _ = choose_way(
-            x, y, h, slot, alpha, limit, layers, least_share, most, doubt, legs
-        )
-        chosen[n, 0], chosen[n, 1], chosen[n, 2] = held, kind, time
