@@ -178,11 +178,22 @@ def times_of(situations: Floats) -> Floats:
 def canonical(situations: Floats) -> Floats:
     """Situations on the right of the route replaced by their mirror images."""
     x, y, h, alpha = situations.T
-    h = h % (2.0 * pi)
-    h = np.where(h >= 2.0 * pi, 0.0, h)
-    right = (y < 0.0) | ((y == 0.0) & (h > pi))
+    h = _heading(h)
     mirrored = np.where(h > 0.0, 2.0 * pi - h, 0.0)
-    return np.column_stack((x, np.abs(y), np.where(right, mirrored, h), alpha))
+    return np.column_stack((x, np.abs(y), np.where(on_the_right(situations), mirrored, h), alpha))
+
+
+def on_the_right(situations: Floats) -> NDArray[np.bool_]:
+    """Which situations lie right of the route, or on it and lead there."""
+    _, y, h, _ = situations.T
+    right: NDArray[np.bool_] = (y < 0.0) | ((y == 0.0) & (_heading(h) > pi))
+    return right
+
+
+def _heading(h: Floats) -> Floats:
+    """In [0, 2π): a tiny negative one rounds to 2π itself."""
+    h = h % (2.0 * pi)
+    return np.where(h >= 2.0 * pi, 0.0, h)
 
 
 def _in_box(rng: np.random.Generator, box: Box, size: int) -> Floats:
