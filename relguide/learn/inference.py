@@ -17,7 +17,7 @@ from relguide.learn.network import Singles, StrategyNetwork, features_of
 from relguide.planning.inputs import expect
 
 CHUNK = 4096
-"""Situations a chunk on a CPU: a layer of them is 2 MB; sixteen times as many take twice as long."""
+"""Situations a chunk on a CPU: a layer of them is 2 MB; with 65,536 each takes twice as long."""
 CUDA_CHUNK = 262_144
 """On a GPU: a layer of them is 134 MB."""
 
