@@ -129,6 +129,10 @@ def test_out_of_the_box_the_exact_planner_answers() -> None:
 def test_in_a_cross_wind_the_exact_planner_answers() -> None:
     situation, _ = answered()[0]
     assert fell_back(replace(situation, wind=wind_from(90 * DEG, 20.0)))
+    for other in UNSEEN[:60]:
+        across = replace(other, wind=wind_from(90 * DEG, 20.0))
+        frame = slot_frame(across, across.leader.trajectory)
+        assert way_round(SHIPPED, across, frame) is None
     along = replace(situation, wind=wind_from(180 * DEG, 20.0))
     planned = asked(along)
     assert isinstance(planned, Plan)
