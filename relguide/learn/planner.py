@@ -21,17 +21,18 @@ import numpy as np
 from relguide.kernels.clearance import SLACK
 from relguide.kernels.extremals import MAX_ROWS, WORDS
 from relguide.kernels.network import choose
-from relguide.kernels.passage import word_clears
+from relguide.kernels.passage import clears_ahead
 from relguide.kernels.strategies import direct_time
 from relguide.learn.labels import Box
 from relguide.learn.network import StrategyNetwork
 from relguide.learn.way_network import WayNetwork, load_way_network
 from relguide.learn.way_round import slot_ahead, way_round
-from relguide.planning.certificate import Certificate, certify
+from relguide.planning.certificate import Certificate, judge, kernel_arrays
 from relguide.planning.inputs import expect
 from relguide.planning.plan import NoPlan, Optimality, Plan, Planner, plan
 from relguide.planning.situation import Situation
 from relguide.planning.slot import SlotFrame, slot_frame
+from relguide.planning.trajectory import Trajectory
 from relguide.planning.words import HORIZON, SIGN_ROWS, Candidate, assemble
 from relguide.units import Second
 
@@ -50,8 +51,9 @@ class Proposal:
 def network_planner(network: StrategyNetwork, ways: WayNetwork | None = None) -> Planner:
     """A planner that asks networks what to solve, and the exact planner in need.
 
-    A leader who turns is met on the final leg: the networks see a leader who has been on it all
-    along, the certificate the real one.
+    A leader who turns is met on the final leg: the network of words sees a leader who has been on
+    it all along, the certificate the real one. Where the limit binds then, the exact planner is
+    asked.
 
     Args:
         network: for the words to the slot.
@@ -96,9 +98,10 @@ def propose(
 
     If that does not keep d_min and there is a network of ways, its way round the limit.
     """
-    frame = slot_frame(situation, situation.leader.trajectory)
+    leader = situation.leader.trajectory
+    frame = slot_frame(situation, leader)
     if not _within(network.box, frame):
-        return None if ways is None else _round(ways, situation, frame)
+        return None if ways is None else _round(ways, situation, frame, leader)
     rows = np.empty((MAX_ROWS, 5))
     _, found = choose(
         frame.x, frame.y, frame.h, frame.alpha,
@@ -111,22 +114,26 @@ def propose(
         return None
     if ways is None or not _breaks(situation, frame, rows[0]):
         candidate = assemble(situation, frame, SIGN_ROWS[int(word)], amounts, WORDS[int(word)])
-        free = _judged(candidate, situation, frame)
+        free = _judged(candidate, situation, frame, leader)
         if ways is None or free.certificate.holds:
             return free
-    return _round(ways, situation, frame)
+    return _round(ways, situation, frame, leader)
 
 
-def _round(ways: WayNetwork, situation: Situation, frame: SlotFrame) -> Proposal | None:
+def _round(
+    ways: WayNetwork, situation: Situation, frame: SlotFrame, leader: Trajectory
+) -> Proposal | None:
     around = way_round(ways, situation, frame)
-    return None if around is None else _judged(around, situation, frame)
+    return None if around is None else _judged(around, situation, frame, leader)
 
 
-def _judged(candidate: Candidate, situation: Situation, frame: SlotFrame) -> Proposal:
+def _judged(
+    candidate: Candidate, situation: Situation, frame: SlotFrame, leader: Trajectory
+) -> Proposal:
     least = max(direct_time(frame.x, frame.y, frame.alpha), frame.t_open)
     return Proposal(
         candidate=candidate,
-        certificate=certify(candidate.trajectory, situation),
+        certificate=judge(candidate.trajectory, situation, kernel_arrays(leader)),
         lower_bound=least * frame.radius / situation.pursuer.tas,
     )
 
@@ -134,14 +141,13 @@ def _judged(candidate: Candidate, situation: Situation, frame: SlotFrame) -> Pro
 def _breaks(situation: Situation, frame: SlotFrame, row: np.ndarray) -> bool:
     """Whether a word comes too close to a leader that keeps straight: soon told, no certificate.
 
-    Of a leader who turns only the certificate knows.
+    Of a leader who turns, and in a cross wind, only the certificate knows.
     """
     slot = slot_ahead(situation, frame)
-    if slot is None or situation.leader.intent:
+    if slot is None:
         return False
-    leader = np.array([[0.0, slot, 0.0, 0.0, 0.0]])
-    limit = situation.min_separation / frame.radius
-    return not word_clears(frame.x, frame.y, frame.h, 0.0, row, leader, frame.alpha, limit - SLACK)
+    limit = situation.min_separation / frame.radius - SLACK
+    return not clears_ahead(frame.x, frame.y, frame.h, row, slot, frame.alpha, limit)
 
 
 def _within(box: Box, frame: SlotFrame) -> bool:

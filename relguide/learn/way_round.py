@@ -2,11 +2,11 @@
 
     situation → kinds held possible → solved next to their guesses → the fastest that keeps d_min
 
-The network sees a leader who keeps straight, and a slot straight behind it. A leader who turns
-first is met on its final leg, as if it had been on it all along; whether that keeps clear of the
-real one is for the certificate to say. Whatever else is in the way is a `None`, and the exact
-planner's: a cross wind, which puts the slot aside of the leader's heading, a situation outside the
-box, ways that the network does not know or is not sure of, and one that would be early.
+The network sees a leader who keeps straight, and a slot straight behind it. Whatever else is in the
+way is a `None`, and the exact planner's: a leader who turns (met on its final leg as if it had been
+on it all along, one answer in eleven was late, for a better way led through where that leader never
+was), a cross wind, which puts the slot aside of the leader's heading, a situation outside the box,
+and ways that the network does not know or is not sure of.
 """
 
 from math import hypot
@@ -44,7 +44,7 @@ def way_round(ways: WayNetwork, situation: Situation, frame: SlotFrame) -> Candi
         ways.layers, ways.least_share, ways.most, ways.doubt, legs,
     )  # fmt: skip
     scale = frame.radius / situation.pursuer.tas
-    if count == 0 or time < frame.t_open or time * scale > HORIZON:
+    if count == 0 or time * scale > HORIZON:
         return None
     flight = legs[:count].tolist()
     if all(leg[0] == WORD for leg in flight):
@@ -60,10 +60,10 @@ def way_round(ways: WayNetwork, situation: Situation, frame: SlotFrame) -> Candi
 
 
 def slot_ahead(situation: Situation, frame: SlotFrame) -> float | None:
-    """How far ahead of the slot the leader is on its final leg [R]; `None` if it is aside too."""
-    if situation.wind.east == situation.wind.north == 0.0:
-        return situation.slot_distance / frame.radius
+    """How far ahead of the slot a leader is [R]; `None` if he turns, or is aside of it too."""
     if situation.leader.intent:
         return None
+    if situation.wind.east == situation.wind.north == 0.0:
+        return situation.slot_distance / frame.radius
     along, aside = frame.to_slot(situation.leader.x, situation.leader.y)
     return along if abs(aside) <= _ASIDE else None

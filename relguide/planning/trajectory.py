@@ -4,6 +4,7 @@ The paper numbers the pieces backward from the slot; here they run forward from 
 """
 
 from dataclasses import dataclass
+from itertools import chain
 from math import inf, isfinite, pi
 from typing import Literal
 
@@ -215,6 +216,20 @@ def _is_sound(segment: Segment) -> bool:
             and type(angle) is type(radius) is float
             and 0.0 <= angle < inf
             and 0.0 < radius < inf
+        )
+    if type(segment) is BoundaryArc:
+        # dozens of pieces: a few passes over all take a third of looking at each
+        if type(segment.bends) is not tuple or not segment.bends:
+            return False
+        if set(map(type, segment.bends)) != {tuple} or set(map(len, segment.bends)) != {2}:
+            return False
+        numbers = tuple(chain.from_iterable(segment.bends))
+        return (
+            type(segment.side) is int
+            and (segment.side == LEFT or segment.side == RIGHT)
+            and set(map(type, numbers)) == {float}
+            and min(numbers[::2]) >= 0.0
+            and isfinite(sum(map(abs, numbers)))
         )
     return type(segment) is Straight and type(segment.length) is float and segment.length >= 0.0
 
