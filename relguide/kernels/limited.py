@@ -11,26 +11,44 @@ from numba import njit
 
 from relguide.kernels.detour import MAX_LEGS, best_detour
 from relguide.kernels.extremals import MAX_ROWS, solve
+from relguide.kernels.fastest import fastest
 from relguide.kernels.passage import GRAZE, word_clears
 from relguide.kernels.roots import FloatArray
+from relguide.kernels.sooner import MOST_ROOTS, work_room
 from relguide.kernels.tangent import tangents
 
 
 @njit(cache=True, nogil=True)
-def limit_binds(situations: FloatArray, binds: FloatArray) -> None:
+def limit_binds(x: float, y: float, h: float, alpha: float, slot: float, limit: float) -> bool:
     """Whether the fastest way without the limit breaks it.
+
+    Args:
+        x: pursuer ahead of the slot [R].
+        y: and left of it [R].
+        h: its heading [rad], in [0, 2π).
+        alpha: V_L/V_P.
+        slot: the leader ahead of the slot [R].
+        limit: d_min [R].
+    """
+    row = np.empty(5)
+    if not fastest(x, y, h, alpha, 0.0, 0, work_room(), np.empty((MOST_ROOTS, 4)), row):
+        return False
+    leader = np.zeros((1, 5))
+    leader[0, 1] = slot
+    return not word_clears(x, y, h, 0.0, row, leader, alpha, limit)
+
+
+@njit(cache=True, nogil=True)
+def limit_binds_rows(situations: FloatArray, binds: FloatArray) -> None:
+    """`limit_binds` of many.
 
     Args:
         situations: x, y, h in [0, 2π), α, D/R, d_min/R. shape (n, 6)
         binds: takes 1 where it does, 0 where it does not. shape (n,)
     """
-    rows = np.empty((MAX_ROWS, 5))
-    leader = np.zeros((1, 5))
     for n in range(len(situations)):
         x, y, h, alpha, slot, limit = situations[n]
-        leader[0, 1] = slot
-        found = solve(x, y, h, alpha, 0.0, rows)
-        binds[n] = found > 0 and not word_clears(x, y, h, 0.0, rows[0], leader, alpha, limit)
+        binds[n] = limit_binds(x, y, h, alpha, slot, limit)
 
 
 @njit(cache=True, nogil=True)

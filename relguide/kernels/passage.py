@@ -10,7 +10,6 @@ Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader i
 
 from math import inf
 
-import numpy as np
 from numba import njit
 
 from relguide.kernels.angles import wrap
@@ -47,16 +46,6 @@ def word_clears(
 ) -> bool:  # fmt: skip
     """Whether a row of `solve`, flown from time t, stays `limit` away from the leader."""
     return pieces_clear(x, y, h, t, SIGNS[int(row[1])], row[2:5], leader, alpha, limit)
-
-
-@njit(cache=True, nogil=True)
-def clears_ahead(
-    x: float, y: float, h: float, row: FloatArray, slot: float, alpha: float, limit: float
-) -> bool:
-    """`word_clears` from time 0 on, of a leader that keeps straight, `slot` ahead of the slot."""
-    leader = np.zeros((1, 5))
-    leader[0, 1] = slot
-    return word_clears(x, y, h, 0.0, row, leader, alpha, limit)
 
 
 @njit(cache=True, nogil=True)

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from relguide.kernels.detour import MAX_LEGS
-from relguide.kernels.limited import exact_ways, limit_binds
+from relguide.kernels.limited import exact_ways, limit_binds_rows
 from relguide.learn.chunks import gathered
 from relguide.planning.detour import BEARINGS
 
@@ -194,7 +194,7 @@ def _drawn(rng: np.random.Generator, box: LimitBox, source: int, size: int) -> F
     while len(found) < size:
         drawn = _anywhere(rng, box, source, DRAWN)
         binds = np.empty(DRAWN)
-        limit_binds(drawn, binds)
+        limit_binds_rows(drawn, binds)
         found = np.concatenate((found, drawn[binds == 1.0]))
     return found[:size]
 

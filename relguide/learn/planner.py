@@ -3,9 +3,9 @@
     network → calibrated set of strategies → their words, solved exactly → the fastest → certificate
     the limit binds → network of ways → kinds of ways round it, solved next to guesses → certificate
 
-All roots of a word are found to their last digit, so there is nothing left to polish. If the
-fastest of them does not keep d_min, another network is asked for the way round the limit (see
-`way_round`), as it is where ratios of speeds are beyond the first one's box, but not its own.
+All roots of a word are found to their last digit, so there is nothing left to polish. Where the
+fastest way does not keep d_min, another network is asked for the way round the limit (see
+`way_round`).
 Whatever stands in the way leads to the exact planner: a situation outside of what was trained, a
 set too large, no path among those words, one that arrives before the slot opens, and above all a
 path that does not keep d_min. So every answer is certified, whoever gave it; a network can only
@@ -20,8 +20,8 @@ import numpy as np
 
 from relguide.kernels.clearance import SLACK
 from relguide.kernels.extremals import MAX_ROWS, WORDS
+from relguide.kernels.limited import limit_binds
 from relguide.kernels.network import choose
-from relguide.kernels.passage import clears_ahead
 from relguide.kernels.strategies import direct_time
 from relguide.learn.labels import Box
 from relguide.learn.network import StrategyNetwork
@@ -96,12 +96,14 @@ def propose(
 ) -> Proposal | None:
     """The fastest path of the words that the network holds possible; `None` if it cannot say.
 
-    If that does not keep d_min and there is a network of ways, its way round the limit.
+    Where the limit binds and there is a network of ways: its way round the limit.
     """
     leader = situation.leader.trajectory
     frame = slot_frame(situation, leader)
+    if ways is not None and _binds(situation, frame):
+        return _round(ways, situation, frame, leader)
     if not _within(network.box, frame):
-        return None if ways is None else _round(ways, situation, frame, leader)
+        return None
     rows = np.empty((MAX_ROWS, 5))
     _, found = choose(
         frame.x, frame.y, frame.h, frame.alpha,
@@ -112,12 +114,8 @@ def propose(
     # had another word been open before, it would be the exact planner's to find how to wait for it
     if found == 0 or time < frame.t_open or time * scale > HORIZON:
         return None
-    if ways is None or not _breaks(situation, frame, rows[0]):
-        candidate = assemble(situation, frame, SIGN_ROWS[int(word)], amounts, WORDS[int(word)])
-        free = _judged(candidate, situation, frame, leader)
-        if ways is None or free.certificate.holds:
-            return free
-    return _round(ways, situation, frame, leader)
+    candidate = assemble(situation, frame, SIGN_ROWS[int(word)], amounts, WORDS[int(word)])
+    return _judged(candidate, situation, frame, leader)
 
 
 def _round(
@@ -138,16 +136,17 @@ def _judged(
     )
 
 
-def _breaks(situation: Situation, frame: SlotFrame, row: np.ndarray) -> bool:
-    """Whether a word comes too close to a leader that keeps straight: soon told, no certificate.
+def _binds(situation: Situation, frame: SlotFrame) -> bool:
+    """Whether the limit binds behind a leader that keeps straight.
 
-    Of a leader who turns, and in a cross wind, only the certificate knows.
+    That takes the fastest way, which is found sooner than a network is asked. Of a leader who
+    turns, and in a cross wind, only the certificate knows.
     """
     slot = slot_ahead(situation, frame)
     if slot is None:
         return False
     limit = situation.min_separation / frame.radius - SLACK
-    return not clears_ahead(frame.x, frame.y, frame.h, row, slot, frame.alpha, limit)
+    return limit_binds(frame.x, frame.y, frame.h, frame.alpha, slot, limit)
 
 
 def _within(box: Box, frame: SlotFrame) -> bool:
