@@ -6,14 +6,16 @@ be gone on with after a stop lies in another, named `.part`.
 
 import json
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import IO, Any
+from typing import IO, Any, TypeVar
 from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
+
+T = TypeVar("T")
 
 
 @contextmanager
@@ -57,6 +59,41 @@ def load_columns(
     if found != kind:
         raise ValueError(f"{file} is a file of another kind: {found}, not {kind}.")
     return about, columns
+
+
+def save_weights(file: Path, about: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> None:
+    """Write a .safetensors file: arrays, and a JSON text `about` in its header."""
+    from safetensors.numpy import save
+
+    content = save(dict(arrays), metadata={"about": json.dumps(about, ensure_ascii=False)})
+    with whole(file) as stream:
+        stream.write(content)
+
+
+def load_weights(
+    file: Path, network: Callable[[dict[str, Any], dict[str, NDArray[Any]]], T], refusal: str
+) -> T:
+    """Read a .safetensors file, and make a network of it.
+
+    Args:
+        file: to read.
+        network: makes it of the text and the arrays; a KeyError, TypeError or ValueError of its
+            says that they are none.
+        refusal: what to say of a file that is none, behind its name.
+
+    Raises:
+        ValueError: if it is none.
+    """
+    from safetensors import SafetensorError, safe_open
+
+    file.stat()  # says that a file is missing in the system's words
+    try:
+        with safe_open(file, framework="numpy") as content:
+            about: dict[str, Any] = json.loads(content.metadata()["about"])
+            arrays = {name: content.get_tensor(name) for name in content.keys()}
+        return network(about, arrays)
+    except (SafetensorError, KeyError, TypeError, ValueError):
+        raise ValueError(f"{file} {refusal}") from None
 
 
 def expect_part(part: Path, *, resume: bool) -> None:

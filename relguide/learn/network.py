@@ -8,7 +8,6 @@ needed to train and to compare; who only asks evaluates the weights with `kernel
 The file is in safetensors: arrays, and in its header one JSON text that tells all the rest.
 """
 
-import json
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from importlib.resources import files
@@ -21,7 +20,7 @@ from numpy.typing import NDArray
 
 from relguide.kernels.network import Layers
 from relguide.kernels.strategies import FEATURES, SIZE, STRATEGIES, feature_rows
-from relguide.learn.files import whole
+from relguide.learn.files import load_weights, save_weights
 from relguide.learn.labels import Box, Floats
 from relguide.learn.options import NetworkShape
 
@@ -106,8 +105,6 @@ def layers_of(state: Mapping[str, Singles], mean: Singles, deviation: Singles) -
 
 def save_network(network: StrategyNetwork, file: Path) -> None:
     """Write a network, in one piece or not at all."""
-    from safetensors.numpy import save
-
     about = {
         "file": FILE,
         "strategies": STRATEGIES,
@@ -116,11 +113,7 @@ def save_network(network: StrategyNetwork, file: Path) -> None:
         "most": network.most,
         "about": dict(network.about),
     }
-    content = save(
-        network.layers._asdict(), metadata={"about": json.dumps(about, ensure_ascii=False)}
-    )
-    with whole(file) as stream:
-        stream.write(content)
+    save_weights(file, about, network.layers._asdict())
 
 
 def load_network(file: Path = SHIPPED) -> StrategyNetwork:
@@ -129,27 +122,21 @@ def load_network(file: Path = SHIPPED) -> StrategyNetwork:
     Raises:
         ValueError: if the file is none, or does not fit this version.
     """
-    from safetensors import SafetensorError, safe_open
 
-    file.stat()  # says that a file is missing in the system's words
-    try:
-        with safe_open(file, framework="numpy") as content:
-            about = json.loads(content.metadata()["about"])
-            arrays = {name: content.get_tensor(name) for name in Layers._fields}
+    def network(about: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> StrategyNetwork:
         if about["file"] != FILE or tuple(about["strategies"]) != STRATEGIES:
             raise KeyError(about["file"])
-        network = StrategyNetwork(
+        return StrategyNetwork(
             layers=as_layers(FEATURES, OUTPUTS, **arrays),
             box=Box(**about["box"]),
             least_share=float(about["least_share"]),
             most=int(about["most"]),
             about=about["about"],
         )
-    except (SafetensorError, KeyError, TypeError, ValueError):
-        raise ValueError(
-            f"{file} holds no network of relguide train, of this version, or is cut short."
-        ) from None
-    return network
+
+    return load_weights(
+        file, network, "holds no network of relguide train, of this version, or is cut short."
+    )
 
 
 def as_layers(features: int, outputs: int, **arrays: NDArray[Any]) -> Layers:

@@ -12,7 +12,6 @@ of two ways, which is none.
 Left and right are exchanged before and after if the situation is on the right of the route.
 """
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib.resources import files
@@ -23,7 +22,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from relguide.learn.files import whole
+from relguide.learn.files import load_weights, save_weights
 from relguide.learn.tree import (
     Floats,
     TreeParameters,
@@ -87,8 +86,6 @@ def pairs_given(network: RegularNetwork, x: Floats, y: Floats, h: Floats) -> Flo
 
 def save_regular(network: RegularNetwork, file: Path) -> None:
     """Write a network, in one piece or not at all."""
-    from safetensors.numpy import save
-
     about = {
         "file": FILE,
         "method": network.method,
@@ -97,9 +94,7 @@ def save_regular(network: RegularNetwork, file: Path) -> None:
     }
     arrays = {f"weights.{i}": array for i, array in enumerate(network.weights)}
     arrays |= {f"biases.{i}": array for i, array in enumerate(network.biases)}
-    content = save(arrays, metadata={"about": json.dumps(about, ensure_ascii=False)})
-    with whole(file) as stream:
-        stream.write(content)
+    save_weights(file, about, arrays)
 
 
 def load_regular(file: Path) -> RegularNetwork:
@@ -108,33 +103,27 @@ def load_regular(file: Path) -> RegularNetwork:
     Raises:
         ValueError: if the file is none.
     """
-    from safetensors import SafetensorError, safe_open
 
-    file.stat()  # says that a file is missing in the system's words
-    try:
-        with safe_open(file, framework="numpy") as content:
-            about = json.loads(content.metadata()["about"])
-            if about["file"] != FILE or about["method"] not in ("paper", "direct"):
-                raise KeyError(about["file"])
-            depth = len(content.keys()) // 2
-            arrays = [
-                tuple(content.get_tensor(f"{name}.{i}") for i in range(depth))
-                for name in ("weights", "biases")
-            ]
-        network = RegularNetwork(
+    def network(about: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> RegularNetwork:
+        if about["file"] != FILE or about["method"] not in ("paper", "direct"):
+            raise KeyError(about["file"])
+        depth = len(arrays) // 2
+        found = RegularNetwork(
             method=about["method"],
             parameters=parameters_from_json(about["tree"]),
-            weights=arrays[0],
-            biases=arrays[1],
+            weights=tuple(arrays[f"weights.{i}"] for i in range(depth)),
+            biases=tuple(arrays[f"biases.{i}"] for i in range(depth)),
             about=about["about"],
         )
-        _check(network)
-    except (SafetensorError, KeyError, TypeError, ValueError):
-        raise ValueError(
-            f"{file} holds no network of relguide train --method paper or direct, of this "
-            "version, or is cut short."
-        ) from None
-    return network
+        _check(found)
+        return found
+
+    return load_weights(
+        file,
+        network,
+        "holds no network of relguide train --method paper or direct, of this version, or is cut "
+        "short.",
+    )
 
 
 def _check(network: RegularNetwork) -> None:

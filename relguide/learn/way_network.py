@@ -7,7 +7,6 @@ train and to compare; who only asks evaluates the weights with `kernels/way_netw
 safetensors, as that of the strategies (`network`).
 """
 
-import json
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from importlib.resources import files
@@ -16,12 +15,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from relguide.kernels.network import Layers
 from relguide.kernels.way_features import FEATURES, way_feature_rows
 from relguide.kernels.way_network import OUTPUTS
 from relguide.kernels.ways import KINDS
-from relguide.learn.files import whole
+from relguide.learn.files import load_weights, save_weights
 from relguide.learn.limit_labels import Floats, LimitBox
 from relguide.learn.network import Singles, as_layers
 from relguide.learn.options import NetworkShape
@@ -77,8 +77,6 @@ def way_features_of(situations: Floats) -> Singles:
 
 def save_way_network(network: WayNetwork, file: Path) -> None:
     """Write a network, in one piece or not at all."""
-    from safetensors.numpy import save
-
     about = {
         "file": FILE,
         "kinds": KINDS,
@@ -88,11 +86,7 @@ def save_way_network(network: WayNetwork, file: Path) -> None:
         "doubt": network.doubt,
         "about": dict(network.about),
     }
-    content = save(
-        network.layers._asdict(), metadata={"about": json.dumps(about, ensure_ascii=False)}
-    )
-    with whole(file) as stream:
-        stream.write(content)
+    save_weights(file, about, network.layers._asdict())
 
 
 def load_way_network(file: Path = SHIPPED_WAYS) -> WayNetwork:
@@ -101,16 +95,11 @@ def load_way_network(file: Path = SHIPPED_WAYS) -> WayNetwork:
     Raises:
         ValueError: if the file is none, or does not fit this version.
     """
-    from safetensors import SafetensorError, safe_open
 
-    file.stat()  # says that a file is missing in the system's words
-    try:
-        with safe_open(file, framework="numpy") as content:
-            about = json.loads(content.metadata()["about"])
-            arrays = {name: content.get_tensor(name) for name in Layers._fields}
+    def network(about: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> WayNetwork:
         if about["file"] != FILE or tuple(about["kinds"]) != KINDS:
             raise KeyError(about["file"])
-        network = WayNetwork(
+        return WayNetwork(
             layers=as_layers(FEATURES, OUTPUTS, **arrays),
             box=LimitBox(**about["box"]),
             least_share=float(about["least_share"]),
@@ -118,9 +107,9 @@ def load_way_network(file: Path = SHIPPED_WAYS) -> WayNetwork:
             doubt=float(about["doubt"]),
             about=about["about"],
         )
-    except (SafetensorError, KeyError, TypeError, ValueError):
-        raise ValueError(
-            f"{file} holds no network of relguide train --method ways, of this version, or is cut "
-            "short."
-        ) from None
-    return network
+
+    return load_weights(
+        file,
+        network,
+        "holds no network of relguide train --method ways, of this version, or is cut short.",
+    )
