@@ -2,7 +2,6 @@
 
 import argparse
 import sys
-from collections import deque
 from datetime import UTC, datetime
 from pathlib import Path
 from time import perf_counter
@@ -15,8 +14,8 @@ from relguide.kernels.ways import KINDS, NONE
 from relguide.learn.limit_label_file import grown_labels, save_limit_labels
 from relguide.learn.limit_labels import SOURCES, LimitLabels, LimitRequest, joined
 from relguide.learn.train_ways import WayEpoch, run, taught
-from relguide.progress import progress_bar, watched
-from relguide.training import workers
+from relguide.progress import progress_bar
+from relguide.training import last_epoch, workers
 
 
 def make_limit_label_file(
@@ -94,18 +93,9 @@ def train_way_network(chosen: argparse.Namespace) -> None:
         chosen: the options of `options.add_options`.
     """
     started = perf_counter()
-    epochs = watched(
-        run(chosen, f"relguide {__version__}"),
-        title="training",
-        total=chosen.epochs,
-        done=lambda epoch: epoch.number,
-        state=_told,
-    )
-    trained = deque(epochs, maxlen=1)
-    if not trained:  # resumed after its last epoch
-        _write(f"{chosen.weights} is complete.\n")
+    last = last_epoch(chosen, run(chosen, f"relguide {__version__}"), _told)
+    if last is None:
         return
-    last = trained[0]
     about = last.network.about
     _write(
         f"{chosen.weights}: the best of {last.number} epochs is the {last.best}., with "

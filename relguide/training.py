@@ -4,7 +4,7 @@ import argparse
 import os
 import sys
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import contextmanager
 from datetime import UTC, datetime
@@ -27,12 +27,14 @@ from relguide.learn.labels import (
 )
 from relguide.learn.options import command_of, options_of
 from relguide.learn.paper import save_regular
-from relguide.learn.train import run, told
+from relguide.learn.train import Epoch, run, told
 from relguide.learn.train_paper import train_regular
+from relguide.learn.train_ways import WayEpoch
 from relguide.learn.tree_file import load_tree
 from relguide.progress import progress_bar, watched
 
 T = TypeVar("T")
+E = TypeVar("E", Epoch, WayEpoch)
 
 
 def make_label_file(
@@ -101,18 +103,9 @@ def train_network(chosen: argparse.Namespace) -> None:
         chosen: the options of `options.add_options`.
     """
     started = perf_counter()
-    epochs = watched(
-        run(chosen, f"relguide {__version__}"),
-        title="training",
-        total=chosen.epochs,
-        done=lambda epoch: epoch.number,
-        state=told,
-    )
-    trained = deque(epochs, maxlen=1)
-    if not trained:  # resumed after its last epoch
-        _write(f"{chosen.weights} is complete.\n")
+    last = last_epoch(chosen, run(chosen, f"relguide {__version__}"), told)
+    if last is None:
         return
-    last = trained[0]
     about = last.network.about
     _write(
         f"{chosen.weights}: the best of {last.number} epochs is the {last.best}., with "
@@ -173,6 +166,30 @@ def workers(threads: int | None, scheduler: str | None) -> Iterator[Executor]:
 
     with cluster(scheduler, _note) as machines:
         yield machines
+
+
+def last_epoch(
+    chosen: argparse.Namespace, epochs: Iterator[E], told: Callable[[E], str]
+) -> E | None:
+    """Train to the end, with a bar; `None`, and a word, if it was resumed after its last epoch.
+
+    Args:
+        chosen: the options of `options.add_options`.
+        epochs: as they come.
+        told: one in a few words, beside the bar.
+    """
+    shown = watched(
+        epochs,
+        title="training",
+        total=chosen.epochs,
+        done=lambda epoch: epoch.number,
+        state=told,
+    )
+    trained = deque(shown, maxlen=1)
+    if not trained:
+        _write(f"{chosen.weights} is complete.\n")
+        return None
+    return trained[0]
 
 
 def collected(chunks: Iterator[tuple[int, T]], request: LabelRequest, title: str) -> dict[int, T]:
