@@ -14,21 +14,16 @@ d_min. Five conventions hold everywhere:
 5. Time is t [s] from the start of the manoeuvre; segments are numbered forward from 0.
 """
 
-from relguide.planning.alternatives import Alternative as Alternative
-from relguide.planning.alternatives import alternatives as alternatives
-from relguide.planning.batch import Situations as Situations
-from relguide.planning.batch import Times as Times
-from relguide.planning.batch import plan_arrays as plan_arrays
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
 from relguide.planning.certificate import Certificate as Certificate
 from relguide.planning.certificate import certify as certify
-from relguide.planning.optimality import OptimalityReport as OptimalityReport
-from relguide.planning.optimality import check as check
 from relguide.planning.plan import NoPlan as NoPlan
 from relguide.planning.plan import Plan as Plan
 from relguide.planning.plan import Planner as Planner
 from relguide.planning.plan import Reason as Reason
 from relguide.planning.plan import plan as plan
-from relguide.planning.prove import prove as prove
 from relguide.planning.situation import CALM as CALM
 from relguide.planning.situation import FlyStraight as FlyStraight
 from relguide.planning.situation import Leader as Leader
@@ -48,7 +43,29 @@ from relguide.planning.words import Candidate as Candidate
 from relguide.planning.words import candidates as candidates
 from relguide.progress import progress_bar as progress_bar
 
+if TYPE_CHECKING:
+    from relguide.planning.alternatives import Alternative as Alternative
+    from relguide.planning.alternatives import alternatives as alternatives
+    from relguide.planning.batch import Situations as Situations
+    from relguide.planning.batch import Times as Times
+    from relguide.planning.batch import plan_arrays as plan_arrays
+    from relguide.planning.optimality import OptimalityReport as OptimalityReport
+    from relguide.planning.optimality import check as check
+    from relguide.planning.prove import prove as prove
+
 __version__ = "0.1.0"
+
+_ON_DEMAND = {
+    "Alternative": "relguide.planning.alternatives",
+    "alternatives": "relguide.planning.alternatives",
+    "Situations": "relguide.planning.batch",
+    "Times": "relguide.planning.batch",
+    "plan_arrays": "relguide.planning.batch",
+    "OptimalityReport": "relguide.planning.optimality",
+    "check": "relguide.planning.optimality",
+    "prove": "relguide.planning.prove",
+}
+"""Names, and the modules of theirs that are loaded when first asked for: a plan needs none."""
 
 __all__ = [
     "CALM",
@@ -85,3 +102,17 @@ __all__ = [
     "prove",
     "wind_from",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Load what is used beside `plan` when it is."""
+    if name not in _ON_DEMAND:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(import_module(_ON_DEMAND[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    """All public names, loaded or not."""
+    return sorted({*globals(), *_ON_DEMAND})
