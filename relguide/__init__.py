@@ -14,8 +14,8 @@ d_min. Five conventions hold everywhere:
 5. Time is t [s] from the start of the manoeuvre; segments are numbered forward from 0.
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+import importlib
+import typing
 
 from relguide.planning.certificate import Certificate as Certificate
 from relguide.planning.certificate import certify as certify
@@ -43,7 +43,7 @@ from relguide.planning.words import Candidate as Candidate
 from relguide.planning.words import candidates as candidates
 from relguide.progress import progress_bar as progress_bar
 
-if TYPE_CHECKING:
+if typing.TYPE_CHECKING:
     from relguide.planning.alternatives import Alternative as Alternative
     from relguide.planning.alternatives import alternatives as alternatives
     from relguide.planning.batch import Situations as Situations
@@ -104,11 +104,11 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> typing.Any:
     """Load what is used beside `plan` when it is."""
     if name not in _ON_DEMAND:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    value = getattr(import_module(_ON_DEMAND[name]), name)
+    value = getattr(importlib.import_module(_ON_DEMAND[name]), name)
     globals()[name] = value
     return value
 

@@ -7,7 +7,7 @@ import relguide
 
 
 def test_all_is_sorted_and_complete() -> None:
-    public = {name for name in vars(relguide) if not name.startswith("_")}
+    public = {name for name in dir(relguide) if not name.startswith("_")}
     modules = {name for name in public if isinstance(getattr(relguide, name), type(sys))}
     assert set(relguide.__all__) == public - modules
     # constants, then classes, then functions, as ruff sorts them
