@@ -13,7 +13,7 @@ from relguide import __version__
 from relguide.kernels.ways import KINDS, NONE
 from relguide.learn.limit_label_file import grown_labels, save_limit_labels
 from relguide.learn.limit_labels import SOURCES, LimitLabels, LimitRequest, joined
-from relguide.learn.train_ways import WayEpoch, run, taught
+from relguide.learn.train_ways import run, taught
 from relguide.progress import progress_bar
 from relguide.training import last_epoch, workers
 
@@ -93,7 +93,7 @@ def train_way_network(chosen: argparse.Namespace) -> None:
         chosen: the options of `options.add_options`.
     """
     started = perf_counter()
-    last = last_epoch(chosen, run(chosen, f"relguide {__version__}"), _told)
+    last = last_epoch(chosen, run(chosen, f"relguide {__version__}"))
     if last is None:
         return
     about = last.network.about
@@ -103,10 +103,6 @@ def train_way_network(chosen: argparse.Namespace) -> None:
         f"trained on. {perf_counter() - started:.0f} s on {about['device']}, "
         f"{chosen.weights.stat().st_size / 1e3:.0f} kB.\n"
     )
-
-
-def _told(epoch: WayEpoch) -> str:
-    return f"loss {epoch.loss:.4f}, accuracy {100.0 * epoch.accuracy:.2f} %"
 
 
 def _write(text: str) -> None:

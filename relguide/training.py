@@ -4,7 +4,7 @@ import argparse
 import os
 import sys
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import contextmanager
 from datetime import UTC, datetime
@@ -17,6 +17,7 @@ import orjson
 
 from relguide import __version__
 from relguide.kernels.strategies import STRATEGIES
+from relguide.learn.fitting import Epoch, told
 from relguide.learn.labels import (
     SOURCES,
     LabelRequest,
@@ -27,14 +28,12 @@ from relguide.learn.labels import (
 )
 from relguide.learn.options import command_of, options_of
 from relguide.learn.paper import save_regular
-from relguide.learn.train import Epoch, run, told
+from relguide.learn.train import run
 from relguide.learn.train_paper import train_regular
-from relguide.learn.train_ways import WayEpoch
 from relguide.learn.tree_file import load_tree
 from relguide.progress import progress_bar, watched
 
 T = TypeVar("T")
-E = TypeVar("E", Epoch, WayEpoch)
 
 
 def make_label_file(
@@ -103,7 +102,7 @@ def train_network(chosen: argparse.Namespace) -> None:
         chosen: the options of `options.add_options`.
     """
     started = perf_counter()
-    last = last_epoch(chosen, run(chosen, f"relguide {__version__}"), told)
+    last = last_epoch(chosen, run(chosen, f"relguide {__version__}"))
     if last is None:
         return
     about = last.network.about
@@ -168,15 +167,12 @@ def workers(threads: int | None, scheduler: str | None) -> Iterator[Executor]:
         yield machines
 
 
-def last_epoch(
-    chosen: argparse.Namespace, epochs: Iterator[E], told: Callable[[E], str]
-) -> E | None:
+def last_epoch(chosen: argparse.Namespace, epochs: Iterator[Epoch[T]]) -> Epoch[T] | None:
     """Train to the end, with a bar; `None`, and a word, if it was resumed after its last epoch.
 
     Args:
         chosen: the options of `options.add_options`.
         epochs: as they come.
-        told: one in a few words, beside the bar.
     """
     shown = watched(
         epochs,

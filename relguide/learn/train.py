@@ -9,20 +9,26 @@ exist. The same labels, options and number of threads give the same weights on t
 """
 
 import argparse
-import json
-import sys
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass
-from datetime import UTC, datetime
-from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from relguide.kernels.strategies import SIZE
-from relguide.learn.checkpoint import device_of, load_checkpoint, pace, save_checkpoint
-from relguide.learn.files import expect_part
+from relguide.learn.fitting import (
+    Epoch,
+    arrays_of,
+    begin,
+    digest_of,
+    fit,
+    in_chunks,
+    part_of,
+    scaled,
+    script,
+    split,
+    written,
+)
 from relguide.learn.labels import Box, Labels, held_out, load_labels
 from relguide.learn.network import (
     StrategyNetwork,
@@ -31,29 +37,15 @@ from relguide.learn.network import (
     save_network,
     torch_model,
 )
-from relguide.learn.options import TrainingOptions, add_options, command_of, options_of
+from relguide.learn.options import TrainingOptions, command_of, options_of
 
 if TYPE_CHECKING:
     import torch
 
 NEAR = 1e-6
 """A strategy this close to the fastest is as fast, relative."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Epoch:
-    """How the training stands after an epoch."""
-
-    number: int
-    """From 1 on."""
-    loss: float
-    """Mean over its batches."""
-    accuracy: float
-    """How often the fastest strategy has the highest score, in the validation labels."""
-    network: StrategyNetwork
-    """The best so far."""
-    best: int
-    """The epoch it is of."""
+DECAY = 1e-4
+"""Of the weights, each step, over the learning rate."""
 
 
 def train(
@@ -64,7 +56,7 @@ def train(
     about: Mapping[str, Any],
     checkpoint: Path | None = None,
     resume: bool = False,
-) -> Iterator[Epoch]:
+) -> Iterator[Epoch[StrategyNetwork]]:
     """Train a network; yields after every epoch, the last is the end.
 
     Args:
@@ -78,109 +70,62 @@ def train(
     import torch
     from torch.nn import functional
 
-    torch.set_num_threads(options.threads)
-    torch.manual_seed(options.seed)
-    device = device_of(options.device)
+    device = begin(options)
 
     # What is learnt from, and what is kept to stop by.
-    outside = ~np.logical_or.reduce(list(held_out(labels.situations).values()))
-    rows = np.flatnonzero(outside)
-    rows = np.random.default_rng(options.seed).permutation(rows)
-    kept = max(1, round(options.validation * len(rows)))
-    if len(rows) < 2 * kept:
-        raise ValueError(f"{len(labels)} labels are too few to train and to validate with.")
-    inputs, times = features_of(labels.situations[rows]), labels.times[rows]
-    mean, deviation = inputs[kept:].mean(axis=0), inputs[kept:].std(axis=0) + np.float32(1e-6)
-    scaled = torch.from_numpy((inputs - mean) / deviation).to(device)
+    regions = held_out(labels.situations)
+    outside = np.flatnonzero(~np.logical_or.reduce(list(regions.values())))
+    rows, kept = parted = split(outside, options, of="labels outside the regions held out")
+    inputs, mean, deviation = scaled(features_of(labels.situations[rows]), kept)
+    told = torch.from_numpy(inputs).to(device)
+    times = labels.times[rows]
     targets = {
         name: torch.from_numpy(value.astype(np.float32)).to(device)
         for name, value in _targets(times, options.temperature).items()
     }
-    fastest = times <= times.min(axis=1, keepdims=True) * (1.0 + NEAR)
+    fastest = times[:kept] <= times[:kept].min(axis=1, keepdims=True) * (1.0 + NEAR)
 
-    # The model and where it stands.
     model = torch_model(options.shape).to(device)
-    optimiser = torch.optim.AdamW(model.parameters(), lr=options.learning_rate, weight_decay=1e-4)
-    digest = _digest(labels, options)
-    done, best, best_accuracy = 0, 0, -1.0
-    best_state = {name: value.clone() for name, value in model.state_dict().items()}
-    if resume:
-        done, best, best_accuracy = load_checkpoint(
-            checkpoint, digest, model, optimiser, best_state
+
+    def loss(chosen: "torch.Tensor") -> "torch.Tensor":
+        """What the strategies chosen, existence and time are off, of some rows."""
+        score, exists, time = model(told[chosen]).split(SIZE, dim=1)
+        target = {name: value[chosen] for name, value in targets.items()}
+        summed: torch.Tensor = (
+            functional.cross_entropy(score, target["soft"])
+            + options.regret * (score.softmax(dim=1) * target["regret"]).sum(dim=1).mean()
+            + options.existence
+            * functional.binary_cross_entropy_with_logits(exists, target["exists"])
+            + options.time
+            * (functional.smooth_l1_loss(time, target["time"], reduction="none")
+               * target["exists"]).mean()
+        )  # fmt: skip
+        return summed
+
+    def shares() -> np.ndarray:
+        """Of the strategies, in the rows kept."""
+        found: np.ndarray = in_chunks(model, told[:kept])[:, :SIZE].softmax(dim=1).numpy()
+        return found
+
+    def accuracy() -> float:
+        """How often the fastest strategy has the highest score."""
+        return float(fastest[np.arange(kept), shares().argmax(axis=1)].mean())
+
+    def network(origin: Mapping[str, Any]) -> StrategyNetwork:
+        """What the weights become, with its set calibrated."""
+        return StrategyNetwork(
+            layers=layers_of(arrays_of(model), mean, deviation),
+            box=box,
+            least_share=_calibrated(shares(), fastest, options.coverage) / options.margin,
+            most=SIZE,
+            about={**about, **origin, "labels": len(labels), "held_out": sorted(regions)},
         )
 
-    batches = -(-(len(rows) - kept) // options.batch)
-    for epoch in range(done, options.epochs):
-        shuffle = torch.Generator().manual_seed(options.seed * 1_000_003 + epoch)
-        order = torch.randperm(len(rows) - kept, generator=shuffle).to(device) + kept
-        total = 0.0
-        model.train()
-        for number in range(batches):
-            share = (epoch * batches + number + 1) / (options.epochs * batches)
-            for group in optimiser.param_groups:
-                group["lr"] = options.learning_rate * pace(share)
-            chosen = order[number * options.batch : (number + 1) * options.batch]
-            score, exists, time = model(scaled[chosen]).split(SIZE, dim=1)
-            target = {name: value[chosen] for name, value in targets.items()}
-            loss = (
-                functional.cross_entropy(score, target["soft"])
-                + options.regret * (score.softmax(dim=1) * target["regret"]).sum(dim=1).mean()
-                + options.existence
-                * functional.binary_cross_entropy_with_logits(exists, target["exists"])
-                + options.time
-                * (functional.smooth_l1_loss(time, target["time"], reduction="none")
-                   * target["exists"]).mean()
-            )  # fmt: skip
-            optimiser.zero_grad(set_to_none=True)
-            loss.backward()
-            torch.nn.utils.clip_grad_norm_(model.parameters(), 1.0)
-            optimiser.step()
-            total += float(loss.detach())
-
-        # How good it is on what it has not seen.
-        share_of = _shares(model, scaled[:kept])
-        right = fastest[np.arange(kept), share_of.argmax(axis=1)]
-        accuracy = float(right.mean())
-        if accuracy > best_accuracy:
-            best, best_accuracy = epoch + 1, accuracy
-            best_state = {name: value.clone() for name, value in model.state_dict().items()}
-        if checkpoint is not None:
-            save_checkpoint(
-                checkpoint, digest, model, optimiser, best_state, epoch + 1, best, best_accuracy
-            )
-        current = model.state_dict()
-        model.load_state_dict(best_state)
-        shares = _shares(model, scaled[:kept])
-        model.load_state_dict(current)
-        yield Epoch(
-            number=epoch + 1,
-            loss=total / batches,
-            accuracy=accuracy,
-            best=best,
-            network=StrategyNetwork(
-                layers=layers_of(
-                    {name: value.cpu().numpy() for name, value in best_state.items()},
-                    mean, deviation,
-                ),
-                box=box,
-                least_share=_calibrated(shares, fastest[:kept], options.coverage) / options.margin,
-                most=SIZE,
-                about={
-                    **about,
-                    "made": datetime.now(UTC).isoformat(timespec="seconds"),
-                    "torch": torch.__version__,
-                    "device": str(device),
-                    "labels": len(labels),
-                    "trained_on": len(rows) - kept,
-                    "held_out": sorted(held_out(labels.situations)),
-                    "options": asdict(options),
-                    "epochs": best,
-                    "validation_accuracy": best_accuracy,
-                },
-            ),
-        )  # fmt: skip
-        if epoch + 1 - best >= options.patience:
-            return
+    yield from fit(
+        model, options, rows=parted, loss=loss, accuracy=accuracy, network=network, decay=DECAY,
+        from_best=True, digest=digest_of(options, labels.situations, labels.times),
+        checkpoint=checkpoint, resume=resume,
+    )  # fmt: skip
 
 
 def _targets(times: np.ndarray, temperature: float) -> dict[str, np.ndarray]:
@@ -197,17 +142,6 @@ def _targets(times: np.ndarray, temperature: float) -> dict[str, np.ndarray]:
     }
 
 
-def _shares(model: "torch.nn.Module", inputs: "torch.Tensor") -> np.ndarray:
-    """Shares of the strategies, in chunks."""
-    import torch
-
-    model.eval()
-    with torch.no_grad():
-        parts = [model(part)[:, :SIZE].softmax(dim=1).cpu() for part in torch.split(inputs, 8192)]
-    shares: np.ndarray = torch.cat(parts).numpy()
-    return shares
-
-
 def _calibrated(shares: np.ndarray, fastest: np.ndarray, coverage: float) -> float:
     """The share that the fastest strategy reaches this often (split conformal prediction)."""
     reached = np.sort(np.where(fastest, shares, 0.0).max(axis=1))
@@ -215,15 +149,7 @@ def _calibrated(shares: np.ndarray, fastest: np.ndarray, coverage: float) -> flo
     return float(reached[max(missed - 1, 0)])
 
 
-def _digest(labels: Labels, options: TrainingOptions) -> str:
-    """Changes with whatever the result depends on."""
-    digest = sha256(json.dumps(asdict(options), sort_keys=True).encode())
-    for column in (labels.situations, labels.times):
-        digest.update(np.ascontiguousarray(column).data)
-    return digest.hexdigest()
-
-
-def run(chosen: argparse.Namespace, program: str) -> Iterator[Epoch]:
+def run(chosen: argparse.Namespace, program: str) -> Iterator[Epoch[StrategyNetwork]]:
     """Do the training that was asked for; the weights are written at each better epoch.
 
     Args:
@@ -231,10 +157,8 @@ def run(chosen: argparse.Namespace, program: str) -> Iterator[Epoch]:
         program: what trains, for the weights' provenance.
     """
     labels, made = load_labels(chosen.labels)
-    chosen.weights.parent.stat()  # nothing is trained that could not be written
-    part = chosen.weights.with_name(f"{chosen.weights.name}.part")
-    expect_part(part, resume=chosen.resume)
-    for epoch in train(
+    part = part_of(chosen)
+    epochs = train(
         labels,
         options_of(chosen),
         box=Box(**made["request"]["box"]),
@@ -245,29 +169,9 @@ def run(chosen: argparse.Namespace, program: str) -> Iterator[Epoch]:
         },
         checkpoint=part,
         resume=chosen.resume,
-    ):
-        if epoch.best == epoch.number:
-            save_network(epoch.network, chosen.weights)
-        yield epoch
-    part.unlink(missing_ok=True)
-
-
-def told(epoch: Epoch) -> str:
-    """An epoch in a few words."""
-    return f"loss {epoch.loss:.4f}, accuracy {100.0 * epoch.accuracy:.3f} %"
-
-
-def main() -> None:
-    """Train, a line an epoch."""
-    parser = argparse.ArgumentParser(prog="python -m relguide.learn.train")
-    add_options(parser)
-    chosen = parser.parse_args()
-    try:
-        for epoch in run(chosen, parser.prog):
-            sys.stderr.write(f"epoch {epoch.number} of {chosen.epochs}: {told(epoch)}\n")
-    except (OSError, ValueError) as error:
-        raise SystemExit(f"{error}") from None
+    )
+    yield from written(epochs, save_network, chosen.weights, part)
 
 
 if __name__ == "__main__":
-    main()
+    script("relguide.learn.train", run)

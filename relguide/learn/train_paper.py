@@ -4,15 +4,14 @@ The same tree, options and number of threads give the same weights on the same C
 """
 
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass
-from datetime import UTC, datetime
+from dataclasses import dataclass
 from math import pi
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from relguide.kernels.extremals import MAX_ROWS, SIGNS, solve
-from relguide.learn.checkpoint import device_of
+from relguide.learn.fitting import Scaled, arrays_of, begin, origin_of, scaled, split
 from relguide.learn.options import TrainingOptions
 from relguide.learn.paper import INPUTS, Method, RegularNetwork, Singles, inputs_of
 from relguide.learn.tree import Floats, Tree, TreeParameters, pairs_of
@@ -45,15 +44,10 @@ def train_regular(
     """
     import torch
 
-    torch.set_num_threads(options.threads)
-    torch.manual_seed(options.seed)
-    device = device_of(options.device)
+    device = begin(options)
 
     # What is learnt from, and what is kept to judge by.
-    nodes = np.random.default_rng(options.seed).permutation(tree.minima)
-    kept = max(1, round(options.validation * len(nodes)))
-    if len(nodes) < 2 * kept:
-        raise ValueError(f"A tree of {len(nodes)} states is too small to train with.")
+    nodes, kept = split(tree.minima, options, of="states of the tree")
     radius = tree.parameters.encounter.turn_radius
     place = tree.x[nodes] / radius, tree.y[nodes] / radius, tree.heading[nodes]
     inputs = inputs_of(*place)
@@ -63,14 +57,8 @@ def train_regular(
     else:
         pairs = exact_pairs(*place, tree.parameters)
     targets = pairs.reshape(len(nodes), -1).astype(np.float32)
-    scales = [
-        (part[kept:].mean(axis=0), part[kept:].std(axis=0) + np.float32(1e-6))
-        for part in (inputs, targets)
-    ]
-    told, wanted = (
-        torch.from_numpy((part - mean) / deviation).to(device)
-        for part, (mean, deviation) in zip((inputs, targets), scales, strict=True)
-    )
+    given, asked = scaled(inputs, kept), scaled(targets, kept)
+    told, wanted = (torch.from_numpy(part.values).to(device) for part in (given, asked))
 
     model = _model(options, targets.shape[1]).to(device)
     optimiser = torch.optim.AdamW(model.parameters(), lr=options.learning_rate, weight_decay=1e-4)
@@ -88,7 +76,7 @@ def train_regular(
             pace.step()
         with torch.no_grad():
             missed = float((model(told[:kept]) - wanted[:kept]).square().mean())
-        weights, biases = _layers(model, *scales[0], *scales[1])
+        weights, biases = _layers(arrays_of(model), given, asked)
         yield Epoch(
             number=epoch + 1,
             loss=missed,
@@ -99,11 +87,8 @@ def train_regular(
                 biases=biases,
                 about={
                     **about,
-                    "made": datetime.now(UTC).isoformat(timespec="seconds"),
-                    "torch": torch.__version__,
-                    "device": str(device),
+                    **origin_of(options),
                     "trained_on": len(nodes) - kept,
-                    "options": asdict(options),
                     "validation_loss": missed,
                 },
             ),
@@ -139,15 +124,15 @@ def _model(options: TrainingOptions, outputs: int) -> "torch.nn.Sequential":
 
 
 def _layers(
-    model: "torch.nn.Module", mean: Singles, deviation: Singles, shift: Singles, stretch: Singles
+    state: Mapping[str, Singles], given: Scaled, asked: Scaled
 ) -> tuple[tuple[Singles, ...], tuple[Singles, ...]]:
     """Weights with the scales of inputs and outputs worked in."""
-    state = {name: value.cpu().numpy() for name, value in model.state_dict().items()}
     weights = [value.T.astype(float) for name, value in state.items() if name.endswith("weight")]
     biases = [value.astype(float) for name, value in state.items() if name.endswith("bias")]
-    weights[0] = weights[0] / deviation[:, None]
-    biases[0] = biases[0] - mean @ weights[0]
-    weights[-1], biases[-1] = weights[-1] * stretch, biases[-1] * stretch + shift
+    weights[0] = weights[0] / given.deviation[:, None]
+    biases[0] = biases[0] - given.mean @ weights[0]
+    weights[-1] = weights[-1] * asked.deviation
+    biases[-1] = biases[-1] * asked.deviation + asked.mean
     single = np.float32
     return tuple(np.ascontiguousarray(w, single) for w in weights), tuple(
         b.astype(single) for b in biases

@@ -9,18 +9,20 @@ from typing import Any
 import numpy as np
 import pytest
 
-from relguide.learn import train as training
 from relguide.learn.checkpoint import device_of
+from relguide.learn.fitting import Epoch, script
 from relguide.learn.labels import Box, save_labels
 from relguide.learn.network import StrategyNetwork, load_network
 from relguide.learn.options import TrainingOptions, command_of, options_of
-from relguide.learn.train import Epoch, run, train
+from relguide.learn.train import run, train
 from tests.relguide.learn.networks import OPTIONS, REQUEST, chosen, labels
 
 SHORT = replace(OPTIONS, epochs=3)
 
 
-def epochs(options: TrainingOptions, checkpoint: Path, *, resume: bool = False) -> list[Epoch]:
+def epochs(
+    options: TrainingOptions, checkpoint: Path, *, resume: bool = False
+) -> list[Epoch[StrategyNetwork]]:
     return list(train(labels(), options, box=Box(), about={}, checkpoint=checkpoint, resume=resume))
 
 
@@ -63,7 +65,7 @@ def test_the_script_writes_weights_with_their_origin(
     save_labels(labels(), REQUEST, {"command": "relguide dataset"}, Path("labels.npz"))
     arguments = ["labels.npz", "w.safetensors", "--width", "8", "--epochs", "2", "--threads", "1"]
     monkeypatch.setattr(sys, "argv", ["train", *arguments])
-    training.main()
+    script("relguide.learn.train", run)
     assert "epoch 2 of 2: loss " in capsys.readouterr().err
     about = load_network(Path("w.safetensors")).about
     assert about["command"] == (
@@ -74,10 +76,10 @@ def test_the_script_writes_weights_with_their_origin(
     assert sorted(path.name for path in Path().iterdir()) == ["labels.npz", "w.safetensors"]
     next(run(chosen(*arguments), "test"))
     with pytest.raises(SystemExit, match=r"left from a run that was stopped: --resume goes on"):
-        training.main()
+        script("relguide.learn.train", run)
     monkeypatch.setattr(sys, "argv", ["train", "labels.npz", "none/w.safetensors"])
     with pytest.raises(SystemExit, match="No such file or directory"):
-        training.main()
+        script("relguide.learn.train", run)
 
 
 @pytest.mark.parametrize(

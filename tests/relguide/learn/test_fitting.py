@@ -1,0 +1,53 @@
+"""The loop of the trainings: what it keeps to judge by, and what it hands out stays as it was."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from relguide.learn.fitting import scaled, split
+from relguide.learn.labels import Box
+from relguide.learn.network import StrategyNetwork
+from relguide.learn.options import TrainingOptions
+from relguide.learn.train import train
+from tests.relguide.learn.networks import OPTIONS, labels
+
+
+def weights_of(network: StrategyNetwork) -> bytes:
+    return b"".join(array.tobytes() for array in network.layers)
+
+
+def test_a_share_is_kept_and_the_rest_is_scaled() -> None:
+    options = TrainingOptions(validation=0.25)
+    numbers = np.arange(100, 140)
+    rows, kept = parted = split(numbers, options, of="rows")
+    assert (kept, parted.taught) == (10, 30)
+    assert sorted(rows.tolist()) == numbers.tolist()
+    assert rows.tolist() != numbers.tolist()
+    assert np.array_equal(rows, split(numbers, options, of="rows").rows)
+    assert not np.array_equal(rows, split(numbers, replace(options, seed=1), of="rows").rows)
+    columns = np.stack([rows, np.full(40, 3.0)], axis=1).astype(np.float32)
+    values, mean, deviation = scaled(columns, kept)
+    assert np.abs(values[kept:].mean(axis=0)).max() < 1e-5
+    assert abs(values[kept:, 0].std() - 1.0) < 1e-5
+    assert np.isfinite(values).all()  # a column that is always the same has no deviation
+    assert np.allclose(values * deviation + mean, columns, atol=1e-4)
+
+
+def test_too_few_rows_are_refused() -> None:
+    with pytest.raises(ValueError, match=r"^1 states are too few to train and to validate with\.$"):
+        split(np.arange(1), OPTIONS, of="states")
+
+
+def test_what_was_handed_out_stays_as_it_was() -> None:
+    """The training goes on with weights of its own, and tells of the best it has had."""
+    options = replace(OPTIONS, epochs=6)
+    handed = [
+        (epoch, weights_of(epoch.network))
+        for epoch in train(labels(), options, box=Box(), about={})
+    ]
+    assert any(epoch.best < epoch.number for epoch, _ in handed)
+    for epoch, then in handed:
+        assert weights_of(epoch.network) == then == handed[epoch.best - 1][1]
+        assert epoch.network.about["epochs"] == epoch.best
+        assert epoch.network.about["validation_accuracy"] == handed[epoch.best - 1][0].accuracy
