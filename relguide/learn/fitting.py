@@ -143,6 +143,8 @@ def fit(
         done, best, best_accuracy = load_checkpoint(
             checkpoint, digest, model, optimiser, best_state
         )
+        if from_best:
+            model.load_state_dict(best_state)
     device = device_of(options.device)
     batches = -(-rows.taught // options.batch)
     for epoch in range(done, options.epochs):

@@ -1,6 +1,8 @@
 """The loop of the trainings: what it keeps to judge by, and what it hands out stays as it was."""
 
 from dataclasses import replace
+from itertools import islice
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -51,3 +53,14 @@ def test_what_was_handed_out_stays_as_it_was() -> None:
         assert weights_of(epoch.network) == then == handed[epoch.best - 1][1]
         assert epoch.network.about["epochs"] == epoch.best
         assert epoch.network.about["validation_accuracy"] == handed[epoch.best - 1][0].accuracy
+
+
+def test_it_goes_on_from_an_epoch_that_was_not_better(tmp_path: Path) -> None:
+    """Such a training begins its next epoch at its best weights, and so it must when resumed."""
+    options, part = replace(OPTIONS, epochs=6), tmp_path / "part"
+    whole = list(train(labels(), options, box=Box(), about={}))
+    assert whole[3].best < whole[3].number
+    list(islice(train(labels(), options, box=Box(), about={}, checkpoint=part), 4))
+    rest = list(train(labels(), options, box=Box(), about={}, checkpoint=part, resume=True))
+    assert [epoch.loss for epoch in rest] == [epoch.loss for epoch in whole[4:]]
+    assert [epoch.accuracy for epoch in rest] == [epoch.accuracy for epoch in whole[4:]]
