@@ -218,7 +218,7 @@ def in_chunks(model: "torch.nn.Module", inputs: "torch.Tensor") -> "torch.Tensor
 
 
 def digest_of(options: TrainingOptions, *columns: NDArray[Any]) -> str:
-    """Changes with whatever the result depends on."""
+    """Changes with whatever the result of the same program depends on."""
     digest = sha256(json.dumps(asdict(options), sort_keys=True).encode())
     for column in columns:
         digest.update(np.ascontiguousarray(column).data)

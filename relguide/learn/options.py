@@ -29,30 +29,17 @@ class NetworkShape:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TrainingOptions:
-    """How a network is trained."""
+    """How a network is trained, whatever it learns."""
 
     shape: NetworkShape = field(default_factory=NetworkShape)
     epochs: int = 40
     """At most; the learning rate falls to nothing over them."""
     batch: int = 4096
     learning_rate: float = 4e-3
-    temperature: float = 0.01
-    """Of the soft targets [R/V_P]: half a second for an airliner."""
-    regret: float = 1.0
-    """Weight of the regret; that of the cross-entropy is 1."""
-    existence: float = 0.05
-    time: float = 0.1
     patience: int = 15
     """Epochs without a better validation before it is given up."""
     validation: float = 0.05
-    """Share of the labels that are kept to stop by, and to calibrate the set."""
-    coverage: float = 0.9999
-    """How often the set shall hold the fastest strategy, at the share it is calibrated to."""
-    margin: float = 100.0
-    """The set takes in what has a share this many times smaller: a word more is solved in 1 µs."""
-    most: int = 4
-    """Largest set of ways; above it the exact planner is asked. No set of strategies is too large:
-    all eight are the exact answer."""
+    """Share of the labels that are kept to stop by, and to calibrate by."""
     seed: int = 0
     threads: int = 2
     device: str = "auto"
@@ -60,17 +47,13 @@ class TrainingOptions:
 
     def __post_init__(self) -> None:
         """Refuse what cannot be done."""
-        for name in ("epochs", "batch", "patience", "most", "threads"):
+        for name in ("epochs", "batch", "patience", "threads"):
             if getattr(self, name) < 1:
                 raise ValueError(f"{name} must be 1 or more, not {getattr(self, name)}.")
-        for name in ("learning_rate", "temperature"):
-            if not (isfinite(getattr(self, name)) and getattr(self, name) > 0.0):
-                raise ValueError(f"{name} must be above 0, not {getattr(self, name)}.")
-        if not (isfinite(self.margin) and self.margin >= 1.0):
-            raise ValueError(f"margin must be 1 or more, not {self.margin}.")
-        for name in ("validation", "coverage"):
-            if not 0.0 < getattr(self, name) < 1.0:
-                raise ValueError(f"{name} must lie between 0 and 1, not {getattr(self, name)}.")
+        if not (isfinite(self.learning_rate) and self.learning_rate > 0.0):
+            raise ValueError(f"learning_rate must be above 0, not {self.learning_rate}.")
+        if not 0.0 < self.validation < 1.0:
+            raise ValueError(f"validation must lie between 0 and 1, not {self.validation}.")
 
 
 NUMBERS = (

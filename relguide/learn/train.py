@@ -2,7 +2,7 @@
 
     python -m relguide.learn.train labels.npz weights.safetensors
 
-The loss has four parts: cross-entropy toward softmax(−(τ_s − τ*)/temperature), so that near a
+The loss has four parts: cross-entropy toward softmax(−(τ_s − τ*)/TEMPERATURE), so that near a
 switching surface both answers are right; regret, the time lost on average if a strategy were drawn
 by its share, where one that does not exist loses all of it; existence; and the time of those that
 exist. The same labels, options and number of threads give the same weights on the same CPU.
@@ -42,6 +42,14 @@ from relguide.learn.options import TrainingOptions, command_of, options_of
 if TYPE_CHECKING:
     import torch
 
+TEMPERATURE = 0.01
+"""Of the soft targets [R/V_P]: half a second for an airliner."""
+REGRET, EXISTENCE, TIME = 1.0, 0.05, 0.1
+"""Weights of these parts of the loss; that of the cross-entropy is 1."""
+COVERAGE = 0.9999
+"""How often the set shall hold the fastest strategy, at the share it is calibrated to."""
+MARGIN = 100.0
+"""The set takes in what has a share this many times smaller: a word more is solved in 1 µs."""
 NEAR = 1e-6
 """A strategy this close to the fastest is as fast, relative."""
 DECAY = 1e-4
@@ -81,7 +89,7 @@ def train(
     times = labels.times[rows]
     targets = {
         name: torch.from_numpy(value.astype(np.float32)).to(device)
-        for name, value in _targets(times, options.temperature).items()
+        for name, value in _targets(times).items()
     }
     fastest = times[:kept] <= times[:kept].min(axis=1, keepdims=True) * (1.0 + NEAR)
 
@@ -93,10 +101,9 @@ def train(
         target = {name: value[chosen] for name, value in targets.items()}
         summed: torch.Tensor = (
             functional.cross_entropy(score, target["soft"])
-            + options.regret * (score.softmax(dim=1) * target["regret"]).sum(dim=1).mean()
-            + options.existence
-            * functional.binary_cross_entropy_with_logits(exists, target["exists"])
-            + options.time
+            + REGRET * (score.softmax(dim=1) * target["regret"]).sum(dim=1).mean()
+            + EXISTENCE * functional.binary_cross_entropy_with_logits(exists, target["exists"])
+            + TIME
             * (functional.smooth_l1_loss(time, target["time"], reduction="none")
                * target["exists"]).mean()
         )  # fmt: skip
@@ -116,7 +123,7 @@ def train(
         return StrategyNetwork(
             layers=layers_of(arrays_of(model), mean, deviation),
             box=box,
-            least_share=_calibrated(shares(), fastest, options.coverage) / options.margin,
+            least_share=_calibrated(shares(), fastest) / MARGIN,
             most=SIZE,
             about={**about, **origin, "labels": len(labels), "held_out": sorted(regions)},
         )
@@ -128,12 +135,12 @@ def train(
     )  # fmt: skip
 
 
-def _targets(times: np.ndarray, temperature: float) -> dict[str, np.ndarray]:
+def _targets(times: np.ndarray) -> dict[str, np.ndarray]:
     """What each part of the loss asks for; a strategy that does not exist loses all."""
     least = times.min(axis=1, keepdims=True)
     exists = np.isfinite(times)
     late = np.where(exists, times, 0.0) - least
-    soft = np.where(exists, np.exp(-np.maximum(late, 0.0) / temperature), 0.0)
+    soft = np.where(exists, np.exp(-np.maximum(late, 0.0) / TEMPERATURE), 0.0)
     return {
         "soft": soft / soft.sum(axis=1, keepdims=True),
         "regret": np.where(exists, np.minimum(late / np.maximum(least, 1e-3), 1.0), 1.0),
@@ -142,10 +149,10 @@ def _targets(times: np.ndarray, temperature: float) -> dict[str, np.ndarray]:
     }
 
 
-def _calibrated(shares: np.ndarray, fastest: np.ndarray, coverage: float) -> float:
+def _calibrated(shares: np.ndarray, fastest: np.ndarray) -> float:
     """The share that the fastest strategy reaches this often (split conformal prediction)."""
     reached = np.sort(np.where(fastest, shares, 0.0).max(axis=1))
-    missed = int((1.0 - coverage) * (len(reached) + 1))
+    missed = int((1.0 - COVERAGE) * (len(reached) + 1))
     return float(reached[max(missed - 1, 0)])
 
 

@@ -38,7 +38,7 @@ def train_regular(
 
     Args:
         tree: gives the states, one a cell.
-        options: how; those of the loss of strategies play no part.
+        options: how; it ends with its last epoch, whatever the patience.
         method: what is taught.
         about: what shall be told of the weights' origin.
     """

@@ -87,7 +87,7 @@ def test_the_script_writes_weights_with_their_origin(
     [
         ({"epochs": 0}, "epochs must be 1 or more"),
         ({"learning_rate": float("inf")}, "learning_rate must be above 0"),
-        ({"coverage": 1.0}, "coverage must lie between 0 and 1"),
+        ({"validation": 1.0}, "validation must lie between 0 and 1"),
     ],
 )
 def test_options_that_cannot_be_are_refused(wrong: dict[str, Any], sentence: str) -> None:
