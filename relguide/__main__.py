@@ -12,6 +12,7 @@ from textwrap import dedent
 
 from relguide import __version__
 from relguide.learn_commands import add_learning
+from relguide.output import say
 
 DONE, FAILED, MISUSE, STOPPED = 0, 1, 2, 130
 """Exit codes: done; no plan or a failed check; misuse; stopped by Ctrl-C, as shells number it."""
@@ -50,7 +51,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _refuse(sentence: str) -> int:
-    sys.stderr.write(f"relguide: {sentence}\n")
+    say(sentence)
     return MISUSE
 
 

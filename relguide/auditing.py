@@ -1,12 +1,9 @@
 """What `relguide audit` does: bars, tables and figures around `learn/audit` and `side_by_side`."""
 
-import sys
 from collections.abc import Sequence
 from math import hypot, inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
-
-import orjson
 
 from relguide.learn.area_figure import check_figure
 from relguide.learn.audit import Audit, Group, Miss, audit_as_json, audit_of
@@ -25,6 +22,7 @@ from relguide.learn.side_by_side import (
     two,
 )
 from relguide.learn.tree import Tree, TreeParameters
+from relguide.output import write, write_json
 from relguide.progress import progress_bar, watched
 from relguide.training import collected, workers
 from relguide.units import DEG
@@ -91,10 +89,10 @@ def audit_network(
                 "left_out_the_limit_binds": ground.binding,
                 "methods": {method.name: method_as_json(method) for method in methods},
             }
-        _print_json(found)
+        write_json(found)
         return
     _print_audit(audit)
-    _write(
+    write(
         "One query, median and 99th percentile of CPU time: "
         + ", ".join(f"{name} {low:.1f} / {high:.1f} µs" for name, (low, high) in asked.items())
         + ".\n"
@@ -164,7 +162,7 @@ def _print_gaps(audit: Audit) -> None:
     looked_at = (
         f" of the {len(audit.misses):,} largest" if len(audit.misses) < audit.worth.hits else ""
     )
-    _write(
+    write(
         f"Slower than the fastest by more than 0.01 %: {audit.worth.hits:,} of "
         f"{audit.worth.of:,} answers. Unexplained{looked_at}: {audit.unexplained:,}.\n"
     )
@@ -185,7 +183,7 @@ def _print_gaps(audit: Audit) -> None:
     for miss in audit.misses[:LARGEST]:
         table.add_row(*_gap_row(miss))
     _print(table)
-    _write(
+    write(
         "A gap is explained where the fastest strategy is born, or another becomes the fastest, "
         "within\n0.02 R or rad of place and heading.\n"
     )
@@ -207,7 +205,7 @@ def _gap_row(miss: Miss) -> tuple[str, ...]:
 
 def _print_methods(ground: Ground, methods: Sequence[Method]) -> None:
     encounter = ground.parameters.encounter
-    _write(
+    write(
         f"\nSide by side: {len(ground):,} situations within "
         f"{ground.parameters.horizon / 60.0:g} min of the slot, V_P {encounter.pursuer_tas:g} m/s "
         f"at {encounter.max_bank / DEG:g}° of bank,\nV_L {encounter.leader_tas:g} m/s, D "
@@ -280,12 +278,3 @@ def _with_interval(share: Share) -> str:
 
 def _percent(share: Share, digits: int = 2) -> str:
     return f"{100.0 * share.value:.{digits}f}" if share.of else "–"
-
-
-def _print_json(content: dict[str, Any]) -> None:
-    _write(orjson.dumps(content, option=orjson.OPT_INDENT_2).decode() + "\n")
-
-
-def _write(text: str) -> None:
-    sys.stdout.write(text)
-    sys.stdout.flush()

@@ -10,7 +10,7 @@ from importlib import import_module
 from itertools import islice
 from pathlib import Path
 from time import perf_counter
-from typing import IO, TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING
 
 import orjson
 
@@ -21,6 +21,7 @@ from relguide.contract.refusal import parse
 from relguide.contract.story import failures, figures, told
 from relguide.contract.wire import to_wire
 from relguide.flying.cards import no_plan_card, plan_card
+from relguide.output import say, write, write_json
 from relguide.planning.plan import NoPlan, Plan, Planner, plan
 from relguide.planning.situation import Situation
 from relguide.progress import watched
@@ -68,7 +69,7 @@ def plan_one(
         return isinstance(planned, Plan)
     reply = answer(situation, anchor, planner, optimality=optimality)
     name = {"id": body.id} if "id" in body.model_fields_set else {}
-    _print_json(name | reply)
+    write_json(name | reply)
     return bool(reply["status"] == "planned")
 
 
@@ -103,7 +104,7 @@ def plan_batch(file: str, *, planner_name: str, optimality: bool, prove_for: flo
             sys.stdout.write(orjson.dumps(reply).decode() + "\n")
     if invalid:
         noun = "line is" if len(invalid) == 1 else "lines are"
-        _say(f"{len(invalid)} {noun} no valid situation, the first is line {invalid[0]}.")
+        say(f"{len(invalid)} {noun} no valid situation, the first is line {invalid[0]}.")
     return len(invalid)
 
 
@@ -131,7 +132,7 @@ def check_one(file: str, triplets: str, *, table: bool, figure: str) -> bool:
     else:
         match planned := plan(situation):
             case NoPlan():
-                _say(planned.message)
+                say(planned.message)
                 return False
             case Plan():
                 radius = situation.pursuer.turn_radius
@@ -154,7 +155,7 @@ def check_one(file: str, triplets: str, *, table: bool, figure: str) -> bool:
 
         print_regular(found, min_separation=situation.min_separation)
     else:
-        _print_json(to_wire(found))
+        write_json(to_wire(found))
     return found.passed
 
 
@@ -197,14 +198,14 @@ def fly_one(
         raise ValueError(flight.broken)
     result = figures(flight.ended[0]) | {"wall_s": perf_counter() - started}
     if as_json:
-        _print_json(result)
+        write_json(result)
     else:
         from relguide.tables import print_flight
 
         print_flight(flight, result)
     failed = failures(flight)
     for sentence in failed:
-        _say(sentence)
+        say(sentence)
     return not failed
 
 
@@ -224,13 +225,13 @@ def replay_one(file: str, *, as_json: bool) -> bool:
             "documents": flight.documents,
             "complete": whole,
         }
-        _print_json(about | result)
+        write_json(about | result)
     else:
         from relguide.tables import print_flight
 
         print_flight(flight, result)
     if not whole:
-        _say(flight.broken or f"{file} ends before its flight does; it may still be written.")
+        say(flight.broken or f"{file} ends before its flight does; it may still be written.")
     return whole
 
 
@@ -251,7 +252,7 @@ def serve(*, host: str, port: int) -> None:
     uvicorn, settings = import_module("uvicorn"), import_module("server.settings")
     app = import_module("server.app").app
     shown = f"[{host}]" if ":" in host else host
-    _write(f"relguide is on http://{shown}:{port} (Ctrl-C stops it)\n")
+    write(f"relguide is on http://{shown}:{port} (Ctrl-C stops it)\n")
     uvicorn.run(app, **settings.uvicorn_options(host=host, port=port))
 
 
@@ -318,16 +319,3 @@ def _opened(file: str) -> Iterator[IO[bytes]]:
     else:
         with Path(file).open("rb") as stream:
             yield stream
-
-
-def _print_json(content: dict[str, Any]) -> None:
-    _write(orjson.dumps(content, option=orjson.OPT_INDENT_2).decode() + "\n")
-
-
-def _write(text: str) -> None:
-    sys.stdout.write(text)
-    sys.stdout.flush()
-
-
-def _say(sentence: str) -> None:
-    sys.stderr.write(f"relguide: {sentence}\n")

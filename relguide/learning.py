@@ -1,17 +1,13 @@
 """What `relguide dataset` and `area` do: files, bars and figures around `learn/`."""
 
-import sys
 from collections.abc import Sequence
 from dataclasses import replace
-from datetime import UTC, datetime
 from math import inf, pi
 from pathlib import Path
 from time import perf_counter
 
 import numpy as np
-import orjson
 
-from relguide import __version__
 from relguide.area import Floats, exact_times, middles
 from relguide.learn.area_figure import Column, check_figure, draw_areas
 from relguide.learn.files import expect_part
@@ -27,6 +23,7 @@ from relguide.learn.tree import (
     tree_area,
 )
 from relguide.learn.tree_file import load_growth, load_tree, save_growth, save_tree
+from relguide.output import provenance, write, write_json
 from relguide.progress import progress_bar, watched
 from relguide.units import DEG, Radian
 
@@ -65,13 +62,7 @@ def make_tree(
     laid_before, started = growth.laid, perf_counter()
     growth = _grown(growth, threads, part)
     seconds, laid = perf_counter() - started, growth.laid - laid_before
-    provenance = {
-        "program": f"relguide {__version__}",
-        "method": "reverse-dp",
-        "made": datetime.now(UTC).isoformat(timespec="seconds"),
-        "numpy": np.__version__,
-    }
-    tree = tree_from(growth, provenance)
+    tree = tree_from(growth, provenance("reverse-dp"))
     save_tree(tree, file)
     part.unlink()
     found = _audited(tree, audit, threads)
@@ -97,16 +88,16 @@ def make_tree(
             "missed_by_exact": int(np.sum(found.exact == inf)),
         }
     if as_json:
-        _write(orjson.dumps(figures, option=orjson.OPT_INDENT_2).decode() + "\n")
+        write_json(figures)
         return
-    _write(
+    write(
         f"{file}: the best ways from {len(tree.minima):,} cells, of {tree.laid:,} trajectories "
         f"of order {parameters.order} or less,\n"
         f"laid back in {seconds:.1f} s ({laid / seconds / 1e6:.0f} million a second); "
         f"{file.stat().st_size / 1e6:.0f} MB.\n"
     )
     if found is not None:
-        _write(_told(found))
+        write(_told(found))
 
 
 def _told(found: Losses) -> str:
@@ -181,7 +172,7 @@ def draw_area(figure: Path, headings: Sequence[Radian], of: Path | TreeParameter
         tree = tree_from(_grown(planted(of), None, None), {})
     columns = [_column(tree, number) for number in numbers]
     draw_areas(columns, tree, figure)
-    _write(f"{figure}: the convergence area on {len(columns)} headings.\n")
+    write(f"{figure}: the convergence area on {len(columns)} headings.\n")
 
 
 def _number(heading: Radian, parameters: TreeParameters) -> int:
@@ -245,8 +236,3 @@ def _planned(
     with progress_bar(title, total=len(x)) as count:
         times = exact_times(parameters.encounter, x, y, heading, threads=threads, progress=count)
     return times.time_to_converge
-
-
-def _write(text: str) -> None:
-    sys.stdout.write(text)
-    sys.stdout.flush()

@@ -1,19 +1,16 @@
 """What `relguide dataset --method limit` and `train --method ways` do: files, bars and tables."""
 
 import argparse
-import sys
-from datetime import UTC, datetime
 from pathlib import Path
 from time import perf_counter
 
 import numpy as np
-import orjson
 
-from relguide import __version__
 from relguide.kernels.ways import KINDS, NONE
 from relguide.learn.limit_label_file import grown_labels, save_limit_labels
 from relguide.learn.limit_labels import SOURCES, LimitLabels, LimitRequest, joined
 from relguide.learn.train_ways import run, taught
+from relguide.output import PROGRAM, provenance, write, write_json
 from relguide.progress import progress_bar
 from relguide.training import last_epoch, workers
 
@@ -52,14 +49,7 @@ def make_limit_label_file(
             count(1.0)
     labels = joined(chunks)
     seconds = perf_counter() - started
-    provenance = {
-        "program": f"relguide {__version__}",
-        "method": "limit",
-        "command": command,
-        "made": datetime.now(UTC).isoformat(timespec="seconds"),
-        "numpy": np.__version__,
-    }
-    save_limit_labels(labels, request, provenance, file)
+    save_limit_labels(labels, request, provenance("limit", command=command), file)
     part.unlink()
     kinds, _ = taught(labels)
     counts = np.bincount(kinds, minlength=len(KINDS)).tolist()
@@ -73,13 +63,13 @@ def make_limit_label_file(
             "made_s": seconds,
             "file_bytes": file.stat().st_size,
         }
-        _write(orjson.dumps(figures, option=orjson.OPT_INDENT_2).decode() + "\n")
+        write_json(figures)
         return
     there = len(labels) - counts[NONE]
     order = np.argsort(counts)[::-1].tolist()
     commonest = [kind for kind in order if kind != NONE][:6]
     shares = ", ".join(f"{KINDS[kind]} {100.0 * counts[kind] / there:.1f} %" for kind in commonest)
-    _write(
+    write(
         f"{file}: {len(labels):,} situations in which the limit binds, {there:,} of them with a "
         f"way, made in {seconds:.0f} s; {file.stat().st_size / 1e6:.0f} MB.\n"
         f"Fastest: {shares}; {sum(n > 0 for n in counts)} kinds in all.\n"
@@ -93,18 +83,13 @@ def train_way_network(chosen: argparse.Namespace) -> None:
         chosen: the options of `options.add_options`.
     """
     started = perf_counter()
-    last = last_epoch(chosen, run(chosen, f"relguide {__version__}"))
+    last = last_epoch(chosen, run(chosen, PROGRAM))
     if last is None:
         return
     about = last.network.about
-    _write(
+    write(
         f"{chosen.weights}: the best of {last.number} epochs is the {last.best}., with "
         f"{100.0 * about['validation_accuracy']:.2f} % of the kinds of ways right in labels not "
         f"trained on. {perf_counter() - started:.0f} s on {about['device']}, "
         f"{chosen.weights.stat().st_size / 1e3:.0f} kB.\n"
     )
-
-
-def _write(text: str) -> None:
-    sys.stdout.write(text)
-    sys.stdout.flush()

@@ -2,20 +2,16 @@
 
 import argparse
 import os
-import sys
 from collections import deque
 from collections.abc import Iterator
 from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import contextmanager
-from datetime import UTC, datetime
 from pathlib import Path
 from time import perf_counter
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import numpy as np
-import orjson
 
-from relguide import __version__
 from relguide.kernels.strategies import STRATEGIES
 from relguide.learn.fitting import Epoch, told
 from relguide.learn.labels import (
@@ -31,6 +27,7 @@ from relguide.learn.paper import save_regular
 from relguide.learn.train import run
 from relguide.learn.train_paper import train_regular
 from relguide.learn.tree_file import load_tree
+from relguide.output import PROGRAM, provenance, say, write, write_json
 from relguide.progress import progress_bar, watched
 
 T = TypeVar("T")
@@ -60,14 +57,7 @@ def make_label_file(
     with workers(threads, scheduler) as pool:
         labels = joined(collected(make_labels(request, pool), request, "labelling"))
     seconds = perf_counter() - started
-    provenance = {
-        "program": f"relguide {__version__}",
-        "method": "exact",
-        "command": command,
-        "made": datetime.now(UTC).isoformat(timespec="seconds"),
-        "numpy": np.__version__,
-    }
-    save_labels(labels, request, provenance, file)
+    save_labels(labels, request, provenance("exact", command=command), file)
     counts = np.bincount(labels.best, minlength=len(STRATEGIES)).tolist()
     figures = {
         "file": str(file),
@@ -83,13 +73,13 @@ def make_label_file(
         "file_bytes": file.stat().st_size,
     }
     if as_json:
-        _print_json(figures)
+        write_json(figures)
         return
     shares = ", ".join(
         f"{name} {100.0 * count / len(labels):.1f} %"
         for name, count in zip(STRATEGIES, counts, strict=True)
     )
-    _write(
+    write(
         f"{file}: {len(labels):,} situations with the exact time of each strategy, made in "
         f"{seconds:.1f} s; {file.stat().st_size / 1e6:.0f} MB.\nFastest: {shares}.\n"
     )
@@ -102,11 +92,11 @@ def train_network(chosen: argparse.Namespace) -> None:
         chosen: the options of `options.add_options`.
     """
     started = perf_counter()
-    last = last_epoch(chosen, run(chosen, f"relguide {__version__}"))
+    last = last_epoch(chosen, run(chosen, PROGRAM))
     if last is None:
         return
     about = last.network.about
-    _write(
+    write(
         f"{chosen.weights}: the best of {last.number} epochs is the {last.best}., with "
         f"{100.0 * about['validation_accuracy']:.3f} % of the fastest strategies right in labels "
         f"not trained on,\nmost of them rare or next to a switching surface. "
@@ -128,7 +118,7 @@ def train_regular_network(chosen: argparse.Namespace) -> None:
     chosen.weights.parent.stat()  # nothing is trained that could not be written
     started = perf_counter()
     about = {
-        "program": f"relguide {__version__}",
+        "program": PROGRAM,
         "command": f"{command_of(chosen)} --method {chosen.method}",
         "tree": dict(tree.provenance),
     }
@@ -141,7 +131,7 @@ def train_regular_network(chosen: argparse.Namespace) -> None:
     )
     last = deque(epochs, maxlen=1)[0]
     save_regular(last.network, chosen.weights)
-    _write(
+    write(
         f"{chosen.weights}: after {last.number} epochs it misses {100.0 * last.loss:.1f} % of the "
         f"variance of (ε, θ, l) in states not trained on.\n"
         f"{perf_counter() - started:.0f} s on {last.network.about['device']}, "
@@ -163,7 +153,7 @@ def workers(threads: int | None, scheduler: str | None) -> Iterator[Executor]:
         return
     from relguide.cluster import cluster
 
-    with cluster(scheduler, _note) as machines:
+    with cluster(scheduler, say) as machines:
         yield machines
 
 
@@ -183,7 +173,7 @@ def last_epoch(chosen: argparse.Namespace, epochs: Iterator[Epoch[T]]) -> Epoch[
     )
     trained = deque(shown, maxlen=1)
     if not trained:
-        _write(f"{chosen.weights} is complete.\n")
+        write(f"{chosen.weights} is complete.\n")
         return None
     return trained[0]
 
@@ -196,17 +186,3 @@ def collected(chunks: Iterator[tuple[int, T]], request: LabelRequest, title: str
             found[number] = chunk
             count(1.0)
     return found
-
-
-def _print_json(content: dict[str, Any]) -> None:
-    _write(orjson.dumps(content, option=orjson.OPT_INDENT_2).decode() + "\n")
-
-
-def _note(sentence: str) -> None:
-    sys.stderr.write(f"relguide: {sentence}\n")
-    sys.stderr.flush()
-
-
-def _write(text: str) -> None:
-    sys.stdout.write(text)
-    sys.stdout.flush()

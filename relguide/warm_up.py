@@ -12,6 +12,7 @@ from itertools import islice
 from math import pi
 
 from relguide.kernels import cache
+from relguide.output import write
 from relguide.planning.situation import (
     FlyStraight,
     IntentPiece,
@@ -34,10 +35,10 @@ SAMPLES = 100
 def main() -> None:
     """Compile what is not compiled yet, and say where it is kept."""
     if cache.filled(cache.folder()):
-        sys.stdout.write("The kernels are compiled.\n")
+        write("The kernels are compiled.\n")
         return
     warm_up()
-    sys.stdout.write(f"The kernels are compiled and kept in {cache.folder()}.\n")
+    write(f"The kernels are compiled and kept in {cache.folder()}.\n")
 
 
 def warm_up() -> None:
