@@ -9,8 +9,6 @@ FT = 0.3048
 """International foot [m]."""
 KT = NM / 3600.0
 """Knot [m/s]."""
-FPM = FT / 60.0
-"""Foot a minute [m/s]."""
 DEG = pi / 180.0
 """Degree of arc [rad]."""
 G0 = 9.80665

@@ -24,7 +24,6 @@ class Piece(NamedTuple):
 
 SIGN = {"L": 1.0, "S": 0.0, "R": -1.0}
 """ε of each letter, 0 of a straight."""
-LETTER = {sign: letter for letter, sign in SIGN.items()}
 
 
 def pieces_of(pairs: Sequence[Sequence[float]]) -> list[Piece]:
