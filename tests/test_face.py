@@ -2,6 +2,9 @@
 
 import subprocess
 import sys
+from textwrap import dedent
+
+import pytest
 
 import relguide
 
@@ -19,6 +22,41 @@ def test_import_is_light() -> None:
     code = f"import relguide, sys; sys.exit(' '.join(m for m in {heavy} if m in sys.modules) or 0)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert done.returncode == 0, f"import relguide loads {done.stderr.strip()}"
+
+
+def test_what_is_used_beside_plan_is_loaded_when_asked_for() -> None:
+    """In a process of its own: here another test has asked for it already."""
+    code = """
+        import sys
+        import relguide
+
+        later = {
+            "alternatives": ("Alternative", "alternatives"),
+            "batch": ("Situations", "Times", "plan_arrays"),
+            "optimality": ("OptimalityReport", "check"),
+            "prove": ("prove",),
+        }
+        assert set(relguide.__all__) <= set(dir(relguide)), "dir() leaves a name out"
+        for module in later:
+            assert f"relguide.planning.{module}" not in sys.modules, f"{module} is loaded"
+        for module, names in later.items():
+            for name in names:
+                found = getattr(relguide, name)
+                assert found.__name__ == name, f"{name} is {found}"
+                assert found.__module__ == f"relguide.planning.{module}", f"{name} is not its"
+                assert name in vars(relguide), f"{name} is looked up each time"
+        assert all(hasattr(relguide, name) for name in relguide.__all__)
+    """
+    done = subprocess.run(
+        [sys.executable, "-c", dedent(code)], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+
+
+def test_a_name_that_is_none_is_refused() -> None:
+    with pytest.raises(AttributeError, match=r"^module 'relguide' has no attribute 'planner'$"):
+        _ = relguide.planner  # type: ignore[attr-defined]
+    assert not hasattr(relguide, "__path_to_nowhere__")
 
 
 def _kind(name: str) -> tuple[int, str]:
