@@ -148,6 +148,8 @@ def fit(
     device = device_of(options.device)
     batches = -(-rows.taught // options.batch)
     for epoch in range(done, options.epochs):
+        if epoch - best >= options.patience:
+            return
         shuffle = torch.Generator().manual_seed(options.seed * 1_000_003 + epoch)
         order = torch.randperm(rows.taught, generator=shuffle).to(device) + rows.kept
         total = 0.0
@@ -189,8 +191,6 @@ def fit(
         yield Epoch(
             number=epoch + 1, loss=total / batches, accuracy=reached, network=made, best=best
         )
-        if epoch + 1 - best >= options.patience:
-            return
 
 
 def origin_of(options: TrainingOptions) -> dict[str, Any]:

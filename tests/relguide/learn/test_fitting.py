@@ -64,3 +64,10 @@ def test_it_goes_on_from_an_epoch_that_was_not_better(tmp_path: Path) -> None:
     rest = list(train(labels(), options, box=Box(), about={}, checkpoint=part, resume=True))
     assert [epoch.loss for epoch in rest] == [epoch.loss for epoch in whole[4:]]
     assert [epoch.accuracy for epoch in rest] == [epoch.accuracy for epoch in whole[4:]]
+
+
+def test_what_was_given_up_is_not_gone_on_with(tmp_path: Path) -> None:
+    hopeless, part = replace(OPTIONS, epochs=9, learning_rate=1e-30, patience=2), tmp_path / "part"
+    found = list(train(labels(), hopeless, box=Box(), about={}, checkpoint=part))
+    assert (found[-1].number, found[-1].best) == (3, 1)
+    assert not list(train(labels(), hopeless, box=Box(), about={}, checkpoint=part, resume=True))
