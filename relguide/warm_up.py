@@ -8,6 +8,7 @@ missing.
 
 import sys
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from itertools import islice
 from math import pi
 
@@ -186,8 +187,11 @@ def _flight() -> None:
     from relguide.flying.scenarios import scenario
     from relguide.planning.plan import plan
 
-    for _ in islice(fly(scenario("fig_6b"), plan), SAMPLES):
-        pass
+    flown = scenario("fig_6b")
+    lost = replace(flown, situation=_situation(10.0, 500.0, 0.0))
+    for flight in (flown, lost):
+        for _ in islice(fly(flight, plan), SAMPLES):
+            pass
 
 
 def _situation(

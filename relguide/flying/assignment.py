@@ -14,7 +14,9 @@ from relguide.planning.situation import (
     final_heading,
 )
 from relguide.planning.slot import slot_frame
-from relguide.units import Metre, MetrePerSecond, Radian, RadianPerSecond, Second
+from relguide.units import DEG, Metre, MetrePerSecond, Radian, RadianPerSecond, Second
+
+TURN_SEEN: RadianPerSecond = 0.3 * DEG  # a quarter of an airliner's: a turn, not a correction
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -50,6 +52,11 @@ class Seen:
     def turn_to_come(self) -> bool:
         """Whether the leader has announced a turn that is not over."""
         return any(isinstance(piece, TurnTo) for piece in self.intent)
+
+    @property
+    def turning_unannounced(self) -> bool:
+        """Whether the leader turns, and nobody knows how far."""
+        return not self.intent_known and abs(self.leader_turn_rate) > TURN_SEEN
 
     @property
     def final_heading(self) -> Radian:

@@ -1,36 +1,77 @@
-"""Staying clear of the leader where no plan says how: judged by the same certificate as plans."""
+"""Staying clear of the leader: the way out where no plan says how, and whether there is one left.
+
+A leader who turns without a word is planned for as if he stopped turning now: what else could be?
+But he may go on, and a plan that keeps d_min if he stops may leave no way out if he does not. So
+while he turns, a way out is kept: a turn and a straight, begun a second later, that keeps d_min
+wherever his turn ends.
+"""
 
 from math import pi
+from typing import NamedTuple
 
+import numpy as np
+
+from relguide.flying.aircraft import AircraftModel, roll_lead
 from relguide.flying.capture import Offsets
-from relguide.planning.certificate import certify
+from relguide.kernels import recovery as kernel
+from relguide.kernels.turn import turn_rate
+from relguide.planning.certificate import certify, kernel_arrays
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import LEFT, RIGHT, Arc, Straight, Trajectory
-from relguide.units import DEG, Metre, Radian, Second
+from relguide.units import DEG, Metre, Radian, RadianPerSecond, Second
 
 LOOK_AHEAD: Second = 180.0  # DAIDALUS looks as far; a half turn at 240 m/s and 25° takes 165 s
-TRIED_EVERY: Radian = 10.0 * DEG  # finer than a crew would be told
 ON_ROUTE: Radian = 15.0 * DEG  # so aligned, speed alone keeps the spacing
+ENDS_EVERY: Radian = 30.0 * DEG  # between two ends of a leader's turn a third is little worse
+TURNS_ON: Radian = 180.0 * DEG  # a leader who turned farther would fly back where he came from
 
 
-def safe_heading(situation: Situation) -> Radian:
-    """The heading nearest to the present one that keeps d_min for three minutes [rad].
+class WayOut(NamedTuple):
+    """A heading to fly, and what it keeps."""
+
+    heading: Radian
+    """Clockwise from north [rad]."""
+    least_separation: Metre
+    """Whatever the leader does of what is looked at [m]."""
+
+
+def way_out(
+    situation: Situation,
+    *,
+    bank: Radian,
+    model: AircraftModel,
+    keep: Metre,
+    leader_turn_rate: RadianPerSecond = 0.0,
+    delay: Second = 0.0,
+) -> WayOut:
+    """The heading nearest to the present one that keeps clear for three minutes.
 
     If none does, the one that stays farthest away.
+
+    Args:
+        situation: gives both aircraft, and the intent as far as it is known.
+        bank: of the pursuer [rad]: its turn begins when it has rolled.
+        model: how it rolls.
+        keep: the separation to keep [m].
+        leader_turn_rate: of a turn that may go on for as much as 180° more [rad/s]; 0 if there is
+            none.
+        delay: goes on as it does for so long first [s].
     """
     pursuer = situation.pursuer
-    best, best_bound = pursuer.heading, -1.0
-    for turn_angle in (k * TRIED_EVERY for k in range(round(pi / TRIED_EVERY) + 1)):
-        for turn in (LEFT, RIGHT):
-            arc = Arc(turn=turn, turn_angle=turn_angle, radius=pursuer.turn_radius)
-            away = _path(situation, arc, LOOK_AHEAD)
-            certificate = certify(away, situation)
-            heading = (pursuer.heading - turn * turn_angle) % (2.0 * pi)
-            if certificate.holds:
-                return heading
-            if certificate.lower_bound > best_bound:
-                best, best_bound = heading, certificate.lower_bound
-    return best
+    rate, full = turn_rate(pursuer.tas, bank), pursuer.tas / pursuer.turn_radius
+    before = np.array(
+        [
+            (delay + roll_lead(model, bank, side * pursuer.max_bank), rate)
+            for side in (-1.0, 0.0, 1.0)
+        ]
+    )
+    start, _ = kernel_arrays(pursuer.flying(()))
+    leader, _ = kernel_arrays(situation.leader.trajectory)
+    side, angle, least = kernel.way_out(
+        start, full, before, leader, _leaders(situation, leader_turn_rate), keep, LOOK_AHEAD
+    )
+    turned = before[side + 1, 0] * rate + side * angle
+    return WayOut(heading=(pursuer.heading + turned) % (2.0 * pi), least_separation=least)
 
 
 def keeps_clear(seen: Offsets, to_slot: Metre, situation: Situation) -> bool:
@@ -45,6 +86,17 @@ def keeps_clear(seen: Offsets, to_slot: Metre, situation: Situation) -> bool:
     closing = situation.pursuer.tas - situation.leader.tas
     until = to_slot / closing if closing > 0.0 and to_slot > 0.0 else 0.0
     return certify(_path(situation, arc, min(until, LOOK_AHEAD)), situation).holds
+
+
+def _leaders(situation: Situation, rate: RadianPerSecond) -> np.ndarray:
+    """Pieces of all that the leader may do: what he declared, or a turn that goes on."""
+    _, known = kernel_arrays(situation.leader.trajectory)
+    ends = np.arange(ENDS_EVERY, TURNS_ON + 0.5 * ENDS_EVERY, ENDS_EVERY) if rate != 0.0 else ()
+    pieces = np.zeros((1 + len(ends), max(len(known), 1), 2))
+    pieces[0, : len(known)] = known
+    for i, end in enumerate(ends, start=1):
+        pieces[i, 0] = end / abs(rate), rate
+    return pieces
 
 
 def _path(situation: Situation, arc: Arc, until: Second) -> Trajectory:

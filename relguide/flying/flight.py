@@ -12,7 +12,7 @@ from typing import Literal, assert_never
 
 from relguide.flying.aircraft import A300, AircraftModel, AircraftState
 from relguide.flying.aircraft import step as fly_step
-from relguide.flying.assignment import Assignment, Seen
+from relguide.flying.assignment import TURN_SEEN, Assignment, Seen
 from relguide.flying.autopilot import Autopilot
 from relguide.flying.cards import wind_card
 from relguide.flying.commands import Command, obey
@@ -37,12 +37,11 @@ from relguide.flying.tracks import RecordedTrack
 from relguide.kernels.turn import turn_rate
 from relguide.planning.plan import Plan, Planner
 from relguide.planning.situation import MAX_TAS, MIN_TAS, Situation, TurnTo
-from relguide.units import DEG, KT, Metre, MetrePerSecond, Radian, Second
+from relguide.units import DEG, KT, Metre, MetrePerSecond, Radian, RadianPerSecond, Second
 
 ROUTE_TURNED: Radian = 1.0 * DEG  # a route drawn a degree off is 2 % of its length beside the truth
 ROUTE_SPEED: MetrePerSecond = 2.0 * KT  # what the display rounds to
-TURN_SEEN: float = 0.3 * DEG  # a quarter of an airliner's turn rate: a turn, not a correction
-TURN_OVER: float = 0.1 * DEG
+TURN_OVER: RadianPerSecond = 0.1 * DEG
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

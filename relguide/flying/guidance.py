@@ -32,11 +32,11 @@ from relguide.flying.closing import (
     follow,
 )
 from relguide.flying.commitment import Cause, Choice, Commitment, choose
-from relguide.flying.escape import safe_heading
+from relguide.flying.escape import way_out
 from relguide.flying.flown_path import path_extended
 from relguide.flying.memory import Advice, Memory, into_mode, is_slot_open
 from relguide.flying.steering import Steering, steer
-from relguide.planning.plan import NoPlan, Plan, Planner
+from relguide.planning.plan import NoPlan, Plan, Planner, Reason
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import Arc, Trajectory
 from relguide.units import DEG, NM, Metre, MetrePerSecond, Radian, Second
@@ -46,6 +46,7 @@ CAPTURE_TURN: Radian = 160.0 * DEG  # a longer final turn is flown as planned un
 LAST_STRETCH: Second = 30.0  # braking by now, the plan at V_P is no longer what will be flown
 GOING_AROUND: Radian = 120.0 * DEG  # a plan that turns so much from close in is a detour, or a loop
 CAPTURE_ACROSS: Metre = 1_500.0  # within the intercept law's linear range (30° ↔ 3.1 km)
+A_SECOND: Second = 1.0  # until guidance speaks again
 SHOWN_WITHIN: Metre = 0.25 * NM  # a re-solved path farther than this from the shown one is shown
 SHOWN_WITHIN_TIME: Second = 3.0  # … or one that arrives so much earlier or later
 SHOWN_WITHIN_SHARE = 0.01  # and by this much of the time to go
@@ -82,18 +83,21 @@ def advise(
 def _converge(
     memory: Memory, seen: Seen, assignment: Assignment, situation: Situation, planner: Planner
 ) -> tuple[Memory, Advice]:
-    buffered = min(assignment.min_separation + SEPARATION_BUFFER, assignment.slot_distance)
+    slot = slot_of(situation)
+    from_slot = offsets(seen.pursuer, slot)
+    near = _close_in(from_slot, slot, assignment)
+    if seen.turning_unannounced and not near:
+        trapped = _trapped(memory, seen, assignment, situation)
+        if trapped is not None:
+            return _hold(memory, seen, assignment, situation, trapped)
     choice = choose(
         memory.committed,
         seen.t,
-        preferred=situation_of(seen, assignment, buffered),
+        preferred=situation_of(seen, assignment, _buffered(assignment)),
         required=situation,
         planner=planner,
         model=assignment.model,
     )
-    slot = slot_of(situation)
-    from_slot = offsets(seen.pursuer, slot)
-    near = _close_in(from_slot, slot, assignment)
     memory = replace(memory, slot_heading=slot.heading)
     if isinstance(choice, NoPlan):
         captured = capture(memory, seen, assignment, situation) if near else None
@@ -191,18 +195,56 @@ def _close_in(seen: Offsets, slot: Slot, assignment: Assignment) -> bool:
     )
 
 
+def _trapped(
+    memory: Memory, seen: Seen, assignment: Assignment, situation: Situation
+) -> NoPlan | None:
+    """Why to turn away now from a leader who turns without a word; `None` if it can wait.
+
+    What is planned keeps d_min if he stops turning. If there might be no way out a second later,
+    were he to go on, it is taken now, and left when there is room to spare.
+    """
+    spare = SEPARATION_BUFFER if memory.mode == "heading" and memory.missing else 0.0
+    keep = _buffered(assignment) + spare
+    out = way_out(
+        situation,
+        bank=seen.pursuer.bank,
+        model=assignment.model,
+        keep=keep,
+        leader_turn_rate=seen.leader_turn_rate,
+        delay=A_SECOND,
+    )
+    if out.least_separation >= keep:
+        return None
+    return NoPlan(
+        reason=Reason.SEPARATION_UNAVOIDABLE,
+        message="The leader turns, and if he goes on there may soon be no way out.",
+    )
+
+
+def _buffered(assignment: Assignment) -> Metre:
+    """What new plans should keep; the slot itself must be far enough [m]."""
+    return min(assignment.min_separation + SEPARATION_BUFFER, assignment.slot_distance)
+
+
 def _hold(
     memory: Memory, seen: Seen, assignment: Assignment, situation: Situation, answer: NoPlan
 ) -> tuple[Memory, Advice]:
     """Nothing to fly: hold the present heading, or the nearest that keeps clear of the leader."""
     slot = slot_of(situation)
+    out = way_out(
+        situation,
+        bank=seen.pursuer.bank,
+        model=assignment.model,
+        keep=_buffered(assignment),
+        leader_turn_rate=seen.leader_turn_rate if seen.turning_unannounced else 0.0,
+    )
     news = () if memory.missing == answer.reason else (PlanMissing(answer=answer),)
     mode, events = into_mode(
         memory, "heading", f"No plan: holding a safe heading. {answer.message}"
     )
     memory = replace(memory, mode=mode, committed=None, shown=None, missing=answer.reason)
     return memory, Advice(
-        reference=HoldHeading(safe_heading(situation)),
+        reference=HoldHeading(out.heading),
         commanded_tas=assignment.tas,
         mode=mode,
         slot=slot,

@@ -3,7 +3,7 @@
 World frame; lengths in m, times in s, headings clockwise from north.
 """
 
-from math import hypot, inf
+from math import hypot, inf, pi
 
 import numpy as np
 from numba import njit
@@ -14,6 +14,7 @@ from relguide.kernels.motion import advance
 from relguide.kernels.roots import FloatArray
 
 _TURNS = 120  # sizes of the turn tried each way: every 3°
+_WAYS = 18  # … and of a way out: every 10°, finer than a crew would be told
 _STEP = 0.5  # s; separations change by V_P + V_L in a second, so times are right to half of one
 
 
@@ -83,3 +84,47 @@ def widest_miss(
         if least > best:
             best, best_angle, best_at = least, angle, at
     return best_angle, best, best_at
+
+
+@njit(cache=True, nogil=True)
+def way_out(
+    pursuer: FloatArray, rate: float, before: FloatArray, leader: FloatArray,
+    leaders_pieces: FloatArray, limit: float, horizon: float,
+) -> tuple[int, float, float]:  # fmt: skip
+    """The smallest turn after which, going straight, a limit is kept whatever the leader does.
+
+    Args:
+        pursuer: x, y, ψ, V at t = 0. shape (4,)
+        rate: |r| of a full turn [rad/s].
+        before: how it goes on until it turns left, flies straight or turns right, a row each:
+            duration [s] and turn rate [rad/s]. shape (3, 2)
+        leader: as `pursuer`.
+        leaders_pieces: duration and turn rate of each of its pieces, for all that it may do; where
+            there are fewer pieces the last have a duration of 0. shape (k, n, 2)
+        limit: what is to be kept [m].
+        horizon: how far ahead to look [s].
+
+    Returns:
+        the side, −1 left, 0 straight, +1 right; the turn angle [rad], ≥ 0; the least separation
+        [m]. If no turn keeps the limit, those of the one whose least separation is largest.
+    """
+    best, best_side, best_angle = -1.0, 0, 0.0
+    pieces = np.empty((2, 2))
+    for k in range(_WAYS + 1):
+        angle = pi * k / _WAYS
+        for side in (-1, 1) if k > 0 else (0, 0):
+            pieces[0] = before[side + 1]
+            pieces[1, 0], pieces[1, 1] = angle / rate, side * rate
+            kept = inf
+            for i in range(len(leaders_pieces)):
+                least, _, _ = least_separation(
+                    pursuer, pieces, leader, leaders_pieces[i], horizon, 1.0
+                )
+                kept = min(kept, least)
+                if kept <= best:
+                    break
+            if kept > best:
+                best, best_side, best_angle = kept, side, angle
+            if best >= limit:
+                return best_side, best_angle, best
+    return best_side, best_angle, best

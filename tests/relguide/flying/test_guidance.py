@@ -142,6 +142,23 @@ def test_missing_plan_is_said_once_and_a_heading_held() -> None:
     assert advise(memory, replace(sight, t=1.0), ASSIGNMENT, helpless)[1].events == ()
 
 
+def test_leader_who_turns_towards_it_unannounced_is_given_way_in_time() -> None:
+    """As if he stopped turning now there is a plan, and a second later there may be none."""
+    meeting = seen(14e3, 12e3, 250.0)
+    assert asked(meeting)[1].mode == "converge"
+    turning = replace(meeting, leader_turn_rate=-1.2 * DEG)
+    memory, advice = asked(turning)
+    assert advice.mode == "heading"
+    assert isinstance(advice.reference, HoldHeading)
+    assert 270.0 * DEG < advice.reference.heading < 330.0 * DEG
+    missing = next(event for event in advice.events if isinstance(event, PlanMissing))
+    assert missing.answer.message.startswith("The leader turns, and if he goes on")
+    # it is left when there is room to spare, and at once if he says where his turn ends
+    told = replace(turning, intent_known=True, t=1.0)
+    assert advise(memory, told, ASSIGNMENT, plan)[1].mode == "converge"
+    assert asked(replace(turning, leader_turn_rate=1.2 * DEG))[1].mode == "converge"
+
+
 def test_lost_path_is_converged_to_again() -> None:
     memory, _ = asked(seen(-10_000.0, 0.0, 90.0, tas=200.0))
     assert memory.mode == "follow"
