@@ -6,17 +6,18 @@ is, and given up only for a reason.
 """
 
 from dataclasses import dataclass, replace
-from math import cos, hypot, sin
+from math import cos, hypot, inf, sin
 from typing import Literal
 
 from relguide.flying.aircraft import AircraftModel
 from relguide.flying.steering import rest, steer
+from relguide.kernels.motion import advance
 from relguide.planning.certificate import certify
 from relguide.planning.plan import AS_FAST, NoPlan, Optimality, Plan, Planner
 from relguide.planning.plan import plan as exact_plan
 from relguide.planning.situation import Situation
-from relguide.planning.slot import slot_frame
-from relguide.planning.trajectory import Arc, Trajectory
+from relguide.planning.slot import over_ground, slot_frame
+from relguide.planning.trajectory import Arc, Pose, Trajectory
 from relguide.planning.words import Candidate, candidates
 from relguide.units import Metre, Second
 
@@ -47,7 +48,15 @@ class Commitment:
         elapsed = t - self.made_at
         left = rest(self.plan.trajectory, elapsed)
         wind = situation.wind
+        if wind.east == wind.north == 0.0:
+            return left
         return replace(left, x=left.x + wind.east * elapsed, y=left.y + wind.north * elapsed)
+
+    def place_at(self, t: Second, situation: Situation) -> tuple[Pose, Second]:
+        """Where it is at flight time t, seen as by `rest_at`, and how long it goes on."""
+        elapsed, wind = t - self.made_at, situation.wind
+        left = max(self.plan.time_to_converge - elapsed, 0.0)
+        return over_ground(self.plan.trajectory.pose_at(elapsed), elapsed, wind), left
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -93,10 +102,7 @@ def choose(
             kept = _followed_on(left, committed.plan, required)
             if kept is not None:
                 return Choice(plan=kept, cause="continued", fell_back=False)
-    answer, fell_back = _ask(planner, preferred)
-    if isinstance(answer, NoPlan):
-        answer, fell_back_again = _ask(planner, required)
-        fell_back = fell_back or fell_back_again
+    answer, fell_back = _first_answer(planner, preferred, required)
     if committed is None:
         if isinstance(answer, NoPlan):
             return answer
@@ -114,6 +120,21 @@ def choose(
         if gain > max(MARGIN, SHARE * kept.time_to_converge):
             return Choice(plan=answer, cause="better_plan", fell_back=fell_back)
     return Choice(plan=kept, cause="continued", fell_back=fell_back)
+
+
+def _first_answer(
+    planner: Planner, preferred: Situation, required: Situation
+) -> tuple[Plan | NoPlan, bool]:
+    """A plan that keeps the preferred separation, or the required one; as `_ask`."""
+    pursuer, leader = required.pursuer, required.leader
+    apart = hypot(pursuer.x - leader.x, pursuer.y - leader.y)
+    if apart < preferred.min_separation or preferred.min_separation <= required.min_separation:
+        return _ask(planner, required)  # nothing keeps what is lost already
+    answer, fell_back = _ask(planner, preferred)
+    if isinstance(answer, Plan):
+        return answer, fell_back
+    answer, fell_back_again = _ask(planner, required)
+    return answer, fell_back or fell_back_again
 
 
 def _ask(planner: Planner, situation: Situation) -> tuple[Plan | NoPlan, bool]:
@@ -186,6 +207,8 @@ def _as_planned(left: Trajectory, model: AircraftModel, *, overdue: bool) -> boo
 
 def _arrives_at_opening(left: Trajectory, situation: Situation) -> bool:
     """Whether no plan can be better by the margin."""
+    if not situation.leader.intent:
+        return left.duration < MARGIN
     frame = slot_frame(situation, situation.leader.trajectory)
     slot_opens = frame.t_open * frame.radius / situation.pursuer.tas
     return left.duration < slot_opens + MARGIN
@@ -208,8 +231,24 @@ def _same_way(left: Trajectory, other: Trajectory, share: float) -> bool:
 
 def _distance_between(left: Trajectory, other: Trajectory) -> Metre:
     """How far apart two paths come, looked at after each third of the way."""
-    apart, time, other_time = 0.0, left.duration, other.duration
-    for share in (0.33, 0.67, 1.0):
-        a, b = left.pose_at(share * time), other.pose_at(share * other_time)
-        apart = max(apart, hypot(a.x - b.x, a.y - b.y))
-    return apart
+    return max(
+        hypot(a[0] - b[0], a[1] - b[1])
+        for a, b in zip(_on_the_way(left), _on_the_way(other), strict=True)
+    )
+
+
+def _on_the_way(path: Trajectory) -> list[tuple[Metre, Metre]]:
+    """Where it is after each third, in one go: this is asked for every second."""
+    places: list[tuple[Metre, Metre]] = []
+    x, y, heading, begun = path.x, path.y, path.heading, 0.0
+    bends, length = [bend for segment in path.segments for bend in segment.bends], path.length
+    marks = [share * length for share in (0.33, 0.67, 1.0)]
+    for stretch, curvature in (*bends, (inf, 0.0)):
+        while len(places) < 3 and marks[len(places)] <= begun + stretch:
+            there = advance(x, y, heading, 1.0, curvature, marks[len(places)] - begun)
+            places.append(there[:2])
+        if len(places) == 3:
+            break
+        x, y, heading = advance(x, y, heading, 1.0, curvature, stretch)
+        begun += stretch
+    return places

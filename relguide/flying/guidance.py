@@ -93,7 +93,7 @@ def _converge(
     choice = choose(
         memory.committed,
         seen.t,
-        preferred=situation_of(seen, assignment, _buffered(assignment)),
+        preferred=replace(situation, min_separation=_buffered(assignment)),
         required=situation,
         planner=planner,
         model=assignment.model,
@@ -157,14 +157,14 @@ def _news(memory: Memory, seen: Seen, cause: Cause) -> PlanReason | None:
     if memory.shown is None or memory.committed is None:
         return "deviation"
     plan = memory.committed.plan
-    shown = memory.shown.rest_at(seen.t, plan.situation)
+    shown, left = memory.shown.place_at(seen.t, plan.situation)
     here = plan.trajectory
     tolerance = max(SHOWN_WITHIN_TIME, SHOWN_WITHIN_SHARE * plan.time_to_converge)
     pursuer, leader = plan.situation.pursuer.tas, plan.situation.leader.tas
     gain = (pursuer - leader) * plan.time_to_converge
     # while it brakes, arriving later than planned is no news
     cruising = gain > braking_distance(pursuer, leader)
-    late = cruising and abs(plan.time_to_converge - shown.duration) > tolerance
+    late = cruising and abs(plan.time_to_converge - left) > tolerance
     off = hypot(here.x - shown.x, here.y - shown.y) > SHOWN_WITHIN
     return "deviation" if late or off else None
 

@@ -129,6 +129,23 @@ def test_preferred_separation_is_given_up_before_the_plan_is() -> None:
     assert isinstance(choice, Choice)
 
 
+@pytest.mark.parametrize(("apart", "limits"), [(500.0, [5.2e3, 5e3]), (-100.0, [5e3])])
+def test_what_is_lost_already_is_not_asked_for(apart: float, limits: list[float]) -> None:
+    """Between the required and the preferred separation only the required one can be kept."""
+    asked: list[float] = []
+
+    def never(situation: Situation) -> NoPlan:
+        asked.append(situation.min_separation)
+        return helpless(situation)
+
+    leader = replace(SITUATION.leader, x=SITUATION.pursuer.x + 5.2e3 + apart, y=SITUATION.pursuer.y)
+    required, preferred = (
+        replace(SITUATION, leader=leader, min_separation=limit) for limit in (5e3, 5.2e3)
+    )
+    choose(None, 0.0, preferred=preferred, required=required, planner=never, model=A300)
+    assert asked == limits
+
+
 def test_last_turn_is_flown_as_planned_without_asking() -> None:
     t = planned(SITUATION).time_to_converge - 8.0  # within the last turn of 10 s
 
