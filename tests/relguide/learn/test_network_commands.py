@@ -1,6 +1,7 @@
 """`relguide dataset --method exact`, `train` and `audit`: the chain from labels to figures."""
 
 import json
+from itertools import islice
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -9,7 +10,9 @@ import pytest
 
 from relguide.learn.labels import LabelRequest, label_chunk, load_labels, save_labels
 from relguide.learn.network import load_network
+from relguide.learn.train import run as training
 from tests.command_line import Run
+from tests.relguide.learn.networks import chosen
 
 EXACT = ("dataset", "--method", "exact", "--out", "labels.npz", "--count", "3000")
 
@@ -37,6 +40,16 @@ def test_labels_train_weights_and_audit(run: Run) -> None:
     assert 0.0 < told["latency"]["network"]["p50_us"] <= told["latency"]["network"]["p99_us"]
     assert "side_by_side" not in told
     assert sorted(path.name for path in Path().iterdir()) == ["labels.npz", "w.safetensors"]
+
+
+def test_what_was_stopped_at_its_end_is_only_said_to_be_complete(run: Run) -> None:
+    run(*EXACT)
+    arguments = ("labels.npz", "w.safetensors", "--width", "8", "--epochs", "2", "--threads", "1")
+    list(islice(training(chosen(*arguments), "a test"), 2))  # all its epochs, but not its end
+    written, part = Path("w.safetensors").read_bytes(), Path("w.safetensors.part")
+    assert part.exists()
+    assert run("train", *arguments, "--resume") == (0, "w.safetensors is complete.\n", "")
+    assert (Path("w.safetensors").read_bytes(), part.exists()) == (written, False)
 
 
 def test_people_get_sentences_and_a_table(run: Run) -> None:
