@@ -141,8 +141,31 @@ def choose(
         how many strategies are held possible, and how many rows there are.
     """
     scores = np.empty((3, SIZE))
-    share = np.empty(SIZE)
     evaluate(x, y, h, alpha, layers, scores)
+    return decode(x, y, h, alpha, scores, least_share, most, rows)
+
+
+@njit(cache=True, nogil=True)
+def decode(
+    x: float, y: float, h: float, alpha: float, scores: FloatArray, least_share: float, most: int,
+    rows: FloatArray,
+) -> tuple[int, int]:  # fmt: skip
+    """`choose`, from what the network has said.
+
+    Args:
+        x: as in `evaluate`.
+        y: as there.
+        h: as there.
+        alpha: as there.
+        scores: of `evaluate`. shape (3, SIZE)
+        least_share: as in `choose`.
+        most: as in `choose`.
+        rows: as in `choose`.
+
+    Returns:
+        what `choose` does.
+    """
+    share = np.empty(SIZE)
     shares(scores, share)
     held = 0
     for s in range(SIZE):
@@ -181,7 +204,7 @@ def judge_rows(
     for n in range(first, last):
         x, y, h, alpha = situations[n]
         evaluate(x, y, h, alpha, layers, scores[n])
-        held, found = choose(x, y, h, alpha, layers, least_share, most, rows)
+        held, found = decode(x, y, h, alpha, scores[n], least_share, most, rows)
         decoded[n, 0] = held
         decoded[n, 1] = rows[0, 0] if found > 0 else np.inf
         decoded[n, 2] = strategy_of(rows[0]) if found > 0 else -1
