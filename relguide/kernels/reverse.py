@@ -19,7 +19,6 @@ from relguide.kernels.clearance import piece_clears
 from relguide.kernels.roots import FloatArray
 
 IntArray = np.ndarray[tuple[int, ...], np.dtype[np.int32]]
-BoolArray = np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
 
 TOUCH = 5e-7
 """Touching d_min counts as keeping it, to this much of R: half of what the certificate allows."""
