@@ -1,5 +1,6 @@
 """The paper's network: it learns the tree, and what it gives is near a way to the slot, no more."""
 
+from dataclasses import replace
 from functools import cache
 from math import hypot, pi
 from pathlib import Path
@@ -49,6 +50,12 @@ def test_the_same_options_give_the_same_weights() -> None:
     *_, again = train_regular(tree(), OPTIONS, method="paper", about={})
     for here, there in zip(trained().weights, again.network.weights, strict=True):
         assert np.array_equal(here, there)
+
+
+def test_a_tree_too_small_is_refused() -> None:
+    alone = replace(tree(), best=np.where(tree().best == tree().minima[0], tree().best, -1))
+    with pytest.raises(ValueError, match=r"^1 states of the tree are too few to train"):
+        next(train_regular(alone, OPTIONS, method="paper", about={}))
 
 
 def test_what_it_gives_flies_nearly_to_the_slot() -> None:
@@ -128,6 +135,8 @@ def test_the_command_trains_it_on_a_tree(run: Run) -> None:
     assert (code, err) == (
         2, "relguide: Such a network is trained in a minute, and nothing is left to resume.\n",
     )  # fmt: skip
+    code, _, err = run("train", "tree.npz", "none/w.safetensors", "--method", "direct")
+    assert (code, err) == (2, "relguide: none: No such file or directory.\n")
     save_columns(Path("labels.npz"), {"file": "relguide exact labels 1"}, {})
     code, _, err = run("train", "labels.npz", "w.safetensors", "--method", "paper")
     assert code == 2
