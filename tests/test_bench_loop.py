@@ -3,28 +3,62 @@
 from dataclasses import replace
 
 import pytest
+from rich.table import Table
 
 from relguide import plan
-from tests.bench.loop import BREACH, Pair, failures, losses_table, pair, planners_table
+from tests.bench.loop import (
+    BREACH,
+    decisions_table,
+    failures,
+    flights_table,
+    flown,
+    losses_table,
+    main,
+)
 
 
-def row(pairs: list[Pair]) -> list[str]:
-    return [cell for column in losses_table(pairs).columns for cell in column.cells]  # type: ignore[misc]
+def rows(table: Table) -> list[tuple[str, ...]]:
+    return list(zip(*(map(str, column.cells) for column in table.columns), strict=True))
 
 
 @pytest.mark.slow
 def test_a_planner_loses_nothing_to_itself_and_a_bad_one_is_told_of() -> None:
-    same = pair(1, plan)
-    assert same.loss == 0.0
-    assert failures([same]) == []
-    assert row([same]) == ["1", "1", "0.0000", "0.0000", "0.000", "0", "0"]
-    assert [*planners_table([same]).columns[0].cells] == ["exact", "network"]
-    end = same.network.end
-    late = replace(same.network, end=replace(end, join_time=2.0 * end.join_time))
-    assert replace(same, network=late).loss == pytest.approx(1.0)
-    close = replace(same, network=replace(same.network, kept=BREACH - 0.1))
-    assert "comes within 0.890 d_min by network" in failures([close])[0]
-    lost = replace(same, network=replace(same.network, end=replace(end, joined=False)))
-    assert lost.loss is None
-    assert failures([lost]) == ["Flight 1 joins by the exact planner only."]
-    assert row([lost]) == []
+    one = flown(1, plan)
+    assert one.told
+    assert one.way
+    assert len(one.spent) > 300
+    same = {"exact": [one], "network": [one]}
+    assert failures(same) == []
+    assert rows(losses_table(same)) == [("1", "1", "0.0000", "0.0000", "0.000", "0", "0")]
+    assert [row[0] for row in rows(flights_table(same))] == ["exact", "network"]
+    assert [row[2] for row in rows(decisions_table(same))] == ["0.00", "0.00"]
+
+    def by_network(**changes: object) -> dict[str, list[object]]:
+        return {"exact": [one], "network": [replace(one, **changes)]}  # type: ignore[arg-type]
+
+    late = by_network(end=replace(one.end, join_time=2.0 * one.end.join_time))
+    assert rows(losses_table(late))[0][2] == "100.0000"
+    close = failures(by_network(kept=BREACH - 0.1))
+    assert close[0] == "Flight 1 comes within 0.890 d_min by network, told what the leader will do."
+    assert close[1].endswith(f"by network, {one.kept:.3f} by the exact planner.")
+    lost = by_network(end=replace(one.end, joined=False))
+    assert failures(lost) == ["Flight 1 joins by the exact planner only."]
+    assert rows(losses_table(lost)) == []
+
+
+def test_what_nobody_could_keep_is_no_failure() -> None:
+    one = flown(1, plan, longest=3.0)
+    head_on = replace(one, kept=0.7, end=replace(one.end, planned_time=0.0))
+    assert failures({"exact": [head_on]}) == []
+    assert rows(flights_table({"exact": [head_on]}))[0][-2:] == ("1", "1")
+    untold = replace(one, kept=0.7, told=False)
+    assert failures({"exact": [untold]}) == []
+    assert rows(flights_table({"exact": [untold]}))[0][4] == "1 of 1"
+
+
+@pytest.mark.slow
+def test_one_planner_may_fly_alone(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["--flights", "2", "--first", "8", "--only", "exact"]) == 0
+    said = capsys.readouterr().out
+    assert "2 flights at 1 Hz" in said
+    assert "Join time by network" not in said
