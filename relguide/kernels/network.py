@@ -14,23 +14,16 @@ from numba import njit
 
 from relguide.kernels.angles import TWO_PI
 from relguide.kernels.extremals import MAX_ROWS, solve_word
+from relguide.kernels.margins import INPUTS, inputs
 from relguide.kernels.roots import FloatArray
-from relguide.kernels.strategies import (
-    FEATURES,
-    MIRROR_OF,
-    SIZE,
-    WORD_OF,
-    features,
-    needs_mirror,
-    strategy_of,
-)
+from relguide.kernels.strategies import MIRROR_OF, SIZE, WORD_OF, needs_mirror, strategy_of
 
 
 class Layers(NamedTuple):
     """Weights by layer, inputs along the first axis. float32."""
 
     first: Any
-    """shape (features, width)"""
+    """shape (inputs, width)"""
     first_bias: Any
     """shape (width,)"""
     hidden: Any
@@ -58,11 +51,11 @@ def evaluate(
         scores: takes score, logit and log(1 + τ) of each strategy. shape (3, SIZE)
     """
     mirrored = needs_mirror(y, h)
-    told = np.empty(FEATURES)
+    told = np.empty(INPUTS)
     if mirrored:
-        features(x, -y, TWO_PI - h if h > 0.0 else 0.0, alpha, told)
+        inputs(x, -y, TWO_PI - h if h > 0.0 else 0.0, alpha, told)
     else:
-        features(x, y, h, alpha, told)
+        inputs(x, y, h, alpha, told)
     a = last_hidden(told, layers)
     out = layers.last_bias.copy()
     for i in range(len(a)):
@@ -79,7 +72,7 @@ def last_hidden(told: FloatArray, layers: Layers) -> FloatArray:
     """The layer before the outputs, float32.
 
     Args:
-        told: features, as they are. shape (features,)
+        told: inputs, as they are. shape (inputs,)
         layers: the weights.
     """
     width = len(layers.first_bias)

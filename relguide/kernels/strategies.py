@@ -132,15 +132,3 @@ def features(x: float, y: float, h: float, alpha: float, out: FloatArray) -> Non
         out[at + 8] = cos(inner)
         out[at + 9] = sin(inner)
         out[at + 10] = log1p(hypot(dx, dy + 2.0))
-
-
-@njit(cache=True, nogil=True)
-def feature_rows(situations: FloatArray, out: FloatArray) -> None:
-    """`features` of many situations, none of which `needs_mirror`.
-
-    Args:
-        situations: x, y, h, α. shape (n, 4)
-        out: takes them. shape (n, FEATURES)
-    """
-    for n in range(len(situations)):
-        features(situations[n, 0], situations[n, 1], situations[n, 2], situations[n, 3], out[n])

@@ -18,8 +18,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from relguide.kernels.margins import INPUTS, input_rows
 from relguide.kernels.network import Layers
-from relguide.kernels.strategies import FEATURES, SIZE, STRATEGIES, feature_rows
+from relguide.kernels.strategies import SIZE, STRATEGIES
 from relguide.learn.files import load_weights, save_weights
 from relguide.learn.labels import Box, Floats
 from relguide.learn.options import NetworkShape
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
     from torch import nn
 
 Singles = NDArray[np.float32]
-FILE = "relguide strategy network 1"
+FILE = "relguide strategy network 2"
 """What a file says it is, with the version of its arrays."""
 OUTPUTS = 3 * SIZE
 """Score, logit of existence and log(1 + τ) of each strategy."""
@@ -60,14 +61,14 @@ class StrategyNetwork:
 
 
 def features_of(situations: Floats) -> Singles:
-    """What the network is told of situations on the left of the route, shape (n, FEATURES)."""
-    told = np.empty((len(situations), FEATURES))
-    feature_rows(np.ascontiguousarray(situations), told)
+    """What the network is told of situations on the left of the route, shape (n, INPUTS)."""
+    told = np.empty((len(situations), INPUTS))
+    input_rows(np.ascontiguousarray(situations), told)
     return told.astype(np.float32)
 
 
 def torch_model(
-    shape: NetworkShape, *, features: int = FEATURES, outputs: int = OUTPUTS
+    shape: NetworkShape, *, features: int = INPUTS, outputs: int = OUTPUTS
 ) -> "nn.Sequential":
     """A network to be trained, on features less their mean over their deviation."""
     from torch import nn
@@ -127,7 +128,7 @@ def load_network(file: Path = SHIPPED) -> StrategyNetwork:
         if about["file"] != FILE or tuple(about["strategies"]) != STRATEGIES:
             raise KeyError(about["file"])
         return StrategyNetwork(
-            layers=as_layers(FEATURES, OUTPUTS, **arrays),
+            layers=as_layers(INPUTS, OUTPUTS, **arrays),
             box=Box(**about["box"]),
             least_share=float(about["least_share"]),
             most=int(about["most"]),
