@@ -1,7 +1,7 @@
 """The network: the kernel says what torch says, mirrors are exact, files come back."""
 
 from dataclasses import replace
-from math import pi
+from math import inf, pi
 from pathlib import Path
 
 import numpy as np
@@ -10,8 +10,9 @@ import torch
 from hypothesis import given
 from hypothesis import strategies as st
 
-from relguide.kernels.network import Layers, evaluate, judge_rows
-from relguide.kernels.strategies import MIRROR_OF, SIZE
+from relguide.kernels.extremals import MAX_ROWS
+from relguide.kernels.network import Layers, choose, evaluate, judge_rows
+from relguide.kernels.strategies import MIRROR_OF, SIZE, strategy_of
 from relguide.learn.network import (
     NetworkShape,
     StrategyNetwork,
@@ -50,6 +51,17 @@ def test_the_kernel_says_what_torch_says(shape: NetworkShape) -> None:
 def test_the_trained_network_has_learnt() -> None:
     assert network().about["validation_accuracy"] > 0.8
     assert 0.0 < network().least_share < 0.2
+
+
+def test_situations_judged_together_are_judged_as_one_by_one() -> None:
+    found, situations = network(), labels().situations[:200]
+    scores, decoded = np.empty((200, 3, SIZE)), np.empty((200, 3))
+    judge_rows(situations, found.layers, found.least_share, 4, 0, 200, scores, decoded)
+    rows = np.empty((MAX_ROWS, 5))
+    for situation, told in zip(situations, decoded, strict=True):
+        held, n = choose(*situation, found.layers, found.least_share, 4, rows)
+        assert told.tolist() == [held, *((rows[0, 0], strategy_of(rows[0])) if n else (inf, -1))]
+    assert len(set(decoded[:, 0])) > 2
 
 
 def test_the_weights_that_come_along_know_existence_and_time_too() -> None:
