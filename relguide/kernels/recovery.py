@@ -15,6 +15,7 @@ from relguide.kernels.roots import FloatArray
 
 _TURNS = 120  # sizes of the turn tried each way: every 3°
 _WAYS = 18  # … and of a way out: every 10°, finer than a crew would be told
+_SAME = 1.0  # separations nearer than this are one, and found to this [m]
 _STEP = 0.5  # s; separations change by V_P + V_L in a second, so times are right to half of one
 
 
@@ -71,17 +72,21 @@ def widest_miss(
 ) -> tuple[float, float, float]:
     """The turn after which, going straight, the least separation is largest.
 
+    Often it is least at once, whatever is turned later: of turns that are worth the same the
+    smallest is given.
+
     Returns:
         signed turn angle [rad], positive to the right; that least separation [m]; when [s].
     """
-    best, best_angle, best_at = -1.0, 0.0, 0.0
+    best, best_angle, best_at = -inf, 0.0, 0.0
     pieces = np.empty((1, 2))
     for k in range(2 * _TURNS + 1):
-        angle = TWO_PI * (k - _TURNS) / _TURNS
+        # none, then to the right and to the left by more and more
+        angle = TWO_PI * ((k + 1) // 2) / _TURNS * (1.0 if k % 2 == 1 else -1.0)
         pieces[0, 0] = abs(angle) / rate
         pieces[0, 1] = rate if angle > 0.0 else -rate
-        least, at, _ = least_separation(pursuer, pieces, leader, leader_pieces, horizon, 1.0)
-        if least > best:
+        least, at, _ = least_separation(pursuer, pieces, leader, leader_pieces, horizon, _SAME)
+        if least > best + _SAME:
             best, best_angle, best_at = least, angle, at
     return best_angle, best, best_at
 
@@ -118,7 +123,7 @@ def way_out(
             kept = inf
             for i in range(len(leaders_pieces)):
                 least, _, _ = least_separation(
-                    pursuer, pieces, leader, leaders_pieces[i], horizon, 1.0
+                    pursuer, pieces, leader, leaders_pieces[i], horizon, _SAME
                 )
                 kept = min(kept, least)
                 if kept <= best:
