@@ -2,7 +2,7 @@
 
 Out come a score of each kind, by which it is chosen, and its guess of two numbers; weights are
 float32, as they were trained. Guesses are worked out for the kinds that are solved, and no others.
-Situations on the right of the route are mirrored before, and the way after.
+Situations on the right of the route are mirrored before, and what is flown after.
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader is at (D/R, 0) at
 t = 0 and keeps heading 0.
@@ -14,16 +14,17 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.angles import TWO_PI
-from relguide.kernels.chain import MAX_CONTACTS, RIDE, WORD
-from relguide.kernels.extremals import MAX_ROWS, solve
+from relguide.kernels.chain import MAX_CONTACTS
 from relguide.kernels.network import Layers, last_hidden
-from relguide.kernels.passage import GRAZE, word_clears
+from relguide.kernels.pieces import pieces_of
 from relguide.kernels.roots import FloatArray
 from relguide.kernels.strategies import needs_mirror
 from relguide.kernels.way_features import FEATURES, way_features
 from relguide.kernels.way_solutions import solve_kind
-from relguide.kernels.ways import FREE, NONE, SEVERAL, SIZE
+from relguide.kernels.ways import NONE, SEVERAL, SIZE
 
+Weights = tuple[FloatArray, ...]
+"""The arrays of `Layers`, in that order."""
 OUTPUTS = 3 * SIZE
 """Score of each kind, then its guess."""
 LEGS = MAX_CONTACTS + 1
@@ -80,18 +81,19 @@ def guess_of(hidden: FloatArray, layers: Layers, kind: int, guess: FloatArray) -
 
 @njit(cache=True, nogil=True)
 def choose_way(
-    x: float, y: float, h: float, slot: float, alpha: float, limit: float, layers: Layers,
-    least_share: float, most: int, doubt: float, legs: FloatArray,
+    x: float, y: float, h: float, slot: float, alpha: float, limit: float, free: FloatArray,
+    layers: Layers, least_share: float, most: int, doubt: float, legs: FloatArray,
 ) -> tuple[int, int, float, int]:  # fmt: skip
     """Solve the kinds of ways that the network holds possible, next to its guesses, and no others.
 
     Args:
-        x: pursuer ahead of the slot [R].
-        y: and left of it [R].
-        h: its heading [rad], in [0, 2π).
-        slot: D [R].
-        alpha: V_L/V_P, below 1.
-        limit: d_min [R].
+        x: as in `way_shares`.
+        y: as there.
+        h: as there.
+        slot: as there.
+        alpha: as there.
+        limit: as there.
+        free: as there; it breaks the limit: where that does not bind is not what was learnt.
         layers: the weights.
         least_share: kinds with a smaller share than this are left out.
         most: with more kinds than this, nothing is solved.
@@ -101,28 +103,17 @@ def choose_way(
 
     Returns:
         how many kinds are held possible, the kind of the way, its arrival [R/V_P] and how many
-        legs it has; infinite and 0 if there is none, or the limit does not bind.
+        legs it has; infinite and 0 if there is none.
     """
-    mirrored = needs_mirror(y, h)
-    if mirrored:
-        y, h = -y, TWO_PI - h if h > 0.0 else 0.0
-    rows = np.empty((MAX_ROWS, 5))
     share = np.empty(SIZE)
-    found = solve(x, y, h, alpha, 0.0, rows)
-    if found == 0:
-        return 0, NONE, inf, 0
-    leader = np.zeros((1, 5))
-    leader[0, 1] = slot
-    if word_clears(x, y, h, 0.0, rows[0], leader, alpha, limit - GRAZE):
-        return 0, FREE, inf, 0  # the limit does not bind: that is not what was learnt
-    hidden = way_shares(x, y, h, slot, alpha, limit, rows[0], layers, share)
+    hidden = way_shares(x, y, h, slot, alpha, limit, free, layers, share)
     held = 0
     for kind in range(SIZE):
         held += share[kind] >= least_share and kind != SEVERAL and kind != NONE
     unknown = share[SEVERAL] + share[NONE]
     if held > most or unknown > doubt:
         return held, SEVERAL, inf, 0
-    guess = np.empty(2)
+    guess = np.zeros(2)
     trial = np.zeros((LEGS, 6))
     best, count, chosen = inf, 0, NONE
     for _ in range(held):
@@ -133,31 +124,53 @@ def choose_way(
                 kind = k
         held_share = share[kind]
         share[kind] = 0.0
-        if kind == FREE:
-            for i in range(found):
-                if rows[i, 0] >= best:
-                    break
-                if word_clears(x, y, h, 0.0, rows[i], leader, alpha, limit - GRAZE):
-                    best, count, chosen = rows[i, 0], 1, FREE
-                    legs[0, 0] = WORD
-                    legs[0, 1:6] = rows[i]
-                    break
-        else:
-            guess_of(hidden, layers, kind, guess)
-            time, n = solve_kind(x, y, h, slot, alpha, limit, kind, guess, best, trial)
-            if n > 0:
-                best, count, chosen = time, n, kind
-                legs[:n] = trial[:n]
+        guess_of(hidden, layers, kind, guess)
+        time, n = solve_kind(x, y, h, slot, alpha, limit, kind, guess, best, trial)
+        if n > 0:
+            best, count, chosen = time, n, kind
+            legs[:n] = trial[:n]
         if best == inf:
             unknown += held_share
     # kinds of which there is none next to its guess were held possible in vain
-    if unknown > doubt or best > rows[0, 0] + _MOST_LATE:
+    if unknown > doubt or best > free[0] + _MOST_LATE:
         return held, SEVERAL, inf, 0
-    if mirrored:
-        for k in range(count):
-            if legs[k, 0] == RIDE:
-                legs[k, 1:4] *= -1.0
-            else:
-                # words stand beside their mirror images
-                legs[k, 2] = int(legs[k, 2]) ^ 1
     return held, chosen, best, count
+
+
+@njit(cache=True, nogil=True)
+def way_round(
+    x: float, y: float, h: float, slot: float, alpha: float, limit: float, free: FloatArray,
+    radius: float, longest: float, weights: Weights, least_share: float, most: int, doubt: float,
+) -> FloatArray:  # fmt: skip
+    """The way of `choose_way` as pieces.
+
+    Args:
+        x: pursuer ahead of the slot [R].
+        y: and left of it [R], or right.
+        h: its heading [rad], in [0, 2π).
+        slot: D [R].
+        alpha: V_L/V_P, below 1.
+        limit: d_min [R].
+        free: what `seen` found.
+        radius: R [m].
+        longest: ways that take longer count as none [R/V_P].
+        weights: those of `Layers`; a plain tuple is handed over in half the time.
+        least_share: as in `choose_way`.
+        most: as there.
+        doubt: as there.
+
+    Returns:
+        as `pieces.pieces_of`; no columns if there is no way. shape (3, pieces)
+    """
+    sense = 1.0
+    if needs_mirror(y, h):
+        y, h, sense = -y, TWO_PI - h if h > 0.0 else 0.0, -1.0
+    legs = np.zeros((LEGS, 6))
+    _, _, time, count = choose_way(
+        x, y, h, slot, alpha, limit, free, Layers(*weights), least_share, most, doubt, legs
+    )
+    if count == 0 or time > longest:
+        return np.empty((3, 0))
+    leader = np.zeros((1, 5))
+    leader[0, 1] = slot
+    return pieces_of(x, y, h, leader, alpha, limit, 0.0, radius, sense, time, legs[:count])

@@ -18,23 +18,19 @@ from time import perf_counter_ns
 
 import numpy as np
 
-from relguide.kernels.clearance import SLACK
 from relguide.kernels.extremals import MAX_ROWS, WORDS
-from relguide.kernels.limited import limit_binds
 from relguide.kernels.network import choose
 from relguide.kernels.strategies import direct_time
-from relguide.learn.labels import Box
 from relguide.learn.network import StrategyNetwork
 from relguide.learn.way_network import WayNetwork, load_way_network
-from relguide.learn.way_round import slot_ahead, way_round
-from relguide.planning.certificate import Certificate, judge, kernel_arrays
+from relguide.learn.way_round import seen, solved
+from relguide.planning.certificate import Certificate, judge, leader_bends
 from relguide.planning.inputs import expect
 from relguide.planning.plan import NoPlan, Optimality, Plan, Planner, plan
 from relguide.planning.situation import Situation
-from relguide.planning.slot import SlotFrame, slot_frame
-from relguide.planning.trajectory import Trajectory
-from relguide.planning.words import HORIZON, SIGN_ROWS, Candidate, assemble
-from relguide.units import Second
+from relguide.planning.slot import slot_frame
+from relguide.planning.words import HORIZON, SIGN_ROWS, Candidate, candidate_of, segments_of
+from relguide.units import Metre, Second
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -96,60 +92,40 @@ def propose(
 ) -> Proposal | None:
     """The fastest path of the words that the network holds possible; `None` if it cannot say.
 
-    Where the limit binds and there is a network of ways: its way round the limit.
-    """
-    leader = situation.leader.trajectory
-    frame = slot_frame(situation, leader)
-    if ways is not None and _binds(situation, frame):
-        return _round(ways, situation, frame, leader)
-    if not _within(network.box, frame):
-        return None
-    rows = np.empty((MAX_ROWS, 5))
-    _, found = choose(
-        frame.x, frame.y, frame.h, frame.alpha,
-        network.layers, network.least_share, network.most, rows,
-    )  # fmt: skip
-    time, word, *amounts = rows[0].tolist()
-    scale = frame.radius / situation.pursuer.tas
-    # had another word been open before, it would be the exact planner's to find how to wait for it
-    if found == 0 or time < frame.t_open or time * scale > HORIZON:
-        return None
-    candidate = assemble(situation, frame, SIGN_ROWS[int(word)], amounts, WORDS[int(word)])
-    return _judged(candidate, situation, frame, leader)
-
-
-def _round(
-    ways: WayNetwork, situation: Situation, frame: SlotFrame, leader: Trajectory
-) -> Proposal | None:
-    around = way_round(ways, situation, frame)
-    return None if around is None else _judged(around, situation, frame, leader)
-
-
-def _judged(
-    candidate: Candidate, situation: Situation, frame: SlotFrame, leader: Trajectory
-) -> Proposal:
-    least = max(direct_time(frame.x, frame.y, frame.alpha), frame.t_open)
-    return Proposal(
-        candidate=candidate,
-        certificate=judge(candidate.trajectory, situation, kernel_arrays(leader)),
-        lower_bound=least * frame.radius / situation.pursuer.tas,
-    )
-
-
-def _binds(situation: Situation, frame: SlotFrame) -> bool:
-    """Whether the limit binds behind a leader that keeps straight.
-
-    That takes the fastest way, which is found sooner than a network is asked. Of a leader who
+    Where the limit binds and there is a network of ways: its way round the limit. Whether it does
+    is told by the fastest way, which is found sooner than a network is asked. Of a leader who
     turns, and in a cross wind, only the certificate knows.
     """
-    slot = slot_ahead(situation, frame)
-    if slot is None:
-        return False
-    limit = situation.min_separation / frame.radius - SLACK
-    return limit_binds(frame.x, frame.y, frame.h, frame.alpha, slot, limit)
+    radius = situation.pursuer.turn_radius
+    if situation.leader.intent:
+        frame = slot_frame(situation, situation.leader.trajectory)
+        where, t_open = (frame.x, frame.y, frame.h, frame.alpha), frame.t_open
+    else:
+        binds, soonest, place, free = seen(situation, radius)
+        if ways is not None and binds:
+            around = solved(ways, situation, radius, place, free)
+            return None if around is None else _judged(around, situation, radius, soonest)
+        x, y, h, _, alpha, _ = place
+        where, t_open = (x, y, h, alpha), 0.0
+    x, y, _, alpha = where
+    box = network.box
+    if not (hypot(x, y) <= box.max_range and box.min_ratio <= alpha <= box.max_ratio):
+        return None
+    rows = np.empty((MAX_ROWS, 5))
+    _, found = choose(*where, network.layers, network.least_share, network.most, rows)
+    time, word, *amounts = rows[0].tolist()
+    # had another word been open before, it would be the exact planner's to find how to wait for it
+    if found == 0 or time < t_open or time * radius / situation.pursuer.tas > HORIZON:
+        return None
+    segments = segments_of(radius, SIGN_ROWS[int(word)], amounts)
+    candidate = candidate_of(situation.pursuer, segments, WORDS[int(word)])
+    return _judged(candidate, situation, radius, max(direct_time(x, y, alpha), t_open))
 
 
-def _within(box: Box, frame: SlotFrame) -> bool:
-    return (
-        hypot(frame.x, frame.y) <= box.max_range and box.min_ratio <= frame.alpha <= box.max_ratio
+def _judged(candidate: Candidate, situation: Situation, radius: Metre, least: float) -> Proposal:
+    """With its certificate; no way arrives before `least` [R/V_P]."""
+    return Proposal(
+        candidate=candidate,
+        certificate=judge(candidate.trajectory, situation, radius, leader_bends(situation)),
+        lower_bound=least * radius / situation.pursuer.tas,
     )

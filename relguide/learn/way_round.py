@@ -13,57 +13,69 @@ from math import hypot
 
 import numpy as np
 
-from relguide.kernels.chain import WORD
-from relguide.kernels.way_network import LEGS, choose_way
+from relguide.kernels import seen as kernel
+from relguide.kernels import way_network
+from relguide.kernels.roots import FloatArray
+from relguide.kernels.seen import Where
 from relguide.learn.way_network import WayNetwork
-from relguide.planning.detour import SAME, flown
 from relguide.planning.situation import Situation
-from relguide.planning.slot import SlotFrame
-from relguide.planning.words import HORIZON, SIGN_ROWS, Candidate, assemble
-
-_ASIDE = 1e-9  # the slot counts as straight behind the leader [R]: 10 µm for an airliner
+from relguide.planning.words import HORIZON, Candidate, candidate_of, segments_flown
+from relguide.units import Metre
 
 
-def way_round(ways: WayNetwork, situation: Situation, frame: SlotFrame) -> Candidate | None:
+def way_round(ways: WayNetwork, situation: Situation) -> Candidate | None:
     """The fastest way round the limit that the network leads to, not certified yet.
+
+    `None` where the limit does not bind, too.
+    """
+    if situation.leader.intent:
+        return None
+    radius = situation.pursuer.turn_radius
+    binds, _, where, free = seen(situation, radius)
+    return solved(ways, situation, radius, where, free) if binds else None
+
+
+def seen(situation: Situation, radius: Metre) -> tuple[bool, float, Where, FloatArray]:
+    """A situation as networks see it, behind a leader that keeps straight.
+
+    Args:
+        situation: what is to be planned.
+        radius: R, which callers have at hand [m].
+
+    Returns:
+        whether the limit binds, when nobody can be at the slot yet [R/V_P], where all are, and the
+        fastest way without the limit: see `kernels.seen`.
+    """
+    pursuer, leader, wind = situation.pursuer, situation.leader, situation.wind
+    free = np.empty(5)
+    binds, soonest, where = kernel.seen(
+        pursuer.x, pursuer.y, pursuer.heading, pursuer.tas, radius,
+        leader.x, leader.y, leader.heading, leader.tas,
+        situation.slot_distance, situation.min_separation, wind.east, wind.north, free,
+    )  # fmt: skip
+    return binds, soonest, where, free
+
+
+def solved(
+    ways: WayNetwork, situation: Situation, radius: Metre, where: Where, free: FloatArray
+) -> Candidate | None:
+    """As `way_round`, of a situation that has been seen, and in which the limit binds.
 
     Args:
         ways: the network.
-        situation: what is to be planned.
-        frame: its slot frame.
+        situation: gives the pursuer.
+        radius: R [m].
+        where: of `seen`.
+        free: of `seen`.
     """
-    limit = situation.min_separation / frame.radius
-    slot = slot_ahead(situation, frame)
-    if slot is None or not ways.holds(frame.x, frame.y, frame.alpha, slot, limit):
+    x, y, _, slot, alpha, limit = where
+    pursuer = situation.pursuer
+    if not ways.holds(x, y, alpha, slot, limit) or hypot(x - slot, y) < limit:
         return None
-    if hypot(frame.x - slot, frame.y) < limit:
-        return None
-    legs = np.zeros((LEGS, 6))
-    _, _, time, count = choose_way(
-        frame.x, frame.y, frame.h, slot, frame.alpha, limit,
-        ways.layers, ways.least_share, ways.most, ways.doubt, legs,
+    pieces = way_network.way_round(
+        *where, free, radius, HORIZON * pursuer.tas / radius,
+        tuple(ways.layers), ways.least_share, ways.most, ways.doubt,
     )  # fmt: skip
-    scale = frame.radius / situation.pursuer.tas
-    if count == 0 or time * scale > HORIZON:
+    if pieces.shape[1] == 0:
         return None
-    flight = legs[:count].tolist()
-    if all(leg[0] == WORD for leg in flight):
-        signs = [sign for leg in flight for sign in SIGN_ROWS[int(leg[2])]]
-        amounts = [amount for leg in flight for amount in leg[3:]]
-        return assemble(situation, frame, signs, amounts, "")
-    leader = np.array([[0.0, slot, 0.0, 0.0, 0.0]])
-    candidate = flown(situation, frame, leader, limit, legs[:count])
-    # where a ride ends another word may have to lead on: then it is not what was looked for
-    if candidate is None or candidate.time_to_converge > (time + SAME) * scale:
-        return None
-    return candidate
-
-
-def slot_ahead(situation: Situation, frame: SlotFrame) -> float | None:
-    """How far ahead of the slot a leader is [R]; `None` if he turns, or is aside of it too."""
-    if situation.leader.intent:
-        return None
-    if situation.wind.east == situation.wind.north == 0.0:
-        return situation.slot_distance / frame.radius
-    along, aside = frame.to_slot(situation.leader.x, situation.leader.y)
-    return along if abs(aside) <= _ASIDE else None
+    return candidate_of(pursuer, segments_flown(radius, pieces))

@@ -4,11 +4,13 @@ The certificate never trusts who made the trajectory: it reads its segments, not
 """
 
 from dataclasses import dataclass
+from itertools import chain
 
 import numpy as np
 
-from relguide.kernels.approach import least_separation
+from relguide.kernels.approach import least_on_paths
 from relguide.kernels.clearance import SLACK
+from relguide.kernels.roots import FloatArray
 from relguide.planning.inputs import expect
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import Trajectory
@@ -16,6 +18,8 @@ from relguide.units import Metre, Second
 
 TOLERANCE = 1e-7
 """How far below the least separation found the proof may stop [R]: 1 mm for an airliner."""
+
+_STRAIGHT = np.empty(0)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -41,23 +45,25 @@ def certify(trajectory: Trajectory, situation: Situation) -> Certificate:
     """
     expect("trajectory", trajectory, Trajectory)
     expect("situation", situation, Situation)
-    return judge(trajectory, situation, kernel_arrays(situation.leader.trajectory))
+    return judge(trajectory, situation, situation.pursuer.turn_radius, leader_bends(situation))
 
 
 def judge(
-    trajectory: Trajectory, situation: Situation, leader: tuple[np.ndarray, np.ndarray]
+    trajectory: Trajectory, situation: Situation, radius: Metre, leading: FloatArray
 ) -> Certificate:
     """As `certify`, for many trajectories of one situation.
 
     Args:
         trajectory: the pursuer's.
-        situation: gives d_min and R.
-        leader: the situation's leader, as the kernels take it.
+        situation: gives the leader and d_min.
+        radius: R, which callers have at hand [m].
+        leading: the situation's `leader_bends`, or `bends_of` what its leader flies.
     """
-    radius = situation.pursuer.turn_radius
-    least, at, bound = least_separation(
-        *kernel_arrays(trajectory), *leader, trajectory.duration, TOLERANCE * radius
-    )
+    leader = situation.leader
+    least, at, bound = least_on_paths(
+        trajectory.x, trajectory.y, trajectory.heading, trajectory.tas, bends_of(trajectory),
+        leader.x, leader.y, leader.heading, leader.tas, leading, TOLERANCE * radius,
+    )  # fmt: skip
     return Certificate(
         least_separation=least,
         at_time=at,
@@ -66,7 +72,23 @@ def judge(
     )
 
 
-def kernel_arrays(trajectory: Trajectory) -> tuple[np.ndarray, np.ndarray]:
+def leader_bends(situation: Situation) -> FloatArray:
+    """What the leader flies before its final leg, as `judge` takes it."""
+    return bends_of(situation.leader.trajectory) if situation.leader.intent else _STRAIGHT
+
+
+def bends_of(trajectory: Trajectory) -> FloatArray:
+    """Length [m] and curvature [rad/m, right positive] of each piece in turn.
+
+    shape (2·pieces,)
+    """
+    told: list[float] = []
+    for segment in trajectory.segments:
+        told.extend(chain.from_iterable(segment.bends))
+    return np.array(told)
+
+
+def kernel_arrays(trajectory: Trajectory) -> tuple[FloatArray, FloatArray]:
     """A trajectory as the kernels take it.
 
     Returns:

@@ -7,10 +7,9 @@ from math import hypot
 from time import perf_counter_ns
 from typing import Literal
 
-import numpy as np
-
 from relguide.kernels.clearance import SLACK
-from relguide.planning.certificate import Certificate, certify, judge, kernel_arrays
+from relguide.kernels.roots import FloatArray
+from relguide.planning.certificate import Certificate, bends_of, judge, leader_bends
 from relguide.planning.detour import detour
 from relguide.planning.direct import direct
 from relguide.planning.inputs import expect
@@ -116,7 +115,7 @@ def plan(situation: Situation) -> Plan | NoPlan:
             f"than the minimum of {situation.min_separation:,.0f} m. "
             f"{restore_sentence(restore(situation))}",
         )
-    chosen = _at_once(situation, radius) or _searched(situation)
+    chosen = _at_once(situation, radius) or _searched(situation, radius)
     if isinstance(chosen, NoPlan):
         return chosen
     candidate, certificate, optimality = chosen
@@ -137,13 +136,13 @@ def _at_once(situation: Situation, radius: Metre) -> _Chosen | None:
     if first is None:
         return None
     candidate, time = first
-    certificate = certify(candidate.trajectory, situation)
+    certificate = judge(candidate.trajectory, situation, radius, leader_bends(situation))
     if not certificate.holds:
         return None
     return candidate, certificate, Optimality(proof="relaxation", lower_bound=time)
 
 
-def _searched(situation: Situation) -> _Chosen | NoPlan:
+def _searched(situation: Situation, radius: Metre) -> _Chosen | NoPlan:
     """The fastest of all extremals and of all ways that touch d_min, or why there is none."""
     found = candidates(situation)
     if len(found) == 0:
@@ -154,7 +153,7 @@ def _searched(situation: Situation) -> _Chosen | NoPlan:
             message=f"The slot is reached only after {found.bound / 3600.0:,.0f} h, beyond the "
             f"horizon of {HORIZON / 3600.0:.0f} h: a larger speed difference helps.",
         )
-    return _first_that_holds(found, situation) or NoPlan(
+    return _first_that_holds(found, situation, radius) or NoPlan(
         reason=Reason.SEPARATION_UNAVOIDABLE,
         message=f"Each of the {len(found)} direct trajectories to the slot comes closer "
         f"than {distance(situation.min_separation)} to the leader, and no way round it was found. "
@@ -162,15 +161,15 @@ def _searched(situation: Situation) -> _Chosen | NoPlan:
     )
 
 
-def _first_that_holds(found: Candidates, situation: Situation) -> _Chosen | None:
-    bound, leader = found.bound, kernel_arrays(found.leader)
+def _first_that_holds(found: Candidates, situation: Situation, radius: Metre) -> _Chosen | None:
+    bound, leading = found.bound, bends_of(found.leader)
     if found.reachable_at_opening:
-        best = _canonical(found.at_opening, situation, leader)
+        best = _canonical(found.at_opening, situation, radius, leading)
         if best is not None:
             return *best, Optimality(proof="relaxation", lower_bound=bound)
     chosen: tuple[Candidate, Certificate] | None = None
     for i, candidate in enumerate(found.later):
-        certificate = judge(candidate.trajectory, situation, leader)
+        certificate = judge(candidate.trajectory, situation, radius, leading)
         if certificate.holds:
             chosen = candidate, certificate
             if i == 0 and not found.reachable_at_opening:
@@ -178,7 +177,7 @@ def _first_that_holds(found: Candidates, situation: Situation) -> _Chosen | None
             break
     around = detour(found, beat=chosen[0].time_to_converge if chosen else HORIZON)
     if around is not None:
-        certificate = judge(around.trajectory, situation, leader)
+        certificate = judge(around.trajectory, situation, radius, leading)
         if certificate.holds:
             chosen = around, certificate
     if chosen is None:
@@ -192,14 +191,15 @@ def _first_that_holds(found: Candidates, situation: Situation) -> _Chosen | None
 def _canonical(
     equally_fast: tuple[Candidate, ...],
     situation: Situation,
-    leader: tuple[np.ndarray, np.ndarray],
+    radius: Metre,
+    leading: FloatArray,
 ) -> tuple[Candidate, Certificate] | None:
     """Of candidates that arrive together: fewest turns, then separation, then least turning."""
     best: tuple[Candidate, Certificate] | None = None
     for candidate in equally_fast:
         if best is not None and candidate.trajectory.turns > best[0].trajectory.turns:
             break
-        certificate = judge(candidate.trajectory, situation, leader)
+        certificate = judge(candidate.trajectory, situation, radius, leading)
         # 1 m: separations this close count as equal, and the one with less turning stays
         if certificate.holds and (
             best is None or certificate.least_separation > best[1].least_separation + 1.0

@@ -8,17 +8,24 @@ import numpy as np
 
 from relguide.kernels.extremals import MAX_ROWS, SIGNS, WORDS, solve
 from relguide.kernels.hold import HOLD_PIECES, MAX_HOLDS, holds
+from relguide.kernels.pieces import NO_TURN
 from relguide.planning.inputs import expect
 from relguide.planning.situation import Pursuer, Situation
 from relguide.planning.slot import SlotFrame, slot_frame
-from relguide.planning.trajectory import LEFT, RIGHT, Arc, Segment, Straight, Trajectory
+from relguide.planning.trajectory import (
+    LEFT,
+    RIGHT,
+    Arc,
+    BoundaryArc,
+    Segment,
+    Straight,
+    Trajectory,
+)
 from relguide.units import Metre, Second
 
 HORIZON: Second = 43_200.0
 """Plans longer than this are not given: 12 hours, longer than any aircraft's fuel lasts [s]. At
 speeds that hardly differ paths have up to 10¹⁸ s, where rounding is all there is."""
-NO_TURN = 1e-9
-"""A turn below this is rounding [rad]; likewise a straight, in R."""
 SIGN_ROWS: list[list[float]] = SIGNS.tolist()
 """`SIGNS` as lists."""
 
@@ -171,4 +178,30 @@ def segments_of(
             turn = LEFT if sign > 0.0 else RIGHT
             segments.append(Arc(turn=turn, turn_angle=amount, radius=radius))
         last = sign
+    return tuple(segments)
+
+
+def segments_flown(radius: Metre, pieces: np.ndarray) -> tuple[Segment, ...]:
+    """Pieces of `kernels.pieces` as segments.
+
+    Args:
+        radius: R [m].
+        pieces: a column each, as `pieces_of` gives them. shape (3, n)
+    """
+    rides, bends, amounts = pieces.tolist()
+    segments: list[Segment] = []
+    at = 0
+    while at < len(rides):
+        ride, bend, amount = rides[at], bends[at], amounts[at]
+        end = at + 1
+        if ride != 0.0:
+            end = at + rides.count(ride)
+            arcs = tuple(zip(amounts[at:end], bends[at:end], strict=True))
+            segments.append(BoundaryArc(side=LEFT if ride > 0.0 else RIGHT, bends=arcs))
+        elif bend == 0.0:
+            segments.append(Straight(length=amount))
+        else:
+            turn = LEFT if bend > 0.0 else RIGHT
+            segments.append(Arc(turn=turn, turn_angle=amount, radius=radius))
+        at = end
     return tuple(segments)

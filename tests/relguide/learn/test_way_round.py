@@ -23,7 +23,6 @@ from relguide.learn.network import load_network
 from relguide.learn.planner import network_planner
 from relguide.learn.way_network import WayNetwork, load_way_network
 from relguide.learn.way_round import way_round
-from relguide.planning.slot import slot_frame
 from relguide.units import DEG
 from tests.relguide.learn.test_limit_labels import situation_of
 from tests.relguide.learn.way_networks import ways
@@ -99,8 +98,7 @@ def fell_back(situation: Situation) -> bool:
 
 def test_out_of_the_box_the_exact_planner_answers() -> None:
     situation, _ = answered()[0]
-    frame = slot_frame(situation, situation.leader.trajectory)
-    assert way_round(SHIPPED, situation, frame) is not None
+    assert way_round(SHIPPED, situation) is not None
     box = SHIPPED.box
     for outside in (
         replace(box, max_ratio=box.min_ratio + 1e-3),
@@ -111,18 +109,13 @@ def test_out_of_the_box_the_exact_planner_answers() -> None:
         found = [
             situation
             for situation in UNSEEN
-            if way_round(
-                replace(SHIPPED, box=outside),
-                situation,
-                slot_frame(situation, situation.leader.trajectory),
-            )
-            is None
+            if way_round(replace(SHIPPED, box=outside), situation) is None
         ]
         assert len(found) > 100
     unsure = replace(SHIPPED, most=0)
-    assert way_round(unsure, situation, frame) is None
+    assert way_round(unsure, situation) is None
     doubtful = replace(SHIPPED, doubt=-1.0)
-    assert way_round(doubtful, situation, frame) is None
+    assert way_round(doubtful, situation) is None
 
 
 def test_in_a_cross_wind_the_exact_planner_answers() -> None:
@@ -130,8 +123,7 @@ def test_in_a_cross_wind_the_exact_planner_answers() -> None:
     assert fell_back(replace(situation, wind=wind_from(90 * DEG, 20.0)))
     for other in UNSEEN[:60]:
         across = replace(other, wind=wind_from(90 * DEG, 20.0))
-        frame = slot_frame(across, across.leader.trajectory)
-        assert way_round(SHIPPED, across, frame) is None
+        assert way_round(SHIPPED, across) is None
     along = replace(situation, wind=wind_from(180 * DEG, 20.0))
     planned = asked(along)
     assert isinstance(planned, Plan)
