@@ -6,7 +6,7 @@ from dataclasses import fields
 
 from rich.console import Console
 
-from tests.bench import detours, throughput, unlimited
+from tests.bench import detours, inference, network, network_batch, throughput, unlimited
 from tests.bench.detours import Contest
 from tests.bench.options import positive
 from tests.bench.results import Counts, Results, measure
@@ -24,6 +24,9 @@ def main(arguments: list[str] | None = None) -> int:
     console.print(unlimited.table(results.rows, results.cases))
     console.print(detours.table(results.groups))
     console.print(throughput.table(results.batches))
+    console.print(network.table(results.pairs))
+    console.print(network_batch.table(results.network_batches))
+    console.print(inference.table(results.rates))
     for contest in results.beaten:
         console.print(_beaten(contest), soft_wrap=True, highlight=False)
     failures = _failures(results)

@@ -1,12 +1,15 @@
 """The networks beside the search: whole certified answers, without the limit and where it binds.
 
+One query, then the same in a batch.
+
 python -m tests.bench.network --count 400
 """
 
 import argparse
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from itertools import islice
 
 import numpy as np
 from rich.console import Console
@@ -16,6 +19,7 @@ from relguide import Plan, Planner, Situation, plan
 from relguide.learn.network import load_network
 from relguide.learn.planner import network_planner
 from relguide.progress import watched
+from tests.bench import network_batch
 from tests.bench.draws import active, anywhere, is_active
 from tests.bench.options import positive
 from tests.bench.timing import timed
@@ -48,33 +52,45 @@ class Pair:
 def drawn(count: int) -> dict[str, list[Situation]]:
     """So many situations each: where the limit does not bind, and where it does."""
     rng = np.random.default_rng(SEED)
-    free: list[Situation] = []
-    while len(free) < count:
-        situation = anywhere(rng)
-        if not is_active(situation):
-            free.append(situation)
+    sources = {
+        "it does not bind": _free(rng),
+        "it binds, R > d_min": _active(rng, tight=False),
+        "it binds, R < d_min": _active(rng, tight=True),
+    }
     return {
-        "it does not bind": free,
-        "it binds, R > d_min": [active(rng, tight=False) for _ in range(count)],
-        "it binds, R < d_min": [active(rng, tight=True) for _ in range(count)],
+        name: list(_shown(islice(source, count), count, f"Drawing, {name}"))
+        for name, source in sources.items()
     }
 
 
-def measure(count: int) -> dict[str, list[Pair]]:
+def _free(rng: np.random.Generator) -> Iterator[Situation]:
+    """Situations in which the limit does not bind, without end."""
+    while True:
+        situation = anywhere(rng)
+        if not is_active(situation):
+            yield situation
+
+
+def _active(rng: np.random.Generator, *, tight: bool) -> Iterator[Situation]:
+    """Those in which it does."""
+    while True:
+        yield active(rng, tight=tight)
+
+
+def measure(asked: dict[str, list[Situation]]) -> dict[str, list[Pair]]:
     """Ask both planners the same, in turns; with bars."""
     ours = network_planner(load_network())
     measured: dict[str, list[Pair]] = {}
-    for name, situations in drawn(count).items():
-        pairs = [_pair(situation, ours) for situation in _shown(situations, f"Networks, {name}")]
+    for name, situations in asked.items():
+        shown = _shown(situations, len(situations), f"Networks, {name}")
+        pairs = [_pair(situation, ours) for situation in shown]
         measured[name] = [pair for pair in pairs if pair is not None]
     return measured
 
 
-def _shown(situations: list[Situation], title: str) -> Iterator[Situation]:
+def _shown(situations: Iterable[Situation], count: int, title: str) -> Iterator[Situation]:
     """One after the other, with a bar."""
-    numbered = watched(
-        enumerate(situations), title=title, total=len(situations), done=lambda pair: pair[0]
-    )
+    numbered = watched(enumerate(situations), title=title, total=count, done=lambda pair: pair[0])
     return (situation for _, situation in numbered)
 
 
@@ -124,7 +140,10 @@ def main(arguments: list[str] | None = None) -> int:
     """Measure, and print the table."""
     parser = argparse.ArgumentParser(prog="python -m tests.bench.network", description=__doc__)
     parser.add_argument("--count", metavar="N", type=positive, default=400)
-    Console(width=118).print(table(measure(parser.parse_args(arguments).count)))
+    situations = drawn(parser.parse_args(arguments).count)
+    console = Console(width=118)
+    console.print(table(measure(situations)))
+    console.print(network_batch.table(network_batch.measure(situations)))
     return 0
 
 

@@ -2,9 +2,12 @@
 
 from dataclasses import dataclass, field
 
-from tests.bench import detours, throughput, unlimited
+from tests.bench import detours, inference, network, network_batch, throughput, unlimited
 from tests.bench.cases import Case, limited_cases, unlimited_cases
 from tests.bench.detours import Contest
+from tests.bench.inference import Rate
+from tests.bench.network import Pair
+from tests.bench.network_batch import Batch
 from tests.bench.throughput import Throughput
 from tests.bench.unlimited import Row
 
@@ -23,6 +26,8 @@ class Counts:
     limited: int = _count(40, "drawn of each kind beside the golden ones, the limit active")
     batch: int = _count(500_000, "situations of a batch, the limit left out")
     limited_batch: int = _count(2048, "situations of a batch, the limit active")
+    asked: int = _count(150, "situations of each kind that networks and plan() are asked")
+    questions: int = _count(50_000, "questions for the network of strategies alone")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,6 +40,12 @@ class Results:
     groups: dict[str, list[Contest]]
     """Where it binds, by kind of situation."""
     batches: list[Throughput]
+    pairs: dict[str, list[Pair]]
+    """Networks beside plan(), by kind of situation."""
+    network_batches: list[Batch]
+    """The same situations at once."""
+    rates: list[Rate]
+    """The network of strategies alone."""
 
     @property
     def beaten(self) -> list[Contest]:
@@ -52,4 +63,13 @@ def measure(counts: Counts) -> Results:
     }
     active = [contest.case for group in groups.values() for contest in group]
     batches = throughput.measure(counts.batch, counts.limited_batch, active)
-    return Results(cases=cases, rows=rows, groups=groups, batches=batches)
+    asked = network.drawn(counts.asked)
+    return Results(
+        cases=cases,
+        rows=rows,
+        groups=groups,
+        batches=batches,
+        pairs=network.measure(asked),
+        network_batches=network_batch.measure(asked),
+        rates=inference.measure(counts.questions),
+    )

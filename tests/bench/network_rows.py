@@ -1,0 +1,123 @@
+"""Certified answers to many situations at once, by networks: what `plan_rows` is compared to.
+
+As `learn.planner`, row by row in one kernel: the fastest way; where that keeps the limit the words
+that one network names, else the way round the limit that the other leads to; then the certificate.
+What the networks pass on, `plan_rows` answers. Slot frame: lengths in R, times in R/V_P, angles
+counter-clockwise; the leader is at (D/R, 0) at t = 0 and keeps heading 0.
+"""
+
+from math import inf
+
+import numpy as np
+from numba import njit
+
+from relguide.kernels.angles import TWO_PI
+from relguide.kernels.approach import least_on_paths
+from relguide.kernels.batch import plan_rows
+from relguide.kernels.clearance import SLACK
+from relguide.kernels.extremals import MAX_ROWS, SIGNS
+from relguide.kernels.fastest import fastest
+from relguide.kernels.network import Layers, choose
+from relguide.kernels.passage import word_clears
+from relguide.kernels.pieces import pieces_of
+from relguide.kernels.roots import FloatArray
+from relguide.kernels.sooner import MOST_ROOTS, work_room
+from relguide.kernels.strategies import needs_mirror
+from relguide.kernels.way_network import LEGS, choose_way
+from relguide.learn.network import StrategyNetwork
+from relguide.learn.way_network import WayNetwork
+from relguide.planning.certificate import TOLERANCE
+
+_RADIUS, _TAS = 10_000.0, 200.0  # certificates round in metres, so they are asked in those
+
+
+def answer_rows(
+    situations: FloatArray, words: StrategyNetwork, ways: WayNetwork, bearings: int, first: int,
+    last: int, answers: FloatArray,
+) -> None:  # fmt: skip
+    """Answer situations first … last − 1.
+
+    Args:
+        situations: x, y, h of the pursuer; α; x, y of the leader; d_min. shape (n, 7)
+        words: names the words to the slot.
+        ways: names the kinds of ways round the limit.
+        bearings: how finely detours are looked for, where `plan_rows` is asked.
+        first: from this row on.
+        last: up to this row.
+        answers: as `plan_rows` gives them; a verdict of −1 says that networks answered. (n, 4)
+    """
+    box, around = words.box, ways.box
+    _answer_rows(
+        situations, words.layers, (words.least_share, words.most),
+        (box.max_range, box.min_ratio, box.max_ratio),
+        ways.layers, (ways.least_share, ways.most, ways.doubt),
+        (around.min_ratio, around.max_ratio, around.min_limit, around.max_limit, around.max_slot,
+         around.max_range),
+        bearings, first, last, answers,
+    )  # fmt: skip
+
+
+@njit(nogil=True)
+def _answer_rows(
+    situations: FloatArray, words: Layers, sure: tuple[float, int],
+    box: tuple[float, float, float], ways: Layers, surer: tuple[float, int, float],
+    around: tuple[float, float, float, float, float, float], bearings: int, first: int, last: int,
+    answers: FloatArray,
+) -> None:  # fmt: skip
+    free, room, found = np.empty(5), work_room(), np.empty((MOST_ROOTS, 4))
+    rows, legs, leader = np.empty((MAX_ROWS, 5)), np.zeros((LEGS, 6)), np.zeros((1, 5))
+    for n in range(first, last):
+        x, y, h, alpha, slot, _, limit = situations[n]
+        if needs_mirror(y, h):
+            y, h = -y, TWO_PI - h if h > 0.0 else 0.0
+        away = np.hypot(x - slot, y)
+        time, leader[0, 1] = inf, slot
+        pieces = np.empty((3, 0))
+        if not fastest(x, y, h, alpha, 0.0, 0, room, found, free):
+            time = inf
+        elif word_clears(x, y, h, 0.0, free, leader, alpha, limit - SLACK):
+            if np.hypot(x, y) <= box[0] and box[1] <= alpha <= box[2]:
+                _, count = choose(x, y, h, alpha, words, sure[0], sure[1], rows)
+                if count > 0:
+                    time = rows[0, 0]
+                    pieces = np.zeros((3, 3))
+                    pieces[1], pieces[2] = SIGNS[int(rows[0, 1])], rows[0, 2:5]
+                    for k in range(3):
+                        pieces[2, k] *= _RADIUS if pieces[1, k] == 0.0 else 1.0
+        elif (
+            around[0] <= alpha <= around[1]
+            and around[2] <= limit <= around[3]
+            and limit <= slot <= around[4] * limit
+            and limit <= away <= limit + around[5]
+        ):
+            _, _, time, count = choose_way(
+                x, y, h, slot, alpha, limit, free, ways, surer[0], surer[1], surer[2], legs
+            )
+            if count > 0:
+                pieces = pieces_of(
+                    x, y, h, leader, alpha, limit, 0.0, _RADIUS, 1.0, time, legs[:count]
+                )
+        if pieces.shape[1] > 0 and _keeps(x, y, h, slot, alpha, limit, pieces):
+            answers[n, 0], answers[n, 2] = time, -1.0
+        else:
+            plan_rows(situations, bearings, True, n, n + 1, answers)
+
+
+@njit(nogil=True)
+def _keeps(
+    x: float, y: float, h: float, slot: float, alpha: float, limit: float, pieces: FloatArray
+) -> bool:
+    """The certificate. The slot frame is a world with its x axis north: left is right there."""
+    bends = np.empty(2 * pieces.shape[1])
+    for k in range(pieces.shape[1]):
+        ride, bend, amount = pieces[0, k], pieces[1, k], pieces[2, k]
+        if ride == 0.0:
+            bends[2 * k] = amount if bend == 0.0 else amount * _RADIUS
+            bends[2 * k + 1] = bend / _RADIUS
+        else:
+            bends[2 * k], bends[2 * k + 1] = amount, -bend
+    _, _, bound = least_on_paths(
+        y * _RADIUS, x * _RADIUS, h, _TAS, bends, 0.0, slot * _RADIUS, 0.0, alpha * _TAS,
+        np.empty(0), TOLERANCE * _RADIUS,
+    )  # fmt: skip
+    return bool(bound >= (limit - SLACK) * _RADIUS)
