@@ -7,9 +7,17 @@ import numpy as np
 import pytest
 from hypothesis import given
 
+from relguide import NoPlan
 from relguide.kernels.extremals import MAX_ROWS, solve
+from relguide.learn.network import load_network
+from relguide.learn.planner import network_planner
+from relguide.learn.way_network import load_way_network
+from relguide.planning.detour import BEARINGS
+from tests.bench import draws
 from tests.bench.exhaustive import least_time
 from tests.bench.limit import compared, main
+from tests.bench.network_batch import as_row
+from tests.bench.network_rows import BY_NETWORK, answer_rows
 from tests.bench.page import BEGIN, COMMAND, END, FOLDER, PAGE, PICTURES, with_block
 from tests.situations import headings, numbers
 
@@ -62,6 +70,26 @@ def test_a_comparison_goes_on_where_it_stopped(
     assert "4 active situations" in capsys.readouterr().out
     assert main(["--count", "4", *options, "--effort", "3"]) == 2
     assert "effort 2" in capsys.readouterr().err
+
+
+@pytest.mark.slow
+def test_a_batch_by_networks_gives_what_their_planner_gives() -> None:
+    rng = np.random.default_rng(12)
+    drawn = [draws.near(rng, tight=bool(k % 2)) for k in range(40)]
+    rows, answers = np.array([as_row(situation) for situation in drawn]), np.zeros((40, 4))
+    answer_rows(rows, load_network(), load_way_network(), BEARINGS, 0, 40, answers)
+    planner = network_planner(load_network())
+    answered = 0
+    for situation, (time, _, verdict, _) in zip(drawn, answers.tolist(), strict=True):
+        planned = planner(situation)
+        if isinstance(planned, NoPlan):
+            assert time == inf
+            continue
+        scale = situation.pursuer.turn_radius / situation.pursuer.tas
+        assert time * scale == pytest.approx(planned.time_to_converge, abs=0.02)
+        assert (verdict == BY_NETWORK) == (planned.planner == "network")
+        answered += verdict == BY_NETWORK
+    assert answered > 25
 
 
 def test_a_case_is_what_its_number_says() -> None:

@@ -67,7 +67,7 @@ def closest_of_straights(
 
 
 @njit(cache=True, nogil=True)
-def _by_squares(
+def least_by_squares(
     dx: float, dy: float, dvx: float, dvy: float, dax: float, day: float, djx: float, djy: float,
     bend: float, jerk: float, snap: float, half: float,
 ) -> float:  # fmt: skip
@@ -172,7 +172,7 @@ def least_separation(
             if bound < best and bend > 0.0:
                 dax, day = p_rate * pc - l_rate * lc, l_rate * ls - p_rate * ps
                 djx, djy = l_squared * ls - p_squared * ps, l_squared * lc - p_squared * pc
-                by_squares = _by_squares(
+                by_squares = least_by_squares(
                     dx, dy, dvx, dvy, dax, day, djx, djy, bend, jerk, snap, half
                 )
                 bound = max(bound, by_squares)

@@ -17,7 +17,7 @@ from relguide.learn.way_network import load_way_network
 from relguide.planning.detour import BEARINGS
 from relguide.planning.slot import slot_frame
 from relguide.progress import progress_bar
-from tests.bench.network_rows import answer_rows
+from tests.bench.network_rows import BY_NETWORK, answer_rows
 
 CHUNK = 32
 """Situations a thread takes at a time."""
@@ -51,7 +51,7 @@ def measure(drawn: dict[str, list[Situation]]) -> list[Batch]:
     batches = []
     with progress_bar("Networks, in batches", total=2 * REPEATS * len(drawn)) as done:
         for name, situations in drawn.items():
-            rows = _with_a_plan(np.array([_row(situation) for situation in situations]))
+            rows = _with_a_plan(np.array([as_row(situation) for situation in situations]))
             asked, exact = np.empty((len(rows), 4)), np.empty((len(rows), 4))
 
             def ask(first: int, last: int, rows: Floats = rows, out: Floats = asked) -> None:
@@ -69,7 +69,7 @@ def measure(drawn: dict[str, list[Situation]]) -> list[Batch]:
             batches.append(
                 Batch(
                     name=name, count=len(rows),
-                    by_network=float(np.mean(asked[:, 2] < 0.0)),
+                    by_network=float(np.mean(asked[:, 2] == BY_NETWORK)),
                     ours=took[ask], exact=took[search],
                 )
             )  # fmt: skip
@@ -83,7 +83,7 @@ def _with_a_plan(rows: Floats) -> Floats:
     return rows[answers[:, 0] < inf]
 
 
-def _row(situation: Situation) -> tuple[float, ...]:
+def as_row(situation: Situation) -> tuple[float, ...]:
     """As `plan_rows` takes it; calm, behind a leader that keeps straight."""
     frame = slot_frame(situation, situation.leader.trajectory)
     slot, limit = situation.slot_distance / frame.radius, situation.min_separation / frame.radius

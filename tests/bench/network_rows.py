@@ -28,6 +28,8 @@ from relguide.learn.network import StrategyNetwork
 from relguide.learn.way_network import WayNetwork
 from relguide.planning.certificate import TOLERANCE
 
+BY_NETWORK = -1.0
+"""Verdict of an answer that the networks gave."""
 _RADIUS, _TAS = 10_000.0, 200.0  # certificates round in metres, so they are asked in those
 
 
@@ -44,7 +46,7 @@ def answer_rows(
         bearings: how finely detours are looked for, where `plan_rows` is asked.
         first: from this row on.
         last: up to this row.
-        answers: as `plan_rows` gives them; a verdict of −1 says that networks answered. (n, 4)
+        answers: as `plan_rows` gives them, or with the verdict `BY_NETWORK`. shape (n, 4)
     """
     box, around = words.box, ways.box
     _answer_rows(
@@ -98,7 +100,7 @@ def _answer_rows(
                     x, y, h, leader, alpha, limit, 0.0, _RADIUS, 1.0, time, legs[:count]
                 )
         if pieces.shape[1] > 0 and _keeps(x, y, h, slot, alpha, limit, pieces):
-            answers[n, 0], answers[n, 2] = time, -1.0
+            answers[n, 0], answers[n, 2] = time, BY_NETWORK
         else:
             plan_rows(situations, bearings, True, n, n + 1, answers)
 

@@ -1,11 +1,11 @@
 """The proved separation: below every sample, close to the least, also along a circle."""
 
-from math import hypot, pi
+from math import cos, hypot, pi, sin
 
 import numpy as np
 import pytest
 
-from relguide.kernels.approach import least_separation
+from relguide.kernels.approach import least_by_squares, least_separation
 from relguide.kernels.motion import advance
 
 TOLERANCE = 1e-3  # [m]
@@ -52,3 +52,30 @@ def test_a_circle_round_the_leader_is_proved_to_its_distance() -> None:
     leader, none = np.array([0.0, 0.0, 0.0, 0.0]), np.empty((0, 2))
     _, _, bound = least_separation(pursuer, pieces, leader, none, pieces[0, 0], TOLERANCE)
     assert bound == pytest.approx(radius, abs=TOLERANCE + 1e-5)
+
+
+def test_the_bound_by_squares_holds_in_wide_windows() -> None:
+    rng = np.random.default_rng(11)
+    close = 0
+    for _ in range(400):
+        # both in the middle of a window, a few km apart
+        poses = [(*rng.uniform(-5e3, 5e3, 2), rng.uniform(0.0, 2 * pi)) for _ in range(2)]
+        speeds, rates = rng.uniform(100.0, 250.0, 2), rng.uniform(-0.04, 0.04, 2)
+        # place and three derivatives of each
+        told = [
+            (x, y, v * sin(h), v * cos(h), v * r * cos(h), -v * r * sin(h),
+             -v * r * r * sin(h), -v * r * r * cos(h))
+            for (x, y, h), v, r in zip(poses, speeds, rates, strict=True)
+        ]  # fmt: skip
+        relative = [ours - theirs for ours, theirs in zip(*told, strict=True)]
+        largest = [float(np.sum(speeds * np.abs(rates) ** k)) for k in (1, 2, 3)]
+        for half in (4.0, 8.0, 40.0):
+            bound = least_by_squares(*relative, *largest, half)
+            places = [
+                [advance(x, y, h, v, r, t)[:2] for t in np.linspace(-half, half, 201)]
+                for (x, y, h), v, r in zip(poses, speeds, rates, strict=True)
+            ]
+            away = np.hypot(*(np.array(places[0]) - np.array(places[1])).T)
+            assert bound <= away.min() + 1e-6
+            close += bound > 0.5 * away.min()
+    assert close > 400

@@ -1,0 +1,56 @@
+"""What networks see of a situation: its slot frame, and whether the limit binds."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+
+from relguide import Situation
+from relguide.kernels.clearance import SLACK
+from relguide.kernels.limited import limit_binds
+from relguide.kernels.seen import Where, seen
+from relguide.kernels.strategies import direct_time, needs_mirror
+from relguide.planning.slot import slot_frame
+from tests.situations import situations
+
+
+def told(situation: Situation, free: np.ndarray) -> tuple[bool, float, Where]:
+    pursuer, leader, wind = situation.pursuer, situation.leader, situation.wind
+    return seen(
+        pursuer.x, pursuer.y, pursuer.heading, pursuer.tas, pursuer.turn_radius,
+        leader.x, leader.y, leader.heading, leader.tas,
+        situation.slot_distance, situation.min_separation, wind.east, wind.north, free,
+    )  # fmt: skip
+
+
+@given(situations(with_intent=False, reach=60_000.0))
+def test_it_is_the_slot_frame_and_the_limit_binds_where_it_does(situation: Situation) -> None:
+    frame = slot_frame(situation, situation.leader.trajectory)
+    free = np.empty(5)
+    binds, soonest, (x, y, h, slot, alpha, limit) = told(situation, free)
+    assert (x, y) == pytest.approx((frame.x, frame.y), rel=1e-9, abs=1e-9)
+    assert (np.cos(h), np.sin(h)) == pytest.approx((np.cos(frame.h), np.sin(frame.h)), abs=1e-9)
+    along, aside = frame.to_slot(situation.leader.x, situation.leader.y)
+    assert (slot, alpha) == pytest.approx((along, frame.alpha), rel=1e-9, abs=1e-9)
+    assert limit == situation.min_separation / situation.pursuer.turn_radius
+    assert soonest == (direct_time(x, y, alpha) if alpha < 1.0 else np.inf)
+    if abs(aside) > 1e-8:
+        assert not binds
+        return
+    # a limit a little off decides otherwise only where the way grazes it
+    near = [limit_binds(x, y, h, alpha, slot, limit - SLACK + off) for off in (-1e-7, 1e-7)]
+    assert binds in near
+    if binds:
+        mirrored = needs_mirror(y, h)
+        assert free[0] >= soonest - 1e-6
+        other = np.empty(5)
+        pursuer, leader = situation.pursuer, situation.leader
+        image = seen(
+            -pursuer.x, pursuer.y, -pursuer.heading, pursuer.tas, pursuer.turn_radius,
+            -leader.x, leader.y, -leader.heading, leader.tas,
+            situation.slot_distance, situation.min_separation, -situation.wind.east,
+            situation.wind.north, other,
+        )  # fmt: skip
+        assert image[2][1] == pytest.approx(-y, abs=1e-9)
+        if mirrored != needs_mirror(image[2][1], image[2][2]):
+            # both are looked at from one side
+            assert other == pytest.approx(free, rel=1e-6, abs=1e-6)
