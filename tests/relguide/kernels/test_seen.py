@@ -1,5 +1,7 @@
 """What networks see of a situation: its slot frame, and whether the limit binds."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -10,6 +12,7 @@ from relguide.kernels.limited import limit_binds
 from relguide.kernels.seen import Where, seen
 from relguide.kernels.strategies import direct_time, needs_mirror
 from relguide.planning.slot import slot_frame
+from tests.bench import draws
 from tests.situations import situations
 
 
@@ -36,21 +39,29 @@ def test_it_is_the_slot_frame_and_the_limit_binds_where_it_does(situation: Situa
     if abs(aside) > 1e-8:
         assert not binds
         return
+    if needs_mirror(y, h):
+        y, h = -y, 2.0 * np.pi - h if h > 0.0 else 0.0
     # a limit a little off decides otherwise only where the way grazes it
     near = [limit_binds(x, y, h, alpha, slot, limit - SLACK + off) for off in (-1e-7, 1e-7)]
     assert binds in near
-    if binds:
-        mirrored = needs_mirror(y, h)
-        assert free[0] >= soonest - 1e-6
-        other = np.empty(5)
+
+
+def test_mirror_images_are_looked_at_from_one_side() -> None:
+    rng = np.random.default_rng(2)
+    seen_to_bind = 0
+    for k in range(60):
+        situation = draws.near(rng, tight=bool(k % 2))
         pursuer, leader = situation.pursuer, situation.leader
-        image = seen(
-            -pursuer.x, pursuer.y, -pursuer.heading, pursuer.tas, pursuer.turn_radius,
-            -leader.x, leader.y, -leader.heading, leader.tas,
-            situation.slot_distance, situation.min_separation, -situation.wind.east,
-            situation.wind.north, other,
-        )  # fmt: skip
-        assert image[2][1] == pytest.approx(-y, abs=1e-9)
-        if mirrored != needs_mirror(image[2][1], image[2][2]):
-            # both are looked at from one side
-            assert other == pytest.approx(free, rel=1e-6, abs=1e-6)
+        image = replace(
+            situation,
+            pursuer=replace(pursuer, x=-pursuer.x, heading=-pursuer.heading),
+            leader=replace(leader, x=-leader.x, heading=-leader.heading),
+        )
+        free, other = np.empty(5), np.empty(5)
+        binds, soonest, (x, y, *_) = told(situation, free)
+        there, then, (along, left, *_) = told(image, other)
+        assert (there, then) == (binds, pytest.approx(soonest, abs=1e-9))
+        assert (along, left) == pytest.approx((x, -y), abs=1e-9)
+        assert other == pytest.approx(free, rel=1e-6, abs=1e-6)
+        seen_to_bind += binds
+    assert 5 < seen_to_bind < 60
