@@ -114,7 +114,6 @@ def fit(
     accuracy: Callable[[], float],
     network: Callable[[Mapping[str, Any]], N],
     decay: float,
-    from_best: bool = False,
     digest: str,
     checkpoint: Path | None = None,
     resume: bool = False,
@@ -129,7 +128,6 @@ def fit(
         accuracy: of the model as it is, in the rows kept.
         network: what the model's weights become; it is given how they came about.
         decay: of the weights, each step, over the learning rate.
-        from_best: begin each epoch at the best weights so far, instead of the last.
         digest: of whatever the result depends on.
         checkpoint: a file written after every epoch, to go on from.
         resume: go on from it; the result is the same.
@@ -143,8 +141,6 @@ def fit(
         done, best, best_accuracy = load_checkpoint(
             checkpoint, digest, model, optimiser, best_state
         )
-        if from_best:
-            model.load_state_dict(best_state)
     device = device_of(options.device)
     batches = -(-rows.taught // options.batch)
     for epoch in range(done, options.epochs):
@@ -186,8 +182,7 @@ def fit(
                     "validation_accuracy": best_accuracy,
                 }
             )
-        if not from_best:
-            model.load_state_dict(current)
+        model.load_state_dict(current)
         yield Epoch(
             number=epoch + 1, loss=total / batches, accuracy=reached, network=made, best=best
         )
