@@ -29,6 +29,7 @@ SHARE = 0.005  # and what is far ahead is uncertain: half a percent of the time 
 SAME_WAY: Metre = 300.0  # replanning moves a path by metres, another way is kilometres off
 SAME_WAY_SHARE = 0.03  # … and by this much of its length while rolling, when a turn begins late
 OVERDUE: Second = 10.0  # two rolls' worth: more is not what rolling costs
+AT_THE_END: Second = 30.0  # by then it brakes (guidance's LAST_STRETCH), and no longer at V_P
 LEASH: Metre = 600.0  # what one roll-in costs; farther off, the committed path is not being flown
 
 
@@ -184,7 +185,7 @@ def _followed_on(left: Trajectory, plan: Plan, situation: Situation) -> Plan | N
     if _misses(left, situation) > LEASH:
         return None
     certificate = certify(left, situation)
-    if not certificate.holds:
+    if not certificate.holds or not _clear_beside(left, situation):
         return None
     return Plan(
         situation=situation,
@@ -195,6 +196,16 @@ def _followed_on(left: Trajectory, plan: Plan, situation: Situation) -> Plan | N
         planner=plan.planner,
         compute_time=0.0,
     )
+
+
+def _clear_beside(left: Trajectory, situation: Situation) -> bool:
+    """Whether d_min is kept from where the aircraft really is, beside the path it is to follow.
+
+    Not at its end: there it is the spacing that is off, and speed the answer.
+    """
+    pursuer = situation.pursuer
+    beside = certify(replace(left, x=pursuer.x, y=pursuer.y), situation)
+    return beside.holds or beside.at_time > left.duration - AT_THE_END
 
 
 def _as_planned(left: Trajectory, model: AircraftModel, *, overdue: bool) -> bool:

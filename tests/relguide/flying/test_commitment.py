@@ -1,6 +1,7 @@
 """What is flown is kept until there is a reason, and nothing uncertified is flown."""
 
 from dataclasses import replace
+from math import hypot
 
 import pytest
 
@@ -144,6 +145,37 @@ def test_what_is_lost_already_is_not_asked_for(apart: float, limits: list[float]
     )
     choose(None, 0.0, preferred=preferred, required=required, planner=never, model=A300)
     assert asked == limits
+
+
+@pytest.mark.parametrize(("beside", "kept"), [(-200.0, True), (200.0, False)])
+def test_a_path_is_judged_from_where_the_aircraft_is(beside: float, kept: bool) -> None:
+    """Rolling late moves it towards the leader: the path keeps d_min, the aircraft would not."""
+    pursuer = replace(SITUATION.pursuer, x=26e3, y=8e3, heading=4.0)
+    touching = replace(SITUATION, pursuer=pursuer)
+    around = planned(touching)
+    assert around.certificate.least_separation == pytest.approx(touching.min_separation, abs=1.0)
+    t = 0.5 * around.certificate.at_time
+    pose, leader = around.trajectory.pose_at(t), touching.leader.trajectory.pose_at(t)
+    away = hypot(leader.x - pose.x, leader.y - pose.y)
+    here = replace(
+        touching,
+        pursuer=replace(
+            pursuer,
+            x=pose.x + beside * (leader.x - pose.x) / away,
+            y=pose.y + beside * (leader.y - pose.y) / away,
+            heading=pose.heading,
+        ),
+        leader=replace(touching.leader, x=leader.x, y=leader.y),
+    )
+    choice = choose(
+        Commitment(plan=around, made_at=0.0, due=around.time_to_converge),
+        t,
+        preferred=here,
+        required=here,
+        planner=helpless,
+        model=A300,
+    )
+    assert isinstance(choice, Choice) == kept
 
 
 def test_last_turn_is_flown_as_planned_without_asking() -> None:

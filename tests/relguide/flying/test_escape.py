@@ -100,6 +100,18 @@ def test_a_leader_who_turns_may_go_on(side: float) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("number", [2, 331])
+def test_where_d_min_cannot_be_kept_as_much_is_kept_as_any_turn_could(number: int) -> None:
+    """Head-on when engaged, and a plan that would need the bank at once."""
+    flight = draw_flight(np.random.default_rng([1903, number]))
+    best = out(flight.situation)
+    *_, end = fly(replace(flight, duration_limit=90.0), plan, step=0.25, sample_period=1.0)
+    assert isinstance(end, FlightEnded)
+    assert best.least_separation < 0.98 * flight.situation.min_separation
+    assert end.least_separation > 0.995 * best.least_separation
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize("number", [92, 128, 156])
 def test_a_leader_who_turns_towards_it_unannounced_is_given_way(number: int) -> None:
     """He turns for a minute or more; as if he stopped any moment, 0.96 … 0.99 of d_min was left."""
