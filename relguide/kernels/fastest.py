@@ -3,17 +3,18 @@
 LSL and RSR cost a tenth of the others and come first; their time is to be beaten (see `sooner`).
 """
 
-from math import cos, inf, sin
+from math import cos, inf, sin, sqrt
 
 import numpy as np
 from numba import njit
 
 from relguide.kernels.angles import TWO_PI
-from relguide.kernels.extremals import MAX_ROWS, closes, solve
+from relguide.kernels.extremals import CLOSURE, MAX_ROWS, SIGNS, solve
 from relguide.kernels.roots import FloatArray
 from relguide.kernels.sooner import EARLY, lrl_before, lsl_before, lsr_before
 
-_LEAST_RATIO = 1e-6  # the slot moves: what follows divides by it
+LEAST_RATIO = 1e-6
+"""The slot moves: what follows divides by its α, which is above this."""
 
 
 @njit(cache=True, nogil=True)
@@ -39,7 +40,7 @@ def fastest(
     """
     best = room[3]
     best[0], best_word = inf, -1
-    if _LEAST_RATIO < alpha < 1.0:
+    if LEAST_RATIO < alpha < 1.0:
         sin_h, cos_h = sin(h), cos(h)
         for turn in range(7):
             word = turn if turn < 2 else hint if turn == 2 else turn - 1
@@ -52,7 +53,7 @@ def fastest(
                     best[2], best[3] = found[i, 2], found[i, 3]
                     best_word = word
         # two turns the same way that add up to the change of heading end at the slot by themselves
-        if best_word >= 2 and not closes(x, y, h, alpha, 0.0, best_word, best):
+        if best_word >= 2 and not ends_at_slot(x, y, h, sin_h, cos_h, alpha, best_word, best):
             best_word = -1
         if best_word >= 0:
             row[0], row[1], row[2], row[3], row[4] = best[0], best_word, best[1], best[2], best[3]
@@ -97,3 +98,41 @@ def word_before(
     if word < 4:
         return lsr_before(x, y, h, sin_h, cos_h, alpha, t_open, beat, every, room, found)
     return lrl_before(x, y, h, sin_h, cos_h, alpha, t_open, beat, room, found)
+
+
+@njit(cache=True, nogil=True)
+def ends_at_slot(
+    x: float, y: float, h: float, sin_h: float, cos_h: float, alpha: float, word: int,
+    found: FloatArray,
+) -> bool:  # fmt: skip
+    """As `extremals.closes`, for the slot itself.
+
+    Args:
+        x: as in `fastest`.
+        y: as there.
+        h: as there.
+        sin_h: as in `word_before`.
+        cos_h: as there.
+        alpha: as there.
+        word: its number.
+        found: τ and the amounts of the three pieces. shape (≥ 4,)
+    """
+    first_sign, sign, last_sign = SIGNS[word, 0], SIGNS[word, 1], SIGNS[word, 2]
+    course = h + first_sign * found[1]
+    s, c = sin(course), cos(course)
+    x += first_sign * (s - sin_h)
+    y -= first_sign * (c - cos_h)
+    if sign == 0.0:
+        x += found[2] * c
+        y += found[2] * s
+    else:
+        course += sign * found[2]
+        next_s, next_c = sin(course), cos(course)
+        x += sign * (next_s - s)
+        y -= sign * (next_c - c)
+        s, c = next_s, next_c
+    course += last_sign * found[3]
+    x += last_sign * (sin(course) - s) - alpha * found[0]
+    y -= last_sign * (cos(course) - c)
+    # far away the last digits of τ are worth more than CLOSURE
+    return bool(sqrt(x * x + y * y) <= CLOSURE + 1e-12 * found[0])
