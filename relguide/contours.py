@@ -14,7 +14,9 @@ only; then the field itself is asked again:
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from math import inf
+from typing import Any
 
 import numpy as np
 from contourpy import FillType, LineType, contour_generator
@@ -178,10 +180,20 @@ def _settle(
 
 def _each_once(places: Floats, evaluate: Evaluate) -> Floats:
     """Times of places, some of which are the same."""
-    _, first, which = np.unique(
-        places.view(np.complex128).ravel(), return_index=True, return_inverse=True
-    )
+    first, which = _distinct(places.view(np.complex128).ravel())
     return evaluate(places[first, 0], places[first, 1]).time[which]
+
+
+def _distinct(values: NDArray[Any]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Where each value stands first, in their order; and which of these each one is.
+
+    Neighbours along a line remain neighbours: the answer to one hints at that to the next.
+    """
+    _, first, which = np.unique(values, return_index=True, return_inverse=True)
+    order = np.argsort(first)
+    rank = np.empty_like(order)
+    rank[order] = np.arange(len(order))
+    return first[order], rank[which.reshape(-1)]
 
 
 def _cut(joined: Bools, vertices: Floats, wanted: Floats, axes: _Axes, evaluate: Evaluate) -> None:
@@ -208,7 +220,9 @@ def regions(
     """
     axes = _Axes(x, y)
     labels = np.asarray(axes.on_grid(_labels(field)), np.int64)
-    found = [(int(label), _outlines(labels == label)) for label in np.unique(labels)]
+    present = np.flatnonzero(np.bincount(labels.ravel()))
+    places = np.meshgrid(*(np.arange(n, dtype=np.float64) for n in reversed(labels.shape)))
+    found = [(int(label), _outlines(labels == label, *places)) for label in present]
     rings = [ring for _, polygons in found for polygon in polygons for ring in polygon]
     moved = axes.world(_to_change(np.concatenate(rings), labels, axes, evaluate))
     pieces = iter(np.split(moved, np.cumsum([len(ring) for ring in rings])[:-1]))
@@ -226,17 +240,18 @@ def _labels(field: Field) -> NDArray[np.int64]:
     return 2 * field.words.astype(np.int64) + field.limited
 
 
-def _outlines(inside: Bools) -> list[list[Floats]]:
+def _outlines(inside: Bools, column: Floats, row: Floats) -> list[list[Floats]]:
     """Outlines with their holes, in columns and rows; each vertex half way between two nodes."""
     # contourpy looks at what it is given whole: most labels hold in a small part of the grid
-    columns, rows = (_around(np.any(inside, axis=axis)) for axis in (0, 1))
-    part = inside[rows, columns].astype(np.float64)
-    generator = contour_generator(z=part, fill_type=FillType.OuterOffset)
+    across, along = (_around(np.any(inside, axis=axis)) for axis in (0, 1))
+    part = along, across
+    generator = contour_generator(
+        column[part], row[part], inside[part].astype(np.float64), fill_type=FillType.OuterOffset
+    )
     points, offsets = generator.filled(0.5, inf)[:2]
-    corner = np.array((columns.start, rows.start), np.float64)
     return [
-        np.split(np.asarray(ring, np.float64) + corner, np.asarray(offset, np.int64)[1:-1])
-        for ring, offset in zip(points, offsets, strict=True)
+        [rings[i:j] for i, j in pairwise(np.asarray(offset).tolist())]
+        for rings, offset in zip(map(np.asarray, points), offsets, strict=True)
     ]
 
 
@@ -252,8 +267,8 @@ def _to_change(
     """Move vertices along their edges to where the label changes; all on one edge alike."""
     doubled = np.rint(2.0 * vertices).astype(np.int64)
     wide = 2 * labels.shape[1]
-    keys, which = np.unique(doubled[:, 1] * wide + doubled[:, 0], return_inverse=True)
-    edges = np.column_stack((keys % wide, keys // wide))
+    first, which = _distinct(doubled[:, 1] * wide + doubled[:, 0])
+    edges = doubled[first]
     low, high = edges // 2, (edges + 1) // 2
     along = (high - low).astype(np.float64)
     before = labels[low[:, 1], low[:, 0]]
@@ -266,4 +281,4 @@ def _to_change(
         start[on_edge[same]] = part[on_edge[same]]
         end[on_edge[~same]] = part[on_edge[~same]]
     moved = low + (0.5 * (start + end))[:, None] * along
-    return np.asarray(moved[which.reshape(-1)], np.float64)
+    return np.asarray(moved[which], np.float64)

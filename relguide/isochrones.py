@@ -138,7 +138,8 @@ def isochrones(
         situation: all but the pursuer's place counts.
         grid: where to look; 160 × 120 km round the leader if left out.
         levels: times of the lines [s], ascending; some round ones if empty.
-        evaluate: who gives the times; `times_around(situation)` if left out.
+        evaluate: who gives the times; `times_around(situation)` if left out. Two threads ask at
+            once, unless `threads` is 1.
         exact: whether to search the ways along d_min at each node where the limit binds, which
             takes some ten ms, or up to a second if the leader turns. Between those nodes their
             times are then interpolated.
@@ -157,13 +158,29 @@ def isochrones(
         field = searched(situation, field, east, north, threads, progress)
         evaluate = between_nodes(field, x, y, evaluate)
     levels = levels or round_levels(field)
+    lines, words = _drawn(field, x, y, levels, evaluate, beside=threads != 1)
     return Isochrones(
         grid=grid,
         field=field,
-        contours=contours(field, x, y, levels, evaluate),
-        regions=regions(field, x, y, NAMES, evaluate),
+        contours=lines,
+        regions=words,
         compute_time=(perf_counter_ns() - started) * 1e-6,
     )
+
+
+def _drawn(
+    field: Field, x: Floats, y: Floats, levels: Sequence[Second], evaluate: Evaluate, *,
+    beside: bool,
+) -> tuple[tuple[Contour, ...], tuple[Region, ...]]:  # fmt: skip
+    """Lines and regions; if so wished side by side, as Python draws while the kernels work."""
+    if not beside:
+        return (
+            contours(field, x, y, levels, evaluate),
+            regions(field, x, y, NAMES, evaluate),
+        )
+    with ThreadPoolExecutor(1) as other:
+        words = other.submit(regions, field, x, y, NAMES, evaluate)
+        return contours(field, x, y, levels, evaluate), words.result()
 
 
 def grid_around(situation: Situation) -> Grid:
@@ -212,6 +229,7 @@ def times_around(
     longest = last_turns(table, frame.alpha, limit - SLACK)
     scale = frame.radius / situation.pursuer.tas
     workers = threads or cpu_count() or 1
+    pool = ThreadPoolExecutor(workers)  # its threads start when needed, and end with it
 
     def evaluate(x: Floats, y: Floats) -> Field:
         places = np.column_stack(_to_slot(frame, x, y))
@@ -231,9 +249,8 @@ def times_around(
             for first in range(0, len(places), chunk):
                 work(first)
         else:
-            with ThreadPoolExecutor(workers) as pool:
-                for _ in pool.map(work, range(0, len(places), chunk)):
-                    pass
+            for _ in pool.map(work, range(0, len(places), chunk)):
+                pass
         return _field(answers[:, 0] * scale, answers[:, 1] * scale, *answers.T[2:])
 
     return evaluate

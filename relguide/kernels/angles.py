@@ -10,9 +10,21 @@ FULL_TURN_SLACK = 1e-9
 
 
 @njit(cache=True, nogil=True)
+def modulo(angle: float) -> float:
+    """As angle % 2π to the last bit, without the division where it is a turn off at most."""
+    if 0.0 <= angle < TWO_PI:
+        return angle
+    if -TWO_PI <= angle < 0.0:
+        return angle + TWO_PI
+    if TWO_PI <= angle < 2.0 * TWO_PI:
+        return angle - TWO_PI
+    return angle % TWO_PI
+
+
+@njit(cache=True, nogil=True)
 def wrap(angle: float) -> float:
     """An angle in [0, 2π)."""
-    wrapped = angle % TWO_PI
+    wrapped = modulo(angle)
     if wrapped >= TWO_PI:  # −1e-17 % 2π rounds up to 2π itself
         return 0.0
     return wrapped
@@ -21,13 +33,13 @@ def wrap(angle: float) -> float:
 @njit(cache=True, nogil=True)
 def wrap_signed(angle: float) -> float:
     """An angle in [−π, π)."""
-    return (angle + pi) % TWO_PI - pi
+    return modulo(angle + pi) - pi
 
 
 @njit(cache=True, nogil=True)
 def turn_to(angle: float) -> float:
     """The angle of an arc, in [0, 2π): as `wrap`, but a full turn that is only rounding is none."""
-    wrapped = angle % TWO_PI
+    wrapped = modulo(angle)
     if wrapped > TWO_PI - FULL_TURN_SLACK:
         return 0.0
     return wrapped

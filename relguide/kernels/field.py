@@ -58,7 +58,7 @@ def field_rows(
     row, tried, piece = np.empty(5), np.empty(5), np.empty(3)
     sin_h, cos_h = sin(h), cos(h)
     near = limit - SLACK
-    hint = 0
+    hint = next_hint = 0
     for n in range(first, last):
         x, y = places[n, 0], places[n, 1]
         answer = answers[n]
@@ -96,9 +96,10 @@ def field_rows(
             continue
         answer[3] = 1.0
         if next_clear(
-            x, y, h, sin_h, cos_h, alpha, leader, near, longest, room, found, tried, row
+            x, y, h, sin_h, cos_h, alpha, next_hint, leader, near, longest, room, found, tried, row
         ):
             answer[0], answer[2] = row[0], row[1]
+            next_hint = int(row[1])
 
 
 @njit(cache=True, nogil=True)

@@ -84,9 +84,7 @@ def keeps_clear(
     cx, cy = x - first_sign * sin_h, y + first_sign * cos_h
     if first > 0.0:
         room = point_room(cx, cy, 0.0, 0.0, t, first, leader, i, alpha) - 1.0
-        if room < limit and not piece_clears(
-            x, y, h, first_sign, t, first, leader, alpha, limit
-        ):
+        if room < limit and not piece_clears(x, y, h, first_sign, t, first, leader, alpha, limit):
             return False
         t += first
     course = h + first_sign * first

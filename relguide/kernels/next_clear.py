@@ -1,7 +1,6 @@
 """The fastest extremal that keeps its distance, where the fastest of all does not, for maps.
 
-As the first of the rows of `solve` that clears, but roots are sought only before the best so far:
-the words with the cheapest roots come first, and have to be beaten by the others.
+As the first of the rows of `solve` that clears, but roots are sought only before the best so far.
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader is a table as in
 `clearance`.
@@ -23,9 +22,9 @@ _SAME = 1e-9  # two roots of a word this close are one and the same path [R/V_P]
 
 @njit(cache=True, nogil=True)
 def next_clear(
-    x: float, y: float, h: float, sin_h: float, cos_h: float, alpha: float, leader: FloatArray,
-    limit: float, longest: FloatArray, room: FloatArray, found: FloatArray, tried: FloatArray,
-    row: FloatArray,
+    x: float, y: float, h: float, sin_h: float, cos_h: float, alpha: float, hint: int,
+    leader: FloatArray, limit: float, longest: FloatArray, room: FloatArray, found: FloatArray,
+    tried: FloatArray, row: FloatArray,
 ) -> bool:  # fmt: skip
     """The first row of `solve` after one that does not clear that does.
 
@@ -36,6 +35,7 @@ def next_clear(
         sin_h: its sine, the same for a whole map.
         cos_h: and cosine.
         alpha: V_L/V_P.
+        hint: number of the word that is likely to win: it is tried first, to be beaten.
         leader: table of its pieces. shape (k, 5)
         limit: least allowed separation [R].
         longest: of `final_leg.last_turns`.
@@ -51,7 +51,10 @@ def next_clear(
         return _next_of_all(x, y, h, sin_h, cos_h, alpha, leader, limit, longest, row)
     earliest, lost = row[0], int(row[1])
     best, best_word = inf, -1
-    for word in range(6):
+    for turn in range(7):
+        word = hint if turn == 0 else turn - 1
+        if turn > 0 and word == hint:
+            continue
         after = earliest
         while after < best:
             n = word_before(x, y, h, sin_h, cos_h, alpha, after, word, best, True, room, found)

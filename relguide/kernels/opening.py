@@ -23,7 +23,6 @@ ON_TIME = 1e-9
 """A way this much too long still arrives when the slot opens [R]: rounding."""
 _ROUNDING = 1e-6  # of the bound of a way's length [R]: wide of what it is
 _STEPS = 24  # of false position; ten are enough where nothing jumps
-_ANYWHERE = np.zeros(2)  # no last turn is known to clear where the word does not end in the slot
 
 
 @njit(cache=True, nogil=True)
@@ -96,6 +95,7 @@ def opening_clears(
         row: the same. shape (5,)
     """
     end_x = alpha * t_open
+    none = np.zeros(2)  # no last turn is known to clear where a word does not end in the slot
     for behind in range(2):
         for branch in range(4):
             way = word_headed(x, y, h, sin_h, cos_h, end_x, branch, piece)
@@ -109,19 +109,17 @@ def opening_clears(
             row[0], row[1] = t_open - amount, branch
             row[2], row[3], row[4] = piece[0], piece[1], piece[2]
             if behind == 0:
-                if not _straight_clears(
-                    x, y, h, sin_h, cos_h, 0.0, amount, leader, alpha, limit
-                ):
+                if not _straight_clears(x, y, h, sin_h, cos_h, 0.0, amount, leader, alpha, limit):
                     continue
                 at_x, at_y = x + amount * cos_h, y + amount * sin_h
                 if keeps_clear(
-                    at_x, at_y, h, sin_h, cos_h, amount, row, end_x, leader, alpha, limit, _ANYWHERE
+                    at_x, at_y, h, sin_h, cos_h, amount, row, end_x, leader, alpha, limit, none
                 ):
                     return True
             elif _straight_clears(
                 end_x - amount, 0.0, 0.0, 0.0, 1.0, t_open - amount, amount, leader, alpha, limit
             ) and keeps_clear(
-                x, y, h, sin_h, cos_h, 0.0, row, end_x - amount, leader, alpha, limit, _ANYWHERE
+                x, y, h, sin_h, cos_h, 0.0, row, end_x - amount, leader, alpha, limit, none
             ):
                 return True
     return False

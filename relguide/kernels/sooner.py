@@ -135,13 +135,15 @@ def _lsr_within(
     """LSR paths that arrive between two times, |d| ≥ 2 all the while; appended to n rows."""
     if t_from > t_to + _ROUNDING:
         return n
-    least_turn, low, width = 0.0, 0.0, 0.0
-    # far ahead of the slot the straight leads along its way
-    course_to = _inner_course(alpha * t_to + east, north) if t_to < inf else 0.0
-    for _ in range(_ROUNDS):
+    # A(β) is least where β is h or 0
+    least_turn, low, width = min(h, TWO_PI - h) - _ROUNDING, 0.0, 0.0
+    course_to = 0.0  # far ahead of the slot the straight leads along its way
+    for step in range(_ROUNDS):
         start = max(_not_before(east, north, alpha, least_turn, t_from) - _ROUNDING, t_from)
         if start > t_to + _ROUNDING:
             return n
+        if step == 0 and t_to < inf:
+            course_to = _inner_course(alpha * t_to + east, north)
         swept = wrap_signed(course_to - _inner_course(alpha * start + east, north))
         low = wrap((course_to - swept if swept > 0.0 else course_to) - _ROUNDING)
         width = abs(swept) + 2.0 * _ROUNDING
@@ -259,13 +261,15 @@ def lrl_before(
     k[3] = 0.0
     k[4] = 0.0
     k[5] = 8.0
-    bend = acos(alpha * alpha)
+    bend = 0.0
     for loops in range(3):
         around = TWO_PI * loops - h
         low = max(0.0 if loops > 0 else h, 0.5 * (start - around))
         high = min(h if loops == 2 else TWO_PI, 0.5 * (end - around))
         if high - low < 1e-12 or not _may_meet(ex, ey, alpha, around, low, high):
             continue
+        if bend == 0.0:
+            bend = acos(alpha * alpha)
         closing = alpha * around + ex
         k[1] = 4.0 * alpha * closing
         k[2] = closing * closing + ey * ey - 8.0

@@ -41,7 +41,9 @@ def test_it_says_what_the_windows_say(turns: bool, limit: float) -> None:
         longest = last_turns(leader, alpha, limit)
         for x, y, h in rng.uniform((-5.0, -5.0, 0.0), (7.0, 5.0, 2.0 * pi), (1500, 3)).tolist():
             for row in rows[: solve(x, y, h, alpha, 0.0, rows)]:
-                cheap = keeps_clear(x, y, h, sin(h), cos(h), 0.0, row, alpha*row[0], leader, alpha, limit, longest)
+                cheap = keeps_clear(
+                    x, y, h, sin(h), cos(h), 0.0, row, alpha * row[0], leader, alpha, limit, longest
+                )
                 assert cheap == word_clears(x, y, h, 0.0, row, leader, alpha, limit), (x, y, h)
                 said.append(cheap)
     assert 0.1 < np.mean(said) < 0.98
