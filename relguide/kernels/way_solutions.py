@@ -4,14 +4,13 @@ Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader i
 t = 0 and keeps heading 0.
 """
 
-from math import atan2, cos, inf, isnan, pi, sin
+from math import atan2, inf, isnan, pi
 
 import numpy as np
 from numba import njit
 
-from relguide.kernels.chain import RIDE, WORD
-from relguide.kernels.contact import contact_heading
-from relguide.kernels.extremals import MAX_ROWS, SIGNS, fly_piece, solve
+from relguide.kernels.chain import WORD
+from relguide.kernels.extremals import MAX_ROWS, solve
 from relguide.kernels.guided import (
     AGAIN_RIDES,
     LR,
@@ -26,6 +25,8 @@ from relguide.kernels.guided import (
 from relguide.kernels.passage import GRAZE, word_clears
 from relguide.kernels.roots import FloatArray
 from relguide.kernels.touching import ride_end, ride_on, straight_tangents, turn_tangent
+from relguide.kernels.way_edges import at_edge
+from relguide.kernels.way_legs import as_legs, clears, straight_turn, turn_straight, two_turns
 from relguide.kernels.ways import FREE, NONE, PARTS, SEVERAL, kind_of
 
 
@@ -83,7 +84,7 @@ def solve_kind(
             x, y, h, slot, alpha, delta, atan2(guess[1], guess[0]), side, entry, on, fixed,
             found, rows, way, link,
         )  # fmt: skip
-        _straight_turn(side, straight, turn, way[1])
+        straight_turn(side, straight, turn, way[1])
     elif entry >= LR:
         sign = 1.0 if entry == LR else -1.0
         bearing, first, second = turn_tangent(
@@ -91,7 +92,7 @@ def solve_kind(
         )
         if isnan(first):
             return inf, 0
-        _two_turns(sign, first, second, 0.0, way[0])
+        two_turns(sign, first, second, 0.0, way[0])
         i = leave(slot, alpha, delta, bearing, side, on, found, rows)
         if i < 0:
             return inf, 0
@@ -106,7 +107,7 @@ def solve_kind(
         if isnan(last):
             return inf, 0
         bearing += pi
-        _two_turns(-sign, 0.0, middle, last, way[1])
+        two_turns(-sign, 0.0, middle, last, way[1])
         i = enter(x, y, h, slot, alpha, delta, bearing, side, entry, found, rows)
         if i < 0:
             return inf, 0
@@ -117,81 +118,19 @@ def solve_kind(
             x, y, h, slot, alpha, delta, atan2(guess[1], guess[0]), side, entry, on, fixed,
             found, rows, way, link,
         )  # fmt: skip
-    if time >= beat:
+    if time < inf:
+        if time >= beat:
+            return inf, 0
+        count = as_legs(side, on, bearing, way, link, legs)
+        if clears(x, y, h, leader, alpha, delta, side, legs[:count]):
+            return time, count
+    if entry >= LR or on >= RIDES:
         return inf, 0
-    count = _as_legs(side, on, bearing, way, link, legs)
-    return (time, count) if _clears(x, y, h, leader, alpha, delta, side, legs[:count]) else (inf, 0)
-
-
-@njit(cache=True, nogil=True)
-def _as_legs(
-    side: float, on: int, bearing: float, way: FloatArray, link: FloatArray, legs: FloatArray
-) -> int:
-    """A way as legs; returns how many."""
-    legs[0, 0] = WORD
-    legs[0, 1:6] = way[0]
-    count = 1
-    if on == AGAIN_RIDES:
-        legs[1, 0] = WORD
-        _turn_straight(side, link[1], link[2], legs[1, 1:6])
-        legs[2, 0], legs[2, 1], legs[2, 2], legs[2, 3] = RIDE, side, link[0], link[3]
-        count = 3
-    elif on == RIDES or on == RIDES_AGAIN:
-        legs[1, 0], legs[1, 1], legs[1, 2], legs[1, 3] = RIDE, side, bearing, link[3]
-        count = 2
-        if on == RIDES_AGAIN:
-            legs[2, 0] = WORD
-            _straight_turn(side, link[2], link[1], legs[2, 1:6])
-            count = 3
-    legs[count, 0] = WORD
-    legs[count, 1:6] = way[1]
-    return count + 1
-
-
-@njit(cache=True, nogil=True)
-def _clears(
-    x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float, side: float,
-    legs: FloatArray,
-) -> bool:  # fmt: skip
-    """Whether the words of a way keep the limit; rides do."""
-    slot, t = leader[0, 1], 0.0
-    for k in range(len(legs)):
-        if legs[k, 0] == RIDE:
-            bearing = legs[k, 3]
-            _, took = ride_on(legs[k, 2], bearing, side, alpha, delta)
-            t += took
-            x, y = slot + alpha * t + delta * cos(bearing), delta * sin(bearing)
-            h = contact_heading(bearing, side, alpha)
-            continue
-        row = legs[k, 1:6]
-        if not word_clears(x, y, h, t, row, leader, alpha, delta - 2.0 * GRAZE):
-            return False
-        for piece in range(3):
-            x, y, h = fly_piece(x, y, h, SIGNS[int(row[1]), piece], row[2 + piece])
-            t += row[2 + piece]
-    return True
-
-
-@njit(cache=True, nogil=True)
-def _turn_straight(side: float, turn: float, straight: float, row: FloatArray) -> None:
-    """A turn and a straight as a row; the turn is to this side."""
-    row[0], row[1] = turn + straight, 0.0 if side > 0.0 else 1.0
-    row[2], row[3], row[4] = turn, straight, 0.0
-
-
-@njit(cache=True, nogil=True)
-def _straight_turn(side: float, straight: float, turn: float, row: FloatArray) -> None:
-    """A straight and a turn as a row; the turn is to this side."""
-    row[0], row[1] = straight + turn, 0.0 if side > 0.0 else 1.0
-    row[2], row[3], row[4] = 0.0, straight, turn
-
-
-@njit(cache=True, nogil=True)
-def _two_turns(sign: float, first: float, middle: float, last: float, row: FloatArray) -> None:
-    """Two of the three turns of a word as a row; the first one of the three has this sign."""
-    row[0] = first + middle + last
-    row[1] = 4.0 if sign > 0.0 else 5.0
-    row[2], row[3], row[4] = first, middle, last
+    time = at_edge(
+        atan2(guess[1], guess[0]), x, y, h, slot, alpha, delta, side, entry, on, leader, found,
+        rows, way, link, legs,
+    )  # fmt: skip
+    return (time, 2) if time < beat else (inf, 0)
 
 
 @njit(cache=True, nogil=True)
@@ -209,7 +148,7 @@ def _by_ride(
         end, straight, turn = ride_end(slot, alpha, delta, side)
         if isnan(end):
             return inf, 0.0
-        _straight_turn(side, straight, turn, way[1])
+        straight_turn(side, straight, turn, way[1])
     if entry >= LR:
         sign = 1.0 if entry == LR else -1.0
         begin, first, second = turn_tangent(
@@ -218,7 +157,7 @@ def _by_ride(
         if isnan(first):
             return inf, 0.0
         link[3], link[4] = ride_on(begin, end, side, alpha, delta)
-        _two_turns(sign, first, second, 0.0, way[0])
+        two_turns(sign, first, second, 0.0, way[0])
         return first + second + link[4] + straight + turn, begin
     sign = -1.0 if entry == RS else 1.0
     contacts, row, fixed = np.empty((4, 3)), np.zeros(5), np.zeros(2)
@@ -237,7 +176,7 @@ def _by_ride(
             )  # fmt: skip
         if time >= best:
             continue
-        _turn_straight(sign, contacts[k, 1], contacts[k, 2], row)
+        turn_straight(sign, contacts[k, 1], contacts[k, 2], row)
         # where two turns of a sign touch, the straight of the sooner one may lead through the disc
         if word_clears(x, y, h, 0.0, row, leader, alpha, delta - 2.0 * GRAZE):
             best, begun = time, begin

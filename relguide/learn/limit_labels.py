@@ -1,10 +1,11 @@
 """Situations in which the limit binds, and their exact answers in bulk.
 
 The leader keeps straight and the air is calm, or the wind along its heading; what remains of a
-situation in the slot frame are six numbers, x, y, h, α, D/R, d_min/R. Three sources, as the box
+situation in the slot frame are six numbers, x, y, h, α, D/R, d_min/R. Four sources, as the box
 alone hardly ever meets what is hard: `tight`, within some widths of a disc larger than R; `near`,
-round a disc smaller than R; `far`, anywhere. Of each, those are kept in which the fastest way
-without the limit breaks it.
+round a disc smaller than R; `far`, anywhere; `along`, somewhere on the way of another one's answer
+or a little off it, which is what a closed loop asks. Of each, those are kept in which the fastest
+way without the limit breaks it.
 
 An answer takes the search some milliseconds. So labels are made in small chunks, each a function of
 the request and its number, and every chunk is written down as it is ready: a run that was stopped
@@ -21,18 +22,21 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from relguide.kernels.along import along_rows
 from relguide.kernels.detour import MAX_LEGS
 from relguide.kernels.limited import exact_ways, limit_binds_rows
 from relguide.learn.chunks import gathered
 from relguide.planning.detour import BEARINGS
 
 Floats = NDArray[np.float64]
-SOURCES = ("tight", "near", "far")
+SOURCES = ("tight", "near", "far", "along")
 """Where a situation comes from, by number."""
 LONGEST = 2000.0
 """Ways that take longer count as none [R/V_P]: 12 hours at R/V_P = 21 s."""
 DRAWN = 1024
 """Situations drawn at a time, to see where the limit binds."""
+OFF = (1e-3, 0.3)
+"""How far off a way `along` puts a pursuer, by a normal law: its scale between these [R, rad]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -78,7 +82,7 @@ class LimitRequest:
     count: int
     seed: int = 0
     box: LimitBox = field(default_factory=LimitBox)
-    shares: tuple[float, float, float] = (0.4, 0.3, 0.3)
+    shares: tuple[float, float, float, float] = (0.35, 0.25, 0.25, 0.15)
     """Of `SOURCES`."""
     chunk: int = 250
     """Labels made at a time."""
@@ -166,17 +170,20 @@ def limit_chunk(request: LimitRequest, number: int) -> LimitLabels:
     """Make one chunk; a function of its arguments alone."""
     rng = np.random.default_rng(np.random.SeedSequence(request.seed, spawn_key=(number,)))
     size = min(request.chunk, request.count - number * request.chunk)
-    near, far = (round(size * share) for share in request.shares[1:])
-    sizes = (size - near - far, near, far)
-    parts = [_drawn(rng, request.box, source, n) for source, n in enumerate(sizes)]
-    situations = np.concatenate(parts)
+    rest = [round(size * share) for share in request.shares[1:]]
+    sizes = (size - sum(rest), *rest)
+    drawn = [_drawn(rng, request.box, source, n) for source, n in enumerate(sizes[:3])]
+    first = _answered(np.concatenate(drawn), np.repeat(np.arange(3, dtype=np.int8), sizes[:3]))
+    if sizes[3] == 0:
+        return first
+    second = _along(rng, request.box, first, sizes[3])
+    return joined({0: first, 1: _answered(second, np.full(sizes[3], 3, dtype=np.int8))})
+
+
+def _answered(situations: Floats, sources: NDArray[np.int8]) -> LimitLabels:
     times, counts, legs = answers_of(situations)
     return LimitLabels(
-        situations=situations,
-        times=times,
-        counts=counts,
-        legs=legs,
-        sources=np.repeat(np.arange(3, dtype=np.int8), sizes),
+        situations=situations, times=times, counts=counts, legs=legs, sources=sources
     )
 
 
@@ -196,6 +203,30 @@ def _drawn(rng: np.random.Generator, box: LimitBox, source: int, size: int) -> F
         binds = np.empty(DRAWN)
         limit_binds_rows(drawn, binds)
         found = np.concatenate((found, drawn[binds == 1.0]))
+    return found[:size]
+
+
+def _along(rng: np.random.Generator, box: LimitBox, labels: LimitLabels, size: int) -> Floats:
+    """Situations on the ways of others, or a little off them, in which the limit binds."""
+    parents = np.flatnonzero(labels.counts > 1)
+    if len(parents) == 0:
+        return _drawn(rng, box, 0, size)
+    found = np.empty((0, 6))
+    while len(found) < size:
+        chosen = rng.choice(parents, DRAWN)
+        scale = np.exp(rng.uniform(log(OFF[0]), log(OFF[1]), DRAWN))
+        off = scale[:, None] * rng.normal(size=(DRAWN, 3))
+        there = np.empty((DRAWN, 6))
+        along_rows(
+            labels.situations[chosen], labels.times[chosen, 2] * rng.random(DRAWN),
+            labels.counts[chosen].astype(float), labels.legs[chosen], off, there,
+        )  # fmt: skip
+        away = np.hypot(there[:, 0] - there[:, 4], there[:, 1]) - there[:, 5]
+        binds = np.empty(DRAWN)
+        limit_binds_rows(there, binds)
+        found = np.concatenate(
+            (found, there[(binds == 1.0) & (away >= 0.0) & (away <= box.max_range)])
+        )
     return found[:size]
 
 
