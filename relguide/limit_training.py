@@ -51,7 +51,7 @@ def make_limit_label_file(
     seconds = perf_counter() - started
     save_limit_labels(labels, request, provenance("limit", command=command), file)
     part.unlink()
-    kinds, _ = taught(labels)
+    kinds, _ = taught(labels.ways)
     counts = np.bincount(kinds, minlength=len(KINDS)).tolist()
     sources = np.bincount(labels.sources, minlength=len(SOURCES)).tolist()
     if as_json:

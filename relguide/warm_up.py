@@ -162,9 +162,11 @@ def _tree() -> None:
 
 
 def _network() -> None:
+    from numpy.random import default_rng
+
     from relguide.learn.judging import audit_request, judge_chunk, latencies
     from relguide.learn.labels import LabelRequest, label_chunk
-    from relguide.learn.limit_labels import LimitRequest, limit_chunk
+    from relguide.learn.limit_labels import LimitRequest, later, limit_chunk
     from relguide.learn.network import features_of, load_network
     from relguide.learn.planner import network_planner
     from relguide.learn.train_ways import taught
@@ -176,7 +178,7 @@ def _network() -> None:
         planner(situation)
     limited = limit_chunk(LimitRequest(count=10), 0)
     way_features_of(limited.situations)
-    taught(limited)
+    taught(later(limited.ways, default_rng(0)))
     features_of(label_chunk(LabelRequest(count=10), 0).situations)
     judge_chunk(network, audit_request(network, 10, 1), 0)
     latencies(network, audit_request(network, 10, 1))

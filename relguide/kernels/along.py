@@ -1,4 +1,7 @@
-"""Where a pursuer is on its way round the limit.
+"""Where a pursuer is on its way round the limit, and what is left of the way.
+
+What is left of an optimal way is optimal from there (Bellman): so one answer tells of many
+situations.
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader is at (D/R, 0) at
 t = 0 and keeps heading 0.
@@ -84,3 +87,47 @@ def along_rows(
             y, h = -y, TWO_PI - h if h > 0.0 else 0.0
         out[n, 0], out[n, 1], out[n, 2] = x, y, h
         out[n, 3], out[n, 4], out[n, 5] = alpha, slot, limit
+
+
+@njit(cache=True, nogil=True)
+def later_rows(
+    situations: FloatArray, times: FloatArray, counts: FloatArray, legs: FloatArray,
+    shares: FloatArray, out: FloatArray, left: FloatArray, rest: FloatArray,
+) -> None:  # fmt: skip
+    """Situations on the first turns of ways, and what is left of these ways, which is optimal.
+
+    Args:
+        situations: x, y, h in [0, 2π), α, D/R, d_min/R. shape (n, 6)
+        times: of the ways [R/V_P]. shape (n,)
+        counts: legs of each. shape (n,)
+        legs: as `chain.fly_links`. shape (n, ·, 6)
+        shares: how much of the first turn has been flown. shape (n,)
+        out: takes the situations, on the left of the route. shape (n, 6)
+        left: takes the times of what is left. shape (n,)
+        rest: takes its legs. shape as legs
+    """
+    for n in range(len(situations)):
+        x, y, h, alpha, slot, limit = situations[n]
+        count, turned = int(counts[n]), shares[n] * legs[n, 0, 3]
+        x, y, h = along(x, y, h, slot, alpha, limit + GRAZE, legs[n, :count], turned)
+        h = wrap(h)
+        rest[n] = legs[n]
+        rest[n, 0, 1] -= turned
+        rest[n, 0, 3] -= turned
+        left[n] = times[n] - turned
+        if needs_mirror(y, h):
+            y, h = -y, TWO_PI - h if h > 0.0 else 0.0
+            mirror_legs(rest[n, :count])
+        out[n, 0], out[n, 1], out[n, 2] = x, y, h
+        out[n, 3], out[n, 4], out[n, 5] = alpha, slot, limit
+
+
+@njit(cache=True, nogil=True)
+def mirror_legs(legs: FloatArray) -> None:
+    """Exchange left and right."""
+    for k in range(len(legs)):
+        if legs[k, 0] == RIDE:
+            legs[k, 1:4] *= -1.0
+        else:
+            # words stand beside their mirror images
+            legs[k, 2] = int(legs[k, 2]) ^ 1

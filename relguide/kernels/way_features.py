@@ -4,7 +4,7 @@ Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader i
 t = 0 and keeps heading 0.
 """
 
-from math import atan2, cos, hypot, log, log1p, pi, sin, sqrt
+from math import atan2, cos, hypot, inf, isnan, log, log1p, pi, sin, sqrt
 
 import numpy as np
 from numba import njit
@@ -14,8 +14,9 @@ from relguide.kernels.extremals import MAX_ROWS, SIGNS, fly_piece, solve
 from relguide.kernels.roots import FloatArray
 from relguide.kernels.strategies import FEATURES as FREE_FEATURES
 from relguide.kernels.strategies import features, strategy_of
+from relguide.kernels.touching import ride_end, ride_on, straight_tangents
 
-FEATURES = FREE_FEATURES + 50
+FEATURES = FREE_FEATURES + 78
 """How many numbers `way_features` gives."""
 
 
@@ -40,11 +41,51 @@ def _passing(
 
 
 @njit(cache=True, nogil=True)
+def _riding(
+    x: float, y: float, h: float, slot: float, alpha: float, limit: float, free: float,
+    out: FloatArray,
+) -> None:  # fmt: skip
+    """Where a turn and a straight touch the disc, and how late a ride from there on would be.
+
+    Takes seven numbers for each side, and each first turn: whether the straight touches; bearing
+    of the contact, turn and straight; whether the ride ends, and how much later than the fastest
+    way without the limit, squashed.
+    """
+    contacts = np.empty((4, 3))
+    out[:] = 0.0
+    at = 0
+    for k in range(4):
+        side, sign = 1.0 - 2.0 * (k // 2), 1.0 - 2.0 * (k % 2)
+        if k % 2 == 0:
+            end, straight, turn = ride_end(slot, alpha, limit, side)
+        best = -1
+        for i in range(straight_tangents(x - slot, y, h, alpha, limit, sign, side, contacts)):
+            if best < 0 or contacts[i, 1] + contacts[i, 2] < contacts[best, 1] + contacts[best, 2]:
+                best = i
+        if best >= 0:
+            bearing, turned, flown = contacts[best]
+            out[at] = 1.0
+            out[at + 1] = cos(bearing)
+            out[at + 2] = sin(bearing)
+            out[at + 3] = turned / pi - 1.0
+            out[at + 4] = log1p(flown)
+            if not isnan(end):
+                _, took = ride_on(bearing, end, side, alpha, limit)
+                if took < inf:
+                    late = turned + flown + took + straight + turn - free
+                    out[at + 5] = 1.0
+                    out[at + 6] = late / (1.0 + abs(late))
+        at += 7
+
+
+@njit(cache=True, nogil=True)
 def way_features(
     x: float, y: float, h: float, slot: float, alpha: float, limit: float, free: FloatArray,
     out: FloatArray,
 ) -> None:  # fmt: skip
     """Where slot and leader are, where simple turns lead, and the best way without the limit.
+
+    And where straights touch the disc, from which a ride would lead on.
 
     Args:
         x: pursuer ahead of the slot [R].
@@ -97,6 +138,7 @@ def way_features(
     _passing(px, py, ph, free[2], slot, alpha, limit, out[at : at + 4])
     px, py, ph = fly_piece(px, py, ph, SIGNS[word, 1], free[3])
     _passing(px, py, ph, free[2] + free[3], slot, alpha, limit, out[at + 4 : at + 8])
+    _riding(x, y, h, slot, alpha, limit, free[0], out[at + 8 : at + 36])
 
 
 @njit(cache=True, nogil=True)

@@ -17,12 +17,12 @@ from concurrent.futures import Executor
 from dataclasses import dataclass, field
 from functools import partial
 from math import inf, isfinite, log, pi
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from relguide.kernels.along import along_rows
+from relguide.kernels.along import along_rows, later_rows
 from relguide.kernels.detour import MAX_LEGS
 from relguide.kernels.limited import exact_ways, limit_binds_rows
 from relguide.learn.chunks import gathered
@@ -35,6 +35,8 @@ LONGEST = 2000.0
 """Ways that take longer count as none [R/V_P]: 12 hours at R/V_P = 21 s."""
 DRAWN = 1024
 """Situations drawn at a time, to see where the limit binds."""
+LEAST_TURN = 0.05
+"""First turns shorter than this are not looked at again [rad]."""
 OFF = (1e-3, 0.3)
 """How far off a way `along` puts a pursuer, by a normal law: its scale between these [R, rad]."""
 
@@ -103,6 +105,16 @@ class LimitRequest:
         return -(-self.count // self.chunk)
 
 
+class Ways(NamedTuple):
+    """Situations and their fastest ways, as columns of `LimitLabels`."""
+
+    situations: Floats
+    times: Floats
+    """Of the ways. shape (n,)"""
+    counts: NDArray[np.int8]
+    legs: Floats
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LimitLabels:
     """Situations in which the limit binds and their exact answers, as columns."""
@@ -121,6 +133,12 @@ class LimitLabels:
 
     def __len__(self) -> int:
         return len(self.situations)
+
+    @property
+    def ways(self) -> Ways:
+        """What they say of the fastest ways."""
+        times = np.ascontiguousarray(self.times[:, 2])
+        return Ways(self.situations, times, self.counts, self.legs)
 
     def columns(self) -> tuple[NDArray[Any], ...]:
         """All of them, in this order."""
@@ -154,6 +172,27 @@ def from_columns(
     return LimitLabels(
         situations=situations, times=times, counts=counts, legs=legs, sources=sources
     )
+
+
+def picked(ways: Ways, rows: NDArray[Any]) -> Ways:
+    """Some of them: by their places, or by whether they are wanted."""
+    return Ways(*(column[rows] for column in ways))
+
+
+def later(ways: Ways, rng: np.random.Generator) -> Ways:
+    """What is left of each way at some moment of its first turn: as exact, and costs no search.
+
+    Those without a way round, and without a first turn worth the name, have none.
+    """
+    turning = (ways.counts > 1) & (ways.legs[:, 0, 3] > LEAST_TURN)
+    before = picked(ways, turning)
+    n = len(before.times)
+    after = Ways(np.empty((n, 6)), np.empty(n), before.counts, np.empty_like(before.legs))
+    later_rows(
+        before.situations, before.times, before.counts.astype(float), before.legs, rng.random(n),
+        after.situations, after.times, after.legs,
+    )  # fmt: skip
+    return after
 
 
 def _missing_chunk(request: LimitRequest, missing: tuple[int, ...], n: int) -> LimitLabels:

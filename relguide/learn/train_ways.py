@@ -20,6 +20,7 @@ from relguide.kernels.way_solutions import taught_kinds
 from relguide.kernels.ways import NONE, SEVERAL, SIZE
 from relguide.learn.fitting import (
     Epoch,
+    Split,
     arrays_of,
     begin,
     digest_of,
@@ -32,7 +33,7 @@ from relguide.learn.fitting import (
     written,
 )
 from relguide.learn.limit_label_file import load_limit_labels
-from relguide.learn.limit_labels import LimitBox, LimitLabels
+from relguide.learn.limit_labels import LimitBox, LimitLabels, Ways, later, picked
 from relguide.learn.network import layers_of, torch_model
 from relguide.learn.options import TrainingOptions, command_of, options_of
 from relguide.learn.way_network import WayNetwork, save_way_network, way_features_of
@@ -46,6 +47,8 @@ GUESSED = 2.0
 """Weight of the guesses; that of the cross-entropy is 1."""
 BEND = 0.05
 """Guesses farther off than this count by how far they are, and no more by its square."""
+LATER = 2
+"""So often each way is learnt from once more, at some moment of its first turn."""
 DECAY = 1e-3
 """Of the weights, each step, over the learning rate."""
 LEAST_SHARE = 0.001
@@ -83,10 +86,14 @@ def train_ways(
     device = begin(options)
 
     # What is learnt from, and what is kept to stop by.
-    rows, kept = parted = split(np.arange(len(labels)), options, of="labels")
-    inputs, mean, deviation = scaled(way_features_of(labels.situations[rows]), kept)
+    rows, kept = split(np.arange(len(labels)), options, of="labels")
+    ways = [picked(labels.ways, rows)]
+    rng = np.random.default_rng(options.seed)
+    ways += [later(picked(labels.ways, rows[kept:]), rng) for _ in range(LATER)]
+    kinds, guesses = (np.concatenate(column) for column in zip(*map(taught, ways), strict=True))
+    situations = np.concatenate([part.situations for part in ways])
+    inputs, mean, deviation = scaled(way_features_of(situations), kept)
     told = torch.from_numpy(inputs).to(device)
-    kinds, guesses = (column[rows] for column in taught(labels))
     right = torch.from_numpy(kinds).to(device)
     guess = torch.from_numpy(guesses.astype(np.float32)).to(device)
     guessed = (guess != 0.0).any(dim=1).float()
@@ -121,20 +128,20 @@ def train_ways(
         )
 
     yield from fit(
-        model, options, rows=parted, loss=loss, accuracy=accuracy, network=network, decay=DECAY,
+        model, options, rows=Split(np.arange(len(kinds)), kept), loss=loss, accuracy=accuracy,
+        network=network, decay=DECAY,
         digest=digest_of(options, labels.situations, labels.times, labels.legs),
         checkpoint=checkpoint, resume=resume,
     )  # fmt: skip
 
 
-def taught(labels: LimitLabels) -> tuple[np.ndarray, np.ndarray]:
+def taught(ways: Ways) -> tuple[np.ndarray, np.ndarray]:
     """What is to be learnt: kinds, shape (n,), and guesses, shape (n, 2)."""
-    n = len(labels)
+    n = len(ways.times)
     kinds, guesses = np.empty(n), np.empty((n, 2))
     taught_kinds(
-        labels.situations, np.ascontiguousarray(labels.times[:, 2]), labels.counts.astype(float),
-        labels.legs, WITHIN, kinds, guesses,
-    )  # fmt: skip
+        ways.situations, ways.times, ways.counts.astype(float), ways.legs, WITHIN, kinds, guesses
+    )
     return kinds.astype(np.int64), guesses
 
 
