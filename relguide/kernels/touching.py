@@ -20,7 +20,8 @@ from relguide.kernels.roots import FloatArray
 
 _TO_NEXT = 0.02  # a turn from one contact to the next is longer than this [rad]
 _SCAN = 48  # sizes of a turn that is followed by a straight: every 7.5°
-_LONGEST_RIDE = 1.5 * pi  # a ride that goes on farther has begun behind its end
+LONGEST_RIDE = 1.5 * pi
+"""A ride that goes on farther has begun behind its end [rad]."""
 
 
 @njit(cache=True, nogil=True)
@@ -34,12 +35,13 @@ def _straight_miss(
         the signed miss times the relative speed, time from the turn to the closest approach, and
         where that is as seen from the leader.
     """
-    qx, qy, qh = fly_piece(px, py, h, sign, turned)
-    qx -= alpha * turned
-    vx, vy = cos(qh) - alpha, sin(qh)
-    speed = sqrt(vx * vx + vy * vy)
-    after = -(qx * vx + qy * vy) / max(speed * speed, 1e-12)
-    return qx * vy - qy * vx - side * delta * speed, after, qx + after * vx, qy + after * vy
+    c, s = cos(h + sign * turned), sin(h + sign * turned)
+    qx = px + sign * (s - sin(h)) - alpha * turned
+    qy = py - sign * (c - cos(h))
+    vx = c - alpha
+    speed = sqrt(vx * vx + s * s)
+    after = -(qx * vx + qy * s) / max(speed * speed, 1e-12)
+    return qx * s - qy * vx - side * delta * speed, after, qx + after * vx, qy + after * s
 
 
 @njit(cache=True, nogil=True)
@@ -48,19 +50,21 @@ def _tangent_between(
     low: float, high: float, at_low: float, at_high: float, contact: FloatArray,
 ) -> bool:  # fmt: skip
     """The turn between two whose straight on touches the disc (Illinois), if that lies ahead."""
-    turned = high
-    for step in range(40):
-        share = 0.5 if step % 4 == 3 else at_high / (at_high - at_low)
-        turned = high - share * (high - low)
+    turned, kept = high, 0
+    for _ in range(40):
+        turned = high - (high - low) * at_high / (at_high - at_low)
         value, _, _, _ = _straight_miss(px, py, h, alpha, delta, sign, side, turned)
         if abs(value) < 1e-13 or high - low < 1e-14:
             break
+        # an end that is kept twice counts half
         if (value < 0.0) == (at_low < 0.0):
             low, at_low = turned, value
-            at_high *= 0.5
+            at_high *= 0.5 if kept == 1 else 1.0
+            kept = 1
         else:
             high, at_high = turned, value
-            at_low *= 0.5
+            at_low *= 0.5 if kept == -1 else 1.0
+            kept = -1
     _, after, cx, cy = _straight_miss(px, py, h, alpha, delta, sign, side, turned)
     contact[0], contact[1], contact[2] = atan2(cy, cx), turned, after
     return after > 0.0
@@ -88,17 +92,41 @@ def straight_tangents(
     """
     n = 0
     where = px, py, h, alpha, delta, sign, side
-    last, _, _, _ = _straight_miss(*where, 0.0)
-    for k in range(1, _SCAN + 1):
-        low, high = TWO_PI * (k - 1) / _SCAN, TWO_PI * k / _SCAN
-        miss, _, _, _ = _straight_miss(*where, high)
-        if (
-            (last < 0.0) != (miss < 0.0)
-            and n < len(contacts)
-            and _tangent_between(*where, low, high, last, miss, contacts[n])
-        ):
-            n += 1
-        last = miss
+    step = TWO_PI / _SCAN
+    # round the circle of the turn by one rotation after the other, which takes no sine
+    c, s = cos(h - sign * step), sin(h - sign * step)
+    mx, my = px - sign * sin(h), py + sign * cos(h)
+    turn_c, turn_s = cos(step), sign * sin(step)
+    before = last = 0.0
+    for k in range(-1, _SCAN + 1):
+        vx = c - alpha
+        miss = (
+            (mx + sign * s - alpha * step * k) * s
+            - (my - sign * c) * vx
+            - side * delta * sqrt(vx * vx + s * s)
+        )
+        c, s = c * turn_c - s * turn_s, s * turn_c + c * turn_s
+        low, high = step * (k - 1), step * k
+        if k > 0 and (last < 0.0) != (miss < 0.0):
+            if n < len(contacts) and _tangent_between(*where, low, high, last, miss, contacts[n]):
+                n += 1
+        elif k > 0 and (before < 0.0) == (last < 0.0) and abs(last) < min(abs(before), abs(miss)):
+            # next to the disc two of them lie closer to each other than is looked
+            bend = before - 2.0 * last + miss
+            top = low + 0.5 * step * (before - miss) / bend
+            value, _, _, _ = _straight_miss(*where, top)
+            if (value < 0.0) != (last < 0.0):
+                for begin, end, at_begin, at_end in (
+                    (low - step, top, before, value),
+                    (top, high, value, miss),
+                ):
+                    if (
+                        n < len(contacts)
+                        and _tangent_between(*where, begin, end, at_begin, at_end, contacts[n])
+                        and contacts[n, 1] >= 0.0
+                    ):
+                        n += 1
+        before, last = last, miss
     return n
 
 
@@ -221,7 +249,7 @@ def ride_on(
     if way == 0.0:
         return bearing, inf
     ahead = wrap(way * (end - bearing))
-    if ahead > _LONGEST_RIDE:
+    if ahead > LONGEST_RIDE:
         return bearing, inf
     _, took = ride_within(bearing, bearing + way * ahead, side, alpha, delta, 0.0, inf)
     return bearing + way * ahead, took

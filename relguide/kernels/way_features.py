@@ -9,15 +9,17 @@ from math import atan2, cos, hypot, inf, isnan, log, log1p, pi, sin, sqrt
 import numpy as np
 from numba import njit
 
-from relguide.kernels.angles import TWO_PI
+from relguide.kernels.angles import TWO_PI, wrap
+from relguide.kernels.contact import ride_rates
 from relguide.kernels.extremals import MAX_ROWS, SIGNS, fly_piece, solve
 from relguide.kernels.roots import FloatArray
 from relguide.kernels.strategies import FEATURES as FREE_FEATURES
 from relguide.kernels.strategies import features, strategy_of
-from relguide.kernels.touching import ride_end, ride_on, straight_tangents
+from relguide.kernels.touching import LONGEST_RIDE, ride_end, straight_tangents
 
 FEATURES = FREE_FEATURES + 78
 """How many numbers `way_features` gives."""
+_PARTS = 8  # of a ride, whose time is added up by Simpson's rule
 
 
 @njit(cache=True, nogil=True)
@@ -41,6 +43,28 @@ def _passing(
 
 
 @njit(cache=True, nogil=True)
+def _about_riding(bearing: float, end: float, side: float, alpha: float, limit: float) -> float:
+    """About how long a ride takes from one bearing on to another; infinite if it cannot be flown.
+
+    To a thousandth, which `touching.ride_on` takes ten times as long to know better.
+    """
+    rate, _ = ride_rates(bearing, side, alpha, limit, 0.0)
+    way = 1.0 if rate > 0.0 else -1.0
+    ahead = wrap(way * (end - bearing))
+    if ahead > LONGEST_RIDE:
+        return inf
+    total = 0.0
+    for k in range(_PARTS + 1):
+        there = bearing + way * ahead * k / _PARTS
+        rate, turning = ride_rates(there, side, alpha, limit, 0.0)
+        if abs(turning) > 1.0 or way * rate <= 0.0:
+            return inf
+        weight = 1.0 if k == 0 or k == _PARTS else (4.0 if k % 2 == 1 else 2.0)
+        total += weight * way / rate
+    return total * ahead / (3.0 * _PARTS)
+
+
+@njit(cache=True, nogil=True)
 def _riding(
     x: float, y: float, h: float, slot: float, alpha: float, limit: float, free: float,
     out: FloatArray,
@@ -54,10 +78,10 @@ def _riding(
     contacts = np.empty((4, 3))
     out[:] = 0.0
     at = 0
+    # on the other side all is the mirror image
+    end, straight, turn = ride_end(slot, alpha, limit, 1.0)
     for k in range(4):
         side, sign = 1.0 - 2.0 * (k // 2), 1.0 - 2.0 * (k % 2)
-        if k % 2 == 0:
-            end, straight, turn = ride_end(slot, alpha, limit, side)
         best = -1
         for i in range(straight_tangents(x - slot, y, h, alpha, limit, sign, side, contacts)):
             if best < 0 or contacts[i, 1] + contacts[i, 2] < contacts[best, 1] + contacts[best, 2]:
@@ -70,7 +94,7 @@ def _riding(
             out[at + 3] = turned / pi - 1.0
             out[at + 4] = log1p(flown)
             if not isnan(end):
-                _, took = ride_on(bearing, end, side, alpha, limit)
+                took = _about_riding(bearing, side * end, side, alpha, limit)
                 if took < inf:
                     late = turned + flown + took + straight + turn - free
                     out[at + 5] = 1.0

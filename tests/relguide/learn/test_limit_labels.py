@@ -10,12 +10,15 @@ import numpy as np
 import pytest
 
 from relguide import Leader, NoPlan, Plan, Pursuer, Situation, plan
+from relguide.kernels.strategies import needs_mirror
 from relguide.learn.limit_label_file import grown_labels, load_limit_labels, save_limit_labels
 from relguide.learn.limit_labels import (
     LimitBox,
     LimitLabels,
     LimitRequest,
+    answers_of,
     joined,
+    later,
     limit_chunk,
     make_limit_labels,
 )
@@ -27,6 +30,10 @@ SMALL = LimitRequest(count=70, seed=3, chunk=20)
 
 def same(a: LimitLabels, b: LimitLabels) -> bool:
     return all(np.array_equal(x, y) for x, y in zip(a.columns(), b.columns(), strict=True))
+
+
+def needs_any_mirror(situations: np.ndarray) -> bool:
+    return any(needs_mirror(y, h) for y, h in situations[:, 1:3].tolist())
 
 
 def situation_of(row: np.ndarray) -> Situation:
@@ -70,7 +77,30 @@ def test_every_situation_lies_in_the_box_and_binds() -> None:
     assert (np.hypot(x - slot, y) >= limit).all()
     assert (found.times[:, 0] < found.times[:, 2]).all()  # the limit costs time
     assert (found.times[:, 2] <= found.times[:, 1]).all()
-    assert set(found.sources.tolist()) == {0, 1, 2}
+    assert np.bincount(found.sources).tolist() == [525, 375, 375, 225]
+
+
+def test_some_situations_lie_along_the_ways_of_others() -> None:
+    found = limit_chunk(replace(SMALL, count=300, chunk=300), 0)
+    drawn = {tuple(row) for row in found.situations[found.sources < 3, 3:].tolist()}
+    along = found.situations[found.sources == 3]
+    assert len(along) == 45
+    assert {tuple(row) for row in along[:, 3:].tolist()} <= drawn
+    only = limit_chunk(replace(SMALL, shares=(0.0, 0.0, 0.0, 1.0)), 0)
+    assert len(only) == 20  # none to lie along: drawn as the others are
+
+
+def test_what_is_left_of_a_way_is_the_fastest_from_there() -> None:
+    left = later(labels().ways, np.random.default_rng(1))
+    turning = (labels().counts > 1) & (labels().legs[:, 0, 3] > 0.05)
+    assert len(left.times) == turning.sum() > 300
+    assert (left.times < labels().times[turning, 2]).all()
+    assert not needs_any_mirror(left.situations)
+    rows = np.arange(0, len(left.times), 5)
+    times, _, _ = answers_of(left.situations[rows])
+    late = times[:, 2] - left.times[rows]
+    assert np.abs(late).max() < 2e-3
+    assert np.mean(np.abs(late) < 1e-6) > 0.9
 
 
 class Here(Executor):
@@ -139,7 +169,7 @@ def test_a_file_keeps_all_and_others_are_refused(tmp_path: Path) -> None:
     ("make", "reason"),
     [
         (lambda: LimitRequest(count=0), "whole numbers"),
-        (lambda: LimitRequest(count=5, shares=(0.5, 0.5, 0.5)), "sum up to 1"),
+        (lambda: LimitRequest(count=5, shares=(0.5, 0.5, 0.5, 0.5)), "sum up to 1"),
         (lambda: LimitBox(max_ratio=1.0), "Speed ratios"),
         (lambda: LimitBox(min_limit=0.0), "d_min must reach"),
         (lambda: LimitBox(max_slot=1.0), "max_slot and max_range"),
