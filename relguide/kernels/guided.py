@@ -31,7 +31,7 @@ RIDES, ON_LR, ON_RL, AGAIN_RIDES, RIDES_AGAIN = 8, 9, 10, 11, 12
 """Ways on: along the disc; by two turns that touch it; by a turn and a straight to a ride; by a
 ride, a straight and a turn to one more contact. Before them come the sheets."""
 _STRIDE = 0.03  # of the first look beside a guess: 2°, about as good as guesses are [rad]
-_PROBE, _PROBES = 0.09, 3  # where it is looked again, either way: every 5° [rad]
+_PROBES = np.array((0.02, 0.04, 0.06, 0.09, 0.18, 0.27))  # where it is looked again, either way
 _MOST = 60  # evaluations of t₁ + t₂ at one go
 _FINEST = 1e-6  # bearing steps end here: 1 cm at R = 12 km
 _GAIN = 1e-9  # or where a parabola promises less [R/V_P]
@@ -151,9 +151,9 @@ def descend(
     if settled:
         return time, least_at
     least = inf
-    for k in range(1, _PROBES + 1):
+    for probe in _PROBES:
         for direction in range(2):
-            there = bearing + k * _PROBE * (2.0 * direction - 1.0)
+            there = bearing + probe * (2.0 * direction - 1.0)
             value = through(there, *where)
             if value < least:
                 least, least_at = value, there

@@ -9,8 +9,9 @@ from math import atan2, inf, isnan, pi
 import numpy as np
 from numba import njit
 
+from relguide.kernels.angles import wrap_signed
 from relguide.kernels.chain import WORD
-from relguide.kernels.extremals import MAX_ROWS, solve
+from relguide.kernels.extremals import MAX_ROWS, SIGNS, solve
 from relguide.kernels.guided import (
     AGAIN_RIDES,
     LR,
@@ -21,6 +22,7 @@ from relguide.kernels.guided import (
     descend,
     enter,
     leave,
+    through,
 )
 from relguide.kernels.passage import GRAZE, word_clears
 from relguide.kernels.roots import FloatArray
@@ -28,6 +30,8 @@ from relguide.kernels.touching import ride_end, ride_on, straight_tangents, turn
 from relguide.kernels.way_edges import at_edge
 from relguide.kernels.way_legs import as_legs, clears, straight_turn, turn_straight, two_turns
 from relguide.kernels.ways import FREE, NONE, PARTS, SEVERAL, kind_of
+
+_NARROW = 0.15  # where a way exists between two such bearings, its guess may miss it [rad]
 
 
 @njit(cache=True, nogil=True)
@@ -114,10 +118,13 @@ def solve_kind(
         way[0] = rows[i]
         time = way[0, 0] + way[1, 0]
     else:
-        time, bearing = descend(
-            x, y, h, slot, alpha, delta, atan2(guess[1], guess[0]), side, entry, on, fixed,
-            found, rows, way, link,
+        start = _start(
+            atan2(guess[1], guess[0]), x, y, h, slot, alpha, delta, side, entry, on, found, rows,
+            way, link,
         )  # fmt: skip
+        time, bearing = descend(
+            x, y, h, slot, alpha, delta, start, side, entry, on, fixed, found, rows, way, link
+        )
     if time < inf:
         if time >= beat:
             return inf, 0
@@ -131,6 +138,44 @@ def solve_kind(
         rows, way, link, legs,
     )  # fmt: skip
     return (time, 2) if time < beat else (inf, 0)
+
+
+@njit(cache=True, nogil=True)
+def _start(
+    guess: float, x: float, y: float, h: float, slot: float, alpha: float, delta: float,
+    side: float, entry: int, on: int, found: FloatArray, rows: FloatArray, way: FloatArray,
+    link: FloatArray,
+) -> float:  # fmt: skip
+    """The bearing to begin at: the guess, or what lies between where both straights touch the disc.
+
+    A straight way that is bent a little round the disc exists between these two bearings alone, and
+    they may be closer to each other than a guess is good. Beside them the same words take full
+    circles.
+    """
+    if entry >= 4 or on >= 4 or SIGNS[entry, 2] != side or SIGNS[on, 0] != side:
+        return guess
+    to, on_from = np.empty((4, 3)), np.empty((4, 3))
+    n = straight_tangents(x - slot, y, h, alpha, delta, SIGNS[entry, 0], side, to)
+    if n == 0:
+        return guess
+    m = straight_tangents(slot, 0.0, 0.0, alpha, delta, -SIGNS[on, 2], -side, on_from)
+    best, start = inf, guess
+    for i in range(n):
+        for j in range(m):
+            between = wrap_signed(on_from[j, 0] + pi - to[i, 0])
+            if abs(between) < _NARROW:
+                there = to[i, 0] + 0.5 * between
+                time = through(
+                    there, x, y, h, slot, alpha, delta, side, entry, on, link[:2], found, rows,
+                    way, link,
+                )  # fmt: skip
+                if time < best:
+                    best, start = time, there
+    if best < inf and best < through(
+        guess, x, y, h, slot, alpha, delta, side, entry, on, link[:2], found, rows, way, link
+    ):
+        return start
+    return guess
 
 
 @njit(cache=True, nogil=True)
