@@ -48,6 +48,31 @@ def test_a_turn_and_a_straight_end_in_the_contact(sign: float, side: float) -> N
     assert seen > 150
 
 
+def test_next_to_the_disc_hardly_any_tangent_is_overlooked() -> None:
+    rng = np.random.default_rng(4)
+    turns, contacts = np.linspace(0.0, 2.0 * pi, 20001), np.empty((4, 3))
+    overlooked = seen = 0
+    for _ in range(1500):
+        delta, alpha, h = rng.uniform(0.3, 4.0), rng.uniform(0.5, 0.99), rng.uniform(0.0, 2.0 * pi)
+        away = delta * (1.0 + 10.0 ** rng.uniform(-5.0, -0.5))
+        bearing = rng.uniform(0.0, 2.0 * pi)
+        px, py = away * cos(bearing), away * sin(bearing)
+        sign, side = rng.choice((1.0, -1.0)), rng.choice((1.0, -1.0))
+        # every turn of a fine grid, and the straight on from it
+        heading = h + sign * turns
+        qx = px + sign * (np.sin(heading) - sin(h)) - alpha * turns
+        qy = py - sign * (np.cos(heading) - cos(h))
+        vx, vy = np.cos(heading) - alpha, np.sin(heading)
+        miss = qx * vy - qy * vx - side * delta * np.hypot(vx, vy)
+        ahead = -(qx * vx + qy * vy) / (vx * vx + vy * vy)
+        there = ((miss[1:] < 0.0) != (miss[:-1] < 0.0)) & (ahead[:-1] > 1e-6)
+        n = straight_tangents(px, py, h, alpha, delta, sign, side, contacts)
+        overlooked += abs(there.sum() - np.sum(contacts[:n, 2] > 1e-6))
+        seen += there.sum()
+    assert seen > 1000
+    assert overlooked < 0.01 * seen
+
+
 @pytest.mark.parametrize("side", [1.0, -1.0])
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_two_turns_end_in_the_contact(sign: float, side: float) -> None:
