@@ -4,12 +4,15 @@ from collections import Counter
 from math import cos, hypot, sin
 
 import numpy as np
+import pytest
 
 from relguide.kernels.chain import RIDE
 from relguide.kernels.contact import contact_heading, ride_within
 from relguide.kernels.extremals import SIGNS, fly_piece
+from relguide.kernels.limited import exact_ways
 from relguide.kernels.way_solutions import solve_kind
 from relguide.kernels.ways import KINDS, NONE, SEVERAL, kind_of
+from relguide.planning.detour import BEARINGS
 from tests.relguide.learn.way_networks import labels
 
 FOUND = labels()
@@ -57,6 +60,32 @@ def test_a_guess_that_is_off_leads_to_the_same_way() -> None:
             total += 1
     assert total > 200
     assert same > 0.97 * total
+
+
+@pytest.mark.parametrize(
+    "situation",
+    [
+        (3.266, 2.229, 2.978, 0.5763, 2.494, 2.147),
+        (6.218, 4.218, 4.531, 0.9039, 2.984, 2.228),
+        (13.08, 6.831, 5.44, 0.6852, 3.934, 2.616),
+        (18.78, 6.799, 0.3275, 0.7271, 2.712, 2.111),
+    ],
+)
+def test_a_straight_way_bent_a_little_is_found_from_a_guess_beside(
+    situation: tuple[float, ...],
+) -> None:
+    x, y, h, alpha, slot, limit = situation
+    times, counts, legs = np.empty((1, 3)), np.empty(1), np.zeros((1, 9, 6))
+    exact_ways(np.array([situation]), BEARINGS, 2000.0, times, counts, legs)
+    guess, found = np.empty(2), np.zeros((9, 6))
+    kind = kind_of(x, y, h, slot, alpha, int(counts[0]), legs[0], guess)
+    assert legs[0, 0, 5] < 0.02  # before the contact it turns no more than this, and behind it
+    assert legs[0, 1, 3] < 0.02
+    for off in (0.0, 0.04, -0.04):
+        bearing = np.arctan2(guess[1], guess[0]) + off
+        beside = np.array((cos(bearing), sin(bearing)))
+        time, _ = solve_kind(x, y, h, slot, alpha, limit, kind, beside, np.inf, found)
+        assert time == pytest.approx(times[0, 2], abs=1e-6)
 
 
 def test_ways_arrive_and_keep_the_limit() -> None:
