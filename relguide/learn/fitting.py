@@ -188,6 +188,17 @@ def fit(
         )
 
 
+def reached_by(shares: NDArray[Any], coverage: float) -> float:
+    """A share that the right answer reaches this often (split conformal prediction).
+
+    Args:
+        shares: that a network gives to what is right, in rows it has not learnt from.
+        coverage: how often.
+    """
+    missed = int((1.0 - coverage) * (len(shares) + 1))
+    return float(np.sort(shares)[max(missed - 1, 0)])
+
+
 def origin_of(options: TrainingOptions) -> dict[str, Any]:
     """When, where and how a network is trained, for those who ask later."""
     import torch

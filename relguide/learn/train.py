@@ -24,6 +24,7 @@ from relguide.learn.fitting import (
     fit,
     in_chunks,
     part_of,
+    reached_by,
     scaled,
     script,
     split,
@@ -123,7 +124,7 @@ def train(
         return StrategyNetwork(
             layers=layers_of(arrays_of(model), mean, deviation),
             box=box,
-            least_share=_calibrated(shares(), fastest) / MARGIN,
+            least_share=reached_by(np.where(fastest, shares(), 0.0).max(axis=1), COVERAGE) / MARGIN,
             most=SIZE,
             about={**about, **origin, "labels": len(labels), "held_out": sorted(regions)},
         )
@@ -147,13 +148,6 @@ def _targets(times: np.ndarray) -> dict[str, np.ndarray]:
         "exists": exists,
         "time": np.log1p(np.where(exists, times, 0.0)),
     }
-
-
-def _calibrated(shares: np.ndarray, fastest: np.ndarray) -> float:
-    """The share that the fastest strategy reaches this often (split conformal prediction)."""
-    reached = np.sort(np.where(fastest, shares, 0.0).max(axis=1))
-    missed = int((1.0 - COVERAGE) * (len(reached) + 1))
-    return float(reached[max(missed - 1, 0)])
 
 
 def run(chosen: argparse.Namespace, program: str) -> Iterator[Epoch[StrategyNetwork]]:
