@@ -216,7 +216,7 @@ def round_levels(field: Field) -> tuple[Second, ...]:
 def times_around(
     situation: Situation, *, threads: int | None = None, words: Words | None = None
 ) -> Evaluate:
-    """Times from the exact kernels, all but the ways along d_min: some 500,000 places a second.
+    """Times from the exact kernels, all but the ways along d_min: some 600,000 places a second.
 
     Args:
         situation: all but the pursuer's place counts.
