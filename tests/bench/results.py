@@ -27,7 +27,7 @@ class Counts:
     batch: int = _count(500_000, "situations of a batch, the limit left out")
     limited_batch: int = _count(2048, "situations of a batch, the limit active")
     asked: int = _count(150, "situations of each kind that networks and plan() are asked")
-    questions: int = _count(50_000, "questions for the network of strategies alone")
+    questions: int = _count(20_000, "questions for the network of strategies alone")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
