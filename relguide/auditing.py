@@ -3,8 +3,9 @@
 from collections.abc import Sequence
 from math import hypot, inf
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from relguide.audit_tables import percent, print_table, short, table, with_interval
 from relguide.learn.area_figure import check_figure
 from relguide.learn.audit import Audit, Group, Miss, audit_as_json, audit_of
 from relguide.learn.judging import audit_request, judged, latencies
@@ -12,7 +13,6 @@ from relguide.learn.nearest import lookup_in
 from relguide.learn.network import StrategyNetwork, load_network
 from relguide.learn.paper import load_regular, shipped
 from relguide.learn.reverse_dp import grow_order, planted, tree_from
-from relguide.learn.shares import Share
 from relguide.learn.side_by_side import (
     Ground,
     Method,
@@ -27,11 +27,6 @@ from relguide.progress import progress_bar, watched
 from relguide.training import collected, workers
 from relguide.units import DEG
 
-if TYPE_CHECKING:
-    from rich.table import Table
-
-WIDTH = 100
-"""Of what is printed."""
 LARGEST = 10
 """Gaps printed."""
 
@@ -131,16 +126,16 @@ def _grown(parameters: TreeParameters) -> Tree:
 
 
 def _print_audit(audit: Audit) -> None:
-    table = _table("situations")
+    shown = table("situations")
     headings = ("number", "right, % (95 %)", "in 2", "set", "passed", "gap p99.9", "max, %")
     for heading in headings:
-        table.add_column(heading, justify="right", no_wrap=True)
+        shown.add_column(heading, justify="right", no_wrap=True)
     for group in audit.groups:
-        table.add_row(*_row(group))
-    table.add_section()
+        shown.add_row(*_row(group))
+    shown.add_section()
     for group in audit.classes:
-        table.add_row(*_row(group))
-    _print(table)
+        shown.add_row(*_row(group))
+    print_table(shown)
 
 
 def _row(group: Group) -> tuple[str, ...]:
@@ -148,10 +143,10 @@ def _row(group: Group) -> tuple[str, ...]:
     return (
         group.name,
         f"{group.size:,}",
-        _with_interval(first),
-        _percent(second),
+        with_interval(first),
+        percent(second),
         f"{group.mean_set:.2f}",
-        _percent(group.fallbacks),
+        percent(group.fallbacks),
         f"{100.0 * group.gaps[-2]:.2g}",
         f"{100.0 * group.gaps[-1]:.2g}",
     )
@@ -168,9 +163,9 @@ def _print_gaps(audit: Audit) -> None:
     )
     if not audit.misses:
         return
-    table = _table("gap, %", right=True)
+    shown = table("gap, %", right=True)
     for heading in ("fastest", "answered"):
-        table.add_column(heading, no_wrap=True)
+        shown.add_column(heading, no_wrap=True)
     for heading in (
         "to its birth",
         "to a switch",
@@ -179,10 +174,10 @@ def _print_gaps(audit: Audit) -> None:
         "heading, °",
         "explained",
     ):
-        table.add_column(heading, justify="right", no_wrap=True)
+        shown.add_column(heading, justify="right", no_wrap=True)
     for miss in audit.misses[:LARGEST]:
-        table.add_row(*_gap_row(miss))
-    _print(table)
+        shown.add_row(*_gap_row(miss))
+    print_table(shown)
     write(
         "A gap is explained where the fastest strategy is born, or another becomes the fastest, "
         "within\n0.02 R or rad of place and heading.\n"
@@ -212,28 +207,28 @@ def _print_methods(ground: Ground, methods: Sequence[Method]) -> None:
         f"{encounter.slot_distance / 1e3:g} km, d_min {encounter.min_separation / 1e3:g} km "
         f"({ground.binding:,} more in which the limit binds left out).\n"
     )
-    table = _table("")
+    shown = table("")
     for method in methods:
-        table.add_column(method.name, justify="right", no_wrap=True)
+        shown.add_column(method.name, justify="right", no_wrap=True)
     rows = [_column(method) for method in methods]
     for name in rows[0]:
-        table.add_row(name, *(row[name] for row in rows))
-    _print(table)
+        shown.add_row(name, *(row[name] for row in rows))
+    print_table(shown)
 
 
 def _column(method: Method) -> dict[str, str]:
     """What is printed of a method, by the name of its line."""
     low, high = method.right.interval
-    gaps = [_short(100.0 * gap) for gap in method.gaps]
+    gaps = [short(100.0 * gap) for gap in method.gaps]
     return {
-        "fastest strategy named, %": _percent(method.right),
+        "fastest strategy named, %": percent(method.right),
         "  95 % interval": f"{100.0 * low:.2f}–{100.0 * high:.2f}",
         "strategies held": f"{method.mean_set:.2f}",
         **_flown(method),
-        "solved: the fastest path, %": _percent(method.fastest, 3),
+        "solved: the fastest path, %": percent(method.fastest, 3),
         "  gap, %, 50 / 99 %": " / ".join(gaps[:2]),
         "  gap, %, 99.9 % / largest": " / ".join(gaps[2:]),
-        "  passed on, %": _percent(method.passed_on, 3),
+        "  passed on, %": percent(method.passed_on, 3),
         "one query, µs, 50 / 99 %": " / ".join(f"{spent:.0f}" for spent in method.latency),
     }
 
@@ -245,36 +240,8 @@ def _flown(method: Method) -> dict[str, str]:
         return dict.fromkeys(names, "–")
     place, heading = two(method.places), two(method.headings)
     values = (
-        _percent(method.reached, 3),
+        percent(method.reached, 3),
         f"{place[0] / 1e3:.2f} / {place[1] / 1e3:.1f}",
         f"{heading[0] / DEG:.1f} / {heading[1] / DEG:.0f}",
     )
     return dict(zip(names, values, strict=True))
-
-
-def _short(value: float) -> str:
-    return f"{value:,.0f}" if value >= 100.0 else f"{value:.2g}"
-
-
-def _table(first: str, *, right: bool = False) -> "Table":
-    from rich.box import SIMPLE_HEAD
-    from rich.table import Table
-
-    table = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
-    table.add_column(first, no_wrap=True, justify="right" if right else "left")
-    return table
-
-
-def _print(table: "Table") -> None:
-    from rich.console import Console
-
-    Console(width=WIDTH).print(table)
-
-
-def _with_interval(share: Share) -> str:
-    low, high = share.interval
-    return f"{_percent(share)} ({100.0 * low:.2f}–{100.0 * high:.2f})"
-
-
-def _percent(share: Share, digits: int = 2) -> str:
-    return f"{100.0 * share.value:.{digits}f}" if share.of else "–"

@@ -19,6 +19,8 @@ TAUGHT = ("strategies", "ways", "paper", "direct")
 """What a network is taught."""
 LABELS, LIMIT_LABELS = 1_200_000, 400_000
 """How many labels are made: one to two minutes, and half an hour to an hour."""
+AUDITED, LIMIT_AUDITED, BESIDE = 100_000, 20_000, 20_000
+"""How many situations an audit looks at: half a minute, and one to two."""
 AddCommand = Callable[[str, Callable[[argparse.Namespace], int], str, str], argparse.ArgumentParser]
 """Name, what runs it, its purpose, examples → its parser, for the options."""
 
@@ -141,17 +143,24 @@ def _add_network(add_command: AddCommand) -> None:
         relguide audit                               of the weights that come with the program
         relguide audit weights.safetensors --json    of your own; the figures as JSON
         relguide audit --count 1000000 --seed 2
+        relguide audit --method ways                 of the network of ways, where the limit binds
         relguide audit --figures docs/figures        its pictures
         relguide audit --count 100000000 --dask tcp://host:8786     on many machines
         """,
     )
     audit.add_argument("weights", metavar="WEIGHTS.safetensors", type=Path, nargs="?")
     audit.add_argument(
+        "--method",
+        choices=TAUGHT[:2],
+        default=TAUGHT[0],
+        help="what it was taught; default: %(default)s",
+    )
+    audit.add_argument(
         "--count",
         metavar="N",
         type=_count,
-        default=100_000,
-        help="fresh situations to judge it in; default: %(default)s",
+        help="fresh situations to judge it in; default: "
+        f"{AUDITED}; ways: {LIMIT_AUDITED}, and as many whether the limit binds or not",
     )
     audit.add_argument(
         "--seed", metavar="N", type=_count, default=1, help="of them; default: %(default)s"
@@ -160,9 +169,8 @@ def _add_network(add_command: AddCommand) -> None:
         "--beside",
         metavar="N",
         type=_count,
-        default=20_000,
-        help="situations to judge it in beside the paper's network, the nearest way of its tree "
-        "and direct regression; 0: none; default: %(default)s",
+        help="strategies: situations to judge it in beside the paper's network, the nearest way "
+        f"of its tree and direct regression; 0: none; default: {BESIDE}",
     )
     audit.add_argument("--figures", metavar="FOLDER", type=Path, help="draw what is found, as .svg")
     _add_workers(audit)
@@ -296,13 +304,32 @@ def _train(chosen: argparse.Namespace) -> int:
 
 
 def _audit(chosen: argparse.Namespace) -> int:
+    if chosen.method == "ways":
+        return _audit_ways(chosen)
     from relguide.auditing import audit_network
 
     audit_network(
         chosen.weights,
-        count=chosen.count,
+        count=AUDITED if chosen.count is None else chosen.count,
         seed=chosen.seed,
-        beside=chosen.beside,
+        beside=BESIDE if chosen.beside is None else chosen.beside,
+        figures=chosen.figures,
+        threads=chosen.threads or None,
+        scheduler=chosen.dask,
+        as_json=chosen.json,
+    )
+    return 0
+
+
+def _audit_ways(chosen: argparse.Namespace) -> int:
+    from relguide.limit_auditing import audit_way_network
+
+    if chosen.beside is not None:
+        raise ValueError("Nothing else is taught ways: --beside is for --method strategies.")
+    audit_way_network(
+        chosen.weights,
+        count=LIMIT_AUDITED if chosen.count is None else chosen.count,
+        seed=chosen.seed,
         figures=chosen.figures,
         threads=chosen.threads or None,
         scheduler=chosen.dask,

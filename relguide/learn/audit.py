@@ -152,14 +152,20 @@ def audit_of(
     return Audit(
         groups=tuple(groups),
         classes=tuple(classes),
-        doubts=_doubts(whole.doubt[drawn], whole.ranks[drawn] == 0),
+        doubts=doubts_of(whole.doubt[drawn], whole.ranks[drawn] == 0),
         sets=_set_sizes(whole.sets.sum(axis=0)),
         misses=_misses(whole, progress),
         worth=Share(hits=len(whole.missed), of=int((whole.gap < inf).sum())),
     )
 
 
-def _doubts(doubt: NDArray[np.float32], right: NDArray[np.bool_]) -> tuple[Doubt, ...]:
+def doubts_of(doubt: NDArray[np.floating], right: NDArray[np.bool_]) -> tuple[Doubt, ...]:
+    """Situations in bins of how sure a network is of them, those it is surest of first.
+
+    Args:
+        doubt: 1 less the highest share. shape (n,)
+        right: whether that was right. shape (n,)
+    """
     bins = np.searchsorted(DOUBTS[1:-1], doubt)
     return tuple(
         Doubt(

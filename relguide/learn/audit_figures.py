@@ -1,6 +1,7 @@
 """draw_audit(…): the pictures of an audit: accuracy, calibration, gaps."""
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -9,18 +10,22 @@ import numpy as np
 from relguide.kernels.strategies import STRATEGIES
 from relguide.learn.area_figure import FAINT, INK
 from relguide.learn.audit import Audit, Group
-from relguide.learn.labels import Floats
+from relguide.learn.panels import (
+    COLOURS,
+    MARKS,
+    PERCENT,
+    logarithmic,
+    rates_over,
+    shares_across,
+    two_panels,
+    written,
+)
 from relguide.learn.shares import Share
 from relguide.learn.side_by_side import Method
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-COLOURS = ("#1a6fb4", "#8a6d3b", "#c2185b", "#5b8c2a")
-"""Of the methods side by side, ours first."""
-MARKS = ("o", "s", "^", "D")
-PERCENT = 100.0
 KM = 1000.0
 
 
@@ -38,27 +43,22 @@ def draw_audit(
     Returns:
         the files written.
     """
-    from matplotlib import rc_context
-
     drawn = {"network_accuracy.svg": _accuracy, "network_calibration.svg": _calibration}
     if methods:
         drawn["network_gaps.svg"] = _gaps
-    # the same data give the same file, letters stay letters
-    with rc_context({"svg.hashsalt": "relguide", "svg.fonttype": "none", "font.size": 9}):
-        for name, draw in drawn.items():
-            figure = draw(audit, methods, least_share)
-            figure.savefig(folder / name, metadata={"Date": None})
-    return [folder / name for name in drawn]
+    return written(
+        {name: partial(draw, audit, methods, least_share) for name, draw in drawn.items()}, folder
+    )
 
 
 def _accuracy(audit: Audit, methods: Sequence[Method], least_share: float) -> "Figure":
     """How often the fastest strategy is the first choice, by group and by strategy."""
     del least_share
-    figure, (left, right) = _two_panels("How often the fastest strategy is the first choice")
+    figure, (left, right) = two_panels("How often the fastest strategy is the first choice")
     groups: list[Group] = [*audit.groups, *audit.classes]
     lines = len(audit.groups), len(groups)
     at = [-(i + (i >= lines[0])) for i in range(lines[1])]
-    _shares(left, [group.tops[0] for group in groups], at, COLOURS[0], MARKS[0])
+    shares_across(left, [group.tops[0] for group in groups], at, COLOURS[0], MARKS[0])
     left.set_yticks(at, [group.name for group in groups])
     left.axhline(-lines[0], color=FAINT, lw=0.6)
     left.set_title("our network, all encounters", color=INK, fontsize=10)
@@ -67,7 +67,7 @@ def _accuracy(audit: Audit, methods: Sequence[Method], least_share: float) -> "F
     for k, method in enumerate(methods):
         offset = 0.24 - 0.16 * k
         places = [-i + offset for i in range(len(STRATEGIES))]
-        _shares(right, method.classes, places, COLOURS[k], MARKS[k], method.name)
+        shares_across(right, method.classes, places, COLOURS[k], MARKS[k], method.name)
     right.set_yticks([-i for i in range(len(STRATEGIES))], STRATEGIES)
     right.set_title("side by side, one encounter, by fastest strategy", color=INK, fontsize=10)
     right.set_xlabel("right [%], with 95 % interval", color=INK)
@@ -80,11 +80,11 @@ def _accuracy(audit: Audit, methods: Sequence[Method], least_share: float) -> "F
 def _calibration(audit: Audit, methods: Sequence[Method], least_share: float) -> "Figure":
     """Whether it is as often wrong as it says, and what a larger set would give."""
     del methods
-    figure, (left, right) = _two_panels("How sure the network is, and what its set costs")
+    figure, (left, right) = two_panels("How sure the network is, and what its set costs")
     low, high = 1e-5, 100.0
     said = [max(PERCENT * doubt.said, low) for doubt in audit.doubts]
     left.plot([low, high], [low, high], color=FAINT, lw=0.9, label="as often as it says")
-    _rates(left, said, [doubt.wrong for doubt in audit.doubts], "is wrong")
+    rates_over(left, said, [doubt.wrong for doubt in audit.doubts], "is wrong")
     left.set_xscale("log")
     left.set_xlim(0.7 * low, 1.4 * high)
     left.set_ylim(low, 1.4 * high)
@@ -92,7 +92,7 @@ def _calibration(audit: Audit, methods: Sequence[Method], least_share: float) ->
     left.set_ylabel("is wrong [%], 95 % interval", color=INK)
     left.set_title("calibration, random situations", color=INK, fontsize=10)
     sizes = [size.mean_set for size in audit.sets]
-    _rates(
+    rates_over(
         right, sizes, [size.worth for size in audit.sets], "slower than the fastest by over 0.01 %"
     )
     logs = np.log([size.least_share for size in audit.sets])
@@ -110,7 +110,7 @@ def _calibration(audit: Audit, methods: Sequence[Method], least_share: float) ->
 def _gaps(audit: Audit, methods: Sequence[Method], least_share: float) -> "Figure":
     """How bad the bad answers are, and where a path flown as it is ends."""
     del audit, least_share
-    figure, (left, right) = _two_panels("Side by side, one encounter")
+    figure, (left, right) = two_panels("Side by side, one encounter")
     least = 1.0
     for k, method in enumerate(methods):
         worse = method.gap[method.gap > 0.0]
@@ -129,7 +129,7 @@ def _gaps(audit: Audit, methods: Sequence[Method], least_share: float) -> "Figur
         left.step(PERCENT * worse, PERCENT * share, color=COLOURS[k], label=method.name)
     left.set_xlim(1e-3, 1e4)
     left.set_ylim(PERCENT * least, PERCENT)
-    _logarithmic(left, "gap to the fastest path [%]", "answers with a larger gap [%]")
+    logarithmic(left, "gap to the fastest path [%]", "answers with a larger gap [%]")
     left.set_title("words solved exactly", color=INK, fontsize=10)
     for k, method in enumerate(methods):
         if method.places is not None:
@@ -143,61 +143,3 @@ def _gaps(audit: Audit, methods: Sequence[Method], least_share: float) -> "Figur
     for axes in (left, right):
         axes.legend(fontsize=8)
     return figure
-
-
-def _two_panels(title: str) -> tuple["Figure", "tuple[Axes, Axes]"]:
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(11.0, 4.8), layout="constrained")
-    FigureCanvasAgg(figure)
-    figure.suptitle(title, color=INK, fontsize=13)
-    left, right = figure.subplots(1, 2)
-    for axes in (left, right):
-        axes.grid(color=FAINT, alpha=0.3, lw=0.5)
-        axes.tick_params(colors=INK)
-        for spine in axes.spines.values():
-            spine.set_color(FAINT)
-    return figure, (left, right)
-
-
-def _shares(
-    axes: "Axes", shares: Sequence[Share], at: Sequence[float], colour: str, mark: str,
-    name: str = "",
-) -> None:  # fmt: skip
-    """Shares [%] along x with their intervals, a line each; of nothing, none."""
-    there = [(share, y) for share, y in zip(shares, at, strict=True) if share.of]
-    middle = np.array([share.value for share, _ in there])
-    axes.errorbar(
-        PERCENT * middle, [y for _, y in there], xerr=_bars([share for share, _ in there]),
-        fmt=mark, ms=4, color=colour, elinewidth=1.0, capsize=2.0, label=name,
-    )  # fmt: skip
-
-
-def _rates(axes: "Axes", x: Sequence[float], shares: Sequence[Share], name: str) -> None:
-    """Small shares [%] over x, with intervals; where none was met, the bound of it."""
-    across, middle, bars = np.array(x), np.array([share.value for share in shares]), _bars(shares)
-    met = middle > 0.0
-    axes.errorbar(
-        across[met], PERCENT * middle[met], yerr=bars[:, met], fmt="o", ms=4, color=COLOURS[0],
-        elinewidth=1.0, capsize=2.0, label=name,
-    )  # fmt: skip
-    if not met.all():
-        axes.plot(
-            across[~met], (PERCENT * middle + bars[1])[~met], "v", mfc="none", ms=5,
-            color=COLOURS[0], label="none met: at most so often",
-        )  # fmt: skip
-
-
-def _bars(shares: Sequence[Share]) -> Floats:
-    """How far intervals reach below and above their shares [%], shape (2, n)."""
-    reach = [(share.value - share.interval[0], share.interval[1] - share.value) for share in shares]
-    bars: Floats = PERCENT * np.maximum(np.array(reach).reshape(-1, 2).T, 0.0)
-    return bars
-
-
-def _logarithmic(axes: "Axes", x: str, y: str) -> None:
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.set_xlabel(x, color=INK)
-    axes.set_ylabel(y, color=INK)

@@ -238,7 +238,7 @@ def _drawn(rng: np.random.Generator, box: LimitBox, source: int, size: int) -> F
     """Situations of one source in which the limit binds."""
     found = np.empty((0, 6))
     while len(found) < size:
-        drawn = _anywhere(rng, box, source, DRAWN)
+        drawn = anywhere(rng, box, source, DRAWN)
         binds = np.empty(DRAWN)
         limit_binds_rows(drawn, binds)
         found = np.concatenate((found, drawn[binds == 1.0]))
@@ -269,7 +269,7 @@ def _along(rng: np.random.Generator, box: LimitBox, labels: LimitLabels, size: i
     return found[:size]
 
 
-def _anywhere(rng: np.random.Generator, box: LimitBox, source: int, size: int) -> Floats:
+def anywhere(rng: np.random.Generator, box: LimitBox, source: int, size: int) -> Floats:
     """Situations of one source, the pursuer on the left of the route."""
     alpha = rng.uniform(box.min_ratio, box.max_ratio, size)
     if source == 0:
