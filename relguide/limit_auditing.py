@@ -5,6 +5,7 @@ from pathlib import Path
 
 from relguide.audit_tables import percent, print_table, short, table, with_interval
 from relguide.learn.area_figure import check_figure
+from relguide.learn.everywhere import UNIT
 from relguide.learn.network import load_network
 from relguide.learn.way_audit import (
     WORTH,
@@ -16,14 +17,8 @@ from relguide.learn.way_audit import (
     way_audit_as_json,
     way_audit_of,
 )
-from relguide.learn.way_judging import (
-    UNIT,
-    WayJudged,
-    joined_ways,
-    judged_ways,
-    way_latencies,
-    way_request,
-)
+from relguide.learn.way_bound import way_latencies
+from relguide.learn.way_judging import WayJudged, joined_ways, judged_ways, way_request
 from relguide.learn.way_network import load_way_network
 from relguide.output import write, write_json
 from relguide.progress import progress_bar
@@ -67,7 +62,7 @@ def audit_way_network(
         check_figure(figures / "audit.svg")
     ways = load_way_network() if file is None else load_way_network(file)
     network = load_network()
-    request = way_request(ways, network, count, seed)
+    request = way_request(ways, count, seed)
     chunks: dict[int, WayJudged] = {}
     with (
         workers(threads, scheduler) as pool,
@@ -131,8 +126,8 @@ def _print_late(audit: WayAudit) -> None:
     """How much later than the fastest way what is answered arrives."""
     write(
         "Of what is answered: how much longer it takes than the fastest way, in % of that; later "
-        f"by over\n0.1 s where R/V_P = {UNIT:g} s; answers where there is no way; sooner than "
-        "the search's.\n"
+        f"by over\n0.1 s where R/V_P = {UNIT:g} s; answers where there is no way; those sooner "
+        "than the search's.\n"
     )
     shown = table("situations")
     for heading in (*_LATE, "no way", "sooner"):
@@ -140,7 +135,7 @@ def _print_late(audit: WayAudit) -> None:
 
     def add(group: WayGroup) -> None:
         late = group.late
-        shown.add_row(group.name, *_late_row(late), f"{late.invented:,}", f"{late.sooner:,}")
+        shown.add_row(group.name, *_late_row(late), _none(late), f"{late.sooner:,}")
 
     for group in audit.groups:
         add(group)
@@ -155,11 +150,16 @@ def _late_row(late: Late) -> tuple[str, ...]:
     return (f"{late.answered.hits:,}", *gaps, percent(late.late, 3))
 
 
+def _none(late: Late) -> str:
+    """Answers where there is no way, and how many such situations there are."""
+    return f"{late.invented.hits:,} of {late.invented.of:,}"
+
+
 def _print_everywhere(audit: WayAudit) -> None:
     """The networks together, the limit included."""
     write(
-        "All situations, the limit included: the first choice of the network that is for it, and "
-        "the gap of\nthe planner by networks, in %.\n"
+        "All situations, the limit included: the first choice of the network that is for it, what "
+        "the planner\nby networks passes on of those that have a way, and its gap, in %.\n"
     )
     shown = table("the limit")
     for heading in ("number", "named, % (95 %)", "passed on", *_SHORT):
@@ -169,7 +169,7 @@ def _print_everywhere(audit: WayAudit) -> None:
         _, *gaps, late = _late_row(group.late)
         shown.add_row(
             group.name, f"{group.size:,}", with_interval(group.named), f"{passed:.2f}", *gaps[1:],
-            late, f"{group.late.invented:,}",
+            late, _none(group.late),
         )  # fmt: skip
     print_table(shown)
 

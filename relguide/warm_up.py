@@ -170,7 +170,8 @@ def _network() -> None:
     from relguide.learn.network import features_of, load_network
     from relguide.learn.planner import network_planner
     from relguide.learn.train_ways import taught
-    from relguide.learn.way_judging import judge_way_chunk, way_latencies, way_request
+    from relguide.learn.way_bound import way_latencies
+    from relguide.learn.way_judging import judge_way_chunk, way_request
     from relguide.learn.way_network import load_way_network, way_features_of
 
     network = load_network()
@@ -184,7 +185,7 @@ def _network() -> None:
     judge_chunk(network, audit_request(network, 10, 1), 0)
     latencies(network, audit_request(network, 10, 1))
     ways = load_way_network()
-    judge_way_chunk(ways, network, way_request(ways, network, 10, 1), 0)
+    judge_way_chunk(ways, network, way_request(ways, 10, 1), 0)
     way_latencies(ways, limited.situations)
 
 

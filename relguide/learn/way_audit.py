@@ -13,12 +13,14 @@ from numpy.typing import NDArray
 
 from relguide.kernels.ways import KINDS, NONE, SEVERAL
 from relguide.learn.audit import PERCENTILES, Doubt, doubts_of
+from relguide.learn.everywhere import UNIT, Everywhere
 from relguide.learn.judging import ROUNDING
 from relguide.learn.labels import Floats
 from relguide.learn.limit_labels import SOURCES
 from relguide.learn.shares import Share, share_as_json
 from relguide.learn.train_ways import WITHIN
-from relguide.learn.way_judging import UNIT, Bound, Everywhere, WayJudged, joined_ways
+from relguide.learn.way_bound import Bound
+from relguide.learn.way_judging import WayJudged, joined_ways
 from relguide.units import Second
 
 LATE: Second = 0.1
@@ -40,15 +42,15 @@ class Late:
     """How much is lost by what networks answer."""
 
     answered: Share
-    """How often they do."""
+    """How often they do, of situations in which there is a way."""
     gaps: tuple[float, ...]
     """The `PERCENTILES` of how much longer an answer takes than the fastest way, relative."""
     late: Share
     """How many answers are more than `LATE` later, where R/V_P is `UNIT`."""
     sooner: int
     """Answers by more than `WITHIN` sooner than the search's."""
-    invented: int
-    """Answers where there is no way."""
+    invented: Share
+    """How often they do of the others; never, it is to be hoped."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -58,7 +60,7 @@ class WayGroup:
     name: str
     size: int
     named: Share
-    """How often its first choice is right; see `way_judging.Bound`."""
+    """How often its first choice is right; see `way_bound.Bound`."""
     covered: Share
     """How often the right kind is in its set, of those with a way of some kind."""
     mean_set: float
@@ -115,7 +117,7 @@ class WayAudit:
     """How many answers have such a gap."""
 
 
-def way_audit_of(chunks: dict[int, WayJudged]) -> WayAudit:
+def way_audit_of(chunks: Mapping[int, WayJudged]) -> WayAudit:
     """Sum up an audit's chunks, by their number."""
     whole = joined_ways(chunks)
     bound, everywhere = whole.bound, whole.everywhere
@@ -131,7 +133,7 @@ def way_audit_of(chunks: dict[int, WayJudged]) -> WayAudit:
         kinds.append(_group(f"{others} others", bound, rest))
     # an answer where there is no way has no gap, and is counted by itself
     gap = _gaps(bound.exact, bound.given)
-    slow = np.flatnonzero(gap > WORTH)
+    slow = np.flatnonzero((gap > WORTH) & (gap < inf))
     reasons = _reasons(bound, slow)
     return WayAudit(
         groups=(*groups, _group("all", bound, every)),
@@ -164,15 +166,16 @@ def _late(exact: Floats, given: Floats) -> Late:
     gap = _gaps(exact, given)
     measured = gap[gap < inf]
     answered = given < inf
-    both = answered & (exact < inf)
+    there = exact < inf
+    both = answered & there
     delay = given[both] - exact[both]
     percentiles = np.percentile(measured, PERCENTILES) if len(measured) else np.zeros(4)
     return Late(
-        answered=Share(hits=int(answered.sum()), of=len(given)),
+        answered=Share(hits=int(both.sum()), of=int(there.sum())),
         gaps=tuple(percentiles.tolist()),
         late=Share(hits=int((delay * UNIT > LATE).sum()), of=len(delay)),
         sooner=int((delay < -WITHIN).sum()),
-        invented=int((answered & ~both).sum()),
+        invented=Share(hits=int((answered & ~there).sum()), of=int((~there).sum())),
     )
 
 
@@ -266,7 +269,7 @@ def _late_as_json(late: Late) -> dict[str, Any]:
         },
         "later_than_0.1_s": share_as_json(late.late),
         "sooner_than_the_search": late.sooner,
-        "answered_without_a_way": late.invented,
+        "answered_without_a_way": share_as_json(late.invented),
     }
 
 
