@@ -29,9 +29,9 @@ LARGEST = 10
 _LATE = ("answered", "50 %", "99 %", "99.9 %", "largest", "> 0.1 s, %")
 _SHORT = ("99 %", "99.9 %", "largest", "> 0.1 s", "no way")
 _SAID: dict[Reason, str] = {
-    "left out": "the right kind left out of the set",
+    "left out": "the right kind is left out of the set",
     "not solved": "held, but not solved next to its guess",
-    "of no kind": "of no kind",
+    "of no kind": "the way is of no kind",
 }
 
 
@@ -94,7 +94,7 @@ def audit_way_network(
     _print_late(audit)
     _print_everywhere(audit)
     write(
-        "One query where the limit binds, median and 99th percentile of CPU time: "
+        "One query where the limit binds, median and 99th percentile of CPU time:\n"
         + ", ".join(f"{name} {low:,.0f} / {high:,.0f} µs" for name, (low, high) in asked.items())
         + ".\n"
     )
@@ -178,13 +178,12 @@ def _print_gaps(audit: WayAudit) -> None:
     """The gaps above 0.1 % where the limit binds, and why."""
     write(
         f"Slower than the fastest way by more than {100.0 * WORTH:g} %: {audit.worth.hits:,} of "
-        f"{audit.worth.of:,} answers"
+        f"{audit.worth.of:,} answers.\n"
     )
     if not audit.misses:
-        write(".\n")
         return
-    named = ", ".join(f"{_SAID[reason]} {n:,}" for reason, n in audit.reasons.items())
-    write(f": {named}.\n")
+    for reason, number in audit.reasons.items():
+        write(f"  {number:5,}  {_SAID[reason]}\n")
     _print_misses(audit.misses[:LARGEST])
 
 
