@@ -26,8 +26,8 @@ from relguide.training import workers
 
 LARGEST = 10
 """Gaps printed."""
-_LATE = ("answered", "50 %", "99 %", "99.9 %", "largest", "> 0.1 s, %")
-_SHORT = ("99 %", "99.9 %", "largest", "> 0.1 s", "no way")
+_LATE = ("answered", "99 %", "99.9 %", "largest", "> 0.1 s, %")
+_SHORT = ("99.9 %", "largest", "> 0.1 s", "no way")
 _SAID: dict[Reason, str] = {
     "left out": "the right kind is left out of the set",
     "not solved": "held, but not solved next to its guess",
@@ -146,7 +146,7 @@ def _print_late(audit: WayAudit) -> None:
 
 
 def _late_row(late: Late) -> tuple[str, ...]:
-    gaps = [short(100.0 * gap) for gap in late.gaps] if late.answered.hits else ["–"] * 4
+    gaps = [short(100.0 * gap) for gap in late.gaps[1:]] if late.answered.hits else ["–"] * 3
     return (f"{late.answered.hits:,}", *gaps, percent(late.late, 3))
 
 

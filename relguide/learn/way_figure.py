@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 FILE = "network_ways.svg"
 """Its name."""
-RAREST, SUREST = 1e-2, 100.0
+RAREST, SUREST = 1e-3, 100.0
 """Ends of the axes of the calibration [%]."""
 
 
