@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from relguide.learn.fitting import scaled, split
+from relguide.learn.fitting import reached_by, scaled, split
 from relguide.learn.labels import Box
 from relguide.learn.network import StrategyNetwork
 from relguide.learn.options import TrainingOptions
@@ -34,6 +34,15 @@ def test_a_share_is_kept_and_the_rest_is_scaled() -> None:
     assert abs(values[kept:, 0].std() - 1.0) < 1e-5
     assert np.isfinite(values).all()  # a column that is always the same has no deviation
     assert np.allclose(values * deviation + mean, columns, atol=1e-4)
+
+
+def test_a_set_is_calibrated_to_hold_what_is_right_as_often_as_asked() -> None:
+    shares = np.random.default_rng(3).random(9999)
+    for coverage in (0.9, 0.99, 0.999):
+        least = reached_by(shares, coverage)
+        assert np.mean(shares >= least) == pytest.approx(coverage, abs=2e-4)
+        assert np.mean(shares >= least) >= coverage
+    assert reached_by(shares, 1.0) == shares.min()
 
 
 def test_too_few_rows_are_refused() -> None:
