@@ -1,7 +1,8 @@
 """What `relguide audit --method ways` does: bars, tables and a figure around `learn/way_audit`."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from relguide.audit_tables import percent, print_table, short, table, with_interval
 from relguide.learn.area_figure import check_figure
@@ -23,6 +24,9 @@ from relguide.learn.way_network import load_way_network
 from relguide.output import write, write_json
 from relguide.progress import progress_bar
 from relguide.training import workers
+
+if TYPE_CHECKING:
+    from rich.table import Table
 
 LARGEST = 10
 """Gaps printed."""
@@ -108,18 +112,7 @@ def _print_named(audit: WayAudit) -> None:
     for heading in ("number", "named, % (95 %)", "in its set, %", "set", "answered, %"):
         shown.add_column(heading, justify="right", no_wrap=True)
 
-    def add(group: WayGroup) -> None:
-        shown.add_row(
-            group.name, f"{group.size:,}", with_interval(group.named), percent(group.covered),
-            f"{group.mean_set:.2f}", percent(group.late.answered),
-        )  # fmt: skip
-
-    for group in audit.groups:
-        add(group)
-    shown.add_section()
-    for group in audit.kinds:
-        add(group)
-    print_table(shown)
+    _print_groups(audit, shown, _named_row)
 
 
 def _print_late(audit: WayAudit) -> None:
@@ -133,16 +126,29 @@ def _print_late(audit: WayAudit) -> None:
     for heading in (*_LATE, "no way", "sooner"):
         shown.add_column(heading, justify="right", no_wrap=True)
 
-    def add(group: WayGroup) -> None:
-        late = group.late
-        shown.add_row(group.name, *_late_row(late), _none(late), f"{late.sooner:,}")
+    _print_groups(
+        audit,
+        shown,
+        lambda group: (*_late_row(group.late), _none(group.late), f"{group.late.sooner:,}"),
+    )
 
-    for group in audit.groups:
-        add(group)
-    shown.add_section()
-    for group in audit.kinds:
-        add(group)
+
+def _print_groups(
+    audit: WayAudit, shown: "Table", cells: Callable[[WayGroup], tuple[str, ...]]
+) -> None:
+    """A row a source, and below a row a kind."""
+    for groups in (audit.groups, audit.kinds):
+        for group in groups:
+            shown.add_row(group.name, *cells(group))
+        shown.add_section()
     print_table(shown)
+
+
+def _named_row(group: WayGroup) -> tuple[str, ...]:
+    return (
+        f"{group.size:,}", with_interval(group.named), percent(group.covered),
+        f"{group.mean_set:.2f}", percent(group.late.answered),
+    )  # fmt: skip
 
 
 def _late_row(late: Late) -> tuple[str, ...]:

@@ -11,7 +11,7 @@ from math import cos, sin
 
 from numba import njit
 
-from relguide.kernels.angles import TWO_PI, wrap
+from relguide.kernels.angles import mirror_heading, wrap
 from relguide.kernels.chain import RIDE
 from relguide.kernels.contact import contact_heading
 from relguide.kernels.extremals import SIGNS, fly_piece
@@ -84,7 +84,7 @@ def along_rows(
         x, y, h = along(x, y, h, slot, alpha, limit + GRAZE, legs[n, : int(counts[n])], times[n])
         x, y, h = x + off[n, 0], y + off[n, 1], wrap(h + off[n, 2])
         if needs_mirror(y, h):
-            y, h = -y, TWO_PI - h if h > 0.0 else 0.0
+            y, h = -y, mirror_heading(h)
         out[n, 0], out[n, 1], out[n, 2] = x, y, h
         out[n, 3], out[n, 4], out[n, 5] = alpha, slot, limit
 
@@ -116,7 +116,7 @@ def later_rows(
         rest[n, 0, 3] -= turned
         left[n] = times[n] - turned
         if needs_mirror(y, h):
-            y, h = -y, TWO_PI - h if h > 0.0 else 0.0
+            y, h = -y, mirror_heading(h)
             mirror_legs(rest[n, :count])
         out[n, 0], out[n, 1], out[n, 2] = x, y, h
         out[n, 3], out[n, 4], out[n, 5] = alpha, slot, limit

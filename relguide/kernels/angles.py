@@ -31,6 +31,12 @@ def wrap(angle: float) -> float:
 
 
 @njit(cache=True, nogil=True)
+def mirror_heading(angle: float) -> float:
+    """A heading of [0, 2π) in the mirror, left and right exchanged; in [0, 2π) too."""
+    return TWO_PI - angle if angle > 0.0 else 0.0
+
+
+@njit(cache=True, nogil=True)
 def wrap_signed(angle: float) -> float:
     """An angle in [−π, π)."""
     return modulo(angle + pi) - pi

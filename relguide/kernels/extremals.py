@@ -9,7 +9,7 @@ from math import cos, hypot, sin
 import numpy as np
 from numba import njit
 
-from relguide.kernels.angles import TWO_PI
+from relguide.kernels.angles import mirror_heading
 from relguide.kernels.ccc import lrl
 from relguide.kernels.csc import lsl, lsr
 from relguide.kernels.roots import FloatArray
@@ -98,7 +98,7 @@ def solve_word(
     Returns:
         how many rows there are now.
     """
-    mirrored_h = TWO_PI - h if h > 0.0 else 0.0
+    mirrored_h = mirror_heading(h)
     if word == 0:
         end = lsl(x, y, h, ax, ay, found, 0)
     elif word == 1:

@@ -8,7 +8,7 @@ from math import cos, inf, sin, sqrt
 import numpy as np
 from numba import njit
 
-from relguide.kernels.angles import TWO_PI
+from relguide.kernels.angles import mirror_heading
 from relguide.kernels.extremals import CLOSURE, MAX_ROWS, SIGNS, solve
 from relguide.kernels.roots import FloatArray
 from relguide.kernels.sooner import EARLY, lrl_before, lsl_before, lsr_before
@@ -92,7 +92,7 @@ def word_before(
     """
     if word % 2 == 1:
         # RSR, RSL and RLR are mirror images
-        y, h, sin_h = -y, TWO_PI - h if h > 0.0 else 0.0, -sin_h
+        y, h, sin_h = -y, mirror_heading(h), -sin_h
     if word < 2:
         return lsl_before(x, y, h, sin_h, cos_h, alpha, t_open, beat, found)
     if word < 4:

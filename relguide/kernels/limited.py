@@ -19,6 +19,28 @@ from relguide.kernels.tangent import tangents
 
 
 @njit(cache=True, nogil=True)
+def breaks_limit(
+    x: float, y: float, h: float, alpha: float, slot: float, limit: float, free: FloatArray
+) -> bool:
+    """`limit_binds`, and what the fastest way is.
+
+    Args:
+        x: as there.
+        y: as there.
+        h: as there.
+        alpha: as there.
+        slot: as there.
+        limit: as there.
+        free: takes it, a row of `solve`; nothing where the slot is out of reach. shape (5,)
+    """
+    if not fastest(x, y, h, alpha, 0.0, 0, work_room(), np.empty((MOST_ROOTS, 4)), free):
+        return False
+    leader = np.zeros((1, 5))
+    leader[0, 1] = slot
+    return not word_clears(x, y, h, 0.0, free, leader, alpha, limit)
+
+
+@njit(cache=True, nogil=True)
 def limit_binds(x: float, y: float, h: float, alpha: float, slot: float, limit: float) -> bool:
     """Whether the fastest way without the limit breaks it.
 
@@ -30,12 +52,7 @@ def limit_binds(x: float, y: float, h: float, alpha: float, slot: float, limit: 
         slot: the leader ahead of the slot [R].
         limit: d_min [R].
     """
-    row = np.empty(5)
-    if not fastest(x, y, h, alpha, 0.0, 0, work_room(), np.empty((MOST_ROOTS, 4)), row):
-        return False
-    leader = np.zeros((1, 5))
-    leader[0, 1] = slot
-    return not word_clears(x, y, h, 0.0, row, leader, alpha, limit)
+    return breaks_limit(x, y, h, alpha, slot, limit, np.empty(5))
 
 
 @njit(cache=True, nogil=True)

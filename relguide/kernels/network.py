@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numba import njit
 
-from relguide.kernels.angles import TWO_PI
+from relguide.kernels.angles import mirror_heading
 from relguide.kernels.extremals import MAX_ROWS, solve_word
 from relguide.kernels.margins import INPUTS, inputs
 from relguide.kernels.roots import FloatArray
@@ -53,7 +53,7 @@ def evaluate(
     mirrored = needs_mirror(y, h)
     told = np.empty(INPUTS)
     if mirrored:
-        inputs(x, -y, TWO_PI - h if h > 0.0 else 0.0, alpha, told)
+        inputs(x, -y, mirror_heading(h), alpha, told)
     else:
         inputs(x, y, h, alpha, told)
     a = last_hidden(told, layers)

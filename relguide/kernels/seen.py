@@ -6,16 +6,13 @@ long as what is found out here (see `direct`).
 
 from math import inf
 
-import numpy as np
 from numba import njit
 
-from relguide.kernels.angles import TWO_PI, wrap
+from relguide.kernels.angles import mirror_heading, wrap
 from relguide.kernels.clearance import SLACK
-from relguide.kernels.fastest import fastest
-from relguide.kernels.passage import word_clears
+from relguide.kernels.limited import breaks_limit
 from relguide.kernels.roots import FloatArray
 from relguide.kernels.slot import slot_offset, to_slot
-from relguide.kernels.sooner import MOST_ROOTS, work_room
 from relguide.kernels.strategies import direct_time, needs_mirror
 
 _ASIDE = 1e-9  # the slot counts as straight behind the leader [R]: 10 µm for an airliner
@@ -63,12 +60,8 @@ def seen(
     soonest = direct_time(along, left, alpha) if alpha < 1.0 else inf
     binds = False
     if abs(aside) <= _ASIDE:
-        mirrored = needs_mirror(left, h)
-        away = -left if mirrored else left
-        turned = (TWO_PI - h if h > 0.0 else 0.0) if mirrored else h
-        found = np.empty((MOST_ROOTS, 4))
-        if fastest(along, away, turned, alpha, 0.0, 0, work_room(), found, free):
-            leader = np.zeros((1, 5))
-            leader[0, 1] = slot
-            binds = not word_clears(along, away, turned, 0.0, free, leader, alpha, limit - SLACK)
+        away, turned = left, h
+        if needs_mirror(left, h):
+            away, turned = -left, mirror_heading(h)
+        binds = breaks_limit(along, away, turned, alpha, slot, limit - SLACK, free)
     return binds, soonest, (along, left, h, slot, alpha, limit)

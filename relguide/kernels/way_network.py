@@ -13,7 +13,7 @@ from math import exp, inf
 import numpy as np
 from numba import njit
 
-from relguide.kernels.angles import TWO_PI
+from relguide.kernels.angles import mirror_heading
 from relguide.kernels.chain import MAX_CONTACTS
 from relguide.kernels.network import Layers, last_hidden
 from relguide.kernels.pieces import pieces_of
@@ -164,7 +164,7 @@ def way_round(
     """
     sense = 1.0
     if needs_mirror(y, h):
-        y, h, sense = -y, TWO_PI - h if h > 0.0 else 0.0, -1.0
+        y, h, sense = -y, mirror_heading(h), -1.0
     legs = np.zeros((LEGS, 6))
     _, _, time, count = choose_way(
         x, y, h, slot, alpha, limit, free, Layers(*weights), least_share, most, doubt, legs

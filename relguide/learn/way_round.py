@@ -1,4 +1,4 @@
-"""way_round(ways, …): a way round the limit, of a kind that a network holds possible.
+"""solved(ways, …): a way round the limit, of a kind that a network holds possible.
 
     situation → kinds held possible → solved next to their guesses → the fastest that keeps d_min
 
@@ -21,18 +21,6 @@ from relguide.learn.way_network import WayNetwork
 from relguide.planning.situation import Situation
 from relguide.planning.words import HORIZON, Candidate, candidate_of, segments_flown
 from relguide.units import Metre
-
-
-def way_round(ways: WayNetwork, situation: Situation) -> Candidate | None:
-    """The fastest way round the limit that the network leads to, not certified yet.
-
-    `None` where the limit does not bind, too.
-    """
-    if situation.leader.intent:
-        return None
-    radius = situation.pursuer.turn_radius
-    binds, _, where, free = seen(situation, radius)
-    return solved(ways, situation, radius, where, free) if binds else None
 
 
 def seen(situation: Situation, radius: Metre) -> tuple[bool, float, Where, FloatArray]:
@@ -59,11 +47,11 @@ def seen(situation: Situation, radius: Metre) -> tuple[bool, float, Where, Float
 def solved(
     ways: WayNetwork, situation: Situation, radius: Metre, where: Where, free: FloatArray
 ) -> Candidate | None:
-    """As `way_round`, of a situation that has been seen, and in which the limit binds.
+    """The fastest way round the limit that the network leads to, not certified yet.
 
     Args:
         ways: the network.
-        situation: gives the pursuer.
+        situation: in which the limit binds, and the leader keeps straight.
         radius: R [m].
         where: of `seen`.
         free: of `seen`.

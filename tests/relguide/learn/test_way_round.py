@@ -22,13 +22,21 @@ from relguide.learn.limit_labels import LimitRequest, limit_chunk
 from relguide.learn.network import load_network
 from relguide.learn.planner import network_planner
 from relguide.learn.way_network import WayNetwork, load_way_network
-from relguide.learn.way_round import way_round
+from relguide.learn.way_round import seen, solved
+from relguide.planning.words import Candidate
 from relguide.units import DEG
 from tests.relguide.learn.test_limit_labels import situation_of
 from tests.relguide.learn.way_networks import ways
 
 SHIPPED = load_way_network()
 UNSEEN = [situation_of(row) for row in limit_chunk(LimitRequest(count=240, seed=999), 0).situations]
+
+
+def way_round(network: WayNetwork, situation: Situation) -> Candidate | None:
+    """What the network leads to where the limit is seen to bind."""
+    radius = situation.pursuer.turn_radius
+    binds, _, where, free = seen(situation, radius)
+    return solved(network, situation, radius, where, free) if binds else None
 
 
 def asked(situation: Situation, network: WayNetwork = SHIPPED) -> Plan | NoPlan:
