@@ -21,6 +21,8 @@ def test_people_get_tables_and_a_figure(run: Run) -> None:
         assert name in names
     assert "binds, median and 99th percentile of CPU time:\nnetwork " in out
     assert "Slower than the fastest way by more than 0.1 %: " in out
+    assert "All situations, the limit included: " in out
+    assert "Of what is answered: how much longer it takes than the fastest way" in out
     (drawn,) = Path("docs/figures").iterdir()
     assert drawn.name == "network_ways.svg"
     picture = drawn.read_text("utf-8")
