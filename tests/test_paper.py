@@ -21,8 +21,8 @@ from relguide import (
     certify,
     plan,
 )
-from relguide.kernels.approach import closest_of_straights
-from relguide.kernels.turn import turn_rate
+from relguide.kernels.base.turn import turn_rate
+from relguide.kernels.separation.approach import closest_of_straights
 from relguide.units import DEG, G0, NM
 from tests.situations import numbers, situations
 

@@ -9,13 +9,13 @@ from pathlib import Path
 
 import pytest
 from fastapi.testclient import TestClient
+from relguide_server.app import create_app
 
 from relguide import plan
 from relguide.__main__ import main
 from relguide.flying.documents import FlightEnded
 from relguide.flying.flight import fly
 from relguide.flying.scenarios import scenario
-from server.app import create_app
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text()

@@ -3,7 +3,7 @@
 from hashlib import sha256
 from typing import Any, Literal
 
-from relguide.contract.areas import AreaAnswer
+from relguide.contract.area_bodies import AreaAnswer
 from relguide.contract.bodies import Piece, SituationBody
 from relguide.contract.messages import (
     AlternativeModel,

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from math import atan2, cos, hypot, pi, sin
 from typing import NamedTuple
 
-from relguide.kernels.lateral import lateral_step
+from relguide.kernels.flight.lateral import lateral_step
 from relguide.units import DEG, Metre, MetrePerSecond, Radian, RadianPerSecond, Second
 
 
@@ -122,7 +122,7 @@ def step(
     wind_north: MetrePerSecond,
     duration: Second,
 ) -> AircraftState:
-    """Fly for a short while: `kernels/lateral.py` has the equations.
+    """Fly for a short while: `kernels/flight/lateral.py` has the equations.
 
     Args:
         model: the aircraft's type.

@@ -13,7 +13,7 @@ from math import cos, pi, sin, sqrt, tan
 from typing import NamedTuple
 
 from relguide.flying.aircraft import AircraftModel, AircraftState
-from relguide.kernels.motion import advance
+from relguide.kernels.base.motion import advance
 from relguide.units import DEG, G0, Metre, MetrePerSecond, Radian, RadianPerSecond, Second
 
 

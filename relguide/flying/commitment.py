@@ -11,7 +11,7 @@ from typing import Literal
 
 from relguide.flying.aircraft import AircraftModel
 from relguide.flying.steering import rest, steer
-from relguide.kernels.motion import advance
+from relguide.kernels.base.motion import advance
 from relguide.planning.certificate import certify
 from relguide.planning.plan import AS_FAST, NoPlan, Optimality, Plan, Planner
 from relguide.planning.plan import plan as exact_plan

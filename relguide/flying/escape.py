@@ -13,8 +13,8 @@ import numpy as np
 
 from relguide.flying.aircraft import AircraftModel, roll_lead
 from relguide.flying.capture import Offsets
-from relguide.kernels import recovery as kernel
-from relguide.kernels.turn import turn_rate
+from relguide.kernels.base.turn import turn_rate
+from relguide.kernels.separation import least_bad_turn as kernel
 from relguide.planning.certificate import certify, kernel_arrays
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import LEFT, RIGHT, Arc, Straight, Trajectory

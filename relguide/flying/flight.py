@@ -15,11 +15,6 @@ from relguide.flying.aircraft import step as fly_step
 from relguide.flying.assignment import TURN_SEEN, Assignment, Seen
 from relguide.flying.autopilot import Autopilot
 from relguide.flying.cards import wind_card
-from relguide.flying.commands import Command, obey
-from relguide.flying.commands import IntentKnown as IntentKnown
-from relguide.flying.commands import LeaderHeading as LeaderHeading
-from relguide.flying.commands import LeaderSpeed as LeaderSpeed
-from relguide.flying.commands import no_commands as no_commands
 from relguide.flying.documents import (
     AircraftCard,
     Document,
@@ -33,8 +28,13 @@ from relguide.flying.guidance import advise
 from relguide.flying.leader import FlyingLeader, LeaderFlight, advanced, replayed
 from relguide.flying.logbook import Tally, counted, event_document, leader_route, sample
 from relguide.flying.memory import begin
+from relguide.flying.orders import Command, obey
+from relguide.flying.orders import IntentKnown as IntentKnown
+from relguide.flying.orders import LeaderHeading as LeaderHeading
+from relguide.flying.orders import LeaderSpeed as LeaderSpeed
+from relguide.flying.orders import no_commands as no_commands
 from relguide.flying.tracks import RecordedTrack
-from relguide.kernels.turn import turn_rate
+from relguide.kernels.base.turn import turn_rate
 from relguide.planning.plan import Plan, Planner
 from relguide.planning.situation import MAX_TAS, MIN_TAS, Situation, TurnTo
 from relguide.units import DEG, KT, Metre, MetrePerSecond, Radian, RadianPerSecond, Second

@@ -21,7 +21,7 @@ from relguide.flying.documents import (
     TurnRateReference,
 )
 from relguide.flying.memory import Advice
-from relguide.kernels.turn import turn_rate
+from relguide.kernels.base.turn import turn_rate
 from relguide.planning.situation import IntentPiece, Leader, Wind
 from relguide.units import DEG, Metre, Radian, Second
 

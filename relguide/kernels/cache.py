@@ -27,7 +27,7 @@ HERE = Path(__file__).parent
 """The kernels' sources."""
 RECORD = "relguide-kernels.json"
 """The file that says for what a folder has been filled."""
-IMPORT = re.compile(rb"^from relguide\.(kernels\.\w+|units) import", re.MULTILINE)
+IMPORT = re.compile(rb"^from relguide\.(kernels\.\w+\.\w+|units) import", re.MULTILINE)
 """How our files name what they are made of."""
 
 
@@ -79,7 +79,7 @@ def record(place: Path) -> None:
 
 def _wanted() -> list[str]:
     machine = cpu_target.target_context.codegen().magic_tuple()
-    return [_stamp(tuple(sorted(HERE.glob("*.py")))), numba_version, *map(str, machine)]
+    return [_stamp(tuple(sorted(HERE.rglob("*.py")))), numba_version, *map(str, machine)]
 
 
 @cache

@@ -12,7 +12,7 @@ from typing import Literal
 
 import numpy as np
 
-from relguide.kernels.extremals import MAX_ROWS, WORDS, solve
+from relguide.kernels.words.extremals import MAX_ROWS, WORDS, solve
 from relguide.planning.certificate import certify
 from relguide.planning.inputs import expect
 from relguide.planning.passing import Passing, Surroundings, passing, surroundings

@@ -15,10 +15,10 @@ from os import cpu_count
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from relguide.kernels import batch as kernel
-from relguide.kernels.extremals import WORDS
+from relguide.kernels.contact import time_rows as kernel
+from relguide.kernels.words.extremals import WORDS
 from relguide.planning import situation as limits
-from relguide.planning.detour import BEARINGS
+from relguide.planning.constrained_path import BEARINGS
 from relguide.planning.inputs import expect, expect_function, truth, whole
 from relguide.planning.words import HORIZON
 from relguide.units import G0

@@ -8,9 +8,9 @@ from itertools import chain
 
 import numpy as np
 
-from relguide.kernels.approach import least_on_paths
-from relguide.kernels.clearance import SLACK
-from relguide.kernels.roots import FloatArray
+from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.separation.approach import least_on_paths
+from relguide.kernels.separation.clearance import SLACK
 from relguide.planning.inputs import expect
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import Trajectory

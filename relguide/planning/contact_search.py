@@ -5,7 +5,7 @@ keeps it, or it has a first contact, and a last one. So none arrives before the 
 extremal and the least, over all contacts, of the soonest arrival at the contact and the soonest way
 on from there. If that way on breaks the limit, there is another contact, and the last of them
 counts too. Contacts are put into cells, of bearing and time, for which all this is bounded at once
-(`kernels/contact_bound.py`). The branch with the least bound is halved again and again: that
+(`kernels/bounds/contact_bound.py`). The branch with the least bound is halved again and again: that
 bound is proved, at any moment.
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
@@ -20,7 +20,7 @@ from math import inf, pi
 
 import numpy as np
 
-from relguide.kernels.contact_bound import (
+from relguide.kernels.bounds.contact_bound import (
     between_bound,
     cell_bound,
     leaving_bound,

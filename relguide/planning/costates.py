@@ -18,7 +18,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from relguide.kernels.roots import FloatArray
+from relguide.kernels.base.roots import FloatArray
 from relguide.planning.legs import ROUNDING, Cut, Encounter, Leg, Touch, Vector
 
 RANK = 1e-8

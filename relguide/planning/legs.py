@@ -12,8 +12,8 @@ from math import cos, hypot, sin
 
 import numpy as np
 
-from relguide.kernels.costate import contacts
-from relguide.kernels.motion import advance
+from relguide.kernels.base.motion import advance
+from relguide.kernels.bounds.costate import contacts
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import Trajectory
 

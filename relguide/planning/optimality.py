@@ -12,8 +12,8 @@ from typing import Literal
 
 import numpy as np
 
-from relguide.kernels.angles import wrap_signed
-from relguide.kernels.costate import least_switching
+from relguide.kernels.base.angles import wrap_signed
+from relguide.kernels.bounds.costate import least_switching
 from relguide.planning.adjoint import AdjointHistory, adjoint_history
 from relguide.planning.costates import Costates, dot, find_costates, multiplier
 from relguide.planning.inputs import expect, within

@@ -11,8 +11,8 @@ from typing import Literal
 
 import numpy as np
 
-from relguide.kernels.angles import wrap_signed
-from relguide.kernels.winding import sight_turn
+from relguide.kernels.base.angles import wrap_signed
+from relguide.kernels.separation.winding import sight_turn
 from relguide.planning.certificate import kernel_arrays
 from relguide.planning.situation import Situation
 from relguide.planning.slot import slot_frame, slot_offset

@@ -7,20 +7,20 @@ from math import hypot
 from time import perf_counter_ns
 from typing import Literal
 
-from relguide.kernels.clearance import SLACK
-from relguide.kernels.roots import FloatArray
+from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.separation.clearance import SLACK
 from relguide.planning.certificate import Certificate, bends_of, judge, leader_bends
-from relguide.planning.detour import detour
-from relguide.planning.direct import direct
+from relguide.planning.constrained_path import detour
 from relguide.planning.inputs import expect
-from relguide.planning.phrases import distance
-from relguide.planning.recovery import (
+from relguide.planning.least_bad import (
     least_bad,
     least_bad_sentence,
     restore,
     restore_sentence,
 )
+from relguide.planning.phrases import distance
 from relguide.planning.situation import Situation
+from relguide.planning.straight_ahead import direct
 from relguide.planning.trajectory import Trajectory
 from relguide.planning.words import HORIZON, Candidate, Candidates, candidates
 from relguide.units import KT, Metre, Millisecond, Second

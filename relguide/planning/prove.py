@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 from math import inf
 from time import perf_counter
 
+from relguide.planning.constrained_path import leader_table
 from relguide.planning.contact_search import Question
-from relguide.planning.detour import leader_table
 from relguide.planning.inputs import expect, expect_function, within
 from relguide.planning.plan import Optimality, Plan
 from relguide.planning.words import candidates

@@ -11,10 +11,10 @@ from math import cos, inf, pi, sin
 
 import numpy as np
 
-from relguide.kernels.angles import wrap_signed
-from relguide.kernels.approach import closest_of_straights, least_separation
-from relguide.kernels.clearance import SLACK
-from relguide.kernels.motion import advance
+from relguide.kernels.base.angles import wrap_signed
+from relguide.kernels.base.motion import advance
+from relguide.kernels.separation.approach import closest_of_straights, least_separation
+from relguide.kernels.separation.clearance import SLACK
 from relguide.planning.certificate import TOLERANCE
 from relguide.planning.inputs import expect
 from relguide.planning.regular import RegularTrajectory, Triplet

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from math import cos, hypot, sin
 from typing import Literal
 
-from relguide.kernels.angles import turn_to
-from relguide.kernels.turn import turn_radius
+from relguide.kernels.base.angles import turn_to
+from relguide.kernels.base.turn import turn_radius
 from relguide.planning.inputs import expect, number, turn_sign, within
 from relguide.planning.trajectory import Arc, Segment, Straight, Trajectory, Turn
 from relguide.units import DEG, Metre, MetrePerSecond, Radian, Second

@@ -13,9 +13,9 @@ angles counter-clockwise from it, lengths in R and times in R/V_P. What remains 
 from dataclasses import dataclass
 from math import cos, sin
 
-from relguide.kernels import slot as kernel
-from relguide.kernels.angles import wrap
-from relguide.kernels.slot import to_slot
+from relguide.kernels.base import slot_frame as kernel
+from relguide.kernels.base.angles import wrap
+from relguide.kernels.base.slot_frame import to_slot
 from relguide.planning.situation import Situation, Wind
 from relguide.planning.trajectory import Arc, Pose, Trajectory
 

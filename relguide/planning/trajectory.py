@@ -8,7 +8,7 @@ from itertools import chain
 from math import inf, isfinite, pi
 from typing import Literal
 
-from relguide.kernels.motion import advance
+from relguide.kernels.base.motion import advance
 from relguide.planning.inputs import number, turn_sign
 from relguide.units import Metre, MetrePerSecond, Radian, RadianPerSecond, Second
 

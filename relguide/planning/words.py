@@ -6,9 +6,9 @@ from math import hypot
 
 import numpy as np
 
-from relguide.kernels.extremals import MAX_ROWS, SIGNS, WORDS, solve
-from relguide.kernels.hold import HOLD_PIECES, MAX_HOLDS, holds
-from relguide.kernels.pieces import NO_TURN
+from relguide.kernels.contact.path_pieces import NO_TURN
+from relguide.kernels.words.delay import HOLD_PIECES, MAX_HOLDS, holds
+from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, WORDS, solve
 from relguide.planning.inputs import expect
 from relguide.planning.situation import Pursuer, Situation
 from relguide.planning.slot import SlotFrame, slot_frame

@@ -18,10 +18,12 @@ from rich.progress import track
 from rich.table import Table
 
 from relguide import RIGHT, FlyStraight, Leader, Pursuer, Situation, TurnTo, Wind
-from relguide.contours import contours, regions
-from relguide.contract.areas import area_to_wire
+from relguide.contract.area_bodies import area_to_wire
 from relguide.contract.bodies import Unanchored
-from relguide.isochrones import (
+from relguide.learn.words.area_words import area_words
+from relguide.learn.words.branch_network import StrategyNetwork, load_network
+from relguide.maps.contours import contours, regions
+from relguide.maps.isochrones import (
     NAMES,
     Isochrones,
     grid_around,
@@ -29,8 +31,6 @@ from relguide.isochrones import (
     round_levels,
     times_around,
 )
-from relguide.learn.area_words import area_words
-from relguide.learn.network import StrategyNetwork, load_network
 from relguide.units import DEG
 from tests.bench.options import positive
 

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from rich.table import Table
 
 from relguide import Plan, plan
-from relguide.progress import watched
+from relguide.planning.progress import watched
 from tests.bench.cases import Case
 from tests.bench.timing import timed
 from tests.bench.transcription import Answer, Transcription, flown, guesses

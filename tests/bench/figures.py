@@ -11,7 +11,7 @@ import numpy as np
 from rich.console import Console
 
 from relguide import Plan, candidates, plan
-from relguide.progress import watched
+from relguide.planning.progress import watched
 from tests.bench import detours, drawings, throughput, unlimited
 from tests.bench.__main__ import add_counts, counts_from
 from tests.bench.cases import limited_cases

@@ -18,12 +18,12 @@ import torch
 from rich.console import Console
 from rich.table import Table
 
-from relguide.kernels.network import judge_rows
-from relguide.kernels.strategies import SIZE
-from relguide.learn import inference
-from relguide.learn.inference import strategy_shares
-from relguide.learn.network import StrategyNetwork, features_of, load_network
-from relguide.progress import progress_bar
+from relguide.kernels.networks.branch_scores import judge_rows
+from relguide.kernels.words.branches import SIZE
+from relguide.learn.words import inference
+from relguide.learn.words.branch_network import StrategyNetwork, features_of, load_network
+from relguide.learn.words.inference import strategy_shares
+from relguide.planning.progress import progress_bar
 from tests.bench.options import positive
 
 REPEATS = 3

@@ -26,9 +26,9 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-import relguide.planning.detour as search
+import relguide.planning.constrained_path as search
 from relguide import NoPlan, Plan, Situation, plan
-from relguide.progress import watched
+from relguide.planning.progress import watched
 from tests.bench import draws
 from tests.bench.options import positive, share
 
@@ -180,7 +180,7 @@ def _finished(file: Path, run: Run) -> list[Outcome]:
 def _planner_digest() -> str:
     digest = sha256()
     for folder in ("kernels", "planning"):
-        for source in sorted((Path(search.__file__).parents[1] / folder).glob("*.py")):
+        for source in sorted((Path(search.__file__).parents[1] / folder).rglob("*.py")):
             digest.update(source.read_bytes())
     return digest.hexdigest()[:16]
 

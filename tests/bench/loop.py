@@ -21,11 +21,11 @@ from rich.table import Table
 from relguide import Plan, Planner, Situation, plan
 from relguide.flying.documents import FlightEnded
 from relguide.flying.flight import Scenario, fly
-from relguide.learn.network import SHIPPED, load_network
-from relguide.learn.planner import network_planner
-from relguide.learn.visited import STEP, draw_flight
+from relguide.learn.network_planner import network_planner
+from relguide.learn.words.branch_network import SHIPPED, load_network
+from relguide.learn.words.visited import STEP, draw_flight
 from relguide.planning.plan import NoPlan
-from relguide.progress import progress_bar
+from relguide.planning.progress import progress_bar
 from tests.bench.options import positive
 
 SEED = 1903

@@ -16,9 +16,9 @@ from rich.console import Console
 from rich.table import Table
 
 from relguide import Plan, Planner, Situation, plan
-from relguide.learn.network import load_network
-from relguide.learn.planner import network_planner
-from relguide.progress import watched
+from relguide.learn.network_planner import network_planner
+from relguide.learn.words.branch_network import load_network
+from relguide.planning.progress import watched
 from tests.bench import network_batch
 from tests.bench.draws import active, anywhere, is_active
 from tests.bench.options import positive

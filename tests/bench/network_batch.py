@@ -11,12 +11,12 @@ import numpy as np
 from rich.table import Table
 
 from relguide import Situation
-from relguide.kernels.batch import plan_rows
-from relguide.learn.network import load_network
-from relguide.learn.way_network import load_way_network
-from relguide.planning.detour import BEARINGS
+from relguide.kernels.contact.time_rows import plan_rows
+from relguide.learn.boundary.template_network import load_way_network
+from relguide.learn.words.branch_network import load_network
+from relguide.planning.constrained_path import BEARINGS
+from relguide.planning.progress import progress_bar
 from relguide.planning.slot import slot_frame
-from relguide.progress import progress_bar
 from tests.bench.network_rows import BY_NETWORK, answer_rows
 
 CHUNK = 32

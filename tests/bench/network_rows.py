@@ -11,21 +11,21 @@ from math import inf
 import numpy as np
 from numba import njit
 
-from relguide.kernels.angles import TWO_PI
-from relguide.kernels.approach import least_on_paths
-from relguide.kernels.batch import plan_rows
-from relguide.kernels.clearance import SLACK
-from relguide.kernels.extremals import MAX_ROWS, SIGNS
-from relguide.kernels.fastest import fastest
-from relguide.kernels.network import Layers, choose
-from relguide.kernels.passage import word_clears
-from relguide.kernels.pieces import pieces_of
-from relguide.kernels.roots import FloatArray
-from relguide.kernels.sooner import MOST_ROOTS, work_room
-from relguide.kernels.strategies import needs_mirror
-from relguide.kernels.way_network import LEGS, choose_way
-from relguide.learn.network import StrategyNetwork
-from relguide.learn.way_network import WayNetwork
+from relguide.kernels.base.angles import TWO_PI
+from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.contact.passage import word_clears
+from relguide.kernels.contact.path_pieces import pieces_of
+from relguide.kernels.contact.time_rows import plan_rows
+from relguide.kernels.networks.branch_scores import Layers, choose
+from relguide.kernels.networks.template_scores import LEGS, choose_way
+from relguide.kernels.separation.approach import least_on_paths
+from relguide.kernels.separation.clearance import SLACK
+from relguide.kernels.words.branches import needs_mirror
+from relguide.kernels.words.extremals import MAX_ROWS, SIGNS
+from relguide.kernels.words.fastest import fastest
+from relguide.kernels.words.sooner import MOST_ROOTS, work_room
+from relguide.learn.boundary.template_network import WayNetwork
+from relguide.learn.words.branch_network import StrategyNetwork
 from relguide.planning.certificate import TOLERANCE
 
 BY_NETWORK = -1.0

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from relguide import Plan, Situation, Trajectory, candidates, certify, plan
-from relguide.kernels.contact import contact_heading
-from relguide.kernels.extremals import MAX_ROWS, SIGNS, fly_piece, solve, solve_toward
+from relguide.kernels.contact.contact import contact_heading
+from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, fly_piece, solve, solve_toward
 from relguide.planning.certificate import SLACK
 from relguide.planning.words import assemble
 from tests.bench.cases import Case

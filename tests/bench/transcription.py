@@ -17,9 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from relguide import LEFT, RIGHT, Arc, Straight, Trajectory, certify
-from relguide.kernels.angles import wrap_signed
-from relguide.kernels.contact import contact_heading
-from relguide.kernels.extremals import MAX_ROWS, SIGNS, fly_piece, solve, solve_toward
+from relguide.kernels.base.angles import wrap_signed
+from relguide.kernels.contact.contact import contact_heading
+from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, fly_piece, solve, solve_toward
 from tests.bench.cases import Case
 
 INTERVALS = 80

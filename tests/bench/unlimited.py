@@ -11,8 +11,8 @@ import numpy as np
 from rich.table import Table
 
 from relguide import NoPlan, Plan, plan
-from relguide.kernels.extremals import MAX_ROWS, solve
-from relguide.progress import watched
+from relguide.kernels.words.extremals import MAX_ROWS, solve
+from relguide.planning.progress import watched
 from tests.bench.cases import Case
 from tests.bench.dubins_curves import Length, meeting_time, shortest_length
 from tests.bench.exhaustive import least_time

@@ -13,21 +13,22 @@ USED = """
 import sys
 from importlib import import_module
 from itertools import islice
-from pkgutil import iter_modules
+from pkgutil import walk_packages
 from numba.core.dispatcher import Dispatcher
 from relguide import Plan, Situations, alternatives, check, kernels, plan, plan_arrays, prove
 from relguide.flying.flight import fly
 from relguide.flying.scenarios import scenario
-from relguide.learn.judging import audit_request, judge_chunk, latencies
-from relguide.learn.labels import LabelRequest, label_chunk
-from relguide.learn.network import features_of, load_network
-from relguide.learn.planner import network_planner
-from relguide.learn.regular_planner import regular_planner
+from relguide.learn.audits.branch_judging import audit_request, judge_chunk, latencies
+from relguide.learn.words.branch_labels import LabelRequest, label_chunk
+from relguide.learn.words.branch_network import features_of, load_network
+from relguide.learn.network_planner import network_planner
+from relguide.learn.tree.regular_planner import regular_planner
 from relguide.warm_up import _steps
 from tests.situations import golden
 
 def called():
-    modules = [import_module(f"relguide.kernels.{m.name}") for m in iter_modules(kernels.__path__)]
+    found = walk_packages(kernels.__path__, "relguide.kernels.")
+    modules = [import_module(module.name) for module in found]
     found = {f for module in modules for f in vars(module).values() if isinstance(f, Dispatcher)}
     return {f"{f.py_func.__name__}{sig}" for f in found for sig in f.signatures}
 
@@ -88,23 +89,24 @@ def test_a_stamp_changes_with_what_is_imported(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     kernels = tmp_path / "kernels"
-    kernels.mkdir()
+    (kernels / "words").mkdir(parents=True)
+    (kernels / "base").mkdir()
     (tmp_path / "units.py").write_text("G0 = 9.8\n")
-    (kernels / "top.py").write_text("from relguide.kernels.middle import f\n")
-    (kernels / "middle.py").write_text("from relguide.kernels.base import g\n")
-    (kernels / "base.py").write_text("from relguide.units import G0\n")
-    (kernels / "apart.py").write_text("")
+    (kernels / "words" / "top.py").write_text("from relguide.kernels.words.middle import f\n")
+    (kernels / "words" / "middle.py").write_text("from relguide.kernels.base.turn import g\n")
+    (kernels / "base" / "turn.py").write_text("from relguide.units import G0\n")
+    (kernels / "base" / "apart.py").write_text("")
     monkeypatch.setattr(cache, "HERE", kernels)
 
     def stamps() -> dict[str, str]:
         cache._made_of.cache_clear()
         cache._stamp.cache_clear()
-        return {file.stem: cache._stamp((file,)) for file in kernels.iterdir()}
+        return {file.stem: cache._stamp((file,)) for file in kernels.rglob("*.py")}
 
     before = stamps()
     (tmp_path / "units.py").write_text("G0 = 9.80665\n")
     after = stamps()
-    assert {name for name in before if before[name] != after[name]} == {"top", "middle", "base"}
+    assert {name for name in before if before[name] != after[name]} == {"top", "middle", "turn"}
 
 
 def test_a_folder_that_can_only_be_read_serves_if_it_was_filled(
@@ -124,6 +126,6 @@ def test_a_folder_that_can_only_be_read_serves_if_it_was_filled(
 
 
 def test_kernels_are_kept_where_we_say() -> None:
-    from relguide.kernels.motion import advance
+    from relguide.kernels.base.motion import advance
 
     assert advance.stats.cache_path == str(cache.folder())

@@ -7,6 +7,9 @@ from contextlib import contextmanager
 
 import uvicorn
 from fastapi import FastAPI
+from relguide_server.app import create_app
+from relguide_server.departures import Departure, Departures
+from relguide_server.settings import Settings, uvicorn_options
 
 from relguide.contract.messages import (
     FlightRequest,
@@ -17,9 +20,6 @@ from relguide.contract.messages import (
 from relguide.contract.refusal import ContractError
 from relguide.flying.documents import Document
 from relguide.planning.plan import plan
-from server.app import create_app
-from server.departures import Departure, Departures
-from server.settings import Settings, uvicorn_options
 from tests.server.flown import SITUATION, ideal_flight
 
 

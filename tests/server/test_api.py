@@ -6,13 +6,13 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 from fastapi import FastAPI
+from relguide_server.app import create_app
+from relguide_server.plans import EXAMPLE, MAX_BATCH
+from relguide_server.settings import Settings
 from starlette.testclient import TestClient
 
 from relguide.planning.plan import NoPlan, Plan, plan
 from relguide.planning.situation import Situation
-from server.app import create_app
-from server.plans import EXAMPLE, MAX_BATCH
-from server.settings import Settings
 from tests.server.flown import ideal_flight
 from tests.server.serving import ideal_app, ideal_departures
 

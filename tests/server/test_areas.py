@@ -6,12 +6,12 @@ from copy import deepcopy
 
 import numpy as np
 import pytest
+from relguide_server.areas import MOST_SEARCHED
+from relguide_server.plans import EXAMPLE
 from starlette.testclient import TestClient
 
-from relguide.contract.areas import AreaAnswer
+from relguide.contract.area_bodies import AreaAnswer
 from relguide.contract.refusal import parse
-from server.areas import MOST_SEARCHED
-from server.plans import EXAMPLE
 from tests.server.serving import ideal_app
 from tests.server.test_api import is_problem
 

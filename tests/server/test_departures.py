@@ -3,12 +3,12 @@
 import time
 
 import pytest
+from relguide_server.app import create_app
+from relguide_server.plans import EXAMPLE
+from relguide_server.settings import Settings
 from starlette.testclient import TestClient
 
 from relguide.contract.protocol import PROTOCOL
-from server.app import create_app
-from server.plans import EXAMPLE
-from server.settings import Settings
 
 
 @pytest.mark.slow

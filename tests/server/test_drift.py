@@ -7,19 +7,19 @@ from threading import Event
 
 import numpy as np
 import pytest
+from relguide_server.app import create_app
+from relguide_server.drift import WAITING, DriftCheck
+from relguide_server.metrics import Metrics
+from relguide_server.plans import EXAMPLE
+from relguide_server.settings import Settings
 from starlette.testclient import TestClient
 
 from relguide import NoPlan, Plan, Planner, Situation, plan
-from relguide.kernels.strategies import SIZE, STRATEGIES
-from relguide.learn.network import StrategyNetwork
-from relguide.learn.planner import network_planner
-from server.app import create_app
-from server.drift import WAITING, DriftCheck
-from server.metrics import Metrics
-from server.plans import EXAMPLE
-from server.settings import Settings
+from relguide.kernels.words.branches import SIZE, STRATEGIES
+from relguide.learn.network_planner import network_planner
+from relguide.learn.words.branch_network import StrategyNetwork
 from tests.bodies import changed
-from tests.relguide.learn.networks import network
+from tests.relguide.learn.words.networks import network
 from tests.server.flown import SITUATION
 
 PATIENCE = 60.0

@@ -4,9 +4,9 @@ import re
 from pathlib import Path
 
 import pytest
+from relguide_server.emit_types import COMMAND, WIRE_TS, main, wire_ts
 
 from relguide.contract.protocol import PROTOCOL, protocol, typescript_body
-from server.emit_types import COMMAND, WIRE_TS, main, wire_ts
 from tests.documents import DOCUMENT_TYPES
 
 

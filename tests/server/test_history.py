@@ -2,6 +2,8 @@
 
 from dataclasses import replace
 
+from relguide_server.history import TRAIL_PERIOD, History
+
 from relguide.flying.documents import (
     FlightEnded,
     FlightStarted,
@@ -11,7 +13,6 @@ from relguide.flying.documents import (
     PlanChanged,
     Sample,
 )
-from server.history import TRAIL_PERIOD, History
 from tests.server.flown import ideal_flight
 
 

@@ -2,8 +2,9 @@
 
 import threading
 
+from relguide_server.inbox import Inbox
+
 from relguide.flying.documents import ModeChanged, PlanChanged, Sample
-from server.inbox import Inbox
 from tests.server.flown import ideal_flight
 
 

@@ -1,6 +1,6 @@
 """The page that Prometheus reads."""
 
-from server.metrics import BUCKETS, Metrics
+from relguide_server.metrics import BUCKETS, Metrics
 
 
 def test_the_histogram_is_cumulative_and_ends_with_all() -> None:

@@ -4,8 +4,7 @@ import threading
 import time
 
 import pytest
-
-from server.pace import Pace
+from relguide_server.pace import Pace
 
 
 class Clock:

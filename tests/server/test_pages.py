@@ -3,10 +3,9 @@
 from pathlib import Path
 
 import pytest
+from relguide_server.pages import Page
 from starlette.applications import Starlette
 from starlette.testclient import TestClient
-
-from server.pages import Page
 
 
 @pytest.fixture

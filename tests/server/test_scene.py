@@ -5,6 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from relguide_server import scene_paint as paint
+from relguide_server.scene import Scene
+from relguide_server.scene_shapes import ALTITUDE_SCALE
 from viser import ViserServer
 
 from relguide.flying.documents import (
@@ -14,9 +17,6 @@ from relguide.flying.documents import (
     Sample,
 )
 from relguide.planning.plan import Reason
-from server import scene_paint as paint
-from server.scene import Scene
-from server.scene_shapes import ALTITUDE_SCALE
 from tests.server.flown import ideal_flight
 
 

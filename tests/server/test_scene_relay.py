@@ -10,13 +10,13 @@ import msgspec
 import pytest
 import viser
 import zstandard
+from relguide_server.scene_relay import may_pass
 from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.typing import Subprotocol
 
-from relguide.flying.commands import Command
 from relguide.flying.documents import Document
-from server.scene_relay import may_pass
+from relguide.flying.orders import Command
 from tests.server.flown import ideal_flight
 from tests.server.serving import ideal_app, served
 

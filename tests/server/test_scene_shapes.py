@@ -4,11 +4,11 @@ from math import pi, radians
 
 import numpy as np
 import pytest
+from relguide_server import scene_shapes as shapes
 from viser.transforms import SO3
 
 from relguide.flying.cards import path_segments, plan_card
 from relguide.planning.plan import Plan, plan
-from server import scene_shapes as shapes
 from tests.server.flown import SITUATION
 
 

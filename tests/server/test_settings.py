@@ -1,8 +1,7 @@
 """What an operator may set."""
 
 import pytest
-
-from server.settings import Settings, settings_from, uvicorn_options
+from relguide_server.settings import Settings, settings_from, uvicorn_options
 
 
 def test_the_environment_overrides() -> None:

@@ -2,8 +2,8 @@
 
 import asyncio
 
-from server.metrics import Metrics
-from server.stream import QUEUE, StreamClient
+from relguide_server.metrics import Metrics
+from relguide_server.stream import QUEUE, StreamClient
 
 
 class Browser:

@@ -15,8 +15,8 @@ from websockets.typing import Subprotocol
 from relguide.contract.messages import Tick
 from relguide.contract.protocol import PROTOCOL
 from relguide.contract.refusal import parse
-from relguide.flying.commands import Command
 from relguide.flying.documents import Document
+from relguide.flying.orders import Command
 from tests.server.flown import ideal_flight
 from tests.server.serving import ideal_app, served
 

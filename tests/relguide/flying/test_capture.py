@@ -15,7 +15,7 @@ from relguide.flying.capture import (
     offsets,
     spacing_tas,
 )
-from relguide.kernels.turn import turn_radius
+from relguide.kernels.base.turn import turn_radius
 from relguide.units import DEG
 
 NORTH = Slot(0.0, 0.0, 0.0, 200.0)

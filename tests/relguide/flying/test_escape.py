@@ -12,7 +12,7 @@ from relguide.flying.documents import FlightEnded
 from relguide.flying.escape import WayOut, keeps_clear, way_out
 from relguide.flying.flight import fly
 from relguide.flying.scenarios import scenario
-from relguide.learn.visited import draw_flight
+from relguide.learn.words.visited import draw_flight
 from relguide.planning.certificate import certify
 from relguide.planning.plan import plan
 from relguide.planning.situation import Situation, TurnTo

@@ -22,7 +22,7 @@ from relguide import (
     certify,
     plan,
 )
-from relguide.kernels.extremals import WORDS
+from relguide.kernels.words.extremals import WORDS
 from relguide.planning.alternatives import (
     AsFast,
     Faster,

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from relguide import LEFT, RIGHT, Arc, Plan, Situation, Straight, Trajectory, certify, plan
-from relguide.kernels.approach import closest_of_straights
+from relguide.kernels.separation.approach import closest_of_straights
 from relguide.planning.certificate import TOLERANCE
 from tests.situations import numbers, situations
 

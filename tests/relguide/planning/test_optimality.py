@@ -19,10 +19,10 @@ from relguide import (
     TurnTo,
     candidates,
 )
-from relguide.kernels.extremals import MAX_ROWS, solve
-from relguide.kernels.passage import GRAZE, through_contact
-from relguide.planning import detour
-from relguide.planning.detour import leader_table
+from relguide.kernels.contact.passage import GRAZE, through_contact
+from relguide.kernels.words.extremals import MAX_ROWS, solve
+from relguide.planning import constrained_path as detour
+from relguide.planning.constrained_path import leader_table
 from relguide.planning.optimality import check
 from relguide.planning.words import SIGN_ROWS, assemble
 from relguide.units import DEG

@@ -13,8 +13,8 @@ from hypothesis import assume, given
 
 from relguide import NoPlan, Plan, Situation, plan, prove
 from relguide.__main__ import main
+from relguide.planning.constrained_path import leader_table
 from relguide.planning.contact_search import Question
-from relguide.planning.detour import leader_table
 from relguide.planning.prove import MAX_SECONDS, TOLERANCE, Bound, bounds
 from relguide.planning.words import candidates
 from tests.bodies import BODY
@@ -187,7 +187,7 @@ def test_the_command_refuses_times_that_make_no_sense(
 def test_the_bar_shows_the_gap(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("relguide.progress.PATIENCE", 0.05)
+    monkeypatch.setattr("relguide.planning.progress.PATIENCE", 0.05)
     monkeypatch.setattr("relguide.planning.prove.TOLERANCE", -1.0)  # so that it goes on
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
     assert main(["plan", written(tmp_path, "R101"), "--prove", "1.5"]) == 0

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import assume, given
 
 from relguide import LEFT, RIGHT, Leader, Plan, Situation, TurnTo, certify, plan
-from relguide.kernels.approach import ROUNDING
+from relguide.kernels.separation.approach import ROUNDING
 from relguide.planning.regular import (
     RegularTrajectory,
     Triplet,

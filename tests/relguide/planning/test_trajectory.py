@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 
 from relguide import LEFT, RIGHT, Arc, Straight, Trajectory
-from relguide.kernels.turn import turn_radius, turn_rate
+from relguide.kernels.base.turn import turn_radius, turn_rate
 from relguide.units import DEG
 from tests.oracle import integrate, pieces_of
 from tests.situations import numbers

@@ -1,0 +1,1 @@
+"""The command line: what `relguide plan`, `fly`, `train` and the others do."""

@@ -1,0 +1,196 @@
+"""Convergence areas as outsiders get them: lines and regions in metres, each name with its unit."""
+
+from typing import Any
+
+import numpy as np
+
+from relguide.contract.bodies import Anchor
+from relguide.contract.refusal import Strict
+from relguide.maps.contours import Floats
+from relguide.maps.isochrones import Grid, Isochrones
+from relguide.planning.frames import LocalPlane
+from relguide.planning.situation import Situation
+
+DECIMALS = 0
+"""Of positions: metres; a display shows 0.1 NM."""
+EXACT = "Where nothing is limited the times are those of the optimum, proved."
+BOUND = (
+    "In limited regions the time is that of a plan that keeps the minimum separation, and no plan "
+    "is faster than the lower bound; ways that touch the minimum separation were not searched, "
+    "and may be faster than the time given."
+)
+SEARCHED = (
+    "In limited regions the ways that touch the minimum separation were searched at each node of "
+    "the grid, too, and lines between nodes are interpolated; no plan is faster than the lower "
+    "bound."
+)
+ASKED = (
+    "Where a network of strategies is sure of the word, that word alone was solved, exactly: the "
+    "time is that of a plan, seldom not the least; such nodes are counted as limited, with the "
+    "time of a straight line as their bound. Elsewhere all words were."
+)
+INTENT = (
+    "The leader is taken to be on its final leg all along, and the slot to open when it gets "
+    "there; each plan keeps the minimum separation from the leader as it really flies."
+)
+DRAWN = (
+    "Each vertex of a line is on its level to 0.1 s; lines are cut where the time jumps. Each "
+    "vertex of a region lies on an edge of the grid, right to an eighth of it."
+)
+
+
+class AreaGrid(Strict):
+    """Where the pursuer was put: the nodes of a rectangle, its edges east and north."""
+
+    x_m: float
+    """Its middle, east."""
+    y_m: float
+    """Its middle, north."""
+    width_m: float
+    """From the first column to the last."""
+    height_m: float
+    """From the first row to the last."""
+    columns: int
+    rows: int
+
+
+class AreaContour(Strict):
+    """Where the time-to-converge is that of a level."""
+
+    level_s: float
+    lines: list[list[list[float]]]
+    """Lines of [x_m, y_m], or of [x_m, y_m, lat_deg, lon_deg] if the situation came with latitudes;
+    closed where the first vertex is also the last."""
+
+
+class AreaRegion(Strict):
+    """Where one word is the answer."""
+
+    word: str
+    """`hold`: a path that arrives exactly when the slot opens; `detour`: one that touches the
+    minimum separation; empty: no plan."""
+    limited: bool
+    """Whether the fastest way without the limit comes too close there."""
+    polygons: list[list[list[list[float]]]]
+    """Each an outline and its holes, closed, of points as in a contour: to be filled even-odd."""
+
+
+class AreaCount(Strict):
+    """How many nodes of the grid have which answer."""
+
+    proved: int
+    """The optimum, proved."""
+    limited: int
+    """A plan and a lower bound."""
+    no_plan: int
+
+
+class AreaAnswer(Strict):
+    """A convergence area: lines of equal time-to-converge, and regions of equal word."""
+
+    grid: AreaGrid
+    pursuer_heading_deg: float
+    """Clockwise from true north: everywhere the same."""
+    levels_s: list[float]
+    contours: list[AreaContour]
+    """One a level, in their order."""
+    regions: list[AreaRegion]
+    """Together they cover the grid."""
+    count: AreaCount
+    notes: list[str]
+    """What is exact here and what is a bound, in sentences."""
+    compute_ms: float
+    times_s: list[list[float | None]] | None = None
+    """Of the nodes, a list a row from the south, if asked for; null where there is no plan."""
+    lower_bounds_s: list[list[float | None]] | None = None
+    """No plan from there is faster; as `times_s`."""
+
+
+def area_to_wire(
+    area: Isochrones, situation: Situation, anchor: Anchor, *, exact: bool, times: bool
+) -> dict[str, Any]:
+    """An area as a JSON object.
+
+    Args:
+        area: what to write.
+        situation: whose area it is.
+        anchor: how its world frame lies on the earth.
+        exact: whether the ways along d_min were searched.
+        times: whether to give the times of all nodes.
+    """
+    field, grid = area.field, area.grid
+    planned = int((field.time < np.inf).sum())
+    proved = int(field.proved.sum())
+    answer = {
+        "grid": _grid(grid),
+        "pursuer_heading_deg": float(np.degrees(situation.pursuer.heading)) % 360.0,
+        "levels_s": [contour.level for contour in area.contours],
+        "contours": [
+            {"level_s": contour.level, "lines": [_points(line, anchor) for line in contour.lines]}
+            for contour in area.contours
+        ],
+        "regions": [
+            {
+                "word": region.word,
+                "limited": region.limited,
+                "polygons": [
+                    [_points(ring, anchor) for ring in polygon] for polygon in region.polygons
+                ],
+            }
+            for region in area.regions
+        ],
+        "count": {
+            "proved": proved,
+            "limited": planned - proved,
+            "no_plan": len(field.time) - planned,
+        },
+        "notes": _notes(area, situation, exact=exact),
+        "compute_ms": round(area.compute_time, 3),
+    }
+    if times:
+        answer["times_s"] = _rows(field.time, grid)
+        answer["lower_bounds_s"] = _rows(field.lower_bound, grid)
+    return answer
+
+
+def _grid(grid: Grid) -> dict[str, Any]:
+    return {
+        "x_m": grid.x,
+        "y_m": grid.y,
+        "width_m": grid.width,
+        "height_m": grid.height,
+        "columns": grid.columns,
+        "rows": grid.rows,
+    }
+
+
+def _points(line: Floats, anchor: Anchor) -> list[list[float]]:
+    points: list[list[float]] = np.round(line, DECIMALS).tolist()
+    match anchor:
+        case LocalPlane():
+            return [[x, y, *map(_seventh, anchor.to_geodetic(x, y))] for x, y in points]
+        case _:
+            return points
+
+
+def _seventh(degrees: float) -> float:
+    return round(degrees, 7)  # 1 cm
+
+
+def _rows(column: Floats, grid: Grid) -> list[list[float | None]]:
+    table = np.round(column, 2).reshape(grid.rows, grid.columns).astype(object)
+    table[table == np.inf] = None
+    rows: list[list[float | None]] = table.tolist()
+    return rows
+
+
+def _notes(area: Isochrones, situation: Situation, *, exact: bool) -> list[str]:
+    field = area.field
+    limited = bool(field.limited.any())
+    asked = bool(np.any((field.time < np.inf) & ~field.limited & ~field.proved))
+    return [
+        ASKED if asked else EXACT,
+        *((SEARCHED if exact else BOUND,) if limited else ()),
+        *((INTENT,) if situation.leader.intent else ()),
+        DRAWN,
+    ]

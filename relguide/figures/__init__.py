@@ -1,0 +1,1 @@
+"""Pictures: SVG and matplotlib, and nothing else."""

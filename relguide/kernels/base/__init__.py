@@ -1,0 +1,1 @@
+"""What every kernel stands on: angles, turns, motion, roots, the slot frame."""

@@ -1,0 +1,115 @@
+"""Exact answers where the limit binds, for many situations behind a leader that keeps straight.
+
+Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader is at (D/R, 0) at
+t = 0 and keeps heading 0.
+"""
+
+from math import inf
+
+import numpy as np
+from numba import njit
+
+from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.contact.constrained_search import MAX_LEGS, best_detour
+from relguide.kernels.contact.passage import GRAZE, word_clears
+from relguide.kernels.contact.tangent import tangents
+from relguide.kernels.words.extremals import MAX_ROWS, solve
+from relguide.kernels.words.fastest import fastest
+from relguide.kernels.words.sooner import MOST_ROOTS, work_room
+
+
+@njit(cache=True, nogil=True)
+def breaks_limit(
+    x: float, y: float, h: float, alpha: float, slot: float, limit: float, free: FloatArray
+) -> bool:
+    """`limit_binds`, and what the fastest way is.
+
+    Args:
+        x: as there.
+        y: as there.
+        h: as there.
+        alpha: as there.
+        slot: as there.
+        limit: as there.
+        free: takes it, a row of `solve`; nothing where the slot is out of reach. shape (5,)
+    """
+    if not fastest(x, y, h, alpha, 0.0, 0, work_room(), np.empty((MOST_ROOTS, 4)), free):
+        return False
+    leader = np.zeros((1, 5))
+    leader[0, 1] = slot
+    return not word_clears(x, y, h, 0.0, free, leader, alpha, limit)
+
+
+@njit(cache=True, nogil=True)
+def limit_binds(x: float, y: float, h: float, alpha: float, slot: float, limit: float) -> bool:
+    """Whether the fastest way without the limit breaks it.
+
+    Args:
+        x: pursuer ahead of the slot [R].
+        y: and left of it [R].
+        h: its heading [rad], in [0, 2π).
+        alpha: V_L/V_P.
+        slot: the leader ahead of the slot [R].
+        limit: d_min [R].
+    """
+    return breaks_limit(x, y, h, alpha, slot, limit, np.empty(5))
+
+
+@njit(cache=True, nogil=True)
+def limit_binds_rows(situations: FloatArray, binds: FloatArray) -> None:
+    """`limit_binds` of many.
+
+    Args:
+        situations: x, y, h in [0, 2π), α, D/R, d_min/R. shape (n, 6)
+        binds: takes 1 where it does, 0 where it does not. shape (n,)
+    """
+    for n in range(len(situations)):
+        x, y, h, alpha, slot, limit = situations[n]
+        binds[n] = limit_binds(x, y, h, alpha, slot, limit)
+
+
+@njit(cache=True, nogil=True)
+def exact_ways(
+    situations: FloatArray, bearings: int, longest: float, times: FloatArray, counts: FloatArray,
+    legs: FloatArray,
+) -> None:  # fmt: skip
+    """The fastest way that keeps the limit, as `plan` searches it.
+
+    Args:
+        situations: as in `limit_binds`. shape (n, 6)
+        bearings: how finely the disc is scanned.
+        longest: ways that take longer count as none [R/V_P].
+        times: takes the time without the limit, that of the fastest extremal that keeps it, and
+            that of the fastest way; infinite where there is none [R/V_P]. shape (n, 3)
+        counts: takes how many legs the way has; 0 where there is none. shape (n,)
+        legs: takes them, as `chain.fly_links`. shape (n, MAX_LEGS, 6)
+    """
+    rows = np.empty((MAX_ROWS, 5))
+    leader = np.zeros((1, 5))
+    for n in range(len(situations)):
+        x, y, h, alpha, slot, limit = situations[n]
+        leader[0, 1] = slot
+        found = solve(x, y, h, alpha, 0.0, rows)
+        times[n, 0] = rows[0, 0] if found > 0 else inf
+        times[n, 1] = inf
+        counts[n] = 0.0
+        for k in range(found):
+            if rows[k, 0] <= longest and word_clears(
+                x, y, h, 0.0, rows[k], leader, alpha, limit - GRAZE
+            ):
+                times[n, 1] = rows[k, 0]
+                legs[n, 0, 0] = 0.0
+                legs[n, 0, 1:6] = rows[k]
+                counts[n] = 1.0
+                break
+        around = np.zeros((MAX_LEGS, 6))
+        touched = tangents(x, y, h, leader, alpha, limit + GRAZE)
+        time, count = best_detour(
+            x, y, h, leader, alpha, limit + GRAZE, 0.0, bearings, touched,
+            min(times[n, 1], longest), around,
+        )  # fmt: skip
+        times[n, 2] = times[n, 1]
+        if count > 0:
+            times[n, 2] = time
+            counts[n] = count
+            legs[n] = around

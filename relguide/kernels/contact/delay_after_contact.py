@@ -1,0 +1,49 @@
+"""From a pose to the slot just as it opens, clear of the leader: a path of one exact length.
+
+Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader is a table as in
+`clearance`.
+"""
+
+import numpy as np
+from numba import njit
+
+from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.contact.passage import pieces_clear
+from relguide.kernels.words.delay import HOLD_PIECES, MAX_HOLDS, holds
+
+
+@njit(cache=True, nogil=True)
+def wait_for_opening(
+    x: float, y: float, h: float, t: float, leader: FloatArray, alpha: float, limit: float,
+    t_open: float, pieces: FloatArray,
+) -> bool:  # fmt: skip
+    """Find a clear path that arrives at t_open, with as few turns as there are.
+
+    Args:
+        x: start, slot frame [R].
+        y: start [R].
+        h: start heading [rad].
+        t: start time [R/V_P].
+        leader: table of its pieces. shape (k, 5)
+        alpha: V_L/V_P.
+        limit: least allowed separation [R].
+        t_open: when the slot opens [R/V_P], after t.
+        pieces: takes ε, 0 for straights, and turn angle [rad] or length [R]. shape (HOLD_PIECES, 2)
+
+    Returns:
+        whether there is one.
+    """
+    signs = np.empty((MAX_HOLDS, HOLD_PIECES))
+    amounts = np.empty((MAX_HOLDS, HOLD_PIECES))
+    fewest = HOLD_PIECES + 1
+    n = holds(x - alpha * t, y, h, alpha, t_open - t, signs, amounts)
+    for j in range(n):
+        turns = 0
+        for k in range(HOLD_PIECES):
+            if signs[j, k] != 0.0 and amounts[j, k] > 0.0:
+                turns += 1
+        if turns < fewest and pieces_clear(x, y, h, t, signs[j], amounts[j], leader, alpha, limit):
+            fewest = turns
+            pieces[:, 0] = signs[j]
+            pieces[:, 1] = amounts[j]
+    return fewest <= HOLD_PIECES

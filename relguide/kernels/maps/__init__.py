@@ -1,0 +1,1 @@
+"""The time-to-converge at many places at once."""

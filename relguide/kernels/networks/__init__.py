@@ -1,0 +1,1 @@
+"""The shipped networks, evaluated and decoded for one situation without torch."""

@@ -1,0 +1,67 @@
+"""A situation behind a leader that keeps straight, as networks see it, and whether the limit binds.
+
+One call from the world frame: a call into compiled code with the conversions around it takes as
+long as what is found out here (see `straight_leader`).
+"""
+
+from math import inf
+
+from numba import njit
+
+from relguide.kernels.base.angles import mirror_heading, wrap
+from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.base.slot_frame import slot_offset, to_slot
+from relguide.kernels.contact.constrained_rows import breaks_limit
+from relguide.kernels.separation.clearance import SLACK
+from relguide.kernels.words.branches import direct_time, needs_mirror
+
+_ASIDE = 1e-9  # the slot counts as straight behind the leader [R]: 10 µm for an airliner
+
+
+Where = tuple[float, float, float, float, float, float]
+"""A situation in its slot frame: pursuer ahead of the slot and left of it [R], its heading [rad] in
+[0, 2π), the leader ahead of the slot [R], V_L/V_P, d_min [R]."""
+
+
+@njit(cache=True, nogil=True)
+def seen(
+    x: float, y: float, heading: float, tas: float, radius: float, leader_x: float,
+    leader_y: float, leader_heading: float, leader_tas: float, slot_distance: float,
+    min_separation: float, wind_east: float, wind_north: float, free: FloatArray,
+) -> tuple[bool, float, Where]:  # fmt: skip
+    """Where pursuer, slot and leader are, and what the fastest way without the limit says.
+
+    Args:
+        x: the pursuer at t = 0, east [m].
+        y: the same, north [m].
+        heading: its heading, clockwise from north [rad].
+        tas: V_P [m/s].
+        radius: R [m].
+        leader_x: the leader at t = 0, east [m].
+        leader_y: the same, north [m].
+        leader_heading: its heading, kept for ever, clockwise from north [rad].
+        leader_tas: V_L [m/s].
+        slot_distance: D [m].
+        min_separation: d_min [m].
+        wind_east: the air mass over the ground [m/s].
+        wind_north: the same, north [m/s].
+        free: takes the fastest extremal, a row of `solve`; that of the mirror image where the
+            situation `needs_mirror`. shape (5,)
+
+    Returns:
+        whether the limit binds: no where the slot lies aside of the leader's route, as it does in
+        a cross wind, which is no case for networks; when a pursuer that need not turn would be at
+        the slot [R/V_P]; and where all are.
+    """
+    east, north, _ = slot_offset(leader_heading, leader_tas, wind_east, wind_north, slot_distance)
+    along, left = to_slot(x - leader_x - east, y - leader_y - north, leader_heading, radius)
+    slot, aside = to_slot(-east, -north, leader_heading, radius)
+    h, alpha, limit = wrap(leader_heading - heading), leader_tas / tas, min_separation / radius
+    soonest = direct_time(along, left, alpha) if alpha < 1.0 else inf
+    binds = False
+    if abs(aside) <= _ASIDE:
+        away, turned = left, h
+        if needs_mirror(left, h):
+            away, turned = -left, mirror_heading(h)
+        binds = breaks_limit(along, away, turned, alpha, slot, limit - SLACK, free)
+    return binds, soonest, (along, left, h, slot, alpha, limit)

@@ -1,0 +1,1 @@
+"""How close two aircraft come: proved bounds on the separation."""

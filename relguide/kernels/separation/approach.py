@@ -1,0 +1,253 @@
+"""Closest approach of two aircraft on arcs and straights: bracketed, with a proved lower bound.
+
+Two straights have it in closed form, eqs. (21)–(24) corrected:
+
+    t_cpa = −(Δp·Δv)/|Δv|²  held to [0, l];   d² = |Δp|² − (Δp·Δv)²/|Δv|² in between.
+
+The paper lays arcs out as straights; that bounds nothing during a turn. Here, over a window of
+half-width w about its middle, the relative motion differs from its tangent there by at most
+½ A w², A = V_P|r_P| + V_L|r_L| being the largest relative acceleration. So the closed form for the
+tangent, less ½ A w², is a lower bound; windows whose bound is not above the best value seen are
+halved. It closes quadratically, and is exact where both fly straight.
+
+Along d = d_min that takes thousands of windows. There the square of the distance is as good as
+constant, and so another bound is closer: with p, v, a, j the relative motion in the middle and its
+derivatives,
+
+    d²(τ) ≥ |p|² + 2 p·v τ + (|v|² + p·a) τ² − |v·a + p·j/3| |τ|³ − (8|v|J + 6A² + 2|p|S) τ⁴/24,
+
+J = V_P r_P² + V_L r_L² and S = V_P|r_P|³ + V_L|r_L|³ being the largest of the next derivatives, |v|
+and |p| in the last term at their largest in the window. It closes with w⁴. Of both bounds the
+larger one counts. The work is bounded too: windows are not halved for less than rounding, and only
+so many are looked at.
+"""
+
+from math import cos, hypot, inf, sin, sqrt
+
+import numpy as np
+from numba import njit
+
+from relguide.kernels.base.roots import FloatArray
+
+ROUNDING = 1e-6
+"""Taken off every proved bound for rounding [m]: coordinates of 1e6 m carry 1e-10 m each."""
+_SHARE = 1e-14  # of the way flown, taken off besides: some 50 roundings of its largest coordinate
+_MOST_WINDOWS = 131_072  # looked at; what is pending then keeps the bound it has
+_DEPTH = (
+    64  # windows pending at once; a halved window leaves one behind, so this is 2⁻⁶⁴ of a piece
+)
+
+
+@njit(cache=True, nogil=True)
+def closest_of_straights(
+    dx: float, dy: float, dvx: float, dvy: float, low: float, high: float
+) -> tuple[float, float]:
+    """Least distance of two points in uniform straight motion, eqs. (21)–(24).
+
+    Args:
+        dx: pursuer minus leader at time 0, east [m].
+        dy: the same, north [m].
+        dvx: rate of dx [m/s].
+        dvy: rate of dy [m/s]; both zero is allowed.
+        low: from when [s].
+        high: until when [s].
+
+    Returns:
+        t_cpa in [low, high] [s], d_cpa [m].
+
+    Paper: as printed, (21) adds m²/s to m and (24) lacks the square on the projection;
+        this form follows from d|Δp + tΔv|²/dt = 0.   tests/test_paper.py::test_eq_21
+    """
+    speed_squared = dvx * dvx + dvy * dvy
+    t = 0.0
+    if speed_squared > 0.0:
+        t = -(dx * dvx + dy * dvy) / speed_squared
+    t = min(max(t, low), high)
+    return t, hypot(dx + t * dvx, dy + t * dvy)
+
+
+@njit(cache=True, nogil=True)
+def least_by_squares(
+    dx: float, dy: float, dvx: float, dvy: float, dax: float, day: float, djx: float, djy: float,
+    bend: float, jerk: float, snap: float, half: float,
+) -> float:  # fmt: skip
+    """Lower bound on the distance in a window, from its square and three derivatives in the middle.
+
+    Args:
+        dx: pursuer minus leader in the middle, east [m].
+        dy: the same, north [m].
+        dvx: rate of dx [m/s].
+        dvy: rate of dy [m/s].
+        dax: rate of dvx [m/s²].
+        day: rate of dvy [m/s²].
+        djx: rate of dax [m/s³].
+        djy: rate of day [m/s³].
+        bend: A, the largest relative acceleration [m/s²].
+        jerk: J, the largest relative jerk [m/s³].
+        snap: S, its largest rate [m/s⁴].
+        half: half the window [s].
+    """
+    square, slope = dx * dx + dy * dy, 2.0 * (dx * dvx + dy * dvy)
+    speed_squared = dvx * dvx + dvy * dvy
+    opening = speed_squared + dx * dax + dy * day
+    least = square - abs(slope) * half + opening * half * half
+    if opening > 0.0 and abs(slope) < 2.0 * opening * half:
+        least = square - slope * slope / (4.0 * opening)
+    twist = dvx * dax + dvy * day + (dx * djx + dy * djy) / 3.0
+    fastest = sqrt(speed_squared) + bend * half
+    farthest = sqrt(square) + fastest * half
+    rest = (8.0 * fastest * jerk + 6.0 * bend * bend + 2.0 * farthest * snap) / 24.0
+    least -= (abs(twist) + rest * half) * half * half * half
+    # some twenty roundings of the largest term, which near 0 would count for much
+    least -= 4e-15 * (square + abs(slope) * half + abs(opening) * half * half)
+    return sqrt(max(least, 0.0))
+
+
+@njit(cache=True, nogil=True)
+def _flown(
+    x: float, y: float, s: float, c: float, speed: float, rate: float, t: float
+) -> tuple[float, float, float, float]:
+    """As `motion.advance`, with sine and cosine in place of the heading: a third of the work."""
+    if rate == 0.0:
+        return x + speed * t * s, y + speed * t * c, s, c
+    half = 0.5 * rate * t
+    a, b = sin(half), cos(half)
+    chord = speed * t * (a / half if half != 0.0 else 1.0)
+    mean_s, mean_c = s * b + c * a, c * b - s * a
+    return x + chord * mean_s, y + chord * mean_c, mean_s * b + mean_c * a, mean_c * b - mean_s * a
+
+
+@njit(cache=True, nogil=True)
+def least_separation(
+    pursuer: FloatArray, pursuer_pieces: FloatArray, leader: FloatArray, leader_pieces: FloatArray,
+    horizon: float, tolerance: float,
+) -> tuple[float, float, float]:  # fmt: skip
+    """Least separation of two aircraft on [0, horizon], with a proved lower bound on it.
+
+    Args:
+        pursuer: x, y [m], ψ [rad], V [m/s] at t = 0. shape (4,)
+        pursuer_pieces: duration [s], turn rate [rad/s, right positive] of each. shape (n, 2)
+        leader: as `pursuer`.
+        leader_pieces: as `pursuer_pieces`; past the last piece both go on straight.
+        horizon: until when [s].
+        tolerance: how far below the least separation found the bound may stay [m], > 0.
+
+    Returns:
+        least separation found [m], when [s], proved lower bound [m].
+    """
+    px, py, ppsi, pv = pursuer[0], pursuer[1], pursuer[2], pursuer[3]
+    lx, ly, lpsi, lv = leader[0], leader[1], leader[2], leader[3]
+    best, best_at = hypot(px - lx, py - ly), 0.0
+    proved = best
+    reach = abs(px) + abs(py) + abs(lx) + abs(ly) + (pv + lv) * horizon
+    rounding = ROUNDING + _SHARE * reach
+    looked = 0
+    mids = np.empty(_DEPTH)
+    halves = np.empty(_DEPTH)
+    psin, pcos, lsin, lcos = sin(ppsi), cos(ppsi), sin(lpsi), cos(lpsi)
+    t, i, j = 0.0, 0, 0
+    p_left = pursuer_pieces[0, 0] if len(pursuer_pieces) > 0 else inf
+    l_left = leader_pieces[0, 0] if len(leader_pieces) > 0 else inf
+    while t < horizon:
+        p_rate = pursuer_pieces[i, 1] if i < len(pursuer_pieces) else 0.0
+        l_rate = leader_pieces[j, 1] if j < len(leader_pieces) else 0.0
+        span = min(p_left, l_left, horizon - t)
+        bend = pv * abs(p_rate) + lv * abs(l_rate)
+        p_squared, l_squared = p_rate * p_rate, l_rate * l_rate
+        jerk = pv * p_squared + lv * l_squared
+        snap = pv * abs(p_rate) * p_squared + lv * abs(l_rate) * l_squared
+        mids[0] = 0.5 * span
+        halves[0] = 0.5 * span
+        n = 1
+        while n > 0:
+            n -= 1
+            looked += 1
+            mid, half = mids[n], halves[n]
+            ax, ay, ps, pc = _flown(px, py, psin, pcos, pv, p_rate, mid)
+            bx, by, ls, lc = _flown(lx, ly, lsin, lcos, lv, l_rate, mid)
+            ps, pc, ls, lc = pv * ps, pv * pc, lv * ls, lv * lc
+            dx, dy, dvx, dvy = ax - bx, ay - by, ps - ls, pc - lc
+            tangent_at, tangent = closest_of_straights(dx, dy, dvx, dvy, -half, half)
+            bound = tangent - 0.5 * bend * half * half
+            if bound < best and bend > 0.0:
+                dax, day = p_rate * pc - l_rate * lc, l_rate * ls - p_rate * ps
+                djx, djy = l_squared * ls - p_squared * ps, l_squared * lc - p_squared * pc
+                by_squares = least_by_squares(
+                    dx, dy, dvx, dvy, dax, day, djx, djy, bend, jerk, snap, half
+                )
+                bound = max(bound, by_squares)
+            if bound < best:
+                at = mid + tangent_at
+                ax, ay, _, _ = _flown(px, py, psin, pcos, pv, p_rate, at)
+                bx, by, _, _ = _flown(lx, ly, lsin, lcos, lv, l_rate, at)
+                reached = hypot(ax - bx, ay - by)
+                if reached < best:
+                    best, best_at = reached, t + at
+            if bound >= best - max(tolerance, rounding) or n + 2 > _DEPTH or looked > _MOST_WINDOWS:
+                proved = min(proved, bound)
+            else:
+                # the nearer half first: it lowers `best` soonest
+                near = 0.5 * half if tangent_at >= 0.0 else -0.5 * half
+                mids[n], halves[n] = mid - near, 0.5 * half
+                mids[n + 1], halves[n + 1] = mid + near, 0.5 * half
+                n += 2
+        px, py, _, _ = _flown(px, py, psin, pcos, pv, p_rate, span)
+        lx, ly, _, _ = _flown(lx, ly, lsin, lcos, lv, l_rate, span)
+        # rounding must not add up from piece to piece
+        if p_rate != 0.0:
+            ppsi += p_rate * span
+            psin, pcos = sin(ppsi), cos(ppsi)
+        if l_rate != 0.0:
+            lpsi += l_rate * span
+            lsin, lcos = sin(lpsi), cos(lpsi)
+        t += span
+        p_left -= span
+        l_left -= span
+        while p_left <= 0.0:
+            i += 1
+            p_left = pursuer_pieces[i, 0] if i < len(pursuer_pieces) else inf
+        while l_left <= 0.0:
+            j += 1
+            l_left = leader_pieces[j, 0] if j < len(leader_pieces) else inf
+    last = hypot(px - lx, py - ly)
+    if last < best:
+        best, best_at = last, horizon
+    return best, best_at, min(proved, best) - rounding
+
+
+@njit(cache=True, nogil=True)
+def least_on_paths(
+    x: float, y: float, heading: float, tas: float, bends: FloatArray, leader_x: float,
+    leader_y: float, leader_heading: float, leader_tas: float, leader_bends: FloatArray,
+    tolerance: float,
+) -> tuple[float, float, float]:  # fmt: skip
+    """`least_separation` until the end of the pursuer's path.
+
+    Args:
+        x: the pursuer at t = 0, east [m].
+        y: the same, north [m].
+        heading: ψ there [rad].
+        tas: V [m/s].
+        bends: length [m] and curvature [rad/m, right positive] of each of its pieces in turn.
+            shape (2·n,)
+        leader_x: as `x`.
+        leader_y: as `y`.
+        leader_heading: as `heading`.
+        leader_tas: as `tas`.
+        leader_bends: as `bends`; past the last of them it goes on straight.
+        tolerance: as there [m].
+    """
+    pursuer = np.array((x, y, heading, tas))
+    leader = np.array((leader_x, leader_y, leader_heading, leader_tas))
+    pieces, leader_pieces = _in_time(bends, tas), _in_time(leader_bends, leader_tas)
+    horizon = pieces[:, 0].sum()
+    return least_separation(pursuer, pieces, leader, leader_pieces, horizon, tolerance)
+
+
+@njit(cache=True, nogil=True)
+def _in_time(bends: FloatArray, tas: float) -> FloatArray:
+    """Duration and turn rate of pieces with these lengths and curvatures."""
+    pieces = np.empty((len(bends) // 2, 2))
+    for i in range(len(pieces)):
+        pieces[i, 0], pieces[i, 1] = bends[2 * i] / tas, bends[2 * i + 1] * tas
+    return pieces

@@ -1,0 +1,1 @@
+"""Paths without the separation limit: all six words, all their roots, and the fastest of them."""

@@ -1,0 +1,139 @@
+"""Turn, straight, turn to a moving target: all of LSL and LSR. RSR and RSL are their mirror images.
+
+The start is (x, y, h); the target sets out from the origin with velocity a = α (cos κ, sin κ) and
+is to be met at τ on heading 0, by a path of length τ. Angles count counter-clockwise. For the slot
+itself κ = 0. c₁ = (x − sin h, y + cos h) is the centre of the first left turn.
+
+LSL. The end circle's centre is aτ + (0, 1). The turns add up to A = −h (mod 2π), once or twice
+round. With e = aA + (0, 1) − c₁ and the straight l = τ − A,
+
+    l² = |al + e|²      ⇔      (1 − α²) l² − 2(a·e) l − |e|² = 0.
+
+LSR. The end circle's centre is aτ − (0, 1). Let β be the course of the straight and d = aτ − (0, 1)
+− c₁ the way between the centres. That the straight touches both circles, and that it is as long as
+what τ leaves, is
+
+    dₓ sin β − dᵧ cos β = 2,    l = dₓ cos β + dᵧ sin β,    τ = A(β) + l,    A = 2β − h + 2πk.
+
+Turn the axes so that the first lies along a: u = β − κ, and (−c, Δ) is d at τ = 0 there.
+Eliminating l and τ leaves one equation in the form of `roots`:
+
+    (αA − c) sin u + (2α − Δ) cos u + (αΔ − 2) = 0.
+
+Its slope over cos u is Δ tan u + 2αu + const, monotone between the poles of tan and the points with
+cos²u = −Δ/2α: those are the cuts.
+"""
+
+from math import acos, atan2, cos, hypot, pi, sin, sqrt
+
+import numpy as np
+from numba import njit
+
+from relguide.kernels.base.angles import TWO_PI, turn_to
+from relguide.kernels.base.roots import MAX_CUTS, FloatArray, all_roots, insert_cut
+
+
+@njit(cache=True, nogil=True)
+def lsl(x: float, y: float, h: float, ax: float, ay: float, out: FloatArray, n: int) -> int:
+    """All LSL paths to the target.
+
+    Args:
+        x: start [R].
+        y: start [R].
+        h: start heading [rad], in [0, 2π).
+        ax: the target's velocity along its final heading [V_P].
+        ay: and to the left of it [V_P].
+        out: rows (τ, first turn, straight, last turn) from row n on. shape (·, ≥ 4)
+        n: rows filled so far.
+
+    Returns:
+        rows filled now.
+    """
+    cx, cy = x - sin(h), y + cos(h)
+    one_less = 1.0 - ax * ax - ay * ay
+    around = (TWO_PI - h) % TWO_PI
+    for k in range(2):
+        turned = around + TWO_PI * k
+        ex, ey = ax * turned - cx, ay * turned + 1.0 - cy
+        b = ax * ex + ay * ey
+        gap = ex * ex + ey * ey
+        discriminant = b * b + one_less * gap
+        if discriminant < 0.0:
+            continue
+        q = b + sqrt(discriminant) if b >= 0.0 else b - sqrt(discriminant)
+        for root in range(2):
+            # the two roots in the form that loses no digits; α = 1 leaves only the second
+            if root == 0:
+                if one_less == 0.0:
+                    continue
+                straight = q / one_less
+            elif q == 0.0:
+                if one_less != 0.0:
+                    continue
+                straight = 0.0
+            else:
+                straight = -gap / q
+            if straight < 0.0:
+                continue
+            course = atan2(ay * straight + ey, ax * straight + ex)
+            first, last = turn_to(course - h), turn_to(-course)
+            if straight == 0.0:
+                first, last = turned, 0.0
+            if abs(first + last - turned) < 1e-8:
+                out[n, 0] = turned + straight
+                out[n, 1] = first
+                out[n, 2] = straight
+                out[n, 3] = max(turned - first, 0.0)
+                n += 1
+    return n
+
+
+@njit(cache=True, nogil=True)
+def lsr(x: float, y: float, h: float, ax: float, ay: float, out: FloatArray, n: int) -> int:
+    """All LSR paths to the target. Arguments and result as `lsl`."""
+    alpha, kappa = hypot(ax, ay), atan2(ay, ax)
+    east, north = -(x - sin(h)), -1.0 - (y + cos(h))
+    c = -(east * cos(kappa) + north * sin(kappa))
+    delta = north * cos(kappa) - east * sin(kappa)
+    k = np.empty(6)
+    cuts = np.empty(MAX_CUTS)
+    roots = np.empty(2 * MAX_CUTS)
+    k[0] = 0.0
+    k[1] = 0.0
+    k[2] = alpha * delta - 2.0
+    k[3] = 2.0 * alpha
+    k[5] = 2.0 * alpha - delta
+    crest = acos(sqrt(-delta / (2.0 * alpha))) if -2.0 * alpha < delta < 0.0 else 0.0
+    for piece in range(2):
+        # below h the first turn goes once more round
+        low, high, around = (0.0, h, TWO_PI - h) if piece == 0 else (h, TWO_PI, -h)
+        if high - low < 1e-12:
+            continue
+        k[4] = alpha * (around + 2.0 * kappa) - c
+        cuts[0] = low - kappa
+        cuts[1] = high - kappa
+        n_cuts = 2
+        # u runs within (−π, 3π]: the cuts repeat every π
+        for half_turn in range(-1, 4):
+            n_cuts = insert_cut(cuts, n_cuts, (half_turn + 0.5) * pi)
+            if crest > 0.0:
+                n_cuts = insert_cut(cuts, n_cuts, half_turn * pi + crest)
+                n_cuts = insert_cut(cuts, n_cuts, half_turn * pi - crest)
+        n_roots = all_roots(k, cuts, n_cuts, roots)
+        for i in range(n_roots):
+            u = roots[i]
+            gain = 1.0 - alpha * cos(u)
+            if abs(gain) < 1e-12:  # the equation was multiplied by this: no path, but its own zero
+                continue
+            course = u + kappa
+            turned = 2.0 * course + around
+            reach = (alpha * (turned + delta * sin(u)) - c) / gain
+            straight = reach * cos(u) + delta * sin(u)
+            if straight < -1e-9:  # ≈ 1e-5 m at R = 12 km: rounding of a straight of no length
+                continue
+            out[n, 0] = turned + max(straight, 0.0)
+            out[n, 1] = max(course + around, 0.0)
+            out[n, 2] = max(straight, 0.0)
+            out[n, 3] = max(course, 0.0)
+            n += 1
+    return n

@@ -1,0 +1,137 @@
+"""Every extremal without the separation limit: all six words, all their roots, in order of time.
+
+Pontryagin's principle leaves these words only (a turn, a straight or a turn, a turn), and all their
+roots are found, so the first row is the global optimum of the unlimited problem.
+"""
+
+from math import cos, hypot, sin
+
+import numpy as np
+from numba import njit
+
+from relguide.kernels.base.angles import mirror_heading
+from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.words.ccc import lrl
+from relguide.kernels.words.csc import lsl, lsr
+
+WORDS = ("LSL", "RSR", "LSR", "RSL", "LRL", "RLR")
+"""The words by their number in `solve`."""
+SIGNS = np.array([[1.0, 0.0, 1.0], [-1.0, 0.0, -1.0], [1.0, 0.0, -1.0], [-1.0, 0.0, 1.0],
+                  [1.0, -1.0, 1.0], [-1.0, 1.0, -1.0]])  # fmt: skip
+"""ε of each piece of each word: +1 left, −1 right, 0 straight. shape (6, 3)"""
+MAX_ROWS = 96
+"""Room for all roots of all words: at most 8 + 2·16 + 2·24."""
+CLOSURE = 1e-7
+"""Largest end error of an accepted path [R]; ≈ 1 mm at R = 12 km."""
+
+
+@njit(cache=True, nogil=True)
+def fly_piece(
+    x: float, y: float, h: float, sign: float, amount: float
+) -> tuple[float, float, float]:
+    """The end of one piece in the slot frame: a turn (sign ±1) or a straight (sign 0)."""
+    if sign == 0.0:
+        return x + amount * cos(h), y + amount * sin(h), h
+    end = h + sign * amount
+    return x + sign * (sin(end) - sin(h)), y - sign * (cos(end) - cos(h)), end
+
+
+@njit(cache=True, nogil=True)
+def solve(x: float, y: float, h: float, alpha: float, t_open: float, rows: FloatArray) -> int:
+    """All extremals that reach the slot at or after t_open, by time.
+
+    Args:
+        x: pursuer ahead of the slot [R].
+        y: pursuer left of it [R].
+        h: its heading, counter-clockwise from the leader's [rad], in [0, 2π).
+        alpha: V_L/V_P, ≥ 0; 0 is a slot at rest, and the first row then Dubins' shortest path.
+        t_open: earliest arrival [R/V_P].
+        rows: takes (τ, word number, first, middle, last) [R/V_P; rad or R]. shape (MAX_ROWS, 5)
+
+    Returns:
+        how many rows.
+    """
+    return solve_toward(x, y, h, alpha, 0.0, t_open, rows)
+
+
+@njit(cache=True, nogil=True)
+def solve_toward(
+    x: float, y: float, h: float, ax: float, ay: float, t_open: float, rows: FloatArray
+) -> int:
+    """As `solve`, for a target that moves any way.
+
+    Args:
+        x: pursuer ahead of the target's first place, along the heading to meet it on [R].
+        y: and left of it [R].
+        h: its heading, counter-clockwise from that heading [rad], in [0, 2π).
+        ax: the target's velocity along that heading [V_P].
+        ay: and to the left of it [V_P].
+        t_open: earliest arrival [R/V_P].
+        rows: as in `solve`.
+    """
+    found = np.empty((MAX_ROWS, 4))
+    n = 0
+    for word in range(6):
+        n = solve_word(x, y, h, ax, ay, t_open, word, found, rows, n)
+    return n
+
+
+@njit(cache=True, nogil=True)
+def solve_word(
+    x: float, y: float, h: float, ax: float, ay: float, t_open: float, word: int,
+    found: FloatArray, rows: FloatArray, n: int,
+) -> int:  # fmt: skip
+    """All extremals of one word, put among others by time.
+
+    Args:
+        x: as in `solve_toward`.
+        y: as there.
+        h: as there.
+        ax: as there.
+        ay: as there.
+        t_open: as there.
+        word: its number.
+        found: room to work in. shape (MAX_ROWS, 4)
+        rows: holds n rows already, in order of time.
+        n: how many.
+
+    Returns:
+        how many rows there are now.
+    """
+    mirrored_h = mirror_heading(h)
+    if word == 0:
+        end = lsl(x, y, h, ax, ay, found, 0)
+    elif word == 1:
+        end = lsl(x, -y, mirrored_h, ax, -ay, found, 0)
+    elif word == 2:
+        end = lsr(x, y, h, ax, ay, found, 0)
+    elif word == 3:
+        end = lsr(x, -y, mirrored_h, ax, -ay, found, 0)
+    elif word == 4:
+        end = lrl(x, y, h, ax, ay, found, 0)
+    else:
+        end = lrl(x, -y, mirrored_h, ax, -ay, found, 0)
+    for i in range(end):
+        time = found[i, 0]
+        if time < t_open - 1e-9 or not closes(x, y, h, ax, ay, word, found[i]):
+            continue
+        at = n
+        while at > 0 and rows[at - 1, 0] > time:
+            rows[at] = rows[at - 1]
+            at -= 1
+        rows[at, 0] = time
+        rows[at, 1] = word
+        rows[at, 2] = found[i, 1]
+        rows[at, 3] = found[i, 2]
+        rows[at, 4] = found[i, 3]
+        n += 1
+    return n
+
+
+@njit(cache=True, nogil=True)
+def closes(x: float, y: float, h: float, ax: float, ay: float, word: int, row: FloatArray) -> bool:
+    """Does the path really end at the target? A root found next to a tangency may not."""
+    for piece in range(3):
+        x, y, h = fly_piece(x, y, h, SIGNS[word, piece], row[piece + 1])
+    # far away the last digits of τ are worth more than CLOSURE
+    return bool(hypot(x - ax * row[0], y - ay * row[0]) <= CLOSURE + 1e-12 * row[0])

@@ -1,0 +1,286 @@
+"""way_audit_of(judged parts) → WayAudit: how good the networks are, the limit included.
+
+Every share comes with its 95 % interval (Wilson); every gap above 0.1 % with why it is there.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import inf
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from relguide.kernels.networks.templates import KINDS, NONE, SEVERAL
+from relguide.learn.audits.both_networks import UNIT, Everywhere
+from relguide.learn.audits.branch_audit import PERCENTILES, Doubt, doubts_of
+from relguide.learn.audits.branch_judging import ROUNDING
+from relguide.learn.audits.template_bound import Bound
+from relguide.learn.audits.template_judging import WayJudged, joined_ways
+from relguide.learn.boundary.template_labels import SOURCES
+from relguide.learn.boundary.train_templates import WITHIN
+from relguide.learn.training.shares import Share, share_as_json
+from relguide.learn.words.branch_labels import Floats
+from relguide.units import Second
+
+LATE: Second = 0.1
+"""A delay above this is told of."""
+WORTH = 1e-3
+"""A gap above this is looked into."""
+LISTED = 100
+"""Of those gaps, so many are kept at most, the largest."""
+COMMONEST = 12
+"""Kinds with a line of their own."""
+Reason = Literal["left out", "not solved", "of no kind"]
+REASONS: tuple[Reason, ...] = ("left out", "not solved", "of no kind")
+"""Why an answer is slow: the right kind is left out of the set; it is held, but not solved next to
+its guess; the fastest way is of no kind."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Late:
+    """How much is lost by what networks answer."""
+
+    answered: Share
+    """How often they do, of situations in which there is a way."""
+    gaps: tuple[float, ...]
+    """The `PERCENTILES` of how much longer an answer takes than the fastest way, relative."""
+    late: Share
+    """How many answers are more than `LATE` later, where R/V_P is `UNIT`."""
+    sooner: int
+    """Answers by more than `WITHIN` sooner than the search's."""
+    invented: Share
+    """How often they do of the others; never, it is to be hoped."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WayGroup:
+    """How good the network of ways is on some situations in which the limit binds."""
+
+    name: str
+    size: int
+    named: Share
+    """How often its first choice is right; see `template_bound.Bound`."""
+    covered: Share
+    """How often the right kind is in its set, of those with a way of some kind."""
+    mean_set: float
+    """Kinds in a set on average."""
+    late: Late
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlannerGroup:
+    """How good the networks together are, and the planner that asks them."""
+
+    name: str
+    size: int
+    named: Share
+    late: Late
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WayMiss:
+    """A gap above `WORTH`, and why."""
+
+    gap: float
+    """Relative."""
+    late: float
+    """[R/V_P]"""
+    situation: tuple[float, ...]
+    """x, y [R], h [rad], α, D/R, d_min/R."""
+    fastest: str
+    """The kind missed."""
+    share: float
+    """That the network gives it."""
+    answered: str
+    """The kind given."""
+    reason: Reason
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WayAudit:
+    """All that is found."""
+
+    groups: tuple[WayGroup, ...]
+    """By source, and all of them."""
+    kinds: tuple[WayGroup, ...]
+    """By the kind of the fastest way: the commonest, and the rest."""
+    everywhere: tuple[PlannerGroup, ...]
+    """Where the limit does not bind, where it does, and both."""
+    doubts: tuple[Doubt, ...]
+    """Those in which the limit binds by how sure the network is, those it is surest of first."""
+    misses: tuple[WayMiss, ...]
+    """Gaps above `WORTH`, the largest first, `LISTED` at most."""
+    reasons: Mapping[Reason, int]
+    """How many there are of each reason, of all."""
+    worth: Share
+    """How many answers have such a gap."""
+
+
+def way_audit_of(chunks: Mapping[int, WayJudged]) -> WayAudit:
+    """Sum up an audit's chunks, by their number."""
+    whole = joined_ways(chunks)
+    bound, everywhere = whole.bound, whole.everywhere
+    every = np.ones(len(bound), dtype=bool)
+    groups = [_group(name, bound, bound.sources == n) for n, name in enumerate(SOURCES)]
+    counts = np.bincount(bound.kinds, minlength=len(KINDS))
+    order = np.argsort(-counts, kind="stable")
+    common = [int(kind) for kind in order[:COMMONEST] if counts[kind] > 0]
+    rest = ~np.isin(bound.kinds, common)
+    kinds = [_group(KINDS[kind], bound, bound.kinds == kind) for kind in common]
+    if rest.any():
+        others = len(np.unique(bound.kinds[rest]))
+        kinds.append(_group(f"{others} others", bound, rest))
+    # an answer where there is no way has no gap, and is counted by itself
+    gap = _gaps(bound.exact, bound.given)
+    slow = np.flatnonzero((gap > WORTH) & (gap < inf))
+    reasons = _reasons(bound, slow)
+    return WayAudit(
+        groups=(*groups, _group("all", bound, every)),
+        kinds=tuple(kinds),
+        everywhere=tuple(
+            _planner_group(name, everywhere, chosen)
+            for name, chosen in (
+                ("it does not bind", ~everywhere.binds),
+                ("it binds", everywhere.binds),
+                ("all situations", np.ones(len(everywhere), dtype=bool)),
+            )
+        ),
+        doubts=doubts_of(bound.doubt, bound.named),
+        misses=_misses(bound, gap, slow, reasons),
+        reasons={reason: int((reasons == n).sum()) for n, reason in enumerate(REASONS)},
+        worth=Share(hits=len(slow), of=int((gap < inf).sum())),
+    )
+
+
+def _gaps(exact: Floats, given: Floats) -> Floats:
+    """How much longer answers take, relative; infinite where there is none, or no way at all."""
+    both = (exact < inf) & (given < inf)
+    gap = np.full(len(exact), inf)
+    gap[both] = np.maximum(given[both] / exact[both] - 1.0, 0.0)
+    gap[gap < ROUNDING] = 0.0
+    return gap
+
+
+def _late(exact: Floats, given: Floats) -> Late:
+    gap = _gaps(exact, given)
+    measured = gap[gap < inf]
+    answered = given < inf
+    there = exact < inf
+    both = answered & there
+    delay = given[both] - exact[both]
+    percentiles = np.percentile(measured, PERCENTILES) if len(measured) else np.zeros(4)
+    return Late(
+        answered=Share(hits=int(both.sum()), of=int(there.sum())),
+        gaps=tuple(percentiles.tolist()),
+        late=Share(hits=int((delay * UNIT > LATE).sum()), of=len(delay)),
+        sooner=int((delay < -WITHIN).sum()),
+        invented=Share(hits=int((answered & ~there).sum()), of=int((~there).sum())),
+    )
+
+
+def _group(name: str, bound: Bound, chosen: NDArray[np.bool_]) -> WayGroup:
+    kinds = bound.kinds[chosen]
+    of_a_kind = (kinds != SEVERAL) & (kinds != NONE)
+    size = int(chosen.sum())
+    return WayGroup(
+        name=name,
+        size=size,
+        named=Share(hits=int(bound.named[chosen].sum()), of=size),
+        covered=Share(hits=int(bound.inside[chosen][of_a_kind].sum()), of=int(of_a_kind.sum())),
+        mean_set=float(bound.held[chosen].mean()) if size else 0.0,
+        late=_late(bound.exact[chosen], bound.given[chosen]),
+    )
+
+
+def _planner_group(name: str, everywhere: Everywhere, chosen: NDArray[np.bool_]) -> PlannerGroup:
+    size = int(chosen.sum())
+    return PlannerGroup(
+        name=name,
+        size=size,
+        named=Share(hits=int(everywhere.named[chosen].sum()), of=size),
+        late=_late(everywhere.exact[chosen], everywhere.given[chosen]),
+    )
+
+
+def _reasons(bound: Bound, slow: NDArray[np.intp]) -> NDArray[np.int8]:
+    """Why, of each of some rows: numbers of `REASONS`."""
+    kinds, inside = bound.kinds[slow], bound.inside[slow]
+    none = (kinds == SEVERAL) | (kinds == NONE)
+    return np.where(none, 2, np.where(inside, 1, 0)).astype(np.int8)
+
+
+def _misses(
+    bound: Bound, gap: Floats, slow: NDArray[np.intp], reasons: NDArray[np.int8]
+) -> tuple[WayMiss, ...]:
+    largest = np.argsort(-gap[slow], kind="stable")[:LISTED]
+    return tuple(
+        WayMiss(
+            gap=float(gap[row]),
+            late=float(bound.given[row] - bound.exact[row]),
+            situation=tuple(bound.situations[row].tolist()),
+            fastest=KINDS[bound.kinds[row]],
+            share=float(bound.own[row]),
+            answered=KINDS[bound.answered[row]],
+            reason=REASONS[reasons[at]],
+        )
+        for at, row in zip(largest.tolist(), slow[largest].tolist(), strict=True)
+    )
+
+
+def way_audit_as_json(audit: WayAudit) -> dict[str, Any]:
+    """An audit as it is printed."""
+    return {
+        "groups": {group.name: _group_as_json(group) for group in audit.groups},
+        "kinds": {group.name: _group_as_json(group) for group in audit.kinds},
+        "everywhere": {
+            group.name: {
+                "situations": group.size,
+                "named": share_as_json(group.named),
+                **_late_as_json(group.late),
+            }
+            for group in audit.everywhere
+        },
+        "doubts": [
+            {"said": doubt.said, "wrong": share_as_json(doubt.wrong)} for doubt in audit.doubts
+        ],
+        "gaps_above_0.1_percent": share_as_json(audit.worth),
+        "reasons": dict(audit.reasons),
+        "largest_gaps": [_miss_as_json(miss) for miss in audit.misses],
+    }
+
+
+def _group_as_json(group: WayGroup) -> dict[str, Any]:
+    return {
+        "situations": group.size,
+        "named": share_as_json(group.named),
+        "kind_in_set": share_as_json(group.covered),
+        "mean_set": group.mean_set,
+        **_late_as_json(group.late),
+    }
+
+
+def _late_as_json(late: Late) -> dict[str, Any]:
+    return {
+        "answered": share_as_json(late.answered),
+        "gap_percent": {
+            "max" if percentile == 100.0 else f"p{percentile:g}": 100.0 * gap
+            for percentile, gap in zip(PERCENTILES, late.gaps, strict=True)
+        },
+        "later_than_0.1_s": share_as_json(late.late),
+        "sooner_than_the_search": late.sooner,
+        "answered_without_a_way": share_as_json(late.invented),
+    }
+
+
+def _miss_as_json(miss: WayMiss) -> dict[str, Any]:
+    names = ("x_r", "y_r", "h_rad", "speed_ratio", "slot_r", "limit_r")
+    return {
+        "gap_percent": 100.0 * miss.gap,
+        "late_r_per_v": miss.late,
+        "situation": dict(zip(names, miss.situation, strict=True)),
+        "fastest": miss.fastest,
+        "share": miss.share,
+        "answered": miss.answered,
+        "reason": miss.reason,
+    }

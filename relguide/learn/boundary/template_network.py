@@ -1,0 +1,115 @@
+"""The network of ways round the limit: which kind may be the fastest, and a guess that leads to it.
+
+    situation → features → layers → score and guess of each kind
+
+What flies is never the network's guess: it is where the kind is solved exactly. Torch is needed to
+train and to compare; who only asks evaluates the weights with `kernels/networks/template_scores`.
+The file is in safetensors, as that of the strategies (`branch_network`).
+"""
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from importlib.resources import files
+from math import hypot
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from relguide.kernels.networks.branch_scores import Layers
+from relguide.kernels.networks.template_features import FEATURES, way_feature_rows
+from relguide.kernels.networks.template_scores import OUTPUTS
+from relguide.kernels.networks.templates import KINDS
+from relguide.learn.boundary.template_labels import Floats, LimitBox
+from relguide.learn.training.files import load_weights, save_weights
+from relguide.learn.training.options import NetworkShape
+from relguide.learn.words.branch_network import Singles, as_layers
+
+FILE = "relguide way network 1"
+"""What a file says it is, with the version of its arrays."""
+SHIPPED_WAYS = Path(str(files("relguide.learn.boundary") / "templates.safetensors"))
+"""The weights that come with the program."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WayNetwork:
+    """A trained network, ready to be asked."""
+
+    layers: Layers
+    """Its weights, with the scale of its inputs worked into the first."""
+    box: LimitBox
+    """Where it was trained."""
+    least_share: float
+    """Kinds with a smaller share are left out."""
+    most: int
+    """With more kinds than this the network is not sure enough to be asked."""
+    doubt: float
+    """Nor with a larger share of ways of no such kind, or of no way at all."""
+    about: Mapping[str, Any]
+    """Who made it, from what, with what and when."""
+
+    @property
+    def shape(self) -> NetworkShape:
+        """How large it is."""
+        return NetworkShape(
+            width=len(self.layers.first_bias), depth=len(self.layers.hidden_bias) + 1
+        )
+
+    def holds(self, x: float, y: float, alpha: float, slot: float, limit: float) -> bool:
+        """Whether a situation lies where it was trained: x, y, D and d_min in R."""
+        box = self.box
+        away = hypot(x - slot, y) - limit
+        return (
+            box.min_ratio <= alpha <= box.max_ratio
+            and box.min_limit <= limit <= box.max_limit
+            and limit <= slot <= box.max_slot * limit
+            and away <= box.max_range
+        )
+
+
+def way_features_of(situations: Floats) -> Singles:
+    """What the network is told of situations on the left of the route, shape (n, FEATURES)."""
+    told = np.empty((len(situations), FEATURES))
+    way_feature_rows(np.ascontiguousarray(situations), told)
+    return told.astype(np.float32)
+
+
+def save_way_network(network: WayNetwork, file: Path) -> None:
+    """Write a network, in one piece or not at all."""
+    about = {
+        "file": FILE,
+        "kinds": KINDS,
+        "box": asdict(network.box),
+        "least_share": network.least_share,
+        "most": network.most,
+        "doubt": network.doubt,
+        "about": dict(network.about),
+    }
+    save_weights(file, about, network.layers._asdict())
+
+
+def load_way_network(file: Path = SHIPPED_WAYS) -> WayNetwork:
+    """Read a network.
+
+    Raises:
+        ValueError: if the file is none, or does not fit this version.
+    """
+
+    def network(about: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> WayNetwork:
+        if about["file"] != FILE or tuple(about["kinds"]) != KINDS:
+            raise KeyError(about["file"])
+        return WayNetwork(
+            layers=as_layers(FEATURES, OUTPUTS, **arrays),
+            box=LimitBox(**about["box"]),
+            least_share=float(about["least_share"]),
+            most=int(about["most"]),
+            doubt=float(about["doubt"]),
+            about=about["about"],
+        )
+
+    return load_weights(
+        file,
+        network,
+        "holds no network of relguide train --method ways, of this version, or is cut short.",
+    )

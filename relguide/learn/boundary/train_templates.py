@@ -1,0 +1,181 @@
+"""train_ways(labels, …) → WayNetwork: from labels where the limit binds to weights.
+
+    python -m relguide.learn.boundary.train_templates labels.npz weights.safetensors
+
+The loss has two parts: cross-entropy of the kind, and how far its guess is off, whose kind's two
+numbers alone count. The same labels, options and number of threads give the same weights on the
+same CPU.
+"""
+
+import argparse
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from relguide.kernels.networks.template_features import FEATURES
+from relguide.kernels.networks.template_scores import OUTPUTS
+from relguide.kernels.networks.template_solutions import taught_kinds
+from relguide.kernels.networks.templates import NONE, SEVERAL, SIZE
+from relguide.learn.boundary.template_label_file import load_limit_labels
+from relguide.learn.boundary.template_labels import LimitBox, LimitLabels, Ways, later, picked
+from relguide.learn.boundary.template_network import WayNetwork, save_way_network, way_features_of
+from relguide.learn.training.fitting import (
+    Epoch,
+    Split,
+    arrays_of,
+    begin,
+    digest_of,
+    fit,
+    in_chunks,
+    part_of,
+    reached_by,
+    scaled,
+    script,
+    split,
+    written,
+)
+from relguide.learn.training.options import TrainingOptions, command_of, options_of
+from relguide.learn.words.branch_network import layers_of, torch_model
+
+if TYPE_CHECKING:
+    import torch
+
+WITHIN = 1e-3
+"""A kind that is solved so much later is not that of the answer [R/V_P]: 40 ms for an airliner."""
+GUESSED = 2.0
+"""Weight of the guesses; that of the cross-entropy is 1."""
+BEND = 0.05
+"""Guesses farther off than this count by how far they are, and no more by its square."""
+LATER = 2
+"""So often each way is learnt from once more, at some moment of its first turn."""
+DECAY = 1e-3
+"""Of the weights, each step, over the learning rate."""
+COVERAGE = 0.999
+"""How often the fastest kind shall be among those solved, in labels not learnt from."""
+LEAST_SHARE = 0.001
+"""Kinds with a smaller share are left out; with one still smaller if calibration asks for it."""
+MOST = 8
+"""With more kinds than this, all solved, the search would hardly take longer."""
+DOUBT = 0.4
+"""Ways of no kind, none, and kinds without a way next to their guess may together be this likely.
+With 0.8 instead 0.6 % more are answered, and a third of those late."""
+
+
+def train_ways(
+    labels: LimitLabels,
+    options: TrainingOptions,
+    *,
+    box: LimitBox,
+    about: Mapping[str, Any],
+    checkpoint: Path | None = None,
+    resume: bool = False,
+) -> Iterator[Epoch[WayNetwork]]:
+    """Train a network; yields after every epoch, the last is the end.
+
+    Args:
+        labels: exact answers.
+        options: how.
+        box: of the labels.
+        about: what shall be told of the weights' origin.
+        checkpoint: a file written after every epoch, to go on from.
+        resume: go on from it; the result is the same.
+    """
+    import torch
+    from torch.nn import functional
+
+    device = begin(options)
+
+    # What is learnt from, and what is kept to stop by.
+    rows, kept = split(np.arange(len(labels)), options, of="labels")
+    ways = [picked(labels.ways, rows)]
+    rng = np.random.default_rng(options.seed)
+    ways += [later(picked(labels.ways, rows[kept:]), rng) for _ in range(LATER)]
+    kinds, guesses = (np.concatenate(column) for column in zip(*map(taught, ways), strict=True))
+    situations = np.concatenate([part.situations for part in ways])
+    inputs, mean, deviation = scaled(way_features_of(situations), kept)
+    told = torch.from_numpy(inputs).to(device)
+    right = torch.from_numpy(kinds).to(device)
+    guess = torch.from_numpy(guesses.astype(np.float32)).to(device)
+    guessed = (guess != 0.0).any(dim=1).float()
+    there = (kinds[:kept] != NONE) & (kinds[:kept] != SEVERAL)
+
+    model = torch_model(options.shape, features=FEATURES, outputs=OUTPUTS).to(device)
+
+    def loss(chosen: "torch.Tensor") -> "torch.Tensor":
+        """What the kind is off, and its guess, of some rows."""
+        score, pairs = model(told[chosen]).split((SIZE, 2 * SIZE), dim=1)
+        own = pairs.view(-1, SIZE, 2)[torch.arange(len(chosen)), right[chosen]]
+        off = functional.smooth_l1_loss(own, guess[chosen], reduction="none", beta=BEND)
+        summed: torch.Tensor = GUESSED * (
+            off.sum(dim=1) * guessed[chosen]
+        ).mean() + functional.cross_entropy(score, right[chosen])
+        return summed
+
+    def shares() -> np.ndarray:
+        """Of the kinds, in the rows kept."""
+        found: np.ndarray = in_chunks(model, told[:kept])[:, :SIZE].softmax(dim=1).numpy()
+        return found
+
+    def accuracy() -> float:
+        """How often the right kind has the highest share, where there is a way of some kind."""
+        first = shares().argmax(axis=1)
+        return float((first == kinds[:kept])[there].mean()) if there.any() else 0.0
+
+    def network(origin: Mapping[str, Any]) -> WayNetwork:
+        """What the weights become, with its set calibrated."""
+        right = shares()[np.arange(kept), kinds[:kept]][there]
+        return WayNetwork(
+            layers=layers_of(arrays_of(model), mean, deviation),
+            box=box,
+            least_share=min(LEAST_SHARE, reached_by(right, COVERAGE)) if there.any() else 0.0,
+            most=MOST,
+            doubt=DOUBT,
+            about={**about, **origin, "labels": len(labels)},
+        )
+
+    yield from fit(
+        model, options, rows=Split(np.arange(len(kinds)), kept), loss=loss, accuracy=accuracy,
+        network=network, decay=DECAY,
+        digest=digest_of(options, labels.situations, labels.times, labels.legs),
+        checkpoint=checkpoint, resume=resume,
+    )  # fmt: skip
+
+
+def taught(ways: Ways) -> tuple[np.ndarray, np.ndarray]:
+    """What is to be learnt: kinds, shape (n,), and guesses, shape (n, 2)."""
+    n = len(ways.times)
+    kinds, guesses = np.empty(n), np.empty((n, 2))
+    taught_kinds(
+        ways.situations, ways.times, ways.counts.astype(float), ways.legs, WITHIN, kinds, guesses
+    )
+    return kinds.astype(np.int64), guesses
+
+
+def run(chosen: argparse.Namespace, program: str) -> Iterator[Epoch[WayNetwork]]:
+    """Do the training that was asked for; the weights are written at each better epoch.
+
+    Args:
+        chosen: the options of `options.add_options`.
+        program: what trains, for the weights' provenance.
+    """
+    labels, made = load_limit_labels(chosen.labels)
+    part = part_of(chosen)
+    epochs = train_ways(
+        labels,
+        options_of(chosen),
+        box=LimitBox(**made["request"]["box"]),
+        about={
+            "program": program,
+            "command": f"{command_of(chosen)} --method ways",
+            "dataset": made["request"] | made["provenance"],
+        },
+        checkpoint=part,
+        resume=chosen.resume,
+    )
+    yield from written(epochs, save_way_network, chosen.weights, part)
+
+
+if __name__ == "__main__":
+    script("relguide.learn.boundary.train_templates", run)

@@ -1,0 +1,70 @@
+"""words_like(pieces): the words that a regular trajectory is like, to be solved exactly.
+
+A tree has its turns in steps of Δθ and its straights in steps of Δl, and what a network gives back
+is blurred: both say which way to turn and about how far, never the lengths that end in the slot.
+Of what they say the signs are kept, ε and straights in the order flown. Where a piece is too short
+to show, the word has it all the same: L S is like LSL and like LSR.
+"""
+
+from collections.abc import Sequence
+from functools import cache
+from typing import NamedTuple
+
+from relguide.kernels.words.extremals import WORDS
+
+
+class Piece(NamedTuple):
+    """A turn or a straight of the slot frame."""
+
+    letter: str
+    """`"L"`, `"S"` or `"R"`."""
+    amount: float
+    """Turn angle [rad], or length [R]."""
+
+
+SIGN = {"L": 1.0, "S": 0.0, "R": -1.0}
+"""ε of each letter, 0 of a straight."""
+
+
+def pieces_of(pairs: Sequence[Sequence[float]]) -> list[Piece]:
+    """Pairs (ε, θ [rad], l [R]), forward, as pieces; what has no length is left out."""
+    pieces = []
+    for turn, angle, length in pairs:
+        if angle > 0.0:
+            pieces.append(Piece("L" if turn > 0.0 else "R", angle))
+        if length > 0.0:
+            pieces.append(Piece("S", length))
+    return merged(pieces)
+
+
+def merged(pieces: Sequence[Piece]) -> list[Piece]:
+    """Like after like as one."""
+    found: list[Piece] = []
+    for piece in pieces:
+        if found and found[-1].letter == piece.letter:
+            piece = Piece(piece.letter, found.pop().amount + piece.amount)
+        found.append(piece)
+    return found
+
+
+def words_like(pieces: Sequence[Piece]) -> tuple[int, ...]:
+    """Numbers of the words that pieces are like; more than one where pieces are too few to say.
+
+    Pieces that are like no word lose their shortest ones until they are.
+    """
+    left = merged(pieces)
+    while not (words := fitting("".join(piece.letter for piece in left))):
+        shortest = min(range(len(left)), key=lambda i: left[i].amount)
+        left = merged(left[:shortest] + left[shortest + 1 :])
+    return words
+
+
+@cache
+def fitting(letters: str) -> tuple[int, ...]:
+    """Numbers of the words that letters fit into, in their order: of none, all."""
+    return tuple(number for number, word in enumerate(WORDS) if _within(letters, word))
+
+
+def _within(letters: str, word: str) -> bool:
+    rest = iter(word)
+    return all(letter in rest for letter in letters)

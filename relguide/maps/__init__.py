@@ -1,0 +1,1 @@
+"""The convergence area: times, isochrones and regions of words on a grid."""

@@ -1,0 +1,276 @@
+"""isochrones(situation): the time-to-converge round the leader, as lines and as regions of words.
+
+A pursuer on its present heading is put on every node of a grid round the leader, everything else
+stays as it is: speeds, bank, D, d_min, wind, the leader with its intent. Each node gets
+
+- a time: that of the fastest extremal that keeps d_min, certified against the leader as it really
+  flies, its turns included;
+- a bound: the time of the fastest extremal without the limit. No plan is faster. Where both agree
+  the time is the optimum, proved; where they do not, the limit binds, and ways that touch d_min or
+  ride along it may be faster than the time given. They are searched only if asked for (`exact`).
+
+An intent is planned for as in `plan`: toward a leader that was on its final leg all along, whose
+slot opens when the real one gets there. Where the slot can be reached before, T is that instant;
+if of the paths of that length two simple families do not keep d_min, the time given is that of the
+first extremal after it, again with its bound.
+
+Who gives the times is an argument (`Evaluate`): lines and regions are drawn from any.
+"""
+
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from math import inf
+from os import cpu_count
+from time import perf_counter_ns
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from relguide.kernels.maps.field import NO_WORD, field_rows
+from relguide.kernels.maps.final_leg import last_turns
+from relguide.kernels.separation.clearance import SLACK
+from relguide.kernels.words.extremals import WORDS
+from relguide.maps.constrained_times import DETOUR, between_nodes, searched
+from relguide.maps.contours import Contour, Evaluate, Field, Floats, Region, contours, regions
+from relguide.planning.constrained_path import leader_table
+from relguide.planning.inputs import expect, number, within
+from relguide.planning.situation import MAX_POSITION, Situation
+from relguide.planning.slot import SlotFrame, slot_frame
+from relguide.planning.words import HORIZON
+from relguide.units import Metre, Millisecond, Second
+
+NAMES = (*WORDS, "hold", "detour", "")
+"""What a number in `Field.words` means: the extremal's word; a path that arrives exactly when the
+slot opens; a way that touches d_min or rides along it; no plan."""
+NONE = DETOUR + 1
+WIDTH, HEIGHT = 160_000.0, 120_000.0
+"""Extent of a grid if none is given [m]."""
+COLUMNS, ROWS = 160, 120
+"""Its nodes."""
+MAX_NODES = 512
+"""Most columns, and most rows, of a grid."""
+MIN_EXTENT, MAX_EXTENT = 1_000.0, 2.0 * MAX_POSITION
+"""Accepted width and height of a grid [m]."""
+MAX_LEVELS = 64
+"""Most levels of contours."""
+STEPS = (15.0, 30.0, 60.0, 120.0, 300.0, 600.0, 1200.0, 1800.0, 3600.0, 7200.0, 14_400.0)
+"""Steps between levels that people read well [s]."""
+WANTED_LEVELS = 15
+"""About so many levels if none are given."""
+LEAST_CHUNK, CHUNK = 64, 512
+"""Places a thread takes at a time: 0.1 to 1 ms of work."""
+
+
+Words = Callable[[Floats, Floats], NDArray[np.int8]]
+"""Places east and north [m], each of shape (n,), over the ground at t = 0 → the number of the only
+word that need be solved there, −1 for all of them."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Grid:
+    """Where the pursuer is put: the nodes of a rectangle, its edges east and north."""
+
+    x: Metre
+    """Its middle, east [m]."""
+    y: Metre
+    """Its middle, north [m]."""
+    width: Metre = WIDTH
+    """From the first column to the last [m]."""
+    height: Metre = HEIGHT
+    """From the first row to the last [m]."""
+    columns: int = COLUMNS
+    rows: int = ROWS
+
+    def __post_init__(self) -> None:
+        """Refuse what is no grid, or one with more nodes than a display has use for."""
+        for name, count in (("columns", self.columns), ("rows", self.rows)):
+            if not isinstance(count, int) or not 2 <= count <= MAX_NODES:
+                raise ValueError(
+                    f"{name} must be a whole number from 2 to {MAX_NODES}, not {count!r}."
+                )
+        for name, value in (("width", self.width), ("height", self.height)):
+            within(f"grid.{name}", value, MIN_EXTENT, MAX_EXTENT, "m")
+        for name, middle, extent in (("x", self.x, self.width), ("y", self.y, self.height)):
+            if abs(number(f"grid.{name}", middle)) + 0.5 * extent > MAX_POSITION:
+                raise ValueError(
+                    f"The grid must lie within |{name}| ≤ {MAX_POSITION / 1000.0:g} km."
+                )
+
+    @property
+    def axes(self) -> tuple[Floats, Floats]:
+        """East of each column and north of each row [m]."""
+        return (
+            np.linspace(self.x - 0.5 * self.width, self.x + 0.5 * self.width, self.columns),
+            np.linspace(self.y - 0.5 * self.height, self.y + 0.5 * self.height, self.rows),
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Isochrones:
+    """The convergence area of a situation, ready to be drawn. World frame, at t = 0."""
+
+    grid: Grid
+    field: Field
+    """The answers at the nodes, row after row. (rows · columns,)"""
+    contours: tuple[Contour, ...]
+    """One a level, in their order."""
+    regions: tuple[Region, ...]
+    """Where each word is the answer. Together they cover the grid."""
+    compute_time: Millisecond
+    """Wall time it took [ms]."""
+
+
+def isochrones(
+    situation: Situation,
+    grid: Grid | None = None,
+    levels: Sequence[Second] = (),
+    *,
+    evaluate: Evaluate | None = None,
+    exact: bool = False,
+    threads: int | None = None,
+    progress: Callable[[int], object] = lambda done: None,
+) -> Isochrones:
+    """Lines of equal time-to-converge, and regions of equal word.
+
+    Args:
+        situation: all but the pursuer's place counts.
+        grid: where to look; 160 × 120 km round the leader if left out.
+        levels: times of the lines [s], ascending; some round ones if empty.
+        evaluate: who gives the times; `times_around(situation)` if left out. Two threads ask at
+            once, unless `threads` is 1.
+        exact: whether to search the ways along d_min at each node where the limit binds, which
+            takes some ten ms, or up to a second if the leader turns. Between those nodes their
+            times are then interpolated.
+        threads: how many; all cores if left out.
+        progress: called with the number of nodes searched since the last call.
+    """
+    expect("situation", situation, Situation)
+    started = perf_counter_ns()
+    grid = grid or grid_around(situation)
+    levels = check_levels(levels)
+    evaluate = evaluate or times_around(situation, threads=threads)
+    x, y = grid.axes
+    east, north = (axis.ravel() for axis in np.meshgrid(x, y))
+    field = evaluate(east, north)
+    if exact:
+        field = searched(situation, field, east, north, threads, progress)
+        evaluate = between_nodes(field, x, y, evaluate)
+    levels = levels or round_levels(field)
+    lines, words = _drawn(field, x, y, levels, evaluate, beside=threads != 1)
+    return Isochrones(
+        grid=grid,
+        field=field,
+        contours=lines,
+        regions=words,
+        compute_time=(perf_counter_ns() - started) * 1e-6,
+    )
+
+
+def _drawn(
+    field: Field, x: Floats, y: Floats, levels: Sequence[Second], evaluate: Evaluate, *,
+    beside: bool,
+) -> tuple[tuple[Contour, ...], tuple[Region, ...]]:  # fmt: skip
+    """Lines and regions; if so wished side by side, as Python draws while the kernels work."""
+    if not beside:
+        return (
+            contours(field, x, y, levels, evaluate),
+            regions(field, x, y, NAMES, evaluate),
+        )
+    with ThreadPoolExecutor(1) as other:
+        words = other.submit(regions, field, x, y, NAMES, evaluate)
+        return contours(field, x, y, levels, evaluate), words.result()
+
+
+def grid_around(situation: Situation) -> Grid:
+    """The grid that is taken if none is given: its middle is the leader, if there is room."""
+    leader = situation.leader
+    east, north = MAX_POSITION - 0.5 * WIDTH, MAX_POSITION - 0.5 * HEIGHT
+    return Grid(x=min(max(leader.x, -east), east), y=min(max(leader.y, -north), north))
+
+
+def check_levels(levels: Sequence[Second]) -> tuple[Second, ...]:
+    """The levels, ascending.
+
+    Raises:
+        ValueError: if one is no time, or there are too many.
+    """
+    if len(levels) > MAX_LEVELS:
+        raise ValueError(f"There must be at most {MAX_LEVELS} levels, not {len(levels)}.")
+    return tuple(sorted({within("A level", level, 0.0, HORIZON, "s") for level in levels}))
+
+
+def round_levels(field: Field) -> tuple[Second, ...]:
+    """Round levels that most of the field lies between."""
+    times = field.time[field.time < inf]
+    if times.size == 0:
+        return ()
+    least, most = np.quantile(times, (0.0, 0.98)).tolist()
+    step = next((s for s in STEPS if (most - least) / s <= WANTED_LEVELS), STEPS[-1])
+    return tuple(
+        step * k for k in range(int(least // step) + 1, int(most // step) + 1) if step * k > 0.0
+    )[:MAX_LEVELS]
+
+
+def times_around(
+    situation: Situation, *, threads: int | None = None, words: Words | None = None
+) -> Evaluate:
+    """Times from the exact kernels, all but the ways along d_min: some 600,000 places a second.
+
+    Args:
+        situation: all but the pursuer's place counts.
+        threads: how many; all cores if left out.
+        words: who says where one word alone need be solved; all of them everywhere if left out.
+    """
+    frame = slot_frame(situation, situation.leader.trajectory)
+    table = leader_table(situation, frame)
+    limit = situation.min_separation / frame.radius
+    longest = last_turns(table, frame.alpha, limit - SLACK)
+    scale = frame.radius / situation.pursuer.tas
+    workers = threads or cpu_count() or 1
+    pool = ThreadPoolExecutor(workers)  # its threads start when needed, and end with it
+
+    def evaluate(x: Floats, y: Floats) -> Field:
+        places = np.column_stack(_to_slot(frame, x, y))
+        alone = np.full(len(places), -1, np.int8) if words is None else words(x, y)
+        answers = np.empty((len(places), 4))
+
+        chunk = min(max(len(places) // (4 * workers), LEAST_CHUNK), CHUNK)
+
+        def work(first: int) -> None:
+            last = min(first + chunk, len(places))
+            field_rows(
+                places, alone, frame.h, frame.alpha, frame.t_open, table, limit, longest, first,
+                last, answers,
+            )  # fmt: skip
+
+        if len(places) <= chunk or workers == 1:
+            for first in range(0, len(places), chunk):
+                work(first)
+        else:
+            for _ in pool.map(work, range(0, len(places), chunk)):
+                pass
+        return _field(answers[:, 0] * scale, answers[:, 1] * scale, *answers.T[2:])
+
+    return evaluate
+
+
+def _to_slot(frame: SlotFrame, x: Floats, y: Floats) -> tuple[Floats, Floats]:
+    to_slot: Callable[[Any, Any], tuple[Any, Any]] = frame.to_slot  # as good for columns
+    return to_slot(x, y)
+
+
+def _field(time: Floats, lower_bound: Floats, words: Floats, limited: Floats) -> Field:
+    numbers = words.astype(np.int8)
+    numbers[numbers == NO_WORD] = NONE
+    # as in `plan`: only what is known to take longer is left out
+    beyond = (lower_bound > HORIZON) & (lower_bound < inf)
+    time = np.where(beyond, inf, time)
+    numbers[time == inf] = NONE
+    return Field(
+        time=time,
+        lower_bound=np.where(beyond, inf, lower_bound),
+        words=numbers,
+        limited=(limited > 0.0) & ~beyond,
+    )

@@ -1,0 +1,114 @@
+"""From what is asked for to what can be flown: scenarios by name, and situations of one's own."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from itertools import islice
+from typing import Annotated
+
+from fastapi import Depends
+from starlette.requests import HTTPConnection
+
+from relguide.contract.bodies import situation_from_body
+from relguide.contract.messages import (
+    FlightRequest,
+    ScenarioFlightRequest,
+    ScenarioInfo,
+    ScenarioList,
+    SituationFlightRequest,
+)
+from relguide.contract.refusal import ContractError
+from relguide.flying.flight import Scenario, fly
+from relguide.flying.scenarios import SCENARIOS, own_scenario, scenario
+from relguide.planning.plan import Planner
+from relguide_server.airborne import Source
+
+REHEARSED = "fig_6b"
+"""The scenario that is flown a little at the start, so that all kernels are compiled."""
+REHEARSAL = 400
+"""Documents of it: 20 s of flight."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Departure:
+    """A flight ready to start."""
+
+    scenario: str
+    """Its name; empty for a situation of one's own."""
+    title: str
+    source: Source
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Departures:
+    """What can be flown. A test may pass its own."""
+
+    scenarios: Callable[[], ScenarioList]
+    find: Callable[[FlightRequest], Departure]
+    """Raises `ContractError` for what cannot be flown."""
+    rehearse: Callable[[], None]
+    """Fly a little and throw it away: afterwards everything is compiled."""
+
+
+def departures_of(connection: HTTPConnection) -> Departures:
+    """The departures of the app that serves this connection."""
+    departures: Departures = connection.app.state.departures
+    return departures
+
+
+DeparturesOf = Annotated[Departures, Depends(departures_of)]
+"""How a route asks for them."""
+
+
+def library_departures(planner: Planner) -> Departures:
+    """The library's scenarios, guided by a planner."""
+
+    def find(wanted: FlightRequest) -> Departure:
+        match wanted:
+            case ScenarioFlightRequest():
+                name, found = wanted.scenario, _named(wanted.scenario)
+            case SituationFlightRequest():
+                name, found = "", _own(wanted)
+        if wanted.intent_known is not None:
+            found = replace(found, intent_known=wanted.intent_known)
+        seed = wanted.seed
+        return Departure(
+            scenario=name,
+            title=found.title,
+            source=lambda commands: fly(found, planner, commands=commands, seed=seed),
+        )
+
+    def rehearse() -> None:
+        for _ in islice(fly(scenario(REHEARSED), planner), REHEARSAL):
+            pass
+
+    return Departures(scenarios=_scenarios, find=find, rehearse=rehearse)
+
+
+def _scenarios() -> ScenarioList:
+    infos = [
+        ScenarioInfo(
+            name=named.name,
+            title=named.title,
+            description=named.description,
+            available=not named.missing(),
+            message=named.missing(),
+        )
+        for named in SCENARIOS.values()
+    ]
+    return ScenarioList(scenarios=infos)
+
+
+def _named(name: str) -> Scenario:
+    try:
+        return scenario(name)
+    except ValueError as error:  # not known, or its data is not installed: a sentence either way
+        raise ContractError([("scenario", str(error))]) from None
+
+
+def _own(wanted: SituationFlightRequest) -> Scenario:
+    try:
+        situation, _ = situation_from_body(wanted.situation)
+    except ContractError as error:
+        under = [(f"situation.{path}".rstrip("."), said) for path, said in error.problems]
+        raise ContractError(under) from None
+    return own_scenario(situation)

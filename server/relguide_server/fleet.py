@@ -1,0 +1,139 @@
+"""The flight service: all flights of this server, one tick for them all, and who makes room."""
+
+import asyncio
+import secrets
+from collections.abc import Iterator
+from contextlib import suppress
+from typing import Annotated
+
+from fastapi import Depends
+from starlette.requests import HTTPConnection
+
+from relguide_server.airborne import Airborne, FlightPlate, Source
+from relguide_server.errors import Refusal
+from relguide_server.metrics import Metrics
+from relguide_server.settings import Settings
+
+REAP_PERIOD = 1.0
+"""How often flights that nobody wants any more are looked for [s]."""
+TAKE_OFF = 60.0
+"""How long a new flight may take to its first sample [s]: kernels may have to be compiled first."""
+
+
+class Fleet:
+    """All flights. Lives on the event loop, from `start` to `stop`."""
+
+    def __init__(self, settings: Settings, metrics: Metrics) -> None:
+        self._settings = settings
+        self._metrics = metrics
+        self._flights: dict[str, Airborne] = {}
+        self._tasks: list[asyncio.Task[None]] = []
+
+    def __iter__(self) -> Iterator[Airborne]:
+        return iter(self._flights.values())
+
+    def start(self) -> None:
+        """Begin to tick."""
+        self._tasks = [asyncio.create_task(self._tick()), asyncio.create_task(self._reap())]
+
+    async def stop(self) -> None:
+        """Land everything."""
+        for task in self._tasks:
+            task.cancel()
+        for task in self._tasks:
+            with suppress(asyncio.CancelledError):
+                await task
+        await asyncio.gather(*(self._land(flight) for flight in list(self)))
+
+    def find(self, flight_id: str) -> Airborne:
+        """A flight by its id.
+
+        Raises:
+            Refusal: 404, if there is none.
+        """
+        flight = self._flights.get(flight_id)
+        if flight is None:
+            raise Refusal(404, f"There is no flight {flight_id!r}: it never was, or is removed.")
+        flight.seen()
+        return flight
+
+    def knows(self, flight_id: str) -> bool:
+        """Whether there is such a flight."""
+        return flight_id in self._flights
+
+    async def launch(
+        self, scenario: str, title: str, source: Source, *, rate: float, paused: bool
+    ) -> Airborne:
+        """Start a flight, and wait until it is in the air.
+
+        Raises:
+            Refusal: 429, if too many fly already; 500, if it broke before its first sample.
+        """
+        await self._make_room()
+        plate = FlightPlate(id=secrets.token_hex(6), scenario=scenario, title=title)
+        flight = Airborne(plate, source, rate=rate, paused=paused, metrics=self._metrics)
+        self._flights[plate.id] = flight
+        self._metrics.flights_started += 1
+        try:
+            began = await asyncio.wait_for(flight.begun(), TAKE_OFF)
+        except TimeoutError:
+            began = False
+        if not began:
+            await self._land(flight)
+            raise Refusal(500, "The flight broke off before it began: the server's log says why.")
+        return flight
+
+    async def remove(self, flight_id: str) -> None:
+        """End a flight and forget it."""
+        await self._land(self.find(flight_id))
+
+    async def _land(self, flight: Airborne) -> None:
+        self._flights.pop(flight.plate.id, None)
+        await flight.land()
+
+    async def _make_room(self) -> None:
+        now, limit = asyncio.get_running_loop().time(), self._settings.max_flights
+        while len(self._flights) >= limit:
+            unseen = [
+                flight
+                for flight in self
+                if not flight.watched
+                and (flight.over or now - flight.last_seen > self._settings.spare_after)
+            ]
+            if not unseen:
+                raise Refusal(
+                    429,
+                    f"{limit} flights are in the air, which is all this server takes. "
+                    "End one (DELETE), or try again when one is no longer watched.",
+                    headers={"Retry-After": str(round(self._settings.spare_after))},
+                )
+            await self._land(min(unseen, key=lambda flight: flight.last_seen))
+
+    async def _tick(self) -> None:
+        loop, period = asyncio.get_running_loop(), 1.0 / self._settings.stream_rate
+        due = loop.time()
+        while True:
+            for flight in list(self):
+                flight.tick()
+            # Late by more than a tick, e.g. after the machine slept: go on from now, do not rush.
+            due = max(due + period, loop.time() - period)
+            await asyncio.sleep(due - loop.time())
+
+    async def _reap(self) -> None:
+        loop = asyncio.get_running_loop()
+        while True:
+            await asyncio.sleep(REAP_PERIOD)
+            for flight in list(self):
+                unseen = loop.time() - flight.last_seen
+                if not flight.watched and unseen > self._settings.keep_unseen:
+                    await self._land(flight)
+
+
+def fleet_of(connection: HTTPConnection) -> Fleet:
+    """The fleet of the app that serves this connection."""
+    fleet: Fleet = connection.app.state.fleet
+    return fleet
+
+
+FleetOf = Annotated[Fleet, Depends(fleet_of)]
+"""How a route asks for the fleet."""

@@ -1,0 +1,204 @@
+"""Routes of flights: start one, watch it, tell it something, end it."""
+
+import asyncio
+from math import radians
+
+from fastapi import APIRouter, Request, WebSocket
+from pydantic import RootModel
+from starlette.responses import Response
+
+from relguide.contract.messages import (
+    Command,
+    FlightList,
+    FlightRequest,
+    FlightStatus,
+    LeaderHeadingCommand,
+    LeaderSpeedCommand,
+    PauseCommand,
+    PlayCommand,
+    ScenarioList,
+    SetIntentKnownCommand,
+    SetRateCommand,
+)
+from relguide.contract.protocol import PROTOCOL
+from relguide.contract.refusal import ContractError, parse
+from relguide.flying.orders import IntentKnown, LeaderHeading, LeaderSpeed
+from relguide_server.airborne import Airborne
+from relguide_server.departures import DeparturesOf
+from relguide_server.fleet import FleetOf
+from relguide_server.openapi import gives, json_answer, one_of, read_json, refused, refuses, takes
+from relguide_server.stream import UNKNOWN_FLIGHT, WRONG_PROTOCOL
+
+
+class NewFlight(RootModel[FlightRequest]):
+    """What starts a flight: the name of a scenario, or a situation of one's own."""
+
+
+class FlightCommand(RootModel[Command]):
+    """What a flight can be told."""
+
+
+MODELS = (NewFlight, FlightCommand, FlightStatus, FlightList, ScenarioList)
+"""What the OpenAPI document needs for these routes."""
+
+router = APIRouter(prefix="/api/v1", tags=["flights"])
+
+
+@router.get(
+    "/scenarios",
+    summary="Scenarios that can be flown",
+    responses=gives(200, "All scenarios.", one_of(ScenarioList)),
+)
+async def list_scenarios(departures: DeparturesOf) -> Response:
+    """The paper's cases and our own; one that lacks its data says what to install."""
+    return json_answer((await asyncio.to_thread(departures.scenarios)).model_dump())
+
+
+@router.post(
+    "/flights",
+    status_code=201,
+    summary="Start a flight",
+    responses={
+        **gives(201, "It is in the air.", one_of(FlightStatus)),
+        **refuses(400, 413, 415, 422, 429, 500),
+    },
+    openapi_extra=takes(one_of(NewFlight), {"scenario": "fig_6b", "rate": 10.0}),
+)
+async def start_flight(request: Request, fleet: FleetOf, departures: DeparturesOf) -> Response:
+    """Flown at `rate` times the clock on the wall, until it is ended or nobody watches any more."""
+    try:
+        wanted = parse(NewFlight, _content(await read_json(request))).root
+        # A recorded leader is read from a file: not on the event loop.
+        departure = await asyncio.to_thread(departures.find, wanted)
+    except ContractError as error:
+        raise refused(error) from None
+    flight = await fleet.launch(
+        departure.scenario,
+        departure.title,
+        departure.source,
+        rate=wanted.rate,
+        paused=wanted.paused,
+    )
+    status = status_of(flight)
+    location = f"/api/v1/flights/{status.id}"
+    return json_answer(status.model_dump(), 201, headers={"Location": location})
+
+
+@router.get(
+    "/flights",
+    summary="All flights",
+    responses=gives(200, "All flights.", one_of(FlightList)),
+)
+async def list_flights(fleet: FleetOf) -> Response:
+    """Those in the air, and those that ended a short while ago."""
+    return json_answer(FlightList(flights=[status_of(flight) for flight in fleet]).model_dump())
+
+
+@router.get(
+    "/flights/{flight_id}",
+    summary="One flight",
+    responses={**gives(200, "Where it stands.", one_of(FlightStatus)), **refuses(404)},
+)
+async def show_flight(flight_id: str, fleet: FleetOf) -> Response:
+    """Where it stands now."""
+    return json_answer(status_of(fleet.find(flight_id)).model_dump())
+
+
+@router.delete(
+    "/flights/{flight_id}", status_code=204, summary="End a flight", responses=refuses(404)
+)
+async def end_flight(flight_id: str, fleet: FleetOf) -> Response:
+    """Its streams and its scene close with it."""
+    await fleet.remove(flight_id)
+    return Response(status_code=204)
+
+
+@router.post(
+    "/flights/{flight_id}/commands",
+    status_code=202,
+    summary="Tell a flight something",
+    responses={
+        **gives(202, "It will.", one_of(FlightStatus)),
+        **refuses(400, 404, 409, 413, 415, 422),
+    },
+    openapi_extra=takes(one_of(FlightCommand), {"command": "leader_heading", "heading_deg": 135.0}),
+)
+async def command_flight(flight_id: str, request: Request, fleet: FleetOf) -> Response:
+    """Pause, go on, another rate; or the leader's heading, speed, and whether its intent is known.
+
+    What is told to the leader of a paused flight is done when the flight goes on.
+    """
+    flight = fleet.find(flight_id)
+    try:
+        command = parse(FlightCommand, _content(await read_json(request))).root
+    except ContractError as error:
+        raise refused(error) from None
+    _tell(flight, command)
+    return json_answer(status_of(flight).model_dump(), 202)
+
+
+@router.websocket("/flights/{flight_id}/stream")
+async def stream(websocket: WebSocket, flight_id: str, fleet: FleetOf) -> None:
+    """Ticks of a flight; the sub-protocol says which form of them the client was built for."""
+    if PROTOCOL not in websocket.scope["subprotocols"]:
+        await websocket.accept()
+        sentence = f"This server speaks {PROTOCOL}: load the page again."
+        await websocket.close(WRONG_PROTOCOL, sentence)
+        return
+    await websocket.accept(PROTOCOL)
+    if not fleet.knows(flight_id):
+        await websocket.close(UNKNOWN_FLIGHT, "There is no such flight: it is over and removed.")
+        return
+    flight = fleet.find(flight_id)
+    client = flight.join()
+    try:
+        await client.pump(websocket)
+    finally:
+        flight.leave(client)
+
+
+def status_of(flight: Airborne) -> FlightStatus:
+    """Where a flight stands."""
+    sample = flight.history.newest[0]
+    plate, pace = flight.plate, flight.pace
+    return FlightStatus(
+        id=plate.id,
+        scenario=plate.scenario,
+        title=plate.title,
+        t_s=flight.t,
+        rate=pace.rate,
+        paused=pace.paused,
+        ended=flight.over,
+        mode=sample.mode,
+        joined=sample.joined,
+        separation_m=sample.separation,
+        stream_url=f"/api/v1/flights/{plate.id}/stream",
+        scene_url=f"/scene/{plate.id}/",
+    )
+
+
+def _tell(flight: Airborne, command: Command) -> None:
+    match command:
+        case PlayCommand():
+            flight.pace.play()
+        case PauseCommand():
+            flight.pace.pause()
+        case SetRateCommand(rate=rate):
+            flight.pace.set_rate(rate)
+        case LeaderHeadingCommand():
+            flight.command(_leader_heading(command))
+        case LeaderSpeedCommand(tas_mps=tas):
+            flight.command(LeaderSpeed(tas=tas))
+        case SetIntentKnownCommand(known=known):
+            flight.command(IntentKnown(known=known))
+
+
+def _leader_heading(command: LeaderHeadingCommand) -> LeaderHeading:
+    way = command.direction or "shorter"
+    return LeaderHeading(heading=radians(command.heading_deg % 360.0), turn=way)
+
+
+def _content(parsed: object) -> dict[str, object]:
+    if isinstance(parsed, dict):
+        return parsed
+    raise ContractError([("", "The body must be an object with fields.")])

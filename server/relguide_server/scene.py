@@ -1,0 +1,208 @@
+"""A sink of documents: the flight in 3D, drawn on a viser server.
+
+Scene frame: x east, y north, z up; 1 unit = 1 km, heights ×`ALTITUDE_SCALE`. Everything hangs under
+`/world`, which is moved so that the middle between the two aircraft stays at the origin: the
+camera, which belongs to the one who looks, then follows the flight without being touched.
+"""
+
+from collections.abc import Sequence
+from math import cos, sin
+
+import numpy as np
+from viser import ViserServer
+
+from relguide.flying.documents import (
+    Document,
+    FlightEnded,
+    FlightStarted,
+    LeaderChanged,
+    LeaderRoute,
+    ModeChanged,
+    PlanChanged,
+    PlanUnavailable,
+    Sample,
+)
+from relguide.units import NM
+from relguide_server import scene_paint as paint
+from relguide_server import scene_shapes as shapes
+from relguide_server.scene_aircraft import ENLARGED, AircraftFigure, height_of
+from relguide_server.scene_camera import Cameras
+from relguide_server.scene_paint import label, lines
+from relguide_server.scene_shapes import ALTITUDE_SCALE, KM
+
+CELL = 5.0 * NM / KM
+"""Cell of the ground grid [scene units]."""
+WALL = 0.8
+"""Half the height of the separation cylinder [scene units]: the limit itself is horizontal."""
+
+
+class Scene:
+    """Draws one flight. Whoever draws is one thread."""
+
+    def __init__(self, server: ViserServer) -> None:
+        self._server = server
+        self._scene = server.scene
+        self._wind = (0.0, 0.0)
+        self._height = 0.0
+        self._started: FlightStarted | None = None
+        self._figures: dict[str, AircraftFigure] = {}
+        self._limit_lost = False
+        self._slot_colour = paint.SLOT
+        server.gui.configure_theme(dark_mode=True, show_logo=False, show_share_button=False)
+        server.scene.set_background_image(np.full((1, 1, 3), paint.BACKGROUND, dtype=np.uint8))
+        server.scene.set_up_direction("+z")
+        server.scene.configure_default_lights(cast_shadow=False)
+        self._world = server.scene.add_frame("/world", show_axes=False)
+        self._scale = server.scene.add_frame("/world/scale", show_axes=False)
+        self._slot = server.scene.add_frame("/world/slot", show_axes=False)
+        self._cameras = Cameras(server)
+
+    def draw(self, documents: Sequence[Document]) -> None:
+        """Bring the picture up to date with documents in the order of the flight."""
+        # Plan and route are drawn at the leader's height, which a sample behind them may bring.
+        heights = [height_of(d.leader) for d in documents if isinstance(d, Sample)]
+        self._height = heights[-1] if heights else self._height
+        with self._server.atomic():
+            for document in documents:
+                self._draw_one(document)
+
+    def _draw_one(self, document: Document) -> None:
+        match document:
+            case FlightStarted():
+                self._start(document)
+            case LeaderRoute():
+                self._draw_route(document)
+            case PlanChanged():
+                self._draw_plan(document)
+            case PlanUnavailable():
+                for name in ("/world/plan", "/world/plan_shadow"):
+                    self._scene.remove_by_name(name)
+            case Sample():
+                self._sample(document)
+            case LeaderChanged() | ModeChanged() | FlightEnded():
+                pass  # what they change is seen in the samples
+
+    def _start(self, started: FlightStarted) -> None:
+        self._started = started
+        wind = started.wind
+        self._wind = (-wind.speed * sin(wind.from_), -wind.speed * cos(wind.from_))
+        self._draw_ground()
+
+    def _draw_ground(self) -> None:
+        """The grid, and a scale on it: two cells long, with north beside it."""
+        self._scene.add_grid(
+            "/world/grid",
+            infinite_grid=True,
+            cell_size=CELL,
+            cell_color=paint.GRID,
+            cell_thickness=1.0,
+            section_size=4.0 * CELL,
+            section_color=paint.GRID_SECTION,
+            section_thickness=1.4,
+            fade_distance=300.0,
+            shadow_opacity=0.0,
+        )
+        bar = [
+            [(0, 0, 0), (2 * CELL, 0, 0)],
+            *([(k * CELL, -0.7, 0), (k * CELL, 0.7, 0)] for k in range(3)),
+            [(0, 0, 0), (0, CELL, 0)],
+            [(0, CELL, 0), (-0.8, CELL - 2.0, 0)],
+            [(0, CELL, 0), (0.8, CELL - 2.0, 0)],
+        ]
+        lines(self._scene, "/world/scale/bar", np.array(bar, dtype=float), paint.LEADER, 2.0)
+        for k, text in ((0, "0"), (1, "5"), (2, "10 NM")):
+            label(self._scene, f"/world/scale/{k}", text, (k * CELL, -1.0, 0), "top-center")
+        label(self._scene, "/world/scale/north", "N", (0, CELL + 0.4, 0), "bottom-center")
+        note = f"grid 5 NM · heights ×{ALTITUDE_SCALE:.0f} · aircraft ×{ENLARGED:.0f}: NOT TO SCALE"
+        label(self._scene, "/world/scale/note", note, (0, -4.5, 0), "top-left")
+
+    def _draw_plan(self, changed: PlanChanged) -> None:
+        points = shapes.path_points(changed.plan.segments, self._wind, self._height)
+        lines(self._scene, "/world/plan", shapes.polyline(points), paint.PLAN, 3.0)
+        shadow = shapes.polyline(points * (1.0, 1.0, 0.0))
+        lines(self._scene, "/world/plan_shadow", shadow, paint.PLAN_SHADOW, 1.5)
+        x, y, z = points[-1]
+        minutes, seconds = divmod(round(changed.t + changed.plan.time_to_converge), 60)
+        text = f"CNV {minutes:02d}:{seconds:02d}"
+        label(self._scene, "/world/plan/end", text, (x, y, z), "bottom-left")
+
+    def _draw_route(self, route: LeaderRoute) -> None:
+        points = shapes.path_points(route.segments, self._wind, self._height)
+        # The style carries the state: long dashes are a declared intent, dots are a guess.
+        dash, gap = (2.4, 1.4) if route.intent_known else (0.4, 1.6)
+        segments = shapes.dashed(points, dash=dash, gap=gap)
+        lines(self._scene, "/world/route", segments, paint.LEADER, 2.0)
+
+    def _sample(self, sample: Sample) -> None:
+        if self._started is None:
+            return
+        if not self._figures:
+            self._first(sample, self._started)
+        self._figures["pursuer"].move(sample.pursuer, sample.t)
+        self._figures["leader"].move(sample.leader, sample.t)
+        self._centre(sample)
+        self._cameras.frame(sample.separation / KM, self._height)
+        slot = sample.slot
+        self._slot.position = (slot.x / KM, slot.y / KM, self._height)
+        self._slot.wxyz = shapes.attitude(slot.heading, 0.0)
+        if sample.joined and self._slot_colour != paint.PLAN:
+            self._draw_gate(paint.PLAN, "SLOT · joined")
+        elif not sample.joined and self._slot_colour != paint.SLOT:
+            self._draw_gate(paint.SLOT, "SLOT")
+        lost = sample.separation < self._started.min_separation
+        if lost != self._limit_lost:
+            self._draw_limit(self._started.min_separation, lost=lost)
+
+    def _first(self, sample: Sample, started: FlightStarted) -> None:
+        scene = self._scene
+        self._figures = {
+            "pursuer": AircraftFigure(
+                scene, "pursuer", paint.PURSUER, started.pursuer, sample.pursuer
+            ),
+            "leader": AircraftFigure(scene, "leader", paint.LEADER, started.leader, sample.leader),
+        }
+        self._draw_limit(started.min_separation, lost=False)
+        self._draw_gate(paint.SLOT, "SLOT")
+
+    def _centre(self, sample: Sample) -> None:
+        x = (sample.pursuer.x + sample.leader.x) / 2.0 / KM
+        y = (sample.pursuer.y + sample.leader.y) / 2.0 / KM
+        self._world.position = (-x, -y, 0.0)
+        # The scale moves in whole cells, so that it stays on the lines of the grid.
+        south = y - max(0.35 * sample.separation / KM, CELL)
+        self._scale.position = (CELL * round(x / CELL - 1.5), CELL * round(south / CELL), 0.0)
+
+    def _draw_gate(self, colour: paint.Colour, text: str) -> None:
+        self._slot_colour = colour
+        lines(self._scene, "/world/slot/gate", shapes.gate(3.6, 2.4), colour, 3.0)
+        lines(self._scene, "/world/slot/drop", shapes.drop(self._height, 0.5), colour, 0.8)
+        label(self._scene, "/world/slot/text", text, (0, 0, -1.4), "top-center")
+
+    def _draw_limit(self, min_separation: float, *, lost: bool) -> None:
+        """d_min round the leader, at its altitude."""
+        self._limit_lost = lost
+        radius = min_separation / KM
+        if radius <= 0.0:
+            return
+        colour = paint.ALERT if lost else paint.LEADER
+        self._scene.add_cylinder(
+            "/world/leader/limit",
+            radius,
+            2.0 * WALL,
+            colour,
+            opacity=0.14,
+            radial_segments=72,
+            side="double",
+            cast_shadow=False,
+            receive_shadow=False,
+        )
+        edges = np.concatenate((shapes.ring(radius, WALL), shapes.ring(radius, -WALL)))
+        lines(self._scene, "/world/leader/edge", edges, colour, 1.5)
+        text = f"MIN {min_separation / NM:.1f} NM"
+        label(
+            self._scene,
+            "/world/leader/limit_text",
+            text,
+            (0.8 * radius, -0.6 * radius, -WALL),
+            "top-left",
+        )

@@ -1,0 +1,58 @@
+"""The few brushes of the 3D scene: colours by meaning, lines and labels of constant size."""
+
+from typing import Literal
+
+from viser import LabelHandle, LineSegmentsHandle, SceneApi
+
+from relguide_server.scene_shapes import Points
+
+Colour = tuple[int, int, int]
+"""Red, green, blue, 0–255."""
+
+BACKGROUND: Colour = (4, 4, 5)
+PLAN: Colour = (0, 255, 0)
+PLAN_SHADOW: Colour = (0, 92, 24)
+SLOT: Colour = (23, 233, 242)
+PURSUER: Colour = (255, 226, 61)
+LEADER: Colour = (229, 223, 214)
+ALERT: Colour = (255, 59, 48)
+GRID: Colour = (38, 44, 54)
+GRID_SECTION: Colour = (66, 76, 92)
+
+Anchor = Literal[
+    "top-left",
+    "top-right",
+    "top-center",
+    "bottom-left",
+    "bottom-center",
+    "center-left",
+    "center-right",
+]
+
+
+def dimmed(colour: Colour, share: float) -> Colour:
+    """The same hue, darker."""
+    red, green, blue = (int(share * part) for part in colour)
+    return red, green, blue
+
+
+def lines(
+    scene: SceneApi, name: str, segments: Points, colour: Colour, pixels: float
+) -> LineSegmentsHandle:
+    """Line segments (n, 2, 3), as thick at any distance; the same name again replaces them."""
+    return scene.add_line_segments(
+        name, segments, colour, thickness=pixels, thickness_units="screen"
+    )
+
+
+def label(
+    scene: SceneApi,
+    name: str,
+    text: str,
+    position: tuple[float, float, float],
+    anchor: Anchor,
+    *,
+    size: float = 1.0,
+) -> LabelHandle:
+    """A text that always faces the camera, as large at any distance."""
+    return scene.add_label(name, text, position=position, anchor=anchor, font_screen_scale=size)

@@ -1,0 +1,148 @@
+"""One port for all: viser's page at `/scene/{id}/`, its WebSocket relayed to the flight's scene.
+
+The page dials its own address, less one trailing slash, so the WebSocket is answered at both. Only
+what a viewer needs is passed on: any client of viser could otherwise ask it to open a tunnel to
+the outside (`ShareUrlRequest`), whether or not its button is shown.
+"""
+
+import asyncio
+import gzip
+from contextlib import suppress
+from functools import cache
+from hashlib import sha256
+from importlib.util import find_spec
+from pathlib import Path
+
+import msgspec
+from fastapi import APIRouter, Request, WebSocket, WebSocketDisconnect
+from starlette.responses import RedirectResponse, Response
+from starlette.websockets import WebSocketState
+from websockets.asyncio.client import ClientConnection, connect
+from websockets.exceptions import ConnectionClosed, WebSocketException
+from websockets.typing import Subprotocol
+
+from relguide_server.airborne import Airborne
+from relguide_server.fleet import FleetOf
+
+PASSED_ON = frozenset({"ViewerCameraMessage", "GuiUpdateMessage"})
+"""What a browser may say to the scene: where its camera is, and which view button was pressed."""
+NOT_PASSED_ON = (1008, "The scene takes camera and button messages only.")
+
+
+router = APIRouter(include_in_schema=False)
+
+
+@router.get("/scene/{flight_id}")
+async def without_slash(flight_id: str, fleet: FleetOf) -> Response:
+    """The page lives under a trailing slash."""
+    fleet.find(flight_id)
+    return RedirectResponse(f"/scene/{flight_id}/", 308)
+
+
+@router.get("/scene/{flight_id}/")
+async def page(flight_id: str, request: Request, fleet: FleetOf) -> Response:
+    """Viser's own client: one self-contained page, the same for all flights."""
+    fleet.find(flight_id)
+    html, packed, tag = _client_page()
+    headers = {"ETag": tag, "Cache-Control": "no-cache", "Vary": "Accept-Encoding"}
+    if tag in request.headers.get("if-none-match", ""):
+        return Response(status_code=304, headers=headers)
+    if "gzip" in request.headers.get("accept-encoding", ""):
+        headers["Content-Encoding"] = "gzip"
+        return Response(packed, media_type="text/html", headers=headers)
+    return Response(html, media_type="text/html", headers=headers)
+
+
+@router.websocket("/scene/{flight_id}")
+@router.websocket("/scene/{flight_id}/")
+async def relay(websocket: WebSocket, flight_id: str, fleet: FleetOf) -> None:
+    """Between a browser and the scene's own server, until either side ends it."""
+    if not fleet.knows(flight_id):
+        await websocket.close()  # before it is accepted: the browser gets 403
+        return
+    flight = fleet.find(flight_id)
+    try:
+        await _relay(websocket, flight)
+    finally:
+        await flight.leave_scene()
+
+
+async def _relay(websocket: WebSocket, flight: Airborne) -> None:
+    port = await flight.enter_scene()
+    offered = [Subprotocol(name) for name in websocket.scope["subprotocols"]]
+    try:
+        scene = await connect(
+            f"ws://127.0.0.1:{port}",
+            subprotocols=offered or None,
+            compression=None,
+            max_size=None,
+            ping_interval=None,
+            proxy=None,
+        )
+    except (OSError, WebSocketException):
+        await websocket.close()
+        return
+    try:
+        await websocket.accept(scene.subprotocol)
+        downward = asyncio.create_task(_to_browser(scene, websocket))
+        upward = asyncio.create_task(_to_scene(websocket, scene))
+        try:
+            done, _ = await asyncio.wait((downward, upward), return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            downward.cancel()
+            upward.cancel()
+        for task in done:
+            task.result()  # a mistake of ours in there is raised here
+    finally:
+        await scene.close()
+
+
+async def _to_browser(scene: ClientConnection, websocket: WebSocket) -> None:
+    try:
+        async for message in scene:
+            if isinstance(message, bytes):
+                await websocket.send_bytes(message)
+            else:
+                await websocket.send_text(message)
+    except WebSocketDisconnect:
+        return
+    except ConnectionClosed:
+        pass
+    if websocket.application_state is WebSocketState.CONNECTED:
+        code = scene.close_code if scene.close_code in (1000, 1001, 1002) else 1001
+        with suppress(WebSocketDisconnect):
+            await websocket.close(code, scene.close_reason or "")
+
+
+async def _to_scene(websocket: WebSocket, scene: ClientConnection) -> None:
+    try:
+        while True:
+            event = await websocket.receive()
+            if event["type"] == "websocket.disconnect":
+                return
+            message = event.get("bytes") or b""
+            if not may_pass(message):
+                await websocket.close(*NOT_PASSED_ON)
+                return
+            await scene.send(message)
+    except ConnectionClosed:
+        pass
+
+
+def may_pass(message: bytes) -> bool:
+    """Whether a browser's message is passed on, judged by viser's own decoder."""
+    try:
+        content = msgspec.msgpack.decode(message)
+    except msgspec.DecodeError:
+        return False
+    return isinstance(content, dict) and content.get("type") in PASSED_ON
+
+
+@cache
+def _client_page() -> tuple[bytes, bytes, str]:
+    # Found without importing viser: the page of the cockpit need not wait for that.
+    viser = find_spec("viser")
+    assert viser is not None
+    assert viser.origin is not None
+    html = (Path(viser.origin).parent / "client" / "build" / "index.html").read_bytes()
+    return html, gzip.compress(html, 9), f'"{sha256(html).hexdigest()[:20]}"'

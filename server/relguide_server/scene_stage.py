@@ -1,0 +1,68 @@
+"""The thread that draws a flight in 3D, for as long as somebody looks."""
+
+import asyncio
+import threading
+from collections.abc import Sequence
+
+import rich
+
+from relguide.flying.documents import Document
+from relguide_server.errors import survives
+from relguide_server.inbox import Inbox
+
+
+class SceneStage:
+    """One viser server and its thread. Made, fed and closed on the event loop."""
+
+    def __init__(self, name: str, past: Sequence[Document]) -> None:
+        self._name = name
+        self._loop = asyncio.get_running_loop()
+        self._port: asyncio.Future[int] = self._loop.create_future()
+        self._inbox = Inbox()
+        self._past = list(past)
+        self._thread = threading.Thread(target=self._run, name=f"scene {name}", daemon=True)
+        self._thread.start()
+
+    def offer(self, documents: Sequence[Document]) -> None:
+        """Draw these soon; a sample that comes too late for the eye is left out."""
+        for document in documents:
+            self._inbox.put(document)
+
+    async def port(self) -> int:
+        """Where its viser server listens, once the first picture is drawn; 0 if it never will."""
+        return await asyncio.shield(self._port)
+
+    async def close(self) -> None:
+        """Take the scene down; whoever still looks sees the connection close."""
+        self._inbox.close()
+        await asyncio.to_thread(self._thread.join, 5.0)
+        if not self._port.done():
+            self._port.set_result(0)
+
+    def _run(self) -> None:
+        if not survives(f"The 3D scene of flight {self._name}", self._draw_all):
+            self._answer(0)
+
+    def _draw_all(self) -> None:
+        # Imported here because it takes a third of a second that the page need not wait for.
+        from viser import ViserServer
+
+        from relguide_server.scene import Scene
+
+        rich.get_console().quiet = True  # viser says goodbye there each time a scene closes
+        server = ViserServer(host="127.0.0.1", port=0, verbose=False)
+        try:
+            scene = Scene(server)
+            scene.draw(self._past)
+            self._answer(server.get_port())
+            while documents := self._inbox.wait():
+                scene.draw(documents)
+        finally:
+            server.stop()
+
+    def _answer(self, port: int) -> None:
+        def settle() -> None:
+            if not self._port.done():
+                self._port.set_result(port)
+
+        self._loop.call_soon_threadsafe(settle)

@@ -1,0 +1,126 @@
+"""Contacts are tangent; rides keep their distance, whatever the leader does meanwhile."""
+
+from math import acos, cos, hypot, inf, pi, sin
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from relguide.kernels.contact.boundary_arc import MAX_NODES, ride_arrival, ride_pieces
+from relguide.kernels.contact.contact import (
+    contact_at,
+    contact_exists,
+    contact_heading,
+    ride_rates,
+    ride_way,
+    ride_within,
+)
+from relguide.kernels.contact.tangent import tangent_contacts
+from relguide.kernels.separation.clearance import fly_rate, leader_at
+from tests.situations import headings, numbers
+
+sides = st.sampled_from([1.0, -1.0])
+turn_rates = numbers(-0.5, 0.5)
+
+
+@given(bearing=headings, side=sides, alpha=numbers(0.3, 1.4))
+def test_a_contact_is_tangent(bearing: float, side: float, alpha: float) -> None:
+    assume(contact_exists(bearing, alpha))
+    heading = contact_heading(bearing, side, alpha)
+    vx, vy = cos(heading) - alpha, sin(heading)
+    assert vx * cos(bearing) + vy * sin(bearing) == pytest.approx(0.0, abs=1e-7)
+    assume(abs(alpha * cos(bearing)) < 0.999)
+    around = vy * cos(bearing) - vx * sin(bearing)
+    assert ride_rates(bearing, side, alpha, 2.0, 0.0)[0] == pytest.approx(around / 2.0)
+
+
+@given(bearing=headings, side=sides, alpha=numbers(0.3, 1.3), turning=turn_rates)
+def test_a_ride_turns_as_fast_as_the_contact_heading_does(
+    bearing: float, side: float, alpha: float, turning: float
+) -> None:
+    assume(abs(alpha * cos(bearing)) < 0.99)
+    round_it, rate = ride_rates(bearing, side, alpha, 2.0, turning)
+    step = 1e-6
+    turned = contact_heading(bearing + round_it * step, side, alpha)
+    turned -= contact_heading(bearing - round_it * step, side, alpha)
+    assert rate == pytest.approx(turning + turned / (2.0 * step), abs=1e-4)
+
+
+@given(bearing=headings, side=sides, alpha=numbers(0.3, 0.95), turning=turn_rates)
+def test_a_ride_takes_as_long_as_its_rate_says(
+    bearing: float, side: float, alpha: float, turning: float
+) -> None:
+    way = ride_way(bearing, side, alpha, 3.0, turning)
+    assume(way != 0.0)
+    goal = bearing + 0.3 * way
+    reached, took = ride_within(bearing, goal, side, alpha, 3.0, turning, inf)
+    assume(took < inf)
+    assert reached == goal
+    b, steps = bearing, 4_000
+    for _ in range(steps):  # the midpoint rule, as something else than Simpson's
+        half = b + 0.5 * took / steps * ride_rates(b, side, alpha, 3.0, turning)[0]
+        b += took / steps * ride_rates(half, side, alpha, 3.0, turning)[0]
+    assert b == pytest.approx(goal, abs=1e-5)
+    # with half the time, about half the way
+    reached, took_half = ride_within(bearing, goal, side, alpha, 3.0, turning, 0.5 * took)
+    assert took_half == 0.5 * took
+    assert 0.0 < (reached - bearing) * way < 0.3
+
+
+LEADER = np.array(
+    [[0.0, 0.0, 0.0, 0.4, 0.0], [2.0, 0.0, 0.0, 0.4, -0.3], [4.0, 0.0, 0.0, 0.0, 0.0]]
+)
+"""Straight, a right turn, straight again; the rows' poses are filled in below."""
+
+
+def flown_leader(alpha: float) -> np.ndarray:
+    leader = LEADER.copy()
+    for i in (1, 2):
+        leader[i, 1:4] = leader_at(leader, i - 1, alpha, leader[i, 0])
+    return leader
+
+
+@given(bearing=headings, side=sides, alpha=numbers(0.4, 1.2), length=numbers(0.2, 2.5))
+def test_the_arcs_of_a_ride_keep_their_distance(
+    bearing: float, side: float, alpha: float, length: float
+) -> None:
+    leader, delta, begin = flown_leader(alpha), 3.0, 1.0
+    assume(contact_exists(bearing, alpha))
+    way = ride_way(bearing, side, alpha, delta, 0.0)
+    goal = bearing + way * length
+    arrival = ride_arrival(leader, begin, bearing, goal, side, alpha, delta)
+    assume(way != 0.0 and arrival < inf)
+    x, y, h = contact_at(leader, begin, bearing, side, alpha, delta)
+    arcs = np.empty((2 * MAX_NODES, 2))
+    n, ex, ey, eh, et = ride_pieces(x, y, h, begin, leader, alpha, delta, side, bearing, goal, arcs)
+    assert et == pytest.approx(arrival, abs=1e-4)
+    gx, gy, gh = contact_at(leader, et, goal, side, alpha, delta)
+    assert hypot(ex - gx, ey - gy) < 1e-5
+    assert cos(eh - gh) > 1.0 - 1e-12
+    t = begin
+    for duration, rate in arcs[:n]:
+        assert abs(rate) < 1.0 + 1e-3
+        for part in (0.5, 1.0):
+            px, py, _ = fly_rate(x, y, h, rate, part * duration)
+            i = int(np.searchsorted(leader[:, 0], t + part * duration, side="right")) - 1
+            lx, ly, _ = leader_at(leader, i, alpha, t + part * duration)
+            assert hypot(px - lx, py - ly) == pytest.approx(delta, abs=1e-6)
+        x, y, h = fly_rate(x, y, h, rate, duration)
+        t += duration
+
+
+def test_where_the_leader_is_faster_some_bearings_cannot_be_touched() -> None:
+    assert not contact_exists(0.0, 1.2)
+    assert contact_exists(acos(1.0 / 1.2) + 1e-9, 1.2)
+    assert ride_way(0.0, 1.0, 1.2, 2.0, 0.0) == 0.0
+
+
+def test_tangent_contacts_touch() -> None:
+    found = np.empty((32, 3))
+    n = tangent_contacts(6.0, 1.0, 2.5, 0.8, 2.0, found)
+    assert n >= 2
+    for bearing, side, time in found[:n]:
+        assert 0.0 <= bearing < 2.0 * pi
+        assert side in (1.0, -1.0)
+        assert time > 0.0

@@ -1,0 +1,111 @@
+"""Paths that arrive as the slot opens: what the cheap tests leave out is not there."""
+
+from math import cos, pi, sin
+
+import numpy as np
+import pytest
+
+from relguide.kernels.contact.passage import pieces_clear
+from relguide.kernels.maps.final_leg import keeps_clear
+from relguide.kernels.maps.release import opening_clears, reaches
+from relguide.kernels.words.delay import HOLD_PIECES, MAX_HOLDS, holds, word_to_point
+from relguide.kernels.words.extremals import SIGNS, fly_piece
+from tests.relguide.kernels.maps.test_final_leg import turning
+
+PIECE, ROW = np.empty(3), np.empty(5)
+
+
+def ends(
+    x: float, y: float, h: float, signs: np.ndarray, amounts: np.ndarray
+) -> tuple[float, float, float]:
+    """The place and the heading, within (−π, π], where pieces end."""
+    for sign, amount in zip(signs, amounts, strict=True):
+        x, y, h = fly_piece(x, y, h, sign, amount)
+    return x, y, float(np.angle(np.exp(1j * h)))
+
+
+@pytest.mark.parametrize("length", [0.5, 3.0, 9.0])
+def test_it_reaches_what_one_of_the_words_reaches(length: float) -> None:
+    rng = np.random.default_rng(int(2.0 * length))
+    end_x = 0.8 * length
+    said = []
+    for x, y, h in rng.uniform(
+        (end_x - length, -length, 0.0), (end_x + length, length, 2.0 * pi), (4000, 3)
+    ).tolist():
+        ways = [word_to_point(x, y, h, end_x, branch, PIECE) for branch in range(6)]
+        shortest = min(way for way in ways if way >= 0.0)
+        found = reaches(x, y, h, sin(h), cos(h), end_x, length, PIECE)
+        assert found == (shortest <= length), (x, y, h)
+        # and to the last digit, where a bound that is not one would show
+        assert reaches(x, y, h, sin(h), cos(h), end_x, shortest, PIECE), (x, y, h)
+        said.append(found)
+    assert 0.0 < np.mean(said) < 1.0
+
+
+@pytest.mark.parametrize("h", [0.0, 0.5 * pi, pi, 1.5 * pi])
+@pytest.mark.parametrize("x", [-4.0, -2.0, 0.0, 1.0, 2.0])
+@pytest.mark.parametrize("y", [-2.0, -1.0, 0.0, 2.0])
+def test_on_the_axes_and_at_round_angles_too(x: float, y: float, h: float) -> None:
+    ways = [word_to_point(x, y, h, 0.0, branch, PIECE) for branch in range(6)]
+    shortest = min(way for way in ways if way >= 0.0)
+    assert reaches(x, y, h, sin(h), cos(h), 0.0, shortest, PIECE)
+    assert not reaches(x, y, h, sin(h), cos(h), 0.0, shortest - 1e-6, PIECE)
+
+
+@pytest.mark.parametrize("limit", [0.3, 1.45])
+def test_a_path_that_clears_is_one_of_the_many_families(limit: float) -> None:
+    rng = np.random.default_rng(5)
+    alpha, opens = 0.83, 2.5
+    leader = turning(alpha)
+    signs = np.empty((MAX_HOLDS, HOLD_PIECES))
+    amounts = np.empty((MAX_HOLDS, HOLD_PIECES))
+    said, same = [], []
+    for x, y, h in rng.uniform((-0.5, -1.2, -1.0), (1.5, 1.2, 1.0), (4000, 3)).tolist():
+        h %= 2.0 * pi
+        if not reaches(x, y, h, sin(h), cos(h), alpha * opens, opens, PIECE):
+            continue
+        found = opening_clears(x, y, h, sin(h), cos(h), alpha, opens, leader, limit, PIECE, ROW)
+        n = holds(x, y, h, alpha, opens, signs, amounts)
+        turns = np.count_nonzero(signs[:n, 1:4], axis=1) == 2
+        before = (signs[:n, 0] == 0.0) & (amounts[:n, 4] == 0.0) & turns
+        behind = (signs[:n, 0] == 0.0) & (amounts[:n, 0] == 0.0) & turns
+        simple = [
+            pieces_clear(x, y, h, 0.0, signs[i], amounts[i], leader, alpha, limit)
+            for i in np.flatnonzero(before | behind)
+        ]
+        if found:
+            straight, word = [opens - ROW[0]], ROW[2:].tolist()
+            word_signs = SIGNS[int(ROW[1])].tolist()
+            assert any(
+                ends(x, y, h, *pieces) == pytest.approx((alpha * opens, 0.0, 0.0), abs=1e-6)
+                and pieces_clear(x, y, h, 0.0, *pieces, leader, alpha, limit)
+                for pieces in (
+                    (np.array([0.0, *word_signs]), np.array(straight + word)),
+                    (np.array([*word_signs, 0.0]), np.array(word + straight)),
+                )
+            ), (x, y, h)
+        said.append(found)
+        same.append(found == any(simple))
+    assert len(said) > 300
+    assert 0.0 < np.mean(said) < 0.95
+    # where a turn jumps by 2π another path may be found, or none; a grid of amounts may miss some
+    assert np.mean(same) > 0.9
+
+
+def test_a_word_that_begins_later_is_flown_later() -> None:
+    alpha, t, longest = 0.83, 0.7, np.zeros(2)
+    leader = turning(alpha)
+    rng = np.random.default_rng(6)
+    said = []
+    for x, y, h, end_x in rng.uniform((-5.0, -4.0, 0.0, 0.0), (4.0, 4.0, 6.28, 4.0), (3000, 4)):
+        for branch in range(4):
+            way = word_to_point(x, y, h, end_x, branch, PIECE)
+            if way < 0.0:
+                continue
+            row = np.array((way, branch, *PIECE))
+            clears = keeps_clear(
+                x, y, h, sin(h), cos(h), t, row, end_x, leader, alpha, 1.2, longest
+            )
+            assert clears == pieces_clear(x, y, h, t, SIGNS[branch], PIECE, leader, alpha, 1.2)
+            said.append(clears)
+    assert 0.1 < np.mean(said) < 0.95

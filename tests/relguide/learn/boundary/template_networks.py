@@ -1,0 +1,31 @@
+"""Labels where the limit binds and a small network of them, trained in seconds, for the tests."""
+
+from functools import cache
+
+from relguide.learn.boundary.template_labels import (
+    LimitBox,
+    LimitLabels,
+    LimitRequest,
+    joined,
+    limit_chunk,
+)
+from relguide.learn.boundary.template_network import WayNetwork
+from relguide.learn.boundary.train_templates import train_ways
+from relguide.learn.training.options import NetworkShape, TrainingOptions
+
+REQUEST = LimitRequest(count=1500, seed=5, chunk=500)
+OPTIONS = TrainingOptions(
+    shape=NetworkShape(width=48, depth=2), epochs=25, batch=64, threads=1, device="cpu"
+)
+
+
+@cache
+def labels() -> LimitLabels:
+    return joined({number: limit_chunk(REQUEST, number) for number in range(REQUEST.chunks)})
+
+
+@cache
+def ways() -> WayNetwork:
+    """Trained from scratch; right in more than half of the labels it has not seen."""
+    *_, last = train_ways(labels(), OPTIONS, box=LimitBox(), about={"seed": REQUEST.seed})
+    return last.network
