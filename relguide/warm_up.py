@@ -165,10 +165,10 @@ def _network() -> None:
     from numpy.random import default_rng
 
     from relguide.learn.audits.branch_judging import audit_request, judge_chunk, latencies
-    from relguide.learn.audits.template_bound import way_latencies
-    from relguide.learn.audits.template_judging import judge_way_chunk, way_request
+    from relguide.learn.audits.template_bound import template_latencies
+    from relguide.learn.audits.template_judging import judge_template_chunk, template_request
     from relguide.learn.boundary.template_labels import LimitRequest, later, limit_chunk
-    from relguide.learn.boundary.template_network import load_way_network, way_features_of
+    from relguide.learn.boundary.template_network import load_template_network, template_features_of
     from relguide.learn.boundary.train_templates import taught
     from relguide.learn.network_planner import network_planner
     from relguide.learn.words.branch_labels import LabelRequest, label_chunk
@@ -179,14 +179,14 @@ def _network() -> None:
     for situation in (_situation(-40e3, 40e3, 90.0), *LIMITED):
         planner(situation)
     limited = limit_chunk(LimitRequest(count=10), 0)
-    way_features_of(limited.situations)
+    template_features_of(limited.situations)
     taught(later(limited.ways, default_rng(0)))
     features_of(label_chunk(LabelRequest(count=10), 0).situations)
     judge_chunk(network, audit_request(network, 10, 1), 0)
     latencies(network, audit_request(network, 10, 1))
-    ways = load_way_network()
-    judge_way_chunk(ways, network, way_request(ways, 10, 1), 0)
-    way_latencies(ways, limited.situations)
+    ways = load_template_network()
+    judge_template_chunk(ways, network, template_request(ways, 10, 1), 0)
+    template_latencies(ways, limited.situations)
 
 
 def _flight() -> None:
@@ -245,7 +245,9 @@ LIMITED = (
         wind=Wind(east=2.52, north=3.99),
     ),
 )
-"""Where d_min is touched: once, while the leader turns, along a ride, before the slot opens."""
+"""Where d_min is touched: once, while the leader turns, along a boundary arc, before the slot
+opens.
+"""
 
 if __name__ == "__main__":
     main()

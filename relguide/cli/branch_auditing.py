@@ -23,7 +23,7 @@ from relguide.learn.tree.nearest import lookup_in
 from relguide.learn.tree.regular_network import load_regular, shipped
 from relguide.learn.tree.reverse_dp import grow_order, planted, tree_from
 from relguide.learn.tree.tree import Tree, TreeParameters
-from relguide.learn.words.branch_network import StrategyNetwork, load_network
+from relguide.learn.words.branch_network import BranchNetwork, load_network
 from relguide.planning.progress import progress_bar, watched
 from relguide.units import DEG
 
@@ -97,7 +97,7 @@ def audit_network(
         _print_methods(ground, methods)
 
 
-def _beside(network: StrategyNetwork, count: int, seed: int) -> tuple[Ground, list[Method]]:
+def _beside(network: BranchNetwork, count: int, seed: int) -> tuple[Ground, list[Method]]:
     """Draw the ground, grow the tree, and judge all on it."""
     regressions = [load_regular(shipped(method)) for method in ("paper", "direct")]
     parameters = regressions[0].parameters
@@ -179,7 +179,7 @@ def _print_gaps(audit: Audit) -> None:
         shown.add_row(*_gap_row(miss))
     print_table(shown)
     write(
-        "A gap is explained where the fastest strategy is born, or another becomes the fastest, "
+        "A gap is explained where the fastest branch is born, or another becomes the fastest, "
         "within\n0.02 R or rad of place and heading.\n"
     )
 
@@ -221,9 +221,9 @@ def _column(method: Method) -> dict[str, str]:
     low, high = method.right.interval
     gaps = [short(100.0 * gap) for gap in method.gaps]
     return {
-        "fastest strategy named, %": percent(method.right),
+        "fastest branch named, %": percent(method.right),
         "  95 % interval": f"{100.0 * low:.2f}–{100.0 * high:.2f}",
-        "strategies held": f"{method.mean_set:.2f}",
+        "branches held": f"{method.mean_set:.2f}",
         **_flown(method),
         "solved: the fastest path, %": percent(method.fastest, 3),
         "  gap, %, 50 / 99 %": " / ".join(gaps[:2]),

@@ -13,7 +13,7 @@ from typing import TypeVar
 import numpy as np
 
 from relguide.cli.output import PROGRAM, provenance, say, write, write_json
-from relguide.kernels.words.branches import STRATEGIES
+from relguide.kernels.words.branches import BRANCHES
 from relguide.learn.training.fitting import Epoch, told
 from relguide.learn.training.options import command_of, options_of
 from relguide.learn.tree.regular_network import save_regular
@@ -58,14 +58,14 @@ def make_label_file(
         labels = joined(collected(make_labels(request, pool), request, "labelling"))
     seconds = perf_counter() - started
     save_labels(labels, request, provenance("exact", command=command), file)
-    counts = np.bincount(labels.best, minlength=len(STRATEGIES)).tolist()
+    counts = np.bincount(labels.best, minlength=len(BRANCHES)).tolist()
     figures = {
         "file": str(file),
         "labels": len(labels),
         "sources": dict(
             zip(SOURCES, np.bincount(labels.sources, minlength=len(SOURCES)).tolist(), strict=True)
         ),
-        "fastest": dict(zip(STRATEGIES, counts, strict=True)),
+        "fastest": dict(zip(BRANCHES, counts, strict=True)),
         "held_out": {
             name: int(inside.sum()) for name, inside in held_out(labels.situations).items()
         },
@@ -77,10 +77,10 @@ def make_label_file(
         return
     shares = ", ".join(
         f"{name} {100.0 * count / len(labels):.1f} %"
-        for name, count in zip(STRATEGIES, counts, strict=True)
+        for name, count in zip(BRANCHES, counts, strict=True)
     )
     write(
-        f"{file}: {len(labels):,} situations with the exact time of each strategy, made in "
+        f"{file}: {len(labels):,} situations with the exact time of each branch, made in "
         f"{seconds:.1f} s; {file.stat().st_size / 1e6:.0f} MB.\nFastest: {shares}.\n"
     )
 
@@ -98,7 +98,7 @@ def train_network(chosen: argparse.Namespace) -> None:
     about = last.network.about
     write(
         f"{chosen.weights}: the best of {last.number} epochs is the {last.best}., with "
-        f"{100.0 * about['validation_accuracy']:.3f} % of the fastest strategies right in labels "
+        f"{100.0 * about['validation_accuracy']:.3f} % of the fastest branches right in labels "
         f"not trained on,\nmost of them rare or next to a switching surface. "
         f"{perf_counter() - started:.0f} s on {about['device']}, "
         f"{chosen.weights.stat().st_size / 1e3:.0f} kB. relguide audit "

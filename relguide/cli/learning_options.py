@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 METHODS = ("reverse-dp", "exact", "limit")
 """How a data set is made."""
-TAUGHT = ("strategies", "ways", "paper", "direct")
+TAUGHT = ("branches", "ways", "paper", "direct")
 """What a network is taught."""
 LABELS, LIMIT_LABELS = 1_200_000, 400_000
 """How many labels are made: one to two minutes, and half an hour to an hour."""
@@ -130,7 +130,7 @@ def _add_network(add_command: AddCommand) -> None:
         "--method",
         choices=TAUGHT,
         default=TAUGHT[0],
-        help="strategies, ways: from LABELS.npz of --method exact, limit; paper: the tree's "
+        help="branches, ways: from LABELS.npz of --method exact, limit; paper: the tree's "
         "(ε, θ, l), from a TREE.npz in its place; direct: the exact ones from the tree's states; "
         "default: %(default)s",
     )
@@ -169,7 +169,7 @@ def _add_network(add_command: AddCommand) -> None:
         "--beside",
         metavar="N",
         type=_count,
-        help="strategies: situations to judge it in beside the paper's network, the nearest way "
+        help="branches: situations to judge it in beside the paper's network, the nearest way "
         f"of its tree and direct regression; 0: none; default: {BESIDE}",
     )
     audit.add_argument("--figures", metavar="FOLDER", type=Path, help="draw what is found, as .svg")
@@ -290,9 +290,9 @@ def _limit_labels(chosen: argparse.Namespace) -> int:
 
 def _train(chosen: argparse.Namespace) -> int:
     if chosen.method == "ways":
-        from relguide.cli.template_training import train_way_network
+        from relguide.cli.template_training import train_template_network
 
-        train_way_network(chosen)
+        train_template_network(chosen)
         return 0
     from relguide.cli.branch_training import train_network, train_regular_network
 
@@ -305,7 +305,7 @@ def _train(chosen: argparse.Namespace) -> int:
 
 def _audit(chosen: argparse.Namespace) -> int:
     if chosen.method == "ways":
-        return _audit_ways(chosen)
+        return _audit_templates(chosen)
     from relguide.cli.branch_auditing import audit_network
 
     audit_network(
@@ -321,12 +321,12 @@ def _audit(chosen: argparse.Namespace) -> int:
     return 0
 
 
-def _audit_ways(chosen: argparse.Namespace) -> int:
-    from relguide.cli.template_auditing import audit_way_network
+def _audit_templates(chosen: argparse.Namespace) -> int:
+    from relguide.cli.template_auditing import audit_template_network
 
     if chosen.beside is not None:
-        raise ValueError("Nothing else is taught ways: --beside is for --method strategies.")
-    audit_way_network(
+        raise ValueError("Nothing else is taught ways: --beside is for --method branches.")
+    audit_template_network(
         chosen.weights,
         count=LIMIT_AUDITED if chosen.count is None else chosen.count,
         seed=chosen.seed,

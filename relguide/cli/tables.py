@@ -70,10 +70,10 @@ def print_optimality(check: OptimalityCheck) -> None:
         console.print(
             f"At {clock(contact.t)} it touches d_min: λ_d rises by {contact.jump:.2e} s/m."
         )
-    for ride in check.rides:
+    for boundary_arc in check.boundary_arcs:
         console.print(
-            f"From {clock(ride.start)} to {clock(ride.end)} it rides along d_min: "
-            f"μ is {ride.least_multiplier:.1e} /m or more."
+            f"From {clock(boundary_arc.start)} to {clock(boundary_arc.end)} it slides along d_min: "
+            f"μ is {boundary_arc.least_multiplier:.1e} /m or more."
         )
 
 

@@ -13,20 +13,20 @@ from relguide.learn.audits.template_audit import (
     WORTH,
     Late,
     Reason,
-    WayAudit,
-    WayGroup,
-    WayMiss,
-    way_audit_as_json,
-    way_audit_of,
+    TemplateAudit,
+    TemplateGroup,
+    TemplateMiss,
+    template_audit_as_json,
+    template_audit_of,
 )
-from relguide.learn.audits.template_bound import way_latencies
+from relguide.learn.audits.template_bound import template_latencies
 from relguide.learn.audits.template_judging import (
-    WayJudged,
-    joined_ways,
-    judged_ways,
-    way_request,
+    TemplateJudged,
+    joined_templates,
+    judged_templates,
+    template_request,
 )
-from relguide.learn.boundary.template_network import load_way_network
+from relguide.learn.boundary.template_network import load_template_network
 from relguide.learn.words.branch_network import load_network
 from relguide.planning.progress import progress_bar
 
@@ -44,7 +44,7 @@ _SAID: dict[Reason, str] = {
 }
 
 
-def audit_way_network(
+def audit_template_network(
     file: Path | None,
     *,
     count: int,
@@ -69,23 +69,23 @@ def audit_way_network(
     if figures is not None:
         figures.mkdir(parents=True, exist_ok=True)
         check_figure(figures / "audit.svg")
-    ways = load_way_network() if file is None else load_way_network(file)
+    ways = load_template_network() if file is None else load_template_network(file)
     network = load_network()
-    request = way_request(ways, count, seed)
-    chunks: dict[int, WayJudged] = {}
+    request = template_request(ways, count, seed)
+    chunks: dict[int, TemplateJudged] = {}
     with (
         workers(threads, scheduler) as pool,
         progress_bar("auditing", total=request.chunks) as advance,
     ):
-        for number, chunk in judged_ways(ways, network, request, pool):
+        for number, chunk in judged_templates(ways, network, request, pool):
             chunks[number] = chunk
             advance(1.0)
-    audit = way_audit_of(chunks)
-    asked = way_latencies(ways, joined_ways(chunks).bound.situations)
+    audit = template_audit_of(chunks)
+    asked = template_latencies(ways, joined_templates(chunks).bound.situations)
     if figures is not None:
-        from relguide.figures.template_figure import draw_way_audit
+        from relguide.figures.template_figure import draw_template_audit
 
-        draw_way_audit(audit, figures)
+        draw_template_audit(audit, figures)
     if as_json:
         latency = {name: {"p50_us": low, "p99_us": high} for name, (low, high) in asked.items()}
         about = {
@@ -97,7 +97,7 @@ def audit_way_network(
             "r_per_v_s": UNIT,
             "network": ways.about,
         }
-        write_json(about | way_audit_as_json(audit) | {"latency": latency})
+        write_json(about | template_audit_as_json(audit) | {"latency": latency})
         return
     _print_named(audit)
     _print_late(audit)
@@ -110,7 +110,7 @@ def audit_way_network(
     _print_gaps(audit)
 
 
-def _print_named(audit: WayAudit) -> None:
+def _print_named(audit: TemplateAudit) -> None:
     """How often the right kind is named, and held possible."""
     write("Where the limit binds: how often the first choice is the fastest way.\n")
     shown = table("situations")
@@ -120,7 +120,7 @@ def _print_named(audit: WayAudit) -> None:
     _print_groups(audit, shown, _named_row)
 
 
-def _print_late(audit: WayAudit) -> None:
+def _print_late(audit: TemplateAudit) -> None:
     """How much later than the fastest way what is answered arrives."""
     write(
         "Of what is answered: how much longer it takes than the fastest way, in % of that; later "
@@ -139,7 +139,7 @@ def _print_late(audit: WayAudit) -> None:
 
 
 def _print_groups(
-    audit: WayAudit, shown: "Table", cells: Callable[[WayGroup], tuple[str, ...]]
+    audit: TemplateAudit, shown: "Table", cells: Callable[[TemplateGroup], tuple[str, ...]]
 ) -> None:
     """A row a source, and below a row a kind."""
     for groups in (audit.groups, audit.kinds):
@@ -149,7 +149,7 @@ def _print_groups(
     print_table(shown)
 
 
-def _named_row(group: WayGroup) -> tuple[str, ...]:
+def _named_row(group: TemplateGroup) -> tuple[str, ...]:
     return (
         f"{group.size:,}", with_interval(group.named), percent(group.covered),
         f"{group.mean_set:.2f}", percent(group.late.answered),
@@ -166,7 +166,7 @@ def _none(late: Late) -> str:
     return f"{late.invented.hits:,} of {late.invented.of:,}"
 
 
-def _print_everywhere(audit: WayAudit) -> None:
+def _print_everywhere(audit: TemplateAudit) -> None:
     """The networks together, the limit included."""
     write(
         "All situations, the limit included: the first choice of the network that is for it, what "
@@ -185,7 +185,7 @@ def _print_everywhere(audit: WayAudit) -> None:
     print_table(shown)
 
 
-def _print_gaps(audit: WayAudit) -> None:
+def _print_gaps(audit: TemplateAudit) -> None:
     """The gaps above 0.1 % where the limit binds, and why."""
     write(
         f"Slower than the fastest way by more than {100.0 * WORTH:g} %: {audit.worth.hits:,} of "
@@ -198,7 +198,7 @@ def _print_gaps(audit: WayAudit) -> None:
     _print_misses(audit.misses[:LARGEST])
 
 
-def _print_misses(misses: Sequence[WayMiss]) -> None:
+def _print_misses(misses: Sequence[TemplateMiss]) -> None:
     shown = table("gap, %", right=True)
     shown.add_column("late, R/V_P", justify="right", no_wrap=True)
     shown.add_column("fastest", no_wrap=True)

@@ -8,7 +8,7 @@ import numpy as np
 
 from relguide.cli.branch_training import last_epoch, workers
 from relguide.cli.output import PROGRAM, provenance, write, write_json
-from relguide.kernels.networks.templates import KINDS, NONE
+from relguide.kernels.networks.templates import NONE, TEMPLATES
 from relguide.learn.boundary.template_label_file import grown_labels, save_limit_labels
 from relguide.learn.boundary.template_labels import SOURCES, LimitLabels, LimitRequest, joined
 from relguide.learn.boundary.train_templates import run, taught
@@ -52,14 +52,14 @@ def make_limit_label_file(
     save_limit_labels(labels, request, provenance("limit", command=command), file)
     part.unlink()
     kinds, _ = taught(labels.ways)
-    counts = np.bincount(kinds, minlength=len(KINDS)).tolist()
+    counts = np.bincount(kinds, minlength=len(TEMPLATES)).tolist()
     sources = np.bincount(labels.sources, minlength=len(SOURCES)).tolist()
     if as_json:
         figures = {
             "file": str(file),
             "labels": len(labels),
             "sources": dict(zip(SOURCES, sources, strict=True)),
-            "fastest": dict(zip(KINDS, counts, strict=True)),
+            "fastest": dict(zip(TEMPLATES, counts, strict=True)),
             "made_s": seconds,
             "file_bytes": file.stat().st_size,
         }
@@ -68,7 +68,9 @@ def make_limit_label_file(
     there = len(labels) - counts[NONE]
     order = np.argsort(counts)[::-1].tolist()
     commonest = [kind for kind in order if kind != NONE][:6]
-    shares = ", ".join(f"{KINDS[kind]} {100.0 * counts[kind] / there:.1f} %" for kind in commonest)
+    shares = ", ".join(
+        f"{TEMPLATES[kind]} {100.0 * counts[kind] / there:.1f} %" for kind in commonest
+    )
     write(
         f"{file}: {len(labels):,} situations in which the limit binds, {there:,} of them with a "
         f"way, made in {seconds:.0f} s; {file.stat().st_size / 1e6:.0f} MB.\n"
@@ -76,7 +78,7 @@ def make_limit_label_file(
     )
 
 
-def train_way_network(chosen: argparse.Namespace) -> None:
+def train_template_network(chosen: argparse.Namespace) -> None:
     """Train a network of ways round the limit, write it and print how good it is.
 
     Args:

@@ -25,7 +25,7 @@ SEARCHED = (
     "bound."
 )
 ASKED = (
-    "Where a network of strategies is sure of the word, that word alone was solved, exactly: the "
+    "Where a network of branches is sure of the word, that word alone was solved, exactly: the "
     "time is that of a plan, seldom not the least; such nodes are counted as limited, with the "
     "time of a straight line as their bound. Elsewhere all words were."
 )

@@ -18,7 +18,7 @@ from relguide.figures.panels import (
     two_panels,
     written,
 )
-from relguide.kernels.words.branches import STRATEGIES
+from relguide.kernels.words.branches import BRANCHES
 from relguide.learn.audits.branch_audit import Audit, Group
 from relguide.learn.audits.side_by_side import Method
 from relguide.learn.training.shares import Share
@@ -52,9 +52,9 @@ def draw_audit(
 
 
 def _accuracy(audit: Audit, methods: Sequence[Method], least_share: float) -> "Figure":
-    """How often the fastest strategy is the first choice, by group and by strategy."""
+    """How often the fastest branch is the first choice, by group and by branch."""
     del least_share
-    figure, (left, right) = two_panels("How often the fastest strategy is the first choice")
+    figure, (left, right) = two_panels("How often the fastest branch is the first choice")
     groups: list[Group] = [*audit.groups, *audit.classes]
     lines = len(audit.groups), len(groups)
     at = [-(i + (i >= lines[0])) for i in range(lines[1])]
@@ -66,10 +66,10 @@ def _accuracy(audit: Audit, methods: Sequence[Method], least_share: float) -> "F
     left.set_xlim(None, 100.3)
     for k, method in enumerate(methods):
         offset = 0.24 - 0.16 * k
-        places = [-i + offset for i in range(len(STRATEGIES))]
+        places = [-i + offset for i in range(len(BRANCHES))]
         shares_across(right, method.classes, places, COLOURS[k], MARKS[k], method.name)
-    right.set_yticks([-i for i in range(len(STRATEGIES))], STRATEGIES)
-    right.set_title("side by side, one encounter, by fastest strategy", color=INK, fontsize=10)
+    right.set_yticks([-i for i in range(len(BRANCHES))], BRANCHES)
+    right.set_title("side by side, one encounter, by fastest branch", color=INK, fontsize=10)
     right.set_xlabel("right [%], with 95 % interval", color=INK)
     right.set_xlim(40.0, 102.0)
     if methods:
@@ -98,7 +98,7 @@ def _calibration(audit: Audit, methods: Sequence[Method], least_share: float) ->
     logs = np.log([size.least_share for size in audit.sets])
     chosen = float(np.interp(np.log(least_share), logs, sizes))
     right.axvline(chosen, color=FAINT, ls="--", lw=1.0, label="the network's set")
-    right.set_xlabel("strategies in the set, on average", color=INK)
+    right.set_xlabel("branches in the set, on average", color=INK)
     right.set_ylabel("answers [%], 95 % interval", color=INK)
     right.set_title("what a larger set gives, random situations", color=INK, fontsize=10)
     for axes in (left, right):

@@ -1,4 +1,4 @@
-"""draw_way_audit(…): the picture of an audit where the limit binds: accuracy, calibration."""
+"""draw_template_audit(…): the picture of an audit where the limit binds: accuracy, calibration."""
 
 from functools import partial
 from pathlib import Path
@@ -14,7 +14,7 @@ from relguide.figures.panels import (
     two_panels,
     written,
 )
-from relguide.learn.audits.template_audit import WayAudit
+from relguide.learn.audits.template_audit import TemplateAudit
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -25,7 +25,7 @@ RAREST, SUREST = 1e-3, 100.0
 """Ends of the axes of the calibration [%]."""
 
 
-def draw_way_audit(audit: WayAudit, folder: Path) -> list[Path]:
+def draw_template_audit(audit: TemplateAudit, folder: Path) -> list[Path]:
     """Draw an audit.
 
     Args:
@@ -38,7 +38,7 @@ def draw_way_audit(audit: WayAudit, folder: Path) -> list[Path]:
     return written({FILE: partial(_named, audit)}, folder)
 
 
-def _named(audit: WayAudit) -> "Figure":
+def _named(audit: TemplateAudit) -> "Figure":
     """How often the first choice is right, and whether it is as often wrong as it says."""
     figure, (left, right) = two_panels("Where the limit binds: the network of ways")
     groups = [

@@ -22,7 +22,7 @@ from relguide.flying.documents import (
     UnsafeAlternativeCard,
     WindCard,
 )
-from relguide.flying.verdicts import ContactCard, OptimalityCheck, OptimalityPanel, RideCard
+from relguide.flying.verdicts import BoundaryArcCard, ContactCard, OptimalityCheck, OptimalityPanel
 from relguide.planning.alternatives import (
     Alternative,
     AsFast,
@@ -51,7 +51,8 @@ from relguide.planning.trajectory import (
 from relguide.units import G0, Second
 
 VIA: Second = 5.0
-"""Time between the points that draw a ride along d_min [s]: chords stray from it by metres."""
+"""Time between the points that draw a boundary arc along d_min [s]: chords stray from it by metres.
+"""
 
 
 def plan_card(plan: Plan) -> PlanCard:
@@ -91,9 +92,13 @@ def optimality_check(report: OptimalityReport) -> OptimalityCheck:
             ContactCard(t=contact.time, bearing=contact.bearing, jump=contact.jump)
             for contact in report.contacts
         ),
-        rides=tuple(
-            RideCard(start=ride.start, end=ride.end, least_multiplier=ride.least_multiplier)
-            for ride in report.rides
+        boundary_arcs=tuple(
+            BoundaryArcCard(
+                start=boundary_arc.start,
+                end=boundary_arc.end,
+                least_multiplier=boundary_arc.least_multiplier,
+            )
+            for boundary_arc in report.boundary_arcs
         ),
         panel=OptimalityPanel(
             t=along.times,

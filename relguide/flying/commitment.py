@@ -1,7 +1,7 @@
 """Which plan to fly: the committed one, until another is better by a margin or it fails.
 
 The plan is discontinuous in the situation: 100 m may move it by a minute and to the other side.
-Flown as it comes, it would chatter. So the same strategy is solved again from where the aircraft
+Flown as it comes, it would chatter. So the same branch is solved again from where the aircraft
 is, and given up only for a reason.
 """
 
@@ -99,7 +99,7 @@ def choose(
     if committed is not None:
         left = committed.rest_at(t, required)
         overdue = t + left.duration > committed.due + OVERDUE
-        if _as_planned(left, model, overdue=overdue) or _arrives_at_opening(left, required):
+        if _as_planned(left, model, overdue=overdue) or _arrives_at_release(left, required):
             kept = _followed_on(left, committed.plan, required)
             if kept is not None:
                 return Choice(plan=kept, cause="continued", fell_back=False)
@@ -153,7 +153,7 @@ def _solved_again(left: Trajectory, situation: Situation) -> Plan | None:
     found = candidates(situation)
     near = [
         candidate
-        for candidate in (*found.at_opening, *found.later)
+        for candidate in (*found.at_release, *found.later)
         if _same_way(left, candidate.trajectory, 2.0 * SAME_WAY_SHARE)
     ]
     near.sort(key=lambda candidate: _distance_between(left, candidate.trajectory))
@@ -216,13 +216,13 @@ def _as_planned(left: Trajectory, model: AircraftModel, *, overdue: bool) -> boo
     return len(segments) == 1 or (overdue and len(segments) > 1)
 
 
-def _arrives_at_opening(left: Trajectory, situation: Situation) -> bool:
+def _arrives_at_release(left: Trajectory, situation: Situation) -> bool:
     """Whether no plan can be better by the margin."""
     if not situation.leader.intent:
         return left.duration < MARGIN
     frame = slot_frame(situation, situation.leader.trajectory)
-    slot_opens = frame.t_open * frame.radius / situation.pursuer.tas
-    return left.duration < slot_opens + MARGIN
+    slot_release = frame.t_release * frame.radius / situation.pursuer.tas
+    return left.duration < slot_release + MARGIN
 
 
 def _misses(left: Trajectory, situation: Situation) -> Metre:

@@ -65,10 +65,10 @@ class StraightSegment:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BoundarySegment:
-    """A ride along d = d_min with less than full bank."""
+    """A boundary arc along d = d_min with less than full bank."""
 
     side: Direction
-    """The side it turns to: left rides counter-clockwise round the leader."""
+    """The side it turns to: left boundary arcs counter-clockwise round the leader."""
     duration: Second
     start: PathPoint
     end: PathPoint

@@ -26,7 +26,7 @@ ENDS_EVERY: Radian = 30.0 * DEG  # between two ends of a leader's turn a third i
 TURNS_ON: Radian = 180.0 * DEG  # a leader who turned farther would fly back where he came from
 
 
-class WayOut(NamedTuple):
+class EscapePath(NamedTuple):
     """A heading to fly, and what it keeps."""
 
     heading: Radian
@@ -35,7 +35,7 @@ class WayOut(NamedTuple):
     """Whatever the leader does of what is looked at [m]."""
 
 
-def way_out(
+def escape_path(
     situation: Situation,
     *,
     bank: Radian,
@@ -43,7 +43,7 @@ def way_out(
     keep: Metre,
     leader_turn_rate: RadianPerSecond = 0.0,
     delay: Second = 0.0,
-) -> WayOut:
+) -> EscapePath:
     """The heading nearest to the present one that keeps clear for three minutes.
 
     If none does, the one that stays farthest away.
@@ -67,11 +67,11 @@ def way_out(
     )
     start, _ = kernel_arrays(pursuer.flying(()))
     leader, _ = kernel_arrays(situation.leader.trajectory)
-    side, angle, least = kernel.way_out(
+    side, angle, least = kernel.escape_path(
         start, full, before, leader, _leaders(situation, leader_turn_rate), keep, LOOK_AHEAD
     )
     turned = before[side + 1, 0] * rate + side * angle
-    return WayOut(heading=(pursuer.heading + turned) % (2.0 * pi), least_separation=least)
+    return EscapePath(heading=(pursuer.heading + turned) % (2.0 * pi), least_separation=least)
 
 
 def keeps_clear(seen: Offsets, to_slot: Metre, situation: Situation) -> bool:

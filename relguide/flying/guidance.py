@@ -32,7 +32,7 @@ from relguide.flying.closing import (
     follow,
 )
 from relguide.flying.commitment import Cause, Choice, Commitment, choose
-from relguide.flying.escape import way_out
+from relguide.flying.escape import escape_path
 from relguide.flying.flown_path import path_extended
 from relguide.flying.memory import Advice, Memory, into_mode, is_slot_open
 from relguide.flying.steering import Steering, steer
@@ -205,7 +205,7 @@ def _trapped(
     """
     spare = SEPARATION_BUFFER if memory.mode == "heading" and memory.missing else 0.0
     keep = _buffered(assignment) + spare
-    out = way_out(
+    out = escape_path(
         situation,
         bank=seen.pursuer.bank,
         model=assignment.model,
@@ -231,7 +231,7 @@ def _hold(
 ) -> tuple[Memory, Advice]:
     """Nothing to fly: hold the present heading, or the nearest that keeps clear of the leader."""
     slot = slot_of(situation)
-    out = way_out(
+    out = escape_path(
         situation,
         bank=seen.pursuer.bank,
         model=assignment.model,

@@ -12,7 +12,7 @@ from relguide.units import Metre, PerMetre, Radian, Second, SecondPerMetre, Seco
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ContactCard:
-    """Where a plan touches d = d_min, or where a ride along it begins or ends."""
+    """Where a plan touches d = d_min, or where a boundary arc along it begins or ends."""
 
     t: Second
     bearing: Radian
@@ -22,7 +22,7 @@ class ContactCard:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class RideCard:
+class BoundaryArcCard:
     """A stretch flown along d = d_min at partial bank."""
 
     start: Second
@@ -66,7 +66,7 @@ class OptimalityCheck:
     H is as due, and no jump and no μ is below 0, all to a thousandth of R. If not, a small change
     would make it faster."""
     contacts: tuple[ContactCard, ...]
-    rides: tuple[RideCard, ...]
+    boundary_arcs: tuple[BoundaryArcCard, ...]
     panel: OptimalityPanel
 
 

@@ -1,6 +1,6 @@
 """network_planner(network) → Planner: networks say what to solve, proofs say the rest.
 
-    network → calibrated set of strategies → their words, solved exactly → the fastest → certificate
+    network → calibrated set of branches → their words, solved exactly → the fastest → certificate
     the limit binds → network of ways → kinds of ways round it, solved next to guesses → certificate
 
 All roots of a word are found to their last digit, so there is nothing left to polish. Where the
@@ -21,9 +21,9 @@ import numpy as np
 from relguide.kernels.networks.branch_scores import choose
 from relguide.kernels.words.branches import direct_time
 from relguide.kernels.words.extremals import MAX_ROWS, WORDS
-from relguide.learn.boundary.template_network import WayNetwork, load_way_network
+from relguide.learn.boundary.template_network import TemplateNetwork, load_template_network
 from relguide.learn.boundary.template_paths import seen, solved
-from relguide.learn.words.branch_network import StrategyNetwork
+from relguide.learn.words.branch_network import BranchNetwork
 from relguide.planning.certificate import Certificate, judge, leader_bends
 from relguide.planning.inputs import expect
 from relguide.planning.plan import NoPlan, Optimality, Plan, Planner, plan
@@ -44,7 +44,7 @@ class Proposal:
     """No plan is faster: the time of a straight line to where the slot then is [s]."""
 
 
-def network_planner(network: StrategyNetwork, ways: WayNetwork | None = None) -> Planner:
+def network_planner(network: BranchNetwork, ways: TemplateNetwork | None = None) -> Planner:
     """A planner that asks networks what to solve, and the exact planner in need.
 
     A leader who turns is met on the final leg: the network of words sees a leader who has been on
@@ -60,9 +60,9 @@ def network_planner(network: StrategyNetwork, ways: WayNetwork | None = None) ->
         a `Planner`; its plans say by `network_planner` who gave them, and by `fell_back` if the
         networks could not.
     """
-    expect("network", network, StrategyNetwork)
-    round_limit = load_way_network() if ways is None else ways
-    expect("ways", round_limit, WayNetwork)
+    expect("network", network, BranchNetwork)
+    round_limit = load_template_network() if ways is None else ways
+    expect("ways", round_limit, TemplateNetwork)
 
     def planner(situation: Situation) -> Plan | NoPlan:
         expect("situation", situation, Situation)
@@ -88,7 +88,7 @@ def network_planner(network: StrategyNetwork, ways: WayNetwork | None = None) ->
 
 
 def propose(
-    network: StrategyNetwork, situation: Situation, ways: WayNetwork | None = None
+    network: BranchNetwork, situation: Situation, ways: TemplateNetwork | None = None
 ) -> Proposal | None:
     """The fastest path of the words that the network holds possible; `None` if it cannot say.
 
@@ -99,14 +99,14 @@ def propose(
     radius = situation.pursuer.turn_radius
     if situation.leader.intent:
         frame = slot_frame(situation, situation.leader.trajectory)
-        where, t_open = (frame.x, frame.y, frame.h, frame.alpha), frame.t_open
+        where, t_release = (frame.x, frame.y, frame.h, frame.alpha), frame.t_release
     else:
         binds, soonest, place, free = seen(situation, radius)
         if ways is not None and binds:
             around = solved(ways, situation, radius, place, free)
             return None if around is None else _judged(around, situation, radius, soonest)
         x, y, h, _, alpha, _ = place
-        where, t_open = (x, y, h, alpha), 0.0
+        where, t_release = (x, y, h, alpha), 0.0
     x, y, _, alpha = where
     box = network.box
     if not (hypot(x, y) <= box.max_range and box.min_ratio <= alpha <= box.max_ratio):
@@ -115,11 +115,11 @@ def propose(
     _, found = choose(*where, network.layers, network.least_share, network.most, rows)
     time, word, *amounts = rows[0].tolist()
     # had another word been open before, it would be the exact planner's to find how to wait for it
-    if found == 0 or time < t_open or time * radius / situation.pursuer.tas > HORIZON:
+    if found == 0 or time < t_release or time * radius / situation.pursuer.tas > HORIZON:
         return None
     segments = segments_of(radius, SIGN_ROWS[int(word)], amounts)
     candidate = candidate_of(situation.pursuer, segments, WORDS[int(word)])
-    return _judged(candidate, situation, radius, max(direct_time(x, y, alpha), t_open))
+    return _judged(candidate, situation, radius, max(direct_time(x, y, alpha), t_release))
 
 
 def _judged(candidate: Candidate, situation: Situation, radius: Metre, least: float) -> Proposal:

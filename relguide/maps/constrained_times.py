@@ -19,7 +19,7 @@ from relguide.planning.plan import Plan, plan
 from relguide.planning.situation import Situation
 
 DETOUR = HOLD + 1
-"""Word number of a way that touches d_min or rides along it."""
+"""Word number of a way that touches d_min or slides along it."""
 SEARCHED = 64
 """Nodes searched between two reports: about a second."""
 

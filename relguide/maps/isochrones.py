@@ -7,7 +7,7 @@ stays as it is: speeds, bank, D, d_min, wind, the leader with its intent. Each n
   flies, its turns included;
 - a bound: the time of the fastest extremal without the limit. No plan is faster. Where both agree
   the time is the optimum, proved; where they do not, the limit binds, and ways that touch d_min or
-  ride along it may be faster than the time given. They are searched only if asked for (`exact`).
+  slide along it may be faster than the time given. They are searched only if asked for (`exact`).
 
 An intent is planned for as in `plan`: toward a leader that was on its final leg all along, whose
 slot opens when the real one gets there. Where the slot can be reached before, T is that instant;
@@ -43,7 +43,7 @@ from relguide.units import Metre, Millisecond, Second
 
 NAMES = (*WORDS, "hold", "detour", "")
 """What a number in `Field.words` means: the extremal's word; a path that arrives exactly when the
-slot opens; a way that touches d_min or rides along it; no plan."""
+slot opens; a way that touches d_min or slides along it; no plan."""
 NONE = DETOUR + 1
 WIDTH, HEIGHT = 160_000.0, 120_000.0
 """Extent of a grid if none is given [m]."""
@@ -241,7 +241,7 @@ def times_around(
         def work(first: int) -> None:
             last = min(first + chunk, len(places))
             field_rows(
-                places, alone, frame.h, frame.alpha, frame.t_open, table, limit, longest, first,
+                places, alone, frame.h, frame.alpha, frame.t_release, table, limit, longest, first,
                 last, answers,
             )  # fmt: skip
 

@@ -58,7 +58,7 @@ def adjoint_history(
             if dx == dy == 0.0:  # there polar co-ordinates have no direction
                 continue
             (lam_x, lam_y), sigma = found.position(leg.part), found.switching(leg.part, x, y)
-            if leg.riding:
+            if leg.sliding:
                 alpha = leader.tas / tas
                 lam_x, lam_y = riding_costate(
                     found.kappa(leg.part, whole.touches[leg.part]),

@@ -25,7 +25,7 @@ from relguide.units import Metre, Second
 
 SAME_LENGTH: Metre = 0.01
 """Paths of the same letters whose pieces differ by less are the same path [m]."""
-AT_OPENING = 32
+AT_RELEASE = 32
 """Of the ways that arrive as the slot opens so many are looked at, fewest turns first: there may be
 a thousand, all equally fast."""
 
@@ -116,11 +116,11 @@ def alternatives(plan: Plan) -> tuple[Alternative | TooEarly | NoRoot, ...]:
     found = candidates(situation)
     early = _first_times(found.frame)
     scale = found.frame.radius / situation.pursuer.tas
-    opens = found.frame.t_open * scale
+    opens = found.frame.t_release * scale
     late = {WORDS[int(word)] for word in found.rows[:, 1]}
     around = surroundings(situation)
     listed: list[Alternative | TooEarly] = [
-        *_at_opening(plan, found, around),
+        *_at_release(plan, found, around),
         *_later(plan, found, around),
     ]
     for word, first in early.items():
@@ -163,10 +163,10 @@ def _later(plan: Plan, found: Candidates, around: Surroundings) -> Iterator[Alte
             yield _judged(candidate, ours, plan)
 
 
-def _at_opening(plan: Plan, found: Candidates, around: Surroundings) -> Iterator[Alternative]:
+def _at_release(plan: Plan, found: Candidates, around: Surroundings) -> Iterator[Alternative]:
     """Of the ways that arrive as the slot opens the one of fewest turns for each passing."""
     seen: set[int] = set()
-    for candidate in islice(found.at_opening, AT_OPENING):
+    for candidate in islice(found.at_release, AT_RELEASE):
         ours = passing(candidate.trajectory, around)
         if ours.laps not in seen:
             seen.add(ours.laps)

@@ -115,7 +115,7 @@ class Times:
 
     @property
     def word(self) -> NDArray[np.str_]:
-        """The extremal's word; `detour` for a way that touches or rides along d_min."""
+        """The extremal's word; `detour` for a way that touches or slides along d_min."""
         return np.array(NAMES)[self.words]
 
 

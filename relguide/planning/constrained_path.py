@@ -1,10 +1,10 @@
-"""detour(candidates): the fastest way to the slot that touches d_min, or rides along it."""
+"""detour(candidates): the fastest way to the slot that touches d_min, or slides along it."""
 
 from math import inf
 
 import numpy as np
 
-from relguide.kernels.contact.constrained_search import MAX_LEGS, any_way, best_detour
+from relguide.kernels.contact.constrained_search import MAX_LEGS, any_path, best_constrained_path
 from relguide.kernels.contact.passage import GRAZE
 from relguide.kernels.contact.path_pieces import NO_TURN, pieces_of
 from relguide.kernels.contact.tangent import tangents
@@ -31,7 +31,7 @@ def detour(found: Candidates, *, beat: Second) -> Candidate | None:
     """The fastest way through contacts with d = d_min, if it arrives before `beat` [s].
 
     Up to the first contact, between contacts and from the last one on, the way is an extremal
-    without the limit, from the same complete enumeration of words, or it rides along d_min. The
+    without the limit, from the same complete enumeration of words, or it slides along d_min. The
     contacts' bearings are searched round the leader, for each piece of its intent and both sides.
     If there is none, and nothing to beat, any way that begins with a turn and a straight will do.
     """
@@ -44,10 +44,10 @@ def detour(found: Candidates, *, beat: Second) -> Candidate | None:
     start = frame.x, frame.y, frame.h
     disc = leader, frame.alpha, limit + GRAZE
     legs, row = np.zeros((MAX_LEGS, 6)), np.zeros(5)
-    time, count = best_detour(
+    time, count = best_constrained_path(
         *start,
         *disc,
-        frame.t_open,
+        frame.t_release,
         BEARINGS if len(leader) == 1 else TURNING_BEARINGS,
         tangents(*start, *disc),
         beat / scale,
@@ -55,14 +55,22 @@ def detour(found: Candidates, *, beat: Second) -> Candidate | None:
     )
     if count > 0:
         pieces = pieces_of(
-            *start, leader, frame.alpha, limit, frame.t_open, frame.radius, 1.0, time, legs[:count]
+            *start,
+            leader,
+            frame.alpha,
+            limit,
+            frame.t_release,
+            frame.radius,
+            1.0,
+            time,
+            legs[:count],
         )
         if pieces.shape[1] > 0:
             return candidate_of(situation.pursuer, segments_flown(frame.radius, pieces))
     if beat < HORIZON:
         return None
-    time, sign, turned, straight = any_way(
-        *start, leader, frame.alpha, limit, frame.t_open, beat / scale, row
+    time, sign, turned, straight = any_path(
+        *start, leader, frame.alpha, limit, frame.t_release, beat / scale, row
     )
     if time >= beat / scale:
         return None

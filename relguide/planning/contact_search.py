@@ -26,8 +26,8 @@ from relguide.kernels.bounds.contact_bound import (
     leaving_bound,
     round_bound,
     round_time,
+    times_round,
     untouched_bound,
-    ways_round,
 )
 
 MAX_BRANCHES = 400_000
@@ -85,9 +85,10 @@ class Question:
     delta: float
     goal_x: float
     goal_speed: float
-    t_open: float
-    never_at_opening: bool
-    """Whether no path at all can be at the goal the moment t_open: who is not too early is late."""
+    t_release: float
+    never_at_release: bool
+    """Whether no path at all can be at the goal the moment t_release: who is not too early is late.
+    """
     horizon: float
     """Contacts after this time do not matter [R/V_P]."""
 
@@ -96,8 +97,8 @@ class Question:
         for i, start in enumerate(self.leader[:, 0].tolist()):
             end = self.leader[i + 1, 0].item() if i + 1 < len(self.leader) else inf
             # until the slot opens a contact leaves so much time, and after that any
-            windows = ((start, self.t_open), (self.t_open, inf))
-            for low, high in windows if start < self.t_open < end == inf else ((start, end),):
+            windows = ((start, self.t_release), (self.t_release, inf))
+            for low, high in windows if start < self.t_release < end == inf else ((start, end),):
                 high = min(high, self.horizon)
                 if low < high or low == 0.0:
                     yield from _all_round(i, low, high)
@@ -106,12 +107,12 @@ class Question:
         """No path that nowhere touches d_min arrives sooner."""
         return untouched_bound(
             *self.start, self.leader, self.alpha, self.delta, self.goal_x, self.goal_speed,
-            self.t_open,
+            self.t_release,
         )  # fmt: skip
 
     def reached(self, cell: Cell, beat: float) -> tuple[float, float]:
         """How soon a first contact can be in the cell, and the goal from there."""
-        late = self.t_open if self.never_at_opening else 0.0
+        late = self.t_release if self.never_at_release else 0.0
         return cell_bound(
             *self.start, self.leader, cell.piece, self.alpha, self.delta, self.goal_x,
             self.goal_speed, late, cell.side, cell.bearing, cell.half, cell.start, cell.end,
@@ -141,7 +142,7 @@ class Question:
         self.untouched()
         self.reached(cell, 0.0)
         self.left(cell, 0.0)
-        table = ways_round(self.alpha, self.delta)
+        table = times_round(self.alpha, self.delta)
         round_time(table, 0, 0.0)
         self.between(cell, cell, table, 0.0)
         between_bound(self.alpha, self.delta, 1.0, 0.1, 0.1, 1.0, 0.1, 0.1, 0.0)
@@ -163,7 +164,7 @@ class Question:
         final = len(self.leader) - 1
         reached = lru_cache(_REMEMBERED)(lambda cell: self.reached(cell, beat))
         left = lru_cache(_REMEMBERED)(lambda cell: self.left(cell, beat))
-        table = ways_round(self.alpha, self.delta)
+        table = times_round(self.alpha, self.delta)
         last_contacts = tuple(_all_round(final, 0.0, inf)) if self.goal_speed == self.alpha else ()
         # the way round is the difference of two times, one for each contact: so each may be
         # looked at with its own, and much more closely than both together
@@ -201,7 +202,7 @@ class Question:
             else:
                 leaving = left(last)
                 bound = soon + leaving + self.between(first, last, table, beat - soon - leaving)
-            bound = max(bound, least, self.t_open)
+            bound = max(bound, least, self.t_release)
             if bound < beat:
                 heappush(branches, (bound, next(numbers), first, last, False))
 

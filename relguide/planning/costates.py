@@ -6,11 +6,11 @@ Between two touches of d = d_min a part has three constants (see `kernels.costat
     H(t_f) = 0;    H goes on unbroken where d_min is touched;    at a contact so does λ_ψ.
 
 The rest is met as well as can be, in least squares: λ_ψ = 0 at each switch, on each straight and
-at both ends of a ride. An extremal without the limit has as many equations as unknowns; a detour
-may have one more for each contact: it holds only if the contact lies best. A piece of no length
-leaves fewer equations than unknowns; then the choice is made by eq. (16) and ν ≥ 0.
+at both ends of a boundary arc. An extremal without the limit has as many equations as unknowns; a
+detour may have one more for each contact: it holds only if the contact lies best. A piece of no
+length leaves fewer equations than unknowns; then the choice is made by eq. (16) and ν ≥ 0.
 
-Riding, λ_ψ ≡ 0 and λ_p is along the course: λ_p = κ û / (1 − û·v̂_L), κ = λ_p · (û − v̂_L) being
+Sliding, λ_ψ ≡ 0 and λ_p is along the course: λ_p = κ û / (1 − û·v̂_L), κ = λ_p · (û − v̂_L) being
 what H keeps while the leader flies straight. All in R and R/V_P, as in `legs`.
 """
 
@@ -40,9 +40,9 @@ class Costates:
     residual: float
     """Largest |λ_ψ| where it should vanish."""
 
-    def kappa(self, i: int, ride: Touch) -> float:
-        """κ of a ride, touch number i: λ_p · (û − v̂_L) where it begins."""
-        return dot(self.position(i), ride.entry.passing)
+    def kappa(self, i: int, boundary_arc: Touch) -> float:
+        """κ of a boundary arc, touch number i: λ_p · (û − v̂_L) where it begins."""
+        return dot(self.position(i), boundary_arc.entry.passing)
 
     def position(self, part: int) -> Vector:
         """λ_x and λ_y of a part."""
@@ -54,13 +54,13 @@ class Costates:
 
 
 def riding_costate(kappa: float, course: Vector, leader_velocity: Vector) -> Vector:
-    """λ_p on a ride."""
+    """λ_p on a boundary arc."""
     k = kappa / (1.0 - dot(course, leader_velocity))
     return k * course[0], k * course[1]
 
 
 def multiplier(kappa: float, at: Encounter) -> float:
-    """μ on a ride: what it takes for λ_p to stay along the course, −λ_p′·e.
+    """μ on a boundary arc: what it takes for λ_p to stay along the course, −λ_p′·e.
 
     d″ = 0 asks for û′ = r n̂, n̂ to the right of the course, with r n̂·e = |û − v̂_L|²/d; and from
     λ_p = κ û/(1 − û·v̂_L) follows λ_p′·e.
@@ -128,7 +128,7 @@ def _exact_rows(whole: Cut, legs: tuple[Leg, ...], n: int) -> FloatArray:
         before = np.array((*touch.entry.passing, 0.0))
         after = np.array((*touch.exit.passing, 0.0))
         rows.append(_wide(i, before, n) - _wide(i + 1, after, n))
-        if not touch.rides:
+        if not touch.slides:
             unbroken = _switching(*_place(legs, touch.entry.time))
             rows.append(_wide(i, unbroken, n) - _wide(i + 1, unbroken, n))
     return np.array(rows)
@@ -144,15 +144,17 @@ def _vanishing_rows(whole: Cut, legs: tuple[Leg, ...], n: int) -> FloatArray:
             rows.append(_wide(leg.part, _switching(leg.x, leg.y), n))
         last = leg
     for i, touch in enumerate(whole.touches):
-        if touch.rides:
+        if touch.slides:
             rows.append(_wide(i, _switching(*_place(legs, touch.entry.time)), n))
             rows.append(_wide(i + 1, _switching(*_place(legs, touch.exit.time)), n))
     return np.array(rows).reshape(-1, n)
 
 
 def _switches(before: Leg, after: Leg) -> bool:
-    """Whether one arc follows another at another rate; the ends of rides are seen to elsewhere."""
-    if before.riding or after.riding or before.rate == 0.0:
+    """Whether one arc follows another at another rate; the ends of boundary arcs are seen to
+    elsewhere.
+    """
+    if before.sliding or after.sliding or before.rate == 0.0:
         return False
     return abs(before.rate - after.rate) > ROUNDING
 
@@ -163,7 +165,7 @@ def _jump_rows(touches: tuple[Touch, ...], n: int) -> FloatArray:
     for i, touch in enumerate(touches):
         before = _wide(i, np.array((*touch.entry.toward, 0.0)), n)
         after = _wide(i + 1, np.array((*touch.exit.toward, 0.0)), n)
-        if not touch.rides:
+        if not touch.slides:
             rows[2 * i] = before - after
             continue
         for row, at, part, whole_row, sign in (
@@ -181,7 +183,7 @@ def _sign_rows(legs: tuple[Leg, ...], n: int) -> tuple[FloatArray, FloatArray]:
     between: list[FloatArray] = []
     ends: list[FloatArray] = []
     for leg in legs:
-        if leg.rate != 0.0 and not leg.riding:
+        if leg.rate != 0.0 and not leg.sliding:
             for k in range(PROBES + 1):
                 x, y, _ = leg.at(leg.duration * k / PROBES)
                 row = _wide(leg.part, -np.sign(leg.rate) * _switching(x, y), n)

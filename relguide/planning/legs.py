@@ -1,7 +1,7 @@
 """cut(trajectory, situation): the legs on which Pontryagin's conditions are asked.
 
 A leg ends where the control changes or where d = d_min is touched. Touching is a contact at one
-instant, or a ride: arcs of partial bank, one after another, that keep to d = d_min.
+instant, or a boundary arc: arcs of partial bank, one after another, that keep to d = d_min.
 Everything here is in R and R/V_P; places are relative to where the trajectory ends.
 """
 
@@ -22,9 +22,11 @@ TOUCHES = 1e-5
 STRIDE = 0.01
 """Contacts closer together than this may count as one: half a second for an airliner."""
 EDGE = 1e-4
-"""A contact this near to a ride belongs to it: where the ride begins it is found twice."""
+"""A contact this near to a boundary arc belongs to it: where the boundary arc begins it is found
+twice.
+"""
 MAX_CONTACTS = 4096
-"""Room for contacts, those between the many arcs of a ride included."""
+"""Room for contacts, those between the many arcs of a boundary arc included."""
 ROUNDING = 1e-9
 """Pieces shorter than this are rounding; turn rates nearer than this are the same."""
 
@@ -48,9 +50,9 @@ class Leg:
     rate: float
     """Turn rate, positive to the right: ±1 at nominal bank."""
     part: int
-    """How many contacts and rides come before it."""
-    riding: bool
-    """Whether it is a piece of a ride; then that of the touch number `part`."""
+    """How many contacts and boundary arcs come before it."""
+    sliding: bool
+    """Whether it is a piece of a boundary arc; then that of the touch number `part`."""
 
     def at(self, t: float) -> tuple[float, float, float]:
         """Place and heading after flying it for t."""
@@ -80,10 +82,10 @@ class Encounter:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Touch:
-    """Where d = d_min: a contact or a ride."""
+    """Where d = d_min: a contact or a boundary arc."""
 
     nodes: tuple[Encounter, ...]
-    """The contact; or the ends of a ride's arcs, in the order flown."""
+    """The contact; or the ends of a boundary arc's arcs, in the order flown."""
 
     @property
     def entry(self) -> Encounter:
@@ -96,14 +98,14 @@ class Touch:
         return self.nodes[-1]
 
     @property
-    def rides(self) -> bool:
+    def slides(self) -> bool:
         """Whether it lasts."""
         return len(self.nodes) > 1
 
     @property
     def ends(self) -> tuple[Encounter, ...]:
-        """Entry and exit of a ride; a contact itself."""
-        return (self.entry, self.exit) if self.rides else self.nodes
+        """Entry and exit of a boundary arc; a contact itself."""
+        return (self.entry, self.exit) if self.slides else self.nodes
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -139,8 +141,8 @@ def cut(trajectory: Trajectory, situation: Situation) -> Cut:
 
     times = [0.0, *accumulate(duration for duration, _ in pieces)]
     limit = situation.min_separation / radius
-    rides = _rides(pieces, [abs(encounter(t).separation - limit) for t in times])
-    spans = [(times[i], times[j]) for i, j in rides]
+    boundary_arcs = _boundary_arcs(pieces, [abs(encounter(t).separation - limit) for t in times])
+    spans = [(times[i], times[j]) for i, j in boundary_arcs]
     spans += [
         (t, t)
         for t in _contacts(trajectory, situation)
@@ -178,12 +180,14 @@ def partial(rate: float) -> bool:
     return rate != 0.0 and abs(abs(rate) - 1.0) > ROUNDING
 
 
-def _rides(pieces: list[tuple[float, float]], off_limit: list[float]) -> list[tuple[int, int]]:
-    """Runs of pieces that ride: number of the first, and of the first after."""
-    riding = [
+def _boundary_arcs(
+    pieces: list[tuple[float, float]], off_limit: list[float]
+) -> list[tuple[int, int]]:
+    """Runs of pieces that slide: number of the first, and of the first after."""
+    sliding = [
         partial(rate) and max(off_limit[i : i + 2]) < TOUCHES for i, (_, rate) in enumerate(pieces)
     ]
-    edges = [i for i, (a, b) in enumerate(pairwise([False, *riding, False])) if a != b]
+    edges = [i for i, (a, b) in enumerate(pairwise([False, *sliding, False])) if a != b]
     return list(zip(edges[::2], edges[1::2], strict=True))
 
 
@@ -219,11 +223,11 @@ def _legs(
             while part < len(spans) and spans[part][1] <= t + ROUNDING:
                 part += 1
             low, high = spans[part] if part < len(spans) else (end, end)
-            riding = low - ROUNDING <= t
-            stop = min(end, high if riding else low)
+            sliding = low - ROUNDING <= t
+            stop = min(end, high if sliding else low)
             yield Leg(
                 start=t, duration=stop - t, x=0.0, y=0.0, heading=heading, rate=rate, part=part,
-                riding=riding,
+                sliding=sliding,
             )  # fmt: skip
             heading += rate * (stop - t)
             t = stop

@@ -31,7 +31,7 @@ ARRIVES = 1e-5
 """A trajectory reaches the slot if it ends this near to it [R; rad]: 12 cm for an airliner."""
 MAX_ARRIVES = 10.0
 """Most that may be asked for instead [R; rad]: what ends farther off does not arrive."""
-AT_OPENING = 1e-6
+AT_RELEASE = 1e-6
 """An arrival this near to the opening is at the opening [R/V_P]: 60 µs for an airliner."""
 SLIVER = 2e-3
 """Pieces shorter than this may be left out of the conditions [R]: 0.1 s for an airliner."""
@@ -42,12 +42,12 @@ MAX_SAMPLES = 100_000
 """Most times that H and λ are reported at."""
 TOGETHER = 0.05
 """Contacts nearer together than this share their jumps [R/V_P]: some three seconds for an airliner.
-A ride is flown a millimetre outside, and a path may touch d_min just before it or after."""
+A boundary arc is flown a millimetre outside, and a path may touch d_min just before it or after."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Contact:
-    """Where the trajectory touches d = d_min, or where a ride along it begins or ends."""
+    """Where the trajectory touches d = d_min, or where a boundary arc along it begins or ends."""
 
     time: Second
     bearing: Radian
@@ -58,7 +58,7 @@ class Contact:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Ride:
+class SlideReport:
     """A stretch flown along d = d_min at partial bank."""
 
     start: Second
@@ -89,7 +89,7 @@ class OptimalityReport:
     neglected: Second
     """Time in pieces too short to matter, on which nothing was asked; 0 if all is met with them."""
     contacts: tuple[Contact, ...]
-    rides: tuple[Ride, ...]
+    boundary_arcs: tuple[SlideReport, ...]
     history: AdjointHistory
 
 
@@ -146,7 +146,7 @@ def check(
     arrival = _arrival(trajectory, situation, arrives)
     whole = cut(trajectory, situation)
     judged = _judge(arrival, whole, whole.legs)
-    longer = tuple(leg for leg in whole.legs if leg.duration > SLIVER or leg.riding)
+    longer = tuple(leg for leg in whole.legs if leg.duration > SLIVER or leg.sliding)
     if not judged.holds and 0 < len(longer) < len(whole.legs):
         # a search that ends on an edge leaves pieces of hardly any length, which should not be
         without = _judge(arrival, whole, joined(longer))
@@ -165,14 +165,14 @@ def check(
             for touch, jumps in zip(touches, found.jumps.tolist(), strict=True)
             for at, jump in zip(touch.ends, jumps[: len(touch.ends)], strict=True)
         ),
-        rides=tuple(
-            Ride(
+        boundary_arcs=tuple(
+            SlideReport(
                 start=touch.entry.time * scale,
                 end=touch.exit.time * scale,
                 least_multiplier=least / situation.pursuer.turn_radius,
             )
             for touch, least in zip(touches, judged.multipliers, strict=True)
-            if touch.rides
+            if touch.slides
         ),
         history=adjoint_history(found, whole, trajectory, situation, samples),
     )
@@ -184,18 +184,18 @@ def _arrival(trajectory: Trajectory, situation: Situation, arrives: float) -> Ar
     x, y = frame.to_slot(end.x, end.y)
     gap = hypot(x - situation.leader.tas * trajectory.duration / frame.radius, y)
     off = abs(wrap_signed(end.heading - frame.heading))
-    early = frame.t_open - trajectory.duration * situation.pursuer.tas / frame.radius
+    early = frame.t_release - trajectory.duration * situation.pursuer.tas / frame.radius
     if gap > arrives or off > arrives:
         raise ValueError(
             f"The trajectory ends {gap * frame.radius:.1f} m from the slot and {off / DEG:.3f}° "
             "off the leader's heading; conditions are asked only of one that reaches the slot."
         )
-    if early > AT_OPENING:
+    if early > AT_RELEASE:
         raise ValueError(
             f"The trajectory ends {early * frame.radius / situation.pursuer.tas:.1f} s before the "
             "slot opens; conditions are asked only of one that reaches the open slot."
         )
-    if frame.t_open > 0.0 and early >= -AT_OPENING:
+    if frame.t_release > 0.0 and early >= -AT_RELEASE:
         return "opening"
     return "free" if trajectory.length > ROUNDING * frame.radius else "at_once"
 
@@ -216,7 +216,7 @@ def _judge(arrival: Arrival, whole: Cut, legs: tuple[Leg, ...]) -> _Judgement:
         levels.insert(0, due + dot(found.position(i), touch.entry.leader_velocity))
     residual, signs_ok = 0.0, True
     for leg in legs:
-        if leg.riding:
+        if leg.sliding:
             signs_ok &= abs(leg.rate) <= 1.0 + MET
             continue
         (lam_x, lam_y), sigma = found.position(leg.part), found.switching(leg.part, leg.x, leg.y)
@@ -232,7 +232,9 @@ def _judge(arrival: Arrival, whole: Cut, legs: tuple[Leg, ...]) -> _Judgement:
         switching_ok=signs_ok and found.residual <= MET,
         least_jump=_least_jump(whole, found),
         multipliers=tuple(
-            min(multiplier(found.kappa(i, touch), at) for at in touch.nodes) if touch.rides else 0.0
+            min(multiplier(found.kappa(i, touch), at) for at in touch.nodes)
+            if touch.slides
+            else 0.0
             for i, touch in enumerate(whole.touches)
         ),
     )

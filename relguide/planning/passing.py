@@ -29,7 +29,7 @@ class Passing:
 
     side: Turn
     """`LEFT`: the line of sight turns counter-clockwise on balance, the pursuer goes round the
-    leader that way and has it on its left hand. `RIGHT`: clockwise. As for rides along d_min."""
+    leader that way and has it on its left hand. `RIGHT`: clockwise. As for slides along d_min."""
     laps: int
     """How often it crosses the line ahead of the leader on its final leg, clockwise round it
     positive, counter-clockwise negative: 0 for a way that passes behind."""

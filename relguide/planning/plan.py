@@ -95,8 +95,8 @@ def plan(situation: Situation) -> Plan | NoPlan:
 
     Without the limit the candidates are all the extremals there are, so if the fastest of them
     keeps the limit it is the global optimum (`proof="relaxation"`). If it does not, ways that
-    touch d_min or ride along it are searched too, and the fastest of all that certify is given with
-    the time of the fastest candidate as the bound it is proved to within (`proof="bound"`).
+    touch d_min or slide along it are searched too, and the fastest of all that certify is given
+    with the time of the fastest candidate as the bound it is proved to within (`proof="bound"`).
 
     The work is bounded whatever the situation: a contact is looked for at a fixed number of
     bearings for each piece of the leader's intent, a word has at most 96 roots, a certificate looks
@@ -163,8 +163,8 @@ def _searched(situation: Situation, radius: Metre) -> _Chosen | NoPlan:
 
 def _first_that_holds(found: Candidates, situation: Situation, radius: Metre) -> _Chosen | None:
     bound, leading = found.bound, bends_of(found.leader)
-    if found.reachable_at_opening:
-        best = _canonical(found.at_opening, situation, radius, leading)
+    if found.reachable_at_release:
+        best = _canonical(found.at_release, situation, radius, leading)
         if best is not None:
             return *best, Optimality(proof="relaxation", lower_bound=bound)
     chosen: tuple[Candidate, Certificate] | None = None
@@ -172,7 +172,7 @@ def _first_that_holds(found: Candidates, situation: Situation, radius: Metre) ->
         certificate = judge(candidate.trajectory, situation, radius, leading)
         if certificate.holds:
             chosen = candidate, certificate
-            if i == 0 and not found.reachable_at_opening:
+            if i == 0 and not found.reachable_at_release:
                 return *chosen, Optimality(proof="relaxation", lower_bound=bound)
             break
     around = detour(found, beat=chosen[0].time_to_converge if chosen else HORIZON)

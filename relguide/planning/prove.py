@@ -112,21 +112,21 @@ def _steps(plan: Plan, time: float) -> Iterator[float]:
         delta=situation.min_separation / frame.radius,
         goal_x=0.0,
         goal_speed=frame.alpha,
-        t_open=frame.t_open,
-        never_at_opening=not found.reachable_at_opening,
+        t_release=frame.t_release,
+        never_at_release=not found.reachable_at_release,
         horizon=inf,
     )
     slot.warm_up()
     yield 0.0
-    if found.reachable_at_opening:
+    if found.reachable_at_release:
         place = replace(
-            slot, goal_x=frame.alpha * frame.t_open, goal_speed=0.0, t_open=0.0,
-            horizon=frame.t_open,
+            slot, goal_x=frame.alpha * frame.t_release, goal_speed=0.0, t_release=0.0,
+            horizon=frame.t_release,
         )  # fmt: skip
-        after = frame.t_open * (1.0 + _LATER)
+        after = frame.t_release * (1.0 + _LATER)
         shortest = 0.0
         for shortest in place.bounds(after):
-            yield min(shortest, frame.t_open)
+            yield min(shortest, frame.t_release)
         if shortest < after:
             return
     yield from slot.bounds(time)

@@ -77,7 +77,7 @@ def regular_from_trajectory(trajectory: Trajectory, *, turn_radius: Metre) -> Re
         turn_radius: R_min, which all its turns must have [m].
 
     Raises:
-        ValueError: if it turns at another bank, or rides along d_min.
+        ValueError: if it turns at another bank, or slides along d_min.
     """
     expect("trajectory", trajectory, Trajectory)
     turn_radius = number("turn_radius", turn_radius)
@@ -99,7 +99,7 @@ def regular_from_trajectory(trajectory: Trajectory, *, turn_radius: Metre) -> Re
                 turning = None
             case BoundaryArc():
                 raise ValueError(
-                    "A regular trajectory turns at nominal bank only; this trajectory rides along "
+                    "A regular trajectory turns at nominal bank only; this trajectory slides along "
                     "d_min at less."
                 )
             case _:

@@ -7,7 +7,7 @@ p + wind·t.
 Slot frame. Extend the leader's final leg backward: from t = 0 on, the slot is a point in uniform
 straight motion. Put the origin there at t = 0, the x axis along the leader's final heading, count
 angles counter-clockwise from it, lengths in R and times in R/V_P. What remains of a situation is
-(x, y, h, α) and the time t_open before which the slot may not be taken.
+(x, y, h, α) and the time t_release before which the slot may not be taken.
 """
 
 from dataclasses import dataclass
@@ -32,7 +32,7 @@ class SlotFrame:
     """Pursuer's heading, counter-clockwise from the leader's final heading [rad], in [0, 2π)."""
     alpha: float
     """Speed ratio V_L/V_P."""
-    t_open: float
+    t_release: float
     """When the slot opens [R/V_P]; 0 when it is open from the start."""
     radius: float
     """R [m]."""
@@ -60,7 +60,7 @@ def slot_frame(situation: Situation, leader: Trajectory) -> SlotFrame:
     end, flown = leader.breakpoints()[-1], leader.duration
     turns = any(isinstance(s, Arc) and s.turn_angle > 0.0 for s in leader.segments)
     offset_x, offset_y, ground_speed = slot_offset(end.heading, leader.tas, situation)
-    t_open = flown + situation.slot_distance / ground_speed if turns else 0.0
+    t_release = flown + situation.slot_distance / ground_speed if turns else 0.0
     origin_x = end.x - leader.tas * flown * sin(end.heading) + offset_x
     origin_y = end.y - leader.tas * flown * cos(end.heading) + offset_y
     x, y = to_slot(pursuer.x - origin_x, pursuer.y - origin_y, end.heading, radius)
@@ -69,7 +69,7 @@ def slot_frame(situation: Situation, leader: Trajectory) -> SlotFrame:
         y=y,
         h=wrap(end.heading - pursuer.heading),
         alpha=leader.tas / pursuer.tas,
-        t_open=t_open * pursuer.tas / radius,
+        t_release=t_release * pursuer.tas / radius,
         radius=radius,
         heading=end.heading,
         origin_x=origin_x,

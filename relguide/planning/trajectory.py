@@ -71,10 +71,11 @@ class Straight:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BoundaryArc:
-    """A piece that rides along d = d_min with less than full bank, as short arcs."""
+    """A piece that slides along d = d_min with less than full bank, as short arcs."""
 
     side: Turn
-    """`LEFT` rides counter-clockwise round the leader, turning left; `RIGHT` the other way."""
+    """`LEFT` boundary arcs counter-clockwise round the leader, turning left; `RIGHT` the other way.
+    """
     bends: tuple[Bend, ...]
     """The arcs, in order."""
 
@@ -161,12 +162,12 @@ class Trajectory:
 
     @property
     def turns(self) -> int:
-        """Number of turns, a ride along d_min counted as one."""
+        """Number of turns, a boundary arc along d_min counted as one."""
         return sum(not isinstance(segment, Straight) for segment in self.segments)
 
     @property
     def letters(self) -> str:
-        """One letter a segment: L, R, S, or B for a ride along d_min."""
+        """One letter a segment: L, R, S, or B for a boundary arc along d_min."""
         return "".join(_letter(segment) for segment in self.segments)
 
     def turn_rates(self) -> tuple[RadianPerSecond, ...]:
@@ -252,11 +253,14 @@ def _settled(segment: Segment) -> Segment:
                 )
         case BoundaryArc(side=side, bends=bends):
             if not (isinstance(bends, tuple) and bends and all(map(_is_pair, bends))):
-                raise ValueError("A ride must have bends: a tuple of (length, curvature).")
+                raise ValueError("A boundary arc must have bends: a tuple of (length, curvature).")
             segment = BoundaryArc(
-                side=LEFT if turn_sign("A ride's side", side) == LEFT else RIGHT,
+                side=LEFT if turn_sign("A boundary arc's side", side) == LEFT else RIGHT,
                 bends=tuple(
-                    (number("A ride's piece", length), number("A ride's curvature", curvature))
+                    (
+                        number("A boundary arc's piece", length),
+                        number("A boundary arc's curvature", curvature),
+                    )
                     for length, curvature in bends
                 ),
             )

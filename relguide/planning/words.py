@@ -7,7 +7,7 @@ from math import hypot
 import numpy as np
 
 from relguide.kernels.contact.path_pieces import NO_TURN
-from relguide.kernels.words.delay import HOLD_PIECES, MAX_HOLDS, holds
+from relguide.kernels.words.delay import DELAY_PIECES, MAX_DELAYS, holds
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, WORDS, solve
 from relguide.planning.inputs import expect
 from relguide.planning.situation import Pursuer, Situation
@@ -56,15 +56,16 @@ class Candidates:
     rows: np.ndarray
     """The extremals that arrive after the slot opens, fastest first, as `solve` gives them: those
     within the horizon; the first in any case, if no other path is known."""
-    at_opening: tuple[Candidate, ...]
+    at_release: tuple[Candidate, ...]
     """Paths that arrive exactly when the slot opens, all equally fast; fewest turns first."""
-    reachable_at_opening: bool
-    """Whether the shortest way to the slot's place at t_open is short enough to be there then."""
+    reachable_at_release: bool
+    """Whether the shortest way to the slot's place at t_release is short enough to be there then.
+    """
 
     @property
     def bound(self) -> Second:
         """No way to the slot is faster than this, with or without the separation limit [s]."""
-        time = self.frame.t_open if self.reachable_at_opening else self.rows[0, 0]
+        time = self.frame.t_release if self.reachable_at_release else self.rows[0, 0]
         return float(time) * self.frame.radius / self.situation.pursuer.tas
 
     @property
@@ -75,10 +76,10 @@ class Candidates:
             yield assemble(self.situation, self.frame, signs, amounts, WORDS[int(word)])
 
     def __len__(self) -> int:
-        return len(self.at_opening) + len(self.rows)
+        return len(self.at_release) + len(self.rows)
 
     def __iter__(self) -> Iterator[Candidate]:
-        yield from self.at_opening
+        yield from self.at_release
         yield from self.later
 
 
@@ -92,26 +93,26 @@ def candidates(situation: Situation) -> Candidates:
     leader = situation.leader.trajectory
     frame = slot_frame(situation, leader)
     rows = np.empty((MAX_ROWS, 5))
-    n = solve(frame.x, frame.y, frame.h, frame.alpha, frame.t_open, rows)
-    reachable = frame.t_open > 0.0 and _dubins_length(frame) <= frame.t_open + NO_TURN
-    at_opening = _at_opening(situation, frame) if reachable else ()
+    n = solve(frame.x, frame.y, frame.h, frame.alpha, frame.t_release, rows)
+    reachable = frame.t_release > 0.0 and _dubins_length(frame) <= frame.t_release + NO_TURN
+    at_release = _at_release(situation, frame) if reachable else ()
     within = HORIZON * situation.pursuer.tas / frame.radius
-    while n > (0 if at_opening else 1) and rows[n - 1, 0] > within:
+    while n > (0 if at_release else 1) and rows[n - 1, 0] > within:
         n -= 1
     return Candidates(
         situation=situation,
         leader=leader,
         frame=frame,
         rows=rows[:n],
-        at_opening=at_opening,
-        reachable_at_opening=reachable,
+        at_release=at_release,
+        reachable_at_release=reachable,
     )
 
 
-def _at_opening(situation: Situation, frame: SlotFrame) -> tuple[Candidate, ...]:
-    signs = np.empty((MAX_HOLDS, HOLD_PIECES))
-    amounts = np.empty((MAX_HOLDS, HOLD_PIECES))
-    n = holds(frame.x, frame.y, frame.h, frame.alpha, frame.t_open, signs, amounts)
+def _at_release(situation: Situation, frame: SlotFrame) -> tuple[Candidate, ...]:
+    signs = np.empty((MAX_DELAYS, DELAY_PIECES))
+    amounts = np.empty((MAX_DELAYS, DELAY_PIECES))
+    n = holds(frame.x, frame.y, frame.h, frame.alpha, frame.t_release, signs, amounts)
     pieces = zip(signs[:n].tolist(), amounts[:n].tolist(), strict=True)
     found = [assemble(situation, frame, *piece, "") for piece in pieces]
     return tuple(sorted(found, key=_canonical_order))
@@ -125,9 +126,9 @@ def _canonical_order(candidate: Candidate) -> tuple[int, float]:
 
 
 def _dubins_length(frame: SlotFrame) -> float:
-    """Shortest way to the slot's place at t_open [R]: the extremals to a slot at rest."""
-    end_x = frame.alpha * frame.t_open
-    if hypot(end_x - frame.x, frame.y) > frame.t_open:
+    """Shortest way to the slot's place at t_release [R]: the extremals to a slot at rest."""
+    end_x = frame.alpha * frame.t_release
+    if hypot(end_x - frame.x, frame.y) > frame.t_release:
         return float("inf")
     rows = np.empty((MAX_ROWS, 5))
     solve(frame.x - end_x, frame.y, frame.h, 0.0, 0.0, rows)
@@ -188,16 +189,16 @@ def segments_flown(radius: Metre, pieces: np.ndarray) -> tuple[Segment, ...]:
         radius: R [m].
         pieces: a column each, as `pieces_of` gives them. shape (3, n)
     """
-    rides, bends, amounts = pieces.tolist()
+    boundary_arcs, bends, amounts = pieces.tolist()
     segments: list[Segment] = []
     at = 0
-    while at < len(rides):
-        ride, bend, amount = rides[at], bends[at], amounts[at]
+    while at < len(boundary_arcs):
+        boundary_arc, bend, amount = boundary_arcs[at], bends[at], amounts[at]
         end = at + 1
-        if ride != 0.0:
-            end = at + rides.count(ride)
+        if boundary_arc != 0.0:
+            end = at + boundary_arcs.count(boundary_arc)
             arcs = tuple(zip(amounts[at:end], bends[at:end], strict=True))
-            segments.append(BoundaryArc(side=LEFT if ride > 0.0 else RIGHT, bends=arcs))
+            segments.append(BoundaryArc(side=LEFT if boundary_arc > 0.0 else RIGHT, bends=arcs))
         elif bend == 0.0:
             segments.append(Straight(length=amount))
         else:

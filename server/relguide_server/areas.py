@@ -13,7 +13,7 @@ from relguide.contract.bodies import Anchor, Unanchored, situation_from_json
 from relguide.contract.refusal import ContractError
 from relguide.flying.present import situation_now
 from relguide.learn.words.area_words import area_words
-from relguide.learn.words.branch_network import StrategyNetwork, load_network
+from relguide.learn.words.branch_network import BranchNetwork, load_network
 from relguide.maps.isochrones import (
     COLUMNS,
     HEIGHT,
@@ -76,7 +76,7 @@ Exact = Annotated[
 PlannerAsked = Annotated[
     Literal["exact", "network"],
     Query(
-        description="`network`: a network of strategies says where one word alone need be solved; "
+        description="`network`: a network of branches says where one word alone need be solved; "
         "all others are solved where it is not sure, and where the word changes."
     ),
 ]
@@ -185,6 +185,6 @@ def _draw(
 
 
 @cache
-def _network() -> StrategyNetwork:
+def _network() -> BranchNetwork:
     """The network that comes with the program, read once."""
     return load_network()

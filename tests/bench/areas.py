@@ -21,7 +21,7 @@ from relguide import RIGHT, FlyStraight, Leader, Pursuer, Situation, TurnTo, Win
 from relguide.contract.area_bodies import area_to_wire
 from relguide.contract.bodies import Unanchored
 from relguide.learn.words.area_words import area_words
-from relguide.learn.words.branch_network import StrategyNetwork, load_network
+from relguide.learn.words.branch_network import BranchNetwork, load_network
 from relguide.maps.contours import contours, regions
 from relguide.maps.isochrones import (
     NAMES,
@@ -77,7 +77,7 @@ def main(arguments: list[str] | None = None) -> int:
     return 0
 
 
-def parts(situation: Situation, network: StrategyNetwork | None, threads: int) -> Parts:
+def parts(situation: Situation, network: BranchNetwork | None, threads: int) -> Parts:
     """What is measured of a situation, by name."""
     grid = grid_around(situation)
     x, y = grid.axes

@@ -89,8 +89,8 @@ def is_active(situation: Situation) -> bool:
     Ways that arrive as the slot opens are all equally fast; later there is one fastest.
     """
     found = candidates(situation)
-    if found.reachable_at_opening:
-        fastest = found.at_opening
+    if found.reachable_at_release:
+        fastest = found.at_release
     elif len(found.rows) > 0:
         fastest = (next(found.later),)
     else:

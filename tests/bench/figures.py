@@ -27,7 +27,7 @@ COSTS = "situations of each kind to draw the cost of the limit from (500)"
 """What `--costs` is."""
 BEARINGS = 721
 """Of the sweep: every half degree."""
-KINDS = {"R > d_min": False, "R < d_min: the tight corner": True}
+TEMPLATES = {"R > d_min": False, "R < d_min: the tight corner": True}
 """Kinds of situations with the limit active, and whether they are tight."""
 
 
@@ -62,7 +62,7 @@ def draw(results: Results, costs: dict[str, Floats], *, suffix: str = ".svg") ->
 def _costs(count: int) -> tuple[dict[str, Floats], int]:
     """By kind, how much later plans arrive than without the limit [s]; and how many have none."""
     costs, without = {}, 0
-    for name, tight in KINDS.items():
+    for name, tight in TEMPLATES.items():
         cases = limited_cases(count, tight=tight)[-count:]
         numbered = watched(
             enumerate(cases), title=f"Cost of the limit, {name}", total=count, done=lambda n: n[0]

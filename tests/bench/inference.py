@@ -1,4 +1,4 @@
-"""How many questions a second the network of strategies answers, alone, and how near the bound.
+"""How many questions a second the network of branches answers, alone, and how near the bound.
 
 python -m tests.bench.inference --count 200000
 
@@ -21,8 +21,8 @@ from rich.table import Table
 from relguide.kernels.networks.branch_scores import judge_rows
 from relguide.kernels.words.branches import SIZE
 from relguide.learn.words import inference
-from relguide.learn.words.branch_network import StrategyNetwork, features_of, load_network
-from relguide.learn.words.inference import strategy_shares
+from relguide.learn.words.branch_network import BranchNetwork, features_of, load_network
+from relguide.learn.words.inference import branch_shares
 from relguide.planning.progress import progress_bar
 from tests.bench.options import positive
 
@@ -74,7 +74,7 @@ def measure(count: int) -> list[Rate]:
     return rates
 
 
-def _operations(network: StrategyNetwork) -> float:
+def _operations(network: BranchNetwork) -> float:
     """Multiplications and additions of one question."""
     return 2.0 * sum(
         float(np.prod(weights.shape))
@@ -94,7 +94,7 @@ def _bound(device: str, threads: int) -> float:
     return 2.0 * SQUARE**3 / best
 
 
-def _kernel(network: StrategyNetwork, situations: np.ndarray) -> Callable[[], object]:
+def _kernel(network: BranchNetwork, situations: np.ndarray) -> Callable[[], object]:
     n = len(situations)
     scores, decoded = np.empty((n, 3, SIZE)), np.empty((n, 3))
     return lambda: judge_rows(
@@ -103,14 +103,14 @@ def _kernel(network: StrategyNetwork, situations: np.ndarray) -> Callable[[], ob
 
 
 def _torch(
-    network: StrategyNetwork, situations: np.ndarray, device: str, threads: int, chunk: int
+    network: BranchNetwork, situations: np.ndarray, device: str, threads: int, chunk: int
 ) -> Callable[[], object]:
     def ask() -> None:
         name = "CUDA_CHUNK" if device == "cuda" else "CHUNK"
         before = getattr(inference, name)
         setattr(inference, name, chunk)
         try:
-            strategy_shares(network, situations, device=device, threads=threads)
+            branch_shares(network, situations, device=device, threads=threads)
         finally:
             setattr(inference, name, before)
 
@@ -137,7 +137,7 @@ def _wall(call: Callable[[], object]) -> float:
 
 def table(rates: list[Rate]) -> Table:
     """What was measured, for people."""
-    told = Table(title="The network of strategies alone; wall time, the least of three")
+    told = Table(title="The network of branches alone; wall time, the least of three")
     for heading in HEADINGS:
         told.add_column(heading, justify="right" if heading else "left")
     for rate in rates:

@@ -12,7 +12,7 @@ from rich.table import Table
 
 from relguide import Situation
 from relguide.kernels.contact.time_rows import plan_rows
-from relguide.learn.boundary.template_network import load_way_network
+from relguide.learn.boundary.template_network import load_template_network
 from relguide.learn.words.branch_network import load_network
 from relguide.planning.constrained_path import BEARINGS
 from relguide.planning.progress import progress_bar
@@ -49,7 +49,7 @@ class Batch:
 
 def measure(drawn: dict[str, list[Situation]]) -> list[Batch]:
     """Answer all of each kind, by networks and by the search alone; with a bar."""
-    words, ways = load_network(), load_way_network()
+    words, ways = load_network(), load_template_network()
     batches = []
     with progress_bar("Networks, in batches", total=2 * REPEATS * len(drawn)) as done:
         for name, situations in drawn.items():

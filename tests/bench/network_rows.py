@@ -17,15 +17,15 @@ from relguide.kernels.contact.passage import word_clears
 from relguide.kernels.contact.path_pieces import pieces_of
 from relguide.kernels.contact.time_rows import plan_rows
 from relguide.kernels.networks.branch_scores import Layers, choose
-from relguide.kernels.networks.template_scores import LEGS, choose_way
+from relguide.kernels.networks.template_scores import LEGS, choose_template
 from relguide.kernels.separation.approach import least_on_paths
 from relguide.kernels.separation.clearance import SLACK
 from relguide.kernels.words.branches import needs_mirror
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS
 from relguide.kernels.words.fastest import fastest
 from relguide.kernels.words.sooner import MOST_ROOTS, work_room
-from relguide.learn.boundary.template_network import WayNetwork
-from relguide.learn.words.branch_network import StrategyNetwork
+from relguide.learn.boundary.template_network import TemplateNetwork
+from relguide.learn.words.branch_network import BranchNetwork
 from relguide.planning.certificate import TOLERANCE
 
 BY_NETWORK = -1.0
@@ -34,7 +34,7 @@ _RADIUS, _TAS = 10_000.0, 200.0  # certificates round in metres, so they are ask
 
 
 def answer_rows(
-    situations: FloatArray, words: StrategyNetwork, ways: WayNetwork, bearings: int, first: int,
+    situations: FloatArray, words: BranchNetwork, ways: TemplateNetwork, bearings: int, first: int,
     last: int, answers: FloatArray,
 ) -> None:  # fmt: skip
     """Answer situations first … last − 1.
@@ -92,7 +92,7 @@ def _answer_rows(
             and limit <= slot <= around[4] * limit
             and limit <= away <= limit + around[5]
         ):
-            _, _, time, count = choose_way(
+            _, _, time, count = choose_template(
                 x, y, h, slot, alpha, limit, free, ways, surer[0], surer[1], surer[2], legs
             )
             if count > 0:
@@ -112,8 +112,8 @@ def _keeps(
     """The certificate. The slot frame is a world with its x axis north: left is right there."""
     bends = np.empty(2 * pieces.shape[1])
     for k in range(pieces.shape[1]):
-        ride, bend, amount = pieces[0, k], pieces[1, k], pieces[2, k]
-        if ride == 0.0:
+        boundary_arc, bend, amount = pieces[0, k], pieces[1, k], pieces[2, k]
+        if boundary_arc == 0.0:
             bends[2 * k] = amount if bend == 0.0 else amount * _RADIUS
             bends[2 * k + 1] = bend / _RADIUS
         else:

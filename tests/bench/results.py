@@ -27,7 +27,7 @@ class Counts:
     batch: int = _count(500_000, "situations of a batch, the limit left out")
     limited_batch: int = _count(2048, "situations of a batch, the limit active")
     asked: int = _count(150, "situations of each kind that networks and plan() are asked")
-    questions: int = _count(20_000, "questions for the network of strategies alone")
+    questions: int = _count(20_000, "questions for the network of branches alone")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,7 +45,7 @@ class Results:
     network_batches: list[Batch]
     """The same situations at once."""
     rates: list[Rate]
-    """The network of strategies alone."""
+    """The network of branches alone."""
 
     @property
     def beaten(self) -> list[Contest]:

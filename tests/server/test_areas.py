@@ -121,7 +121,7 @@ def test_by_network_times_are_the_exact_ones(client: TestClient) -> None:
     assert area["times_s"] == exact["times_s"]
     assert area["count"]["proved"] < exact["count"]["proved"]
     assert area["count"]["no_plan"] == exact["count"]["no_plan"]
-    assert "network of strategies" in area["notes"][0]
+    assert "network of branches" in area["notes"][0]
     assert "proved" in exact["notes"][0]
 
 

@@ -15,9 +15,9 @@ from relguide_server.settings import Settings
 from starlette.testclient import TestClient
 
 from relguide import NoPlan, Plan, Planner, Situation, plan
-from relguide.kernels.words.branches import SIZE, STRATEGIES
+from relguide.kernels.words.branches import BRANCHES, SIZE
 from relguide.learn.network_planner import network_planner
-from relguide.learn.words.branch_network import StrategyNetwork
+from relguide.learn.words.branch_network import BranchNetwork
 from tests.bodies import changed
 from tests.relguide.learn.words.networks import network
 from tests.server.flown import SITUATION
@@ -26,11 +26,11 @@ PATIENCE = 60.0
 """How long an audit may take [s]: kernels may have to be compiled first."""
 
 
-def one_idea(strategy: str) -> StrategyNetwork:
-    """A network that is sure of one strategy, whatever it is asked."""
+def one_idea(branch: str) -> BranchNetwork:
+    """A network that is sure of one branch, whatever it is asked."""
     layers = network().layers
     bias = np.zeros_like(layers.last_bias)
-    bias[STRATEGIES.index(strategy)] = 50.0
+    bias[BRANCHES.index(branch)] = 50.0
     bias[SIZE:] = 1.0
     stubborn = layers._replace(last=np.zeros_like(layers.last), last_bias=bias)
     return replace(network(), layers=stubborn, least_share=0.01, most=3)

@@ -1,7 +1,7 @@
 // Made by `python -m relguide_server.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-4930fe2117a2";
+export const PROTOCOL = "relguide-e402c4dbbe55";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -190,10 +190,18 @@ export interface AreaRegion {
   polygons: number[][][][];
 }
 
-/** A ride along d = d_min with less than full bank. */
+/** A stretch flown along d = d_min at partial bank. */
+export interface BoundaryArcCard {
+  start_s: number;
+  end_s: number;
+  /** Least μ on it; eq. (10) asks that it be 0 or more. */
+  least_multiplier_per_m: number;
+}
+
+/** A boundary arc along d = d_min with less than full bank. */
 export interface BoundarySegment {
   kind: "boundary";
-  /** The side it turns to: left rides counter-clockwise round the leader. */
+  /** The side it turns to: left boundary arcs counter-clockwise round the leader. */
   side: Direction;
   duration_s: number;
   start: PathPoint;
@@ -202,7 +210,7 @@ export interface BoundarySegment {
   via: PathPoint[];
 }
 
-/** Where a plan touches d = d_min, or where a ride along it begins or ends. */
+/** Where a plan touches d = d_min, or where a boundary arc along it begins or ends. */
 export interface ContactCard {
   t_s: number;
   /** From pursuer to leader, clockwise from north, in [−180°, 180°]. */
@@ -429,7 +437,7 @@ export interface OptimalityCard {
   /** If asked for. */
   contacts?: ContactCard[];
   /** If asked for. */
-  rides?: RideCard[];
+  boundary_arcs?: BoundaryArcCard[];
   /** If asked for. */
   panel?: OptimalityPanel;
 }
@@ -509,14 +517,6 @@ export interface PlanUnavailable {
 /** Let the flight go on. */
 export interface PlayCommand {
   command: "play";
-}
-
-/** A stretch flown along d = d_min at partial bank. */
-export interface RideCard {
-  start_s: number;
-  end_s: number;
-  /** Least μ on it; eq. (10) asks that it be 0 or more. */
-  least_multiplier_per_m: number;
 }
 
 /** The flight at one instant. */

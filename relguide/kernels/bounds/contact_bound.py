@@ -6,7 +6,8 @@ contact lies in it takes at least as long as the soonest word to any of its pose
 soonest word from any of its poses on (see `word_bound`). Words that certainly break the limit on
 the way lead to no first contact, nor to the slot from a last one. Between the first contact and the
 last, whatever happens, a path takes at least as long as the soonest word from pose to pose, and as
-the way round the disc takes something that need not turn: a ride comes as close to that as it can.
+the way round the disc takes something that need not turn: a boundary arc comes as close to that as
+it can.
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader is a table as in
 `clearance`.
@@ -30,7 +31,7 @@ _INSIDE = 2e-6
 """A path must come this much closer than d_min to count as breaking it [R]: 2 cm at R = 12 km."""
 _FAST = 0.999  # for a leader faster than this the way round the disc is not bounded
 _ROUND = 16_384
-"""Points of `ways_round`: every 0.02°."""
+"""Points of `times_round`: every 0.02°."""
 _ROUND_SLACK = 1e-6
 """What is between two points of it may differ by, as part of a whole round: ten times the square of
 the step, which is more than the curvature makes of it."""
@@ -79,7 +80,7 @@ def contacts_within(
 @njit(cache=True, nogil=True)
 def cell_bound(
     x: float, y: float, h: float, leader: FloatArray, i: int, alpha: float, delta: float,
-    goal_x: float, goal_speed: float, t_open: float, side: float, bearing: float, half: float,
+    goal_x: float, goal_speed: float, t_release: float, side: float, bearing: float, half: float,
     low: float, high: float, beat: float,
 ) -> tuple[float, float]:  # fmt: skip
     """How soon a path can be at a contact of the cell, its first, and how soon at the goal from it.
@@ -94,7 +95,7 @@ def cell_bound(
         delta: distance at the contact [R].
         goal_x: where the goal is at t = 0 on the x axis [R].
         goal_speed: of the goal along it [V_P]: α for the slot, 0 for a place.
-        t_open: arrivals before do not count [R/V_P].
+        t_release: arrivals before do not count [R/V_P].
         side: +1 counter-clockwise round the leader, −1 clockwise.
         bearing: middle of the cell, from the leader relative to its heading [rad].
         half: half of its width [rad]; the cell lies within a quadrant.
@@ -123,7 +124,7 @@ def cell_bound(
         drifts = strays + span * hypot(vx - goal_speed, vy)
     onward = soonest(
         cx - goal_x - goal_speed * t, cy, course, blur_left + drifts, blur_right + drifts,
-        differs + swing, 0.0, goal_speed, 0.0, max(t_open - high, 0.0) - _EDGE, beat - low,
+        differs + swing, 0.0, goal_speed, 0.0, max(t_release - high, 0.0) - _EDGE, beat - low,
         False, (0.0, 0.0, 0.0), leader, alpha, 0.0,
     )  # fmt: skip
     if onward == inf:
@@ -205,11 +206,12 @@ def between_bound(
 
 
 @njit(cache=True, nogil=True)
-def ways_round(alpha: float, delta: float) -> FloatArray:
+def times_round(alpha: float, delta: float) -> FloatArray:
     """How long the way round the disc takes at least, by bearing from −π on.
 
     For something that needs no time to turn. Outside the disc it is fastest along its edge, since
-    that is convex and the leader's motion is the same everywhere: as a ride (see `contact`), so
+    that is convex and the leader's motion is the same everywhere: as a boundary arc (see
+    `contact`), so
 
         dt/db = δ / (√(1 − α² cos² b) + s α sin b) = δ (√(1 − α² cos² b) − s α sin b) / (1 − α²).
 
@@ -235,7 +237,7 @@ def ways_round(alpha: float, delta: float) -> FloatArray:
 
 @njit(cache=True, nogil=True)
 def round_time(table: FloatArray, way: int, bearing: float) -> float:
-    """A row of `ways_round` at any bearing of [−π, π]; differences are right to `_ROUND_SLACK`."""
+    """A row of `times_round` at any bearing of [−π, π]; differences are right to `_ROUND_SLACK`."""
     place = min(max((bearing + pi) / TWO_PI, 0.0), 1.0) * _ROUND
     k = min(int(place), _ROUND - 1)
     return float(table[way, k] + (place - k) * (table[way, k + 1] - table[way, k]))
@@ -249,7 +251,7 @@ def round_bound(
     """The least time from any bearing of one cell to any of another, outside the disc.
 
     Args:
-        table: of `ways_round`.
+        table: of `times_round`.
         way: 0 counter-clockwise round the leader, 1 clockwise.
         bearing: middle of the cell, in [−π, π] [rad].
         half: half of its width [rad].
@@ -270,7 +272,7 @@ def round_bound(
 @njit(cache=True, nogil=True)
 def untouched_bound(
     x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float, goal_x: float,
-    goal_speed: float, t_open: float,
+    goal_speed: float, t_release: float,
 ) -> float:  # fmt: skip
     """No path that nowhere touches the limit arrives sooner than this. Arguments as `cell_bound`.
 
@@ -278,12 +280,12 @@ def untouched_bound(
     """
     rows = np.empty((MAX_ROWS, 5))
     best = inf
-    n = solve(x - goal_x - goal_speed * TWO_PI, y, wrap(h), goal_speed, t_open - TWO_PI, rows)
+    n = solve(x - goal_x - goal_speed * TWO_PI, y, wrap(h), goal_speed, t_release - TWO_PI, rows)
     for k in range(n):
         if not _breaks_with_loop(x, y, h, rows[k], leader, alpha, delta - _INSIDE):
             best = TWO_PI + rows[k, 0]
             break
-    n = solve(x - goal_x, y, wrap(h), goal_speed, t_open, rows)
+    n = solve(x - goal_x, y, wrap(h), goal_speed, t_release, rows)
     for k in range(n):
         if rows[k, 0] >= best:
             break
@@ -296,7 +298,7 @@ def untouched_bound(
             break
     # with two loops and more: no sooner than the soonest of all paths that are to wait so long
     n = solve(x - goal_x - goal_speed * 2.0 * TWO_PI, y, wrap(h), goal_speed, 0.0, rows)
-    return min(best, max(2.0 * TWO_PI + rows[0, 0], t_open)) if n > 0 else best
+    return min(best, max(2.0 * TWO_PI + rows[0, 0], t_release)) if n > 0 else best
 
 
 @njit(cache=True, nogil=True)

@@ -1,8 +1,9 @@
-"""A ride along d = d_min as short arcs of partial bank, to be flown and certified like any other.
+"""A boundary arc along d = d_min as short arcs of partial bank, to be flown and certified like any
+other.
 
-Each step of the ride is two arcs, so that at every node distance and heading are those of the ride;
-nodes lie where the leader's turn rate changes, too. Slot frame: lengths in R, times in R/V_P,
-angles counter-clockwise; the leader is a table as in `clearance`.
+Each step of the boundary arc is two arcs, so that at every node distance and heading are those of
+the boundary arc; nodes lie where the leader's turn rate changes, too. Slot frame: lengths in R,
+times in R/V_P, angles counter-clockwise; the leader is a table as in `clearance`.
 """
 
 from math import ceil, hypot, inf
@@ -11,25 +12,26 @@ from numba import njit
 
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.contact.contact import contact_on, ride_within
+from relguide.kernels.contact.contact import contact_on, slide_within
 from relguide.kernels.separation.clearance import fly_rate, leader_at, piece_at
 
 NODE = 0.03
-"""Time between nodes of a ride [R/V_P]: between them it strays from d_min by some 1e-8 R."""
+"""Time between nodes of a boundary arc [R/V_P]: between them it strays from d_min by some 1e-8 R.
+"""
 MAX_NODES = 600
-"""Longest ride in nodes: three times the time to circle any disc that can be ridden."""
+"""Longest boundary arc in nodes: three times the time to circle any disc that can be ridden."""
 
 
 @njit(cache=True, nogil=True)
-def ride_arrival(
+def boundary_arc_arrival(
     leader: FloatArray, t: float, bearing: float, goal: float, side: float, alpha: float,
     delta: float,
 ) -> float:  # fmt: skip
-    """When a ride that begins at time t reaches a bearing; infinite if it cannot be flown."""
+    """When a boundary arc that begins at time t reaches a bearing; infinite if it cannot be flown."""
     i = piece_at(leader, t)
     while bearing != goal:
         left = leader[i + 1, 0] - t if i + 1 < len(leader) else inf
-        bearing, took = ride_within(bearing, goal, side, alpha, delta, leader[i, 4], left)
+        bearing, took = slide_within(bearing, goal, side, alpha, delta, leader[i, 4], left)
         if took == inf:
             return inf
         t += took
@@ -38,11 +40,11 @@ def ride_arrival(
 
 
 @njit(cache=True, nogil=True)
-def ride_pieces(
+def boundary_arc_pieces(
     x: float, y: float, h: float, t: float, leader: FloatArray, alpha: float, delta: float,
     side: float, first: float, last: float, pieces: FloatArray,
 ) -> tuple[int, float, float, float, float]:  # fmt: skip
-    """The ride as arcs of partial bank.
+    """The boundary arc as arcs of partial bank.
 
     Args:
         x: where it begins: at the first contact, on its heading [R].
@@ -51,7 +53,7 @@ def ride_pieces(
         t: when [R/V_P].
         leader: table of its pieces. shape (k, 5)
         alpha: V_L/V_P.
-        delta: distance of the ride [R].
+        delta: distance of the boundary arc [R].
         side: +1 counter-clockwise round the leader.
         first: bearing where it begins [rad].
         last: bearing where it ends [rad].
@@ -66,14 +68,14 @@ def ride_pieces(
     while bearing != last and n < len(pieces):
         left = leader[i + 1, 0] - t if i + 1 < len(leader) else inf
         begun = bearing
-        bearing, took = ride_within(begun, last, side, alpha, delta, leader[i, 4], left)
+        bearing, took = slide_within(begun, last, side, alpha, delta, leader[i, 4], left)
         if took == inf:
             break
         nodes = min(ceil(took / NODE), (len(pieces) - n) // 2)
         reached = begun
         for node in range(1, nodes + 1):
             goal = begun + (bearing - begun) * node / nodes
-            _, duration = ride_within(reached, goal, side, alpha, delta, leader[i, 4], inf)
+            _, duration = slide_within(reached, goal, side, alpha, delta, leader[i, 4], inf)
             if duration <= 0.0 or duration == inf:
                 continue
             lx, ly, _ = leader_at(leader, i, alpha, t + duration)

@@ -31,7 +31,7 @@ _ACROSS = 3  # places looked at either way across a valley
 
 @njit(cache=True, nogil=True)
 def refine_chain(
-    x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float, t_open: float,
+    x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float, t_release: float,
     chain: FloatArray, here: float, stride: float, beat: float, rows: FloatArray, legs: FloatArray,
 ) -> float:  # fmt: skip
     """The least arrival near a chain, whose bearings are moved.
@@ -46,11 +46,11 @@ def refine_chain(
         before, begun = here, chain.copy()
         for k in range(len(chain)):
             ax, ay, ah, t = fly_links(
-                x, y, h, 0.0, leader, alpha, delta, t_open, chain, 0, k - 1, inf, rows, legs
+                x, y, h, 0.0, leader, alpha, delta, t_release, chain, 0, k - 1, inf, rows, legs
             )
-            last = _last_moved(leader, t, t_open, chain, k, 1)
+            last = _last_moved(leader, t, t_release, chain, k, 1)
             here = _refine_one(
-                ax, ay, ah, t, leader, alpha, delta, t_open, chain, k, last, here, strides, finest,
+                ax, ay, ah, t, leader, alpha, delta, t_release, chain, k, last, here, strides, finest,
                 rows, legs,
             )  # fmt: skip
         gain = before - here
@@ -60,7 +60,20 @@ def refine_chain(
             further[:] = chain
             further[:, 2] += reach * (chain[:, 2] - begun[:, 2])
             _, _, _, there = fly_links(
-                x, y, h, 0.0, leader, alpha, delta, t_open, further, 0, len(chain), here, rows, legs
+                x,
+                y,
+                h,
+                0.0,
+                leader,
+                alpha,
+                delta,
+                t_release,
+                further,
+                0,
+                len(chain),
+                here,
+                rows,
+                legs,
             )
             if there >= here:
                 break
@@ -77,7 +90,7 @@ def refine_chain(
 
 @njit(cache=True, nogil=True)
 def follow_edges(
-    x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float, t_open: float,
+    x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float, t_release: float,
     chain: FloatArray, here: float, stride: float, rows: FloatArray, legs: FloatArray,
 ) -> float:  # fmt: skip
     """Move two bearings along an edge: where the word between two contacts ceases to exist.
@@ -91,10 +104,10 @@ def follow_edges(
         if chain[k + 1, 3] != WORD:
             continue
         ax, ay, ah, t = fly_links(
-            x, y, h, 0.0, leader, alpha, delta, t_open, chain, 0, k - 1, inf, rows, legs
+            x, y, h, 0.0, leader, alpha, delta, t_release, chain, 0, k - 1, inf, rows, legs
         )
-        link = t, leader, alpha, delta, t_open
-        last = _last_moved(leader, t, t_open, chain, k, 2)
+        link = t, leader, alpha, delta, t_release
+        last = _last_moved(leader, t, t_release, chain, k, 2)
         _, _, _, begun = fly_links(ax, ay, ah, *link, chain, k, last, inf, rows, legs)
         rise = -2.0 * begun
         for way in (-1.0, 1.0):
@@ -124,7 +137,7 @@ def follow_edges(
                 strides[k + 1] = 0.25 * step
                 bx, by, bh, then = fly_links(ax, ay, ah, *link, tried, k, k, inf, rows, legs)
                 found = _refine_one(
-                    bx, by, bh, then, leader, alpha, delta, t_open, tried, k + 1, last, found,
+                    bx, by, bh, then, leader, alpha, delta, t_release, tried, k + 1, last, found,
                     strides, 1e-3 * step, rows, legs,
                 )  # fmt: skip
                 if found < least - GAIN:
@@ -139,20 +152,20 @@ def follow_edges(
 
 @njit(cache=True, nogil=True)
 def _last_moved(
-    leader: FloatArray, t: float, t_open: float, chain: FloatArray, k: int, moved: int
+    leader: FloatArray, t: float, t_release: float, chain: FloatArray, k: int, moved: int
 ) -> int:
     """The last link that must be flown to compare chains alike but for contacts k … k + moved − 1.
 
     On the final leg nothing depends on time: past the next contact all stays as it is.
     """
-    if t >= t_open and chain[k, 0] == len(leader) - 1:
+    if t >= t_release and chain[k, 0] == len(leader) - 1:
         return min(k + moved, len(chain))
     return len(chain)
 
 
 @njit(cache=True, nogil=True)
 def simplify_chain(
-    x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float, t_open: float,
+    x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float, t_release: float,
     chain: FloatArray, here: float, stride: float, rows: FloatArray, legs: FloatArray,
 ) -> tuple[float, int]:  # fmt: skip
     """Leave out contacts that a chain does as well without, or better.
@@ -166,14 +179,14 @@ def simplify_chain(
         fewer[:k] = chain[:k]
         fewer[k:] = chain[k + 1 : contacts]
         if k < contacts - 1 and chain[k, 3] == WORD:
-            fewer[k, 3] = WORD  # the ride that began at k is left out with it
+            fewer[k, 3] = WORD  # the boundary arc that began at k is left out with it
         _, _, _, there = fly_links(
-            x, y, h, 0.0, leader, alpha, delta, t_open, fewer, 0, contacts - 1, here + _NEAR, rows,
+            x, y, h, 0.0, leader, alpha, delta, t_release, fewer, 0, contacts - 1, here + _NEAR, rows,
             legs,
         )  # fmt: skip
         if there < inf:
             there = refine_chain(
-                x, y, h, leader, alpha, delta, t_open, fewer, there, stride, here, rows, legs
+                x, y, h, leader, alpha, delta, t_release, fewer, there, stride, here, rows, legs
             )
         if there <= here + GAIN:
             contacts -= 1
@@ -188,7 +201,7 @@ def simplify_chain(
 @njit(cache=True, nogil=True)
 def _refine_one(
     x: float, y: float, h: float, t: float, leader: FloatArray, alpha: float, delta: float,
-    t_open: float, chain: FloatArray, k: int, last: int, arrival: float, strides: FloatArray,
+    t_release: float, chain: FloatArray, k: int, last: int, arrival: float, strides: FloatArray,
     finest: float, rows: FloatArray, legs: FloatArray,
 ) -> float:  # fmt: skip
     """One bearing of a chain: parabolas where the arrival is smooth, smaller steps at edges.
@@ -196,7 +209,7 @@ def _refine_one(
     Only the links up to `last` depend on it; the arrival falls by as much as their end.
     """
     stride, moved_by = strides[k], 0.0
-    link = t, leader, alpha, delta, t_open, chain, k, last
+    link = t, leader, alpha, delta, t_release, chain, k, last
     _, _, _, begun = fly_links(x, y, h, *link, inf, rows, legs)
     here = begun
     while stride >= finest and here < inf:

@@ -10,7 +10,7 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.contact.constrained_search import MAX_LEGS, best_detour
+from relguide.kernels.contact.constrained_search import MAX_LEGS, best_constrained_path
 from relguide.kernels.contact.passage import GRAZE, word_clears
 from relguide.kernels.contact.tangent import tangents
 from relguide.kernels.words.extremals import MAX_ROWS, solve
@@ -69,7 +69,7 @@ def limit_binds_rows(situations: FloatArray, binds: FloatArray) -> None:
 
 
 @njit(cache=True, nogil=True)
-def exact_ways(
+def exact_constrained(
     situations: FloatArray, bearings: int, longest: float, times: FloatArray, counts: FloatArray,
     legs: FloatArray,
 ) -> None:  # fmt: skip
@@ -104,7 +104,7 @@ def exact_ways(
                 break
         around = np.zeros((MAX_LEGS, 6))
         touched = tangents(x, y, h, leader, alpha, limit + GRAZE)
-        time, count = best_detour(
+        time, count = best_constrained_path(
             x, y, h, leader, alpha, limit + GRAZE, 0.0, bearings, touched,
             min(times[n, 1], longest), around,
         )  # fmt: skip

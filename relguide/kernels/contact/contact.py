@@ -1,4 +1,4 @@
-"""Touching d = d_min: the states in which it happens, and riding along it.
+"""Touching d = d_min: the states in which it happens, and sliding along it.
 
 Seen from the leader the forbidden disc stands still, and a path that touches it is tangent to it:
 the relative velocity has no radial part. With b the bearing of the pursuer as seen from the leader,
@@ -6,7 +6,7 @@ counter-clockwise from the leader's heading, that fixes the pursuer's heading bu
 
     cos(h − b) = α cos b      ⇒      h = b + s arccos(α cos b),    s = +1 counter-clockwise round.
 
-Riding means to stay there. With ω the leader's turn rate and q = √(1 − α² cos² b),
+Sliding means to stay there. With ω the leader's turn rate and q = √(1 − α² cos² b),
 
     b′ = (s q + α sin b)/δ − ω,      h′ = ω + b′ (1 + s α sin b/q)    (h relative to the world),
 
@@ -21,8 +21,8 @@ from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.separation.clearance import leader_at, piece_at
 
 _STEP = 0.07  # bearing step of Simpson's rule: 4°, right to 1e-9
-_SLOWLY = 0.1  # or this much of the speed round the leader, where the ride is slow
-_STILL = 0.01  # slower round the leader than this, a ride gets nowhere [V_P]
+_SLOWLY = 0.1  # or this much of the speed round the leader, where the boundary arc is slow
+_STILL = 0.01  # slower round the leader than this, a boundary arc gets nowhere [V_P]
 _BANK_SLACK = 1e-9  # ends of what can be ridden are found by bisection, and count as inside
 
 
@@ -76,16 +76,16 @@ def contact_at(
 
 
 @njit(cache=True, nogil=True)
-def ride_rates(
+def boundary_arc_rates(
     bearing: float, side: float, alpha: float, delta: float, turning: float
 ) -> tuple[float, float]:
-    """b′ and h′ of a ride at δ; both infinite where the disc cannot be touched.
+    """b′ and h′ of a boundary arc at δ; both infinite where the disc cannot be touched.
 
     Args:
         bearing: as in `contact_heading` [rad].
         side: as there.
         alpha: V_L/V_P.
-        delta: distance of the ride [R].
+        delta: distance of the boundary arc [R].
         turning: the leader's turn rate ω [V_P/R].
     """
     along = alpha * cos(bearing)
@@ -97,9 +97,11 @@ def ride_rates(
 
 
 @njit(cache=True, nogil=True)
-def ride_way(bearing: float, side: float, alpha: float, delta: float, turning: float) -> float:
-    """Which way a ride moves the bearing: +1, −1, or 0 where it cannot be flown."""
-    round_it, rate = ride_rates(bearing, side, alpha, delta, turning)
+def boundary_arc_sense(
+    bearing: float, side: float, alpha: float, delta: float, turning: float
+) -> float:
+    """Which way a boundary arc moves the bearing: +1, −1, or 0 where it cannot be flown."""
+    round_it, rate = boundary_arc_rates(bearing, side, alpha, delta, turning)
     if abs(rate) > 1.0 + _BANK_SLACK or abs(round_it) * delta < _STILL:
         return 0.0
     return 1.0 if round_it > 0.0 else -1.0
@@ -109,14 +111,14 @@ def ride_way(bearing: float, side: float, alpha: float, delta: float, turning: f
 def _slowness(
     bearing: float, way: float, side: float, alpha: float, delta: float, turning: float
 ) -> float:
-    """Time per bearing; infinite where the ride cannot be flown, or goes the other way."""
-    if ride_way(bearing, side, alpha, delta, turning) != way:
+    """Time per bearing; infinite where the boundary arc cannot be flown, or goes the other way."""
+    if boundary_arc_sense(bearing, side, alpha, delta, turning) != way:
         return inf
-    return way / ride_rates(bearing, side, alpha, delta, turning)[0]
+    return way / boundary_arc_rates(bearing, side, alpha, delta, turning)[0]
 
 
 @njit(cache=True, nogil=True)
-def ride_within(
+def slide_within(
     bearing: float, goal: float, side: float, alpha: float, delta: float, turning: float,
     left: float,
 ) -> tuple[float, float]:  # fmt: skip
@@ -127,13 +129,13 @@ def ride_within(
         goal: where it ends; not wrapped, so that it tells the way [rad].
         side: as in `contact_heading`.
         alpha: V_L/V_P.
-        delta: distance of the ride [R].
+        delta: distance of the boundary arc [R].
         turning: the leader's turn rate ω [V_P/R].
         left: how long the leader keeps it [R/V_P].
 
     Returns:
         the bearing reached and the time it took: the goal, or what is reached when the time is up;
-        an infinite time where the ride cannot be flown.
+        an infinite time where the boundary arc cannot be flown.
     """
     way = 1.0 if goal > bearing else -1.0
     used, low = 0.0, bearing

@@ -1,9 +1,9 @@
-"""A graph of contacts with d = d_min: earliest arrivals by words between them and rides along it.
+"""A graph of contacts with d = d_min: earliest arrivals by words between them and slides along it.
 
 Nodes are contacts: a piece of the leader's intent, a side and a bearing of a grid. Words lead from
-the start to a node, from node to node, and on to the slot; rides lead from a node to its neighbour.
-Labels are earliest arrivals. A node from which even the best way without the limit would come too
-late is not followed, so where one contact is enough there is little to do here.
+the start to a node, from node to node, and on to the slot; boundary arcs lead from a node to its
+neighbour. Labels are earliest arrivals. A node from which even the best way without the limit would
+come too late is not followed, so where one contact is enough there is little to do here.
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader is a table as in
 `clearance`.
@@ -16,17 +16,24 @@ from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, wrap_signed
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.contact.chain import MAX_CONTACTS, RIDE, WORD, earliest_contact
-from relguide.kernels.contact.contact import contact_at, contact_exists, ride_way, ride_within
-from relguide.kernels.contact.delay_after_contact import wait_for_opening
+from relguide.kernels.contact.chain import BOUNDARY_ARC, MAX_CONTACTS, WORD, earliest_contact
+from relguide.kernels.contact.contact import (
+    boundary_arc_sense,
+    contact_at,
+    contact_exists,
+    slide_within,
+)
+from relguide.kernels.contact.delay_after_contact import delay_until_release
 from relguide.kernels.contact.passage import GRAZE, first_clear
 from relguide.kernels.contact.paths_to_contact import not_before, not_before_slot
 from relguide.kernels.separation.clearance import piece_at
-from relguide.kernels.words.delay import HOLD_PIECES
+from relguide.kernels.words.delay import DELAY_PIECES
 from relguide.kernels.words.extremals import MAX_ROWS, solve
 
 _TRIES = 4  # times the hops of a round: so many nodes are left by a path that waits, 0.3 ms each
-_ROUNDS = 3  # of hops, each followed by rides: chains with up to two hops and three rides
+_ROUNDS = (
+    3  # of hops, each followed by boundary arcs: chains with up to two hops and three boundary arcs
+)
 _BESIDE = 0.05  # nodes this close lead to the same places: 3° [rad]
 _BETTER = 1e-9  # a label must fall by more than this [R/V_P], or rounding goes round in circles
 
@@ -36,16 +43,17 @@ def _next(
     bearings: FloatArray, n: int, size: int, leader: FloatArray, t: float, sides: FloatArray,
     alpha: float, delta: float,
 ) -> tuple[int, float, float]:  # fmt: skip
-    """The node that a ride from node n at time t comes to first, when, and its bearing unwrapped.
+    """The node that a boundary arc from node n at time t comes to first, when, and its bearing
+    unwrapped.
 
-    −1 if the ride cannot be flown. The leader may have gone on to another piece meanwhile.
+    −1 if the boundary arc cannot be flown. The leader may have gone on to another piece meanwhile.
     """
     side = sides[n]
     bearing = bearings[n]
     i = piece_at(leader, t)
     for _ in range(len(leader)):
         group = (2 * i + (0 if side > 0.0 else 1)) * size
-        way = ride_way(bearing, side, alpha, delta, leader[i, 4])
+        way = boundary_arc_sense(bearing, side, alpha, delta, leader[i, 4])
         if way == 0.0:
             break
         m, gap = -1, inf
@@ -55,7 +63,7 @@ def _next(
                 m, gap = group + j, ahead
         left = leader[i + 1, 0] - t if i + 1 < len(leader) else inf
         goal = bearing + way * gap
-        bearing, took = ride_within(bearing, goal, side, alpha, delta, leader[i, 4], left)
+        bearing, took = slide_within(bearing, goal, side, alpha, delta, leader[i, 4], left)
         if took == inf:
             break
         t += took
@@ -68,7 +76,7 @@ def _next(
 @njit(cache=True, nogil=True)
 def _onward(
     leader: FloatArray, t: float, bearing: float, side: float, alpha: float, delta: float,
-    t_open: float, beat: float, rows: FloatArray,
+    t_release: float, beat: float, rows: FloatArray,
 ) -> tuple[float, float]:  # fmt: skip
     """From a contact to the slot: a bound on the arrival, and the arrival if before `beat`.
 
@@ -78,36 +86,36 @@ def _onward(
     n = solve(x - alpha * t, y, h % TWO_PI, alpha, 0.0, rows)
     if n == 0:
         return inf, inf
-    lower = max(t + rows[0, 0], t_open)
-    arrival, _ = first_clear(x, y, h, t, rows[:n], leader, alpha, delta - GRAZE, t_open, beat)
+    lower = max(t + rows[0, 0], t_release)
+    arrival, _ = first_clear(x, y, h, t, rows[:n], leader, alpha, delta - GRAZE, t_release, beat)
     return lower, arrival
 
 
 @njit(cache=True, nogil=True)
 def _waits(
-    leader: FloatArray, alpha: float, delta: float, t_open: float, sides: FloatArray,
+    leader: FloatArray, alpha: float, delta: float, t_release: float, sides: FloatArray,
     bearings: FloatArray, time: FloatArray, lower: FloatArray, tried: FloatArray, tries: int,
 ) -> tuple[int, int]:  # fmt: skip
     """A node from which a clear path arrives just as the slot opens, −1 if none; tries left."""
-    pieces = np.empty((HOLD_PIECES, 2))
+    pieces = np.empty((DELAY_PIECES, 2))
     while tries > 0:
         n = -1
         for m in range(len(time)):
-            if lower[m] <= t_open and time[m] < tried[m] and (n < 0 or time[m] < time[n]):
+            if lower[m] <= t_release and time[m] < tried[m] and (n < 0 or time[m] < time[n]):
                 n = m
         if n < 0:
             break
         tried[n] = time[n]
         tries -= 1
         x, y, h = contact_at(leader, time[n], bearings[n], sides[n], alpha, delta)
-        if wait_for_opening(x, y, h, time[n], leader, alpha, delta - GRAZE, t_open, pieces):
+        if delay_until_release(x, y, h, time[n], leader, alpha, delta - GRAZE, t_release, pieces):
             return n, tries
     return -1, tries
 
 
 @njit(cache=True, nogil=True)
 def best_chains(
-    leader: FloatArray, alpha: float, delta: float, t_open: float, sides: FloatArray,
+    leader: FloatArray, alpha: float, delta: float, t_release: float, sides: FloatArray,
     bearings: FloatArray, time: FloatArray, lower: FloatArray, beat: float, slack: float,
     hops: int, chains: FloatArray,
 ) -> int:  # fmt: skip
@@ -117,7 +125,7 @@ def best_chains(
         leader: table of its pieces. shape (k, 5)
         alpha: V_L/V_P.
         delta: distance at the contacts [R].
-        t_open: when the slot opens [R/V_P].
+        t_release: when the slot opens [R/V_P].
         sides: of the nodes, k groups of both sides. shape (n,)
         bearings: of the nodes [rad]. shape (n,)
         time: earliest arrival at each node from the start, infinite where none matters; falls.
@@ -127,8 +135,8 @@ def best_chains(
         slack: chains on the grid that arrive this much later are kept, to be refined [R/V_P].
         hops: from how many nodes words to other nodes are looked for, in each round.
         chains: takes the chains: a row with their arrival and number of contacts, then rows as in
-            `fly_links`. One that arrives at t_open itself waits for that behind its last contact.
-            shape (·, MAX_CONTACTS + 1, 4)
+            `fly_links`. One that arrives at t_release itself waits for that behind its last
+            contact. shape (·, MAX_CONTACTS + 1, 4)
 
     Returns:
         how many.
@@ -147,7 +155,7 @@ def best_chains(
     free = np.zeros(count)
     final = 2 * size * (len(leader) - 1)
     for n in range(final, count):
-        if t_open <= time[n] < inf:
+        if t_release <= time[n] < inf:
             free[n] = lower[n] - time[n]
     best = beat
     for n in range(count):
@@ -167,29 +175,29 @@ def best_chains(
             if m < 0 or t >= time[m] - _BETTER:
                 continue
             x, y, h = contact_at(leader, t, bearings[m], sides[m], alpha, delta)
-            if not_before_slot(x, y, h, t, alpha, t_open) >= best + slack:
+            if not_before_slot(x, y, h, t, alpha, t_release) >= best + slack:
                 continue
-            time[m], pred[m], link[m], gained[m] = t, n, RIDE, goal - bearings[n]
+            time[m], pred[m], link[m], gained[m] = t, n, BOUNDARY_ARC, goal - bearings[n]
             fresh[m], waiting[m] = 1.0, 1.0
         for n in range(count):
             if fresh[n] == 0.0:
                 continue
             fresh[n] = 0.0
             lower[n], arrive[n] = _onward(
-                leader, time[n], bearings[n], sides[n], alpha, delta, t_open, best + slack, rows
+                leader, time[n], bearings[n], sides[n], alpha, delta, t_release, best + slack, rows
             )
             best = min(best, arrive[n])
-            if n >= final and t_open <= time[n]:
+            if n >= final and t_release <= time[n]:
                 free[n] = lower[n] - time[n]
-        if lower.min() <= t_open < best:
+        if lower.min() <= t_release < best:
             end, tries = _waits(
-                leader, alpha, delta, t_open, sides, bearings, time, lower, tried, tries
+                leader, alpha, delta, t_release, sides, bearings, time, lower, tried, tries
             )
             if end >= 0:
                 # what arrives as the slot opens cannot be beaten
                 arrive[:] = inf
-                arrive[end] = t_open
-                best = t_open
+                arrive[end] = t_release
+                best = t_release
                 break
         if turn == _ROUNDS - 1:
             break
@@ -224,7 +232,7 @@ def best_chains(
                 if t + free[m] >= best:
                     continue
                 ax, ay, ah = contact_at(leader, t, bearings[m], sides[m], alpha, delta)
-                if not_before_slot(ax, ay, ah, t, alpha, t_open) >= best:
+                if not_before_slot(ax, ay, ah, t, alpha, t_release) >= best:
                     continue
                 t, _ = earliest_contact(
                     x, y, h, time[n], leader, i, alpha, delta, bearings[m], sides[m],
@@ -260,15 +268,18 @@ def _collected(
         contacts = 0
         for k in range(length - 1, -1, -1):
             n = path[k]
-            bearing, rides = bearings[n], link[n] == RIDE and pred[n] >= 0
-            if rides:
+            bearing, boundary_arcs = bearings[n], link[n] == BOUNDARY_ARC and pred[n] >= 0
+            if boundary_arcs:
                 bearing = trial[contacts, 2] + gained[n]
-            if not rides or trial[contacts, 3] != RIDE:
+            if not boundary_arcs or trial[contacts, 3] != BOUNDARY_ARC:
                 contacts += 1
                 if contacts > MAX_CONTACTS:
                     break
             trial[contacts, 0], trial[contacts, 1] = n // (2 * size), sides[n]
-            trial[contacts, 2], trial[contacts, 3] = bearing, RIDE if rides else WORD
+            trial[contacts, 2], trial[contacts, 3] = (
+                bearing,
+                BOUNDARY_ARC if boundary_arcs else WORD,
+            )
         if contacts > MAX_CONTACTS:
             continue
         trial[0, 0], trial[0, 1] = arrive[end], contacts

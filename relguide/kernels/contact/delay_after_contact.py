@@ -9,15 +9,15 @@ from numba import njit
 
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.passage import pieces_clear
-from relguide.kernels.words.delay import HOLD_PIECES, MAX_HOLDS, holds
+from relguide.kernels.words.delay import DELAY_PIECES, MAX_DELAYS, holds
 
 
 @njit(cache=True, nogil=True)
-def wait_for_opening(
+def delay_until_release(
     x: float, y: float, h: float, t: float, leader: FloatArray, alpha: float, limit: float,
-    t_open: float, pieces: FloatArray,
+    t_release: float, pieces: FloatArray,
 ) -> bool:  # fmt: skip
-    """Find a clear path that arrives at t_open, with as few turns as there are.
+    """Find a clear path that arrives at t_release, with as few turns as there are.
 
     Args:
         x: start, slot frame [R].
@@ -27,23 +27,24 @@ def wait_for_opening(
         leader: table of its pieces. shape (k, 5)
         alpha: V_L/V_P.
         limit: least allowed separation [R].
-        t_open: when the slot opens [R/V_P], after t.
-        pieces: takes ε, 0 for straights, and turn angle [rad] or length [R]. shape (HOLD_PIECES, 2)
+        t_release: when the slot opens [R/V_P], after t.
+        pieces: takes ε, 0 for straights, and turn angle [rad] or length [R]. shape
+            (DELAY_PIECES, 2)
 
     Returns:
         whether there is one.
     """
-    signs = np.empty((MAX_HOLDS, HOLD_PIECES))
-    amounts = np.empty((MAX_HOLDS, HOLD_PIECES))
-    fewest = HOLD_PIECES + 1
-    n = holds(x - alpha * t, y, h, alpha, t_open - t, signs, amounts)
+    signs = np.empty((MAX_DELAYS, DELAY_PIECES))
+    amounts = np.empty((MAX_DELAYS, DELAY_PIECES))
+    fewest = DELAY_PIECES + 1
+    n = holds(x - alpha * t, y, h, alpha, t_release - t, signs, amounts)
     for j in range(n):
         turns = 0
-        for k in range(HOLD_PIECES):
+        for k in range(DELAY_PIECES):
             if signs[j, k] != 0.0 and amounts[j, k] > 0.0:
                 turns += 1
         if turns < fewest and pieces_clear(x, y, h, t, signs[j], amounts[j], leader, alpha, limit):
             fewest = turns
             pieces[:, 0] = signs[j]
             pieces[:, 1] = amounts[j]
-    return fewest <= HOLD_PIECES
+    return fewest <= DELAY_PIECES

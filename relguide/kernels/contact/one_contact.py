@@ -16,7 +16,7 @@ from numba import njit
 from relguide.kernels.base.angles import TWO_PI, wrap
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain_refinement import FINEST, GAIN, vertex
-from relguide.kernels.contact.contact import contact_at, contact_exists, ride_way
+from relguide.kernels.contact.contact import boundary_arc_sense, contact_at, contact_exists
 from relguide.kernels.contact.passage import through_contact
 from relguide.kernels.contact.paths_to_contact import not_before, not_before_slot
 from relguide.kernels.words.extremals import MAX_ROWS
@@ -46,11 +46,11 @@ def contact_nodes(
             low, high = TWO_PI * j / bearings, TWO_PI * (j + 1) / bearings
             own[group, n] = low
             n += 1
-            way = ride_way(low, side, alpha, delta, leader[i, 4])
-            if way != ride_way(high, side, alpha, delta, leader[i, 4]):
+            way = boundary_arc_sense(low, side, alpha, delta, leader[i, 4])
+            if way != boundary_arc_sense(high, side, alpha, delta, leader[i, 4]):
                 for _ in range(50):
                     middle = 0.5 * (low + high)
-                    if ride_way(middle, side, alpha, delta, leader[i, 4]) == way:
+                    if boundary_arc_sense(middle, side, alpha, delta, leader[i, 4]) == way:
                         low = middle
                     else:
                         high = middle
@@ -75,7 +75,7 @@ def contact_nodes(
 
 @njit(cache=True, nogil=True)
 def scan_contacts(
-    x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float, t_open: float,
+    x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float, t_release: float,
     sides: FloatArray, placed: FloatArray, beat: float, time: FloatArray, lower: FloatArray,
     values: FloatArray, way: FloatArray,
 ) -> float:  # fmt: skip
@@ -88,7 +88,7 @@ def scan_contacts(
         leader: table of its pieces. shape (k, 5)
         alpha: V_L/V_P.
         delta: distance at the contacts [R].
-        t_open: when the slot opens [R/V_P].
+        t_release: when the slot opens [R/V_P].
         sides: of the contacts, from `contact_nodes`. shape (n,)
         placed: their bearings [rad]. shape (n,)
         beat: an arrival already known [R/V_P].
@@ -109,17 +109,17 @@ def scan_contacts(
         if contact_exists(placed[n], alpha):
             i = n // (2 * size)
             t = not_before(x, y, h, 0.0, leader, i, alpha, delta, placed[n], sides[n])
-            soonest[n] = max(t, t_open)
+            soonest[n] = max(t, t_release)
             if i + 1 == len(leader):
                 # on the final leg the contact keeps its place from the slot
                 cx, cy, ch = contact_at(leader, t, placed[n], sides[n], alpha, delta)
-                soonest[n] = not_before_slot(cx, cy, ch, t, alpha, t_open)
+                soonest[n] = not_before_slot(cx, cy, ch, t, alpha, t_release)
     best = beat
     for n in np.argsort(soonest):
         if soonest[n] >= best + _HIDDEN:
             break
         values[n] = through_contact(
-            x, y, h, leader, n // (2 * size), alpha, delta, t_open, placed[n], sides[n],
+            x, y, h, leader, n // (2 * size), alpha, delta, t_release, placed[n], sides[n],
             best + _HIDDEN, rows, onward, trial, reached,
         )  # fmt: skip
         time[n], lower[n] = reached[0], reached[1]
@@ -133,7 +133,7 @@ def scan_contacts(
 
 @njit(cache=True, nogil=True)
 def descend_basins(
-    x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float, t_open: float,
+    x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float, t_release: float,
     sides: FloatArray, placed: FloatArray, values: FloatArray, bearings: int, best: float,
     way: FloatArray,
 ) -> float:  # fmt: skip
@@ -146,7 +146,7 @@ def descend_basins(
         leader: table of its pieces. shape (k, 5)
         alpha: V_L/V_P.
         delta: distance at the contacts [R].
-        t_open: when the slot opens [R/V_P].
+        t_release: when the slot opens [R/V_P].
         sides: of the contacts. shape (n,)
         placed: their bearings [rad]. shape (n,)
         values: arrivals through them, from `scan_contacts`. shape (n,)
@@ -186,7 +186,7 @@ def descend_basins(
         if values[at] > best and values[at] - hidden >= best:
             continue
         here = _descend(
-            x, y, h, leader, at // (2 * size), alpha, delta, t_open, placed[at], sides[at],
+            x, y, h, leader, at // (2 * size), alpha, delta, t_release, placed[at], sides[at],
             values[at], 0.5 * TWO_PI / bearings, rows, onward, trial, reached, nearby,
         )  # fmt: skip
         if here < best:
@@ -202,7 +202,7 @@ def descend_basins(
             edge, there = inf, placed[at]
             for part in range(1, _PARTS):
                 value = through_contact(
-                    x, y, h, leader, at // (2 * size), alpha, delta, t_open,
+                    x, y, h, leader, at // (2 * size), alpha, delta, t_release,
                     placed[at] + away * part / _PARTS, sides[at], best + _HIDDEN, rows, onward,
                     trial, reached,
                 )  # fmt: skip
@@ -215,7 +215,7 @@ def descend_basins(
             if edge == inf:
                 continue
             here = _descend(
-                x, y, h, leader, at // (2 * size), alpha, delta, t_open, there, sides[at], edge,
+                x, y, h, leader, at // (2 * size), alpha, delta, t_release, there, sides[at], edge,
                 0.5 * abs(away) / _PARTS, rows, onward, trial, reached, nearby,
             )  # fmt: skip
             if here < best:
@@ -227,7 +227,7 @@ def descend_basins(
 @njit(cache=True, nogil=True)
 def _descend(
     x: float, y: float, h: float, leader: FloatArray, i: int, alpha: float, delta: float,
-    t_open: float, bearing: float, side: float, here: float, stride: float, rows: FloatArray,
+    t_release: float, bearing: float, side: float, here: float, stride: float, rows: FloatArray,
     onward: FloatArray, trial: FloatArray, reached: FloatArray, way: FloatArray,
 ) -> float:  # fmt: skip
     """The least arrival near a bearing whose own is `here`; `way` takes the way if it is less."""
@@ -237,7 +237,7 @@ def _descend(
         for direction in range(2):
             there = bearing + stride * (2.0 * direction - 1.0)
             found = through_contact(
-                x, y, h, leader, i, alpha, delta, t_open, there, side, here + 0.2, rows, onward,
+                x, y, h, leader, i, alpha, delta, t_release, there, side, here + 0.2, rows, onward,
                 trial, reached,
             )  # fmt: skip
             values = (values[1], found)
@@ -252,7 +252,7 @@ def _descend(
             stride *= 0.4
             continue
         found = through_contact(
-            x, y, h, leader, i, alpha, delta, t_open, bearing + shift, side, here, rows, onward,
+            x, y, h, leader, i, alpha, delta, t_release, bearing + shift, side, here, rows, onward,
             trial, reached,
         )  # fmt: skip
         smooth = abs(here - found - promised) <= 0.1 * promised + GAIN

@@ -15,7 +15,7 @@ from numba import njit
 from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.contact import contact_exists, contact_on
-from relguide.kernels.contact.paths_to_contact import not_before_slot, ways_to_contact
+from relguide.kernels.contact.paths_to_contact import not_before_slot, paths_to_contact
 from relguide.kernels.separation.clearance import piece_clears
 from relguide.kernels.words.extremals import SIGNS, fly_piece, solve
 
@@ -51,7 +51,7 @@ def word_clears(
 @njit(cache=True, nogil=True)
 def first_clear(
     x: float, y: float, h: float, t: float, rows: FloatArray, leader: FloatArray, alpha: float,
-    limit: float, t_open: float, beat: float,
+    limit: float, t_release: float, beat: float,
 ) -> tuple[float, int]:  # fmt: skip
     """The first of the rows of `solve`, flown from time t, that is not early and clears.
 
@@ -62,7 +62,7 @@ def first_clear(
         arrival = t + rows[k, 0]
         if arrival >= beat:
             break
-        if arrival >= t_open - _EARLY and word_clears(x, y, h, t, rows[k], leader, alpha, limit):
+        if arrival >= t_release - _EARLY and word_clears(x, y, h, t, rows[k], leader, alpha, limit):
             return arrival, k
     return inf, -1
 
@@ -70,20 +70,20 @@ def first_clear(
 @njit(cache=True, nogil=True)
 def best_word(
     x: float, y: float, h: float, t: float, leader: FloatArray, alpha: float, limit: float,
-    t_open: float, beat: float, rows: FloatArray,
+    t_release: float, beat: float, rows: FloatArray,
 ) -> tuple[float, int]:  # fmt: skip
     """The fastest extremal to the slot, from time t on, that clears; arrival time and its row.
 
     Infinite and −1 if none arrives before `beat`.
     """
-    n = solve(x - alpha * t, y, wrap(h), alpha, max(t_open - t, 0.0), rows)
-    return first_clear(x, y, h, t, rows[:n], leader, alpha, limit, t_open, beat)
+    n = solve(x - alpha * t, y, wrap(h), alpha, max(t_release - t, 0.0), rows)
+    return first_clear(x, y, h, t, rows[:n], leader, alpha, limit, t_release, beat)
 
 
 @njit(cache=True, nogil=True)
 def through_contact(
     x: float, y: float, h: float, leader: FloatArray, i: int, alpha: float, delta: float,
-    t_open: float, bearing: float, side: float, beat: float, rows: FloatArray,
+    t_release: float, bearing: float, side: float, beat: float, rows: FloatArray,
     onward: FloatArray, way: FloatArray, reached: FloatArray,
 ) -> float:  # fmt: skip
     """Arrival by the fastest way through one contact that clears, if it is before `beat`.
@@ -96,7 +96,7 @@ def through_contact(
         i: piece it is on at the contact.
         alpha: V_L/V_P.
         delta: distance at the contact [R].
-        t_open: when the slot opens [R/V_P].
+        t_release: when the slot opens [R/V_P].
         bearing: of the contact from the leader, relative to its heading [rad].
         side: +1 counter-clockwise round the leader, −1 clockwise.
         beat: arrivals from here on do not matter [R/V_P].
@@ -113,14 +113,14 @@ def through_contact(
     if not contact_exists(bearing, alpha):
         return inf
     limit = delta - GRAZE
-    n = ways_to_contact(x, y, h, 0.0, leader, i, alpha, delta, bearing, side, rows)
+    n = paths_to_contact(x, y, h, 0.0, leader, i, alpha, delta, bearing, side, rows)
     m = -1
     for k in range(n):
         t = rows[k, 0]
         if t >= beat:
             continue
         cx, cy, ch = contact_on(leader, i, t, bearing, side, alpha, delta)
-        if not_before_slot(cx, cy, ch, t, alpha, t_open) >= beat:
+        if not_before_slot(cx, cy, ch, t, alpha, t_release) >= beat:
             continue
         if m < 0 or i + 1 < len(leader):
             # on the final leg the ways on are the same at any time
@@ -128,12 +128,12 @@ def through_contact(
         if m == 0:
             continue
         # the cheap test first: could it be in time at all? What is too early may wait
-        lower = max(t + onward[0, 0], t_open)
+        lower = max(t + onward[0, 0], t_release)
         if lower >= beat or not word_clears(x, y, h, 0.0, rows[k], leader, alpha, limit):
             continue
         if t < reached[0]:
             reached[0], reached[1] = t, lower
-        arrival, j = first_clear(cx, cy, ch, t, onward[:m], leader, alpha, limit, t_open, beat)
+        arrival, j = first_clear(cx, cy, ch, t, onward[:m], leader, alpha, limit, t_release, beat)
         if j >= 0:
             beat = arrival
             way[0] = rows[k]

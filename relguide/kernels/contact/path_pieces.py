@@ -1,4 +1,5 @@
-"""A way's legs as the pieces that are flown: turns at full bank, straights, the arcs of rides.
+"""A way's legs as the pieces that are flown: turns at full bank, straights, the arcs of boundary
+arcs.
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader is a table as in
 `clearance`. What comes out is in metres.
@@ -11,11 +12,11 @@ from numba import njit
 
 from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.contact.boundary_arc import MAX_NODES, ride_pieces
-from relguide.kernels.contact.chain import RIDE, WAIT
-from relguide.kernels.contact.delay_after_contact import wait_for_opening
+from relguide.kernels.contact.boundary_arc import MAX_NODES, boundary_arc_pieces
+from relguide.kernels.contact.chain import BOUNDARY_ARC, WAIT
+from relguide.kernels.contact.delay_after_contact import delay_until_release
 from relguide.kernels.contact.passage import GRAZE, best_word, word_clears
-from relguide.kernels.words.delay import HOLD_PIECES
+from relguide.kernels.words.delay import DELAY_PIECES
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, fly_piece
 from relguide.kernels.words.fastest import fastest
 from relguide.kernels.words.sooner import MOST_ROOTS, work_room
@@ -28,10 +29,10 @@ SAME = 2e-4
 
 @njit(cache=True, nogil=True)
 def pieces_of(
-    x: float, y: float, h: float, leader: FloatArray, alpha: float, limit: float, t_open: float,
+    x: float, y: float, h: float, leader: FloatArray, alpha: float, limit: float, t_release: float,
     radius: float, sense: float, time: float, legs: FloatArray,
 ) -> FloatArray:  # fmt: skip
-    """The pieces of a way; the last word anew, from where the rides really end.
+    """The pieces of a way; the last word anew, from where the boundary arcs really end.
 
     What is only rounding is left out. Two pieces that meet in a contact may be one turn, or one
     straight.
@@ -43,29 +44,33 @@ def pieces_of(
         leader: table of its pieces. shape (k, 5)
         alpha: V_L/V_P.
         limit: d_min [R].
-        t_open: when the slot opens [R/V_P].
+        t_release: when the slot opens [R/V_P].
         radius: R [m].
         sense: +1, or −1 for the mirror image of what is flown here.
         time: when the way arrives as it was found [R/V_P].
         legs: as `chain.fly_links` gives them. shape (n, 6)
 
     Returns:
-        a column a piece: 0, or of a ride's arc the ride's number, negative if it goes clockwise
-        round the leader; ε (+1 left, 0 straight), or of a ride's arc its curvature, positive to the
-        right [1/m]; turn angle [rad] or length [m]. No columns if no word leads on from where the
-        last ride ends, or none as soon. shape (3, pieces)
+        a column a piece: 0, or of a boundary arc's arc the boundary arc's number, negative if it
+        goes clockwise round the leader; ε (+1 left, 0 straight), or of a boundary arc's arc its
+        curvature, positive to the right [1/m]; turn angle [rad] or length [m]. No columns if no
+        word leads on from where the last boundary arc ends, or none as soon. shape (3, pieces)
     """
-    rides = 0
+    boundary_arcs = 0
     for k in range(len(legs)):
-        rides += legs[k, 0] == RIDE
-    pieces = np.empty((3, 3 * len(legs) + HOLD_PIECES + 2 * MAX_NODES * rides))
-    arcs = np.empty((2 * MAX_NODES if rides > 0 else 0, 2))
+        boundary_arcs += legs[k, 0] == BOUNDARY_ARC
+    pieces = np.empty((3, 3 * len(legs) + DELAY_PIECES + 2 * MAX_NODES * boundary_arcs))
+    arcs = np.empty((2 * MAX_NODES if boundary_arcs > 0 else 0, 2))
     row = np.empty(5)
-    n, t, last = 0, 0.0, 2.0  # of two words in a row the turns that meet may be one; of rides none
+    n, t, last = (
+        0,
+        0.0,
+        2.0,
+    )  # of two words in a row the turns that meet may be one; of boundary arcs none
     for k in range(len(legs)):
-        if legs[k, 0] == RIDE:
+        if legs[k, 0] == BOUNDARY_ARC:
             side = legs[k, 1]
-            count, x, y, h, t = ride_pieces(
+            count, x, y, h, t = boundary_arc_pieces(
                 x, y, h, t, leader, alpha, limit + GRAZE, side, legs[k, 2], legs[k, 3], arcs
             )
             for i in range(count):
@@ -76,19 +81,20 @@ def pieces_of(
             last = 2.0
             continue
         if legs[k, 0] == WAIT:
-            waiting = np.empty((HOLD_PIECES, 2))
-            if not wait_for_opening(
-                x, y, h, t, leader, alpha, limit - GRAZE, t_open, waiting
+            waiting = np.empty((DELAY_PIECES, 2))
+            if not delay_until_release(
+                x, y, h, t, leader, alpha, limit - GRAZE, t_release, waiting
             ):  # fmt: skip
                 return pieces[:, :0]
             signs, amounts = waiting[:, 0], waiting[:, 1]
         else:
             row[:] = legs[k, 1:6]
-            # a ride's last node lies within rounding of the limit: it must not cost the best word
+            # a boundary arc's last node lies within rounding of the limit: it must not cost the
+            # best word
             if (
-                rides > 0
+                boundary_arcs > 0
                 and k + 1 == len(legs)
-                and not _word_on(x, y, h, t, leader, alpha, limit - GRAZE, t_open, row)
+                and not _word_on(x, y, h, t, leader, alpha, limit - GRAZE, t_release, row)
             ):
                 return pieces[:, :0]
             signs, amounts = SIGNS[int(row[1])], row[2:5]
@@ -111,7 +117,7 @@ def pieces_of(
 @njit(cache=True, nogil=True)
 def _word_on(
     x: float, y: float, h: float, t: float, leader: FloatArray, alpha: float, limit: float,
-    t_open: float, row: FloatArray,
+    t_release: float, row: FloatArray,
 ) -> bool:  # fmt: skip
     """The fastest extremal to the slot, from time t on, that clears.
 
@@ -123,7 +129,7 @@ def _word_on(
         leader: table of its pieces. shape (k, 5)
         alpha: V_L/V_P.
         limit: to be kept [R].
-        t_open: when the slot opens [R/V_P].
+        t_release: when the slot opens [R/V_P].
         row: one that leads on from nearby, with the word that is likely; takes it. shape (5,)
 
     Returns:
@@ -132,11 +138,11 @@ def _word_on(
     room, found, hint = work_room(), np.empty((MOST_ROOTS, 4)), int(row[1])
     # the fastest alone is found in a third of the time, and mostly clears
     if fastest(
-        x - alpha * t, y, wrap(h), alpha, max(t_open - t, 0.0), hint, room, found, row
+        x - alpha * t, y, wrap(h), alpha, max(t_release - t, 0.0), hint, room, found, row
     ) and word_clears(x, y, h, t, row, leader, alpha, limit):
         return True
     rows = np.empty((MAX_ROWS, 5))
-    _, i = best_word(x, y, h, t, leader, alpha, limit, t_open, inf, rows)
+    _, i = best_word(x, y, h, t, leader, alpha, limit, t_release, inf, rows)
     if i < 0:
         return False
     row[:] = rows[i]

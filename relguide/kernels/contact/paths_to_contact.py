@@ -49,14 +49,16 @@ def not_before(
 
 
 @njit(cache=True, nogil=True)
-def not_before_slot(x: float, y: float, h: float, t: float, alpha: float, t_open: float) -> float:
+def not_before_slot(
+    x: float, y: float, h: float, t: float, alpha: float, t_release: float
+) -> float:
     """Before this time no way from a pose at time t reaches the slot."""
     onward = max(intercept(alpha * t - x, -y, alpha, 0.0), abs(wrap_signed(h)))
-    return float(max(t + onward, t_open))
+    return float(max(t + onward, t_release))
 
 
 @njit(cache=True, nogil=True)
-def ways_to_contact(
+def paths_to_contact(
     x: float, y: float, h: float, t: float, leader: FloatArray, i: int, alpha: float, delta: float,
     bearing: float, side: float, rows: FloatArray,
 ) -> int:  # fmt: skip
@@ -71,7 +73,7 @@ def ways_to_contact(
     if end <= t:
         return 0
     if rate != 0.0:
-        return _ways_while_turning(x, y, h, t, leader, i, alpha, delta, bearing, side, rows)
+        return _paths_while_turning(x, y, h, t, leader, i, alpha, delta, bearing, side, rows)
     lh = leader[i, 3]
     cx, cy, course = contact_on(leader, i, t, bearing, side, alpha, delta)
     left = end - t
@@ -92,11 +94,11 @@ def ways_to_contact(
 
 
 @njit(cache=True, nogil=True)
-def _ways_while_turning(
+def _paths_while_turning(
     x: float, y: float, h: float, t_start: float, leader: FloatArray, i: int, alpha: float,
     delta: float, bearing: float, side: float, rows: FloatArray,
 ) -> int:  # fmt: skip
-    """As `ways_to_contact` while the leader turns: the contact moves on a circle, so roots in t."""
+    """As `paths_to_contact` while the leader turns: the contact moves on a circle, so roots in t."""
     start, end = max(leader[i, 0], t_start), leader[i + 1, 0]
     steps = ceil((end - start) / _TURNING_STEP) + 1
     # a word is at least as long as the way is far, and hardly longer than three full turns more

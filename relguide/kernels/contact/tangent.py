@@ -1,4 +1,5 @@
-"""Contacts that end a turn and a straight, or two opposite turns: where a ride begins or ends best.
+"""Contacts that end a turn and a straight, or two opposite turns: where a boundary arc begins or
+ends best.
 
 From the start, turn by θ and go straight: the closest approach to the leader is a function of θ
 alone, and where it equals δ the straight is tangent to the disc. So is a turn the other way at its

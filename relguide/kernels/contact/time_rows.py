@@ -1,7 +1,7 @@
 """Many situations with a straight leader, one after another: time, bound and proof of each.
 
 The same chain as `plan`: the fastest extremal, alone; where that does not clear all others in order
-of time, and the ways that touch d_min or ride along it. Slot frame: lengths in R, times in R/V_P,
+of time, and the ways that touch d_min or slide along it. Slot frame: lengths in R, times in R/V_P,
 angles counter-clockwise.
 """
 
@@ -12,7 +12,7 @@ from numba import njit
 
 from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.contact.constrained_search import MAX_LEGS, best_detour
+from relguide.kernels.contact.constrained_search import MAX_LEGS, best_constrained_path
 from relguide.kernels.contact.passage import GRAZE, word_clears
 from relguide.kernels.contact.tangent import tangents
 from relguide.kernels.separation.clearance import SLACK
@@ -20,7 +20,7 @@ from relguide.kernels.words.extremals import MAX_ROWS, solve
 from relguide.kernels.words.fastest import fastest
 from relguide.kernels.words.sooner import MOST_ROOTS, work_room
 
-PROVED, BOUNDED, UNREACHABLE, ALREADY_LOST, NO_WAY = 0.0, 1.0, 2.0, 3.0, 4.0
+PROVED, BOUNDED, UNREACHABLE, ALREADY_LOST, NO_PATH = 0.0, 1.0, 2.0, 3.0, 4.0
 """What a row of the answer says: the optimum, proved; a plan with its bound; no plan, and why."""
 
 
@@ -56,7 +56,7 @@ def plan_rows(
             answer[2] = UNREACHABLE
             continue
         answer[1] = rows[0, 0]
-        answer[2] = NO_WAY
+        answer[2] = NO_PATH
         if not limited or word_clears(x, y, h, 0.0, rows[0], leader, alpha, limit - SLACK):
             answer[0], answer[2], answer[3] = rows[0, 0], PROVED, rows[0, 1]
             continue
@@ -67,7 +67,7 @@ def plan_rows(
         if limit <= 0.0:
             continue
         near = tangents(x, y, h, leader, alpha, limit + GRAZE)
-        arrival, legs_flown = best_detour(
+        arrival, legs_flown = best_constrained_path(
             x, y, h, leader, alpha, limit + GRAZE, 0.0, bearings, near, answer[0], legs
         )
         if legs_flown > 0:

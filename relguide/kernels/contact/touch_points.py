@@ -1,4 +1,5 @@
-"""Contacts by themselves: where simple pieces touch the disc, and where rides begin and end.
+"""Contacts by themselves: where simple pieces touch the disc, and where boundary arcs begin and
+end.
 
 A turn and a straight touch the disc at isolated bearings only, and so do two opposite turns. Here
 they are found from one start, on one side, all of them or the one next to a guess; `tangent` looks
@@ -15,13 +16,13 @@ from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, wrap
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.contact.contact import ride_way, ride_within
+from relguide.kernels.contact.contact import boundary_arc_sense, slide_within
 from relguide.kernels.words.extremals import fly_piece
 
 _TO_NEXT = 0.02  # a turn from one contact to the next is longer than this [rad]
 _SCAN = 48  # sizes of a turn that is followed by a straight: every 7.5°
-LONGEST_RIDE = 1.5 * pi
-"""A ride that goes on farther has begun behind its end [rad]."""
+LONGEST_BOUNDARY_ARC = 1.5 * pi
+"""A boundary arc that goes on farther has begun behind its end [rad]."""
 
 
 @njit(cache=True, nogil=True)
@@ -220,8 +221,11 @@ def turn_tangent(
 
 
 @njit(cache=True, nogil=True)
-def ride_end(slot: float, alpha: float, delta: float, side: float) -> tuple[float, float, float]:
-    """Where a ride ends that goes on to the slot by a straight and a turn to the ride's own side.
+def boundary_arc_end(
+    slot: float, alpha: float, delta: float, side: float
+) -> tuple[float, float, float]:
+    """Where a boundary arc ends that goes on to the slot by a straight and a turn to the boundary
+    arc's own side.
 
     Backward in time, with the world turned by π, that is a turn and a straight from the slot (see
     `tangent`).
@@ -241,15 +245,17 @@ def ride_end(slot: float, alpha: float, delta: float, side: float) -> tuple[floa
 
 
 @njit(cache=True, nogil=True)
-def ride_on(
+def slide_between(
     bearing: float, end: float, side: float, alpha: float, delta: float
 ) -> tuple[float, float]:
-    """A ride from one bearing on to another: its last bearing, unwrapped, and how long it takes."""
-    way = ride_way(bearing, side, alpha, delta, 0.0)
+    """A boundary arc from one bearing on to another: its last bearing, unwrapped, and how long it
+    takes.
+    """
+    way = boundary_arc_sense(bearing, side, alpha, delta, 0.0)
     if way == 0.0:
         return bearing, inf
     ahead = wrap(way * (end - bearing))
-    if ahead > LONGEST_RIDE:
+    if ahead > LONGEST_BOUNDARY_ARC:
         return bearing, inf
-    _, took = ride_within(bearing, bearing + way * ahead, side, alpha, delta, 0.0, inf)
+    _, took = slide_within(bearing, bearing + way * ahead, side, alpha, delta, 0.0, inf)
     return bearing + way * ahead, took

@@ -1,7 +1,7 @@
 """The time-to-converge at many places at once: one leader, one heading of the pursuer.
 
 The cheap part of the chain of `plan`: every extremal in order of time, and the first that clears.
-Ways that touch d_min or ride along it are not looked for, so where the fastest extremal does not
+Ways that touch d_min or slide along it are not looked for, so where the fastest extremal does not
 clear the answer is a time that can be flown, and a bound below it. Who knows which word is the
 fastest may say so: then it alone is solved, and the bound is that of a straight line.
 
@@ -17,7 +17,7 @@ from numba import njit
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.maps.final_leg import keeps_clear
 from relguide.kernels.maps.next_clear import next_clear
-from relguide.kernels.maps.release import opening_clears, reaches
+from relguide.kernels.maps.release import reaches, release_clears
 from relguide.kernels.separation.clearance import SLACK
 from relguide.kernels.words.branches import direct_time
 from relguide.kernels.words.extremals import WORDS
@@ -33,7 +33,7 @@ NO_WORD = -1
 
 @njit(cache=True, nogil=True)
 def field_rows(
-    places: FloatArray, words: ByteArray, h: float, alpha: float, t_open: float,
+    places: FloatArray, words: ByteArray, h: float, alpha: float, t_release: float,
     leader: FloatArray, limit: float, longest: FloatArray, first: int, last: int,
     answers: FloatArray,
 ) -> None:  # fmt: skip
@@ -44,7 +44,7 @@ def field_rows(
         words: the only word that need be solved at each, −1 for all of them. shape (n,)
         h: its heading [rad], in [0, 2π).
         alpha: V_L/V_P.
-        t_open: when the slot opens; 0 for a leader that keeps straight.
+        t_release: when the slot opens; 0 for a leader that keeps straight.
         leader: table of its pieces. shape (k, 5)
         limit: d_min; 0 for none.
         longest: of `final_leg.last_turns`, for d_min less `SLACK`.
@@ -65,26 +65,26 @@ def field_rows(
         answer[0], answer[1], answer[2], answer[3] = inf, inf, NO_WORD, 0.0
         if hypot(x - leader[0, 1], y - leader[0, 2]) < near:
             continue
-        if t_open > 0.0 and reaches(x, y, h, sin_h, cos_h, alpha * t_open, t_open, piece):
-            answer[1] = t_open
-            if limit <= 0.0 or opening_clears(
-                x, y, h, sin_h, cos_h, alpha, t_open, leader, near, piece, row
+        if t_release > 0.0 and reaches(x, y, h, sin_h, cos_h, alpha * t_release, t_release, piece):
+            answer[1] = t_release
+            if limit <= 0.0 or release_clears(
+                x, y, h, sin_h, cos_h, alpha, t_release, leader, near, piece, row
             ):
-                answer[0], answer[2] = t_open, HOLD
+                answer[0], answer[2] = t_release, HOLD
                 continue
             answer[3] = 1.0
         elif words[n] >= 0 and _alone(x, y, h, sin_h, cos_h, alpha, words[n], room, found, row):
             time = row[0]
-            if time >= t_open and (
+            if time >= t_release and (
                 limit <= 0.0
                 or keeps_clear(
                     x, y, h, sin_h, cos_h, 0.0, row, alpha * time, leader, alpha, near, longest
                 )
             ):
                 answer[0], answer[2] = time, words[n]
-                answer[1] = min(max(direct_time(x, y, alpha), t_open), time)
+                answer[1] = min(max(direct_time(x, y, alpha), t_release), time)
                 continue
-        if not fastest(x, y, h, alpha, t_open, hint, room, found, row):
+        if not fastest(x, y, h, alpha, t_release, hint, room, found, row):
             continue
         hint = int(row[1])
         if answer[1] == inf:

@@ -5,7 +5,7 @@ many families of `delay.holds` two are tried here, enough almost everywhere: a s
 or behind a turn–straight–turn word.
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader is a table as in
-`clearance`. The slot opens at (end_x, 0), end_x = α t_open, and is entered on heading 0.
+`clearance`. The slot opens at (end_x, 0), end_x = α t_release, and is entered on heading 0.
 """
 
 from math import atan2, sqrt
@@ -39,7 +39,7 @@ def reaches(
         sin_h: its sine, the same for a whole map.
         cos_h: and cosine.
         end_x: where to [R].
-        length: t_open [R].
+        length: t_release [R].
         piece: room to work in. shape (3,)
     """
     dx, most = end_x - x, length + _ROUNDING
@@ -73,11 +73,12 @@ def _to_point(along: float, across: float) -> float:
 
 
 @njit(cache=True, nogil=True)
-def opening_clears(
-    x: float, y: float, h: float, sin_h: float, cos_h: float, alpha: float, t_open: float,
+def release_clears(
+    x: float, y: float, h: float, sin_h: float, cos_h: float, alpha: float, t_release: float,
     leader: FloatArray, limit: float, piece: FloatArray, row: FloatArray,
 ) -> bool:  # fmt: skip
-    """Whether a straight put before or behind a turn–straight–turn word uses up t_open, and clears.
+    """Whether a straight put before or behind a turn–straight–turn word uses up t_release, and
+    clears.
 
     That none does does not mean that no path of that length does.
 
@@ -88,25 +89,25 @@ def opening_clears(
         sin_h: as there.
         cos_h: as there.
         alpha: V_L/V_P.
-        t_open: when the slot opens [R/V_P].
+        t_release: when the slot opens [R/V_P].
         leader: table of its pieces. shape (k, 5)
         limit: least allowed separation [R].
         piece: room to work in. shape (3,)
         row: the same. shape (5,)
     """
-    end_x = alpha * t_open
+    end_x = alpha * t_release
     none = np.zeros(2)  # no last turn is known to clear where a word does not end in the slot
     for behind in range(2):
         for branch in range(4):
             way = word_headed(x, y, h, sin_h, cos_h, end_x, branch, piece)
-            if not 0.0 <= way <= t_open:
+            if not 0.0 <= way <= t_release:
                 continue
-            amount = _straight_to_open(
-                x, y, h, sin_h, cos_h, end_x, t_open, branch, behind == 1, way, piece
+            amount = _straight_to_release(
+                x, y, h, sin_h, cos_h, end_x, t_release, branch, behind == 1, way, piece
             )
             if amount < 0.0:
                 continue
-            row[0], row[1] = t_open - amount, branch
+            row[0], row[1] = t_release - amount, branch
             row[2], row[3], row[4] = piece[0], piece[1], piece[2]
             if behind == 0:
                 if not _straight_clears(x, y, h, sin_h, cos_h, 0.0, amount, leader, alpha, limit):
@@ -117,7 +118,7 @@ def opening_clears(
                 ):
                     return True
             elif _straight_clears(
-                end_x - amount, 0.0, 0.0, 0.0, 1.0, t_open - amount, amount, leader, alpha, limit
+                end_x - amount, 0.0, 0.0, 0.0, 1.0, t_release - amount, amount, leader, alpha, limit
             ) and keeps_clear(
                 x, y, h, sin_h, cos_h, 0.0, row, end_x - amount, leader, alpha, limit, none
             ):
@@ -139,15 +140,15 @@ def _straight_clears(
 
 
 @njit(cache=True, nogil=True)
-def _straight_to_open(
-    x: float, y: float, h: float, sin_h: float, cos_h: float, end_x: float, t_open: float,
+def _straight_to_release(
+    x: float, y: float, h: float, sin_h: float, cos_h: float, end_x: float, t_release: float,
     branch: int, behind: bool, shortest: float, piece: FloatArray,
 ) -> float:  # fmt: skip
-    """Length of the straight with which a word takes exactly t_open; negative if not found.
+    """Length of the straight with which a word takes exactly t_release; negative if not found.
 
     By false position (Illinois): the length is nearly linear in it, but where a turn jumps by 2π.
     """
-    low, high, gap_low, gap_high = 0.0, t_open, shortest - t_open, t_open
+    low, high, gap_low, gap_high = 0.0, t_release, shortest - t_release, t_release
     side = 0
     for _ in range(_STEPS):
         amount = (low * gap_high - high * gap_low) / (gap_high - gap_low)
@@ -158,7 +159,7 @@ def _straight_to_open(
             way = word_headed(at_x, at_y, h, sin_h, cos_h, end_x, branch, piece)
         if way < 0.0:
             return -1.0
-        gap = way + amount - t_open
+        gap = way + amount - t_release
         if abs(gap) <= ON_TIME:
             return amount
         if gap < 0.0:

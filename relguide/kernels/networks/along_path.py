@@ -13,10 +13,10 @@ from numba import njit
 
 from relguide.kernels.base.angles import mirror_heading, wrap
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.contact.chain import RIDE
+from relguide.kernels.contact.chain import BOUNDARY_ARC
 from relguide.kernels.contact.contact import contact_heading
 from relguide.kernels.contact.passage import GRAZE
-from relguide.kernels.contact.touch_points import ride_on
+from relguide.kernels.contact.touch_points import slide_between
 from relguide.kernels.words.branches import needs_mirror
 from relguide.kernels.words.extremals import SIGNS, fly_piece
 
@@ -34,18 +34,18 @@ def along(
         h: start heading [rad].
         slot: D [R].
         alpha: V_L/V_P.
-        delta: distance of rides [R].
+        delta: distance of boundary arcs [R].
         legs: the way, as `chain.fly_links`. shape (n, 6)
-        time: since the start [R/V_P]; on a ride, at an even rate of bearings.
+        time: since the start [R/V_P]; on a boundary arc, at an even rate of bearings.
 
     Returns:
         x, y and heading; at the end of the way if that is sooner.
     """
     done = 0.0
     for k in range(len(legs)):
-        if legs[k, 0] == RIDE:
+        if legs[k, 0] == BOUNDARY_ARC:
             begin, end = legs[k, 2], legs[k, 3]
-            _, took = ride_on(begin, end, legs[k, 1], alpha, delta)
+            _, took = slide_between(begin, end, legs[k, 1], alpha, delta)
             part = min(1.0, (time - done) / took) if took > 0.0 else 1.0
             bearing = begin + part * (end - begin)
             done += part * took
@@ -126,7 +126,7 @@ def later_rows(
 def mirror_legs(legs: FloatArray) -> None:
     """Exchange left and right."""
     for k in range(len(legs)):
-        if legs[k, 0] == RIDE:
+        if legs[k, 0] == BOUNDARY_ARC:
             legs[k, 1:4] *= -1.0
         else:
             # words stand beside their mirror images

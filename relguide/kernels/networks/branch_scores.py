@@ -1,6 +1,6 @@
-"""A feed-forward network of strategies, evaluated for one situation, and decoded.
+"""A feed-forward network of branches, evaluated for one situation, and decoded.
 
-Layers of one width with SiLU between them; three numbers come out of each strategy: the score it
+Layers of one width with SiLU between them; three numbers come out of each branch: the score it
 is chosen by, the logit of its existence, log(1 + τ). Weights are float32, as they were trained.
 Left and right are exchanged before and after if the situation is on the right of the route, so
 mirror images get mirrored answers, to the last bit.
@@ -15,7 +15,7 @@ from numba import njit
 from relguide.kernels.base.angles import mirror_heading
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.networks.margins import INPUTS, inputs
-from relguide.kernels.words.branches import MIRROR_OF, SIZE, WORD_OF, needs_mirror, strategy_of
+from relguide.kernels.words.branches import MIRROR_OF, SIZE, WORD_OF, branch_of, needs_mirror
 from relguide.kernels.words.extremals import MAX_ROWS, solve_word
 
 
@@ -48,7 +48,7 @@ def evaluate(
         h: its heading [rad], in [0, 2π).
         alpha: V_L/V_P, below 1.
         layers: the weights.
-        scores: takes score, logit and log(1 + τ) of each strategy. shape (3, SIZE)
+        scores: takes score, logit and log(1 + τ) of each branch. shape (3, SIZE)
     """
     mirrored = needs_mirror(y, h)
     told = np.empty(INPUTS)
@@ -101,7 +101,7 @@ def _silu(a: FloatArray) -> None:
 
 @njit(cache=True, nogil=True)
 def shares(scores: FloatArray, out: FloatArray) -> None:
-    """How likely the network takes each strategy to be the fastest: softmax of its scores.
+    """How likely the network takes each branch to be the fastest: softmax of its scores.
 
     Args:
         scores: of `evaluate`; its first row counts. shape (3, SIZE)
@@ -126,12 +126,12 @@ def choose(
         h: as there.
         alpha: as there.
         layers: the weights.
-        least_share: strategies with a smaller share than this are left out.
-        most: with more strategies than this, nothing is solved.
+        least_share: branches with a smaller share than this are left out.
+        most: with more branches than this, nothing is solved.
         rows: takes their extremals by time, as `solve` gives them. shape (MAX_ROWS, 5)
 
     Returns:
-        how many strategies are held possible, and how many rows there are.
+        how many branches are held possible, and how many rows there are.
     """
     scores = np.empty((3, SIZE))
     evaluate(x, y, h, alpha, layers, scores)
@@ -168,7 +168,7 @@ def decode(
     found = np.empty((MAX_ROWS, 4))
     n, before = 0, -1
     for s in range(SIZE):
-        # both sheets of a word come from one solution of it
+        # both branches of a word come from one solution of it
         if share[s] >= least_share and WORD_OF[s] != before:
             before = WORD_OF[s]
             n = solve_word(x, y, h, alpha, 0.0, 0.0, before, found, rows, n)
@@ -190,8 +190,8 @@ def judge_rows(
         first: from this row on.
         last: up to this row.
         scores: takes what the network says. shape (n, 3, SIZE)
-        decoded: takes how many strategies are held possible, the least time of what `choose`
-            finds [R/V_P] (infinite if nothing), and its strategy (−1). shape (n, 3)
+        decoded: takes how many branches are held possible, the least time of what `choose`
+            finds [R/V_P] (infinite if nothing), and its branch (−1). shape (n, 3)
     """
     rows = np.empty((MAX_ROWS, 5))
     for n in range(first, last):
@@ -200,4 +200,4 @@ def judge_rows(
         held, found = decode(x, y, h, alpha, scores[n], least_share, most, rows)
         decoded[n, 0] = held
         decoded[n, 1] = rows[0, 0] if found > 0 else np.inf
-        decoded[n, 2] = strategy_of(rows[0]) if found > 0 else -1
+        decoded[n, 2] = branch_of(rows[0]) if found > 0 else -1

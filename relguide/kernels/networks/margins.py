@@ -1,6 +1,6 @@
-"""How far a situation lies from where strategies begin, end, or turn into one another.
+"""How far a situation lies from where branches begin, end, or turn into one another.
 
-Most of these switching surfaces are known in closed form, though the times of the strategies on
+Most of these switching surfaces are known in closed form, though the times of the branches on
 either side are not: on them one piece of a path vanishes or is a half circle, and what is left is
 met by a single equation. A margin is how much that equation is missed by [R], with a sign, zero on
 the surface. It is told at two scales, R and `NEAR`, since there a network has to switch at once.
@@ -39,7 +39,7 @@ INPUTS = FEATURES + 2 * SIDE + 2
 
 @njit(cache=True, nogil=True)
 def inputs(x: float, y: float, h: float, alpha: float, out: FloatArray) -> None:
-    """What the network of strategies is told: `features`, and the margins.
+    """What the network of branches is told: `features`, and the margins.
 
     Args:
         x: pursuer ahead of the slot [R].

@@ -8,7 +8,7 @@ contact t₁(b), and t₂(b) the way on from there,
     t₁(b) + t₂(b)
 
 is minimised near the guess. Where simple pieces touch the disc by themselves, b is none either (see
-`touch_points`). A sheet is a word, those of three turns by their middle arc: one of `branches`.
+`touch_points`). A branch is a word, those of three turns by their middle arc: one of `branches`.
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader is at (D/R, 0) at
 t = 0 and keeps heading 0.
@@ -22,14 +22,14 @@ from numba import njit
 from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.contact import contact_heading
-from relguide.kernels.contact.touch_points import next_contact, ride_on
+from relguide.kernels.contact.touch_points import next_contact, slide_between
 from relguide.kernels.words.extremals import solve_word
 
 LS, RS, LR, RL = 8, 9, 10, 11
-"""Entries that touch the disc by themselves; before them come the sheets, as `branches`."""
-RIDES, ON_LR, ON_RL, AGAIN_RIDES, RIDES_AGAIN = 8, 9, 10, 11, 12
-"""Ways on: along the disc; by two turns that touch it; by a turn and a straight to a ride; by a
-ride, a straight and a turn to one more contact. Before them come the sheets."""
+"""Entries that touch the disc by themselves; before them come the branches, as `branches`."""
+ARCS_ON, ON_LR, ON_RL, AGAIN_ARCS, ARCS_AGAIN = 8, 9, 10, 11, 12
+"""Ways on: along the disc; by two turns that touch it; by a turn and a straight to a boundary arc;
+by a boundary arc, a straight and a turn to one more contact. Before them come the branches."""
 _STRIDE = 0.03  # of the first look beside a guess: 2°, about as good as guesses are [rad]
 _PROBES = np.array((0.02, 0.04, 0.06, 0.09, 0.18, 0.27))  # where it is looked again, either way
 _MOST = 60  # evaluations of t₁ + t₂ at one go
@@ -39,14 +39,14 @@ _GAIN = 1e-9  # or where a parabola promises less [R/V_P]
 
 @njit(cache=True, nogil=True)
 def _row_of(
-    x: float, y: float, h: float, ax: float, ay: float, sheet: int, found: FloatArray,
+    x: float, y: float, h: float, ax: float, ay: float, branch: int, found: FloatArray,
     rows: FloatArray,
 ) -> int:  # fmt: skip
-    """The soonest path of a sheet to a moving target, as its row in `rows`; −1 if none."""
-    word = sheet if sheet < 4 else 2 + sheet // 2
+    """The soonest path of a branch to a moving target, as its row in `rows`; −1 if none."""
+    word = branch if branch < 4 else 2 + branch // 2
     n = solve_word(x, y, h, ax, ay, 0.0, word, found, rows, 0)
     for i in range(n):
-        if sheet < 4 or (rows[i, 3] > pi) == (sheet % 2 == 1):
+        if branch < 4 or (rows[i, 3] > pi) == (branch % 2 == 1):
             return i
     return -1
 
@@ -54,26 +54,33 @@ def _row_of(
 @njit(cache=True, nogil=True)
 def enter(
     x: float, y: float, h: float, slot: float, alpha: float, delta: float, bearing: float,
-    side: float, sheet: int, found: FloatArray, way: FloatArray,
+    side: float, branch: int, found: FloatArray, way: FloatArray,
 ) -> int:  # fmt: skip
-    """The soonest path of a sheet to a contact, as its row in `way`; −1 if there is none."""
+    """The soonest path of a branch to a contact, as its row in `way`; −1 if there is none."""
     course = contact_heading(bearing, side, alpha)
     c, s = cos(course), sin(course)
     dx, dy = x - slot - delta * cos(bearing), y - delta * sin(bearing)
     return _row_of(
-        dx * c + dy * s, dy * c - dx * s, wrap(h - course), alpha * c, -alpha * s, sheet, found, way
+        dx * c + dy * s,
+        dy * c - dx * s,
+        wrap(h - course),
+        alpha * c,
+        -alpha * s,
+        branch,
+        found,
+        way,
     )
 
 
 @njit(cache=True, nogil=True)
 def leave(
-    slot: float, alpha: float, delta: float, bearing: float, side: float, sheet: int,
+    slot: float, alpha: float, delta: float, bearing: float, side: float, branch: int,
     found: FloatArray, way: FloatArray,
 ) -> int:  # fmt: skip
-    """The soonest path of a sheet from a contact to the slot, as its row in `way`; −1 if none."""
+    """The soonest path of a branch from a contact to the slot, as its row in `way`; −1 if none."""
     course = wrap(contact_heading(bearing, side, alpha))
     x, y = slot + delta * cos(bearing), delta * sin(bearing)
-    return _row_of(x, y, course, alpha, 0.0, sheet, found, way)
+    return _row_of(x, y, course, alpha, 0.0, branch, found, way)
 
 
 @njit(cache=True, nogil=True)
@@ -93,44 +100,44 @@ def through(
         alpha: V_L/V_P.
         delta: distance at the contact [R].
         side: +1 counter-clockwise round the leader, −1 clockwise.
-        entry: sheet to the contact; not asked for with `RIDES_AGAIN`.
-        on: sheet from there on; or `AGAIN_RIDES`; or `RIDES_AGAIN`, which leads to this contact.
-        fixed: bearing of the ride's other end, and time from the start to there, or on from there.
-            shape (2,)
+        entry: branch to the contact; not asked for with `ARCS_AGAIN`.
+        on: branch from there on; or `AGAIN_ARCS`; or `ARCS_AGAIN`, which leads to this contact.
+        fixed: bearing of the boundary arc's other end, and time from the start to there, or on
+            from there. shape (2,)
         found: room to work in. shape (MAX_ROWS, 4)
         rows: the same. shape (MAX_ROWS, 5)
         way: takes the row to the contact and that on from there. shape (2, 5)
-        link: takes bearing, turn and straight of the ride's end on this side, the bearing of the
-            other end, unwrapped, and how long the ride takes. shape (5,)
+        link: takes bearing, turn and straight of the boundary arc's end on this side, the
+            bearing of the other end, unwrapped, and how long the boundary arc takes. shape (5,)
 
     Returns:
         time; infinite if there is no such way.
     """
     time = 0.0
-    if on != RIDES_AGAIN:
+    if on != ARCS_AGAIN:
         i = enter(x, y, h, slot, alpha, delta, bearing, side, entry, found, rows)
         if i < 0:
             return inf
         way[0] = rows[i]
         time = float(way[0, 0])
-        if on == AGAIN_RIDES:
+        if on == AGAIN_ARCS:
             course = contact_heading(bearing, side, alpha)
             if not next_contact(bearing, side, alpha, delta, course, link):
                 return inf
-            link[3], link[4] = ride_on(link[0], fixed[0], side, alpha, delta)
+            link[3], link[4] = slide_between(link[0], fixed[0], side, alpha, delta)
             return float(time + link[1] + link[2] + link[4] + fixed[1])
-    sheet = on if on != RIDES_AGAIN else (0 if side > 0.0 else 1)
-    i = leave(slot, alpha, delta, bearing, side, sheet, found, rows)
+    branch = on if on != ARCS_AGAIN else (0 if side > 0.0 else 1)
+    i = leave(slot, alpha, delta, bearing, side, branch, found, rows)
     if i < 0:
         return inf
     way[1] = rows[i]
-    if on == RIDES_AGAIN:
+    if on == ARCS_AGAIN:
         # backward in time, with the world turned by π, the straight and the turn come after
         course = contact_heading(bearing, side, alpha)
         if not next_contact(bearing + pi, -side, alpha, delta, course, link):
             return inf
         link[0] += pi
-        link[3], link[4] = ride_on(fixed[0], link[0], side, alpha, delta)
+        link[3], link[4] = slide_between(fixed[0], link[0], side, alpha, delta)
         time = fixed[1] + link[4] + link[2] + link[1]
     return float(time + way[1, 0])
 

@@ -1,4 +1,4 @@
-"""Which one word a network of strategies holds possible, in many situations."""
+"""Which one word a network of branches holds possible, in many situations."""
 
 import numpy as np
 from numba import njit
@@ -20,7 +20,7 @@ def only_words(
     Args:
         situations: x, y, h in [0, 2π), α. shape (n, 4)
         layers: the weights.
-        least_share: strategies with a smaller share than this are not possible.
+        least_share: branches with a smaller share than this are not possible.
         first: from this row on.
         last: up to this row.
         words: takes the number of the only word, −1 if several are possible. shape (n,)

@@ -54,8 +54,8 @@ def at_edge(
         alpha: V_L/V_P.
         delta: distance at the contact [R].
         side: +1 counter-clockwise round the leader, −1 clockwise.
-        entry: sheet to the contact.
-        on: sheet from there on.
+        entry: branch to the contact.
+        on: branch from there on.
         leader: its leg as `passage.word_clears` takes it. shape (1, 5)
         found: room to work in. shape (MAX_ROWS, 4)
         rows: the same. shape (MAX_ROWS, 5)

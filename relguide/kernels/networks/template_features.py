@@ -11,15 +11,19 @@ from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, wrap
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.contact.contact import ride_rates
-from relguide.kernels.contact.touch_points import LONGEST_RIDE, ride_end, straight_tangents
+from relguide.kernels.contact.contact import boundary_arc_rates
+from relguide.kernels.contact.touch_points import (
+    LONGEST_BOUNDARY_ARC,
+    boundary_arc_end,
+    straight_tangents,
+)
 from relguide.kernels.words.branches import FEATURES as FREE_FEATURES
-from relguide.kernels.words.branches import features, strategy_of
+from relguide.kernels.words.branches import branch_of, features
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, fly_piece, solve
 
 FEATURES = FREE_FEATURES + 78
 """How many numbers `template_features` gives."""
-_PARTS = 8  # of a ride, whose time is added up by Simpson's rule
+_PARTS = 8  # of a boundary arc, whose time is added up by Simpson's rule
 
 
 @njit(cache=True, nogil=True)
@@ -44,19 +48,20 @@ def _passing(
 
 @njit(cache=True, nogil=True)
 def _about_riding(bearing: float, end: float, side: float, alpha: float, limit: float) -> float:
-    """About how long a ride takes from one bearing on to another; infinite if it cannot be flown.
+    """About how long a boundary arc takes from one bearing on to another; infinite if it cannot be
+    flown.
 
-    To a thousandth, which `touch_points.ride_on` takes ten times as long to know better.
+    To a thousandth, which `touch_points.slide_between` takes ten times as long to know better.
     """
-    rate, _ = ride_rates(bearing, side, alpha, limit, 0.0)
+    rate, _ = boundary_arc_rates(bearing, side, alpha, limit, 0.0)
     way = 1.0 if rate > 0.0 else -1.0
     ahead = wrap(way * (end - bearing))
-    if ahead > LONGEST_RIDE:
+    if ahead > LONGEST_BOUNDARY_ARC:
         return inf
     total = 0.0
     for k in range(_PARTS + 1):
         there = bearing + way * ahead * k / _PARTS
-        rate, turning = ride_rates(there, side, alpha, limit, 0.0)
+        rate, turning = boundary_arc_rates(there, side, alpha, limit, 0.0)
         if abs(turning) > 1.0 or way * rate <= 0.0:
             return inf
         weight = 1.0 if k == 0 or k == _PARTS else (4.0 if k % 2 == 1 else 2.0)
@@ -69,17 +74,18 @@ def _riding(
     x: float, y: float, h: float, slot: float, alpha: float, limit: float, free: float,
     out: FloatArray,
 ) -> None:  # fmt: skip
-    """Where a turn and a straight touch the disc, and how late a ride from there on would be.
+    """Where a turn and a straight touch the disc, and how late a boundary arc from there on would
+    be.
 
     Takes seven numbers for each side, and each first turn: whether the straight touches; bearing
-    of the contact, turn and straight; whether the ride ends, and how much later than the fastest
-    way without the limit, squashed.
+    of the contact, turn and straight; whether the boundary arc ends, and how much later than the
+    fastest way without the limit, squashed.
     """
     contacts = np.empty((4, 3))
     out[:] = 0.0
     at = 0
     # on the other side all is the mirror image
-    end, straight, turn = ride_end(slot, alpha, limit, 1.0)
+    end, straight, turn = boundary_arc_end(slot, alpha, limit, 1.0)
     for k in range(4):
         side, sign = 1.0 - 2.0 * (k // 2), 1.0 - 2.0 * (k % 2)
         best = -1
@@ -103,13 +109,13 @@ def _riding(
 
 
 @njit(cache=True, nogil=True)
-def way_features(
+def template_features(
     x: float, y: float, h: float, slot: float, alpha: float, limit: float, free: FloatArray,
     out: FloatArray,
 ) -> None:  # fmt: skip
     """Where slot and leader are, where simple turns lead, and the best way without the limit.
 
-    And where straights touch the disc, from which a ride would lead on.
+    And where straights touch the disc, from which a boundary arc would lead on.
 
     Args:
         x: pursuer ahead of the slot [R].
@@ -149,7 +155,7 @@ def way_features(
             out[at + 2] = cx / (1.0 + gap)
             out[at + 3] = cy / (1.0 + gap)
             at += 4
-    kind = strategy_of(free)
+    kind = branch_of(free)
     for k in range(8):
         out[at + k] = 1.0 if k == kind else 0.0
     out[at + 8] = log1p(free[0])
@@ -166,7 +172,7 @@ def way_features(
 
 
 @njit(cache=True, nogil=True)
-def way_feature_rows(situations: FloatArray, out: FloatArray) -> None:
+def template_feature_rows(situations: FloatArray, out: FloatArray) -> None:
     """`template_features` of many situations, none of which `needs_mirror`.
 
     Args:
@@ -177,4 +183,4 @@ def way_feature_rows(situations: FloatArray, out: FloatArray) -> None:
     for n in range(len(situations)):
         x, y, h, alpha, slot, limit = situations[n]
         solve(x, y, h, alpha, 0.0, rows)
-        way_features(x, y, h, slot, alpha, limit, rows[0], out[n])
+        template_features(x, y, h, slot, alpha, limit, rows[0], out[n])

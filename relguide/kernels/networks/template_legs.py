@@ -9,11 +9,11 @@ from math import cos, sin
 from numba import njit
 
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.contact.chain import RIDE, WORD
+from relguide.kernels.contact.chain import BOUNDARY_ARC, WORD
 from relguide.kernels.contact.contact import contact_heading
 from relguide.kernels.contact.passage import GRAZE, word_clears
-from relguide.kernels.contact.touch_points import ride_on
-from relguide.kernels.networks.near_guess import AGAIN_RIDES, RIDES, RIDES_AGAIN
+from relguide.kernels.contact.touch_points import slide_between
+from relguide.kernels.networks.near_guess import AGAIN_ARCS, ARCS_AGAIN, ARCS_ON
 from relguide.kernels.words.extremals import SIGNS, fly_piece
 
 
@@ -26,7 +26,7 @@ def as_legs(
     Args:
         side: +1 counter-clockwise round the leader, −1 clockwise.
         on: how it goes on from its contact, a number of `templates.ONWARD`.
-        bearing: of the contact, where a ride begins there [rad].
+        bearing: of the contact, where a boundary arc begins there [rad].
         way: rows of the words before and after the contact. shape (2, 5)
         link: of `near_guess.through`. shape (5,)
         legs: takes them, as `chain.fly_links`. shape (≥ 3, 6)
@@ -37,15 +37,15 @@ def as_legs(
     legs[0, 0] = WORD
     legs[0, 1:6] = way[0]
     count = 1
-    if on == AGAIN_RIDES:
+    if on == AGAIN_ARCS:
         legs[1, 0] = WORD
         turn_straight(side, link[1], link[2], legs[1, 1:6])
-        legs[2, 0], legs[2, 1], legs[2, 2], legs[2, 3] = RIDE, side, link[0], link[3]
+        legs[2, 0], legs[2, 1], legs[2, 2], legs[2, 3] = BOUNDARY_ARC, side, link[0], link[3]
         count = 3
-    elif on == RIDES or on == RIDES_AGAIN:
-        legs[1, 0], legs[1, 1], legs[1, 2], legs[1, 3] = RIDE, side, bearing, link[3]
+    elif on == ARCS_ON or on == ARCS_AGAIN:
+        legs[1, 0], legs[1, 1], legs[1, 2], legs[1, 3] = BOUNDARY_ARC, side, bearing, link[3]
         count = 2
-        if on == RIDES_AGAIN:
+        if on == ARCS_AGAIN:
             legs[2, 0] = WORD
             straight_turn(side, link[2], link[1], legs[2, 1:6])
             count = 3
@@ -59,7 +59,7 @@ def clears(
     x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float, side: float,
     legs: FloatArray,
 ) -> bool:  # fmt: skip
-    """Whether the words of a way keep the limit; rides do.
+    """Whether the words of a way keep the limit; boundary arcs do.
 
     Args:
         x: start, slot frame [R].
@@ -73,9 +73,9 @@ def clears(
     """
     slot, t = leader[0, 1], 0.0
     for k in range(len(legs)):
-        if legs[k, 0] == RIDE:
+        if legs[k, 0] == BOUNDARY_ARC:
             bearing = legs[k, 3]
-            _, took = ride_on(legs[k, 2], bearing, side, alpha, delta)
+            _, took = slide_between(legs[k, 2], bearing, side, alpha, delta)
             t += took
             x, y = slot + alpha * t + delta * cos(bearing), delta * sin(bearing)
             h = contact_heading(bearing, side, alpha)

@@ -11,8 +11,13 @@ from numba import njit
 
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.networks.branch_scores import Layers
-from relguide.kernels.networks.template_scores import LEGS, choose_way, guess_of, way_shares
-from relguide.kernels.networks.template_solutions import solve_kind
+from relguide.kernels.networks.template_scores import (
+    LEGS,
+    choose_template,
+    guess_of,
+    template_shares,
+)
+from relguide.kernels.networks.template_solutions import solve_template
 from relguide.kernels.networks.templates import NONE, SEVERAL, SIZE
 from relguide.kernels.words.fastest import fastest
 from relguide.kernels.words.sooner import MOST_ROOTS, work_room
@@ -22,7 +27,7 @@ VERDICTS = 7
 
 
 @njit(cache=True, nogil=True)
-def judge_ways(
+def judge_templates(
     situations: FloatArray, kinds: FloatArray, layers: Layers, least_share: float, most: int,
     doubt: float, verdicts: FloatArray,
 ) -> None:  # fmt: skip
@@ -32,29 +37,29 @@ def judge_ways(
         situations: x, y, h in [0, 2π), α, D/R, d_min/R, none of which `needs_mirror`. shape (n, 6)
         kinds: numbers of those of the exact answers. shape (n,)
         layers: the weights.
-        least_share: as in `choose_way`.
+        least_share: as in `choose_template`.
         most: as there.
         doubt: as there.
         verdicts: takes the likeliest of all kinds, its share, the arrival that it has next to its
             guess (infinite if none, or if it is `SEVERAL` or `NONE`) [R/V_P], the share of the
-            exact answer's kind; and of `choose_way` how many kinds are held possible, the kind of
-            the way and its arrival (infinite if there is none) [R/V_P]. shape (n, VERDICTS)
+            exact answer's kind; and of `choose_template` how many kinds are held possible, the kind
+            of the way and its arrival (infinite if there is none) [R/V_P]. shape (n, VERDICTS)
     """
     free, guess, share = np.empty(5), np.zeros(2), np.empty(SIZE)
     legs = np.zeros((LEGS, 6))
     for n in range(len(situations)):
         x, y, h, alpha, slot, limit = situations[n]
         fastest(x, y, h, alpha, 0.0, 0, work_room(), np.empty((MOST_ROOTS, 4)), free)
-        hidden = way_shares(x, y, h, slot, alpha, limit, free, layers, share)
+        hidden = template_shares(x, y, h, slot, alpha, limit, free, layers, share)
         first, time = int(np.argmax(share)), inf
         if first != SEVERAL and first != NONE:
             guess_of(hidden, layers, first, guess)
-            time, _ = solve_kind(x, y, h, slot, alpha, limit, first, guess, inf, legs)
+            time, _ = solve_template(x, y, h, slot, alpha, limit, first, guess, inf, legs)
         verdicts[n, 0] = first
         verdicts[n, 1] = share[first]
         verdicts[n, 2] = time
         verdicts[n, 3] = share[int(kinds[n])]
-        held, kind, best, _ = choose_way(
+        held, kind, best, _ = choose_template(
             x, y, h, slot, alpha, limit, free, layers, least_share, most, doubt, legs
         )
         verdicts[n, 4] = held

@@ -18,8 +18,8 @@ from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain import MAX_CONTACTS
 from relguide.kernels.contact.path_pieces import pieces_of
 from relguide.kernels.networks.branch_scores import Layers, last_hidden
-from relguide.kernels.networks.template_features import FEATURES, way_features
-from relguide.kernels.networks.template_solutions import solve_kind
+from relguide.kernels.networks.template_features import FEATURES, template_features
+from relguide.kernels.networks.template_solutions import solve_template
 from relguide.kernels.networks.templates import NONE, SEVERAL, SIZE
 from relguide.kernels.words.branches import needs_mirror
 
@@ -33,7 +33,7 @@ _MOST_LATE = 9.5  # the limit costs more in 1 of 200 situations, and then it is 
 
 
 @njit(cache=True, nogil=True)
-def way_shares(
+def template_shares(
     x: float, y: float, h: float, slot: float, alpha: float, limit: float, free: FloatArray,
     layers: Layers, share: FloatArray,
 ) -> FloatArray:  # fmt: skip
@@ -54,7 +54,7 @@ def way_shares(
         the layer before the outputs, for `guess_of`.
     """
     told = np.empty(FEATURES)
-    way_features(x, y, h, slot, alpha, limit, free, told)
+    template_features(x, y, h, slot, alpha, limit, free, told)
     hidden = last_hidden(told, layers)
     score = layers.last_bias[:SIZE].copy()
     for i in range(len(hidden)):
@@ -80,14 +80,14 @@ def guess_of(hidden: FloatArray, layers: Layers, kind: int, guess: FloatArray) -
 
 
 @njit(cache=True, nogil=True)
-def choose_way(
+def choose_template(
     x: float, y: float, h: float, slot: float, alpha: float, limit: float, free: FloatArray,
     layers: Layers, least_share: float, most: int, doubt: float, legs: FloatArray,
 ) -> tuple[int, int, float, int]:  # fmt: skip
     """Solve the kinds of ways that the network holds possible, next to its guesses, and no others.
 
     Args:
-        x: as in `way_shares`.
+        x: as in `template_shares`.
         y: as there.
         h: as there.
         slot: as there.
@@ -106,7 +106,7 @@ def choose_way(
         legs it has; infinite and 0 if there is none.
     """
     share = np.empty(SIZE)
-    hidden = way_shares(x, y, h, slot, alpha, limit, free, layers, share)
+    hidden = template_shares(x, y, h, slot, alpha, limit, free, layers, share)
     held = 0
     for kind in range(SIZE):
         held += share[kind] >= least_share and kind != SEVERAL and kind != NONE
@@ -125,7 +125,7 @@ def choose_way(
         held_share = share[kind]
         share[kind] = 0.0
         guess_of(hidden, layers, kind, guess)
-        time, n = solve_kind(x, y, h, slot, alpha, limit, kind, guess, best, trial)
+        time, n = solve_template(x, y, h, slot, alpha, limit, kind, guess, best, trial)
         if n > 0:
             best, count, chosen = time, n, kind
             legs[:n] = trial[:n]
@@ -142,7 +142,7 @@ def way_round(
     x: float, y: float, h: float, slot: float, alpha: float, limit: float, free: FloatArray,
     radius: float, longest: float, weights: Weights, least_share: float, most: int, doubt: float,
 ) -> FloatArray:  # fmt: skip
-    """The way of `choose_way` as pieces.
+    """The way of `choose_template` as pieces.
 
     Args:
         x: pursuer ahead of the slot [R].
@@ -155,7 +155,7 @@ def way_round(
         radius: R [m].
         longest: ways that take longer count as none [R/V_P].
         weights: those of `Layers`; a plain tuple is handed over in half the time.
-        least_share: as in `choose_way`.
+        least_share: as in `choose_template`.
         most: as there.
         doubt: as there.
 
@@ -166,7 +166,7 @@ def way_round(
     if needs_mirror(y, h):
         y, h, sense = -y, mirror_heading(h), -1.0
     legs = np.zeros((LEGS, 6))
-    _, _, time, count = choose_way(
+    _, _, time, count = choose_template(
         x, y, h, slot, alpha, limit, free, Layers(*weights), least_share, most, doubt, legs
     )
     if count == 0 or time > longest:

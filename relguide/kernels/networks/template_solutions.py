@@ -13,13 +13,18 @@ from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain import WORD
 from relguide.kernels.contact.passage import GRAZE, word_clears
-from relguide.kernels.contact.touch_points import ride_end, ride_on, straight_tangents, turn_tangent
+from relguide.kernels.contact.touch_points import (
+    boundary_arc_end,
+    slide_between,
+    straight_tangents,
+    turn_tangent,
+)
 from relguide.kernels.networks.near_guess import (
-    AGAIN_RIDES,
+    AGAIN_ARCS,
+    ARCS_AGAIN,
+    ARCS_ON,
     LR,
     ON_LR,
-    RIDES,
-    RIDES_AGAIN,
     RS,
     descend,
     enter,
@@ -34,14 +39,14 @@ from relguide.kernels.networks.template_legs import (
     turn_straight,
     two_turns,
 )
-from relguide.kernels.networks.templates import FREE, NONE, PARTS, SEVERAL, kind_of
+from relguide.kernels.networks.templates import FREE, NONE, PARTS, SEVERAL, template_of
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, solve
 
 _NARROW = 0.15  # where a way exists between two such bearings, its guess may miss it [rad]
 
 
 @njit(cache=True, nogil=True)
-def solve_kind(
+def solve_template(
     x: float, y: float, h: float, slot: float, alpha: float, limit: float, kind: int,
     guess: FloatArray, beat: float, legs: FloatArray,
 ) -> tuple[float, int]:  # fmt: skip
@@ -54,7 +59,7 @@ def solve_kind(
         slot: D [R].
         alpha: V_L/V_P, below 1.
         limit: d_min [R].
-        kind: number of `KINDS`; neither `SEVERAL` nor `NONE`.
+        kind: number of `TEMPLATES`; neither `SEVERAL` nor `NONE`.
         guess: of its two numbers. shape (2,)
         beat: arrivals from here on do not matter [R/V_P].
         legs: takes the legs, as `chain.fly_links`. shape (≥ 3, 6)
@@ -80,13 +85,13 @@ def solve_kind(
     way = np.zeros((2, 5))
     link, fixed = np.zeros(5), np.zeros(2)
     bearing = 0.0
-    if on == RIDES or on == RIDES_AGAIN:
-        time, bearing = _by_ride(
+    if on == ARCS_ON or on == ARCS_AGAIN:
+        time, bearing = _by_boundary_arc(
             x, y, h, slot, alpha, delta, entry, side, on, guess, beat, leader, found, rows, way,
             link,
         )  # fmt: skip
-    elif on == AGAIN_RIDES:
-        end, straight, turn = ride_end(slot, alpha, delta, side)
+    elif on == AGAIN_ARCS:
+        end, straight, turn = boundary_arc_end(slot, alpha, delta, side)
         if isnan(end):
             return inf, 0
         fixed[0], fixed[1] = end, straight + turn
@@ -137,7 +142,7 @@ def solve_kind(
         count = as_legs(side, on, bearing, way, link, legs)
         if clears(x, y, h, leader, alpha, delta, side, legs[:count]):
             return time, count
-    if entry >= LR or on >= RIDES:
+    if entry >= LR or on >= ARCS_ON:
         return inf, 0
     time = at_edge(
         atan2(guess[1], guess[0]), x, y, h, slot, alpha, delta, side, entry, on, leader, found,
@@ -185,18 +190,19 @@ def _start(
 
 
 @njit(cache=True, nogil=True)
-def _by_ride(
+def _by_boundary_arc(
     x: float, y: float, h: float, slot: float, alpha: float, delta: float, entry: int, side: float,
     on: int, guess: FloatArray, beat: float, leader: FloatArray, found: FloatArray,
     rows: FloatArray, way: FloatArray, link: FloatArray,
 ) -> tuple[float, float]:  # fmt: skip
-    """The soonest way that begins with a ride: its arrival and the ride's first bearing.
+    """The soonest way that begins with a boundary arc: its arrival and the boundary arc's first
+    bearing.
 
     `way` takes the rows before and after, `link` the rest, as in `near_guess.through`.
     """
     end, straight, turn = 0.0, 0.0, 0.0
-    if on == RIDES:
-        end, straight, turn = ride_end(slot, alpha, delta, side)
+    if on == ARCS_ON:
+        end, straight, turn = boundary_arc_end(slot, alpha, delta, side)
         if isnan(end):
             return inf, 0.0
         straight_turn(side, straight, turn, way[1])
@@ -207,7 +213,7 @@ def _by_ride(
         )
         if isnan(first):
             return inf, 0.0
-        link[3], link[4] = ride_on(begin, end, side, alpha, delta)
+        link[3], link[4] = slide_between(begin, end, side, alpha, delta)
         two_turns(sign, first, second, 0.0, way[0])
         return first + second + link[4] + straight + turn, begin
     sign = -1.0 if entry == RS else 1.0
@@ -216,8 +222,8 @@ def _by_ride(
     best, begun = beat, 0.0
     for k in range(straight_tangents(x - slot, y, h, alpha, delta, sign, side, contacts)):
         begin, before = contacts[k, 0], contacts[k, 1] + contacts[k, 2]
-        if on == RIDES:
-            joint[3], joint[4] = ride_on(begin, end, side, alpha, delta)
+        if on == ARCS_ON:
+            joint[3], joint[4] = slide_between(begin, end, side, alpha, delta)
             time = before + joint[4] + straight + turn
         else:
             fixed[0], fixed[1] = begin, before
@@ -233,13 +239,13 @@ def _by_ride(
             best, begun = time, begin
             way[0] = row
             link[:] = joint
-            if on == RIDES_AGAIN:
+            if on == ARCS_AGAIN:
                 way[1] = trial[1]
     return (best, begun) if best < beat else (inf, 0.0)
 
 
 @njit(cache=True, nogil=True)
-def taught_kinds(
+def taught_templates(
     situations: FloatArray, times: FloatArray, counts: FloatArray, legs: FloatArray, within: float,
     kinds: FloatArray, guesses: FloatArray,
 ) -> None:  # fmt: skip
@@ -257,9 +263,9 @@ def taught_kinds(
     trial = np.zeros((3, 6))
     for n in range(len(situations)):
         x, y, h, alpha, slot, limit = situations[n]
-        kind = kind_of(x, y, h, slot, alpha, int(counts[n]), legs[n], guesses[n])
+        kind = template_of(x, y, h, slot, alpha, int(counts[n]), legs[n], guesses[n])
         if kind > NONE:
-            time, _ = solve_kind(x, y, h, slot, alpha, limit, kind, guesses[n], inf, trial)
+            time, _ = solve_template(x, y, h, slot, alpha, limit, kind, guesses[n], inf, trial)
             if not time <= times[n] + within:
                 kind = SEVERAL
         kinds[n] = kind

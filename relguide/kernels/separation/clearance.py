@@ -16,7 +16,9 @@ SLACK = 1e-6
 """Touching d_min counts as keeping it, to this much of R: 1 cm for an airliner."""
 _DEPTH = 64
 _NARROW = 1e-6  # a window this short that is still undecided touches the limit: counted as lost
-_MOST_WINDOWS = 32_768  # looked at; then too: riding a millimetre outside round a disc takes 10,000
+_MOST_WINDOWS = (
+    32_768  # looked at; then too: sliding a millimetre outside round a disc takes 10,000
+)
 
 
 @njit(cache=True, nogil=True)

@@ -92,7 +92,7 @@ def widest_miss(
 
 
 @njit(cache=True, nogil=True)
-def way_out(
+def escape_path(
     pursuer: FloatArray, rate: float, before: FloatArray, leader: FloatArray,
     leaders_pieces: FloatArray, limit: float, horizon: float,
 ) -> tuple[int, float, float]:  # fmt: skip

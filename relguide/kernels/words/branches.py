@@ -1,6 +1,6 @@
-"""Strategies: the words, those of three turns split by their middle arc; and what tells of them.
+"""Branches: the words, those of three turns split by their middle arc; and what tells of them.
 
-A word of three turns has two sheets of solutions, with a middle arc below and above π, which are
+A word of three turns has two branches of solutions, with a middle arc below and above π, which are
 born together where the word begins to exist. Apart, the time of each is smooth.
 
 Slot frame as in `extremals`: lengths in R, times in R/V_P, angles counter-clockwise.
@@ -15,20 +15,20 @@ from relguide.kernels.base.angles import TWO_PI, wrap
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.words.extremals import MAX_ROWS, solve
 
-STRATEGIES = ("LSL", "RSR", "LSR", "RSL", "LRL", "LRL long", "RLR", "RLR long")
-"""The strategies by their number; "long" has a middle arc above π."""
+BRANCHES = ("LSL", "RSR", "LSR", "RSL", "LRL", "LRL long", "RLR", "RLR long")
+"""The branches by their number; "long" has a middle arc above π."""
 WORD_OF = np.array((0, 1, 2, 3, 4, 4, 5, 5))
-"""Number of each strategy's word in `extremals`."""
+"""Number of each branch's word in `extremals`."""
 MIRROR_OF = np.array((1, 0, 3, 2, 6, 7, 4, 5))
-"""Each strategy with left and right exchanged."""
-SIZE = len(STRATEGIES)
+"""Each branch with left and right exchanged."""
+SIZE = len(BRANCHES)
 FEATURES = 34
 """How many numbers `features` gives."""
 
 
 @njit(cache=True, nogil=True)
-def strategy_of(row: FloatArray) -> int:
-    """The strategy of a row (τ, word number, first, middle, last) of `solve`."""
+def branch_of(row: FloatArray) -> int:
+    """The branch of a row (τ, word number, first, middle, last) of `solve`."""
     word = int(row[1])
     if word < 4:
         return word
@@ -36,22 +36,22 @@ def strategy_of(row: FloatArray) -> int:
 
 
 @njit(cache=True, nogil=True)
-def strategy_times(situations: FloatArray, first: int, last: int, times: FloatArray) -> None:
-    """The least time of every strategy, in situations first … last − 1.
+def branch_times(situations: FloatArray, first: int, last: int, times: FloatArray) -> None:
+    """The least time of every branch, in situations first … last − 1.
 
     Args:
         situations: x, y, h, α. shape (n, 4)
         first: from this row on.
         last: up to this row.
-        times: takes τ of each strategy [R/V_P], infinite where it does not exist. shape (n, SIZE)
+        times: takes τ of each branch [R/V_P], infinite where it does not exist. shape (n, SIZE)
     """
     rows = np.empty((MAX_ROWS, 5))
     for n in range(first, last):
         x, y, h, alpha = situations[n]
         times[n] = inf
         for k in range(solve(x, y, wrap(h), alpha, 0.0, rows)):
-            strategy = strategy_of(rows[k])
-            times[n, strategy] = min(times[n, strategy], rows[k, 0])
+            branch = branch_of(rows[k])
+            times[n, branch] = min(times[n, branch], rows[k, 0])
 
 
 @njit(cache=True, nogil=True)

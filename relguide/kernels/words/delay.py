@@ -1,10 +1,10 @@
-"""Paths of an exact length to a slot that has yet to open: T = t_open, however short the way.
+"""Paths of an exact length to a slot that has yet to open: T = t_release, however short the way.
 
-When the slot could be reached before it opens, every path of length exactly t_open is optimal. Here
-they are made by one free amount put before or after a Dubins word to the slot's place at t_open: a
-straight before, a straight after, both, or a turn before. For each the total length is a scalar
-function of the free amount; its crossings of t_open are bracketed on a grid and refined. The grid
-may miss a path: it is a choice among many, and never an argument for a time.
+When the slot could be reached before it opens, every path of length exactly t_release is optimal.
+Here they are made by one free amount put before or after a Dubins word to the slot's place at
+t_release: a straight before, a straight after, both, or a turn before. For each the total length is
+a scalar function of the free amount; its crossings of t_release are bracketed on a grid and
+refined. The grid may miss a path: it is a choice among many, and never an argument for a time.
 """
 
 from math import asin, atan2, cos, hypot, sin, sqrt
@@ -16,9 +16,9 @@ from relguide.kernels.base.angles import TWO_PI, turn_to
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.words.extremals import SIGNS, fly_piece
 
-MAX_HOLDS = 1024
+MAX_DELAYS = 1024
 """Room for exact-length paths."""
-HOLD_PIECES = 5
+DELAY_PIECES = 5
 """Pieces of a holding path: one before, three of the word, one after."""
 _GRID = 96  # steps of the free amount: a straight of 30 R in steps of R/3 on average, a turn in 4°
 _BRANCHES = 8  # the six words; LRL and RLR twice, with the long and the short middle arc
@@ -96,25 +96,25 @@ def _total(
 
 @njit(cache=True, nogil=True)
 def holds(
-    x: float, y: float, h: float, alpha: float, t_open: float, signs: FloatArray,
+    x: float, y: float, h: float, alpha: float, t_release: float, signs: FloatArray,
     amounts: FloatArray,
 ) -> int:  # fmt: skip
-    """Paths of length exactly t_open from (x, y, h) to the slot's place when it opens.
+    """Paths of length exactly t_release from (x, y, h) to the slot's place when it opens.
 
     Args:
         x: pursuer ahead of the slot [R].
         y: pursuer left of it [R].
         h: its heading, counter-clockwise from the leader's [rad].
         alpha: V_L/V_P.
-        t_open: the exact length [R].
-        signs: takes ε of the pieces, 0 for straights. shape (MAX_HOLDS, HOLD_PIECES)
+        t_release: the exact length [R].
+        signs: takes ε of the pieces, 0 for straights. shape (MAX_DELAYS, DELAY_PIECES)
         amounts: takes the turn angles [rad] and lengths [R] of the pieces, same shape.
 
     Returns:
         how many paths.
     """
     n = 0
-    if hypot(alpha * t_open - x, y) > t_open:
+    if hypot(alpha * t_release - x, y) > t_release:
         return n
     for family in range(3 + 8):
         # three ways to put the amount first; eight leads before a straight that comes last
@@ -127,12 +127,12 @@ def holds(
         elif family == 2:
             before = -1.0
         else:
-            lead = t_open * ((family - 3) / 12.0)
+            lead = t_release * ((family - 3) / 12.0)
         straight_amount = before == 0.0 or before == 2.0
-        span = t_open if straight_amount else min(TWO_PI - 1e-6, t_open)
+        span = t_release if straight_amount else min(TWO_PI - 1e-6, t_release)
         for branch in range(4 if before == 2.0 else _BRANCHES):
             n = _cross(
-                x, y, h, alpha * t_open, t_open, branch, before, lead, span, signs, amounts, n
+                x, y, h, alpha * t_release, t_release, branch, before, lead, span, signs, amounts, n
             )
     return n
 
@@ -152,7 +152,7 @@ def _cross(
         amount = span * fraction * fraction if before == 0.0 or before == 2.0 else span * fraction
         total = _total(x, y, h, end_x, branch, before, amount, lead, piece)
         gap = total - length if total >= 0.0 else np.nan
-        if i > 0 and last * gap <= 0.0 and n < MAX_HOLDS:
+        if i > 0 and last * gap <= 0.0 and n < MAX_DELAYS:
             low, high, gap_low = last_amount, amount, last
             for _ in range(60):
                 middle = 0.5 * (low + high)

@@ -37,26 +37,26 @@ def fly_piece(
 
 
 @njit(cache=True, nogil=True)
-def solve(x: float, y: float, h: float, alpha: float, t_open: float, rows: FloatArray) -> int:
-    """All extremals that reach the slot at or after t_open, by time.
+def solve(x: float, y: float, h: float, alpha: float, t_release: float, rows: FloatArray) -> int:
+    """All extremals that reach the slot at or after t_release, by time.
 
     Args:
         x: pursuer ahead of the slot [R].
         y: pursuer left of it [R].
         h: its heading, counter-clockwise from the leader's [rad], in [0, 2π).
         alpha: V_L/V_P, ≥ 0; 0 is a slot at rest, and the first row then Dubins' shortest path.
-        t_open: earliest arrival [R/V_P].
+        t_release: earliest arrival [R/V_P].
         rows: takes (τ, word number, first, middle, last) [R/V_P; rad or R]. shape (MAX_ROWS, 5)
 
     Returns:
         how many rows.
     """
-    return solve_toward(x, y, h, alpha, 0.0, t_open, rows)
+    return solve_toward(x, y, h, alpha, 0.0, t_release, rows)
 
 
 @njit(cache=True, nogil=True)
 def solve_toward(
-    x: float, y: float, h: float, ax: float, ay: float, t_open: float, rows: FloatArray
+    x: float, y: float, h: float, ax: float, ay: float, t_release: float, rows: FloatArray
 ) -> int:
     """As `solve`, for a target that moves any way.
 
@@ -66,19 +66,19 @@ def solve_toward(
         h: its heading, counter-clockwise from that heading [rad], in [0, 2π).
         ax: the target's velocity along that heading [V_P].
         ay: and to the left of it [V_P].
-        t_open: earliest arrival [R/V_P].
+        t_release: earliest arrival [R/V_P].
         rows: as in `solve`.
     """
     found = np.empty((MAX_ROWS, 4))
     n = 0
     for word in range(6):
-        n = solve_word(x, y, h, ax, ay, t_open, word, found, rows, n)
+        n = solve_word(x, y, h, ax, ay, t_release, word, found, rows, n)
     return n
 
 
 @njit(cache=True, nogil=True)
 def solve_word(
-    x: float, y: float, h: float, ax: float, ay: float, t_open: float, word: int,
+    x: float, y: float, h: float, ax: float, ay: float, t_release: float, word: int,
     found: FloatArray, rows: FloatArray, n: int,
 ) -> int:  # fmt: skip
     """All extremals of one word, put among others by time.
@@ -89,7 +89,7 @@ def solve_word(
         h: as there.
         ax: as there.
         ay: as there.
-        t_open: as there.
+        t_release: as there.
         word: its number.
         found: room to work in. shape (MAX_ROWS, 4)
         rows: holds n rows already, in order of time.
@@ -113,7 +113,7 @@ def solve_word(
         end = lrl(x, -y, mirrored_h, ax, -ay, found, 0)
     for i in range(end):
         time = found[i, 0]
-        if time < t_open - 1e-9 or not closes(x, y, h, ax, ay, word, found[i]):
+        if time < t_release - 1e-9 or not closes(x, y, h, ax, ay, word, found[i]):
             continue
         at = n
         while at > 0 and rows[at - 1, 0] > time:

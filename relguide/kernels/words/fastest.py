@@ -19,7 +19,7 @@ LEAST_RATIO = 1e-6
 
 @njit(cache=True, nogil=True)
 def fastest(
-    x: float, y: float, h: float, alpha: float, t_open: float, hint: int, room: FloatArray,
+    x: float, y: float, h: float, alpha: float, t_release: float, hint: int, room: FloatArray,
     found: FloatArray, row: FloatArray,
 ) -> bool:  # fmt: skip
     """The first row of `solve`.
@@ -29,7 +29,7 @@ def fastest(
         y: pursuer left of it [R].
         h: its heading, counter-clockwise from the leader's [rad], in [0, 2π).
         alpha: V_L/V_P.
-        t_open: earliest arrival [R/V_P].
+        t_release: earliest arrival [R/V_P].
         hint: number of the word that is likely to win: it is tried early, to be beaten.
         room: of `sooner.work_room`.
         found: room too. shape (MOST_ROOTS, 4)
@@ -46,9 +46,11 @@ def fastest(
             word = turn if turn < 2 else hint if turn == 2 else turn - 1
             if turn >= 2 and (word < 2 or (turn > 2 and word == hint)):
                 continue
-            n = word_before(x, y, h, sin_h, cos_h, alpha, t_open, word, best[0], False, room, found)
+            n = word_before(
+                x, y, h, sin_h, cos_h, alpha, t_release, word, best[0], False, room, found
+            )
             for i in range(n):
-                if t_open - EARLY <= found[i, 0] < best[0]:
+                if t_release - EARLY <= found[i, 0] < best[0]:
                     best[0], best[1] = found[i, 0], found[i, 1]
                     best[2], best[3] = found[i, 2], found[i, 3]
                     best_word = word
@@ -60,7 +62,7 @@ def fastest(
             return True
     # a root next to a tangency that is no path has won, or the slot is no slower
     rows = np.empty((MAX_ROWS, 5))
-    if solve(x, y, h, alpha, t_open, rows) == 0:
+    if solve(x, y, h, alpha, t_release, rows) == 0:
         return False
     row[:] = rows[0]
     return True
@@ -68,7 +70,7 @@ def fastest(
 
 @njit(cache=True, nogil=True)
 def word_before(
-    x: float, y: float, h: float, sin_h: float, cos_h: float, alpha: float, t_open: float,
+    x: float, y: float, h: float, sin_h: float, cos_h: float, alpha: float, t_release: float,
     word: int, beat: float, every: bool, room: FloatArray, found: FloatArray,
 ) -> int:  # fmt: skip
     """Paths of one word that arrive before a given time, in no order.
@@ -80,7 +82,7 @@ def word_before(
         sin_h: its sine, the same for a whole map.
         cos_h: and cosine.
         alpha: above 0 and below 1.
-        t_open: as there.
+        t_release: as there.
         word: its number in `extremals.WORDS`.
         beat: they arrive before, or hardly later [R/V_P].
         every: whether all of them are wanted, or only the first for sure.
@@ -94,10 +96,10 @@ def word_before(
         # RSR, RSL and RLR are mirror images
         y, h, sin_h = -y, mirror_heading(h), -sin_h
     if word < 2:
-        return lsl_before(x, y, h, sin_h, cos_h, alpha, t_open, beat, found)
+        return lsl_before(x, y, h, sin_h, cos_h, alpha, t_release, beat, found)
     if word < 4:
-        return lsr_before(x, y, h, sin_h, cos_h, alpha, t_open, beat, every, room, found)
-    return lrl_before(x, y, h, sin_h, cos_h, alpha, t_open, beat, room, found)
+        return lsr_before(x, y, h, sin_h, cos_h, alpha, t_release, beat, every, room, found)
+    return lrl_before(x, y, h, sin_h, cos_h, alpha, t_release, beat, room, found)
 
 
 @njit(cache=True, nogil=True)

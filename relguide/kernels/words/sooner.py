@@ -42,7 +42,7 @@ def work_room() -> FloatArray:
 
 @njit(cache=True, nogil=True)
 def lsl_before(
-    x: float, y: float, h: float, sin_h: float, cos_h: float, alpha: float, t_open: float,
+    x: float, y: float, h: float, sin_h: float, cos_h: float, alpha: float, t_release: float,
     beat: float, out: FloatArray,
 ) -> int:  # fmt: skip
     """The first LSL path.
@@ -54,7 +54,7 @@ def lsl_before(
         sin_h: its sine, the same for a whole map.
         cos_h: and cosine.
         alpha: V_L/V_P, below 1.
-        t_open: earliest arrival [R/V_P].
+        t_release: earliest arrival [R/V_P].
         beat: it arrives before [R/V_P].
         out: takes τ, first turn, straight, last turn. shape (≥ 1, 4)
 
@@ -75,7 +75,7 @@ def lsl_before(
         time = turned + straight
         if time >= beat:
             return 0
-        if time >= t_open - EARLY:
+        if time >= t_release - EARLY:
             course = atan2(ey, alpha * straight + ex)
             first, last = turn_to(course - h), turn_to(-course)
             if straight == 0.0:
@@ -92,7 +92,7 @@ def lsl_before(
 
 @njit(cache=True, nogil=True)
 def lsr_before(
-    x: float, y: float, h: float, sin_h: float, cos_h: float, alpha: float, t_open: float,
+    x: float, y: float, h: float, sin_h: float, cos_h: float, alpha: float, t_release: float,
     beat: float, every: bool, room: FloatArray, out: FloatArray,
 ) -> int:  # fmt: skip
     """LSR paths, in no order.
@@ -104,7 +104,7 @@ def lsr_before(
         sin_h: as there.
         cos_h: as there.
         alpha: above 0 and below 1.
-        t_open: as there.
+        t_release: as there.
         beat: they arrive before, or hardly later [R/V_P].
         every: whether all of them are wanted, or only the first for sure.
         room: of `work_room`.
@@ -116,14 +116,16 @@ def lsr_before(
     east, north = -(x - sin_h), -1.0 - (y + cos_h)
     beat += _ROUNDING
     if abs(north) >= 2.0:
-        return _lsr_within(east, north, h, alpha, t_open, beat, room, out, 0)
+        return _lsr_within(east, north, h, alpha, t_release, beat, room, out, 0)
     # while |d| < 2 there is no such path
     half = sqrt(4.0 - north * north)
-    n = _lsr_within(east, north, h, alpha, t_open, min((-half - east) / alpha, beat), room, out, 0)
+    n = _lsr_within(
+        east, north, h, alpha, t_release, min((-half - east) / alpha, beat), room, out, 0
+    )
     if n > 0 and not every:
         return n
     return _lsr_within(
-        east, north, h, alpha, max((half - east) / alpha, t_open), beat, room, out, n
+        east, north, h, alpha, max((half - east) / alpha, t_release), beat, room, out, n
     )
 
 
@@ -241,7 +243,7 @@ def _lsr_courses(
 
 @njit(cache=True, nogil=True)
 def lrl_before(
-    x: float, y: float, h: float, sin_h: float, cos_h: float, alpha: float, t_open: float,
+    x: float, y: float, h: float, sin_h: float, cos_h: float, alpha: float, t_release: float,
     beat: float, room: FloatArray, out: FloatArray,
 ) -> int:  # fmt: skip
     """LRL paths, in no order. Arguments and result as in `lsr_before`; all of them are given."""
@@ -251,7 +253,7 @@ def lrl_before(
         return 0
     # d comes within reach at −half, and leaves it at +half
     half = sqrt(within)
-    start = max((-half - ex) / alpha, t_open) - _ROUNDING
+    start = max((-half - ex) / alpha, t_release) - _ROUNDING
     end = min((half - ex) / alpha, beat) + _ROUNDING
     n = 0
     if start > end:

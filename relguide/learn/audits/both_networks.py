@@ -1,7 +1,7 @@
 """judge_everywhere(ways, network, …) → Everywhere: both networks, whether the limit binds or not.
 
 Situations are drawn as the source `far` of the labels is, of speeds and places that both networks
-are for; in most the limit does not bind. There the network of strategies names what is fastest,
+are for; in most the limit does not bind. There the network of branches names what is fastest,
 and where it does, that of ways. And the planner by networks is asked as in flight, with the
 certificate.
 """
@@ -25,10 +25,10 @@ from relguide.learn.boundary.template_labels import (
     answers_of,
     anywhere,
 )
-from relguide.learn.boundary.template_network import WayNetwork
+from relguide.learn.boundary.template_network import TemplateNetwork
 from relguide.learn.network_planner import propose
 from relguide.learn.words.branch_labels import times_of
-from relguide.learn.words.branch_network import StrategyNetwork
+from relguide.learn.words.branch_network import BranchNetwork
 from relguide.learn.words.train_branches import NEAR
 from relguide.planning.situation import Leader, Pursuer, Situation
 from relguide.planning.words import HORIZON
@@ -60,8 +60,8 @@ class Everywhere:
 
 
 def judge_everywhere(
-    ways: WayNetwork,
-    network: StrategyNetwork,
+    ways: TemplateNetwork,
+    network: BranchNetwork,
     request: LimitRequest,
     rng: np.random.Generator,
     size: int,
@@ -98,10 +98,8 @@ def judge_everywhere(
     return Everywhere(binds=binds, named=named, exact=exact, given=given)
 
 
-def _without_limit(
-    network: StrategyNetwork, situations: Floats
-) -> tuple[NDArray[np.bool_], Floats]:
-    """Whether the first choice is the fastest strategy, and when that arrives [R/V_P]."""
+def _without_limit(network: BranchNetwork, situations: Floats) -> tuple[NDArray[np.bool_], Floats]:
+    """Whether the first choice is the fastest branch, and when that arrives [R/V_P]."""
     n = len(situations)
     rows = np.ascontiguousarray(situations)
     scores, decoded = np.empty((n, 3, SIZE)), np.empty((n, 3))
@@ -111,7 +109,7 @@ def _without_limit(
     return first <= times.min(axis=1) * (1.0 + NEAR), times.min(axis=1)
 
 
-def _planned(ways: WayNetwork, network: StrategyNetwork, row: Floats) -> float:
+def _planned(ways: TemplateNetwork, network: BranchNetwork, row: Floats) -> float:
     """When the path arrives that the networks lead to, if it is certified [R/V_P]."""
     proposal = propose(network, situation_of(row), ways)
     if proposal is None or not proposal.certificate.holds:
@@ -134,7 +132,7 @@ def situation_of(row: Floats) -> Situation:
     )  # fmt: skip
 
 
-def _both(box: LimitBox, network: StrategyNetwork) -> LimitBox:
+def _both(box: LimitBox, network: BranchNetwork) -> LimitBox:
     """Speeds that both networks know."""
     return replace(
         box,

@@ -1,4 +1,4 @@
-"""audit_of(judged parts) → Audit: how good a network is, per strategy and region.
+"""audit_of(judged parts) → Audit: how good a network is, per branch and region.
 
 Every share comes with its 95 % interval (Wilson); every gap above 0.01 % with what explains it.
 """
@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from relguide.kernels.words.branches import STRATEGIES
+from relguide.kernels.words.branches import BRANCHES
 from relguide.learn.audits.branch_judging import LEAST_SHARES, WORTH, Judged
 from relguide.learn.audits.gaps import surfaces
 from relguide.learn.training.shares import Share, share_as_json
@@ -20,7 +20,7 @@ from relguide.learn.words.train_branches import NEAR
 
 GROUPS = {
     "box": "random",
-    "reverse": "rare strategies",
+    "reverse": "rare branches",
     "edge": "at switching surfaces",
     "loop": "in closed loops",
 }
@@ -40,13 +40,13 @@ class Group:
     name: str
     size: int
     tops: tuple[Share, ...]
-    """How often the fastest strategy is among the first `TOPS`."""
+    """How often the fastest branch is among the first `TOPS`."""
     covered: Share
     """How often the path decoded is the fastest, among those answered."""
     fallbacks: Share
     """How often the network hands over."""
     mean_set: float
-    """Strategies in a set on average."""
+    """Branches in a set on average."""
     gaps: tuple[float, ...]
     """The `PERCENTILES` of the gap, relative."""
 
@@ -60,11 +60,11 @@ class Miss:
     situation: tuple[float, float, float, float]
     """x, y [R], h [rad], α."""
     fastest: str
-    """The strategy missed."""
+    """The branch missed."""
     answered: str
     """The one given."""
     birth: float
-    """How far it is to where the fastest strategy does not exist [R, rad]; see `gaps`."""
+    """How far it is to where the fastest branch does not exist [R, rad]; see `gaps`."""
     switch: float
     """And to where it is not the fastest."""
     explained: bool
@@ -87,7 +87,7 @@ class SetSize:
 
     least_share: float
     mean_set: float
-    """Strategies in a set on average; none is too large here."""
+    """Branches in a set on average; none is too large here."""
     lost: Share
     """How often the path decoded is not the fastest."""
     worth: Share
@@ -102,7 +102,7 @@ class Audit:
     """By source, without the regions held out; those regions, evenly drawn; what the other sources
     have in them. Together they are all situations."""
     classes: tuple[Group, ...]
-    """The random situations by their fastest strategy."""
+    """The random situations by their fastest branch."""
     doubts: tuple[Doubt, ...]
     """The random situations by how sure the network is of them, those it is surest of first."""
     sets: tuple[SetSize, ...]
@@ -147,7 +147,7 @@ def audit_of(
     groups.append(_group("unseen, harder sources", whole, ~seen & ~drawn))
     classes = [
         _group(name, whole, drawn & seen & (whole.best == number))
-        for number, name in enumerate(STRATEGIES)
+        for number, name in enumerate(BRANCHES)
     ]
     return Audit(
         groups=tuple(groups),
@@ -196,8 +196,8 @@ def _misses(whole: Judged, progress: Callable[[float], object]) -> tuple[Miss, .
         Miss(
             gap=float(whole.gap[rows[at]]),
             situation=tuple(whole.missed[at].tolist()),
-            fastest=STRATEGIES[whole.best[rows[at]]],
-            answered=STRATEGIES[whole.answered[at]],
+            fastest=BRANCHES[whole.best[rows[at]]],
+            answered=BRANCHES[whole.answered[at]],
             birth=float(near.birth[i]),
             switch=float(near.switch[i]),
             explained=bool(near.near[i]),
@@ -226,7 +226,7 @@ def audit_as_json(audit: Audit) -> dict[str, Any]:
     """An audit as it is printed."""
     return {
         "groups": {group.name: _group_as_json(group) for group in audit.groups},
-        "strategies": {group.name: _group_as_json(group) for group in audit.classes},
+        "branches": {group.name: _group_as_json(group) for group in audit.classes},
         "doubts": [
             {"said": doubt.said, "wrong": share_as_json(doubt.wrong)} for doubt in audit.doubts
         ],

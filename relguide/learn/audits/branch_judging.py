@@ -1,7 +1,7 @@
 """judge_chunk(network, request, number) → Judged: a network held against exact answers.
 
 Fresh situations are drawn as for training, with another seed: evenly in the box, starts of rare
-strategies, places next to a switching surface. The gap is what a plan loses once the set of the
+branches, places next to a switching surface. The gap is what a plan loses once the set of the
 network is solved exactly, before the certificate: the limit plays no part in it.
 """
 
@@ -20,7 +20,7 @@ from relguide.kernels.words.branches import SIZE, WORD_OF
 from relguide.kernels.words.extremals import MAX_ROWS, solve
 from relguide.learn.training.chunks import gathered
 from relguide.learn.words.branch_labels import SOURCES, Floats, LabelRequest, held_out, label_chunk
-from relguide.learn.words.branch_network import StrategyNetwork
+from relguide.learn.words.branch_network import BranchNetwork
 from relguide.learn.words.train_branches import NEAR
 
 SHARES = (0.8, 0.1, 0.1)
@@ -44,11 +44,11 @@ class Judged:
     groups: NDArray[np.int8]
     """Its source."""
     best: NDArray[np.int8]
-    """Its fastest strategy."""
+    """Its fastest branch."""
     ranks: NDArray[np.int8]
-    """The place, from 0 on, that the network gives to the fastest strategy."""
+    """The place, from 0 on, that the network gives to the fastest branch."""
     held: NDArray[np.int8]
-    """How many strategies are in its set; 0 where the network hands over."""
+    """How many branches are in its set; 0 where the network hands over."""
     gap: NDArray[np.float64]
     """How much longer than the optimum the decoded path is, relative; infinite if handed over."""
     regions: NDArray[np.bool_]
@@ -58,9 +58,9 @@ class Judged:
     missed: Floats
     """x, y, h, α of those whose gap is above `WORTH`, in order. shape (m, 4)"""
     answered: NDArray[np.int8]
-    """The strategy of the path decoded there. shape (m,)"""
+    """The branch of the path decoded there. shape (m,)"""
     sets: Floats
-    """Of the random situations, for each of `LEAST_SHARES`: how many strategies are in their sets,
+    """Of the random situations, for each of `LEAST_SHARES`: how many branches are in their sets,
     how many paths decoded are the fastest, how many have a gap above `WORTH`; and how many
     situations there are. shape (parts, 4, least shares)"""
 
@@ -68,7 +68,7 @@ class Judged:
         return len(self.best)
 
 
-def audit_request(network: StrategyNetwork, count: int, seed: int) -> LabelRequest:
+def audit_request(network: BranchNetwork, count: int, seed: int) -> LabelRequest:
     """What situations to audit with.
 
     Raises:
@@ -80,13 +80,13 @@ def audit_request(network: StrategyNetwork, count: int, seed: int) -> LabelReque
 
 
 def judged(
-    network: StrategyNetwork, request: LabelRequest, executor: Executor
+    network: BranchNetwork, request: LabelRequest, executor: Executor
 ) -> Iterator[tuple[int, Judged]]:
     """Judge chunk by chunk, as they are ready; see `chunks.gathered`."""
     return gathered(partial(judge_chunk, network, request), request.chunks, executor)
 
 
-def judge_chunk(network: StrategyNetwork, request: LabelRequest, number: int) -> Judged:
+def judge_chunk(network: BranchNetwork, request: LabelRequest, number: int) -> Judged:
     """Label a chunk exactly and hold the network against it."""
     labels = label_chunk(request, number)
     n = len(labels)
@@ -95,7 +95,7 @@ def judge_chunk(network: StrategyNetwork, request: LabelRequest, number: int) ->
         labels.situations, network.layers, network.least_share, network.most, 0, n, scores, decoded
     )
     least = labels.times.min(axis=1, keepdims=True)
-    # strategies as fast as the fastest are as right: their best place counts
+    # branches as fast as the fastest are as right: their best place counts
     right = labels.times <= least * (1.0 + NEAR)
     places = (-scores[:, 0]).argsort(axis=1).argsort(axis=1)
     given = decoded[:, 1] < inf
@@ -126,14 +126,14 @@ def _sets(share: Floats, times: Floats) -> Floats:
     sums = np.empty((4, len(LEAST_SHARES)))
     for k, least_share in enumerate(LEAST_SHARES):
         held = share >= least_share
-        # both sheets of a word come from one solution of it
+        # both branches of a word come from one solution of it
         solved = np.stack([held[:, WORD_OF == word].any(axis=1) for word in WORD_OF], axis=1)
         gap = np.where(solved, times, inf).min(axis=1) / least - 1.0
         sums[:, k] = held.sum(), (gap <= NEAR).sum(), (gap > WORTH).sum(), len(times)
     return sums
 
 
-def latencies(network: StrategyNetwork, request: LabelRequest) -> dict[str, tuple[float, float]]:
+def latencies(network: BranchNetwork, request: LabelRequest) -> dict[str, tuple[float, float]]:
     """One query, median and 99th percentile [µs of CPU time]: the network's, and all words'."""
     situations: Floats = label_chunk(request, 0).situations[:SAMPLES]
     rows = np.empty((MAX_ROWS, 5))

@@ -1,9 +1,9 @@
-"""explained(situations): how near a missed answer is to where its fastest strategy begins to exist.
+"""explained(situations): how near a missed answer is to where its fastest branch begins to exist.
 
-The time of each strategy is smooth, but strategies are born at surfaces in the space of situations.
+The time of each branch is smooth, but branches are born at surfaces in the space of situations.
 Where the fastest one is just born, something much slower is best on the other side: the least time
 itself jumps, and a network, which is continuous, must miss some of it. The distance to where the
-fastest strategy ceases to exist, and to where another becomes the fastest, tells whether a gap is
+fastest branch ceases to exist, and to where another becomes the fastest, tells whether a gap is
 of that kind.
 
 Distances are those of place and heading at the same V_L/V_P: hypot(Δx, Δy, Δh), in R and rad. They
@@ -35,7 +35,7 @@ class Surfaces:
     """How near surfaces are to each situation; infinite where none was found."""
 
     birth: Floats
-    """To where its fastest strategy does not exist [R, rad]."""
+    """To where its fastest branch does not exist [R, rad]."""
     switch: Floats
     """To where it is not the fastest, whether it exists or not [R, rad]."""
 
@@ -55,25 +55,25 @@ def surfaces(situations: Floats, progress: Callable[[float], object] = lambda _:
     """
     birth, switch = np.empty(len(situations)), np.empty(len(situations))
     best = times_of(situations).argmin(axis=1).tolist()
-    for i, (situation, strategy) in enumerate(zip(situations, best, strict=True)):
-        birth[i] = _distance(situation, partial(_gone, strategy))
-        switch[i] = _distance(situation, partial(_beaten, strategy))
+    for i, (situation, branch) in enumerate(zip(situations, best, strict=True)):
+        birth[i] = _distance(situation, partial(_gone, branch))
+        switch[i] = _distance(situation, partial(_beaten, branch))
         progress(1.0)
     return Surfaces(birth=birth, switch=switch)
 
 
-def _gone(strategy: int, times: Floats) -> NDArray[np.bool_]:
-    gone: NDArray[np.bool_] = ~np.isfinite(times[:, strategy])
+def _gone(branch: int, times: Floats) -> NDArray[np.bool_]:
+    gone: NDArray[np.bool_] = ~np.isfinite(times[:, branch])
     return gone
 
 
-def _beaten(strategy: int, times: Floats) -> NDArray[np.bool_]:
-    beaten: NDArray[np.bool_] = times.argmin(axis=1) != strategy
+def _beaten(branch: int, times: Floats) -> NDArray[np.bool_]:
+    beaten: NDArray[np.bool_] = times.argmin(axis=1) != branch
     return beaten
 
 
 def _distance(situation: Floats, beyond: Callable[[Floats], NDArray[np.bool_]]) -> float:
-    """To the nearest place found where something holds of the strategies' times."""
+    """To the nearest place found where something holds of the branches' times."""
     ways = _directions()
     steps = LADDER[None, :] * np.ones((DIRECTIONS, 1))
     holds = beyond(times_of(_moved(situation, ways, steps))).reshape(steps.shape)

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from relguide.kernels.networks.branch_scores import choose, judge_rows
-from relguide.kernels.words.branches import SIZE, STRATEGIES, WORD_OF
+from relguide.kernels.words.branches import BRANCHES, SIZE, WORD_OF
 from relguide.kernels.words.extremals import MAX_ROWS, WORDS, solve_word
 from relguide.learn.audits.branch_judging import ROUNDING
 from relguide.learn.training.shares import Share, share_as_json
@@ -28,7 +28,7 @@ from relguide.learn.tree.regular_network import RegularNetwork, pairs_given
 from relguide.learn.tree.regular_words import Piece, pieces_of, words_like
 from relguide.learn.tree.tree import TreeParameters, pairs_of
 from relguide.learn.words.branch_labels import Floats, times_of
-from relguide.learn.words.branch_network import StrategyNetwork
+from relguide.learn.words.branch_network import BranchNetwork
 from relguide.learn.words.train_branches import NEAR
 from relguide.maps.area import exact_times, reach
 from relguide.units import DEG, Metre, Radian
@@ -55,7 +55,7 @@ class Ground:
     situations: Floats
     """x, y, h, α in the slot frame, left of the route: all of them mirror. shape (n, 4)"""
     times: Floats
-    """τ of every strategy [R/V_P], as `times_of` gives them. shape (n, SIZE)"""
+    """τ of every branch [R/V_P], as `times_of` gives them. shape (n, SIZE)"""
     binding: int
     """How many more were drawn, in which the limit binds."""
 
@@ -68,9 +68,9 @@ class Given:
     """What a method gives for each situation."""
 
     named: Flags
-    """The strategies it names as the fastest. shape (n, SIZE)"""
+    """The branches it names as the fastest. shape (n, SIZE)"""
     solved: Flags
-    """The strategies that then come out of their words' solution. shape (n, SIZE)"""
+    """The branches that then come out of their words' solution. shape (n, SIZE)"""
     sizes: NDArray[np.int64]
     """How many it holds possible; 0 where it hands over. shape (n,)"""
     ends: Floats | None
@@ -84,11 +84,11 @@ class Method:
 
     name: str
     right: Share
-    """How often the fastest strategy is the one it names, or one of two where it cannot say."""
+    """How often the fastest branch is the one it names, or one of two where it cannot say."""
     classes: tuple[Share, ...]
-    """The same by the fastest strategy, in the order of `STRATEGIES`."""
+    """The same by the fastest branch, in the order of `BRANCHES`."""
     mean_set: float
-    """Strategies whose words are solved, on average."""
+    """Branches whose words are solved, on average."""
     reached: Share | None
     """How often its path, flown as it is, ends within `REACHED` of the slot."""
     places: Floats | None
@@ -151,7 +151,7 @@ def drawn_ground(
 
 def side_by_side(
     ground: Ground,
-    network: StrategyNetwork,
+    network: BranchNetwork,
     lookup: Lookup,
     regressions: Sequence[RegularNetwork],
 ) -> Iterator[Method]:
@@ -206,8 +206,8 @@ def shown(pairs: Floats, parameters: TreeParameters) -> list[list[Piece]]:
     return [pieces_of(row) for row in np.concatenate((pairs[:, :, :1], clear), axis=2).tolist()]
 
 
-def strategies_like(pieces: Sequence[Piece]) -> list[bool]:
-    """Which strategies pieces name: of a word of three turns both sheets unless they say."""
+def branches_like(pieces: Sequence[Piece]) -> list[bool]:
+    """Which branches pieces name: of a word of three turns both branches unless they say."""
     words = words_like(pieces)
     named = [word in words for word in WORDS_OF]
     if words[0] >= 4 and "".join(piece.letter for piece in pieces) == WORDS[words[0]]:
@@ -228,7 +228,7 @@ def ends_of(pairs: Floats, situations: Floats) -> Floats:
     return np.column_stack((np.hypot(x - alpha * spent, y), off))
 
 
-def _of_network(ground: Ground, network: StrategyNetwork) -> Given:
+def _of_network(ground: Ground, network: BranchNetwork) -> Given:
     n = len(ground)
     scores, decoded = np.empty((n, 3, SIZE)), np.empty((n, 3))
     judge_rows(
@@ -240,25 +240,25 @@ def _of_network(ground: Ground, network: StrategyNetwork) -> Given:
     sizes = np.where(decoded[:, 0] <= network.most, held.sum(axis=1), 0)
     return Given(
         named=share == share.max(axis=1, keepdims=True),
-        solved=_both_sheets(held) & (sizes > 0)[:, None],
+        solved=_both_branches(held) & (sizes > 0)[:, None],
         sizes=sizes,
         ends=None,
     )
 
 
 def _of_pairs(ground: Ground, pairs: Floats) -> Given:
-    named = np.array([strategies_like(pieces) for pieces in shown(pairs, ground.parameters)])
+    named = np.array([branches_like(pieces) for pieces in shown(pairs, ground.parameters)])
     radius = ground.parameters.encounter.turn_radius
     return Given(
         named=named,
-        solved=_both_sheets(named),
+        solved=_both_branches(named),
         sizes=named.sum(axis=1),
         ends=ends_of(pairs, ground.situations) * (radius, 1.0),
     )
 
 
-def _both_sheets(held: Flags) -> Flags:
-    """Both sheets of a word come from one solution of it."""
+def _both_branches(held: Flags) -> Flags:
+    """Both branches of a word come from one solution of it."""
     return np.stack([held[:, WORD_OF == word].any(axis=1) for word in WORD_OF], axis=1)
 
 
@@ -311,10 +311,9 @@ def two(values: Floats) -> tuple[float, float]:
 def method_as_json(method: Method) -> dict[str, Any]:
     """What is found of a method, as it is printed."""
     found: dict[str, Any] = {
-        "strategy_right": share_as_json(method.right),
-        "strategies": {
-            name: share_as_json(share)
-            for name, share in zip(STRATEGIES, method.classes, strict=True)
+        "branch_right": share_as_json(method.right),
+        "branches": {
+            name: share_as_json(share) for name, share in zip(BRANCHES, method.classes, strict=True)
         },
         "mean_set": method.mean_set,
         "optimal_of_answered": share_as_json(method.fastest),

@@ -1,4 +1,4 @@
-"""way_audit_of(judged parts) → WayAudit: how good the networks are, the limit included.
+"""template_audit_of(judged parts) → TemplateAudit: how good the networks are, the limit included.
 
 Every share comes with its 95 % interval (Wilson); every gap above 0.1 % with why it is there.
 """
@@ -11,12 +11,12 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from relguide.kernels.networks.templates import KINDS, NONE, SEVERAL
+from relguide.kernels.networks.templates import NONE, SEVERAL, TEMPLATES
 from relguide.learn.audits.both_networks import UNIT, Everywhere
 from relguide.learn.audits.branch_audit import PERCENTILES, Doubt, doubts_of
 from relguide.learn.audits.branch_judging import ROUNDING
 from relguide.learn.audits.template_bound import Bound
-from relguide.learn.audits.template_judging import WayJudged, joined_ways
+from relguide.learn.audits.template_judging import TemplateJudged, joined_templates
 from relguide.learn.boundary.template_labels import SOURCES
 from relguide.learn.boundary.train_templates import WITHIN
 from relguide.learn.training.shares import Share, share_as_json
@@ -54,7 +54,7 @@ class Late:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class WayGroup:
+class TemplateGroup:
     """How good the network of ways is on some situations in which the limit binds."""
 
     name: str
@@ -79,7 +79,7 @@ class PlannerGroup:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class WayMiss:
+class TemplateMiss:
     """A gap above `WORTH`, and why."""
 
     gap: float
@@ -98,18 +98,18 @@ class WayMiss:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class WayAudit:
+class TemplateAudit:
     """All that is found."""
 
-    groups: tuple[WayGroup, ...]
+    groups: tuple[TemplateGroup, ...]
     """By source, and all of them."""
-    kinds: tuple[WayGroup, ...]
+    kinds: tuple[TemplateGroup, ...]
     """By the kind of the fastest way: the commonest, and the rest."""
     everywhere: tuple[PlannerGroup, ...]
     """Where the limit does not bind, where it does, and both."""
     doubts: tuple[Doubt, ...]
     """Those in which the limit binds by how sure the network is, those it is surest of first."""
-    misses: tuple[WayMiss, ...]
+    misses: tuple[TemplateMiss, ...]
     """Gaps above `WORTH`, the largest first, `LISTED` at most."""
     reasons: Mapping[Reason, int]
     """How many there are of each reason, of all."""
@@ -117,17 +117,17 @@ class WayAudit:
     """How many answers have such a gap."""
 
 
-def way_audit_of(chunks: Mapping[int, WayJudged]) -> WayAudit:
+def template_audit_of(chunks: Mapping[int, TemplateJudged]) -> TemplateAudit:
     """Sum up an audit's chunks, by their number."""
-    whole = joined_ways(chunks)
+    whole = joined_templates(chunks)
     bound, everywhere = whole.bound, whole.everywhere
     every = np.ones(len(bound), dtype=bool)
     groups = [_group(name, bound, bound.sources == n) for n, name in enumerate(SOURCES)]
-    counts = np.bincount(bound.kinds, minlength=len(KINDS))
+    counts = np.bincount(bound.kinds, minlength=len(TEMPLATES))
     order = np.argsort(-counts, kind="stable")
     common = [int(kind) for kind in order[:COMMONEST] if counts[kind] > 0]
     rest = ~np.isin(bound.kinds, common)
-    kinds = [_group(KINDS[kind], bound, bound.kinds == kind) for kind in common]
+    kinds = [_group(TEMPLATES[kind], bound, bound.kinds == kind) for kind in common]
     if rest.any():
         others = len(np.unique(bound.kinds[rest]))
         kinds.append(_group(f"{others} others", bound, rest))
@@ -135,7 +135,7 @@ def way_audit_of(chunks: Mapping[int, WayJudged]) -> WayAudit:
     gap = _gaps(bound.exact, bound.given)
     slow = np.flatnonzero((gap > WORTH) & (gap < inf))
     reasons = _reasons(bound, slow)
-    return WayAudit(
+    return TemplateAudit(
         groups=(*groups, _group("all", bound, every)),
         kinds=tuple(kinds),
         everywhere=tuple(
@@ -179,11 +179,11 @@ def _late(exact: Floats, given: Floats) -> Late:
     )
 
 
-def _group(name: str, bound: Bound, chosen: NDArray[np.bool_]) -> WayGroup:
+def _group(name: str, bound: Bound, chosen: NDArray[np.bool_]) -> TemplateGroup:
     kinds = bound.kinds[chosen]
     of_a_kind = (kinds != SEVERAL) & (kinds != NONE)
     size = int(chosen.sum())
-    return WayGroup(
+    return TemplateGroup(
         name=name,
         size=size,
         named=Share(hits=int(bound.named[chosen].sum()), of=size),
@@ -212,23 +212,23 @@ def _reasons(bound: Bound, slow: NDArray[np.intp]) -> NDArray[np.int8]:
 
 def _misses(
     bound: Bound, gap: Floats, slow: NDArray[np.intp], reasons: NDArray[np.int8]
-) -> tuple[WayMiss, ...]:
+) -> tuple[TemplateMiss, ...]:
     largest = np.argsort(-gap[slow], kind="stable")[:LISTED]
     return tuple(
-        WayMiss(
+        TemplateMiss(
             gap=float(gap[row]),
             late=float(bound.given[row] - bound.exact[row]),
             situation=tuple(bound.situations[row].tolist()),
-            fastest=KINDS[bound.kinds[row]],
+            fastest=TEMPLATES[bound.kinds[row]],
             share=float(bound.own[row]),
-            answered=KINDS[bound.answered[row]],
+            answered=TEMPLATES[bound.answered[row]],
             reason=REASONS[reasons[at]],
         )
         for at, row in zip(largest.tolist(), slow[largest].tolist(), strict=True)
     )
 
 
-def way_audit_as_json(audit: WayAudit) -> dict[str, Any]:
+def template_audit_as_json(audit: TemplateAudit) -> dict[str, Any]:
     """An audit as it is printed."""
     return {
         "groups": {group.name: _group_as_json(group) for group in audit.groups},
@@ -250,7 +250,7 @@ def way_audit_as_json(audit: WayAudit) -> dict[str, Any]:
     }
 
 
-def _group_as_json(group: WayGroup) -> dict[str, Any]:
+def _group_as_json(group: TemplateGroup) -> dict[str, Any]:
     return {
         "situations": group.size,
         "named": share_as_json(group.named),
@@ -273,7 +273,7 @@ def _late_as_json(late: Late) -> dict[str, Any]:
     }
 
 
-def _miss_as_json(miss: WayMiss) -> dict[str, Any]:
+def _miss_as_json(miss: TemplateMiss) -> dict[str, Any]:
     names = ("x_r", "y_r", "h_rad", "speed_ratio", "slot_r", "limit_r")
     return {
         "gap_percent": 100.0 * miss.gap,

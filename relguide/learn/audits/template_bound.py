@@ -10,14 +10,14 @@ from time import thread_time_ns
 import numpy as np
 from numpy.typing import NDArray
 
-from relguide.kernels.contact.constrained_rows import exact_ways
-from relguide.kernels.networks.template_rows import VERDICTS, judge_ways
-from relguide.kernels.networks.template_scores import LEGS, choose_way
+from relguide.kernels.contact.constrained_rows import exact_constrained
+from relguide.kernels.networks.template_rows import VERDICTS, judge_templates
+from relguide.kernels.networks.template_scores import LEGS, choose_template
 from relguide.kernels.networks.templates import NONE, SEVERAL
 from relguide.kernels.words.fastest import fastest
 from relguide.kernels.words.sooner import MOST_ROOTS, work_room
 from relguide.learn.boundary.template_labels import LONGEST, Floats, Ways
-from relguide.learn.boundary.template_network import WayNetwork
+from relguide.learn.boundary.template_network import TemplateNetwork
 from relguide.learn.boundary.train_templates import WITHIN, taught
 from relguide.planning.constrained_path import BEARINGS
 
@@ -57,7 +57,7 @@ class Bound:
         return len(self.kinds)
 
 
-def judge_bound(ways: WayNetwork, exact: Ways, sources: NDArray[np.int8]) -> Bound:
+def judge_bound(ways: TemplateNetwork, exact: Ways, sources: NDArray[np.int8]) -> Bound:
     """Hold a network against exact answers.
 
     Args:
@@ -67,7 +67,7 @@ def judge_bound(ways: WayNetwork, exact: Ways, sources: NDArray[np.int8]) -> Bou
     """
     kinds, _ = taught(exact)
     verdicts = np.empty((len(kinds), VERDICTS))
-    judge_ways(
+    judge_templates(
         exact.situations, kinds.astype(float), ways.layers, ways.least_share, ways.most, ways.doubt,
         verdicts,
     )  # fmt: skip
@@ -92,7 +92,7 @@ def judge_bound(ways: WayNetwork, exact: Ways, sources: NDArray[np.int8]) -> Bou
     )
 
 
-def way_latencies(ways: WayNetwork, situations: Floats) -> dict[str, tuple[float, float]]:
+def template_latencies(ways: TemplateNetwork, situations: Floats) -> dict[str, tuple[float, float]]:
     """One query, median and 99th percentile [µs of CPU time]: the network's, and the search's.
 
     Args:
@@ -106,13 +106,13 @@ def way_latencies(ways: WayNetwork, situations: Floats) -> dict[str, tuple[float
         x, y, h, alpha, slot, limit = row.tolist()
         fastest(x, y, h, alpha, 0.0, 0, work_room(), np.empty((MOST_ROOTS, 4)), free)
         begun = thread_time_ns()
-        choose_way(x, y, h, slot, alpha, limit, free, layers, least, most, doubt, legs)
+        choose_template(x, y, h, slot, alpha, limit, free, layers, least, most, doubt, legs)
         return thread_time_ns() - begun
 
     def by_search(row: Floats) -> int:
         times, counts, found = np.empty((1, 3)), np.empty(1), np.zeros((1, LEGS, 6))
         begun = thread_time_ns()
-        exact_ways(row[None], BEARINGS, LONGEST, times, counts, found)
+        exact_constrained(row[None], BEARINGS, LONGEST, times, counts, found)
         return thread_time_ns() - begun
 
     found: dict[str, tuple[float, float]] = {}

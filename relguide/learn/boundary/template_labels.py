@@ -22,7 +22,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from relguide.kernels.contact.constrained_rows import exact_ways, limit_binds_rows
+from relguide.kernels.contact.constrained_rows import exact_constrained, limit_binds_rows
 from relguide.kernels.contact.constrained_search import MAX_LEGS
 from relguide.kernels.networks.along_path import along_rows, later_rows
 from relguide.learn.training.chunks import gathered
@@ -230,7 +230,7 @@ def answers_of(situations: Floats) -> tuple[Floats, NDArray[np.int8], Floats]:
     """Times, numbers of legs and legs of the fastest ways, as in `LimitLabels`."""
     n = len(situations)
     times, counts, legs = np.empty((n, 3)), np.empty(n), np.zeros((n, MAX_LEGS, 6))
-    exact_ways(situations, BEARINGS, LONGEST, times, counts, legs)
+    exact_constrained(situations, BEARINGS, LONGEST, times, counts, legs)
     return times, counts.astype(np.int8), legs
 
 

@@ -4,7 +4,7 @@
 
 What flies is never the network's guess: it is where the kind is solved exactly. Torch is needed to
 train and to compare; who only asks evaluates the weights with `kernels/networks/template_scores`.
-The file is in safetensors, as that of the strategies (`branch_network`).
+The file is in safetensors, as that of the branches (`branch_network`).
 """
 
 from collections.abc import Mapping
@@ -18,22 +18,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from relguide.kernels.networks.branch_scores import Layers
-from relguide.kernels.networks.template_features import FEATURES, way_feature_rows
+from relguide.kernels.networks.template_features import FEATURES, template_feature_rows
 from relguide.kernels.networks.template_scores import OUTPUTS
-from relguide.kernels.networks.templates import KINDS
+from relguide.kernels.networks.templates import TEMPLATES
 from relguide.learn.boundary.template_labels import Floats, LimitBox
 from relguide.learn.training.files import load_weights, save_weights
 from relguide.learn.training.options import NetworkShape
 from relguide.learn.words.branch_network import Singles, as_layers
 
-FILE = "relguide way network 1"
+FILE = "relguide template network 1"
 """What a file says it is, with the version of its arrays."""
-SHIPPED_WAYS = Path(str(files("relguide.learn.boundary") / "templates.safetensors"))
+SHIPPED_TEMPLATES = Path(str(files("relguide.learn.boundary") / "templates.safetensors"))
 """The weights that come with the program."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class WayNetwork:
+class TemplateNetwork:
     """A trained network, ready to be asked."""
 
     layers: Layers
@@ -68,18 +68,18 @@ class WayNetwork:
         )
 
 
-def way_features_of(situations: Floats) -> Singles:
+def template_features_of(situations: Floats) -> Singles:
     """What the network is told of situations on the left of the route, shape (n, FEATURES)."""
     told = np.empty((len(situations), FEATURES))
-    way_feature_rows(np.ascontiguousarray(situations), told)
+    template_feature_rows(np.ascontiguousarray(situations), told)
     return told.astype(np.float32)
 
 
-def save_way_network(network: WayNetwork, file: Path) -> None:
+def save_template_network(network: TemplateNetwork, file: Path) -> None:
     """Write a network, in one piece or not at all."""
     about = {
         "file": FILE,
-        "kinds": KINDS,
+        "templates": TEMPLATES,
         "box": asdict(network.box),
         "least_share": network.least_share,
         "most": network.most,
@@ -89,17 +89,17 @@ def save_way_network(network: WayNetwork, file: Path) -> None:
     save_weights(file, about, network.layers._asdict())
 
 
-def load_way_network(file: Path = SHIPPED_WAYS) -> WayNetwork:
+def load_template_network(file: Path = SHIPPED_TEMPLATES) -> TemplateNetwork:
     """Read a network.
 
     Raises:
         ValueError: if the file is none, or does not fit this version.
     """
 
-    def network(about: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> WayNetwork:
-        if about["file"] != FILE or tuple(about["kinds"]) != KINDS:
+    def network(about: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> TemplateNetwork:
+        if about["file"] != FILE or tuple(about["templates"]) != TEMPLATES:
             raise KeyError(about["file"])
-        return WayNetwork(
+        return TemplateNetwork(
             layers=as_layers(FEATURES, OUTPUTS, **arrays),
             box=LimitBox(**about["box"]),
             least_share=float(about["least_share"]),

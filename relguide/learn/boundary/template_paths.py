@@ -15,9 +15,9 @@ import numpy as np
 
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.networks import network_view as kernel
-from relguide.kernels.networks import template_scores as way_network
+from relguide.kernels.networks import template_scores as template_network
 from relguide.kernels.networks.network_view import Where
-from relguide.learn.boundary.template_network import WayNetwork
+from relguide.learn.boundary.template_network import TemplateNetwork
 from relguide.planning.situation import Situation
 from relguide.planning.words import HORIZON, Candidate, candidate_of, segments_flown
 from relguide.units import Metre
@@ -45,7 +45,7 @@ def seen(situation: Situation, radius: Metre) -> tuple[bool, float, Where, Float
 
 
 def solved(
-    ways: WayNetwork, situation: Situation, radius: Metre, where: Where, free: FloatArray
+    ways: TemplateNetwork, situation: Situation, radius: Metre, where: Where, free: FloatArray
 ) -> Candidate | None:
     """The fastest way round the limit that the network leads to, not certified yet.
 
@@ -60,7 +60,7 @@ def solved(
     pursuer = situation.pursuer
     if not ways.holds(x, y, alpha, slot, limit) or hypot(x - slot, y) < limit:
         return None
-    pieces = way_network.way_round(
+    pieces = template_network.way_round(
         *where, free, radius, HORIZON * pursuer.tas / radius,
         tuple(ways.layers), ways.least_share, ways.most, ways.doubt,
     )  # fmt: skip

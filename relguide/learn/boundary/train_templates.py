@@ -1,4 +1,4 @@
-"""train_ways(labels, …) → WayNetwork: from labels where the limit binds to weights.
+"""train_templates(labels, …) → TemplateNetwork: from labels where the limit binds to weights.
 
     python -m relguide.learn.boundary.train_templates labels.npz weights.safetensors
 
@@ -16,11 +16,15 @@ import numpy as np
 
 from relguide.kernels.networks.template_features import FEATURES
 from relguide.kernels.networks.template_scores import OUTPUTS
-from relguide.kernels.networks.template_solutions import taught_kinds
+from relguide.kernels.networks.template_solutions import taught_templates
 from relguide.kernels.networks.templates import NONE, SEVERAL, SIZE
 from relguide.learn.boundary.template_label_file import load_limit_labels
 from relguide.learn.boundary.template_labels import LimitBox, LimitLabels, Ways, later, picked
-from relguide.learn.boundary.template_network import WayNetwork, save_way_network, way_features_of
+from relguide.learn.boundary.template_network import (
+    TemplateNetwork,
+    save_template_network,
+    template_features_of,
+)
 from relguide.learn.training.fitting import (
     Epoch,
     Split,
@@ -63,7 +67,7 @@ DOUBT = 0.4
 With 0.8 instead 0.6 % more are answered, and a third of those late."""
 
 
-def train_ways(
+def train_templates(
     labels: LimitLabels,
     options: TrainingOptions,
     *,
@@ -71,7 +75,7 @@ def train_ways(
     about: Mapping[str, Any],
     checkpoint: Path | None = None,
     resume: bool = False,
-) -> Iterator[Epoch[WayNetwork]]:
+) -> Iterator[Epoch[TemplateNetwork]]:
     """Train a network; yields after every epoch, the last is the end.
 
     Args:
@@ -94,7 +98,7 @@ def train_ways(
     ways += [later(picked(labels.ways, rows[kept:]), rng) for _ in range(LATER)]
     kinds, guesses = (np.concatenate(column) for column in zip(*map(taught, ways), strict=True))
     situations = np.concatenate([part.situations for part in ways])
-    inputs, mean, deviation = scaled(way_features_of(situations), kept)
+    inputs, mean, deviation = scaled(template_features_of(situations), kept)
     told = torch.from_numpy(inputs).to(device)
     right = torch.from_numpy(kinds).to(device)
     guess = torch.from_numpy(guesses.astype(np.float32)).to(device)
@@ -123,10 +127,10 @@ def train_ways(
         first = shares().argmax(axis=1)
         return float((first == kinds[:kept])[there].mean()) if there.any() else 0.0
 
-    def network(origin: Mapping[str, Any]) -> WayNetwork:
+    def network(origin: Mapping[str, Any]) -> TemplateNetwork:
         """What the weights become, with its set calibrated."""
         right = shares()[np.arange(kept), kinds[:kept]][there]
-        return WayNetwork(
+        return TemplateNetwork(
             layers=layers_of(arrays_of(model), mean, deviation),
             box=box,
             least_share=min(LEAST_SHARE, reached_by(right, COVERAGE)) if there.any() else 0.0,
@@ -147,13 +151,13 @@ def taught(ways: Ways) -> tuple[np.ndarray, np.ndarray]:
     """What is to be learnt: kinds, shape (n,), and guesses, shape (n, 2)."""
     n = len(ways.times)
     kinds, guesses = np.empty(n), np.empty((n, 2))
-    taught_kinds(
+    taught_templates(
         ways.situations, ways.times, ways.counts.astype(float), ways.legs, WITHIN, kinds, guesses
     )
     return kinds.astype(np.int64), guesses
 
 
-def run(chosen: argparse.Namespace, program: str) -> Iterator[Epoch[WayNetwork]]:
+def run(chosen: argparse.Namespace, program: str) -> Iterator[Epoch[TemplateNetwork]]:
     """Do the training that was asked for; the weights are written at each better epoch.
 
     Args:
@@ -162,7 +166,7 @@ def run(chosen: argparse.Namespace, program: str) -> Iterator[Epoch[WayNetwork]]
     """
     labels, made = load_limit_labels(chosen.labels)
     part = part_of(chosen)
-    epochs = train_ways(
+    epochs = train_templates(
         labels,
         options_of(chosen),
         box=LimitBox(**made["request"]["box"]),
@@ -174,7 +178,7 @@ def run(chosen: argparse.Namespace, program: str) -> Iterator[Epoch[WayNetwork]]
         checkpoint=part,
         resume=chosen.resume,
     )
-    yield from written(epochs, save_way_network, chosen.weights, part)
+    yield from written(epochs, save_template_network, chosen.weights, part)
 
 
 if __name__ == "__main__":

@@ -90,7 +90,7 @@ def _plan(
     certificate: Certificate,
     started: int,
 ) -> Plan:
-    least = max(direct_time(frame.x, frame.y, frame.alpha), frame.t_open)
+    least = max(direct_time(frame.x, frame.y, frame.alpha), frame.t_release)
     return Plan(
         situation=situation,
         trajectory=candidate.trajectory,
@@ -135,7 +135,7 @@ def _closed(
     time, word, *amounts = rows[0].tolist()
     # one that would be early is the exact planner's: it finds how to wait
     arrival = (spent + time) * frame.radius / situation.pursuer.tas
-    if spent + time < frame.t_open or arrival > HORIZON:
+    if spent + time < frame.t_release or arrival > HORIZON:
         return None
     signs = [SIGN[letter] for letter, _ in flown] + SIGN_ROWS[int(word)]
     name = "" if flown else WORDS[int(word)]

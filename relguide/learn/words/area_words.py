@@ -1,4 +1,4 @@
-"""area_words(network): where on a map one word alone need be solved, by the network of strategies.
+"""area_words(network): where on a map one word alone need be solved, by the network of branches.
 
 The network is asked at every few nodes of the map's grid. Between four of them that hold one and
 the same word possible, and nothing else, that word alone is solved. Where they differ, where one of
@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from relguide.kernels.networks.only_branch import only_words
-from relguide.learn.words.branch_network import StrategyNetwork
+from relguide.learn.words.branch_network import BranchNetwork
 from relguide.maps.isochrones import Grid, Words
 from relguide.planning.situation import Situation
 from relguide.planning.slot import slot_frame
@@ -29,11 +29,11 @@ Bytes = NDArray[np.int8]
 Floats = NDArray[np.float64]
 
 
-def area_words(network: StrategyNetwork, situation: Situation, grid: Grid) -> Words:
+def area_words(network: BranchNetwork, situation: Situation, grid: Grid) -> Words:
     """Ask a network for a situation's map.
 
     Args:
-        network: of strategies.
+        network: of branches.
         situation: all but the pursuer's place counts.
         grid: of the map.
     """
@@ -54,7 +54,7 @@ def _asked(axis: Floats) -> Floats:
     return np.linspace(axis[0], axis[-1], max(2, -(-(len(axis) - 1) // EVERY) + 1))
 
 
-def _at_nodes(network: StrategyNetwork, situation: Situation, x: Floats, y: Floats) -> Bytes:
+def _at_nodes(network: BranchNetwork, situation: Situation, x: Floats, y: Floats) -> Bytes:
     """The only word at each of the nodes, −1 where there are more. (rows, columns)."""
     frame = slot_frame(situation, situation.leader.trajectory)
     east, north = (axis.ravel() for axis in np.meshgrid(x, y))

@@ -1,8 +1,8 @@
-"""Situations and their exact answers in bulk: the time of every strategy, without the limit.
+"""Situations and their exact answers in bulk: the time of every branch, without the limit.
 
 Three sources, as the box alone hardly ever meets what is hard: `box`, places drawn evenly; the
 `reverse` of random paths, laid back from the slot as `reverse_dp` does, of which those are kept
-whose fastest strategies are rare (of such paths only a quarter is optimal: they propose situations,
+whose fastest branches are rare (of such paths only a quarter is optimal: they propose situations,
 the exact solution labels them); `edge`, places next to a switching surface, found by bisection
 between situations with different answers. Beside them, where it is asked for, the `loop`: what
 flights meet.
@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from relguide.kernels.words.branches import SIZE, STRATEGIES, WORD_OF, strategy_times
+from relguide.kernels.words.branches import BRANCHES, SIZE, WORD_OF, branch_times
 from relguide.kernels.words.extremals import SIGNS
 from relguide.learn.training.chunks import gathered
 from relguide.learn.training.files import load_columns, save_columns
@@ -105,7 +105,7 @@ class Labels:
     situations: Floats
     """x, y ≥ 0 [R], h in [0, 2π) [rad], α, in the slot frame. shape (n, 4)"""
     times: Floats
-    """τ of every strategy [R/V_P], infinite where it does not exist. shape (n, SIZE)"""
+    """τ of every branch [R/V_P], infinite where it does not exist. shape (n, SIZE)"""
     sources: NDArray[np.int8]
     """Numbers of `SOURCES`. shape (n,)"""
 
@@ -114,7 +114,7 @@ class Labels:
 
     @property
     def best(self) -> NDArray[np.int64]:
-        """The fastest strategy of each."""
+        """The fastest branch of each."""
         best: NDArray[np.int64] = self.times.argmin(axis=1)
         return best
 
@@ -169,9 +169,9 @@ def label_chunk(request: LabelRequest, number: int) -> Labels:
 
 
 def times_of(situations: Floats) -> Floats:
-    """τ of every strategy in many situations, shape (n, SIZE)."""
+    """τ of every branch in many situations, shape (n, SIZE)."""
     times = np.empty((len(situations), SIZE))
-    strategy_times(situations, 0, len(situations), times)
+    branch_times(situations, 0, len(situations), times)
     return times
 
 
@@ -208,17 +208,17 @@ def _in_box(rng: np.random.Generator, box: Box, size: int) -> Floats:
 
 
 def _reversed(rng: np.random.Generator, box: Box, size: int) -> Floats:
-    """Starts of random paths to the slot, all fastest strategies as nearly alike as may be."""
+    """Starts of random paths to the slot, all fastest branches as nearly alike as may be."""
     if size == 0:
         return np.empty((0, 4))
     laid = max(PROPOSALS * size, FEWEST)
-    strategy = rng.integers(SIZE, size=laid)
-    signs = SIGNS[WORD_OF[strategy]]  # (laid, 3)
+    branch = rng.integers(SIZE, size=laid)
+    signs = SIGNS[WORD_OF[branch]]  # (laid, 3)
     amounts = rng.uniform(0.0, 2.0 * pi, (laid, 3))
-    straight = strategy < 4
+    straight = branch < 4
     far = box.max_range * 10.0 ** (-3.0 * rng.random(laid))
     long_middle = pi + 0.5 * amounts[:, 1]
-    middle = np.where(strategy % 2 == 1, long_middle, 0.5 * amounts[:, 1])
+    middle = np.where(branch % 2 == 1, long_middle, 0.5 * amounts[:, 1])
     amounts[:, 1] = np.where(straight, far, middle)
     alpha = rng.uniform(box.min_ratio, box.max_ratio, laid)
     x, y, h = alpha * amounts.sum(axis=1), np.zeros(laid), np.zeros(laid)
@@ -237,7 +237,7 @@ def _reversed(rng: np.random.Generator, box: Box, size: int) -> Floats:
 
 
 def _at_edges(rng: np.random.Generator, box: Box, size: int) -> Floats:
-    """Places next to where the fastest strategy changes, at distances even in their logarithm."""
+    """Places next to where the fastest branch changes, at distances even in their logarithm."""
     if size == 0:
         return np.empty((0, 4))
     begun = max(size, FEWEST)
@@ -289,7 +289,7 @@ def save_labels(
     about = {
         "file": FILE,
         "request": request_as_json(request),
-        "strategies": STRATEGIES,
+        "branches": BRANCHES,
         "sources": SOURCES,
         "provenance": provenance,
     }

@@ -1,6 +1,6 @@
-"""The network of strategies: which words may be the fastest. Its torch model, its file, its set.
+"""The network of branches: which words may be the fastest. Its torch model, its file, its set.
 
-    situation → features → layers → score, existence and log(1 + τ) of each strategy
+    situation → features → layers → score, existence and log(1 + τ) of each branch
 
 What flies is never the network's number: the words it holds possible are solved exactly. Torch is
 needed to train and to compare; who only asks evaluates the weights with
@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from relguide.kernels.networks.branch_scores import Layers
 from relguide.kernels.networks.margins import INPUTS, input_rows
-from relguide.kernels.words.branches import SIZE, STRATEGIES
+from relguide.kernels.words.branches import BRANCHES, SIZE
 from relguide.learn.training.files import load_weights, save_weights
 from relguide.learn.training.options import NetworkShape
 from relguide.learn.words.branch_labels import Box, Floats
@@ -30,16 +30,16 @@ if TYPE_CHECKING:
     from torch import nn
 
 Singles = NDArray[np.float32]
-FILE = "relguide strategy network 2"
+FILE = "relguide branch network 2"
 """What a file says it is, with the version of its arrays."""
 OUTPUTS = 3 * SIZE
-"""Score, logit of existence and log(1 + τ) of each strategy."""
+"""Score, logit of existence and log(1 + τ) of each branch."""
 SHIPPED = Path(str(files("relguide.learn.words") / "branches.safetensors"))
 """The weights that come with the program."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class StrategyNetwork:
+class BranchNetwork:
     """A trained network, ready to be asked."""
 
     layers: Layers
@@ -47,9 +47,9 @@ class StrategyNetwork:
     box: Box
     """Where it was trained."""
     least_share: float
-    """Strategies with a smaller share are left out: calibrated, so that the fastest seldom is."""
+    """Branches with a smaller share are left out: calibrated, so that the fastest seldom is."""
     most: int
-    """With more strategies than this the network is not sure enough to be asked."""
+    """With more branches than this the network is not sure enough to be asked."""
     about: Mapping[str, Any]
     """Who made it, from what, with what and when."""
 
@@ -105,11 +105,11 @@ def layers_of(state: Mapping[str, Singles], mean: Singles, deviation: Singles) -
     )
 
 
-def save_network(network: StrategyNetwork, file: Path) -> None:
+def save_network(network: BranchNetwork, file: Path) -> None:
     """Write a network, in one piece or not at all."""
     about = {
         "file": FILE,
-        "strategies": STRATEGIES,
+        "branches": BRANCHES,
         "box": asdict(network.box),
         "least_share": network.least_share,
         "most": network.most,
@@ -118,17 +118,17 @@ def save_network(network: StrategyNetwork, file: Path) -> None:
     save_weights(file, about, network.layers._asdict())
 
 
-def load_network(file: Path = SHIPPED) -> StrategyNetwork:
+def load_network(file: Path = SHIPPED) -> BranchNetwork:
     """Read a network.
 
     Raises:
         ValueError: if the file is none, or does not fit this version.
     """
 
-    def network(about: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> StrategyNetwork:
-        if about["file"] != FILE or tuple(about["strategies"]) != STRATEGIES:
+    def network(about: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> BranchNetwork:
+        if about["file"] != FILE or tuple(about["branches"]) != BRANCHES:
             raise KeyError(about["file"])
-        return StrategyNetwork(
+        return BranchNetwork(
             layers=as_layers(INPUTS, OUTPUTS, **arrays),
             box=Box(**about["box"]),
             least_share=float(about["least_share"]),

@@ -1,4 +1,4 @@
-"""strategy_shares(network, situations): what the network of strategies says of very many at once.
+"""branch_shares(network, situations): what the network of branches says of very many at once.
 
 One question is answered fastest by the fused kernel (`kernels/networks/branch_scores`). Dense maps
 ask a million: then matrices in torch are faster, in chunks that stay in the cache, or on a GPU
@@ -13,7 +13,7 @@ import numpy as np
 from relguide.kernels.words.branches import MIRROR_OF, SIZE
 from relguide.learn.training.checkpoint import device_of
 from relguide.learn.words.branch_labels import Floats, canonical, on_the_right
-from relguide.learn.words.branch_network import Singles, StrategyNetwork, features_of
+from relguide.learn.words.branch_network import BranchNetwork, Singles, features_of
 from relguide.planning.inputs import expect
 
 CHUNK = 4096
@@ -22,15 +22,15 @@ CUDA_CHUNK = 262_144
 """On a GPU: a layer of them is 134 MB."""
 
 
-def strategy_shares(
-    network: StrategyNetwork,
+def branch_shares(
+    network: BranchNetwork,
     situations: Floats,
     *,
     device: str = "auto",
     threads: int | None = None,
     progress: Callable[[int], object] | None = None,
 ) -> Singles:
-    """How likely the network takes each strategy to be the fastest.
+    """How likely the network takes each branch to be the fastest.
 
     Args:
         network: to be asked. Outside its `box` what it says means nothing.
@@ -41,7 +41,7 @@ def strategy_shares(
         progress: called with the number of situations done since the last call.
 
     Returns:
-        shares in the order of `kernels.strategies.STRATEGIES`; each row adds up to 1. shape (n, 8)
+        shares in the order of `kernels.branches.BRANCHES`; each row adds up to 1. shape (n, 8)
 
     Raises:
         ValueError: on situations of another shape or not finite, or on a device that is not there.
@@ -49,7 +49,7 @@ def strategy_shares(
     import torch
     from torch.nn.functional import silu
 
-    expect("network", network, StrategyNetwork)
+    expect("network", network, BranchNetwork)
     asked = np.ascontiguousarray(situations, dtype=np.float64)
     if asked.ndim != 2 or asked.shape[1] != 4 or not np.isfinite(asked).all():
         raise ValueError("situations must have four finite columns: x, y, h and α.")

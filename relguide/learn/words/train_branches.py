@@ -1,9 +1,9 @@
-"""train(labels, …) → StrategyNetwork: from labels to weights, one script from top to bottom.
+"""train(labels, …) → BranchNetwork: from labels to weights, one script from top to bottom.
 
     python -m relguide.learn.words.train_branches labels.npz weights.safetensors
 
 The loss has four parts: cross-entropy toward softmax(−(τ_s − τ*)/TEMPERATURE), so that near a
-switching surface both answers are right; regret, the time lost on average if a strategy were drawn
+switching surface both answers are right; regret, the time lost on average if a branch were drawn
 by its share, where one that does not exist loses all of it; existence; and the time of those that
 exist. The same labels, options and number of threads give the same weights on the same CPU.
 """
@@ -33,7 +33,7 @@ from relguide.learn.training.fitting import (
 from relguide.learn.training.options import TrainingOptions, command_of, options_of
 from relguide.learn.words.branch_labels import Box, Labels, held_out, load_labels
 from relguide.learn.words.branch_network import (
-    StrategyNetwork,
+    BranchNetwork,
     features_of,
     layers_of,
     save_network,
@@ -48,11 +48,11 @@ TEMPERATURE = 1e-4
 REGRET, EXISTENCE, TIME = 1.0, 0.05, 0.1
 """Weights of these parts of the loss; that of the cross-entropy is 1."""
 COVERAGE = 0.9999
-"""How often the set shall hold the fastest strategy, at the share it is calibrated to."""
+"""How often the set shall hold the fastest branch, at the share it is calibrated to."""
 MARGIN = 100.0
 """The set takes in what has a share this many times smaller: a word more is solved in 1 µs."""
 NEAR = 1e-6
-"""A strategy this close to the fastest is as fast, relative."""
+"""A branch this close to the fastest is as fast, relative."""
 DECAY = 1e-4
 """Of the weights, each step, over the learning rate."""
 
@@ -65,7 +65,7 @@ def train(
     about: Mapping[str, Any],
     checkpoint: Path | None = None,
     resume: bool = False,
-) -> Iterator[Epoch[StrategyNetwork]]:
+) -> Iterator[Epoch[BranchNetwork]]:
     """Train a network; yields after every epoch, the last is the end.
 
     Args:
@@ -97,7 +97,7 @@ def train(
     model = torch_model(options.shape).to(device)
 
     def loss(chosen: "torch.Tensor") -> "torch.Tensor":
-        """What the strategies chosen, existence and time are off, of some rows."""
+        """What the branches chosen, existence and time are off, of some rows."""
         score, exists, time = model(told[chosen]).split(SIZE, dim=1)
         target = {name: value[chosen] for name, value in targets.items()}
         summed: torch.Tensor = (
@@ -111,17 +111,17 @@ def train(
         return summed
 
     def shares() -> np.ndarray:
-        """Of the strategies, in the rows kept."""
+        """Of the branches, in the rows kept."""
         found: np.ndarray = in_chunks(model, told[:kept])[:, :SIZE].softmax(dim=1).numpy()
         return found
 
     def accuracy() -> float:
-        """How often the fastest strategy has the highest score."""
+        """How often the fastest branch has the highest score."""
         return float(fastest[np.arange(kept), shares().argmax(axis=1)].mean())
 
-    def network(origin: Mapping[str, Any]) -> StrategyNetwork:
+    def network(origin: Mapping[str, Any]) -> BranchNetwork:
         """What the weights become, with its set calibrated."""
-        return StrategyNetwork(
+        return BranchNetwork(
             layers=layers_of(arrays_of(model), mean, deviation),
             box=box,
             least_share=reached_by(np.where(fastest, shares(), 0.0).max(axis=1), COVERAGE) / MARGIN,
@@ -137,7 +137,7 @@ def train(
 
 
 def _targets(times: np.ndarray) -> dict[str, np.ndarray]:
-    """What each part of the loss asks for; a strategy that does not exist loses all."""
+    """What each part of the loss asks for; a branch that does not exist loses all."""
     least = times.min(axis=1, keepdims=True)
     exists = np.isfinite(times)
     late = np.where(exists, times, 0.0) - least
@@ -150,7 +150,7 @@ def _targets(times: np.ndarray) -> dict[str, np.ndarray]:
     }
 
 
-def run(chosen: argparse.Namespace, program: str) -> Iterator[Epoch[StrategyNetwork]]:
+def run(chosen: argparse.Namespace, program: str) -> Iterator[Epoch[BranchNetwork]]:
     """Do the training that was asked for; the weights are written at each better epoch.
 
     Args:

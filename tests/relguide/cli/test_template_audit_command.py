@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 from xml.etree import ElementTree
 
-from relguide.learn.boundary.template_network import load_way_network
+from relguide.learn.boundary.template_network import load_template_network
 from tests.command_line import Run
 
 AUDIT = ("audit", "--method", "ways", "--count", "60", "--threads", "1")
@@ -37,7 +37,7 @@ def test_programs_get_json(run: Run) -> None:
     assert (told["situations"], told["seed"]) == (60, 1)
     assert told["groups"]["all"]["situations"] == 60
     assert told["groups"]["all"]["answered_without_a_way"]["hits"] == 0
-    assert told["network"]["labels"] == load_way_network().about["labels"]
+    assert told["network"]["labels"] == load_template_network().about["labels"]
     assert told["latency"]["network"]["p50_us"] < told["latency"]["search"]["p50_us"]
 
 
@@ -45,9 +45,9 @@ def test_misuse_is_said_in_a_sentence(run: Run) -> None:
     assert run("audit", "none.safetensors", "--method", "ways")[2] == (
         "relguide: none.safetensors: No such file or directory.\n"
     )
-    seed = load_way_network().about["dataset"]["seed"]
+    seed = load_template_network().about["dataset"]["seed"]
     assert f"seen the situations of seed {seed}" in run(*AUDIT, "--seed", f"{seed}")[2]
-    assert "--beside is for --method strategies" in run(*AUDIT, "--beside", "10")[2]
+    assert "--beside is for --method branches" in run(*AUDIT, "--beside", "10")[2]
     assert "count and chunk must be" in run("audit", "--method", "ways", "--count", "0")[2]
     Path("w.safetensors").write_bytes(b"no weights")
     assert "holds no network of relguide train --method ways" in run(*AUDIT, "w.safetensors")[2]

@@ -7,7 +7,7 @@ import numpy as np
 
 from relguide.learn.boundary.template_label_file import grown_labels, load_limit_labels
 from relguide.learn.boundary.template_labels import LimitRequest, limit_chunk
-from relguide.learn.boundary.template_network import load_way_network
+from relguide.learn.boundary.template_network import load_template_network
 from tests.command_line import Run
 from tests.relguide.learn.boundary.test_template_labels import Here
 
@@ -29,7 +29,7 @@ def test_labels_train_weights(run: Run) -> None:
     code, out, err = run("train", "limit.npz", "w.safetensors", "--method", "ways", *size)
     assert (code, err) == (0, "")
     assert "w.safetensors: the best of 2 epochs is the " in out
-    assert load_way_network(Path("w.safetensors")).about["program"].startswith("relguide ")
+    assert load_template_network(Path("w.safetensors")).about["program"].startswith("relguide ")
     assert sorted(path.name for path in Path().iterdir()) == ["limit.npz", "w.safetensors"]
 
 

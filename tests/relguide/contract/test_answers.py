@@ -103,7 +103,7 @@ def test_on_demand_optimality_has_its_names_and_columns_of_one_length() -> None:
         "switching_residual_s_per_deg",
         "switching_ok",
         "contacts",
-        "rides",
+        "boundary_arcs",
         "panel",
     ]
     assert (told["switching_ok"], told["arrival"]) == (True, "free")

@@ -9,7 +9,7 @@ import pytest
 from relguide.flying.aircraft import A300
 from relguide.flying.capture import Offsets
 from relguide.flying.documents import FlightEnded
-from relguide.flying.escape import WayOut, keeps_clear, way_out
+from relguide.flying.escape import EscapePath, escape_path, keeps_clear
 from relguide.flying.flight import fly
 from relguide.flying.scenarios import scenario
 from relguide.learn.words.visited import draw_flight
@@ -28,12 +28,14 @@ def pursuer_at(x: float, y: float, heading: float) -> Situation:
     return replace(BASE, pursuer=pursuer, leader=leader)
 
 
-def out(situation: Situation, *, bank: float = 0.0, rate: float = 0.0, keep: float = 0.0) -> WayOut:
+def out(
+    situation: Situation, *, bank: float = 0.0, rate: float = 0.0, keep: float = 0.0
+) -> EscapePath:
     keep = keep or situation.min_separation
-    return way_out(situation, bank=bank * DEG, model=A300, keep=keep, leader_turn_rate=rate)
+    return escape_path(situation, bank=bank * DEG, model=A300, keep=keep, leader_turn_rate=rate)
 
 
-def change(situation: Situation, found: WayOut) -> float:
+def change(situation: Situation, found: EscapePath) -> float:
     return (found.heading - situation.pursuer.heading + pi) % (2.0 * pi) - pi
 
 

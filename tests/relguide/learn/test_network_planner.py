@@ -24,9 +24,9 @@ from relguide.flying.documents import FlightEnded, FlightStarted
 from relguide.flying.flight import fly
 from relguide.flying.scenarios import scenario
 from relguide.kernels.networks.branch_scores import Layers
-from relguide.learn.boundary.template_network import load_way_network
+from relguide.learn.boundary.template_network import load_template_network
 from relguide.learn.network_planner import network_planner, propose
-from relguide.learn.words.branch_network import StrategyNetwork, load_network
+from relguide.learn.words.branch_network import BranchNetwork, load_network
 from relguide.units import DEG
 from tests.relguide.learn.words.networks import network
 from tests.situations import golden, situations
@@ -93,7 +93,7 @@ def test_out_of_the_box_the_exact_planner_answers() -> None:
 
 
 def test_where_the_limit_binds_and_no_way_is_known_the_exact_planner_answers() -> None:
-    unsure = network_planner(network(), replace(load_way_network(), most=0))
+    unsure = network_planner(network(), replace(load_template_network(), most=0))
     seen = 0
     for situation, _ in golden("reference"):
         exact = plan(situation)
@@ -114,8 +114,8 @@ def test_lost_separation_is_said_as_the_exact_planner_says_it() -> None:
     assert asked(inside) == plan(inside)
 
 
-def with_score(found: StrategyNetwork, *, bias: float, share: float, most: int) -> StrategyNetwork:
-    """A network that says the same of everything: its first strategy, by so much."""
+def with_score(found: BranchNetwork, *, bias: float, share: float, most: int) -> BranchNetwork:
+    """A network that says the same of everything: its first branch, by so much."""
     scores = np.zeros_like(found.layers.last_bias)
     scores[0] = bias
     last = np.zeros_like(found.layers.last)
@@ -155,7 +155,7 @@ def test_a_turning_leader_is_met_on_the_final_leg() -> None:
     # it would be there before the slot opens, and how to wait is the exact planner's to say
     pursuer = replace(far.pursuer, x=-7600.0, y=-12_200.0, heading=45 * DEG)
     near = replace(far, pursuer=pursuer, min_separation=0.0)
-    assert candidates(near).reachable_at_opening
+    assert candidates(near).reachable_at_release
     assert propose(load_network(), near) is None
     unannounced = replace(near.leader, x=7900.0, y=3300.0, heading=45 * DEG, intent=())
     assert propose(load_network(), replace(near, leader=unannounced)) is not None
@@ -195,7 +195,7 @@ def test_asking_it_takes_no_torch() -> None:
 
 
 def test_what_is_no_network_is_refused() -> None:
-    with pytest.raises(ValueError, match="network must be a StrategyNetwork"):
+    with pytest.raises(ValueError, match="network must be a BranchNetwork"):
         network_planner(None)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="situation must be a Situation"):
         asked(None)  # type: ignore[arg-type]

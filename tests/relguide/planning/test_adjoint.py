@@ -19,7 +19,7 @@ RIDING = Situation(
     slot_distance=5_515.0,
     min_separation=5_425.0,
 )
-"""Its plan rides along d_min."""
+"""Its plan slides along d_min."""
 
 
 def integrated_backward(
@@ -134,12 +134,12 @@ def test_a_ride_along_the_limit_has_a_multiplier_above_0() -> None:
     assert "B" in answer.word
     report = check(answer, RIDING, samples=2_000)
     assert report.holds
-    (ride,) = report.rides
-    assert ride.least_multiplier > 0.0
+    (boundary_arc,) = report.boundary_arcs
+    assert boundary_arc.least_multiplier > 0.0
     history, multipliers = report.history, []
     for i in range(len(history.times) - 1):
         low, high = history.times[i], history.times[i + 1]
-        if low < ride.start or high > ride.end or high - low < 0.01:
+        if low < boundary_arc.start or high > boundary_arc.end or high - low < 0.01:
             continue
         assert history.switching[i] == 0.0
         assert history.hamiltonian[i] == pytest.approx(0.0, abs=1e-6)
@@ -153,6 +153,6 @@ def test_a_ride_along_the_limit_has_a_multiplier_above_0() -> None:
         lam_brg = 0.5 * (history.bearing[i] + history.bearing[i + 1])
         multipliers.append(rise - lam_brg / d**2 * across)
     assert len(multipliers) > 20
-    # a ride's arcs swing about the mean turn rate, so differences over one are rough
+    # a boundary arc's arcs swing about the mean turn rate, so differences over one are rough
     assert np.median(multipliers) > 0.0
-    assert min(multipliers) == pytest.approx(ride.least_multiplier, rel=0.1)
+    assert min(multipliers) == pytest.approx(boundary_arc.least_multiplier, rel=0.1)

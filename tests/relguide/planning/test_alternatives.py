@@ -104,7 +104,7 @@ def test_the_mirrored_situation_has_mirrored_alternatives(situation: Situation) 
     other = plan(mirrored(situation))
     assert isinstance(other, Plan)
     # of the many ways to an opening slot some are found, and their images need not be
-    assume(not candidates(situation).reachable_at_opening)
+    assume(not candidates(situation).reachable_at_release)
     # ties are decided by rounding
     assume(other.word == answer.word.translate(MIRROR))
     assume(all(not isinstance(getattr(o, "rejected", 0), AsFast) for o in alternatives(answer)))

@@ -23,7 +23,7 @@ from relguide import (
     plan,
 )
 from relguide.kernels.base.turn import turn_radius
-from relguide.kernels.contact.constrained_search import MAX_LEGS, best_detour
+from relguide.kernels.contact.constrained_search import MAX_LEGS, best_constrained_path
 from relguide.kernels.contact.passage import GRAZE
 from relguide.kernels.contact.tangent import tangents
 from relguide.planning import constrained_path as detour
@@ -79,18 +79,21 @@ RIDING = Situation(
 def test_a_ride_keeps_to_the_limit() -> None:
     answer = plan(RIDING)
     assert isinstance(answer, Plan)
-    (ride,) = [s for s in answer.trajectory.segments if isinstance(s, BoundaryArc)]
+    (boundary_arc,) = [s for s in answer.trajectory.segments if isinstance(s, BoundaryArc)]
     assert "B" in answer.word
     radius = RIDING.pursuer.turn_radius
-    assert all(abs(curvature) <= 1.0 / radius + 1e-9 for _, curvature in ride.bends)
+    assert all(abs(curvature) <= 1.0 / radius + 1e-9 for _, curvature in boundary_arc.bends)
     assert answer.time_to_converge == pytest.approx(125.417, abs=0.01)
-    # on the ride the separation is d_min
+    # on the boundary arc the separation is d_min
     t = (
-        sum(s.length for s in answer.trajectory.segments[: answer.trajectory.segments.index(ride)])
+        sum(
+            s.length
+            for s in answer.trajectory.segments[: answer.trajectory.segments.index(boundary_arc)]
+        )
         / answer.trajectory.tas
     )
     for part in (0.0, 0.3, 0.7, 1.0):
-        at = t + part * ride.length / answer.trajectory.tas
+        at = t + part * boundary_arc.length / answer.trajectory.tas
         ours, theirs = answer.trajectory.pose_at(at), RIDING.leader.trajectory.pose_at(at)
         separation = hypot(ours.x - theirs.x, ours.y - theirs.y)
         assert separation == pytest.approx(RIDING.min_separation, abs=0.01)
@@ -160,7 +163,7 @@ WAITING_BEHIND = Situation(
 
 def test_a_way_that_touches_the_limit_may_wait_for_the_slot() -> None:
     found = candidates(WAITING_BEHIND)
-    assert not any(certify(c.trajectory, WAITING_BEHIND).holds for c in found.at_opening)
+    assert not any(certify(c.trajectory, WAITING_BEHIND).holds for c in found.at_release)
     answer = plan(WAITING_BEHIND)
     assert isinstance(answer, Plan)
     assert answer.time_to_converge == pytest.approx(found.bound, abs=1e-6)
@@ -192,7 +195,7 @@ LEAVING_STRAIGHT = Situation(
 
 @pytest.mark.parametrize("off", [0.0, 1e-7, -1e-7, 1e-5])
 def test_a_ride_is_closed_by_the_word_it_was_searched_with(off: float) -> None:
-    """Rounding of the ride's last node once cost the right word, and 1,553 s."""
+    """Rounding of the boundary arc's last node once cost the right word, and 1,553 s."""
     situation = Situation(
         pursuer=Pursuer(
             x=5_126.637 + off, y=7_507.113, heading=0.729506, tas=130.92535, max_bank=0.4715
@@ -207,7 +210,9 @@ def test_a_ride_is_closed_by_the_word_it_was_searched_with(off: float) -> None:
 
 
 def test_two_contacts_move_along_an_edge_together(monkeypatch: pytest.MonkeyPatch) -> None:
-    """It rides, leaves straight and comes back to touch: 0.11 s are lost if each moves alone."""
+    """It boundary arcs, leaves straight and comes back to touch: 0.11 s are lost if each moves
+    alone.
+    """
     monkeypatch.setattr(detour, "BEARINGS", 48)
     answer = plan(LEAVING_STRAIGHT)
     assert isinstance(answer, Plan)
@@ -221,8 +226,8 @@ def searched(situation: Situation, effort: int = 1) -> float:
     disc = frame.x, frame.y, frame.h, table, frame.alpha, situation.min_separation / frame.radius
     start = (*disc[:5], disc[5] + GRAZE)
     bearings = effort * (BEARINGS if len(table) == 1 else TURNING_BEARINGS)
-    time, _ = best_detour(
-        *start, frame.t_open, bearings, tangents(*start), inf, np.zeros((MAX_LEGS, 6))
+    time, _ = best_constrained_path(
+        *start, frame.t_release, bearings, tangents(*start), inf, np.zeros((MAX_LEGS, 6))
     )
     return time * frame.radius / situation.pursuer.tas
 

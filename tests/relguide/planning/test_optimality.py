@@ -93,7 +93,7 @@ def test_a_contact_that_lies_elsewhere_fails_by_as_much_as_it_lies_off() -> None
             trial, reached = np.zeros((2, 5)), np.zeros(2)
             time = through_contact(
                 frame.x, frame.y, frame.h, table, 0, frame.alpha,
-                situation.min_separation / frame.radius + GRAZE, frame.t_open,
+                situation.min_separation / frame.radius + GRAZE, frame.t_release,
                 situation.leader.heading - ours + off, side, 50.0, rows, onward, trial, reached,
             )  # fmt: skip
             arrivals.append((time, trial))
@@ -107,7 +107,8 @@ def test_a_contact_that_lies_elsewhere_fails_by_as_much_as_it_lies_off() -> None
 
 
 def test_contacts_close_together_share_their_jumps(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The last turn before this ride touches d_min 0.5 s before it, a millimetre further in.
+    """The last turn before this boundary arc touches d_min 0.5 s before it, a millimetre further
+    in.
 
     Each of the two jumps hangs on rounding, and may be negative. Looked for more finely, there is a
     way 0.08 s faster, without that.
@@ -127,7 +128,7 @@ def test_contacts_close_together_share_their_jumps(monkeypatch: pytest.MonkeyPat
     )
     report = check(planned(situation), situation, samples=1)
     before, entry, *_ = report.contacts
-    assert entry.time == report.rides[0].start
+    assert entry.time == report.boundary_arcs[0].start
     assert entry.time - before.time < 1.0
     assert before.jump + entry.jump > 0.0
     assert report.holds
@@ -243,7 +244,7 @@ def test_so_is_what_comes_before_the_slot_opens() -> None:
     situation = replace(straight_behind(), leader=leader)
     frame, rows = candidates(situation).frame, np.empty((MAX_ROWS, 5))
     assert solve(frame.x, frame.y, frame.h, frame.alpha, 0.0, rows) > 0
-    assert rows[0, 0] < frame.t_open
+    assert rows[0, 0] < frame.t_release
     amounts = rows[0, 2:].tolist()
     early = assemble(situation, frame, SIGN_ROWS[int(rows[0, 1])], amounts, "").trajectory
     with pytest.raises(ValueError, match="before the slot opens"):

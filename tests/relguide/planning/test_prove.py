@@ -45,8 +45,8 @@ def question(situation: Situation) -> tuple[Question, float]:
         delta=situation.min_separation / frame.radius,
         goal_x=0.0,
         goal_speed=frame.alpha,
-        t_open=frame.t_open,
-        never_at_opening=not found.reachable_at_opening,
+        t_release=frame.t_release,
+        never_at_release=not found.reachable_at_release,
         horizon=inf,
     )
     return asked, frame.radius / situation.pursuer.tas
@@ -70,7 +70,7 @@ def test_plans_that_d_min_made_longer_are_proved(
 @given(situation=situations())
 def test_no_plan_is_faster_than_what_is_proved(situation: Situation) -> None:
     planned = plan(situation)
-    assume(isinstance(planned, Plan) and not candidates(situation).reachable_at_opening)
+    assume(isinstance(planned, Plan) and not candidates(situation).reachable_at_release)
     assert isinstance(planned, Plan)
     asked, scale = question(situation)
     # with a horizon beyond the plan, so that the plan itself does not end the search

@@ -78,13 +78,13 @@ def test_pairs_count_backward_from_the_slot_and_may_be_halves(
 def test_other_radii_and_rides_are_not_regular() -> None:
     with pytest.raises(ValueError, match="turns at one radius"):
         regular_from_trajectory(flown(straight_behind(), L), turn_radius=2.0 * RADIUS)
-    ride = BoundaryArc(side=LEFT, bends=((100.0, -1e-5),))
+    boundary_arc = BoundaryArc(side=LEFT, bends=((100.0, -1e-5),))
     pursuer = straight_behind().pursuer
-    riding = Trajectory(
-        x=pursuer.x, y=pursuer.y, heading=pursuer.heading, tas=pursuer.tas, segments=(ride,)
+    sliding = Trajectory(
+        x=pursuer.x, y=pursuer.y, heading=pursuer.heading, tas=pursuer.tas, segments=(boundary_arc,)
     )
-    with pytest.raises(ValueError, match="rides along d_min"):
-        regular_from_trajectory(riding, turn_radius=RADIUS)
+    with pytest.raises(ValueError, match="slides along d_min"):
+        regular_from_trajectory(sliding, turn_radius=RADIUS)
 
 
 @pytest.mark.parametrize(

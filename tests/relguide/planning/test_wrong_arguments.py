@@ -195,15 +195,17 @@ def test_a_wrong_argument_is_refused_with_a_sentence(name: str, argument: str, w
     assert any(word in said for word in ("must", "at least", "at most", "reaches", "headway"))
 
 
-@given(amount=junk, other=junk, ride=junk)
-def test_a_wrong_segment_is_refused_with_a_sentence(amount: Any, other: Any, ride: Any) -> None:
+@given(amount=junk, other=junk, boundary_arc=junk)
+def test_a_wrong_segment_is_refused_with_a_sentence(
+    amount: Any, other: Any, boundary_arc: Any
+) -> None:
     for segment in (
         Straight(length=amount),
         Arc(turn=LEFT, turn_angle=amount, radius=1e3),
         Arc(turn=LEFT, turn_angle=1.0, radius=amount),
         Arc(turn=other, turn_angle=amount, radius=1e3),
-        BoundaryArc(side=LEFT, bends=ride),
-        BoundaryArc(side=LEFT, bends=(ride,)),  # type: ignore[arg-type]
+        BoundaryArc(side=LEFT, bends=boundary_arc),
+        BoundaryArc(side=LEFT, bends=(boundary_arc,)),  # type: ignore[arg-type]
         BoundaryArc(side=LEFT, bends=((amount, other),)),
         BoundaryArc(side=other, bends=((1.0, 0.0),)),
         amount,

@@ -14,8 +14,8 @@ from relguide.kernels.bounds.contact_bound import (
     contacts_within,
     leaving_bound,
     round_bound,
+    times_round,
     untouched_bound,
-    ways_round,
 )
 from relguide.kernels.contact.contact import contact_exists, contact_heading
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, fly_piece, solve, solve_toward
@@ -153,7 +153,7 @@ def test_the_way_round_is_as_long_as_the_ride(
     delta: float, way: int, shares: tuple[float, float],
 ) -> None:  # fmt: skip
     (_, bearing, half), (_, to, wide) = cells
-    lowest = round_bound(ways_round(alpha, delta), way, bearing, half, to, wide)
+    lowest = round_bound(times_round(alpha, delta), way, bearing, half, to, wide)
     sign = 1.0 - 2.0 * way
     b, e = bearing + shares[0] * half, to + shares[1] * wide
 

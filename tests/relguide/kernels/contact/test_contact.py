@@ -1,4 +1,4 @@
-"""Contacts are tangent; rides keep their distance, whatever the leader does meanwhile."""
+"""Contacts are tangent; boundary arcs keep their distance, whatever the leader does meanwhile."""
 
 from math import acos, cos, hypot, inf, pi, sin
 
@@ -7,14 +7,18 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from relguide.kernels.contact.boundary_arc import MAX_NODES, ride_arrival, ride_pieces
+from relguide.kernels.contact.boundary_arc import (
+    MAX_NODES,
+    boundary_arc_arrival,
+    boundary_arc_pieces,
+)
 from relguide.kernels.contact.contact import (
+    boundary_arc_rates,
+    boundary_arc_sense,
     contact_at,
     contact_exists,
     contact_heading,
-    ride_rates,
-    ride_way,
-    ride_within,
+    slide_within,
 )
 from relguide.kernels.contact.tangent import tangent_contacts
 from relguide.kernels.separation.clearance import fly_rate, leader_at
@@ -32,7 +36,7 @@ def test_a_contact_is_tangent(bearing: float, side: float, alpha: float) -> None
     assert vx * cos(bearing) + vy * sin(bearing) == pytest.approx(0.0, abs=1e-7)
     assume(abs(alpha * cos(bearing)) < 0.999)
     around = vy * cos(bearing) - vx * sin(bearing)
-    assert ride_rates(bearing, side, alpha, 2.0, 0.0)[0] == pytest.approx(around / 2.0)
+    assert boundary_arc_rates(bearing, side, alpha, 2.0, 0.0)[0] == pytest.approx(around / 2.0)
 
 
 @given(bearing=headings, side=sides, alpha=numbers(0.3, 1.3), turning=turn_rates)
@@ -40,7 +44,7 @@ def test_a_ride_turns_as_fast_as_the_contact_heading_does(
     bearing: float, side: float, alpha: float, turning: float
 ) -> None:
     assume(abs(alpha * cos(bearing)) < 0.99)
-    round_it, rate = ride_rates(bearing, side, alpha, 2.0, turning)
+    round_it, rate = boundary_arc_rates(bearing, side, alpha, 2.0, turning)
     step = 1e-6
     turned = contact_heading(bearing + round_it * step, side, alpha)
     turned -= contact_heading(bearing - round_it * step, side, alpha)
@@ -51,19 +55,19 @@ def test_a_ride_turns_as_fast_as_the_contact_heading_does(
 def test_a_ride_takes_as_long_as_its_rate_says(
     bearing: float, side: float, alpha: float, turning: float
 ) -> None:
-    way = ride_way(bearing, side, alpha, 3.0, turning)
+    way = boundary_arc_sense(bearing, side, alpha, 3.0, turning)
     assume(way != 0.0)
     goal = bearing + 0.3 * way
-    reached, took = ride_within(bearing, goal, side, alpha, 3.0, turning, inf)
+    reached, took = slide_within(bearing, goal, side, alpha, 3.0, turning, inf)
     assume(took < inf)
     assert reached == goal
     b, steps = bearing, 4_000
     for _ in range(steps):  # the midpoint rule, as something else than Simpson's
-        half = b + 0.5 * took / steps * ride_rates(b, side, alpha, 3.0, turning)[0]
-        b += took / steps * ride_rates(half, side, alpha, 3.0, turning)[0]
+        half = b + 0.5 * took / steps * boundary_arc_rates(b, side, alpha, 3.0, turning)[0]
+        b += took / steps * boundary_arc_rates(half, side, alpha, 3.0, turning)[0]
     assert b == pytest.approx(goal, abs=1e-5)
     # with half the time, about half the way
-    reached, took_half = ride_within(bearing, goal, side, alpha, 3.0, turning, 0.5 * took)
+    reached, took_half = slide_within(bearing, goal, side, alpha, 3.0, turning, 0.5 * took)
     assert took_half == 0.5 * took
     assert 0.0 < (reached - bearing) * way < 0.3
 
@@ -87,13 +91,15 @@ def test_the_arcs_of_a_ride_keep_their_distance(
 ) -> None:
     leader, delta, begin = flown_leader(alpha), 3.0, 1.0
     assume(contact_exists(bearing, alpha))
-    way = ride_way(bearing, side, alpha, delta, 0.0)
+    way = boundary_arc_sense(bearing, side, alpha, delta, 0.0)
     goal = bearing + way * length
-    arrival = ride_arrival(leader, begin, bearing, goal, side, alpha, delta)
+    arrival = boundary_arc_arrival(leader, begin, bearing, goal, side, alpha, delta)
     assume(way != 0.0 and arrival < inf)
     x, y, h = contact_at(leader, begin, bearing, side, alpha, delta)
     arcs = np.empty((2 * MAX_NODES, 2))
-    n, ex, ey, eh, et = ride_pieces(x, y, h, begin, leader, alpha, delta, side, bearing, goal, arcs)
+    n, ex, ey, eh, et = boundary_arc_pieces(
+        x, y, h, begin, leader, alpha, delta, side, bearing, goal, arcs
+    )
     assert et == pytest.approx(arrival, abs=1e-4)
     gx, gy, gh = contact_at(leader, et, goal, side, alpha, delta)
     assert hypot(ex - gx, ey - gy) < 1e-5
@@ -113,7 +119,7 @@ def test_the_arcs_of_a_ride_keep_their_distance(
 def test_where_the_leader_is_faster_some_bearings_cannot_be_touched() -> None:
     assert not contact_exists(0.0, 1.2)
     assert contact_exists(acos(1.0 / 1.2) + 1e-9, 1.2)
-    assert ride_way(0.0, 1.0, 1.2, 2.0, 0.0) == 0.0
+    assert boundary_arc_sense(0.0, 1.0, 1.2, 2.0, 0.0) == 0.0
 
 
 def test_tangent_contacts_touch() -> None:

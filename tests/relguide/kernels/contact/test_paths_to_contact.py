@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.contact import contact_at
-from relguide.kernels.contact.paths_to_contact import ways_to_contact
+from relguide.kernels.contact.paths_to_contact import paths_to_contact
 from relguide.kernels.separation.clearance import leader_at
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, fly_piece
 from tests.situations import headings, numbers
@@ -34,7 +34,7 @@ def ways(
     """Rows to a contact on any piece but the last, in order of time."""
     rows, found = np.empty((MAX_ROWS, 5)), []
     for i in range(len(leader) - 1):
-        n = ways_to_contact(*start, 0.0, leader, i, ALPHA, DELTA, *contact, rows)
+        n = paths_to_contact(*start, 0.0, leader, i, ALPHA, DELTA, *contact, rows)
         found += rows[:n].tolist()
     return sorted(found)
 

@@ -7,8 +7,8 @@ import pytest
 
 from relguide.kernels.contact.contact import contact_heading
 from relguide.kernels.contact.touch_points import (
+    boundary_arc_end,
     next_contact,
-    ride_end,
     straight_tangents,
     turn_tangent,
 )
@@ -97,7 +97,7 @@ def test_two_turns_end_in_the_contact(sign: float, side: float) -> None:
 @pytest.mark.parametrize("side", [1.0, -1.0])
 def test_where_a_ride_ends_a_straight_and_a_turn_lead_to_the_slot(side: float) -> None:
     slot = 2.9
-    bearing, straight, turn = ride_end(slot, ALPHA, DELTA, side)
+    bearing, straight, turn = boundary_arc_end(slot, ALPHA, DELTA, side)
     start = (
         DELTA * cos(bearing),
         DELTA * sin(bearing),

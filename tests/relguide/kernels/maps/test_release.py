@@ -7,8 +7,8 @@ import pytest
 
 from relguide.kernels.contact.passage import pieces_clear
 from relguide.kernels.maps.final_leg import keeps_clear
-from relguide.kernels.maps.release import opening_clears, reaches
-from relguide.kernels.words.delay import HOLD_PIECES, MAX_HOLDS, holds, word_to_point
+from relguide.kernels.maps.release import reaches, release_clears
+from relguide.kernels.words.delay import DELAY_PIECES, MAX_DELAYS, holds, word_to_point
 from relguide.kernels.words.extremals import SIGNS, fly_piece
 from tests.relguide.kernels.maps.test_final_leg import turning
 
@@ -57,14 +57,14 @@ def test_a_path_that_clears_is_one_of_the_many_families(limit: float) -> None:
     rng = np.random.default_rng(5)
     alpha, opens = 0.83, 2.5
     leader = turning(alpha)
-    signs = np.empty((MAX_HOLDS, HOLD_PIECES))
-    amounts = np.empty((MAX_HOLDS, HOLD_PIECES))
+    signs = np.empty((MAX_DELAYS, DELAY_PIECES))
+    amounts = np.empty((MAX_DELAYS, DELAY_PIECES))
     said, same = [], []
     for x, y, h in rng.uniform((-0.5, -1.2, -1.0), (1.5, 1.2, 1.0), (4000, 3)).tolist():
         h %= 2.0 * pi
         if not reaches(x, y, h, sin(h), cos(h), alpha * opens, opens, PIECE):
             continue
-        found = opening_clears(x, y, h, sin(h), cos(h), alpha, opens, leader, limit, PIECE, ROW)
+        found = release_clears(x, y, h, sin(h), cos(h), alpha, opens, leader, limit, PIECE, ROW)
         n = holds(x, y, h, alpha, opens, signs, amounts)
         turns = np.count_nonzero(signs[:n, 1:4], axis=1) == 2
         before = (signs[:n, 0] == 0.0) & (amounts[:n, 4] == 0.0) & turns

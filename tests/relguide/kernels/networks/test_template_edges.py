@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from relguide.kernels.contact.constrained_rows import exact_ways
+from relguide.kernels.contact.constrained_rows import exact_constrained
 from relguide.kernels.contact.passage import GRAZE
 from relguide.kernels.networks.near_guess import descend
-from relguide.kernels.networks.template_solutions import solve_kind
-from relguide.kernels.networks.templates import KINDS, PARTS, kind_of
+from relguide.kernels.networks.template_solutions import solve_template
+from relguide.kernels.networks.templates import PARTS, TEMPLATES, template_of
 from relguide.planning.constrained_path import BEARINGS
 
 AT_EDGES = [
@@ -25,12 +25,12 @@ def test_a_way_at_an_edge_is_found_from_a_guess_beside(
 ) -> None:
     x, y, h, alpha, slot, limit = situation
     times, counts, legs = np.empty((1, 3)), np.empty(1), np.zeros((1, 9, 6))
-    exact_ways(np.array([situation]), BEARINGS, 2000.0, times, counts, legs)
+    exact_constrained(np.array([situation]), BEARINGS, 2000.0, times, counts, legs)
     guess, found = np.empty(2), np.zeros((9, 6))
-    kind = kind_of(x, y, h, slot, alpha, int(counts[0]), legs[0], guess)
-    assert KINDS[kind] == name
+    kind = template_of(x, y, h, slot, alpha, int(counts[0]), legs[0], guess)
+    assert TEMPLATES[kind] == name
     for off in (0.0, 0.02, -0.02):
-        time, count = solve_kind(x, y, h, slot, alpha, limit, kind, guess + off, np.inf, found)
+        time, count = solve_template(x, y, h, slot, alpha, limit, kind, guess + off, np.inf, found)
         assert count == 2
         assert time == pytest.approx(times[0, 2], abs=1e-5)
     # it is no valley: downhill leads to where the limit is broken, or to the end of a word

@@ -6,11 +6,11 @@ from math import cos, hypot, sin
 import numpy as np
 import pytest
 
-from relguide.kernels.contact.chain import RIDE
-from relguide.kernels.contact.constrained_rows import exact_ways
-from relguide.kernels.contact.contact import contact_heading, ride_within
-from relguide.kernels.networks.template_solutions import solve_kind
-from relguide.kernels.networks.templates import KINDS, NONE, SEVERAL, kind_of
+from relguide.kernels.contact.chain import BOUNDARY_ARC
+from relguide.kernels.contact.constrained_rows import exact_constrained
+from relguide.kernels.contact.contact import contact_heading, slide_within
+from relguide.kernels.networks.template_solutions import solve_template
+from relguide.kernels.networks.templates import NONE, SEVERAL, TEMPLATES, template_of
 from relguide.kernels.words.extremals import SIGNS, fly_piece
 from relguide.planning.constrained_path import BEARINGS
 from tests.relguide.learn.boundary.template_networks import labels
@@ -23,10 +23,10 @@ def solved(n: int, off: float = 0.0) -> tuple[int, float, np.ndarray]:
     """Kind, time and legs of answer n, solved again from its guess, which is put off by so much."""
     x, y, h, alpha, slot, limit = FOUND.situations[n].tolist()
     guess, legs = np.zeros(2), np.zeros((9, 6))
-    kind = kind_of(x, y, h, slot, alpha, int(FOUND.counts[n]), FOUND.legs[n], guess)
+    kind = template_of(x, y, h, slot, alpha, int(FOUND.counts[n]), FOUND.legs[n], guess)
     if kind in (SEVERAL, NONE):
         return kind, np.inf, legs[:0]
-    time, count = solve_kind(x, y, h, slot, alpha, limit, kind, guess + off, np.inf, legs)
+    time, count = solve_template(x, y, h, slot, alpha, limit, kind, guess + off, np.inf, legs)
     return kind, time, legs[:count]
 
 
@@ -35,7 +35,7 @@ def test_exact_answers_lead_back_to_themselves() -> None:
     missed, late = 0, []
     for n in range(len(FOUND)):
         kind, time, legs = solved(n)
-        kinds[KINDS[kind]] += 1
+        kinds[TEMPLATES[kind]] += 1
         if kind in (SEVERAL, NONE):
             continue
         missed += len(legs) == 0
@@ -46,7 +46,13 @@ def test_exact_answers_lead_back_to_themselves() -> None:
     assert missed < 0.005 * there
     # a few µs, where the search ends beside the bearings that touch by themselves
     assert np.mean(np.array(late) < 1e-5) > 0.995
-    for commonest in ("free", "LS left ride", "RSR right RLR long", "LSL left LSL", "RL left LSR"):
+    for commonest in (
+        "free",
+        "LS left B",
+        "RSR right RLR long",
+        "LSL left LSL",
+        "RL left LSR",
+    ):
         assert kinds[commonest] > 0.03 * there
 
 
@@ -76,15 +82,15 @@ def test_a_straight_way_bent_a_little_is_found_from_a_guess_beside(
 ) -> None:
     x, y, h, alpha, slot, limit = situation
     times, counts, legs = np.empty((1, 3)), np.empty(1), np.zeros((1, 9, 6))
-    exact_ways(np.array([situation]), BEARINGS, 2000.0, times, counts, legs)
+    exact_constrained(np.array([situation]), BEARINGS, 2000.0, times, counts, legs)
     guess, found = np.empty(2), np.zeros((9, 6))
-    kind = kind_of(x, y, h, slot, alpha, int(counts[0]), legs[0], guess)
+    kind = template_of(x, y, h, slot, alpha, int(counts[0]), legs[0], guess)
     assert legs[0, 0, 5] < 0.02  # before the contact it turns no more than this, and behind it
     assert legs[0, 1, 3] < 0.02
     for off in (0.0, 0.04, -0.04):
         bearing = np.arctan2(guess[1], guess[0]) + off
         beside = np.array((cos(bearing), sin(bearing)))
-        time, _ = solve_kind(x, y, h, slot, alpha, limit, kind, beside, np.inf, found)
+        time, _ = solve_template(x, y, h, slot, alpha, limit, kind, beside, np.inf, found)
         assert time == pytest.approx(times[0, 2], abs=1e-6)
 
 
@@ -98,11 +104,11 @@ def test_ways_arrive_and_keep_the_limit() -> None:
         x, y, h, alpha, slot, limit = FOUND.situations[n].tolist()
         t = 0.0
         for leg in legs.tolist():
-            if leg[0] == RIDE:
+            if leg[0] == BOUNDARY_ARC:
                 _, side, first, last = leg[:4]
                 delta = hypot(x - slot - alpha * t, y)
                 assert delta > limit - SLACK
-                t += ride_within(first, last, side, alpha, delta, 0.0, np.inf)[1]
+                t += slide_within(first, last, side, alpha, delta, 0.0, np.inf)[1]
                 x, y = slot + alpha * t + delta * cos(last), delta * sin(last)
                 h = contact_heading(last, side, alpha)
                 continue

@@ -16,9 +16,9 @@ middles = numbers(1e-3, 2.0 * pi - 1e-3)
 straights = st.one_of(numbers(0.0, 200.0), st.sampled_from([0.0, 1e-9]))
 
 
-def rows_of(x: float, y: float, h: float, alpha: float, t_open: float = 0.0) -> np.ndarray:
+def rows_of(x: float, y: float, h: float, alpha: float, t_release: float = 0.0) -> np.ndarray:
     rows = np.empty((MAX_ROWS, 5))
-    return rows[: solve(x, y, h % (2.0 * pi), alpha, t_open, rows)]
+    return rows[: solve(x, y, h % (2.0 * pi), alpha, t_release, rows)]
 
 
 def start_of(
@@ -120,7 +120,7 @@ def test_a_slower_slot_can_always_be_reached(x: float, y: float, h: float, alpha
 
 def test_no_row_arrives_before_the_slot_opens() -> None:
     everything = rows_of(-10.0, 4.0, 1.0, 0.8)
-    later = rows_of(-10.0, 4.0, 1.0, 0.8, t_open=everything[1, 0] + 1e-3)
+    later = rows_of(-10.0, 4.0, 1.0, 0.8, t_release=everything[1, 0] + 1e-3)
     assert 0 < len(later) < len(everything)
     assert later[0, 0] > everything[1, 0]
 

@@ -7,7 +7,7 @@ from math import inf
 import numpy as np
 import pytest
 
-from relguide.kernels.words.branches import STRATEGIES
+from relguide.kernels.words.branches import BRANCHES
 from relguide.learn.audits.branch_audit import Audit, audit_as_json, audit_of
 from relguide.learn.audits.branch_judging import (
     WORTH,
@@ -47,7 +47,7 @@ def test_what_it_counts_adds_up() -> None:
     # a situation in two regions counts in both
     assert 3000 <= sum(group.size for group in found.groups) < 3050
     assert sum(group.size for group in found.classes) == groups["random"].size
-    assert [group.name for group in found.classes] == list(STRATEGIES)
+    assert [group.name for group in found.classes] == list(BRANCHES)
     for group in (*found.groups, *found.classes):
         hits = [share.hits for share in group.tops]
         assert hits == sorted(hits)
@@ -61,7 +61,7 @@ def test_what_it_counts_adds_up() -> None:
     assert all(size.lost.of == 2400 for size in found.sets)
     told = audit_as_json(found)
     assert told["groups"]["random"]["top_1"]["hits"] == groups["random"].tops[0].hits
-    assert set(told["strategies"]["LSL"]["gap_percent"]) == {"p50", "p99", "p99.9", "max"}
+    assert set(told["branches"]["LSL"]["gap_percent"]) == {"p50", "p99", "p99.9", "max"}
 
 
 def test_it_is_the_same_each_time_and_sees_other_situations_than_the_training() -> None:
@@ -89,7 +89,7 @@ def test_the_gap_is_that_of_what_would_be_flown() -> None:
     assert np.array_equal(found.best, labels.best)
     finite = found.gap[found.gap < inf]
     assert finite.min() == 0.0
-    # a gap is between two of the strategies that exist
+    # a gap is between two of the branches that exist
     for row in np.flatnonzero((found.gap > 0.0) & (found.gap < inf)):
         others = labels.times[row] / labels.times[row].min() - 1.0
         assert np.abs(others - found.gap[row]).min() < 1e-9
@@ -112,10 +112,8 @@ def test_every_gap_is_told_with_what_explains_it() -> None:
     assert gaps[-1] > WORTH
     for miss in found.misses:
         times = times_of(np.array([miss.situation]))[0]
-        assert STRATEGIES[times.argmin()] == miss.fastest
-        assert times[STRATEGIES.index(miss.answered)] == pytest.approx(
-            times.min() * (1.0 + miss.gap)
-        )
+        assert BRANCHES[times.argmin()] == miss.fastest
+        assert times[BRANCHES.index(miss.answered)] == pytest.approx(times.min() * (1.0 + miss.gap))
         assert miss.explained == (min(miss.birth, miss.switch) <= SMALL)
     assert found.unexplained == sum(not miss.explained for miss in found.misses)
     told = audit_as_json(found)

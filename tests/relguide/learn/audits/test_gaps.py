@@ -1,9 +1,9 @@
-"""What explains a gap: how near the fastest strategy is born, or is no longer the fastest."""
+"""What explains a gap: how near the fastest branch is born, or is no longer the fastest."""
 
 import numpy as np
 import pytest
 
-from relguide.kernels.words.branches import STRATEGIES
+from relguide.kernels.words.branches import BRANCHES
 from relguide.learn.audits.gaps import SMALL, Surfaces, surfaces
 from relguide.learn.words.branch_labels import times_of
 
@@ -12,17 +12,17 @@ BEHIND = np.array([-5.0, 3.0, 0.0, 0.8])
 
 
 def fastest(*situations: np.ndarray) -> list[str]:
-    return [STRATEGIES[number] for number in times_of(np.array(situations)).argmin(axis=1)]
+    return [BRANCHES[number] for number in times_of(np.array(situations)).argmin(axis=1)]
 
 
 def edge(of: str) -> tuple[np.ndarray, np.ndarray]:
-    """A situation whose fastest strategy ceases to exist next to it, and that one next to it."""
+    """A situation whose fastest branch ceases to exist next to it, and that one next to it."""
     rng = np.random.default_rng(1)
     while True:
         here = np.array([*rng.uniform(-3.0, 3.0, 2), rng.uniform(0.0, 6.28), 0.8])
         there = here + np.array([*rng.normal(size=3), 0.0])
         best = times_of(here[None]).argmin()
-        if STRATEGIES[best] != of or np.isfinite(times_of(there[None])[0, best]):
+        if BRANCHES[best] != of or np.isfinite(times_of(there[None])[0, best]):
             continue
         for _ in range(30):
             middle = 0.5 * (here + there)
@@ -39,14 +39,14 @@ def test_far_from_every_surface_nothing_is_near() -> None:
     assert not found.near[0]
 
 
-@pytest.mark.parametrize("strategy", ["LRL long", "RLR long"])
-def test_where_a_strategy_is_born_it_is_found(strategy: str) -> None:
-    here, there = edge(strategy)
+@pytest.mark.parametrize("branch", ["LRL long", "RLR long"])
+def test_where_a_strategy_is_born_it_is_found(branch: str) -> None:
+    here, there = edge(branch)
     found = surfaces(here[None])
     assert found.birth[0] <= 1e-5
     assert found.switch[0] <= found.birth[0]
     assert found.near[0]
-    assert fastest(there) != [strategy]
+    assert fastest(there) != [branch]
 
 
 def test_distances_are_those_of_the_way_there() -> None:

@@ -6,16 +6,16 @@ from math import hypot, pi
 import numpy as np
 import pytest
 
-from relguide.kernels.words.branches import STRATEGIES
+from relguide.kernels.words.branches import BRANCHES
 from relguide.learn.audits.side_by_side import (
     Ground,
     Method,
+    branches_like,
     drawn_ground,
     ends_of,
     method_as_json,
     nearest_given,
     side_by_side,
-    strategies_like,
 )
 from relguide.learn.training.options import NetworkShape, TrainingOptions
 from relguide.learn.tree.nearest import lookup_in
@@ -81,8 +81,8 @@ def test_ends_are_those_of_what_is_flown() -> None:
 
 def test_pieces_name_strategies() -> None:
     def named(*pieces: tuple[str, float]) -> list[str]:
-        flags = strategies_like([Piece(*piece) for piece in pieces])
-        return [name for name, flag in zip(STRATEGIES, flags, strict=True) if flag]
+        flags = branches_like([Piece(*piece) for piece in pieces])
+        return [name for name, flag in zip(BRANCHES, flags, strict=True) if flag]
 
     assert named(("L", 1.0), ("S", 2.0), ("R", 1.0)) == ["LSR"]
     assert named(("L", 1.0), ("R", 2.0), ("L", 1.0)) == ["LRL"]
@@ -121,4 +121,4 @@ def test_they_are_told_in_json() -> None:
     assert set(nearest["flown_as_given"]) == {
         "reaches_the_slot", "from_the_slot_m", "off_heading_deg",
     }  # fmt: skip
-    assert set(ours["strategies"]) == set(STRATEGIES)
+    assert set(ours["branches"]) == set(BRANCHES)

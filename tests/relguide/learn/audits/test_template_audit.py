@@ -7,16 +7,20 @@ from math import inf
 import numpy as np
 import pytest
 
-from relguide.kernels.networks.templates import FREE, KINDS, NONE, SEVERAL
+from relguide.kernels.networks.templates import FREE, NONE, SEVERAL, TEMPLATES
 from relguide.learn.audits.both_networks import TAS, UNIT, Everywhere, situation_of
-from relguide.learn.audits.template_audit import WayAudit, way_audit_as_json, way_audit_of
-from relguide.learn.audits.template_bound import Bound, way_latencies
+from relguide.learn.audits.template_audit import (
+    TemplateAudit,
+    template_audit_as_json,
+    template_audit_of,
+)
+from relguide.learn.audits.template_bound import Bound, template_latencies
 from relguide.learn.audits.template_judging import (
-    WayJudged,
-    joined_ways,
-    judge_way_chunk,
-    judged_ways,
-    way_request,
+    TemplateJudged,
+    joined_templates,
+    judge_template_chunk,
+    judged_templates,
+    template_request,
 )
 from relguide.learn.boundary.template_labels import SOURCES, LimitRequest, limit_chunk
 from relguide.learn.boundary.train_templates import WITHIN, taught
@@ -26,28 +30,28 @@ from relguide.planning.plan import Plan, plan
 from tests.relguide.learn.boundary.template_networks import ways
 from tests.relguide.learn.boundary.test_template_labels import Here
 
-TOUCH, RIDE = KINDS.index("LSL left LSL"), KINDS.index("LS left ride")
+TOUCH, BOUNDARY_ARC = TEMPLATES.index("LSL left LSL"), TEMPLATES.index("LS left B")
 
 
 def request(count: int = 60, seed: int = 9) -> LimitRequest:
-    return replace(way_request(ways(), count, seed), chunk=30)
+    return replace(template_request(ways(), count, seed), chunk=30)
 
 
 @cache
-def chunks() -> dict[int, WayJudged]:
-    return dict(judged_ways(ways(), load_network(), request(), Here()))
+def chunks() -> dict[int, TemplateJudged]:
+    return dict(judged_templates(ways(), load_network(), request(), Here()))
 
 
-def audit() -> WayAudit:
-    return way_audit_of(chunks())
+def audit() -> TemplateAudit:
+    return template_audit_of(chunks())
 
 
-def made(*rows: tuple[int, int, float, float, bool, bool]) -> WayJudged:
+def made(*rows: tuple[int, int, float, float, bool, bool]) -> TemplateJudged:
     """As judged: kind, answered kind, exact and given time, whether named, whether in the set."""
     columns = (np.array(column) for column in zip(*rows, strict=True))
     kinds, answered, exact, given, named, inside = columns
     n = len(rows)
-    return WayJudged(
+    return TemplateJudged(
         bound=Bound(
             situations=np.arange(6.0 * n).reshape(n, 6),
             sources=np.zeros(n, dtype=np.int8),
@@ -70,19 +74,19 @@ def made(*rows: tuple[int, int, float, float, bool, bool]) -> WayJudged:
 
 def test_delays_and_their_reasons_are_counted() -> None:
     late = 0.1 / UNIT
-    found = way_audit_of(
+    found = template_audit_of(
         {
             0: made(
                 (TOUCH, TOUCH, 10.0, 10.0, True, True),
-                (TOUCH, RIDE, 10.0, 11.0, False, False),  # left out of the set
-                (RIDE, TOUCH, 10.0, 10.5, False, True),  # held, not solved
+                (TOUCH, BOUNDARY_ARC, 10.0, 11.0, False, False),  # left out of the set
+                (BOUNDARY_ARC, TOUCH, 10.0, 10.5, False, True),  # held, not solved
                 (SEVERAL, TOUCH, 10.0, 10.2, True, True),  # of no kind, though its share is large
                 (TOUCH, TOUCH, 100.0, 100.0 + 0.9 * late, True, True),
                 (TOUCH, TOUCH, 100.0, 100.0 + 1.1 * late, True, True),
                 (TOUCH, SEVERAL, 10.0, inf, False, True),  # passed on
                 (NONE, FREE, inf, 20.0, False, True),  # an answer where there is none
                 (NONE, SEVERAL, inf, inf, True, True),
-                (TOUCH, RIDE, 10.0, 9.0, False, True),  # sooner than the search
+                (TOUCH, BOUNDARY_ARC, 10.0, 9.0, False, True),  # sooner than the search
             )
         }
     )
@@ -98,7 +102,7 @@ def test_delays_and_their_reasons_are_counted() -> None:
     assert found.reasons == {"left out": 1, "not solved": 1, "of no kind": 1}
     assert [miss.reason for miss in found.misses] == ["left out", "not solved", "of no kind"]
     first = found.misses[0]
-    assert (first.fastest, first.answered) == ("LSL left LSL", "LS left ride")
+    assert (first.fastest, first.answered) == ("LSL left LSL", "LS left B")
     assert (first.gap, first.late) == (pytest.approx(0.1), pytest.approx(1.0))
     assert first.situation == tuple(np.arange(6.0, 12.0))
     assert [group.name for group in found.kinds][:2] == ["LSL left LSL", "none"]
@@ -125,7 +129,7 @@ def test_what_it_counts_adds_up() -> None:
     assert free.size > binds.size
     assert free.named.hits >= 0.97 * free.size
     assert every.late.gaps[0] == 0.0
-    told = way_audit_as_json(found)
+    told = template_audit_as_json(found)
     assert told["groups"]["all"]["named"]["hits"] == groups["all"].named.hits
     assert set(told["everywhere"]["it binds"]["gap_percent"]) == {"p50", "p99", "p99.9", "max"}
 
@@ -155,27 +159,27 @@ def test_everywhere_is_flown_by_an_airliner_of_that_scale() -> None:
 
 def test_it_is_the_same_each_time_and_sees_other_situations_than_the_training() -> None:
     again = {
-        number: judge_way_chunk(ways(), load_network(), request(), number) for number in (1, 0)
+        number: judge_template_chunk(ways(), load_network(), request(), number) for number in (1, 0)
     }
-    assert way_audit_of(again) == audit()
-    assert len(joined_ways(again).everywhere) == 60
+    assert template_audit_of(again) == audit()
+    assert len(joined_templates(again).everywhere) == 60
     seen = replace(ways(), about={"dataset": {"seed": 5}})
     with pytest.raises(ValueError, match="has seen the situations of seed 5"):
-        way_request(seen, 10, 5)
+        template_request(seen, 10, 5)
 
 
 def test_a_network_that_knows_nothing_is_found_out() -> None:
     layers = ways().layers
     blind = replace(ways(), layers=layers._replace(last=0.0 * layers.last))
-    found = judge_way_chunk(blind, load_network(), request(), 0).bound
+    found = judge_template_chunk(blind, load_network(), request(), 0).bound
     assert found.named.mean() < chunks()[0].bound.named.mean()
-    silent = judge_way_chunk(replace(ways(), most=0), load_network(), request(), 0)
+    silent = judge_template_chunk(replace(ways(), most=0), load_network(), request(), 0)
     assert (silent.bound.given == inf).all()
     assert (silent.everywhere.given[silent.everywhere.binds] == inf).all()
-    assert way_audit_of({0: silent}).worth == Share(hits=0, of=0)
+    assert template_audit_of({0: silent}).worth == Share(hits=0, of=0)
 
 
 def test_one_query_is_timed() -> None:
-    found = way_latencies(ways(), chunks()[0].bound.situations)
+    found = template_latencies(ways(), chunks()[0].bound.situations)
     assert set(found) == {"network", "search"}
     assert all(0.0 < low <= high for low, high in found.values())

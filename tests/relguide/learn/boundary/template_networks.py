@@ -9,8 +9,8 @@ from relguide.learn.boundary.template_labels import (
     joined,
     limit_chunk,
 )
-from relguide.learn.boundary.template_network import WayNetwork
-from relguide.learn.boundary.train_templates import train_ways
+from relguide.learn.boundary.template_network import TemplateNetwork
+from relguide.learn.boundary.train_templates import train_templates
 from relguide.learn.training.options import NetworkShape, TrainingOptions
 
 REQUEST = LimitRequest(count=1500, seed=5, chunk=500)
@@ -25,7 +25,7 @@ def labels() -> LimitLabels:
 
 
 @cache
-def ways() -> WayNetwork:
+def ways() -> TemplateNetwork:
     """Trained from scratch; right in more than half of the labels it has not seen."""
-    *_, last = train_ways(labels(), OPTIONS, box=LimitBox(), about={"seed": REQUEST.seed})
+    *_, last = train_templates(labels(), OPTIONS, box=LimitBox(), about={"seed": REQUEST.seed})
     return last.network

@@ -11,18 +11,18 @@ import torch
 from safetensors.numpy import load_file, save_file
 
 from relguide.kernels.networks.template_features import FEATURES
-from relguide.kernels.networks.template_scores import OUTPUTS, guess_of, way_shares
+from relguide.kernels.networks.template_scores import OUTPUTS, guess_of, template_shares
 from relguide.kernels.networks.templates import SIZE
 from relguide.kernels.words.extremals import MAX_ROWS, solve
 from relguide.learn.boundary import train_templates as training
 from relguide.learn.boundary.template_label_file import save_limit_labels
 from relguide.learn.boundary.template_labels import LimitBox
 from relguide.learn.boundary.template_network import (
-    load_way_network,
-    save_way_network,
-    way_features_of,
+    load_template_network,
+    save_template_network,
+    template_features_of,
 )
-from relguide.learn.boundary.train_templates import train_ways
+from relguide.learn.boundary.train_templates import train_templates
 from relguide.learn.training.options import NetworkShape, add_options
 from relguide.learn.words.branch_network import layers_of, torch_model
 from tests.relguide.learn.boundary.template_networks import OPTIONS, REQUEST, labels, ways
@@ -35,7 +35,7 @@ def test_the_kernel_says_what_torch_says(shape: NetworkShape) -> None:
     torch.manual_seed(0)
     model = torch_model(shape, features=FEATURES, outputs=OUTPUTS)
     situations = labels().situations[:300]
-    told = way_features_of(situations)
+    told = template_features_of(situations)
     assert np.isfinite(told).all()
     mean, deviation = told.mean(axis=0), told.std(axis=0) + np.float32(1e-6)
     with torch.no_grad():
@@ -46,7 +46,7 @@ def test_the_kernel_says_what_torch_says(shape: NetworkShape) -> None:
     expected = torch.from_numpy(out[:, :SIZE]).softmax(dim=1).numpy()
     for n, (x, y, h, alpha, slot, limit) in enumerate(situations.tolist()):
         solve(x, y, h, alpha, 0.0, rows)
-        hidden = way_shares(x, y, h, slot, alpha, limit, rows[0], layers, share)
+        hidden = template_shares(x, y, h, slot, alpha, limit, rows[0], layers, share)
         assert np.abs(share - expected[n]).max() < 1e-5
         for kind in (0, 3, SIZE - 1):
             guess_of(hidden, layers, kind, guess)
@@ -61,34 +61,36 @@ def test_the_trained_network_has_learnt() -> None:
 
 def test_a_training_that_was_stopped_goes_on_to_the_same_end(tmp_path: Path) -> None:
     part, options = tmp_path / "part", QUICK
-    whole = list(train_ways(labels(), options, box=LimitBox(), about={}))
-    run = train_ways(labels(), options, box=LimitBox(), about={}, checkpoint=part)
+    whole = list(train_templates(labels(), options, box=LimitBox(), about={}))
+    run = train_templates(labels(), options, box=LimitBox(), about={}, checkpoint=part)
     next(run)
     run.close()
     rest = list(
-        train_ways(labels(), options, box=LimitBox(), about={}, checkpoint=part, resume=True)
+        train_templates(labels(), options, box=LimitBox(), about={}, checkpoint=part, resume=True)
     )
     assert [epoch.number for epoch in rest] == [2, 3]
     for name, array in whole[-1].network.layers._asdict().items():
         assert np.array_equal(array, getattr(rest[-1].network.layers, name))
     other = replace(options, seed=8)
     with pytest.raises(ValueError, match="other labels or options"):
-        list(train_ways(labels(), other, box=LimitBox(), about={}, checkpoint=part, resume=True))
+        list(
+            train_templates(labels(), other, box=LimitBox(), about={}, checkpoint=part, resume=True)
+        )
     with pytest.raises(ValueError, match="nothing to resume"):
-        list(train_ways(labels(), options, box=LimitBox(), about={}, resume=True))
+        list(train_templates(labels(), options, box=LimitBox(), about={}, resume=True))
 
 
 def test_too_few_labels_are_refused() -> None:
     few = {name: getattr(labels(), name)[:1] for name in ("situations", "times", "counts")}
     one = replace(labels(), **few, legs=labels().legs[:1], sources=labels().sources[:1])
     with pytest.raises(ValueError, match="too few"):
-        next(train_ways(one, QUICK, box=LimitBox(), about={}))
+        next(train_templates(one, QUICK, box=LimitBox(), about={}))
 
 
 def test_a_file_keeps_all_and_others_are_refused(tmp_path: Path) -> None:
     file = tmp_path / "w.safetensors"
-    save_way_network(ways(), file)
-    read = load_way_network(file)
+    save_template_network(ways(), file)
+    read = load_template_network(file)
     assert (read.box, read.least_share, read.doubt) == (
         ways().box,
         ways().least_share,
@@ -100,7 +102,7 @@ def test_a_file_keeps_all_and_others_are_refused(tmp_path: Path) -> None:
     for damaged in (file.read_bytes(), file.read_bytes()[:500], b""):
         file.write_bytes(damaged)
         with pytest.raises(ValueError, match="holds no network of relguide train --method ways"):
-            load_way_network(file)
+            load_template_network(file)
 
 
 def test_the_script_trains_from_a_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -112,7 +114,7 @@ def test_the_script_trains_from_a_file(tmp_path: Path, monkeypatch: pytest.Monke
         ["limit.npz", "w.safetensors", "--epochs", "2", "--width", "8", "--threads", "1"]
     )
     epochs = list(training.run(chosen, "a test"))
-    about = load_way_network(Path("w.safetensors")).about
+    about = load_template_network(Path("w.safetensors")).about
     assert about["command"] == (
         "relguide train limit.npz w.safetensors --width 8 --epochs 2 --threads 1 --method ways"
     )

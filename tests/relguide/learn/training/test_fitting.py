@@ -10,12 +10,12 @@ import pytest
 from relguide.learn.training.fitting import reached_by, scaled, split
 from relguide.learn.training.options import TrainingOptions
 from relguide.learn.words.branch_labels import Box
-from relguide.learn.words.branch_network import StrategyNetwork
+from relguide.learn.words.branch_network import BranchNetwork
 from relguide.learn.words.train_branches import train
 from tests.relguide.learn.words.networks import OPTIONS, labels
 
 
-def weights_of(network: StrategyNetwork) -> bytes:
+def weights_of(network: BranchNetwork) -> bytes:
     return b"".join(array.tobytes() for array in network.layers)
 
 

@@ -5,7 +5,7 @@ from functools import cache
 
 from relguide.learn.training.options import TrainingOptions, add_options
 from relguide.learn.words.branch_labels import Box, LabelRequest, Labels, joined, label_chunk
-from relguide.learn.words.branch_network import NetworkShape, StrategyNetwork
+from relguide.learn.words.branch_network import BranchNetwork, NetworkShape
 from relguide.learn.words.train_branches import train
 
 REQUEST = LabelRequest(count=12_000, seed=5, chunk=4000)
@@ -20,7 +20,7 @@ def labels() -> Labels:
 
 
 @cache
-def network() -> StrategyNetwork:
+def network() -> BranchNetwork:
     """Trained from scratch; right in more than four of five labels it has not seen."""
     *_, last = train(labels(), OPTIONS, box=Box(), about={"dataset": {"seed": REQUEST.seed}})
     return last.network

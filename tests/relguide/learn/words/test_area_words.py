@@ -8,7 +8,7 @@ import pytest
 
 from relguide import Leader, Pursuer, Situation
 from relguide.learn.words.area_words import area_words
-from relguide.learn.words.branch_network import StrategyNetwork, load_network
+from relguide.learn.words.branch_network import BranchNetwork, load_network
 from relguide.maps.isochrones import Grid, isochrones, times_around
 from relguide.units import DEG
 
@@ -22,7 +22,7 @@ SITUATION = Situation(
 
 
 @pytest.fixture(scope="module")
-def network() -> StrategyNetwork:
+def network() -> BranchNetwork:
     return load_network()
 
 
@@ -39,7 +39,7 @@ def headed(heading: float, ratio: float) -> Situation:
     )
 
 
-def test_times_are_the_exact_ones_and_seldom_later(network: StrategyNetwork) -> None:
+def test_times_are_the_exact_ones_and_seldom_later(network: BranchNetwork) -> None:
     rng = np.random.default_rng(11)
     x, y = places(GRID)
     late = sure = 0
@@ -63,7 +63,7 @@ def test_times_are_the_exact_ones_and_seldom_later(network: StrategyNetwork) -> 
     assert late <= 8
 
 
-def test_lines_and_regions_are_those_of_the_exact_area(network: StrategyNetwork) -> None:
+def test_lines_and_regions_are_those_of_the_exact_area(network: BranchNetwork) -> None:
     situation = headed(100 * DEG, 0.83)
     words = area_words(network, situation, GRID)
     exact = isochrones(situation, GRID)
@@ -79,18 +79,18 @@ def test_lines_and_regions_are_those_of_the_exact_area(network: StrategyNetwork)
 
 
 @pytest.mark.parametrize("ratio", [0.29, 0.98])
-def test_outside_its_box_the_network_is_not_asked(network: StrategyNetwork, ratio: float) -> None:
+def test_outside_its_box_the_network_is_not_asked(network: BranchNetwork, ratio: float) -> None:
     situation = headed(100 * DEG, ratio)
     assert np.all(area_words(network, situation, GRID)(*places(GRID)) == -1)
 
 
-def test_beyond_its_range_neither(network: StrategyNetwork) -> None:
+def test_beyond_its_range_neither(network: BranchNetwork) -> None:
     wide = Grid(x=0.0, y=0.0, width=1.9e6, height=1.9e6, columns=64, rows=64)
     x, y = places(wide)
     words = area_words(network, headed(100 * DEG, 0.83), wide)(x, y)
     assert np.all(words[np.hypot(x, y) > 42 * 12.7e3] == -1)
 
 
-def test_a_grid_of_few_nodes_will_do(network: StrategyNetwork) -> None:
+def test_a_grid_of_few_nodes_will_do(network: BranchNetwork) -> None:
     small = Grid(x=0.0, y=0.0, columns=2, rows=3)
     assert len(area_words(network, headed(1.0, 0.5), small)(*places(small))) == 6

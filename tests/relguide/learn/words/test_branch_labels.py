@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from relguide import Situations, plan_arrays
-from relguide.kernels.words.branches import STRATEGIES
+from relguide.kernels.words.branches import BRANCHES
 from relguide.learn.training.chunks import ATTEMPTS
 from relguide.learn.words.branch_labels import (
     SOURCES,
@@ -55,7 +55,7 @@ def test_the_least_time_is_the_exact_planners() -> None:
     assert within.sum() > 90
     least = found.times.min(axis=1) * radius / 240.0
     assert least[within] == pytest.approx(times.time_to_converge[within], rel=1e-9)
-    words = [STRATEGIES[best].split()[0] for best in found.best[within]]
+    words = [BRANCHES[best].split()[0] for best in found.best[within]]
     assert np.mean(np.array(words) == times.word[within]) > 0.98  # ties go either way
 
 
@@ -63,7 +63,7 @@ def test_every_source_brings_what_it_is_for() -> None:
     found = labels()
     box, reverse, edge = (found.best[found.sources == n] for n in range(3))
     shares = [np.bincount(best, minlength=8) / len(best) for best in (box, reverse)]
-    rare = STRATEGIES.index("RSR")
+    rare = BRANCHES.index("RSR")
     assert shares[1][rare] > 5.0 * shares[0][rare]
     two = np.sort(found.times, axis=1)[:, :2]
     close = two[:, 1] < 1.02 * two[:, 0]

@@ -11,11 +11,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from relguide.kernels.networks.branch_scores import Layers, choose, evaluate, judge_rows
-from relguide.kernels.words.branches import MIRROR_OF, SIZE, strategy_of
+from relguide.kernels.words.branches import MIRROR_OF, SIZE, branch_of
 from relguide.kernels.words.extremals import MAX_ROWS
 from relguide.learn.words.branch_network import (
+    BranchNetwork,
     NetworkShape,
-    StrategyNetwork,
     features_of,
     layers_of,
     load_network,
@@ -25,7 +25,7 @@ from relguide.learn.words.branch_network import (
 from tests.relguide.learn.words.networks import labels, network
 
 
-def scores_of(found: StrategyNetwork, situations: np.ndarray) -> np.ndarray:
+def scores_of(found: BranchNetwork, situations: np.ndarray) -> np.ndarray:
     scores, decoded = np.empty((len(situations), 3, SIZE)), np.empty((len(situations), 3))
     judge_rows(
         situations, found.layers, found.least_share, found.most, 0, len(scores), scores, decoded
@@ -60,7 +60,7 @@ def test_situations_judged_together_are_judged_as_one_by_one() -> None:
     rows = np.empty((MAX_ROWS, 5))
     for situation, told in zip(situations, decoded, strict=True):
         held, n = choose(*situation, found.layers, found.least_share, 4, rows)
-        assert told.tolist() == [held, *((rows[0, 0], strategy_of(rows[0])) if n else (inf, -1))]
+        assert told.tolist() == [held, *((rows[0, 0], branch_of(rows[0])) if n else (inf, -1))]
     assert len(set(decoded[:, 0])) > 2
 
 
@@ -123,7 +123,7 @@ def test_what_is_no_network_is_refused(tmp_path: Path) -> None:
         load_network(file)
     save_network(network(), file)
     whole = file.read_bytes()
-    for content in (b"", b"[]", whole[:-8], whole.replace(b"strategy network", b"another network")):
+    for content in (b"", b"[]", whole[:-8], whole.replace(b"branch network", b"another network")):
         file.write_bytes(content)
         with pytest.raises(ValueError, match="holds no network of relguide train"):
             load_network(file)

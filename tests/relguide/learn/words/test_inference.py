@@ -9,7 +9,7 @@ import torch
 from relguide.kernels.networks.branch_scores import evaluate, shares
 from relguide.kernels.words.branches import MIRROR_OF, SIZE
 from relguide.learn.words import inference
-from relguide.learn.words.inference import strategy_shares
+from relguide.learn.words.inference import branch_shares
 from tests.relguide.learn.words.networks import network
 
 
@@ -31,7 +31,7 @@ def test_torch_says_what_the_kernel_says(monkeypatch: pytest.MonkeyPatch) -> Non
     situations[:4, 1] = 0.0
     scores, one = np.empty((3, SIZE)), np.empty(SIZE)
     counted: list[int] = []
-    found = strategy_shares(network(), situations, device="cpu", progress=counted.append)
+    found = branch_shares(network(), situations, device="cpu", progress=counted.append)
     for situation, row in zip(situations, found, strict=True):
         evaluate(*situation, network().layers, scores)
         shares(scores, one)
@@ -42,19 +42,19 @@ def test_torch_says_what_the_kernel_says(monkeypatch: pytest.MonkeyPatch) -> Non
 
 def test_mirror_images_get_mirrored_shares() -> None:
     situations = drawn(300)
-    found = strategy_shares(network(), situations)
-    mirrored = strategy_shares(network(), situations * (1.0, -1.0, -1.0, 1.0))
+    found = branch_shares(network(), situations)
+    mirrored = branch_shares(network(), situations * (1.0, -1.0, -1.0, 1.0))
     assert np.abs(found - mirrored[:, MIRROR_OF]).max() < 1e-5
 
 
 def test_torch_keeps_its_threads() -> None:
     before = torch.get_num_threads()
-    strategy_shares(network(), drawn(3), threads=before + 1)
+    branch_shares(network(), drawn(3), threads=before + 1)
     assert torch.get_num_threads() == before
 
 
 def test_nothing_asked_is_nothing_said() -> None:
-    assert strategy_shares(network(), np.empty((0, 4))).shape == (0, SIZE)
+    assert branch_shares(network(), np.empty((0, 4))).shape == (0, SIZE)
 
 
 @pytest.mark.parametrize(
@@ -72,4 +72,4 @@ def test_nothing_asked_is_nothing_said() -> None:
 )
 def test_what_cannot_be_answered_is_refused(situations: np.ndarray, device: str) -> None:
     with pytest.raises(ValueError, match=r"must have four finite columns|no CUDA device"):
-        strategy_shares(network(), situations, device=device)
+        branch_shares(network(), situations, device=device)

@@ -13,7 +13,7 @@ from relguide.learn.training.checkpoint import device_of
 from relguide.learn.training.fitting import Epoch, script
 from relguide.learn.training.options import TrainingOptions, command_of, options_of
 from relguide.learn.words.branch_labels import Box, save_labels
-from relguide.learn.words.branch_network import StrategyNetwork, load_network
+from relguide.learn.words.branch_network import BranchNetwork, load_network
 from relguide.learn.words.train_branches import run, train
 from tests.relguide.learn.words.networks import OPTIONS, REQUEST, chosen, labels
 
@@ -22,11 +22,11 @@ SHORT = replace(OPTIONS, epochs=3)
 
 def epochs(
     options: TrainingOptions, checkpoint: Path, *, resume: bool = False
-) -> list[Epoch[StrategyNetwork]]:
+) -> list[Epoch[BranchNetwork]]:
     return list(train(labels(), options, box=Box(), about={}, checkpoint=checkpoint, resume=resume))
 
 
-def same(a: StrategyNetwork, b: StrategyNetwork) -> bool:
+def same(a: BranchNetwork, b: BranchNetwork) -> bool:
     return a.least_share == b.least_share and all(
         np.array_equal(one, other) for one, other in zip(a.layers, b.layers, strict=True)
     )
