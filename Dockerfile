@@ -16,7 +16,7 @@ RUN sed -n 's/.*"\(torch==[^"]*\)".*/\1/p' pyproject.toml > /tmp/torch.txt \
 
 # The wheel carries the web page, built here with a Node that pip brings.
 COPY . .
-RUN pip wheel --no-deps --wheel-dir /wheels . && pip install /wheels/relguide-*.whl
+RUN pip wheel --no-deps --wheel-dir /wheels . && pip install "$(echo /wheels/relguide-*.whl)[serve]"
 
 
 FROM python:3.12-slim

@@ -57,7 +57,7 @@ endif
 
 .make/installed: .make/torch pyproject.toml hatch_build.py $(PAGE_INPUTS)
 	@echo "== Installing relguide and building its web page (the first time: a minute or two)"
-	@$(PIP) install --editable .
+	@$(PIP) install --editable '.[serve]'
 	@touch $@
 
 # What is compiled is kept beside the sources, so this happens once.
@@ -132,7 +132,7 @@ planner-figures: .make/dev .make/kernels .make/bench/ready
 .make/bench/ready: .make/dev pyproject.toml
 	@mkdir -p .make/bench
 	@echo "== Fetching the planners to compare with"
-	@RELGUIDE_SKIP_WEB=1 $(PIP) install --editable '.[dev,bench]'
+	@RELGUIDE_SKIP_WEB=1 $(PIP) install --editable '.[bench]'
 	@$(PIP) download --no-deps --no-binary dubins --dest .make/bench dubins==1.0.1
 	@touch $@
 

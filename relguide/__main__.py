@@ -13,6 +13,7 @@ from textwrap import dedent
 from relguide import __version__
 from relguide.cli.learning_options import add_learning
 from relguide.cli.output import say
+from relguide.planning.extras import MissingExtra, with_command
 
 DONE, FAILED, MISUSE, STOPPED = 0, 1, 2, 130
 """Exit codes: done; no plan or a failed check; misuse; stopped by Ctrl-C, as shells number it."""
@@ -44,6 +45,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _refuse(f"{where}: {error.strerror or error}.")
     except ValueError as error:  # every refusal of the library is one, with a sentence
         return _refuse(str(error))
+    except ModuleNotFoundError as error:
+        missing = with_command(error)
+        if missing is error and not isinstance(error, MissingExtra):
+            raise
+        return _refuse(str(missing))
     except KeyboardInterrupt:
         sys.stderr.write("\nrelguide: stopped.\n")
         return STOPPED

@@ -14,6 +14,7 @@ import numpy as np
 
 from relguide.learn.tree.tree import Tree, TreeParameters
 from relguide.maps.area import Area
+from relguide.planning.extras import need
 from relguide.units import DEG
 
 if TYPE_CHECKING:
@@ -43,19 +44,14 @@ def check_figure(file: Path) -> None:
     """Refuse a figure that could not be drawn, before anything is computed.
 
     Raises:
-        ValueError: if the file's format is none of ours, or matplotlib is missing.
+        ValueError: if the file's format is none of ours.
+        MissingExtra: if matplotlib is missing.
         OSError: if its folder does not exist.
     """
     if file.suffix.lower() not in FORMATS:
         raise ValueError(f"A figure's name must end in {', '.join(FORMATS)}, not {file.name}.")
     file.parent.stat()
-    try:
-        import matplotlib  # noqa: F401
-    except ModuleNotFoundError:
-        raise ValueError(
-            "Figures are drawn by matplotlib, which is not installed: pip install "
-            "'relguide[figures]' brings it."
-        ) from None
+    need("matplotlib")
 
 
 def draw_areas(columns: Sequence[Column], tree: Tree, file: Path) -> None:

@@ -14,6 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from relguide.planning.extras import need
+
 Array = NDArray[np.float64]
 
 MAX_GAP = 30.0
@@ -167,6 +169,7 @@ def believable(t: Array, values: Array, max_rate: float, slack: float) -> NDArra
 
 
 def _spline(t: Array, values: Array, seconds: float) -> Any:
+    need("scipy")
     # 0.2 s to import, and only recorded tracks need it
     from scipy.interpolate import make_smoothing_spline  # type: ignore[import-untyped]
 

@@ -19,6 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from relguide.kernels.base.roots import FloatArray
+from relguide.planning.extras import need
 from relguide.planning.legs import ROUNDING, Cut, Encounter, Leg, Touch, Vector
 
 RANK = 1e-8
@@ -208,6 +209,7 @@ def _choose(
 
     If there is no such z it stays as it is: the conditions cannot be met.
     """
+    need("scipy")
     # 0.3 s to import, and few trajectories leave a choice
     from scipy.optimize import linprog  # type: ignore[import-untyped]
 

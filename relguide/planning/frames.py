@@ -4,6 +4,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from relguide.planning.extras import need
+
 
 @dataclass(frozen=True)
 class LocalPlane:
@@ -19,6 +21,7 @@ class LocalPlane:
 
     @cached_property
     def _projection(self) -> Any:
+        need("pyproj")
         from pyproj import Proj  # 0.2 s to import, and only geographic input needs it
 
         return Proj(proj="aeqd", lat_0=self.lat_deg, lon_0=self.lon_deg, ellps="WGS84")

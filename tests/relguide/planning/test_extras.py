@@ -1,0 +1,61 @@
+"""A missing package gives a sentence with the command that brings it."""
+
+import re
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from relguide.planning.extras import EXTRAS, MissingExtra, need, with_command
+
+PROJECT = tomllib.loads((Path(__file__).parents[3] / "pyproject.toml").read_text())["project"]
+BROUGHT = {
+    extra: {re.split(r"[\[=><]", line)[0].replace("-", "_") for line in lines}
+    for extra, lines in PROJECT["optional-dependencies"].items()
+}
+
+
+def test_each_package_is_brought_by_the_extra_named() -> None:
+    for package, extra in EXTRAS.items():
+        assert package in BROUGHT[extra], package
+
+
+def test_each_package_brought_is_named() -> None:
+    assert set.union(*(BROUGHT[extra] for extra in set(EXTRAS.values()))) == set(EXTRAS)
+
+
+def test_the_core_is_numpy_and_numba() -> None:
+    core = {re.split(r"[\[=><]", line)[0] for line in PROJECT["dependencies"]}
+    assert core == {"numba", "numpy"}
+
+
+def test_what_is_there_is_no_matter() -> None:
+    need("numpy", "numba")
+
+
+def test_what_is_missing_is_named_with_its_command(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Blocker:
+        @staticmethod
+        def find_spec(name: str, path: object = None, target: object = None) -> None:
+            if name in ("torch", "rich"):
+                raise ModuleNotFoundError(name=name)
+
+    for name in ("torch", "rich"):
+        monkeypatch.delitem(sys.modules, name, raising=False)
+    monkeypatch.setattr(sys, "meta_path", [Blocker, *sys.meta_path])
+    with pytest.raises(MissingExtra, match=r"torch, .*pip install 'relguide\[learn\]'"):
+        need("numpy", "torch")
+    with pytest.raises(MissingExtra, match=r"rich, .*pip install 'relguide\[learn\]'"):
+        need("rich", extra="learn")
+    with pytest.raises(MissingExtra, match=r"rich, .*pip install 'relguide\[serve\]'"):
+        need("rich")
+
+
+def test_an_import_that_fails_is_given_the_command() -> None:
+    found = with_command(ModuleNotFoundError("No module named 'pydantic.v1'", name="pydantic.v1"))
+    assert isinstance(found, MissingExtra)
+    assert "pip install 'relguide[serve]'" in str(found)
+    other = ModuleNotFoundError("No module named 'nothing'", name="nothing")
+    assert with_command(other) is other
+    assert with_command(found) is found
