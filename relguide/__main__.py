@@ -9,6 +9,7 @@ import sys
 from collections.abc import Callable, Sequence
 from functools import partial
 from textwrap import dedent
+from typing import TYPE_CHECKING
 
 from relguide import __version__
 from relguide.cli.learning_options import add_learning
@@ -19,6 +20,9 @@ DONE, FAILED, MISUSE, STOPPED = 0, 1, 2, 130
 """Exit codes: done; no plan or a failed check; misuse; stopped by Ctrl-C, as shells number it."""
 PLANNERS = ("exact", "network", "regular_dp")
 """Planners of the contract."""
+
+if TYPE_CHECKING:
+    from relguide.contract.answers import Include
 
 Run = Callable[[argparse.Namespace], int]
 
@@ -71,7 +75,7 @@ def _plan(chosen: argparse.Namespace) -> int:
         invalid = plan_batch(
             chosen.file,
             planner_name=chosen.planner,
-            optimality=chosen.optimality,
+            include=chosen.include,
             prove_for=chosen.prove,
         )
         return FAILED if invalid else DONE
@@ -79,7 +83,7 @@ def _plan(chosen: argparse.Namespace) -> int:
         chosen.file,
         planner_name=chosen.planner,
         table=chosen.table,
-        optimality=chosen.optimality,
+        include=chosen.include,
         prove_for=chosen.prove,
     )
     return DONE if planned else FAILED
@@ -135,6 +139,15 @@ def _seed(text: str) -> int:
     return int(text)
 
 
+def _included(text: str) -> "tuple[Include, ...]":
+    from relguide.contract.answers import read_include
+
+    try:
+        return read_include(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+
+
 def _proof_time(text: str) -> float:
     from relguide.planning.prove import check_seconds
 
@@ -186,7 +199,8 @@ def _parser() -> argparse.ArgumentParser:
         relguide plan situation.json --table      the same for people
         cat situation.json | relguide plan -      from standard input
         relguide plan --batch situations.jsonl    one plan a line, in order
-        relguide plan situation.json --optimality with H, λ and what eq. (16) says of it
+        relguide plan situation.json --include alternatives,optimality
+                                                  with what else there was, H and λ
         relguide plan situation.json --prove 10   with a better lower bound of its time
         """,
     )
@@ -201,9 +215,12 @@ def _parser() -> argparse.ArgumentParser:
         help="look so long for a better lower bound of the time, where the limit costs some",
     )
     plan.add_argument(
-        "--optimality",
-        action="store_true",
-        help="say how the plan meets Pontryagin's conditions, with H and λ along it",
+        "--include",
+        metavar="WHAT",
+        type=_included,
+        default=(),
+        help="alternatives: every other way to the slot and why it is not flown; optimality: how "
+        "the plan meets Pontryagin's conditions, with H and λ along it; or both, with a comma",
     )
     _add_planner(plan)
 

@@ -3,7 +3,7 @@
 import os
 import socket
 import sys
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from importlib import import_module
@@ -15,7 +15,7 @@ from typing import IO, TYPE_CHECKING
 import orjson
 
 from relguide.cli.output import say, write, write_json
-from relguide.contract.answers import answer, answer_line, checked
+from relguide.contract.answers import Include, answer, answer_line, checked
 from relguide.contract.bodies import NamedSituationBody, situation_from_body
 from relguide.contract.recorder import record, replay
 from relguide.contract.refusal import parse
@@ -36,7 +36,12 @@ seconds where planning takes a tenth of a millisecond, and is no part of what is
 
 
 def plan_one(
-    file: str, *, planner_name: str, table: bool, optimality: bool, prove_for: float = 0.0
+    file: str,
+    *,
+    planner_name: str,
+    table: bool,
+    include: Collection[Include] = (),
+    prove_for: float = 0.0,
 ) -> bool:
     """Print the answer to a situation.
 
@@ -44,7 +49,7 @@ def plan_one(
         file: its path; - for standard input.
         planner_name: exact, network or regular_dp.
         table: for people; JSON otherwise.
-        optimality: say how the plan meets Pontryagin's conditions, too.
+        include: what to say beside the plan.
         prove_for: how long to look for a better lower bound of its time [s].
 
     Returns:
@@ -58,28 +63,32 @@ def plan_one(
     asked(situation)  # see `_WARM_UP`
     if table:
         from relguide.cli.tables import print_no_plan, print_optimality, print_plan
+        from relguide.planning.alternatives import alternatives
 
         match planned := planner(situation):
             case NoPlan():
                 print_no_plan(no_plan_card(planned))
             case Plan():
-                print_plan(plan_card(planned), min_separation=situation.min_separation)
-                if optimality:
+                others = alternatives(planned) if "alternatives" in include else ()
+                print_plan(plan_card(planned, others), min_separation=situation.min_separation)
+                if "optimality" in include:
                     print_optimality(checked(planned))
         return isinstance(planned, Plan)
-    reply = answer(situation, anchor, planner, optimality=optimality)
+    reply = answer(situation, anchor, planner, include=include)
     name = {"id": body.id} if "id" in body.model_fields_set else {}
     write_json(name | reply)
     return bool(reply["status"] == "planned")
 
 
-def plan_batch(file: str, *, planner_name: str, optimality: bool, prove_for: float = 0.0) -> int:
+def plan_batch(
+    file: str, *, planner_name: str, include: Collection[Include] = (), prove_for: float = 0.0
+) -> int:
     """Print the answers to a file of situations, one a line.
 
     Args:
         file: its path; - for standard input.
         planner_name: exact, network or regular_dp.
-        optimality: say how each plan meets Pontryagin's conditions, too.
+        include: what to say beside each plan.
         prove_for: how long to look for a better lower bound of the time of each [s].
 
     Returns:
@@ -98,7 +107,7 @@ def plan_batch(file: str, *, planner_name: str, optimality: bool, prove_for: flo
             read += len(line)
             if not line.strip():
                 continue
-            reply = answer_line(line, planner, optimality=optimality)
+            reply = answer_line(line, planner, include=include)
             if reply["status"] == "invalid":
                 invalid.append(number)
             sys.stdout.write(orjson.dumps(reply).decode() + "\n")

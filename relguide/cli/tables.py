@@ -191,6 +191,8 @@ def print_plan(card: PlanCard, *, min_separation: float) -> None:
         f" (lower bound {clock(card.optimality.lower_bound)}). "
         f"Planner {card.planner}, {card.compute:.2f} ms."
     )
+    if not card.alternatives:
+        return
     others = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True, style="dim")
     others.add_column("instead", no_wrap=True)
     others.add_column("at", justify="right", no_wrap=True)

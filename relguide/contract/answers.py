@@ -1,6 +1,7 @@
 """From a situation in JSON to its answer in JSON, one at a time or a line of a batch."""
 
-from typing import Any
+from collections.abc import Collection
+from typing import Any, Literal
 
 from relguide.contract.bodies import (
     MAX_ID,
@@ -14,13 +15,38 @@ from relguide.contract.refusal import ContractError, loads, parse, printable
 from relguide.contract.wire import to_wire
 from relguide.flying.cards import no_plan_card, optimality_check, plan_card
 from relguide.flying.verdicts import OptimalityCheck
+from relguide.planning.alternatives import alternatives
 from relguide.planning.optimality import check
 from relguide.planning.plan import NoPlan, Plan, Planner
 from relguide.planning.situation import Situation
 
+Include = Literal["alternatives", "optimality"]
+"""What an answer holds only if asked for: the other ways to the slot, and how the plan meets
+Pontryagin's conditions. They take longer than the plan."""
+
+
+def read_include(text: str) -> tuple[Include, ...]:
+    """What to include, as the command line and REST name it: words with commas between.
+
+    Raises:
+        ValueError: for a word that says nothing here.
+    """
+    chosen: list[Include] = []
+    for word in text.split(","):
+        match word.strip():
+            case "alternatives" | "optimality" as known:
+                chosen.append(known)
+            case "":
+                pass
+            case other:
+                raise ValueError(
+                    f"include must be alternatives, optimality, or both with a comma, not {other}."
+                )
+    return tuple(chosen)
+
 
 def answer(
-    situation: Situation, anchor: Anchor, planner: Planner, *, optimality: bool = False
+    situation: Situation, anchor: Anchor, planner: Planner, *, include: Collection[Include] = ()
 ) -> dict[str, Any]:
     """A plan, or why there is none, as a JSON object.
 
@@ -28,12 +54,15 @@ def answer(
         situation: what to plan.
         anchor: how its world frame lies on the earth.
         planner: who plans.
-        optimality: whether to say how the plan meets Pontryagin's conditions, too.
+        include: what to add to the plan.
     """
     match planned := planner(situation):
         case Plan():
-            reply = plan_to_wire(plan_card(planned), anchor)
-            if optimality:
+            others = alternatives(planned) if "alternatives" in include else ()
+            reply = plan_to_wire(plan_card(planned, others), anchor)
+            if "alternatives" not in include:
+                del reply["alternatives"]
+            if "optimality" in include:
                 reply["optimality"] |= to_wire(checked(planned))
             return reply
         case NoPlan():
@@ -45,7 +74,9 @@ def checked(plan: Plan) -> OptimalityCheck:
     return optimality_check(check(plan, plan.situation))
 
 
-def answer_line(line: bytes, planner: Planner, *, optimality: bool = False) -> dict[str, Any]:
+def answer_line(
+    line: bytes, planner: Planner, *, include: Collection[Include] = ()
+) -> dict[str, Any]:
     """The answer to a line of a batch, with the situation's `id` if it has one.
 
     What is no situation gives `{"status": "invalid", "message": …}` in its place.
@@ -53,7 +84,7 @@ def answer_line(line: bytes, planner: Planner, *, optimality: bool = False) -> d
     Args:
         line: a situation in JSON.
         planner: who plans.
-        optimality: as in `answer`.
+        include: as in `answer`.
     """
     name: dict[str, Any] = {}
     try:
@@ -61,7 +92,7 @@ def answer_line(line: bytes, planner: Planner, *, optimality: bool = False) -> d
         if isinstance(content, dict):
             name = _name(content)
             situation, anchor = situation_from_body(parse(NamedSituationBody, content))
-            return name | answer(situation, anchor, planner, optimality=optimality)
+            return name | answer(situation, anchor, planner, include=include)
         raise ContractError([("", "A line must be an object with fields: a situation.")])
     except ContractError as error:
         return name | {"status": "invalid", "message": str(error)}

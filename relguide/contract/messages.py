@@ -69,6 +69,12 @@ def model_of(document_type: type[Any]) -> type[BaseModel]:
         f.wire_name: (_json_type(f.annotation), Field(description=f.doc or None))
         for f in wire_fields(document_type)
     }
+    if document_type is PlanCard:
+        others, described = members["alternatives"]
+        members["alternatives"] = (
+            others,
+            Field(default_factory=list, description=described.description),
+        )
     if document_type is PathPoint:
         members |= _GEODETIC
     if document_type is OptimalityCard:

@@ -19,7 +19,7 @@ from relguide.contract.messages import (
 )
 from relguide.contract.typescript import typescript
 from relguide.flying.documents import Direction, LeaderChange, Mode, PlanReason
-from relguide.planning.plan import PlannerName, Proof, Reason
+from relguide.planning.plan import Proof, Reason
 
 _ALIASES: dict[str, tuple[Any, str]] = {
     "Direction": (Direction, "Which way round."),
@@ -28,7 +28,6 @@ _ALIASES: dict[str, tuple[Any, str]] = {
         "heading: nothing to fly, holds its heading; converge: flies the plan; capture: closes\n"
         "onto the leader's route at its own speed; follow: on the route at D, speed matched.",
     ),
-    "PlannerName": (PlannerName, "Who made the plan."),
     "Proof": (Proof, "Why a plan is optimal."),
     "PlanReason": (PlanReason, "Why a new plan was made."),
     "LeaderChange": (LeaderChange, "What the leader does anew."),

@@ -1,5 +1,6 @@
 """Plans and trajectories as outsiders read them: over the ground, piece by piece."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from math import atan, atan2, ceil, pi
 from typing import assert_never
@@ -25,13 +26,13 @@ from relguide.flying.documents import (
 from relguide.flying.verdicts import BoundaryArcCard, ContactCard, OptimalityCheck, OptimalityPanel
 from relguide.planning.alternatives import (
     Alternative,
+    AnyAlternative,
     AsFast,
     Faster,
     LosesSeparation,
     NoRoot,
     Slower,
     TooEarly,
-    alternatives,
 )
 from relguide.planning.certificate import Certificate
 from relguide.planning.optimality import OptimalityReport
@@ -55,8 +56,13 @@ VIA: Second = 5.0
 """
 
 
-def plan_card(plan: Plan) -> PlanCard:
-    """A plan with its segments over the ground and the alternatives that lost."""
+def plan_card(plan: Plan, others: Sequence[AnyAlternative] = ()) -> PlanCard:
+    """A plan with its segments over the ground.
+
+    Args:
+        plan: what is shown.
+        others: its `alternatives`, if they are to be shown too.
+    """
     certificate, optimality = plan.certificate, plan.optimality
     return PlanCard(
         planner=plan.planner,
@@ -66,7 +72,7 @@ def plan_card(plan: Plan) -> PlanCard:
         segments=path_segments(plan.trajectory, wind=plan.situation.wind),
         separation=separation_card(certificate),
         optimality=OptimalityCard(proof=optimality.proof, lower_bound=optimality.lower_bound),
-        alternatives=tuple(_alternative_card(a) for a in alternatives(plan)),
+        alternatives=tuple(map(_alternative_card, others)),
         compute=plan.compute_time,
     )
 
@@ -194,12 +200,14 @@ def wind_card(wind: Wind) -> WindCard:
     return WindCard(from_=direction, speed=wind.speed)
 
 
-def _alternative_card(other: Alternative | TooEarly | NoRoot) -> AnyAlternativeCard:
+def _alternative_card(other: AnyAlternative) -> AnyAlternativeCard:
     match other:
         case NoRoot(word=word, why=why):
             return MissingAlternativeCard(word=word, why=why)
-        case TooEarly(word=word, time_to_converge=time, opens=opens, why=why):
-            return EarlyAlternativeCard(word=word, time_to_converge=time, opens=opens, why=why)
+        case TooEarly(word=word, time_to_converge=time, release_time=release_time, why=why):
+            return EarlyAlternativeCard(
+                word=word, time_to_converge=time, release_time=release_time, why=why
+            )
         case Alternative(candidate=candidate, passing=passing):
             turning = sum(abs(heading_change(s)) for s in candidate.trajectory.segments)
             side: Direction = "left" if passing.side == LEFT else "right"

@@ -11,7 +11,7 @@ from typing import Literal
 
 from relguide.flying.announcements import Mode as Mode
 from relguide.flying.announcements import PlanReason as PlanReason
-from relguide.planning.plan import PlannerName, Proof, Reason
+from relguide.planning.plan import Proof, Reason
 from relguide.units import (
     Metre,
     MetrePerSecond,
@@ -143,7 +143,7 @@ class EarlyAlternativeCard:
 
     word: str
     time_to_converge: Second
-    opens: Second
+    release_time: Second
     """When the slot opens."""
     why: str
     rejected: Literal["not_open"] = "not_open"
@@ -167,7 +167,8 @@ AnyAlternativeCard = (
 class PlanCard:
     """A plan as outsiders read it: the answer of REST, of the command line, and of the display."""
 
-    planner: PlannerName
+    planner: str
+    """Who made it: `exact`, `network`, `regular_dp`, or the name of a planner of one's own."""
     word: str
     time_to_converge: Second
     length: Metre
@@ -175,8 +176,8 @@ class PlanCard:
     segments: tuple[PathSegment, ...]
     separation: Separation
     optimality: OptimalityCard
-    alternatives: tuple[AnyAlternativeCard, ...]
-    """By time; words without any path last."""
+    alternatives: tuple[AnyAlternativeCard, ...] = ()
+    """By time; words without any path last. In an answer only if asked for."""
     compute: Millisecond
     status: Literal["planned"] = "planned"
 
@@ -233,7 +234,8 @@ class FlightStarted:
     t: Second
     scenario: str
     title: str
-    planner: PlannerName
+    planner: str
+    """Who makes the plans, as in `PlanCard`."""
     pursuer: AircraftCard
     leader: AircraftCard
     slot_distance: Metre

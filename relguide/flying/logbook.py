@@ -22,6 +22,7 @@ from relguide.flying.documents import (
 )
 from relguide.flying.memory import Advice
 from relguide.kernels.base.turn import turn_rate
+from relguide.planning.alternatives import alternatives
 from relguide.planning.situation import IntentPiece, Leader, Wind
 from relguide.units import DEG, Metre, Radian, Second
 
@@ -153,7 +154,7 @@ def event_document(t: Second, event: Event) -> Document:
                 t=t,
                 reason=event.reason,
                 message=event.message,
-                plan=plan_card(plan),
+                plan=plan_card(plan, alternatives(plan)),
                 leader_at_closest=path_point(leader.pose_at(at), at, wind),
                 pursuer_at_closest=path_point(plan.trajectory.pose_at(at), at, wind),
             )

@@ -91,7 +91,7 @@ class TooEarly:
     word: str
     time_to_converge: Second
     """When it would be there, of several times the first [s]."""
-    opens: Second
+    release_time: Second
     """When the slot opens [s]."""
     why: str
 
@@ -104,7 +104,11 @@ class NoRoot:
     why: str
 
 
-def alternatives(plan: Plan) -> tuple[Alternative | TooEarly | NoRoot, ...]:
+AnyAlternative = Alternative | TooEarly | NoRoot
+"""What `alternatives` lists."""
+
+
+def alternatives(plan: Plan) -> tuple[AnyAlternative, ...]:
     """Every other way to the slot and why it is not flown, by time; words without any come last.
 
     All that is faster, and of each word, middle arc and passing of the leader the fastest. Where
@@ -116,7 +120,7 @@ def alternatives(plan: Plan) -> tuple[Alternative | TooEarly | NoRoot, ...]:
     found = candidates(situation)
     early = _first_times(found.frame)
     scale = found.frame.radius / situation.pursuer.tas
-    opens = found.frame.t_release * scale
+    release_time = found.frame.t_release * scale
     late = {WORDS[int(word)] for word in found.rows[:, 1]}
     around = surroundings(situation)
     listed: list[Alternative | TooEarly] = [
@@ -125,9 +129,11 @@ def alternatives(plan: Plan) -> tuple[Alternative | TooEarly | NoRoot, ...]:
     ]
     for word, first in early.items():
         time = first * scale
-        if time < opens - AS_FAST:
-            why = f"reaches the slot {duration(opens - time)} before it opens"
-            listed.append(TooEarly(word=word, time_to_converge=time, opens=opens, why=why))
+        if time < release_time - AS_FAST:
+            why = f"reaches the slot {duration(release_time - time)} before it opens"
+            listed.append(
+                TooEarly(word=word, time_to_converge=time, release_time=release_time, why=why)
+            )
     none = [word for word in WORDS if word not in late and word not in early]
     return (
         *sorted(listed, key=lambda other: other.time_to_converge),

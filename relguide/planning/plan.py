@@ -1,7 +1,7 @@
 """plan(situation) → Plan | NoPlan: the fastest candidate that certifies, and what is proved."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from math import hypot
 from time import perf_counter_ns
@@ -27,8 +27,8 @@ from relguide.units import KT, Metre, Millisecond, Second
 
 Proof = Literal["relaxation", "bound", "none"]
 """Why a plan is optimal: the best plan without the limit keeps it; a lower bound; not shown."""
-PlannerName = Literal["exact", "network", "regular_dp"]
-"""Who made the plan."""
+LONGEST_NAME = 40
+"""Of a planner [characters]: what a line of the cockpit holds."""
 
 
 class Reason(StrEnum):
@@ -60,12 +60,23 @@ class Plan:
     """Its letters, e.g. `"LSR"`."""
     certificate: Certificate
     optimality: Optimality
-    planner: PlannerName
-    compute_time: Millisecond
+    planner: str
+    """Who made it: `exact`, `network`, `regular_dp`, or the name of a planner of one's own."""
+    compute_time: Millisecond = field(default=0.0, compare=False)
     """Wall time it took to find [ms]."""
     fell_back: bool = False
     """Whether another planner was asked first, and could not answer."""
     status: Literal["planned"] = "planned"
+
+    def __post_init__(self) -> None:
+        """Refuse a name that no line could show."""
+        name = self.planner
+        if name != "exact" and not (
+            isinstance(name, str) and name.isprintable() and 0 < len(name.strip()) <= LONGEST_NAME
+        ):
+            raise ValueError(
+                f"planner must be a name of 1 to {LONGEST_NAME} printable characters, not {name!r}."
+            )
 
     @property
     def time_to_converge(self) -> Second:

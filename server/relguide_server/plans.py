@@ -8,7 +8,7 @@ from fastapi import APIRouter, Depends, Query, Request
 from pydantic import BaseModel, Field, RootModel, create_model
 from starlette.responses import Response
 
-from relguide.contract.answers import answer
+from relguide.contract.answers import Include, answer
 from relguide.contract.bodies import Anchor, NamedSituationBody, SituationBody, situation_from_body
 from relguide.contract.messages import PlanAnswer, model_of
 from relguide.contract.refusal import ContractError, parse
@@ -169,5 +169,6 @@ def _answer(
 ) -> tuple[dict[str, Any], float]:
     """The answer, and how long it took [s]; counted by the caller, on the loop's own thread."""
     started = perf_counter()
-    given = answer(situation, anchor, planner, optimality=optimality)
+    include: tuple[Include, ...] = ("optimality",) if optimality else ()
+    given = answer(situation, anchor, planner, include=include)
     return given, perf_counter() - started

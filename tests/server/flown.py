@@ -18,6 +18,7 @@ from relguide.flying.documents import (
     PlanChanged,
     Sample,
 )
+from relguide.planning.alternatives import alternatives
 from relguide.planning.plan import Plan, plan
 from relguide.planning.situation import (
     FlyStraight,
@@ -81,7 +82,7 @@ def ideal_flight(
         t=0.0,
         reason="engaged",
         message="Engaged.",
-        plan=plan_card(answer),
+        plan=plan_card(answer, alternatives(answer)),
         leader_at_closest=path_point(route.pose_at(at), at, wind),
         pursuer_at_closest=path_point(answer.trajectory.pose_at(at), at, wind),
     )

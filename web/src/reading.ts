@@ -8,7 +8,6 @@ import type {
   OptimalityCard,
   PlanCard,
   PlanChanged,
-  PlannerName,
   ReferenceCard,
 } from "./wire";
 
@@ -47,11 +46,16 @@ export const MODE_NAMES: Record<Mode, string> = {
   follow: "Follow",
 };
 
-export const PLANNER_NAMES: Record<PlannerName, string> = {
+const PLANNER_NAMES: Readonly<Record<string, string>> = {
   exact: "Exact",
   network: "Network",
   regular_dp: "Regular DP",
 };
+
+/** Who made a plan; a planner of somebody's own is shown by the name it gives itself. */
+export function plannerName(planner: string): string {
+  return PLANNER_NAMES[planner] ?? planner;
+}
 
 /** What is proved of the plan's time, in plain words. */
 export function proofSentence(optimality: OptimalityCard, time: number): string {
@@ -76,7 +80,7 @@ export function alternativeSentence(alternative: Alternative, plan: PlanCard): s
     case "slower":
       return formatDelay(alternative.time_to_converge_s - plan.time_to_converge_s);
     case "not_open":
-      return `too early: slot opens at ${formatClock(alternative.opens_s)}`;
+      return `too early: slot opens at ${formatClock(alternative.release_time_s)}`;
     case "as_fast":
     case "faster":
     case "no_root":

@@ -1,7 +1,7 @@
 // Made by `python -m relguide_server.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-e402c4dbbe55";
+export const PROTOCOL = "relguide-e41670e54d08";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -11,9 +11,6 @@ export type Direction = "left" | "right";
  * onto the leader's route at its own speed; follow: on the route at D, speed matched.
  */
 export type Mode = "heading" | "converge" | "capture" | "follow";
-
-/** Who made the plan. */
-export type PlannerName = "exact" | "network" | "regular_dp";
 
 /** Why a plan is optimal. */
 export type Proof = "relaxation" | "bound" | "none";
@@ -224,7 +221,7 @@ export interface EarlyAlternativeCard {
   word: string;
   time_to_converge_s: number;
   /** When the slot opens. */
-  opens_s: number;
+  release_time_s: number;
   why: string;
   rejected: "not_open";
 }
@@ -259,7 +256,8 @@ export interface FlightStarted {
   t_s: number;
   scenario: string;
   title: string;
-  planner: PlannerName;
+  /** Who makes the plans, as in `PlanCard`. */
+  planner: string;
   pursuer: AircraftCard;
   leader: AircraftCard;
   slot_distance_m: number;
@@ -481,7 +479,8 @@ export interface PauseCommand {
 /** A plan as outsiders read it: the answer of REST, of the command line, and of the display. */
 export interface PlanCard {
   status: "planned";
-  planner: PlannerName;
+  /** Who made it: `exact`, `network`, `regular_dp`, or the name of a planner of one's own. */
+  planner: string;
   word: string;
   time_to_converge_s: number;
   /** Path length in the air mass [m]. */
@@ -489,8 +488,8 @@ export interface PlanCard {
   segments: PathSegment[];
   separation: Separation;
   optimality: OptimalityCard;
-  /** By time; words without any path last. */
-  alternatives: Alternative[];
+  /** By time; words without any path last. In an answer only if asked for. */
+  alternatives?: Alternative[];
   compute_ms: number;
 }
 

@@ -63,7 +63,7 @@ describe("numbers beside the picture", () => {
     const early = {
       word: "RSR",
       time_to_converge_s: 210,
-      opens_s: 250,
+      release_time_s: 250,
       why: "reaches the slot 40 s before it opens",
       rejected: "not_open",
     } as const;

@@ -48,7 +48,8 @@ def test_the_table_is_for_people(run: Run) -> None:
 
 
 def test_the_table_says_why_each_other_way_lost(run: Run) -> None:
-    _, out, _ = run("plan", written(BODY), "--table")
+    assert "instead" not in run("plan", written(BODY), "--table")[1]
+    _, out, _ = run("plan", "situation.json", "--table", "--include", "alternatives")
     lines = out.splitlines()
     (head,) = [line for line in lines if line.split()[:1] == ["instead"]]
     others = lines[lines.index(head) + 2 : -1]
@@ -60,17 +61,19 @@ def test_the_table_says_why_each_other_way_lost(run: Run) -> None:
 
 
 def test_optimality_is_told_on_demand(run: Run) -> None:
-    code, out, _ = run("plan", written(BODY), "--optimality")
+    code, out, _ = run("plan", written(BODY), "--include", "optimality")
     assert code == 0
     assert json.loads(out)["optimality"]["switching_ok"] is True
     assert len(json.loads(out)["optimality"]["panel"]["t_s"]) > 100
-    code, out, _ = run("plan", "situation.json", "--table", "--optimality")
+    code, out, _ = run("plan", "situation.json", "--table", "--include", "optimality")
     assert code == 0
     assert "Stationary, as eq. (16) asks: H is within " in out
     assert "Stationary" not in run("plan", "situation.json", "--table")[1]
-    code, out, _ = run("plan", "--batch", written(json.dumps(BODY), "a.jsonl"), "--optimality")
+    code, out, _ = run(
+        "plan", "--batch", written(json.dumps(BODY), "a.jsonl"), "--include", "optimality"
+    )
     assert json.loads(out)["optimality"]["switching_ok"] is True
-    code, out, _ = run("plan", written(UNREACHABLE), "--optimality")
+    code, out, _ = run("plan", written(UNREACHABLE), "--include", "optimality")
     assert (code, json.loads(out)["status"]) == (1, "no_plan")
 
 

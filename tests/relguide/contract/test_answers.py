@@ -8,7 +8,7 @@ import pytest
 from pydantic import TypeAdapter
 
 from relguide import LEFT, RIGHT, Arc, NoPlan, Situation, check, plan
-from relguide.contract.answers import answer, answer_line
+from relguide.contract.answers import answer, answer_line, read_include
 from relguide.contract.bodies import situation_from_json
 from relguide.contract.messages import PlanAnswer
 from relguide.planning.plan import Plan
@@ -18,7 +18,7 @@ from tests.bodies import BODY, changed
 
 def test_a_plan_has_the_contracts_names() -> None:
     situation, anchor = situation_from_json(BODY)
-    reply = answer(situation, anchor, plan)
+    reply = answer(situation, anchor, plan, include=["alternatives"])
     assert list(reply) == [
         "status",
         "planner",
@@ -44,13 +44,30 @@ def test_a_plan_has_the_contracts_names() -> None:
     names_of = {
         "slower": way,
         "separation": way | {"least_separation_m", "at_s"},
-        "not_open": {"time_to_converge_s", "opens_s"},
+        "not_open": {"time_to_converge_s", "release_time_s"},
         "no_root": set(),
     }
     for other in reply["alternatives"]:
         assert set(other) == names_of[other["rejected"]] | {"word", "why", "rejected"}
     assert {other["rejected"] for other in reply["alternatives"]} == {"slower", "no_root"}
     TypeAdapter(PlanAnswer).validate_python(reply)
+
+
+def test_alternatives_come_only_if_asked_for() -> None:
+    situation, anchor = situation_from_json(BODY)
+    reply = answer(situation, anchor, plan)
+    assert "alternatives" not in reply
+    TypeAdapter(PlanAnswer).validate_python(reply)
+    line = json.dumps(BODY).encode()
+    assert "alternatives" not in answer_line(line, plan)
+    assert answer_line(line, plan, include=["alternatives"])["alternatives"]
+
+
+def test_what_to_include_is_read_from_words_with_commas() -> None:
+    assert read_include("") == ()
+    assert read_include("alternatives, optimality") == ("alternatives", "optimality")
+    with pytest.raises(ValueError, match="include must be alternatives, optimality, or both"):
+        read_include("alternatives,proof")
 
 
 def test_no_plan_has_the_contracts_names() -> None:
@@ -82,7 +99,7 @@ def test_an_id_that_is_none_makes_the_line_invalid(name: Any) -> None:
 
 def test_without_the_demand_nothing_is_added() -> None:
     situation, anchor = situation_from_json(BODY)
-    asked = answer(situation, anchor, plan, optimality=True)
+    asked = answer(situation, anchor, plan, include=["optimality"])
     reply = answer(situation, anchor, plan)
     assert set(reply["optimality"]) == {"proof", "lower_bound_s"}
     assert list(asked) == list(reply)
@@ -93,7 +110,7 @@ def test_without_the_demand_nothing_is_added() -> None:
 
 def test_on_demand_optimality_has_its_names_and_columns_of_one_length() -> None:
     situation, anchor = situation_from_json(BODY)
-    reply = answer(situation, anchor, plan, optimality=True)
+    reply = answer(situation, anchor, plan, include=["optimality"])
     told = reply["optimality"]
     assert list(told) == [
         "proof",
@@ -130,7 +147,7 @@ def test_the_switching_function_is_per_degree_and_turns_as_eq_16_asks() -> None:
     planned = plan(situation)
     assert isinstance(planned, Plan)
     history = check(planned, situation).history
-    panel = answer(situation, anchor, plan, optimality=True)["optimality"]["panel"]
+    panel = answer(situation, anchor, plan, include=["optimality"])["optimality"]["panel"]
     assert panel["switching_s_per_deg"] == pytest.approx([s * DEG for s in history.switching])
     assert panel["t_s"] == pytest.approx(history.times)
     # the word is RSR: right turns where λ_ψ < 0, and 0 on the straight
@@ -161,7 +178,7 @@ def test_a_plan_that_is_not_stationary_says_so() -> None:
     def weaving(_: Situation) -> Plan | NoPlan:
         return replace(first, trajectory=whole)
 
-    told = answer(situation, anchor, weaving, optimality=True)["optimality"]
+    told = answer(situation, anchor, weaving, include=["optimality"])["optimality"]
     assert told["switching_ok"] is False
     assert told["switching_residual_s_per_deg"] > 0.01
 
@@ -173,9 +190,9 @@ def planned_for(situation: Situation) -> Plan:
 
 
 def test_a_batch_line_says_it_on_demand() -> None:
-    reply = answer_line(json.dumps({"id": 1, **BODY}).encode(), plan, optimality=True)
+    reply = answer_line(json.dumps({"id": 1, **BODY}).encode(), plan, include=["optimality"])
     assert reply["optimality"]["switching_ok"] is True
     no_plan = answer_line(
-        json.dumps(changed("leader.tas_mps", 300)).encode(), plan, optimality=True
+        json.dumps(changed("leader.tas_mps", 300)).encode(), plan, include=["optimality"]
     )
     assert set(no_plan) == {"status", "reason", "message"}

@@ -72,7 +72,9 @@ def test_each_is_rejected_for_a_true_reason(situation: Situation) -> None:
                     case Faster():
                         raise AssertionError(f"{other.word} certifies and beats the plan")
             case TooEarly():
-                assert other.time_to_converge < other.opens <= answer.time_to_converge + AS_FAST
+                assert (
+                    other.time_to_converge < other.release_time <= answer.time_to_converge + AS_FAST
+                )
             case NoRoot():
                 assert other.word not in [c.word for c in candidates(situation).later]
 
@@ -175,7 +177,7 @@ def test_a_golden_case_with_intent_whose_slot_opens_later() -> None:
     ]
     for other in listed[:2]:
         assert isinstance(other, TooEarly)
-        assert other.opens == pytest.approx(answer.time_to_converge, abs=1e-6)
+        assert other.release_time == pytest.approx(answer.time_to_converge, abs=1e-6)
 
 
 def test_straight_behind_four_words_are_one_path() -> None:

@@ -28,7 +28,7 @@ export function Alternatives(props: { session: Session }) {
               <td>{formatClock(plan.time_to_converge_s)}</td>
               <td>flown</td>
             </tr>
-            {plan.alternatives.map((alternative) => (
+            {(plan.alternatives ?? []).map((alternative) => (
               <tr key={alternativeKey(alternative)}>
                 <th scope="row">{alternative.word}</th>
                 <td>{alternativeTime(alternative)}</td>

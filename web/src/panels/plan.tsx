@@ -8,7 +8,7 @@ import {
   crossTrackText,
   MODE_NAMES,
   nextTurn,
-  PLANNER_NAMES,
+  plannerName,
   proofSentence,
   spacingText,
 } from "../reading";
@@ -181,7 +181,7 @@ function SafetyReadings(props: { flight: Flight; plan: PlanChanged; sample: Samp
       />
       <Reading
         label="Planner"
-        value={PLANNER_NAMES[plan.plan.planner]}
+        value={plannerName(plan.plan.planner)}
         note={`${plan.plan.compute_ms.toFixed(2)} ms`}
       />
     </>
