@@ -12,40 +12,41 @@ from relguide.planning.frames import LocalPlane
 from relguide.planning.situation import Situation
 
 DECIMALS = 0
-"""Of positions: metres; a display shows 0.1 NM."""
-EXACT = "Where nothing is limited the times are those of the optimum, proved."
+"""Decimals of positions in metres; a display shows 0.1 NM."""
+EXACT = "Where the minimum separation does not matter the times are those of the optimum, proved."
 BOUND = (
     "In limited regions the time is that of a plan that keeps the minimum separation, and no plan "
-    "is faster than the lower bound; ways that touch the minimum separation were not searched, "
+    "is faster than the lower bound. Paths that touch the minimum separation were not searched "
     "and may be faster than the time given."
 )
 SEARCHED = (
-    "In limited regions the ways that touch the minimum separation were searched at each node of "
-    "the grid, too, and lines between nodes are interpolated; no plan is faster than the lower "
+    "In limited regions the paths that touch the minimum separation were searched at each node of "
+    "the grid as well; lines between nodes are interpolated. No plan is faster than the lower "
     "bound."
 )
 ASKED = (
-    "Where a network of branches is sure of the word, that word alone was solved, exactly: the "
-    "time is that of a plan, seldom not the least; such nodes are counted as limited, with the "
-    "time of a straight line as their bound. Elsewhere all words were."
+    "Where a network of branches is sure of the word, only that word was solved, exactly: the time "
+    "is that of a plan, and seldom not the least. Such nodes are counted as limited, and their "
+    "lower bound is the time of a straight line. Elsewhere all words were solved."
 )
 INTENT = (
-    "The leader is taken to be on its final leg all along, and the slot to open when it gets "
-    "there; each plan keeps the minimum separation from the leader as it really flies."
+    "The leader is taken to have been on its final leg from the start, and the slot to open when "
+    "the leader gets there; each plan keeps the minimum separation from the leader as it really "
+    "flies."
 )
 DRAWN = (
     "Each vertex of a line is on its level to 0.1 s; lines are cut where the time jumps. Each "
-    "vertex of a region lies on an edge of the grid, right to an eighth of it."
+    "vertex of a region lies on an edge of the grid, accurate to an eighth of that edge."
 )
 
 
 class AreaGrid(Strict):
-    """Where the pursuer was put: the nodes of a rectangle, its edges east and north."""
+    """Where the pursuer was put: the nodes of a rectangle with sides toward east and north."""
 
     x_m: float
-    """Its middle, east."""
+    """Its centre, east."""
     y_m: float
-    """Its middle, north."""
+    """Its centre, north."""
     width_m: float
     """From the first column to the last."""
     height_m: float
@@ -55,7 +56,7 @@ class AreaGrid(Strict):
 
 
 class AreaContour(Strict):
-    """Where the time-to-converge is that of a level."""
+    """The places from which the time-to-converge is equal to a level."""
 
     level_s: float
     lines: list[list[list[float]]]
@@ -64,24 +65,25 @@ class AreaContour(Strict):
 
 
 class AreaRegion(Strict):
-    """Where one word is the answer."""
+    """A region with one word as its answer."""
 
     word: str
-    """`hold`: a path that arrives exactly when the slot opens; `detour`: one that touches the
-    minimum separation; empty: no plan."""
+    """Letters; or `delay`: a path made longer to arrive exactly when the slot opens; or
+    `constrained`: a path that touches the minimum separation; or empty: no plan."""
     limited: bool
-    """Whether the fastest way without the limit comes too close there."""
+    """Whether the path that would be fastest without the minimum separation comes too close."""
     polygons: list[list[list[list[float]]]]
-    """Each an outline and its holes, closed, of points as in a contour: to be filled even-odd."""
+    """Each polygon is an outline followed by its holes, all closed, with points as in a contour.
+    Fill them by the even-odd rule."""
 
 
 class AreaCount(Strict):
-    """How many nodes of the grid have which answer."""
+    """How many nodes of the grid have each kind of answer."""
 
     proved: int
-    """The optimum, proved."""
+    """The time is proved to be the least."""
     limited: int
-    """A plan and a lower bound."""
+    """There is a plan, and a lower bound of the time."""
     no_plan: int
 
 
@@ -90,10 +92,10 @@ class AreaAnswer(Strict):
 
     grid: AreaGrid
     pursuer_heading_deg: float
-    """Clockwise from true north: everywhere the same."""
+    """Clockwise from true north; the same at all nodes."""
     levels_s: list[float]
     contours: list[AreaContour]
-    """One a level, in their order."""
+    """One for each level, in the same order."""
     regions: list[AreaRegion]
     """Together they cover the grid."""
     count: AreaCount
@@ -101,9 +103,10 @@ class AreaAnswer(Strict):
     """What is exact here and what is a bound, in sentences."""
     compute_ms: float
     times_s: list[list[float | None]] | None = None
-    """Of the nodes, a list a row from the south, if asked for; null where there is no plan."""
+    """Times of the nodes, if asked for: one list for each row, from the south; null where there is
+    no plan."""
     lower_bounds_s: list[list[float | None]] | None = None
-    """No plan from there is faster; as `times_s`."""
+    """No plan from a node is faster than this; laid out as `times_s`."""
 
 
 def area_to_wire(
@@ -115,7 +118,7 @@ def area_to_wire(
         area: what to write.
         situation: whose area it is.
         anchor: how its world frame lies on the earth.
-        exact: whether the ways along d_min were searched.
+        exact: whether constrained paths were searched.
         times: whether to give the times of all nodes.
     """
     field, grid = area.field, area.grid

@@ -12,14 +12,14 @@ from math import inf
 
 import numpy as np
 
-from relguide.kernels.maps.field import HOLD
+from relguide.kernels.maps.field import DELAY
 from relguide.maps.contours import Evaluate, Field, Floats
 from relguide.planning.batch import Situations, plan_arrays
 from relguide.planning.plan import Plan, plan
 from relguide.planning.situation import Situation
 
-DETOUR = HOLD + 1
-"""Word number of a way that touches d_min or slides along it."""
+CONSTRAINED = DELAY + 1
+"""Word number of a constrained path: it touches d_min or slides along it."""
 SEARCHED = 64
 """Nodes searched between two reports: about a second."""
 
@@ -45,7 +45,7 @@ def searched(
         search = _search_each if situation.leader.intent else _search_many
         found = search(situation, x[nodes], y[nodes], threads)
         better = found < time[nodes]
-        time[nodes[better]], words[nodes[better]] = found[better], DETOUR
+        time[nodes[better]], words[nodes[better]] = found[better], CONSTRAINED
         progress(len(nodes))
     return Field(time=time, lower_bound=field.lower_bound, words=words, limited=field.limited)
 

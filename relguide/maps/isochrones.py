@@ -32,7 +32,7 @@ from relguide.kernels.maps.field import NO_WORD, field_rows
 from relguide.kernels.maps.final_leg import last_turns
 from relguide.kernels.separation.clearance import SLACK
 from relguide.kernels.words.extremals import WORDS
-from relguide.maps.constrained_times import DETOUR, between_nodes, searched
+from relguide.maps.constrained_times import CONSTRAINED, between_nodes, searched
 from relguide.maps.contours import Contour, Evaluate, Field, Floats, Region, contours, regions
 from relguide.planning.constrained_path import leader_table
 from relguide.planning.inputs import expect, number, within
@@ -41,10 +41,10 @@ from relguide.planning.slot import SlotFrame, slot_frame
 from relguide.planning.words import HORIZON
 from relguide.units import Metre, Millisecond, Second
 
-NAMES = (*WORDS, "hold", "detour", "")
-"""What a number in `Field.words` means: the extremal's word; a path that arrives exactly when the
-slot opens; a way that touches d_min or slides along it; no plan."""
-NONE = DETOUR + 1
+NAMES = (*WORDS, "delay", "constrained", "")
+"""What a number in `Field.words` means: the extremal's word; a delay, which arrives exactly when
+the slot opens; a constrained path, which touches d_min or slides along it; no plan."""
+NONE = CONSTRAINED + 1
 WIDTH, HEIGHT = 160_000.0, 120_000.0
 """Extent of a grid if none is given [m]."""
 COLUMNS, ROWS = 160, 120

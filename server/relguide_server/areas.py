@@ -42,7 +42,7 @@ MODELS = (AreaAnswer,)
 router = APIRouter(prefix="/api/v1", tags=["areas"])
 
 FlightAsked = Annotated[
-    str | None, Query(max_length=100, description="A flight, by its id: the area as it is now.")
+    str | None, Query(max_length=100, description="Id of a flight: the area for its situation now.")
 ]
 SituationAsked = Annotated[
     str | None,
@@ -58,26 +58,26 @@ SituationAsked = Annotated[
 ]
 Place = Annotated[
     float | None, Query(ge=-MAX_POSITION, le=MAX_POSITION, allow_inf_nan=False,
-                        description="Middle of the grid; left out: the leader."),
+                        description="Centre of the grid; if left out, the leader."),
 ]  # fmt: skip
 Extent = Annotated[float, Query(ge=MIN_EXTENT, le=MAX_EXTENT, allow_inf_nan=False)]
 Count = Annotated[int, Query(ge=2, le=MAX_NODES)]
 Levels = Annotated[
     list[Annotated[float, Query(ge=0.0, le=HORIZON, allow_inf_nan=False)]],
-    Query(max_length=MAX_LEVELS, description="Times of the lines; left out: some round ones."),
+    Query(max_length=MAX_LEVELS, description="Times of the lines; if left out, some round ones."),
 ]
 Exact = Annotated[
     bool,
     Query(
-        description="Whether to search the ways that touch the minimum separation, too: takes "
-        f"seconds, at most {MOST_SEARCHED} nodes, and a leader without turns to come."
+        description="Whether to search the paths that touch the minimum separation as well. Takes "
+        f"seconds; for at most {MOST_SEARCHED} nodes, and a leader without turns to come."
     ),
 ]
 PlannerAsked = Annotated[
     Literal["exact", "network"],
     Query(
-        description="`network`: a network of branches says where one word alone need be solved; "
-        "all others are solved where it is not sure, and where the word changes."
+        description="`network`: a network of branches says where it is enough to solve one word; "
+        "all words are solved where it is not sure, and where the word changes."
     ),
 ]
 TimesAsked = Annotated[bool, Query(description="Whether to give the times of all nodes.")]
@@ -96,8 +96,8 @@ async def draw_area(
     fleet: FleetOf,
     flight: FlightAsked = None,
     situation: SituationAsked = None,
-    center_x_m: Place = None,
-    center_y_m: Place = None,
+    x_m: Place = None,
+    y_m: Place = None,
     width_m: Extent = WIDTH,
     height_m: Extent = HEIGHT,
     columns: Count = COLUMNS,
@@ -107,18 +107,19 @@ async def draw_area(
     planner: PlannerAsked = "exact",
     times: TimesAsked = False,
 ) -> Response:
-    """How long the convergence takes from round the leader, on the pursuer's present heading.
+    """How long it takes to converge from places round the leader, on the pursuer's present heading.
 
-    The pursuer is put on every node of a grid; all else stays as in the situation.
+    The pursuer is put on every node of a grid; everything else stays as in the situation.
     """
     unknown = sorted(set(request.query_params) - PARAMETERS)
     if unknown:
-        raise Refusal(422, f"{unknown[0]!r} is not a parameter of an area.")
+        known = ", ".join(sorted(PARAMETERS))
+        raise Refusal(422, f"{unknown[0]!r} is not a parameter of an area. These are: {known}.")
     asked, anchor = _asked(fleet, flight, situation)
     try:
         grid = Grid(
-            x=asked.leader.x if center_x_m is None else center_x_m,
-            y=asked.leader.y if center_y_m is None else center_y_m,
+            x=asked.leader.x if x_m is None else x_m,
+            y=asked.leader.y if y_m is None else y_m,
             width=width_m,
             height=height_m,
             columns=columns,
@@ -150,15 +151,15 @@ def _asked(fleet: Fleet, flight: str | None, situation: str | None) -> tuple[Sit
             return situation_from_json(situation)
         except ContractError as error:
             raise refused(error, under="situation") from None
-    raise Refusal(422, "Say whose area it is: either flight, or situation, and not both.")
+    raise Refusal(422, "Give either flight or situation, and not both: whose area is it?")
 
 
 def _refuse_long(situation: Situation, grid: Grid) -> None:
     if situation.leader.intent:
         raise Refusal(
             422,
-            "An exact area is that of a leader without intent: with one each node takes up to a "
-            "second. Leave exact out: the times given are those of certified plans, with a bound.",
+            "exact is only for a leader without intent: with one, each node takes up to a second. "
+            "Leave exact out: the times are then those of certified plans, with a lower bound.",
         )
     if grid.columns * grid.rows > MOST_SEARCHED:
         raise Refusal(

@@ -128,7 +128,7 @@ def test_by_network_times_are_the_exact_ones(client: TestClient) -> None:
 @pytest.mark.parametrize(
     ("parameters", "sentence"),
     [
-        ({}, "either flight, or situation"),
+        ({}, "either flight or situation"),
         ({"flight": "x", "situation": "{}"}, "and not both"),
         ({"situation": "{"}, "situation: This is not JSON"),
         ({"situation": "[]"}, "situation"),
@@ -139,15 +139,15 @@ def test_by_network_times_are_the_exact_ones(client: TestClient) -> None:
         (asked(columns="many"), "columns"),
         (asked(width_m="nan"), "width_m"),
         (asked(height_m="1e9"), "height_m"),
-        (asked(center_x_m="inf"), "center_x_m"),
-        (asked(center_x_m="990000"), "The grid must lie within"),
+        (asked(x_m="inf"), "x_m"),
+        (asked(x_m="990000"), "The grid must lie within"),
         (asked(level_s=["300", "-1"]), "level_s"),
         (asked(level_s=["1"] * 65), "level_s"),
         (asked(exact="perhaps"), "exact"),
         (asked(planner="oracle"), "planner"),
         (asked(exact="true", columns="60"), f"at most {MOST_SEARCHED:,} nodes"),
         (asked(EXAMPLE, exact="true"), "leader without intent"),
-        (asked(levels="3"), "'levels' is not a parameter"),
+        (asked(levels="3"), "These are: columns, exact, flight"),
     ],
 )
 def test_what_is_no_area_is_refused(

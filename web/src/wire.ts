@@ -124,10 +124,10 @@ export interface AlternativeCard {
 /** A convergence area: lines of equal time-to-converge, and regions of equal word. */
 export interface AreaAnswer {
   grid: AreaGrid;
-  /** Clockwise from true north: everywhere the same. */
+  /** Clockwise from true north; the same at all nodes. */
   pursuer_heading_deg: number;
   levels_s: number[];
-  /** One a level, in their order. */
+  /** One for each level, in the same order. */
   contours: AreaContour[];
   /** Together they cover the grid. */
   regions: AreaRegion[];
@@ -135,13 +135,16 @@ export interface AreaAnswer {
   /** What is exact here and what is a bound, in sentences. */
   notes: string[];
   compute_ms: number;
-  /** Of the nodes, a list a row from the south, if asked for; null where there is no plan. */
+  /**
+   * Times of the nodes, if asked for: one list for each row, from the south; null where there is
+   * no plan.
+   */
   times_s?: (number | null)[][] | null;
-  /** No plan from there is faster; as `times_s`. */
+  /** No plan from a node is faster than this; laid out as `times_s`. */
   lower_bounds_s?: (number | null)[][] | null;
 }
 
-/** Where the time-to-converge is that of a level. */
+/** The places from which the time-to-converge is equal to a level. */
 export interface AreaContour {
   level_s: number;
   /**
@@ -151,20 +154,20 @@ export interface AreaContour {
   lines: number[][][];
 }
 
-/** How many nodes of the grid have which answer. */
+/** How many nodes of the grid have each kind of answer. */
 export interface AreaCount {
-  /** The optimum, proved. */
+  /** The time is proved to be the least. */
   proved: number;
-  /** A plan and a lower bound. */
+  /** There is a plan, and a lower bound of the time. */
   limited: number;
   no_plan: number;
 }
 
-/** Where the pursuer was put: the nodes of a rectangle, its edges east and north. */
+/** Where the pursuer was put: the nodes of a rectangle with sides toward east and north. */
 export interface AreaGrid {
-  /** Its middle, east. */
+  /** Its centre, east. */
   x_m: number;
-  /** Its middle, north. */
+  /** Its centre, north. */
   y_m: number;
   /** From the first column to the last. */
   width_m: number;
@@ -174,16 +177,19 @@ export interface AreaGrid {
   rows: number;
 }
 
-/** Where one word is the answer. */
+/** A region with one word as its answer. */
 export interface AreaRegion {
   /**
-   * `hold`: a path that arrives exactly when the slot opens; `detour`: one that touches the
-   * minimum separation; empty: no plan.
+   * Letters; or `delay`: a path made longer to arrive exactly when the slot opens; or
+   * `constrained`: a path that touches the minimum separation; or empty: no plan.
    */
   word: string;
-  /** Whether the fastest way without the limit comes too close there. */
+  /** Whether the path that would be fastest without the minimum separation comes too close. */
   limited: boolean;
-  /** Each an outline and its holes, closed, of points as in a contour: to be filled even-odd. */
+  /**
+   * Each polygon is an outline followed by its holes, all closed, with points as in a contour.
+   * Fill them by the even-odd rule.
+   */
   polygons: number[][][][];
 }
 

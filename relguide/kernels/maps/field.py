@@ -25,8 +25,8 @@ from relguide.kernels.words.fastest import ends_at_slot, fastest, word_before
 from relguide.kernels.words.sooner import MOST_ROOTS, work_room
 
 ByteArray = np.ndarray[tuple[int, ...], np.dtype[np.int8]]
-HOLD = len(WORDS)
-"""Word number of a path that arrives exactly when the slot opens."""
+DELAY = len(WORDS)
+"""Word number of a delay: a path that arrives exactly when the slot opens."""
 NO_WORD = -1
 """Word number where nothing that clears was found."""
 
@@ -70,7 +70,7 @@ def field_rows(
             if limit <= 0.0 or release_clears(
                 x, y, h, sin_h, cos_h, alpha, t_release, leader, near, piece, row
             ):
-                answer[0], answer[2] = t_release, HOLD
+                answer[0], answer[2] = t_release, DELAY
                 continue
             answer[3] = 1.0
         elif words[n] >= 0 and _alone(x, y, h, sin_h, cos_h, alpha, words[n], room, found, row):

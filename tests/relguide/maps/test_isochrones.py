@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from relguide import LEFT, RIGHT, FlyStraight, Leader, Plan, Pursuer, Situation, TurnTo, Wind, plan
-from relguide.kernels.maps.field import HOLD
-from relguide.maps.constrained_times import DETOUR
+from relguide.kernels.maps.field import DELAY
+from relguide.maps.constrained_times import CONSTRAINED
 from relguide.maps.contours import JUMP, TOLERANCE, Contour, Field
 from relguide.maps.isochrones import (
     MAX_LEVELS,
@@ -61,8 +61,8 @@ def test_times_are_those_of_plan(situation: Situation, drawn: dict[Situation, Is
     field, (x, y) = drawn[situation].field, nodes(GRID)
     rng = np.random.default_rng(4)
     seen = set()
-    free, limited = ~field.limited & (field.words != HOLD), field.limited
-    for nodes_of, most in ((free, 60), (limited, 6), (field.words == HOLD, 6)):
+    free, limited = ~field.limited & (field.words != DELAY), field.limited
+    for nodes_of, most in ((free, 60), (limited, 6), (field.words == DELAY, 6)):
         chosen = np.flatnonzero(nodes_of)
         for i in rng.choice(chosen, min(most, len(chosen)), replace=False):
             answer = plan(moved(situation, x[i], y[i]))
@@ -77,10 +77,10 @@ def test_times_are_those_of_plan(situation: Situation, drawn: dict[Situation, Is
             else:
                 assert time == pytest.approx(answer.time_to_converge, abs=1e-6)
                 assert answer.optimality.proof == "relaxation"
-                assert word in (answer.word, "hold")
+                assert word in (answer.word, "delay")
             seen.add(word)
     assert len(seen) >= 4
-    assert ("hold" in seen) == bool(situation.leader.intent)
+    assert ("delay" in seen) == bool(situation.leader.intent)
 
 
 @CASES
@@ -206,7 +206,7 @@ def test_an_exact_area_is_that_of_plan_where_the_limit_binds() -> None:
         assert exact.field.time[i] == pytest.approx(expected, abs=1e-2)
     better = exact.field.time < fast.time
     assert better.any()
-    assert np.all(exact.field.words[better] == DETOUR)
+    assert np.all(exact.field.words[better] == CONSTRAINED)
     assert np.array_equal(exact.field.time[~fast.limited], fast.time[~fast.limited])
 
 
@@ -276,4 +276,4 @@ def test_levels_are_checked() -> None:
         isochrones(STRAIGHT, GRID, [-1.0])
     with pytest.raises(ValueError, match=f"at most {MAX_LEVELS} levels"):
         isochrones(STRAIGHT, GRID, [60.0] * 65)
-    assert NAMES[HOLD] == "hold"
+    assert NAMES[DELAY] == "delay"
