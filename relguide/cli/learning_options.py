@@ -13,9 +13,9 @@ from relguide.learn.training.options import add_options
 if TYPE_CHECKING:
     from relguide.learn.tree.tree import TreeParameters
 
-METHODS = ("reverse-dp", "exact", "limit")
+METHODS = ("reverse-dp", "exact", "templates")
 """How a data set is made."""
-TAUGHT = ("branches", "ways", "paper", "direct")
+TAUGHT = ("branches", "templates", "paper", "direct")
 """What a network is taught."""
 LABELS, LIMIT_LABELS = 1_200_000, 400_000
 """How many labels are made: one to two minutes, and half an hour to an hour."""
@@ -37,7 +37,7 @@ def add_learning(add_command: AddCommand) -> None:
         relguide dataset --method reverse-dp --out tree.npz --resume    go on after a stop
         relguide dataset --method exact --count 1200000 --out labels.npz    for relguide train
         relguide dataset --method exact --out labels.npz --dask tcp://host:8786   many machines
-        relguide dataset --method limit --count 400000 --out limit.npz   for train --method ways
+        relguide dataset --method templates --count 400000 --out templates.npz
         """,
     )
     dataset.add_argument(
@@ -45,13 +45,13 @@ def add_learning(add_command: AddCommand) -> None:
         choices=METHODS,
         required=True,
         help="reverse-dp: the tree of Fig. 3; exact: situations with the exact time of each word; "
-        "limit: situations in which the limit binds with the fastest way",
+        "templates: situations in which the limit binds, with the fastest path",
     )
     dataset.add_argument("--out", metavar="FILE.npz", type=_npz, required=True)
     dataset.add_argument(
         "--resume",
         action="store_true",
-        help="reverse-dp, limit: go on from FILE.npz.part, which a stopped run leaves; same result",
+        help="reverse-dp, templates: go on from FILE.npz.part, which a stopped run leaves",
     )
     _add_workers(dataset)
     dataset.add_argument(
@@ -66,10 +66,10 @@ def add_learning(add_command: AddCommand) -> None:
         "--count",
         metavar="N",
         type=_count,
-        help=f"exact: how many situations, default: {LABELS}; limit: {LIMIT_LABELS}",
+        help=f"exact: how many situations, default: {LABELS}; templates: {LIMIT_LABELS}",
     )
     dataset.add_argument(
-        "--seed", metavar="N", type=_count, default=7, help="exact, limit: default: %(default)s"
+        "--seed", metavar="N", type=_count, default=7, help="exact, templates: default: %(default)s"
     )
     dataset.add_argument(
         "--loops",
@@ -121,7 +121,7 @@ def _add_network(add_command: AddCommand) -> None:
         relguide train labels.npz weights.safetensors               on what device there is
         relguide train labels.npz weights.safetensors --resume      go on after a stop
         relguide train labels.npz small.safetensors --width 32 --epochs 10
-        relguide train limit.npz ways.safetensors --method ways     ways round the limit
+        relguide train templates.npz w.safetensors --method templates   where the limit binds
         relguide train tree.npz paper.safetensors --method paper    Fig. 5, from the paper's tree
         """,
     )
@@ -130,7 +130,7 @@ def _add_network(add_command: AddCommand) -> None:
         "--method",
         choices=TAUGHT,
         default=TAUGHT[0],
-        help="branches, ways: from LABELS.npz of --method exact, limit; paper: the tree's "
+        help="branches, templates: from LABELS.npz of --method exact, templates; paper: the tree's "
         "(ε, θ, l), from a TREE.npz in its place; direct: the exact ones from the tree's states; "
         "default: %(default)s",
     )
@@ -143,7 +143,7 @@ def _add_network(add_command: AddCommand) -> None:
         relguide audit                               of the weights that come with the program
         relguide audit weights.safetensors --json    of your own; the figures as JSON
         relguide audit --count 1000000 --seed 2
-        relguide audit --method ways                 of the network of ways, where the limit binds
+        relguide audit --method templates            of the template network, where the limit binds
         relguide audit --figures docs/figures        its pictures
         relguide audit --count 100000000 --dask tcp://host:8786     on many machines
         """,
@@ -160,7 +160,7 @@ def _add_network(add_command: AddCommand) -> None:
         metavar="N",
         type=_count,
         help="fresh situations to judge it in; default: "
-        f"{AUDITED}; ways: {LIMIT_AUDITED}, and as many whether the limit binds or not",
+        f"{AUDITED}; templates: {LIMIT_AUDITED}, and as many whether the limit binds or not",
     )
     audit.add_argument(
         "--seed", metavar="N", type=_count, default=1, help="of them; default: %(default)s"
@@ -233,12 +233,14 @@ def _tree_parameters(chosen: argparse.Namespace) -> "TreeParameters":
 def _dataset(chosen: argparse.Namespace) -> int:
     if chosen.method == "exact":
         return _labels(chosen)
-    if chosen.method == "limit":
+    if chosen.method == "templates":
         return _limit_labels(chosen)
     from relguide.cli.growing import make_tree
 
     if chosen.dask is not None:
-        raise ValueError("A tree is grown on one machine: --dask is for --method exact and limit.")
+        raise ValueError(
+            "A tree is grown on one machine: --dask is for --method exact and templates."
+        )
     make_tree(
         _tree_parameters(chosen),
         chosen.out,
@@ -281,7 +283,7 @@ def _limit_labels(chosen: argparse.Namespace) -> int:
         resume=chosen.resume,
         threads=chosen.threads or None,
         scheduler=chosen.dask,
-        command=f"relguide dataset --method limit --count {count} --seed {chosen.seed} "
+        command=f"relguide dataset --method templates --count {count} --seed {chosen.seed} "
         f"--out {chosen.out.name}",
         as_json=chosen.json,
     )
@@ -289,7 +291,7 @@ def _limit_labels(chosen: argparse.Namespace) -> int:
 
 
 def _train(chosen: argparse.Namespace) -> int:
-    if chosen.method == "ways":
+    if chosen.method == "templates":
         from relguide.cli.template_training import train_template_network
 
         train_template_network(chosen)
@@ -304,7 +306,7 @@ def _train(chosen: argparse.Namespace) -> int:
 
 
 def _audit(chosen: argparse.Namespace) -> int:
-    if chosen.method == "ways":
+    if chosen.method == "templates":
         return _audit_templates(chosen)
     from relguide.cli.branch_auditing import audit_network
 
@@ -325,7 +327,9 @@ def _audit_templates(chosen: argparse.Namespace) -> int:
     from relguide.cli.template_auditing import audit_template_network
 
     if chosen.beside is not None:
-        raise ValueError("Nothing else is taught ways: --beside is for --method branches.")
+        raise ValueError(
+            "No other network has learnt templates: --beside is for --method branches."
+        )
     audit_template_network(
         chosen.weights,
         count=LIMIT_AUDITED if chosen.count is None else chosen.count,

@@ -1,4 +1,4 @@
-"""What `relguide audit --method ways` does: bars, tables and a figure around `learn/audits`."""
+"""What `relguide audit --method templates` does: bars, tables and a figure of what it finds."""
 
 from collections.abc import Callable, Sequence
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""What `relguide dataset --method limit` and `train --method ways` do: files, bars and tables."""
+"""What `dataset --method templates` and `train --method templates` do: files, bars and tables."""
 
 import argparse
 from pathlib import Path
@@ -49,7 +49,7 @@ def make_limit_label_file(
             count(1.0)
     labels = joined(chunks)
     seconds = perf_counter() - started
-    save_limit_labels(labels, request, provenance("limit", command=command), file)
+    save_limit_labels(labels, request, provenance("templates", command=command), file)
     part.unlink()
     kinds, _ = taught(labels.ways)
     counts = np.bincount(kinds, minlength=len(TEMPLATES)).tolist()

@@ -25,7 +25,7 @@ from relguide.learn.training.files import expect_part, load_columns, save_column
 FILE = "relguide limit labels 1"
 """What a file says it is, with the version of its columns."""
 COLUMNS = ("situations", "times_r_per_v", "counts", "legs", "sources")
-NONE = "holds no labels of relguide dataset --method limit, or is cut short."
+NONE = "holds no labels of relguide dataset --method templates, or is cut short."
 """What is said of a file that is not one."""
 
 

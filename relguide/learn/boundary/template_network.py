@@ -111,5 +111,5 @@ def load_template_network(file: Path = SHIPPED_TEMPLATES) -> TemplateNetwork:
     return load_weights(
         file,
         network,
-        "holds no network of relguide train --method ways, of this version, or is cut short.",
+        "holds no network of relguide train --method templates, of this version, or is cut short.",
     )

@@ -172,7 +172,7 @@ def run(chosen: argparse.Namespace, program: str) -> Iterator[Epoch[TemplateNetw
         box=LimitBox(**made["request"]["box"]),
         about={
             "program": program,
-            "command": f"{command_of(chosen)} --method ways",
+            "command": f"{command_of(chosen)} --method templates",
             "dataset": made["request"] | made["provenance"],
         },
         checkpoint=part,

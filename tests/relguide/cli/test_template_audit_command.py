@@ -1,4 +1,4 @@
-"""`relguide audit --method ways`: tables, JSON, a figure, and refusals."""
+"""`relguide audit --method templates`: tables, JSON, a figure, and refusals."""
 
 import json
 from pathlib import Path
@@ -7,7 +7,7 @@ from xml.etree import ElementTree
 from relguide.learn.boundary.template_network import load_template_network
 from tests.command_line import Run
 
-AUDIT = ("audit", "--method", "ways", "--count", "60", "--threads", "1")
+AUDIT = ("audit", "--method", "templates", "--count", "60", "--threads", "1")
 
 
 def test_people_get_tables_and_a_figure(run: Run) -> None:
@@ -42,12 +42,14 @@ def test_programs_get_json(run: Run) -> None:
 
 
 def test_misuse_is_said_in_a_sentence(run: Run) -> None:
-    assert run("audit", "none.safetensors", "--method", "ways")[2] == (
+    assert run("audit", "none.safetensors", "--method", "templates")[2] == (
         "relguide: none.safetensors: No such file or directory.\n"
     )
     seed = load_template_network().about["dataset"]["seed"]
     assert f"seen the situations of seed {seed}" in run(*AUDIT, "--seed", f"{seed}")[2]
     assert "--beside is for --method branches" in run(*AUDIT, "--beside", "10")[2]
-    assert "count and chunk must be" in run("audit", "--method", "ways", "--count", "0")[2]
+    assert "count and chunk must be" in run("audit", "--method", "templates", "--count", "0")[2]
     Path("w.safetensors").write_bytes(b"no weights")
-    assert "holds no network of relguide train --method ways" in run(*AUDIT, "w.safetensors")[2]
+    assert (
+        "holds no network of relguide train --method templates" in run(*AUDIT, "w.safetensors")[2]
+    )

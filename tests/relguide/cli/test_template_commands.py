@@ -1,4 +1,4 @@
-"""`relguide dataset --method limit` and `train --method ways`: from nothing to weights."""
+"""`relguide dataset --method templates` and `train --method templates`: from nothing to weights."""
 
 import json
 from pathlib import Path
@@ -11,31 +11,31 @@ from relguide.learn.boundary.template_network import load_template_network
 from tests.command_line import Run
 from tests.relguide.learn.boundary.test_template_labels import Here
 
-LIMIT = ("dataset", "--method", "limit", "--out", "limit.npz", "--count", "500")
+LIMIT = ("dataset", "--method", "templates", "--out", "templates.npz", "--count", "500")
 
 
 def test_labels_train_weights(run: Run) -> None:
     code, out, err = run(*LIMIT, "--json", "--threads", "1")
     assert (code, err) == (0, "")
     told = json.loads(out)
-    read, about = load_limit_labels(Path("limit.npz"))
+    read, about = load_limit_labels(Path("templates.npz"))
     assert told["labels"] == len(read) == sum(told["fastest"].values()) == 500
     first = limit_chunk(LimitRequest(count=500, seed=7), 0)
     assert np.array_equal(read.times[:250], first.times)
     assert about["provenance"]["command"] == (
-        "relguide dataset --method limit --count 500 --seed 7 --out limit.npz"
+        "relguide dataset --method templates --count 500 --seed 7 --out templates.npz"
     )
     size = ("--width", "16", "--depth", "1", "--epochs", "2", "--batch", "64", "--threads", "1")
-    code, out, err = run("train", "limit.npz", "w.safetensors", "--method", "ways", *size)
+    code, out, err = run("train", "templates.npz", "w.safetensors", "--method", "templates", *size)
     assert (code, err) == (0, "")
     assert "w.safetensors: the best of 2 epochs is the " in out
     assert load_template_network(Path("w.safetensors")).about["program"].startswith("relguide ")
-    assert sorted(path.name for path in Path().iterdir()) == ["limit.npz", "w.safetensors"]
+    assert sorted(path.name for path in Path().iterdir()) == ["templates.npz", "w.safetensors"]
 
 
 def test_labelling_goes_on_after_a_stop(run: Run) -> None:
     begun = grown_labels(
-        LimitRequest(count=500, seed=7), Path("limit.npz.part"), Here(), resume=False
+        LimitRequest(count=500, seed=7), Path("templates.npz.part"), Here(), resume=False
     )
     next(begun)
     begun.close()
@@ -44,12 +44,12 @@ def test_labelling_goes_on_after_a_stop(run: Run) -> None:
     assert "--resume goes on with it" in err
     code, out, _ = run(*LIMIT, "--resume")
     assert code == 0
-    assert out.startswith("limit.npz: 500 situations in which the limit binds, ")
-    assert not Path("limit.npz.part").exists()
+    assert out.startswith("templates.npz: 500 situations in which the limit binds, ")
+    assert not Path("templates.npz.part").exists()
 
 
 def test_labels_of_another_kind_are_refused(run: Run) -> None:
     run("dataset", "--method", "exact", "--out", "labels.npz", "--count", "300")
-    code, _, err = run("train", "labels.npz", "w.safetensors", "--method", "ways")
+    code, _, err = run("train", "labels.npz", "w.safetensors", "--method", "templates")
     assert code == 2
     assert "file of another kind: relguide exact labels 1" in err

@@ -162,7 +162,7 @@ def test_a_file_keeps_all_and_others_are_refused(tmp_path: Path) -> None:
     assert about["provenance"] == {"command": "it"}
     assert about["request"]["seed"] == 3
     file.write_bytes(file.read_bytes()[:1000])
-    with pytest.raises(ValueError, match="holds no labels of relguide dataset --method limit"):
+    with pytest.raises(ValueError, match="holds no labels of relguide dataset --method templates"):
         load_limit_labels(file)
     save_limit_labels(replace(found, counts=found.counts[:5]), SMALL, {}, file)
     with pytest.raises(ValueError, match="do not fit together"):

@@ -101,7 +101,9 @@ def test_a_file_keeps_all_and_others_are_refused(tmp_path: Path) -> None:
     save_file(load_file(file), file, metadata={"about": json.dumps(about)})
     for damaged in (file.read_bytes(), file.read_bytes()[:500], b""):
         file.write_bytes(damaged)
-        with pytest.raises(ValueError, match="holds no network of relguide train --method ways"):
+        with pytest.raises(
+            ValueError, match="holds no network of relguide train --method templates"
+        ):
             load_template_network(file)
 
 
@@ -116,7 +118,7 @@ def test_the_script_trains_from_a_file(tmp_path: Path, monkeypatch: pytest.Monke
     epochs = list(training.run(chosen, "a test"))
     about = load_template_network(Path("w.safetensors")).about
     assert about["command"] == (
-        "relguide train limit.npz w.safetensors --width 8 --epochs 2 --threads 1 --method ways"
+        "relguide train limit.npz w.safetensors --width 8 --epochs 2 --threads 1 --method templates"
     )
     assert about["dataset"]["seed"] == REQUEST.seed
     assert about["validation_accuracy"] == max(epoch.accuracy for epoch in epochs)
