@@ -1,0 +1,1 @@
+"""Pictures of docs/ that are drawn from the library's own answers."""
