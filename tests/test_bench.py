@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 
 from relguide import NoPlan
+from relguide.kernels.base.records import Pose
 from relguide.kernels.words.extremals import MAX_ROWS, solve
 from relguide.learn.boundary.template_network import load_template_network
 from relguide.learn.network_planner import network_planner
@@ -48,7 +49,7 @@ def test_a_page_without_its_markers_is_left_alone(page: str) -> None:
 @given(x=numbers(-20.0, 20.0), y=numbers(-20.0, 20.0), h=headings, alpha=numbers(0.3, 0.98))
 def test_no_scan_of_every_word_beats_the_kernel(x: float, y: float, h: float, alpha: float) -> None:
     rows = np.empty((MAX_ROWS, 5))
-    assert solve(x, y, h, alpha, 0.0, rows) > 0
+    assert solve(Pose(x, y, h), alpha, 0.0, rows) > 0
     plain = least_time(x, y, h, alpha)
     assert plain < inf
     assert rows[0, 0] <= plain + 1e-6

@@ -28,6 +28,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from relguide.kernels.base.records import Scene, with_limit
 from relguide.kernels.maps.field import NO_WORD, field_rows
 from relguide.kernels.maps.final_leg import last_turns
 from relguide.kernels.separation.clearance import SLACK
@@ -226,7 +227,8 @@ def times_around(
     frame = slot_frame(situation, situation.leader.trajectory)
     table = leader_table(situation, frame)
     limit = situation.min_separation / frame.radius
-    longest = last_turns(table, frame.alpha, limit - SLACK)
+    scene = Scene(table, frame.alpha, limit, frame.t_release)
+    longest = last_turns(with_limit(scene, limit - SLACK))
     scale = frame.radius / situation.pursuer.tas
     workers = threads or cpu_count() or 1
     pool = ThreadPoolExecutor(workers)  # its threads start when needed, and end with it
@@ -239,11 +241,8 @@ def times_around(
         chunk = min(max(len(places) // (4 * workers), LEAST_CHUNK), CHUNK)
 
         def work(first: int) -> None:
-            last = min(first + chunk, len(places))
-            field_rows(
-                places, alone, frame.h, frame.alpha, frame.t_release, table, limit, longest, first,
-                last, answers,
-            )  # fmt: skip
+            part = slice(first, first + chunk)
+            field_rows(places[part], alone[part], frame.h, scene, longest, answers[part])
 
         if len(places) <= chunk or workers == 1:
             for first in range(0, len(places), chunk):

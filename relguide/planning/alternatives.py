@@ -144,7 +144,7 @@ def alternatives(plan: Plan) -> tuple[AnyAlternative, ...]:
 def _first_times(frame: SlotFrame) -> dict[str, float]:
     """When each word is first at the slot, open or not [R/V_P]; it need not ever be."""
     rows = np.empty((MAX_ROWS, 5))
-    n = solve(frame.x, frame.y, frame.h, frame.alpha, 0.0, rows)
+    n = solve(frame.pose, frame.alpha, 0.0, rows)
     times: dict[str, float] = {}
     for time, word in rows[:n, :2].tolist():
         times.setdefault(WORDS[int(word)], time)

@@ -13,6 +13,7 @@ angles counter-clockwise from it, lengths in R and times in R/V_P. What remains 
 from dataclasses import dataclass
 from math import cos, sin
 
+from relguide.kernels.base import records
 from relguide.kernels.base import slot_frame as kernel
 from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.slot_frame import to_slot
@@ -42,6 +43,11 @@ class SlotFrame:
     """The slot at t = 0, east [m]."""
     origin_y: float
     """The slot at t = 0, north [m]."""
+
+    @property
+    def pose(self) -> records.Pose:
+        """The pursuer's pose at t = 0, as kernels take it."""
+        return records.Pose(self.x, self.y, self.h)
 
     def to_slot(self, x: float, y: float) -> tuple[float, float]:
         """A point of the air mass [m] in this frame [R]."""

@@ -6,8 +6,9 @@ from math import hypot
 
 import numpy as np
 
+from relguide.kernels.base.records import Pose
 from relguide.kernels.contact.path_pieces import NO_TURN
-from relguide.kernels.words.delay import DELAY_PIECES, MAX_DELAYS, holds
+from relguide.kernels.words.delay import DELAY_PIECES, MAX_DELAYS, delay_paths
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, WORDS, solve
 from relguide.planning.inputs import expect
 from relguide.planning.situation import Pursuer, Situation
@@ -93,7 +94,7 @@ def candidates(situation: Situation) -> Candidates:
     leader = situation.leader.trajectory
     frame = slot_frame(situation, leader)
     rows = np.empty((MAX_ROWS, 5))
-    n = solve(frame.x, frame.y, frame.h, frame.alpha, frame.t_release, rows)
+    n = solve(frame.pose, frame.alpha, frame.t_release, rows)
     reachable = frame.t_release > 0.0 and _dubins_length(frame) <= frame.t_release + NO_TURN
     at_release = _at_release(situation, frame) if reachable else ()
     within = HORIZON * situation.pursuer.tas / frame.radius
@@ -110,11 +111,10 @@ def candidates(situation: Situation) -> Candidates:
 
 
 def _at_release(situation: Situation, frame: SlotFrame) -> tuple[Candidate, ...]:
-    signs = np.empty((MAX_DELAYS, DELAY_PIECES))
-    amounts = np.empty((MAX_DELAYS, DELAY_PIECES))
-    n = holds(frame.x, frame.y, frame.h, frame.alpha, frame.t_release, signs, amounts)
-    pieces = zip(signs[:n].tolist(), amounts[:n].tolist(), strict=True)
-    found = [assemble(situation, frame, *piece, "") for piece in pieces]
+    paths = np.empty((2, MAX_DELAYS, DELAY_PIECES))
+    n = delay_paths(frame.pose, frame.alpha, frame.t_release, paths)
+    signs, amounts = paths[:, :n].tolist()
+    found = [assemble(situation, frame, *pieces, "") for pieces in zip(signs, amounts, strict=True)]
     return tuple(sorted(found, key=_canonical_order))
 
 
@@ -131,7 +131,7 @@ def _dubins_length(frame: SlotFrame) -> float:
     if hypot(end_x - frame.x, frame.y) > frame.t_release:
         return float("inf")
     rows = np.empty((MAX_ROWS, 5))
-    solve(frame.x - end_x, frame.y, frame.h, 0.0, 0.0, rows)
+    solve(Pose(frame.x - end_x, frame.y, frame.h), 0.0, 0.0, rows)
     return float(rows[0, 0])
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI
+from relguide.kernels.base.records import Pose
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.passage import word_clears
 from relguide.kernels.contact.path_pieces import pieces_of
@@ -23,7 +24,7 @@ from relguide.kernels.separation.clearance import SLACK
 from relguide.kernels.words.branches import needs_mirror
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS
 from relguide.kernels.words.fastest import fastest
-from relguide.kernels.words.sooner import MOST_ROOTS, work_room
+from relguide.kernels.words.sooner import make_scratch
 from relguide.learn.boundary.template_network import TemplateNetwork
 from relguide.learn.words.branch_network import BranchNetwork
 from relguide.planning.certificate import TOLERANCE
@@ -66,7 +67,7 @@ def _answer_rows(
     around: tuple[float, float, float, float, float, float], bearings: int, first: int, last: int,
     answers: FloatArray,
 ) -> None:  # fmt: skip
-    free, room, found = np.empty(5), work_room(), np.empty((MOST_ROOTS, 4))
+    free, scratch = np.empty(5), make_scratch()
     rows, legs, leader = np.empty((MAX_ROWS, 5)), np.zeros((LEGS, 6)), np.zeros((1, 5))
     for n in range(first, last):
         x, y, h, alpha, slot, _, limit = situations[n]
@@ -75,7 +76,7 @@ def _answer_rows(
         away = np.hypot(x - slot, y)
         time, leader[0, 1] = inf, slot
         pieces = np.empty((3, 0))
-        if not fastest(x, y, h, alpha, 0.0, 0, room, found, free):
+        if not fastest(Pose(x, y, h), alpha, 0.0, 0, scratch, free):
             time = inf
         elif word_clears(x, y, h, 0.0, free, leader, alpha, limit - SLACK):
             if np.hypot(x, y) <= box[0] and box[1] <= alpha <= box[2]:

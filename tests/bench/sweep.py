@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from relguide import Plan, Situation, Trajectory, candidates, certify, plan
+from relguide.kernels.base.records import Pose, Velocity
 from relguide.kernels.contact.contact import contact_heading
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, fly_piece, solve, solve_toward
 from relguide.planning.certificate import SLACK
@@ -65,18 +66,16 @@ def _arrival(case: Case, bearing: float, side: float) -> float:
     dx = case.frame.x - case.ahead - delta * cos(bearing)
     dy = case.frame.y - delta * sin(bearing)
     there, onward = np.empty((MAX_ROWS, 5)), np.empty((MAX_ROWS, 5))
-    n = solve_toward(
-        dx * c + dy * s, dy * c - dx * s, (case.frame.h - course) % (2.0 * pi),
-        alpha * c, -alpha * s, 0.0, there,
-    )  # fmt: skip
+    seen = Pose(dx * c + dy * s, dy * c - dx * s, (case.frame.h - course) % (2.0 * pi))
+    n = solve_toward(seen, Velocity(alpha * c, -alpha * s), 0.0, there)
     best = inf
     for first in there[:n]:
         if first[0] >= best or not _holds(case, first):
             continue
         x, y, h = case.frame.x, case.frame.y, case.frame.h
         for sign, amount in zip(SIGNS[int(first[1])], first[2:], strict=True):
-            x, y, h = fly_piece(x, y, h, sign, amount)
-        m = solve(x - alpha * first[0], y, h % (2.0 * pi), alpha, 0.0, onward)
+            x, y, h = fly_piece(Pose(x, y, h), sign, amount)
+        m = solve(Pose(x - alpha * first[0], y, h % (2.0 * pi)), alpha, 0.0, onward)
         for second in onward[:m]:
             time = first[0] + second[0]
             if time >= best:

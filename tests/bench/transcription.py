@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from relguide import LEFT, RIGHT, Arc, Straight, Trajectory, certify
 from relguide.kernels.base.angles import wrap_signed
+from relguide.kernels.base.records import Pose, Velocity
 from relguide.kernels.contact.contact import contact_heading
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, fly_piece, solve, solve_toward
 from tests.bench.cases import Case
@@ -165,7 +166,7 @@ def _start(case: Case) -> tuple[float, float, float]:
 def _onward(case: Case, t: float, x: float, y: float, h: float) -> Floats:
     """The best word to the slot from time t on, as a row of `solve`."""
     rows: Floats = np.empty((MAX_ROWS, 5))
-    solve(x - case.frame.alpha * t, y, h % (2.0 * pi), case.frame.alpha, 0.0, rows)
+    solve(Pose(x - case.frame.alpha * t, y, h % (2.0 * pi)), case.frame.alpha, 0.0, rows)
     best: Floats = rows[0]
     return best
 
@@ -176,13 +177,14 @@ def _past_leader(case: Case, side: float) -> list[tuple[float, float]]:
     course = contact_heading(side * 0.5 * pi, side, alpha)
     c, s = cos(course), sin(course)
     dx, dy = x - case.ahead, y - side * ABEAM * case.limit
-    target = dx * c + dy * s, dy * c - dx * s, (h - course) % (2.0 * pi), alpha * c, -alpha * s
+    seen = Pose(dx * c + dy * s, dy * c - dx * s, (h - course) % (2.0 * pi))
     rows = np.empty((MAX_ROWS, 5))
-    solve_toward(*target, 0.0, rows)  # always found: the leader is slower
+    # always found: the leader is slower
+    solve_toward(seen, Velocity(alpha * c, -alpha * s), 0.0, rows)
     first = _pieces(rows[0])
     t = 0.0
     for sign, amount in first:
-        x, y, h = fly_piece(x, y, h, sign, amount)
+        x, y, h = fly_piece(Pose(x, y, h), sign, amount)
         t += amount
     return first + _pieces(_onward(case, t, x, y, h))
 
@@ -202,7 +204,7 @@ def _sampled(case: Case, pieces: list[tuple[float, float]], intervals: int) -> P
         x, y, h = _start(case)
         left = t
         for sign, amount in pieces:
-            x, y, h = fly_piece(x, y, h, sign, min(left, amount))
+            x, y, h = fly_piece(Pose(x, y, h), sign, min(left, amount))
             left -= min(left, amount)
         states[k] = x - case.frame.alpha * t, y, h
     rates[:] = np.diff(states[:, 2]) / np.diff(at)

@@ -89,7 +89,7 @@ def _kernel(case: Case) -> Solve:
     frame, rows, unit = case.frame, np.empty((MAX_ROWS, 5)), case.unit
 
     def answer() -> float:
-        found = solve(frame.x, frame.y, frame.h, frame.alpha, frame.t_release, rows)
+        found = solve(frame.pose, frame.alpha, frame.t_release, rows)
         return float(rows[0, 0]) * unit if found else inf
 
     return answer

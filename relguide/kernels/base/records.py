@@ -3,7 +3,10 @@
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
+from math import cos, sin
 from typing import NamedTuple
+
+from numba import njit
 
 from relguide.kernels.base.roots import FloatArray
 
@@ -12,18 +15,52 @@ class Pose(NamedTuple):
     """Where an aircraft is, and where it points."""
 
     x: float
-    """[R]."""
+    """Ahead of the slot at t = 0, or of another target [R]."""
+    y: float
+    """Left of it [R]."""
+    h: float
+    """Heading, from the heading on which the target is met [rad]."""
+
+
+class Start(NamedTuple):
+    """A pose with sine and cosine of its heading, which a map needs only once."""
+
+    x: float
+    """As in `Pose` [R]."""
     y: float
     """[R]."""
     h: float
-    """Heading [rad]."""
+    """[rad], in [0, 2π)."""
+    sin_h: float
+    """sin h."""
+    cos_h: float
+    """cos h."""
+
+
+class Velocity(NamedTuple):
+    """How a target moves: the slot, or a contact."""
+
+    ahead: float
+    """Along the heading on which it is met [V_P]."""
+    left: float
+    """To the left of it [V_P]; 0 for the slot."""
+
+
+class Window(NamedTuple):
+    """When a path may arrive."""
+
+    earliest: float
+    """[R/V_P]."""
+    beat: float
+    """Before this time, which is to be beaten [R/V_P]."""
 
 
 class Scene(NamedTuple):
     """What a path has to reckon with: the leader, the limit, and when the slot opens."""
 
     leader: FloatArray
-    """Table of its pieces, a row each: start time, x, y, heading, turn rate. shape (k, 5)"""
+    """Table of its pieces, a row each: start time, x, y, heading, turn rate; the last row is its
+    endless final leg. shape (k, 5)"""
     alpha: float
     """V_L/V_P."""
     d_min: float
@@ -41,3 +78,15 @@ class Contact(NamedTuple):
     """Of the pursuer from the leader, counter-clockwise from the leader's heading [rad]."""
     side: float
     """+1 passes counter-clockwise round the leader, −1 clockwise."""
+
+
+@njit(cache=True, nogil=True)
+def start_at(pose: Pose) -> Start:
+    """A pose as a start."""
+    return Start(pose.x, pose.y, pose.h, sin(pose.h), cos(pose.h))
+
+
+@njit(cache=True, nogil=True)
+def with_limit(scene: Scene, d_min: float) -> Scene:
+    """The same scene with another limit [R]."""
+    return Scene(scene.leader, scene.alpha, d_min, scene.t_release)

@@ -19,6 +19,7 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, wrap
+from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.word_bound import breaks_limit, soonest
 from relguide.kernels.contact.contact import contact_heading
@@ -109,7 +110,7 @@ def cell_bound(
     t = low if high == inf else 0.5 * (low + high)
     span = 0.0 if high == inf else 0.5 * (high - low)
     rate = leader[i, 4]
-    lx, ly, lh = leader_at(leader, i, alpha, t)
+    lx, ly, lh = leader_at(Scene(leader, alpha, 0.0, 0.0), i, t)
     cx, cy = lx + delta * cos(lh + bearing), ly + delta * sin(lh + bearing)
     course = lh + turned
     # the contact of the middle bearing moves like this, and turns with the leader
@@ -165,7 +166,7 @@ def leaving_bound(
     turned, differs, blur_left, blur_right = contacts_within(bearing, half, side, alpha, delta)
     if differs == inf:
         return inf
-    lx, ly, lh = leader_at(leader, len(leader) - 1, alpha, 0.0)
+    lx, ly, lh = leader_at(Scene(leader, alpha, 0.0, 0.0), len(leader) - 1, 0.0)
     # read backward from the slot, the leader flies backward too
     astern = np.array([[0.0, lx, ly, lh + pi, 0.0]])
     cx, cy = lx + delta * cos(lh + bearing), ly + delta * sin(lh + bearing)
@@ -280,12 +281,14 @@ def untouched_bound(
     """
     rows = np.empty((MAX_ROWS, 5))
     best = inf
-    n = solve(x - goal_x - goal_speed * TWO_PI, y, wrap(h), goal_speed, t_release - TWO_PI, rows)
+    n = solve(
+        Pose(x - goal_x - goal_speed * TWO_PI, y, wrap(h)), goal_speed, t_release - TWO_PI, rows
+    )
     for k in range(n):
         if not _breaks_with_loop(x, y, h, rows[k], leader, alpha, delta - _INSIDE):
             best = TWO_PI + rows[k, 0]
             break
-    n = solve(x - goal_x, y, wrap(h), goal_speed, t_release, rows)
+    n = solve(Pose(x - goal_x, y, wrap(h)), goal_speed, t_release, rows)
     for k in range(n):
         if rows[k, 0] >= best:
             break
@@ -297,7 +300,7 @@ def untouched_bound(
             best = rows[k, 0]
             break
     # with two loops and more: no sooner than the soonest of all paths that are to wait so long
-    n = solve(x - goal_x - goal_speed * 2.0 * TWO_PI, y, wrap(h), goal_speed, 0.0, rows)
+    n = solve(Pose(x - goal_x - goal_speed * 2.0 * TWO_PI, y, wrap(h)), goal_speed, 0.0, rows)
     return min(best, max(2.0 * TWO_PI + rows[0, 0], t_release)) if n > 0 else best
 
 
@@ -318,11 +321,11 @@ def _breaks_with_loop(
         px, py, ph, left = x, y, h, along
         for piece in range(3):
             amount = min(left, row[piece + 2])
-            px, py, ph = fly_piece(px, py, ph, SIGNS[word, piece], amount)
+            px, py, ph = fly_piece(Pose(px, py, ph), SIGNS[word, piece], amount)
             left -= amount
         for late in range(2):
             t = along + late * TWO_PI
-            lx, ly, _ = leader_at(leader, piece_at(leader, t), alpha, t)
+            lx, ly, _ = leader_at(Scene(leader, alpha, 0.0, 0.0), piece_at(leader, t), t)
             if hypot(px - lx, py - ly) < limit:
                 if late == 0:
                     soonest_breach = min(soonest_breach, along)

@@ -28,6 +28,7 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, wrap, wrap_signed
+from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.separation.clearance import leader_at
 from relguide.kernels.words.extremals import fly_piece
@@ -127,20 +128,20 @@ def breaks_limit(
     first, middle = max(first, 0.0), max(middle, 0.0)
     parted = max(first - first_blur, 0.0)
     turning = parted + max(middle - middle_blur, 0.0)
-    at_x, at_y, at_h = fly_piece(x, y, h, signs[0], first)
-    on_x, on_y, on_h = fly_piece(at_x, at_y, at_h, signs[1], middle)
+    at_x, at_y, at_h = fly_piece(Pose(x, y, h), signs[0], first)
+    on_x, on_y, on_h = fly_piece(Pose(at_x, at_y, at_h), signs[1], middle)
     i = 0
     t = 0.0
     while t < until:
         while i + 1 < len(leader) and leader[i + 1, 0] <= t:
             i += 1
         if t <= first:
-            px, py, _ = fly_piece(x, y, h, signs[0], t)
+            px, py, _ = fly_piece(Pose(x, y, h), signs[0], t)
         elif t <= first + middle:
-            px, py, _ = fly_piece(at_x, at_y, at_h, signs[1], t - first)
+            px, py, _ = fly_piece(Pose(at_x, at_y, at_h), signs[1], t - first)
         else:
-            px, py, _ = fly_piece(on_x, on_y, on_h, signs[2], t - first - middle)
-        lx, ly, _ = leader_at(leader, i, alpha, t)
+            px, py, _ = fly_piece(Pose(on_x, on_y, on_h), signs[2], t - first - middle)
+        lx, ly, _ = leader_at(Scene(leader, alpha, 0.0, 0.0), i, t)
         astray = slow * max(t - parted, 0.0) + fast * max(t - turning, 0.0)
         gap = hypot(px - lx, py - ly) + astray + _ROUNDING - limit
         if gap < 0.0:

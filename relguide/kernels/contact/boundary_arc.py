@@ -11,6 +11,7 @@ from math import ceil, hypot, inf
 from numba import njit
 
 from relguide.kernels.base.angles import wrap_signed
+from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.contact import contact_on, slide_within
 from relguide.kernels.separation.clearance import fly_rate, leader_at, piece_at
@@ -78,7 +79,7 @@ def boundary_arc_pieces(
             _, duration = slide_within(reached, goal, side, alpha, delta, leader[i, 4], inf)
             if duration <= 0.0 or duration == inf:
                 continue
-            lx, ly, _ = leader_at(leader, i, alpha, t + duration)
+            lx, ly, _ = leader_at(Scene(leader, alpha, 0.0, 0.0), i, t + duration)
             _, _, course = contact_on(leader, i, t + duration, goal, side, alpha, delta)
             x, y, h = _two_arcs(x, y, h, duration, lx, ly, course, delta, side, pieces[n : n + 2])
             n += 2
@@ -100,8 +101,8 @@ def _two_arcs(
     spread, last_spread, last_off = 0.0, 0.0, 0.0
     bx, by, bh = x, y, h
     for attempt in range(6):
-        ax, ay, ah = fly_rate(x, y, h, mean + spread, half)
-        bx, by, bh = fly_rate(ax, ay, ah, mean - spread, half)
+        ax, ay, ah = fly_rate(Pose(x, y, h), mean + spread, half)
+        bx, by, bh = fly_rate(Pose(ax, ay, ah), mean - spread, half)
         off = hypot(bx - lx, by - ly) - delta
         if abs(off) < 1e-13:
             break

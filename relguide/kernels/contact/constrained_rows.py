@@ -9,13 +9,14 @@ from math import inf
 import numpy as np
 from numba import njit
 
+from relguide.kernels.base.records import Pose
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.constrained_search import MAX_LEGS, best_constrained_path
 from relguide.kernels.contact.passage import GRAZE, word_clears
 from relguide.kernels.contact.tangent import tangents
 from relguide.kernels.words.extremals import MAX_ROWS, solve
 from relguide.kernels.words.fastest import fastest
-from relguide.kernels.words.sooner import MOST_ROOTS, work_room
+from relguide.kernels.words.sooner import make_scratch
 
 
 @njit(cache=True, nogil=True)
@@ -33,7 +34,7 @@ def breaks_limit(
         limit: as there.
         free: takes it, a row of `solve`; nothing where the slot is out of reach. shape (5,)
     """
-    if not fastest(x, y, h, alpha, 0.0, 0, work_room(), np.empty((MOST_ROOTS, 4)), free):
+    if not fastest(Pose(x, y, h), alpha, 0.0, 0, make_scratch(), free):
         return False
     leader = np.zeros((1, 5))
     leader[0, 1] = slot
@@ -89,7 +90,7 @@ def exact_constrained(
     for n in range(len(situations)):
         x, y, h, alpha, slot, limit = situations[n]
         leader[0, 1] = slot
-        found = solve(x, y, h, alpha, 0.0, rows)
+        found = solve(Pose(x, y, h), alpha, 0.0, rows)
         times[n, 0] = rows[0, 0] if found > 0 else inf
         times[n, 1] = inf
         counts[n] = 0.0

@@ -15,6 +15,7 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI
+from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain import MAX_CONTACTS, WAIT, WORD, fly_links
 from relguide.kernels.contact.chain_refinement import (
@@ -165,14 +166,16 @@ def any_path(
         sign = 1.0 - 2.0 * side
         for j in range(_FIRST_TURNS + 1):
             turned = TWO_PI * j / _FIRST_TURNS
-            if not piece_clears(x, y, h, sign, 0.0, turned, leader, alpha, limit):
+            if not piece_clears(Pose(x, y, h), sign, 0.0, turned, Scene(leader, alpha, limit, 0.0)):
                 break  # nor does any larger turn
-            px, py, ph = fly_piece(x, y, h, sign, turned)
+            px, py, ph = fly_piece(Pose(x, y, h), sign, turned)
             straight = 0.0
             while straight <= _LONGEST:
-                if not piece_clears(px, py, ph, 0.0, turned, straight, leader, alpha, limit):
+                if not piece_clears(
+                    Pose(px, py, ph), 0.0, turned, straight, Scene(leader, alpha, limit, 0.0)
+                ):
                     break
-                qx, qy, _ = fly_piece(px, py, ph, 0.0, straight)
+                qx, qy, _ = fly_piece(Pose(px, py, ph), 0.0, straight)
                 arrival, i = best_word(
                     qx, qy, ph, turned + straight, leader, alpha, limit, t_release, best, rows
                 )

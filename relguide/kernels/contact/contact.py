@@ -17,6 +17,7 @@ from math import acos, cos, inf, sin, sqrt
 
 from numba import njit
 
+from relguide.kernels.base.records import Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.separation.clearance import leader_at, piece_at
 
@@ -59,7 +60,7 @@ def contact_on(
         alpha: V_L/V_P.
         delta: distance [R].
     """
-    lx, ly, lh = leader_at(leader, i, alpha, t)
+    lx, ly, lh = leader_at(Scene(leader, alpha, 0.0, 0.0), i, t)
     return (
         lx + delta * cos(lh + bearing),
         ly + delta * sin(lh + bearing),

@@ -15,6 +15,7 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, wrap_signed
+from relguide.kernels.base.records import Pose
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain import BOUNDARY_ARC, MAX_CONTACTS, WORD, earliest_contact
 from relguide.kernels.contact.contact import (
@@ -83,7 +84,7 @@ def _onward(
     The bound is the arrival without the limit, or when the slot opens: what is early may wait.
     """
     x, y, h = contact_at(leader, t, bearing, side, alpha, delta)
-    n = solve(x - alpha * t, y, h % TWO_PI, alpha, 0.0, rows)
+    n = solve(Pose(x - alpha * t, y, h % TWO_PI), alpha, 0.0, rows)
     if n == 0:
         return inf, inf
     lower = max(t + rows[0, 0], t_release)

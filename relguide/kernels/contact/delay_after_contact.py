@@ -7,9 +7,10 @@ Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader i
 import numpy as np
 from numba import njit
 
+from relguide.kernels.base.records import Pose
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.passage import pieces_clear
-from relguide.kernels.words.delay import DELAY_PIECES, MAX_DELAYS, holds
+from relguide.kernels.words.delay import DELAY_PIECES, MAX_DELAYS, delay_paths
 
 
 @njit(cache=True, nogil=True)
@@ -34,10 +35,10 @@ def delay_until_release(
     Returns:
         whether there is one.
     """
-    signs = np.empty((MAX_DELAYS, DELAY_PIECES))
-    amounts = np.empty((MAX_DELAYS, DELAY_PIECES))
+    paths = np.empty((2, MAX_DELAYS, DELAY_PIECES))
+    signs, amounts = paths[0], paths[1]
     fewest = DELAY_PIECES + 1
-    n = holds(x - alpha * t, y, h, alpha, t_release - t, signs, amounts)
+    n = delay_paths(Pose(x - alpha * t, y, h), alpha, t_release - t, paths)
     for j in range(n):
         turns = 0
         for k in range(DELAY_PIECES):

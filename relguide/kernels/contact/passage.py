@@ -13,6 +13,7 @@ from math import inf
 from numba import njit
 
 from relguide.kernels.base.angles import wrap
+from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.contact import contact_exists, contact_on
 from relguide.kernels.contact.paths_to_contact import not_before_slot, paths_to_contact
@@ -32,9 +33,11 @@ def pieces_clear(
     """Whether pieces at full bank or straight, flown from time t, stay `limit` away."""
     for k in range(len(signs)):
         sign, amount = signs[k], amounts[k]
-        if amount > 0.0 and not piece_clears(x, y, h, sign, t, amount, leader, alpha, limit):
+        if amount > 0.0 and not piece_clears(
+            Pose(x, y, h), sign, t, amount, Scene(leader, alpha, limit, 0.0)
+        ):
             return False
-        x, y, h = fly_piece(x, y, h, sign, amount)
+        x, y, h = fly_piece(Pose(x, y, h), sign, amount)
         t += amount
     return True
 
@@ -76,7 +79,7 @@ def best_word(
 
     Infinite and −1 if none arrives before `beat`.
     """
-    n = solve(x - alpha * t, y, wrap(h), alpha, max(t_release - t, 0.0), rows)
+    n = solve(Pose(x - alpha * t, y, wrap(h)), alpha, max(t_release - t, 0.0), rows)
     return first_clear(x, y, h, t, rows[:n], leader, alpha, limit, t_release, beat)
 
 
@@ -124,7 +127,7 @@ def through_contact(
             continue
         if m < 0 or i + 1 < len(leader):
             # on the final leg the ways on are the same at any time
-            m = solve(cx - alpha * t, cy, wrap(ch), alpha, 0.0, onward)
+            m = solve(Pose(cx - alpha * t, cy, wrap(ch)), alpha, 0.0, onward)
         if m == 0:
             continue
         # the cheap test first: could it be in time at all? What is too early may wait

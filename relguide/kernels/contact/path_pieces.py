@@ -11,6 +11,7 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import wrap
+from relguide.kernels.base.records import Pose
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.boundary_arc import MAX_NODES, boundary_arc_pieces
 from relguide.kernels.contact.chain import BOUNDARY_ARC, WAIT
@@ -19,7 +20,7 @@ from relguide.kernels.contact.passage import GRAZE, best_word, word_clears
 from relguide.kernels.words.delay import DELAY_PIECES
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, fly_piece
 from relguide.kernels.words.fastest import fastest
-from relguide.kernels.words.sooner import MOST_ROOTS, work_room
+from relguide.kernels.words.sooner import make_scratch
 
 NO_TURN = 1e-9
 """A turn below this is rounding [rad]; likewise a straight, in R."""
@@ -100,7 +101,7 @@ def pieces_of(
             signs, amounts = SIGNS[int(row[1])], row[2:5]
         for i in range(len(signs)):
             sign, amount = signs[i], amounts[i]
-            x, y, h = fly_piece(x, y, h, sign, amount)
+            x, y, h = fly_piece(Pose(x, y, h), sign, amount)
             t += amount
             if amount <= NO_TURN:
                 continue
@@ -135,10 +136,10 @@ def _word_on(
     Returns:
         whether there is one.
     """
-    room, found, hint = work_room(), np.empty((MOST_ROOTS, 4)), int(row[1])
+    scratch, hint = make_scratch(), int(row[1])
     # the fastest alone is found in a third of the time, and mostly clears
     if fastest(
-        x - alpha * t, y, wrap(h), alpha, max(t_release - t, 0.0), hint, room, found, row
+        Pose(x - alpha * t, y, wrap(h)), alpha, max(t_release - t, 0.0), hint, scratch, row
     ) and word_clears(x, y, h, t, row, leader, alpha, limit):
         return True
     rows = np.empty((MAX_ROWS, 5))

@@ -13,8 +13,10 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import wrap, wrap_signed
+from relguide.kernels.base.records import Pose, Velocity
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.contact import contact_on
+from relguide.kernels.words.branches import TO_POINT, WORD_OF
 from relguide.kernels.words.delay import word_to_point
 from relguide.kernels.words.extremals import MAX_ROWS, solve_toward
 
@@ -83,10 +85,9 @@ def paths_to_contact(
         return 0  # not even straight there
     c, s = cos(course), sin(course)
     dx, dy = x - cx, y - cy
-    n = solve_toward(
-        dx * c + dy * s, dy * c - dx * s, wrap(h - course), alpha * cos(lh - course),
-        alpha * sin(lh - course), max(start - t, 0.0), rows,
-    )  # fmt: skip
+    seen = Pose(dx * c + dy * s, dy * c - dx * s, wrap(h - course))
+    drift = Velocity(alpha * cos(lh - course), alpha * sin(lh - course))
+    n = solve_toward(seen, drift, max(start - t, 0.0), rows)
     while n > 0 and rows[n - 1, 0] > left:
         n -= 1
     rows[:n, 0] += t
@@ -113,7 +114,7 @@ def _paths_while_turning(
     piece = np.empty(3)
     turns = np.empty((3, 2))  # first and last turn at the last time, at this one, and between
     n = 0
-    for branch in range(8):
+    for branch in TO_POINT:
         word = t_start, leader, i, alpha, delta, bearing, side, branch
         last, last_t = np.nan, start
         for k in range(earliest, latest + 1):
@@ -177,7 +178,7 @@ def _root(
     if not abs(value) < 1e-9:
         return n
     rows[n, 0] = at
-    rows[n, 1] = branch if branch < 6 else branch - 2
+    rows[n, 1] = WORD_OF[branch]
     rows[n, 2:5] = piece
     return n + 1
 
@@ -191,5 +192,5 @@ def _excess(
     cx, cy, course = contact_on(leader, i, t, bearing, side, alpha, delta)
     c, s = cos(course), sin(course)
     dx, dy = x - cx, y - cy
-    length = word_to_point(dx * c + dy * s, dy * c - dx * s, h - course, 0.0, branch, piece)
+    length = word_to_point(Pose(dx * c + dy * s, dy * c - dx * s, h - course), 0.0, branch, piece)
     return length - (t - t_start) if length >= 0.0 else np.nan

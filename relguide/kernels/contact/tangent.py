@@ -20,6 +20,7 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, wrap
+from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.separation.clearance import leader_at
 from relguide.kernels.words.extremals import fly_piece
@@ -77,7 +78,7 @@ def _miss(
 
     `contact` takes the relative position and the time of the closest approach.
     """
-    px, py, ph = fly_piece(x, y, h, first, turned)
+    px, py, ph = fly_piece(Pose(x, y, h), first, turned)
     px -= alpha * turned
     if second == 0.0:
         vx, vy = cos(ph) - alpha, sin(ph)
@@ -87,7 +88,7 @@ def _miss(
         after = _first_approach(px, py, ph, alpha, second)
     if after <= 0.0:
         return np.nan
-    qx, qy, _ = fly_piece(px, py, ph, second, after)
+    qx, qy, _ = fly_piece(Pose(px, py, ph), second, after)
     contact[0], contact[1], contact[2] = qx - alpha * after, qy, turned + after
     return hypot(contact[0], contact[1]) - delta
 
@@ -148,7 +149,7 @@ def tangent_contacts(
                 )  # fmt: skip
                 value = _miss(x, y, h, alpha, delta, first, second, high, contact)
                 if abs(value) < 1e-9:
-                    _, _, heading = fly_piece(x, y, h, first, high)
+                    _, _, heading = fly_piece(Pose(x, y, h), first, high)
                     if second != 0.0:
                         heading += second * (contact[2] - high)
                     across = contact[0] * sin(heading) - contact[1] * (cos(heading) - alpha)
@@ -185,7 +186,7 @@ def tangents(
     found = np.empty((MAX_TANGENTS, 3))
     n = 0
     for i in range(pieces):
-        lx, ly, lh = leader_at(leader, i, alpha, 0.0)
+        lx, ly, lh = leader_at(Scene(leader, alpha, 0.0, 0.0), i, 0.0)
         if leader[i, 4] != 0.0 or (pieces == 1 and hypot(x - lx, y - ly) > delta + NEAR):
             continue
         end = leader[i + 1, 0] if i + 1 < pieces else inf
@@ -197,7 +198,7 @@ def tangents(
                 kept[n, :3] = found[j]
                 kept[n, 3] = i
                 n += 1
-    lx, ly, _ = leader_at(leader, pieces - 1, alpha, 0.0)
+    lx, ly, _ = leader_at(Scene(leader, alpha, 0.0, 0.0), pieces - 1, 0.0)
     m = tangent_contacts(lx, ly, 0.0, alpha, delta, found)
     for j in range(m):
         kept[n, 0], kept[n, 1] = wrap(found[j, 0] + pi), -found[j, 1]

@@ -11,6 +11,7 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import wrap
+from relguide.kernels.base.records import Pose
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.constrained_search import MAX_LEGS, best_constrained_path
 from relguide.kernels.contact.passage import GRAZE, word_clears
@@ -18,7 +19,7 @@ from relguide.kernels.contact.tangent import tangents
 from relguide.kernels.separation.clearance import SLACK
 from relguide.kernels.words.extremals import MAX_ROWS, solve
 from relguide.kernels.words.fastest import fastest
-from relguide.kernels.words.sooner import MOST_ROOTS, work_room
+from relguide.kernels.words.sooner import make_scratch
 
 PROVED, BOUNDED, UNREACHABLE, ALREADY_LOST, NO_PATH = 0.0, 1.0, 2.0, 3.0, 4.0
 """What a row of the answer says: the optimum, proved; a plan with its bound; no plan, and why."""
@@ -38,7 +39,7 @@ def plan_rows(
         last: up to this row.
         answers: takes arrival, lower bound, verdict, the word's number (−1: a detour). (n, 4)
     """
-    room, found = work_room(), np.empty((MOST_ROOTS, 4))
+    scratch = make_scratch()
     rows = np.empty((MAX_ROWS, 5))
     leader = np.zeros((1, 5))
     legs = np.empty((MAX_LEGS, 6))
@@ -52,7 +53,7 @@ def plan_rows(
         if limited and gap < limit - SLACK:
             answer[2] = ALREADY_LOST
             continue
-        if not fastest(x, y, h, alpha, 0.0, 0, room, found, rows[0]):
+        if not fastest(Pose(x, y, h), alpha, 0.0, 0, scratch, rows[0]):
             answer[2] = UNREACHABLE
             continue
         answer[1] = rows[0, 0]
@@ -60,7 +61,7 @@ def plan_rows(
         if not limited or word_clears(x, y, h, 0.0, rows[0], leader, alpha, limit - SLACK):
             answer[0], answer[2], answer[3] = rows[0, 0], PROVED, rows[0, 1]
             continue
-        for k in range(1, solve(x, y, h, alpha, 0.0, rows)):
+        for k in range(1, solve(Pose(x, y, h), alpha, 0.0, rows)):
             if word_clears(x, y, h, 0.0, rows[k], leader, alpha, limit - SLACK):
                 answer[0], answer[2], answer[3] = rows[k, 0], BOUNDED, rows[k, 1]
                 break

@@ -15,6 +15,7 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, wrap
+from relguide.kernels.base.records import Pose
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.contact import boundary_arc_sense, slide_within
 from relguide.kernels.words.extremals import fly_piece
@@ -184,8 +185,8 @@ def turn_tangent(
         bearing, first and second turn; the turns are NaN if there is none next to the guess.
     """
     for _ in range(20):
-        mx, my, mh = fly_piece(px, py, h, sign, first)
-        qx, qy, qh = fly_piece(mx, my, mh, -sign, second)
+        mx, my, mh = fly_piece(Pose(px, py, h), sign, first)
+        qx, qy, qh = fly_piece(Pose(mx, my, mh), -sign, second)
         # the second arc turns with the end of the first one
         along, across = qx - mx, qy - my
         qx -= alpha * (first + second)

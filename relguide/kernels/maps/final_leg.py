@@ -13,11 +13,13 @@ What these tests do not decide is left to `piece_clears`, so the answers are the
 """
 
 from math import cos, inf, sin, sqrt
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI
+from relguide.kernels.base.records import Pose, Scene, Start
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.separation.clearance import leader_at, piece_at, piece_clears
 from relguide.kernels.words.extremals import SIGNS, fly_piece
@@ -26,28 +28,36 @@ _HALVINGS = 40
 _ASTRAY = 1e-6  # a path ends where it should to less than this [R]
 
 
-@njit(cache=True, nogil=True)
-def last_turns(leader: FloatArray, alpha: float, limit: float) -> FloatArray:
-    """How long a last turn may be: right, then left [rad].
+class MovingPoint(NamedTuple):
+    """A point that keeps its velocity."""
 
-    Args:
-        leader: table of its pieces. shape (k, 5)
-        alpha: V_L/V_P.
-        limit: least allowed separation [R].
-    """
+    x: float
+    """[R]."""
+    y: float
+    """[R]."""
+    vx: float
+    """[V_P]."""
+    vy: float
+    """[V_P]."""
+
+
+@njit(cache=True, nogil=True)
+def last_turns(scene: Scene) -> FloatArray:
+    """How long a last turn may be and still keep d_min: right, then left [rad]."""
     found = np.empty(2)
-    i = len(leader) - 1
-    straight = leader[i:].copy()
-    straight[0, 0] = 0.0
-    straight[0, 1] -= alpha * leader[i, 0]
+    alpha, i = scene.alpha, len(scene.leader) - 1
+    final = scene.leader[i:].copy()
+    final[0, 0] = 0.0
+    final[0, 1] -= alpha * scene.leader[i, 0]
+    straight = Scene(final, alpha, scene.d_min, 0.0)
     for side in range(2):
         sign = 2.0 * side - 1.0
         low, high = 0.0, TWO_PI
         for _ in range(_HALVINGS):
             turn = 0.5 * (low + high)
             # where a turn begins that ends in the slot at time `turn`
-            x, y = alpha * turn - sin(turn), sign * (1.0 - cos(turn))
-            if piece_clears(x, y, -sign * turn, sign, 0.0, turn, straight, alpha, limit):
+            begin = Pose(alpha * turn - sin(turn), sign * (1.0 - cos(turn)), -sign * turn)
+            if piece_clears(begin, sign, 0.0, turn, straight):
                 low = turn
             else:
                 high = turn
@@ -57,25 +67,19 @@ def last_turns(leader: FloatArray, alpha: float, limit: float) -> FloatArray:
 
 @njit(cache=True, nogil=True)
 def keeps_clear(
-    x: float, y: float, h: float, sin_h: float, cos_h: float, t: float, row: FloatArray,
-    end_x: float, leader: FloatArray, alpha: float, limit: float, longest: FloatArray,
-) -> bool:  # fmt: skip
-    """Whether a row of `solve`, flown from time t, stays `limit` away from the leader.
+    start: Start, t: float, row: FloatArray, end_x: float, scene: Scene, longest: FloatArray
+) -> bool:
+    """Whether a row of `solve` keeps d_min.
 
     Args:
-        x: start, slot frame [R].
-        y: start [R].
-        h: start heading [rad].
-        sin_h: its sine, the same for a whole map.
-        cos_h: and cosine.
-        t: when it is there [R/V_P].
+        start: where it starts.
+        t: and when [R/V_P].
         row: of `solve`.
         end_x: it ends at (end_x, 0) on heading 0 [R].
-        leader: table of its pieces. shape (k, 5)
-        alpha: V_L/V_P.
-        limit: least allowed separation [R].
+        scene: the leader and d_min.
         longest: of `last_turns`; zeros if the end is not the slot.
     """
+    (x, y, h, sin_h, cos_h), leader, limit = start, scene.leader, scene.d_min
     word = int(row[1])
     first_sign, sign, last_sign = SIGNS[word, 0], SIGNS[word, 1], SIGNS[word, 2]
     first, middle, last = row[2], row[3], row[4]
@@ -83,8 +87,8 @@ def keeps_clear(
     i = piece_at(leader, t)
     cx, cy = x - first_sign * sin_h, y + first_sign * cos_h
     if first > 0.0:
-        room = point_room(cx, cy, 0.0, 0.0, t, first, leader, i, alpha) - 1.0
-        if room < limit and not piece_clears(x, y, h, first_sign, t, first, leader, alpha, limit):
+        room = point_room(MovingPoint(cx, cy, 0.0, 0.0), t, first, scene, i) - 1.0
+        if room < limit and not piece_clears(Pose(x, y, h), first_sign, t, first, scene):
             return False
         t += first
     course = h + first_sign * first
@@ -94,45 +98,48 @@ def keeps_clear(
         while i + 1 < len(leader) and leader[i + 1, 0] <= t:
             i += 1
         if sign == 0.0:
-            room = point_room(x, y, cos_c, sin_c, t, middle, leader, i, alpha)
+            room = point_room(MovingPoint(x, y, cos_c, sin_c), t, middle, scene, i)
             if room < limit and t >= final:
                 return False
         else:
             cx, cy = x - sign * sin_c, y + sign * cos_c
-            room = point_room(cx, cy, 0.0, 0.0, t, middle, leader, i, alpha) - 1.0
-        if room < limit and not piece_clears(x, y, course, sign, t, middle, leader, alpha, limit):
+            room = point_room(MovingPoint(cx, cy, 0.0, 0.0), t, middle, scene, i) - 1.0
+        if room < limit and not piece_clears(Pose(x, y, course), sign, t, middle, scene):
             return False
         t += middle
     if last <= 0.0 or (t >= final and last <= longest[1 if last_sign > 0.0 else 0]):
         return True
     while i + 1 < len(leader) and leader[i + 1, 0] <= t:
         i += 1
-    room = point_room(end_x, last_sign, 0.0, 0.0, t, last, leader, i, alpha) - 1.0
+    room = point_room(MovingPoint(end_x, last_sign, 0.0, 0.0), t, last, scene, i) - 1.0
     if room >= limit + _ASTRAY:
         return True
-    x, y, course = fly_piece(x, y, course, sign, middle)
-    return piece_clears(x, y, course, last_sign, t, last, leader, alpha, limit)
+    begin = fly_piece(Pose(x, y, course), sign, middle)
+    return piece_clears(begin, last_sign, t, last, scene)
 
 
 @njit(cache=True, nogil=True)
-def point_room(
-    x: float, y: float, vx: float, vy: float, t: float, amount: float, leader: FloatArray, i: int,
-    alpha: float,
-) -> float:  # fmt: skip
-    """A point that keeps its velocity from time t on stays at least so far from the leader.
+def point_room(point: MovingPoint, t: float, duration: float, scene: Scene, i: int) -> float:
+    """A point stays at least so far from the leader, exactly so far while that keeps straight.
 
-    Exactly so far while the leader keeps straight. The leader is on its piece i at t.
+    Args:
+        point: where it is at time t.
+        t: from when [R/V_P].
+        duration: for how long [R/V_P].
+        scene: gives the leader.
+        i: the leader's piece at t.
     """
+    (x, y, vx, vy), leader, alpha = point, scene.leader, scene.alpha
     last = len(leader) - 1
-    room, done, end = inf, t, t + amount
-    lx, ly = _place(leader, i, alpha, t)
+    room, done, end = inf, t, t + duration
+    lx, ly = _place(scene, i, t)
     while done < end:
         bend = 0.0
         if i < last:
             until = min(leader[i + 1, 0], end)
             next_x, next_y = leader[i + 1, 1], leader[i + 1, 2]
             if until < leader[i + 1, 0]:
-                next_x, next_y = _place(leader, i, alpha, until)
+                next_x, next_y = _place(scene, i, until)
             bend = 0.125 * alpha * abs(leader[i, 4])
         else:
             until = end
@@ -147,8 +154,9 @@ def point_room(
 
 
 @njit(cache=True, nogil=True)
-def _place(leader: FloatArray, i: int, alpha: float, t: float) -> tuple[float, float]:
+def _place(scene: Scene, i: int, t: float) -> tuple[float, float]:
     """Where the leader is at time t on its piece i; only where it turns that takes sines."""
+    leader, alpha = scene.leader, scene.alpha
     flown = t - leader[i, 0]
     if i == len(leader) - 1:
         return leader[i, 1] + alpha * flown, leader[i, 2]
@@ -158,7 +166,7 @@ def _place(leader: FloatArray, i: int, alpha: float, t: float) -> tuple[float, f
             leader[i, 1] + share * (leader[i + 1, 1] - leader[i, 1]),
             leader[i, 2] + share * (leader[i + 1, 2] - leader[i, 2]),
         )
-    lx, ly, _ = leader_at(leader, i, alpha, t)
+    lx, ly, _ = leader_at(scene, i, t)
     return lx, ly
 
 

@@ -11,44 +11,38 @@ from math import inf
 import numpy as np
 from numba import njit
 
+from relguide.kernels.base.records import Pose, Scene, Start, Window
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.maps.final_leg import keeps_clear
 from relguide.kernels.words.extremals import MAX_ROWS, solve
 from relguide.kernels.words.fastest import LEAST_RATIO, ends_at_slot, word_before
-from relguide.kernels.words.sooner import EARLY
+from relguide.kernels.words.sooner import EARLY, Scratch
 
 _SAME = 1e-9  # two roots of a word this close are one and the same path [R/V_P]
 
 
 @njit(cache=True, nogil=True)
 def next_clear(
-    x: float, y: float, h: float, sin_h: float, cos_h: float, alpha: float, hint: int,
-    leader: FloatArray, limit: float, longest: FloatArray, room: FloatArray, found: FloatArray,
+    start: Start, scene: Scene, hint: int, longest: FloatArray, scratch: Scratch,
     tried: FloatArray, row: FloatArray,
 ) -> bool:  # fmt: skip
-    """The first row of `solve` after one that does not clear that does.
+    """The first row of `solve` that clears, after a first one that does not.
 
     Args:
-        x: pursuer ahead of the slot [R].
-        y: pursuer left of it [R].
-        h: its heading, counter-clockwise from the leader's [rad], in [0, 2π).
-        sin_h: its sine, the same for a whole map.
-        cos_h: and cosine.
-        alpha: V_L/V_P.
+        start: the pursuer's pose, seen from the slot.
+        scene: the leader and d_min.
         hint: number of the word that is likely to win: it is tried first, to be beaten.
-        leader: table of its pieces. shape (k, 5)
-        limit: least allowed separation [R].
         longest: of `final_leg.last_turns`.
-        room: of `sooner.work_room`.
-        found: room too. shape (MOST_ROOTS, 4)
+        scratch: room to work in.
         tried: room too. shape (5,)
         row: the first row of `solve`, which does not clear; takes the one found. shape (5,)
 
     Returns:
         whether there is one.
     """
+    alpha, found = scene.alpha, scratch.found
     if not LEAST_RATIO < alpha < 1.0:
-        return _next_of_all(x, y, h, sin_h, cos_h, alpha, leader, limit, longest, row)
+        return _next_of_all(start, scene, longest, row)
     earliest, lost = row[0], int(row[1])
     best, best_word = inf, -1
     for turn in range(7):
@@ -57,20 +51,18 @@ def next_clear(
             continue
         after = earliest
         while after < best:
-            n = word_before(x, y, h, sin_h, cos_h, alpha, after, word, best, True, room, found)
+            n = word_before(start, alpha, word, Window(after, best), True, scratch)
             for i in range(n):
                 time = found[i, 0]
                 if not earliest - EARLY <= time < best or (
                     word == lost and time <= earliest + _SAME
                 ):
                     continue
-                if not ends_at_slot(x, y, h, sin_h, cos_h, alpha, word, found[i]):
+                if not ends_at_slot(start, alpha, word, found[i]):
                     continue
                 tried[0], tried[1] = time, word
                 tried[2], tried[3], tried[4] = found[i, 1], found[i, 2], found[i, 3]
-                if keeps_clear(
-                    x, y, h, sin_h, cos_h, 0.0, tried, alpha * time, leader, alpha, limit, longest
-                ):
+                if keeps_clear(start, 0.0, tried, alpha * time, scene, longest):
                     best, best_word = time, word
                     row[:] = tried
             if word >= 2 or n == 0:
@@ -81,15 +73,11 @@ def next_clear(
 
 
 @njit(cache=True, nogil=True)
-def _next_of_all(
-    x: float, y: float, h: float, sin_h: float, cos_h: float, alpha: float, leader: FloatArray,
-    limit: float, longest: FloatArray, row: FloatArray,
-) -> bool:  # fmt: skip
+def _next_of_all(start: Start, scene: Scene, longest: FloatArray, row: FloatArray) -> bool:
     rows = np.empty((MAX_ROWS, 5))
-    for k in range(1, solve(x, y, h, alpha, row[0], rows)):
-        if keeps_clear(
-            x, y, h, sin_h, cos_h, 0.0, rows[k], alpha * rows[k, 0], leader, alpha, limit, longest
-        ):
+    pose = Pose(start.x, start.y, start.h)
+    for k in range(1, solve(pose, scene.alpha, row[0], rows)):
+        if keeps_clear(start, 0.0, rows[k], scene.alpha * rows[k, 0], scene, longest):
             row[:] = rows[k]
             return True
     return False

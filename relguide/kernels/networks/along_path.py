@@ -12,6 +12,7 @@ from math import cos, sin
 from numba import njit
 
 from relguide.kernels.base.angles import mirror_heading, wrap
+from relguide.kernels.base.records import Pose
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain import BOUNDARY_ARC
 from relguide.kernels.contact.contact import contact_heading
@@ -57,7 +58,7 @@ def along(
         row = legs[k, 1:6]
         for piece in range(3):
             amount = min(row[2 + piece], time - done)
-            x, y, h = fly_piece(x, y, h, SIGNS[int(row[1]), piece], amount)
+            x, y, h = fly_piece(Pose(x, y, h), SIGNS[int(row[1]), piece], amount)
             done += amount
             if done >= time:
                 return x - alpha * done, y, h

@@ -13,6 +13,7 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import mirror_heading
+from relguide.kernels.base.records import Pose, Velocity
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.networks.margins import INPUTS, inputs
 from relguide.kernels.words.branches import MIRROR_OF, SIZE, WORD_OF, branch_of, needs_mirror
@@ -171,7 +172,7 @@ def decode(
         # both branches of a word come from one solution of it
         if share[s] >= least_share and WORD_OF[s] != before:
             before = WORD_OF[s]
-            n = solve_word(x, y, h, alpha, 0.0, 0.0, before, found, rows, n)
+            n = solve_word(Pose(x, y, h), Velocity(alpha, 0.0), 0.0, before, found, rows, n)
     return held, n
 
 

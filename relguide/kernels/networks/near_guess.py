@@ -20,6 +20,7 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import wrap
+from relguide.kernels.base.records import Pose, Velocity
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.contact import contact_heading
 from relguide.kernels.contact.touch_points import next_contact, slide_between
@@ -44,7 +45,7 @@ def _row_of(
 ) -> int:  # fmt: skip
     """The soonest path of a branch to a moving target, as its row in `rows`; −1 if none."""
     word = branch if branch < 4 else 2 + branch // 2
-    n = solve_word(x, y, h, ax, ay, 0.0, word, found, rows, 0)
+    n = solve_word(Pose(x, y, h), Velocity(ax, ay), 0.0, word, found, rows, 0)
     for i in range(n):
         if branch < 4 or (rows[i, 3] > pi) == (branch % 2 == 1):
             return i

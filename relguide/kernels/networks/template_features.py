@@ -10,6 +10,7 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, wrap
+from relguide.kernels.base.records import Pose
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.contact import boundary_arc_rates
 from relguide.kernels.contact.touch_points import (
@@ -164,9 +165,9 @@ def template_features(
     out[at + 11] = free[4] / TWO_PI
     at += 12
     word = int(free[1])
-    px, py, ph = fly_piece(x, y, h, SIGNS[word, 0], free[2])
+    px, py, ph = fly_piece(Pose(x, y, h), SIGNS[word, 0], free[2])
     _passing(px, py, ph, free[2], slot, alpha, limit, out[at : at + 4])
-    px, py, ph = fly_piece(px, py, ph, SIGNS[word, 1], free[3])
+    px, py, ph = fly_piece(Pose(px, py, ph), SIGNS[word, 1], free[3])
     _passing(px, py, ph, free[2] + free[3], slot, alpha, limit, out[at + 4 : at + 8])
     _riding(x, y, h, slot, alpha, limit, free[0], out[at + 8 : at + 36])
 
@@ -182,5 +183,5 @@ def template_feature_rows(situations: FloatArray, out: FloatArray) -> None:
     rows = np.empty((MAX_ROWS, 5))
     for n in range(len(situations)):
         x, y, h, alpha, slot, limit = situations[n]
-        solve(x, y, h, alpha, 0.0, rows)
+        solve(Pose(x, y, h), alpha, 0.0, rows)
         template_features(x, y, h, slot, alpha, limit, rows[0], out[n])

@@ -8,6 +8,7 @@ from math import cos, sin
 
 from numba import njit
 
+from relguide.kernels.base.records import Pose
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain import BOUNDARY_ARC, WORD
 from relguide.kernels.contact.contact import contact_heading
@@ -84,7 +85,7 @@ def clears(
         if not word_clears(x, y, h, t, row, leader, alpha, delta - 2.0 * GRAZE):
             return False
         for piece in range(3):
-            x, y, h = fly_piece(x, y, h, SIGNS[int(row[1]), piece], row[2 + piece])
+            x, y, h = fly_piece(Pose(x, y, h), SIGNS[int(row[1]), piece], row[2 + piece])
             t += row[2 + piece]
     return True
 

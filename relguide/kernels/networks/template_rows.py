@@ -9,6 +9,7 @@ from math import inf
 import numpy as np
 from numba import njit
 
+from relguide.kernels.base.records import Pose
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.networks.branch_scores import Layers
 from relguide.kernels.networks.template_scores import (
@@ -20,7 +21,7 @@ from relguide.kernels.networks.template_scores import (
 from relguide.kernels.networks.template_solutions import solve_template
 from relguide.kernels.networks.templates import NONE, SEVERAL, SIZE
 from relguide.kernels.words.fastest import fastest
-from relguide.kernels.words.sooner import MOST_ROOTS, work_room
+from relguide.kernels.words.sooner import make_scratch
 
 VERDICTS = 7
 """Numbers found of each situation."""
@@ -49,7 +50,7 @@ def judge_templates(
     legs = np.zeros((LEGS, 6))
     for n in range(len(situations)):
         x, y, h, alpha, slot, limit = situations[n]
-        fastest(x, y, h, alpha, 0.0, 0, work_room(), np.empty((MOST_ROOTS, 4)), free)
+        fastest(Pose(x, y, h), alpha, 0.0, 0, make_scratch(), free)
         hidden = template_shares(x, y, h, slot, alpha, limit, free, layers, share)
         first, time = int(np.argmax(share)), inf
         if first != SEVERAL and first != NONE:

@@ -10,6 +10,7 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import wrap_signed
+from relguide.kernels.base.records import Pose
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain import WORD
 from relguide.kernels.contact.passage import GRAZE, word_clears
@@ -71,7 +72,7 @@ def solve_template(
     leader[0, 1] = slot
     rows = np.empty((MAX_ROWS, 5))
     if kind == FREE:
-        for k in range(solve(x, y, h, alpha, 0.0, rows)):
+        for k in range(solve(Pose(x, y, h), alpha, 0.0, rows)):
             if rows[k, 0] >= beat:
                 break
             if word_clears(x, y, h, 0.0, rows[k], leader, alpha, limit - GRAZE):

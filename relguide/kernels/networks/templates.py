@@ -24,6 +24,7 @@ from math import atan2, cos, hypot, inf, pi, sin
 import numpy as np
 from numba import njit
 
+from relguide.kernels.base.records import Pose
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain import BOUNDARY_ARC, WORD
 from relguide.kernels.networks.near_guess import (
@@ -168,7 +169,7 @@ def _contact_before(row: FloatArray, slot: float, alpha: float) -> float:
     px, py, ph, t = alpha * row[0], 0.0, 0.0, row[0]
     for k in range(2, -1, -1):
         # backward a turn is one to the other side, of the opposite heading
-        bx, by, bh = fly_piece(px, py, ph + pi, -SIGNS[int(row[1]), k], row[2 + k])
+        bx, by, bh = fly_piece(Pose(px, py, ph + pi), -SIGNS[int(row[1]), k], row[2 + k])
         px, py, ph, t = bx, by, bh - pi, t - row[2 + k]
     return atan2(py, px - slot)
 
@@ -180,7 +181,7 @@ def _touch_on_last(
     """Where a word touches the disc: at its end, or inside of its last turn. Bearing and side."""
     ph = h
     for k in range(2):
-        px, py, ph = fly_piece(px, py, ph, SIGNS[int(row[1]), k], row[2 + k])
+        px, py, ph = fly_piece(Pose(px, py, ph), SIGNS[int(row[1]), k], row[2 + k])
     px -= alpha * (row[2] + row[3])
     sign = SIGNS[int(row[1]), 2]
     best, bearing, side = inf, 0.0, 1
@@ -188,7 +189,7 @@ def _touch_on_last(
     last = 0.9 * row[4] if inside else row[4]
     for k in range(_LOOKS + 1):
         turned = last * k / _LOOKS if inside else last
-        qx, qy, qh = fly_piece(px, py, ph, sign, turned)
+        qx, qy, qh = fly_piece(Pose(px, py, ph), sign, turned)
         qx -= alpha * turned
         if hypot(qx, qy) < best:
             best, bearing = hypot(qx, qy), atan2(qy, qx)

@@ -1,8 +1,7 @@
 """Does a path keep its distance from the leader? Yes or no, proved, in the slot frame.
 
 The same bound as in `approach`, made to stop at the first point found too close. Lengths in R,
-times in R/V_P, angles counter-clockwise. The leader is a table of its pieces, a row each: start
-time, x, y, heading, turn rate; the last row is its endless final leg.
+times in R/V_P, angles counter-clockwise. The leader is a table of its pieces, as in `Scene`.
 """
 
 from math import cos, hypot, sin
@@ -10,6 +9,7 @@ from math import cos, hypot, sin
 import numpy as np
 from numba import njit
 
+from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 
 SLACK = 1e-6
@@ -31,35 +31,30 @@ def piece_at(leader: FloatArray, t: float) -> int:
 
 
 @njit(cache=True, nogil=True)
-def leader_at(leader: FloatArray, i: int, alpha: float, t: float) -> tuple[float, float, float]:
+def leader_at(scene: Scene, i: int, t: float) -> Pose:
     """The leader's pose at time t on its piece i."""
+    leader = scene.leader
     x, y, h, rate = leader[i, 1], leader[i, 2], leader[i, 3], leader[i, 4]
     flown = t - leader[i, 0]
     half = 0.5 * rate * flown
-    chord = alpha * flown
+    chord = scene.alpha * flown
     if abs(half) > 1e-9:
         chord *= sin(half) / half
-    return x + chord * cos(h + half), y + chord * sin(h + half), h + 2.0 * half
+    return Pose(x + chord * cos(h + half), y + chord * sin(h + half), h + 2.0 * half)
 
 
 @njit(cache=True, nogil=True)
-def piece_clears(
-    x: float, y: float, h: float, rate: float, t: float, duration: float,
-    leader: FloatArray, alpha: float, limit: float,
-) -> bool:  # fmt: skip
-    """Whether one piece flown from time t on stays at least `limit` away.
+def piece_clears(pose: Pose, rate: float, t: float, duration: float, scene: Scene) -> bool:
+    """Whether one piece keeps d_min.
 
     Args:
-        x: start, slot frame [R].
-        y: start [R].
-        h: start heading [rad].
+        pose: where it starts.
         rate: turn rate: ±1 at full bank, 0 straight, or between.
         t: start time [R/V_P].
         duration: of the piece [R/V_P].
-        leader: table of its pieces. shape (k, 5)
-        alpha: V_L/V_P.
-        limit: least allowed separation [R].
+        scene: the leader and d_min.
     """
+    leader, alpha = scene.leader, scene.alpha
     mids = np.empty(_DEPTH)
     halves = np.empty(_DEPTH)
     done = 0.0
@@ -76,8 +71,8 @@ def piece_clears(
             n -= 1
             looked += 1
             mid, half = mids[n], halves[n]
-            px, py, ph = fly_rate(x, y, h, rate, mid)
-            lx, ly, lh = leader_at(leader, i, alpha, t + mid)
+            px, py, ph = fly_rate(pose, rate, mid)
+            lx, ly, lh = leader_at(scene, i, t + mid)
             dx, dy = px - lx, py - ly
             vx, vy = cos(ph) - alpha * cos(lh), sin(ph) - alpha * sin(lh)
             speed_squared = vx * vx + vy * vy
@@ -85,11 +80,11 @@ def piece_clears(
             if speed_squared > 0.0:
                 at = -(dx * vx + dy * vy) / speed_squared
             at = min(max(at, -half), half)
-            if hypot(dx + at * vx, dy + at * vy) - 0.5 * bend * half * half >= limit:
+            if hypot(dx + at * vx, dy + at * vy) - 0.5 * bend * half * half >= scene.d_min:
                 continue
-            px, py, ph = fly_rate(x, y, h, rate, mid + at)
-            lx, ly, lh = leader_at(leader, i, alpha, t + mid + at)
-            lost = hypot(px - lx, py - ly) < limit
+            px, py, ph = fly_rate(pose, rate, mid + at)
+            lx, ly, lh = leader_at(scene, i, t + mid + at)
+            lost = hypot(px - lx, py - ly) < scene.d_min
             if lost or half < _NARROW or n + 2 > _DEPTH or looked > _MOST_WINDOWS:
                 return False
             mids[n], halves[n] = mid - 0.5 * half, 0.5 * half
@@ -101,9 +96,10 @@ def piece_clears(
 
 
 @njit(cache=True, nogil=True)
-def fly_rate(x: float, y: float, h: float, rate: float, t: float) -> tuple[float, float, float]:
+def fly_rate(pose: Pose, rate: float, t: float) -> Pose:
     """The end of a piece at any turn rate, full bank or less."""
+    x, y, h = pose
     if abs(rate) < 1e-9:
-        return x + t * cos(h), y + t * sin(h), h
+        return Pose(x + t * cos(h), y + t * sin(h), h)
     end = h + rate * t
-    return x + (sin(end) - sin(h)) / rate, y - (cos(end) - cos(h)) / rate, end
+    return Pose(x + (sin(end) - sin(h)) / rate, y - (cos(end) - cos(h)) / rate, end)

@@ -15,6 +15,7 @@ from math import cos, hypot, inf, pi, sin, sqrt
 import numpy as np
 from numba import njit
 
+from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.separation.clearance import piece_clears
 
@@ -96,7 +97,9 @@ def turn_clears(
     reach = min(angle, 2.0) + alpha * angle
     if hypot(x - leader[0, 1], y) - reach >= limit:
         return True
-    return bool(piece_clears(x, y, h, float(turn), 0.0, angle, leader, alpha, limit))
+    return bool(
+        piece_clears(Pose(x, y, h), float(turn), 0.0, angle, Scene(leader, alpha, limit, 0.0))
+    )
 
 
 @njit(cache=True, nogil=True)

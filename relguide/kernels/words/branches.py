@@ -12,6 +12,7 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, wrap
+from relguide.kernels.base.records import Pose
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.words.extremals import MAX_ROWS, solve
 
@@ -21,6 +22,9 @@ WORD_OF = np.array((0, 1, 2, 3, 4, 4, 5, 5))
 """Number of each branch's word in `extremals`."""
 MIRROR_OF = np.array((1, 0, 3, 2, 6, 7, 4, 5))
 """Each branch with left and right exchanged."""
+TO_POINT = (0, 1, 2, 3, 5, 7, 4, 6)
+"""The branches as they are tried toward a point at rest: the first six may be the shortest path
+[Dubins57], one with a middle arc below π never is."""
 SIZE = len(BRANCHES)
 FEATURES = 34
 """How many numbers `features` gives."""
@@ -49,7 +53,7 @@ def branch_times(situations: FloatArray, first: int, last: int, times: FloatArra
     for n in range(first, last):
         x, y, h, alpha = situations[n]
         times[n] = inf
-        for k in range(solve(x, y, wrap(h), alpha, 0.0, rows)):
+        for k in range(solve(Pose(x, y, wrap(h)), alpha, 0.0, rows)):
             branch = branch_of(rows[k])
             times[n, branch] = min(times[n, branch], rows[k, 0])
 

@@ -16,12 +16,14 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, turn_to
+from relguide.kernels.base.records import Pose, Velocity
 from relguide.kernels.base.roots import MAX_CUTS, FloatArray, all_roots, insert_cut
 
 
 @njit(cache=True, nogil=True)
-def lrl(x: float, y: float, h: float, ax: float, ay: float, out: FloatArray, n: int) -> int:
+def lrl(pose: Pose, target: Velocity, out: FloatArray, n: int) -> int:
     """All LRL paths; rows (τ, first, middle, last turn). Otherwise as `csc.lsl`."""
+    (x, y, h), (ax, ay) = pose, target
     ex, ey = -(x - sin(h)), 1.0 - (y + cos(h))
     alpha_squared = ax * ax + ay * ay
     closing = ax * ex + ay * ey

@@ -30,25 +30,24 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, turn_to
+from relguide.kernels.base.records import Pose, Velocity
 from relguide.kernels.base.roots import MAX_CUTS, FloatArray, all_roots, insert_cut
 
 
 @njit(cache=True, nogil=True)
-def lsl(x: float, y: float, h: float, ax: float, ay: float, out: FloatArray, n: int) -> int:
+def lsl(pose: Pose, target: Velocity, out: FloatArray, n: int) -> int:
     """All LSL paths to the target.
 
     Args:
-        x: start [R].
-        y: start [R].
-        h: start heading [rad], in [0, 2π).
-        ax: the target's velocity along its final heading [V_P].
-        ay: and to the left of it [V_P].
+        pose: the start; its heading in [0, 2π).
+        target: how the target moves.
         out: rows (τ, first turn, straight, last turn) from row n on. shape (·, ≥ 4)
         n: rows filled so far.
 
     Returns:
         rows filled now.
     """
+    (x, y, h), (ax, ay) = pose, target
     cx, cy = x - sin(h), y + cos(h)
     one_less = 1.0 - ax * ax - ay * ay
     around = (TWO_PI - h) % TWO_PI
@@ -89,8 +88,9 @@ def lsl(x: float, y: float, h: float, ax: float, ay: float, out: FloatArray, n: 
 
 
 @njit(cache=True, nogil=True)
-def lsr(x: float, y: float, h: float, ax: float, ay: float, out: FloatArray, n: int) -> int:
+def lsr(pose: Pose, target: Velocity, out: FloatArray, n: int) -> int:
     """All LSR paths to the target. Arguments and result as `lsl`."""
+    (x, y, h), (ax, ay) = pose, target
     alpha, kappa = hypot(ax, ay), atan2(ay, ax)
     east, north = -(x - sin(h)), -1.0 - (y + cos(h))
     c = -(east * cos(kappa) + north * sin(kappa))

@@ -7,50 +7,59 @@ a scalar function of the free amount; its crossings of t_release are bracketed o
 refined. The grid may miss a path: it is a choice among many, and never an argument for a time.
 """
 
-from math import asin, atan2, cos, hypot, sin, sqrt
+from math import asin, atan2, hypot, sqrt
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, turn_to
+from relguide.kernels.base.records import Pose, Start, start_at
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.words.branches import SIZE, TO_POINT, WORD_OF
 from relguide.kernels.words.extremals import SIGNS, fly_piece
 
 MAX_DELAYS = 1024
 """Room for exact-length paths."""
 DELAY_PIECES = 5
-"""Pieces of a holding path: one before, three of the word, one after."""
+"""Pieces of such a path: one before, three of the word, one after."""
+_FIRST = (0.0, 1.0, -1.0)  # ε of a piece put first
+_LEADS = 8  # lengths of the straight before a word that another straight follows
 _GRID = 96  # steps of the free amount: a straight of 30 R in steps of R/3 on average, a turn in 4°
-_BRANCHES = 8  # the six words; LRL and RLR twice, with the long and the short middle arc
+
+
+class _Family(NamedTuple):
+    """Where the free amount is put."""
+
+    sign: float
+    """ε of the piece that takes it: a turn or, with 0, a straight."""
+    lead: float
+    """Length of a straight before the word [R]; 0 where the free amount comes first."""
+    last: bool
+    """Whether it is a straight after the word."""
 
 
 @njit(cache=True, nogil=True)
-def word_to_point(
-    x: float, y: float, h: float, end_x: float, branch: int, piece: FloatArray
-) -> float:
+def word_to_point(pose: Pose, end_x: float, branch: int, piece: FloatArray) -> float:
     """One Dubins word from a pose to (end_x, 0) on heading 0.
 
     Args:
-        x: start [R].
-        y: start [R].
-        h: start heading, counter-clockwise [rad].
+        pose: where it starts.
         end_x: where to [R].
-        branch: word number of `extremals.WORDS`; 6, 7 are LRL, RLR with the short middle arc.
+        branch: number of `branches.BRANCHES`.
         piece: takes the three amounts [rad or R]. shape (3,)
 
     Returns:
         the length [R]; negative if the word does not reach.
     """
-    return word_headed(x, y, h, sin(h), cos(h), end_x, branch, piece)
+    return word_from(start_at(pose), end_x, branch, piece)
 
 
 @njit(cache=True, nogil=True)
-def word_headed(
-    x: float, y: float, h: float, sin_h: float, cos_h: float, end_x: float, branch: int,
-    piece: FloatArray,
-) -> float:  # fmt: skip
-    """As `word_to_point`, with sine and cosine of the start heading, the same for a whole map."""
-    word = branch if branch < 6 else branch - 2
+def word_from(start: Start, end_x: float, branch: int, piece: FloatArray) -> float:
+    """As `word_to_point`, for maps."""
+    x, y, h, sin_h, cos_h = start
+    word = WORD_OF[branch]
     first, last = SIGNS[word, 0], SIGNS[word, 2]
     dx = end_x - (x - first * sin_h)
     dy = last - (y + first * cos_h)
@@ -68,7 +77,7 @@ def word_headed(
         if gap > 4.0:
             return -1.0
         middle = 2.0 * asin(0.25 * gap)
-        if branch < 6:
+        if branch % 2 == 1:
             middle = TWO_PI - middle
         crossing = bearing + 0.5 * first * middle
         piece[0], piece[2] = (
@@ -81,97 +90,81 @@ def word_headed(
 
 @njit(cache=True, nogil=True)
 def _total(
-    x: float, y: float, h: float, end_x: float, branch: int, before: float, amount: float,
-    lead: float, piece: FloatArray,
-) -> float:  # fmt: skip
-    """Length with the free amount put first (before = ±1, 0) or last (2, with `lead` first)."""
-    if before == 2.0:
-        x, y, h = fly_piece(x, y, h, 0.0, lead)
-        length = word_to_point(x, y, h, end_x - amount, branch, piece)
-        return length if length < 0.0 else length + amount + lead
-    x, y, h = fly_piece(x, y, h, before, amount)
-    length = word_to_point(x, y, h, end_x, branch, piece)
+    pose: Pose, end_x: float, branch: int, family: _Family, amount: float, piece: FloatArray
+) -> float:
+    """Length of a path with this free amount; negative if there is none."""
+    if family.last:
+        on = fly_piece(pose, 0.0, family.lead)
+        length = word_to_point(on, end_x - amount, branch, piece)
+        return length if length < 0.0 else length + amount + family.lead
+    on = fly_piece(pose, family.sign, amount)
+    length = word_to_point(on, end_x, branch, piece)
     return length if length < 0.0 else length + amount
 
 
 @njit(cache=True, nogil=True)
-def holds(
-    x: float, y: float, h: float, alpha: float, t_release: float, signs: FloatArray,
-    amounts: FloatArray,
-) -> int:  # fmt: skip
-    """Paths of length exactly t_release from (x, y, h) to the slot's place when it opens.
+def delay_paths(pose: Pose, alpha: float, t_release: float, paths: FloatArray) -> int:
+    """Paths of length exactly t_release to the slot's place when it opens.
 
     Args:
-        x: pursuer ahead of the slot [R].
-        y: pursuer left of it [R].
-        h: its heading, counter-clockwise from the leader's [rad].
+        pose: the pursuer's, seen from the slot.
         alpha: V_L/V_P.
         t_release: the exact length [R].
-        signs: takes ε of the pieces, 0 for straights. shape (MAX_DELAYS, DELAY_PIECES)
-        amounts: takes the turn angles [rad] and lengths [R] of the pieces, same shape.
+        paths: takes the pieces: first ε, 0 for straights, of all paths, then turn angles [rad] and
+            lengths [R]. shape (2, MAX_DELAYS, DELAY_PIECES)
 
     Returns:
         how many paths.
     """
     n = 0
-    if hypot(alpha * t_release - x, y) > t_release:
+    if hypot(alpha * t_release - pose.x, pose.y) > t_release:
         return n
-    for family in range(3 + 8):
-        # three ways to put the amount first; eight leads before a straight that comes last
-        before = 2.0
-        lead = 0.0
-        if family == 0:
-            before = 0.0
-        elif family == 1:
-            before = 1.0
-        elif family == 2:
-            before = -1.0
+    for k in range(len(_FIRST) + _LEADS):
+        if k < len(_FIRST):
+            family = _Family(_FIRST[k], 0.0, False)
         else:
-            lead = t_release * ((family - 3) / 12.0)
-        straight_amount = before == 0.0 or before == 2.0
-        span = t_release if straight_amount else min(TWO_PI - 1e-6, t_release)
-        for branch in range(4 if before == 2.0 else _BRANCHES):
-            n = _cross(
-                x, y, h, alpha * t_release, t_release, branch, before, lead, span, signs, amounts, n
-            )
+            family = _Family(0.0, t_release * ((k - len(_FIRST)) / 12.0), True)
+        for j in range(4 if family.last else SIZE):
+            n = _cross(pose, alpha * t_release, t_release, TO_POINT[j], family, paths, n)
     return n
 
 
 @njit(cache=True, nogil=True)
 def _cross(
-    x: float, y: float, h: float, end_x: float, length: float, branch: int, before: float,
-    lead: float, span: float, signs: FloatArray, amounts: FloatArray, n: int,
-) -> int:  # fmt: skip
+    pose: Pose, end_x: float, length: float, branch: int, family: _Family, paths: FloatArray, n: int
+) -> int:
     """Append the crossings of one family and one branch."""
+    straight = family.last or family.sign == 0.0
+    span = length if straight else min(TWO_PI - 1e-6, length)
     piece = np.empty(3)
     last_amount = 0.0
     last = 0.0
     for i in range(_GRID + 1):
         fraction = i / _GRID
         # straights: finer near 0, where the turns matter
-        amount = span * fraction * fraction if before == 0.0 or before == 2.0 else span * fraction
-        total = _total(x, y, h, end_x, branch, before, amount, lead, piece)
+        amount = span * fraction * fraction if straight else span * fraction
+        total = _total(pose, end_x, branch, family, amount, piece)
         gap = total - length if total >= 0.0 else np.nan
         if i > 0 and last * gap <= 0.0 and n < MAX_DELAYS:
             low, high, gap_low = last_amount, amount, last
             for _ in range(60):
                 middle = 0.5 * (low + high)
-                gap_middle = _total(x, y, h, end_x, branch, before, middle, lead, piece) - length
+                gap_middle = _total(pose, end_x, branch, family, middle, piece) - length
                 if (gap_middle < 0.0) == (gap_low < 0.0):
                     low = middle
                 else:
                     high = middle
-            total = _total(x, y, h, end_x, branch, before, high, lead, piece)
+            total = _total(pose, end_x, branch, family, high, piece)
             # a jump of a turn by 2π changes sign too: only a true crossing has the right length
             if total >= 0.0 and abs(total - length) < 1e-9:
-                word = branch if branch < 6 else branch - 2
-                signs[n, 0] = 0.0 if before == 2.0 else before
-                amounts[n, 0] = lead if before == 2.0 else high
+                signs, amounts = paths[0, n], paths[1, n]
+                signs[0] = family.sign
+                amounts[0] = family.lead if family.last else high
                 for k in range(3):
-                    signs[n, k + 1] = SIGNS[word, k]
-                    amounts[n, k + 1] = piece[k]
-                signs[n, 4] = 0.0
-                amounts[n, 4] = high if before == 2.0 else 0.0
+                    signs[k + 1] = SIGNS[WORD_OF[branch], k]
+                    amounts[k + 1] = piece[k]
+                signs[4] = 0.0
+                amounts[4] = high if family.last else 0.0
                 n += 1
         last_amount, last = amount, gap
     return n

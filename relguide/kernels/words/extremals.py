@@ -10,6 +10,7 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import mirror_heading
+from relguide.kernels.base.records import Pose, Velocity
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.words.ccc import lrl
 from relguide.kernels.words.csc import lsl, lsr
@@ -26,24 +27,21 @@ CLOSURE = 1e-7
 
 
 @njit(cache=True, nogil=True)
-def fly_piece(
-    x: float, y: float, h: float, sign: float, amount: float
-) -> tuple[float, float, float]:
-    """The end of one piece in the slot frame: a turn (sign ±1) or a straight (sign 0)."""
+def fly_piece(pose: Pose, sign: float, amount: float) -> Pose:
+    """The end of one piece: a turn (sign ±1, amount in rad) or a straight (sign 0, in R)."""
+    x, y, h = pose
     if sign == 0.0:
-        return x + amount * cos(h), y + amount * sin(h), h
+        return Pose(x + amount * cos(h), y + amount * sin(h), h)
     end = h + sign * amount
-    return x + sign * (sin(end) - sin(h)), y - sign * (cos(end) - cos(h)), end
+    return Pose(x + sign * (sin(end) - sin(h)), y - sign * (cos(end) - cos(h)), end)
 
 
 @njit(cache=True, nogil=True)
-def solve(x: float, y: float, h: float, alpha: float, t_release: float, rows: FloatArray) -> int:
+def solve(pose: Pose, alpha: float, t_release: float, rows: FloatArray) -> int:
     """All extremals that reach the slot at or after t_release, by time.
 
     Args:
-        x: pursuer ahead of the slot [R].
-        y: pursuer left of it [R].
-        h: its heading, counter-clockwise from the leader's [rad], in [0, 2π).
+        pose: the pursuer's, seen from the slot; its heading in [0, 2π).
         alpha: V_L/V_P, ≥ 0; 0 is a slot at rest, and the first row then Dubins' shortest path.
         t_release: earliest arrival [R/V_P].
         rows: takes (τ, word number, first, middle, last) [R/V_P; rad or R]. shape (MAX_ROWS, 5)
@@ -51,45 +49,30 @@ def solve(x: float, y: float, h: float, alpha: float, t_release: float, rows: Fl
     Returns:
         how many rows.
     """
-    return solve_toward(x, y, h, alpha, 0.0, t_release, rows)
+    return solve_toward(pose, Velocity(alpha, 0.0), t_release, rows)
 
 
 @njit(cache=True, nogil=True)
-def solve_toward(
-    x: float, y: float, h: float, ax: float, ay: float, t_release: float, rows: FloatArray
-) -> int:
-    """As `solve`, for a target that moves any way.
-
-    Args:
-        x: pursuer ahead of the target's first place, along the heading to meet it on [R].
-        y: and left of it [R].
-        h: its heading, counter-clockwise from that heading [rad], in [0, 2π).
-        ax: the target's velocity along that heading [V_P].
-        ay: and to the left of it [V_P].
-        t_release: earliest arrival [R/V_P].
-        rows: as in `solve`.
-    """
+def solve_toward(pose: Pose, target: Velocity, t_release: float, rows: FloatArray) -> int:
+    """As `solve`, for a target that moves any way, met on heading 0."""
     found = np.empty((MAX_ROWS, 4))
     n = 0
     for word in range(6):
-        n = solve_word(x, y, h, ax, ay, t_release, word, found, rows, n)
+        n = solve_word(pose, target, t_release, word, found, rows, n)
     return n
 
 
 @njit(cache=True, nogil=True)
 def solve_word(
-    x: float, y: float, h: float, ax: float, ay: float, t_release: float, word: int,
-    found: FloatArray, rows: FloatArray, n: int,
+    pose: Pose, target: Velocity, t_release: float, word: int, found: FloatArray,
+    rows: FloatArray, n: int,
 ) -> int:  # fmt: skip
     """All extremals of one word, put among others by time.
 
     Args:
-        x: as in `solve_toward`.
-        y: as there.
-        h: as there.
-        ax: as there.
-        ay: as there.
-        t_release: as there.
+        pose: as in `solve`.
+        target: as in `solve_toward`.
+        t_release: earliest arrival [R/V_P].
         word: its number.
         found: room to work in. shape (MAX_ROWS, 4)
         rows: holds n rows already, in order of time.
@@ -98,22 +81,20 @@ def solve_word(
     Returns:
         how many rows there are now.
     """
-    mirrored_h = mirror_heading(h)
-    if word == 0:
-        end = lsl(x, y, h, ax, ay, found, 0)
-    elif word == 1:
-        end = lsl(x, -y, mirrored_h, ax, -ay, found, 0)
-    elif word == 2:
-        end = lsr(x, y, h, ax, ay, found, 0)
-    elif word == 3:
-        end = lsr(x, -y, mirrored_h, ax, -ay, found, 0)
-    elif word == 4:
-        end = lrl(x, y, h, ax, ay, found, 0)
+    start, toward = pose, target
+    if word % 2 == 1:
+        # RSR, RSL and RLR are mirror images
+        start = Pose(pose.x, -pose.y, mirror_heading(pose.h))
+        toward = Velocity(target.ahead, -target.left)
+    if word < 2:
+        end = lsl(start, toward, found, 0)
+    elif word < 4:
+        end = lsr(start, toward, found, 0)
     else:
-        end = lrl(x, -y, mirrored_h, ax, -ay, found, 0)
+        end = lrl(start, toward, found, 0)
     for i in range(end):
         time = found[i, 0]
-        if time < t_release - 1e-9 or not closes(x, y, h, ax, ay, word, found[i]):
+        if time < t_release - 1e-9 or not closes(pose, target, word, found[i]):
             continue
         at = n
         while at > 0 and rows[at - 1, 0] > time:
@@ -129,9 +110,10 @@ def solve_word(
 
 
 @njit(cache=True, nogil=True)
-def closes(x: float, y: float, h: float, ax: float, ay: float, word: int, row: FloatArray) -> bool:
+def closes(pose: Pose, target: Velocity, word: int, row: FloatArray) -> bool:
     """Does the path really end at the target? A root found next to a tangency may not."""
     for piece in range(3):
-        x, y, h = fly_piece(x, y, h, SIGNS[word, piece], row[piece + 1])
+        pose = fly_piece(pose, SIGNS[word, piece], row[piece + 1])
+    miss = hypot(pose.x - target.ahead * row[0], pose.y - target.left * row[0])
     # far away the last digits of τ are worth more than CLOSURE
-    return bool(hypot(x - ax * row[0], y - ay * row[0]) <= CLOSURE + 1e-12 * row[0])
+    return bool(miss <= CLOSURE + 1e-12 * row[0])

@@ -19,11 +19,13 @@ There |d|² and 8(1 − cos m) must meet.
 """
 
 from math import acos, atan2, cos, hypot, inf, pi, sin, sqrt
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, turn_to, wrap, wrap_signed
+from relguide.kernels.base.records import Start, Window
 from relguide.kernels.base.roots import MAX_CUTS, FloatArray, all_roots, insert_cut
 
 MOST_ROOTS = 64
@@ -34,33 +36,45 @@ _ROUNDS = 2  # more gain nothing
 _ROUNDING = 1e-6  # of angles and of times [R/V_P]: windows are wider by this
 
 
-@njit(cache=True, nogil=True)
-def work_room() -> FloatArray:
+class Scratch(NamedTuple):
     """Room that the searches below work in."""
-    return np.empty((4, 2 * MAX_CUTS))
+
+    lines: FloatArray
+    """Coefficients, cuts and roots of an equation; the best path so far. shape (4, 2·MAX_CUTS)"""
+    found: FloatArray
+    """Takes the paths: τ, and the amounts of the three pieces. shape (MOST_ROOTS, 4)"""
+
+
+class _Centres(NamedTuple):
+    """What fixes the paths of LSR: d at τ = 0, the pursuer's heading, and α."""
+
+    east: float
+    north: float
+    h: float
+    alpha: float
 
 
 @njit(cache=True, nogil=True)
-def lsl_before(
-    x: float, y: float, h: float, sin_h: float, cos_h: float, alpha: float, t_release: float,
-    beat: float, out: FloatArray,
-) -> int:  # fmt: skip
+def make_scratch() -> Scratch:
+    """Room for one thread."""
+    return Scratch(np.empty((4, 2 * MAX_CUTS)), np.empty((MOST_ROOTS, 4)))
+
+
+@njit(cache=True, nogil=True)
+def lsl_before(start: Start, alpha: float, window: Window, scratch: Scratch) -> int:
     """The first LSL path.
 
     Args:
-        x: pursuer ahead of the slot [R].
-        y: and left of it [R].
-        h: its heading, counter-clockwise from the leader's [rad], in [0, 2π).
-        sin_h: its sine, the same for a whole map.
-        cos_h: and cosine.
+        start: the pursuer's pose, seen from the slot.
         alpha: V_L/V_P, below 1.
-        t_release: earliest arrival [R/V_P].
-        beat: it arrives before [R/V_P].
-        out: takes τ, first turn, straight, last turn. shape (≥ 1, 4)
+        window: when it arrives.
+        scratch: takes it.
 
     Returns:
         1 if there is one, else 0.
     """
+    x, y, h, sin_h, cos_h = start
+    out = scratch.found
     cx, cy = x - sin_h, y + cos_h
     one_less = 1.0 - alpha * alpha
     ey = 1.0 - cy
@@ -73,9 +87,9 @@ def lsl_before(
         # the one root that is not negative, in the form that loses no digits
         straight = (b + root) / one_less if b >= 0.0 else gap / (root - b)
         time = turned + straight
-        if time >= beat:
+        if time >= window.beat:
             return 0
-        if time >= t_release - EARLY:
+        if time >= window.earliest - EARLY:
             course = atan2(ey, alpha * straight + ex)
             first, last = turn_to(course - h), turn_to(-course)
             if straight == 0.0:
@@ -91,57 +105,43 @@ def lsl_before(
 
 
 @njit(cache=True, nogil=True)
-def lsr_before(
-    x: float, y: float, h: float, sin_h: float, cos_h: float, alpha: float, t_release: float,
-    beat: float, every: bool, room: FloatArray, out: FloatArray,
-) -> int:  # fmt: skip
+def lsr_before(start: Start, alpha: float, window: Window, every: bool, scratch: Scratch) -> int:
     """LSR paths, in no order.
 
     Args:
-        x: as in `lsl_before`.
-        y: as there.
-        h: as there.
-        sin_h: as there.
-        cos_h: as there.
+        start: as in `lsl_before`.
         alpha: above 0 and below 1.
-        t_release: as there.
-        beat: they arrive before, or hardly later [R/V_P].
+        window: when they arrive; a few may arrive a little later.
         every: whether all of them are wanted, or only the first for sure.
-        room: of `work_room`.
-        out: takes a row each, as there. shape (MOST_ROOTS, 4)
+        scratch: takes them.
 
     Returns:
         how many.
     """
-    east, north = -(x - sin_h), -1.0 - (y + cos_h)
-    beat += _ROUNDING
+    east, north = -(start.x - start.sin_h), -1.0 - (start.y + start.cos_h)
+    centres = _Centres(east, north, start.h, alpha)
+    earliest, latest = window.earliest, window.beat + _ROUNDING
     if abs(north) >= 2.0:
-        return _lsr_within(east, north, h, alpha, t_release, beat, room, out, 0)
+        return _lsr_within(centres, earliest, latest, scratch, 0)
     # while |d| < 2 there is no such path
     half = sqrt(4.0 - north * north)
-    n = _lsr_within(
-        east, north, h, alpha, t_release, min((-half - east) / alpha, beat), room, out, 0
-    )
+    n = _lsr_within(centres, earliest, min((-half - east) / alpha, latest), scratch, 0)
     if n > 0 and not every:
         return n
-    return _lsr_within(
-        east, north, h, alpha, max((half - east) / alpha, t_release), beat, room, out, n
-    )
+    return _lsr_within(centres, max((half - east) / alpha, earliest), latest, scratch, n)
 
 
 @njit(cache=True, nogil=True)
-def _lsr_within(
-    east: float, north: float, h: float, alpha: float, t_from: float, t_to: float,
-    room: FloatArray, out: FloatArray, n: int,
-) -> int:  # fmt: skip
+def _lsr_within(centres: _Centres, t_from: float, t_to: float, scratch: Scratch, n: int) -> int:
     """LSR paths that arrive between two times, |d| ≥ 2 all the while; appended to n rows."""
+    (east, north, h, alpha), out = centres, scratch.found
     if t_from > t_to + _ROUNDING:
         return n
     # A(β) is least where β is h or 0
     least_turn, low, width = min(h, TWO_PI - h) - _ROUNDING, 0.0, 0.0
     course_to = 0.0  # far ahead of the slot the straight leads along its way
     for step in range(_ROUNDS):
-        start = max(_not_before(east, north, alpha, least_turn, t_from) - _ROUNDING, t_from)
+        start = max(_not_before(centres, least_turn, t_from) - _ROUNDING, t_from)
         if start > t_to + _ROUNDING:
             return n
         if step == 0 and t_to < inf:
@@ -159,9 +159,9 @@ def _lsr_within(
             break
         least_turn = turn - _ROUNDING
     before = n
-    n = _lsr_courses(east, north, h, alpha, low, min(low + width, TWO_PI), room, out, n)
+    n = _lsr_courses(centres, low, min(low + width, TWO_PI), scratch, n)
     if low + width > TWO_PI:
-        n = _lsr_courses(east, north, h, alpha, 0.0, low + width - TWO_PI, room, out, n)
+        n = _lsr_courses(centres, 0.0, low + width - TWO_PI, scratch, n)
     kept = before
     for i in range(before, n):
         # on a course of this window there may be a path of quite another time, too
@@ -179,8 +179,9 @@ def _inner_course(east: float, north: float) -> float:
 
 
 @njit(cache=True, nogil=True)
-def _not_before(east: float, north: float, alpha: float, turn: float, t_from: float) -> float:
+def _not_before(centres: _Centres, turn: float, t_from: float) -> float:
     """A time from t_from on, before which (τ − A₀)² < |d(τ)|² − 4 or τ < A₀."""
+    east, north, _, alpha = centres
     start = max(turn, t_from)
     across = north * north - 4.0
     if (alpha * start + east) ** 2 + across <= (start - turn) ** 2:
@@ -194,12 +195,10 @@ def _not_before(east: float, north: float, alpha: float, turn: float, t_from: fl
 
 
 @njit(cache=True, nogil=True)
-def _lsr_courses(
-    east: float, north: float, h: float, alpha: float, low: float, high: float,
-    room: FloatArray, out: FloatArray, n: int,
-) -> int:  # fmt: skip
+def _lsr_courses(centres: _Centres, low: float, high: float, scratch: Scratch, n: int) -> int:
     """LSR paths with the straight on a course between two, 0 ≤ low ≤ high ≤ 2π."""
-    k, cuts, roots = room[0], room[1], room[2]
+    (east, north, h, alpha), out = centres, scratch.found
+    k, cuts, roots = scratch.lines[0], scratch.lines[1], scratch.lines[2]
     k[0] = 0.0
     k[1] = 0.0
     k[2] = alpha * north - 2.0
@@ -242,23 +241,22 @@ def _lsr_courses(
 
 
 @njit(cache=True, nogil=True)
-def lrl_before(
-    x: float, y: float, h: float, sin_h: float, cos_h: float, alpha: float, t_release: float,
-    beat: float, room: FloatArray, out: FloatArray,
-) -> int:  # fmt: skip
+def lrl_before(start: Start, alpha: float, window: Window, scratch: Scratch) -> int:
     """LRL paths, in no order. Arguments and result as in `lsr_before`; all of them are given."""
+    x, y, h, sin_h, cos_h = start
     ex, ey = -(x - sin_h), 1.0 - (y + cos_h)
     within = 16.0 + _ROUNDING - ey * ey
     if within < 0.0:
         return 0
     # d comes within reach at −half, and leaves it at +half
     half = sqrt(within)
-    start = max((-half - ex) / alpha, t_release) - _ROUNDING
-    end = min((half - ex) / alpha, beat) + _ROUNDING
+    t_from = max((-half - ex) / alpha, window.earliest) - _ROUNDING
+    t_to = min((half - ex) / alpha, window.beat) + _ROUNDING
     n = 0
-    if start > end:
+    if t_from > t_to:
         return n
-    k, cuts, roots = room[0], room[1], room[2]
+    out = scratch.found
+    k, cuts, roots = scratch.lines[0], scratch.lines[1], scratch.lines[2]
     k[0] = 4.0 * alpha * alpha
     k[3] = 0.0
     k[4] = 0.0
@@ -266,8 +264,8 @@ def lrl_before(
     bend = 0.0
     for loops in range(3):
         around = TWO_PI * loops - h
-        low = max(0.0 if loops > 0 else h, 0.5 * (start - around))
-        high = min(h if loops == 2 else TWO_PI, 0.5 * (end - around))
+        low = max(0.0 if loops > 0 else h, 0.5 * (t_from - around))
+        high = min(h if loops == 2 else TWO_PI, 0.5 * (t_to - around))
         if high - low < 1e-12 or not _may_meet(ex, ey, alpha, around, low, high):
             continue
         if bend == 0.0:

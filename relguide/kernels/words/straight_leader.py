@@ -1,7 +1,7 @@
-"""The fastest way to the slot of a leader that keeps straight, in one call from the world frame.
+"""The fastest path to the slot of a leader that keeps straight, in one call from the world frame.
 
-Most plans are this way, and a call into compiled code with the conversions around it takes as long
-as the way itself. So `slot` and `fastest` are joined here.
+Most plans are of this kind, and a call into compiled code with the conversions around it takes as
+long as the search itself. So `slot` and `fastest` are joined here.
 """
 
 from math import inf
@@ -10,9 +10,10 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import wrap
+from relguide.kernels.base.records import Pose
 from relguide.kernels.base.slot_frame import slot_offset, to_slot
 from relguide.kernels.words.fastest import fastest
-from relguide.kernels.words.sooner import MOST_ROOTS, work_room
+from relguide.kernels.words.sooner import make_scratch
 
 
 @njit(cache=True, nogil=True)
@@ -44,6 +45,6 @@ def direct(
     along, left = to_slot(x - leader_x - east, y - leader_y - north, leader_heading, radius)
     h, alpha = wrap(leader_heading - heading), leader_tas / tas
     row = np.empty(5)
-    if not fastest(along, left, h, alpha, 0.0, 0, work_room(), np.empty((MOST_ROOTS, 4)), row):
+    if not fastest(Pose(along, left, h), alpha, 0.0, 0, make_scratch(), row):
         return inf, 0, 0.0, 0.0, 0.0
     return row[0], int(row[1]), row[2], row[3], row[4]

@@ -15,6 +15,7 @@ from time import thread_time_ns
 import numpy as np
 from numpy.typing import NDArray
 
+from relguide.kernels.base.records import Pose
 from relguide.kernels.networks.branch_scores import choose, judge_rows
 from relguide.kernels.words.branches import SIZE, WORD_OF
 from relguide.kernels.words.extremals import MAX_ROWS, solve
@@ -143,7 +144,7 @@ def latencies(network: BranchNetwork, request: LabelRequest) -> dict[str, tuple[
         return choose(x, y, h, alpha, layers, least, most, rows)
 
     def by_all_words(x: float, y: float, h: float, alpha: float) -> object:
-        return solve(x, y, h, alpha, 0.0, rows)
+        return solve(Pose(x, y, h), alpha, 0.0, rows)
 
     found: dict[str, tuple[float, float]] = {}
     for name, ask in (("network", by_network), ("all words", by_all_words)):

@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from relguide.kernels.base.records import Pose, Velocity
 from relguide.kernels.networks.branch_scores import choose, judge_rows
 from relguide.kernels.words.branches import BRANCHES, SIZE, WORD_OF
 from relguide.kernels.words.extremals import MAX_ROWS, WORDS, solve_word
@@ -182,7 +183,7 @@ def side_by_side(
             pairs = give(*(np.array([value]) for value in (x, y, h)))  # noqa: B023
             room, n = np.empty((MAX_ROWS, 4)), 0
             for word in words_like(shown(pairs, ground.parameters)[0]):
-                n = solve_word(x, y, h, alpha, 0.0, 0.0, word, room, rows, n)
+                n = solve_word(Pose(x, y, h), Velocity(alpha, 0.0), 0.0, word, room, rows, n)
             return n
 
         x, y, h, _ = ground.situations.T

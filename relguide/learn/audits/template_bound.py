@@ -10,12 +10,13 @@ from time import thread_time_ns
 import numpy as np
 from numpy.typing import NDArray
 
+from relguide.kernels.base.records import Pose
 from relguide.kernels.contact.constrained_rows import exact_constrained
 from relguide.kernels.networks.template_rows import VERDICTS, judge_templates
 from relguide.kernels.networks.template_scores import LEGS, choose_template
 from relguide.kernels.networks.templates import NONE, SEVERAL
 from relguide.kernels.words.fastest import fastest
-from relguide.kernels.words.sooner import MOST_ROOTS, work_room
+from relguide.kernels.words.sooner import make_scratch
 from relguide.learn.boundary.template_labels import LONGEST, Floats, Ways
 from relguide.learn.boundary.template_network import TemplateNetwork
 from relguide.learn.boundary.train_templates import WITHIN, taught
@@ -104,7 +105,7 @@ def template_latencies(ways: TemplateNetwork, situations: Floats) -> dict[str, t
 
     def by_network(row: Floats) -> int:
         x, y, h, alpha, slot, limit = row.tolist()
-        fastest(x, y, h, alpha, 0.0, 0, work_room(), np.empty((MOST_ROOTS, 4)), free)
+        fastest(Pose(x, y, h), alpha, 0.0, 0, make_scratch(), free)
         begun = thread_time_ns()
         choose_template(x, y, h, slot, alpha, limit, free, layers, least, most, doubt, legs)
         return thread_time_ns() - begun

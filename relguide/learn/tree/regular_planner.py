@@ -22,6 +22,7 @@ from time import perf_counter_ns
 
 import numpy as np
 
+from relguide.kernels.base.records import Pose, Velocity
 from relguide.kernels.words.branches import direct_time
 from relguide.kernels.words.extremals import MAX_ROWS, WORDS, fly_piece, solve_word
 from relguide.learn.tree.nearest import Lookup, lookup_in, neighbours
@@ -123,13 +124,12 @@ def _closed(
     """Pieces flown as they are, and from their end the fastest path of the words of the rest."""
     x, y, h = frame.x, frame.y, frame.h
     for letter, amount in flown:
-        x, y, h = fly_piece(x, y, h, SIGN[letter], amount)
+        x, y, h = fly_piece(Pose(x, y, h), SIGN[letter], amount)
     spent = sum(amount for _, amount in flown)
+    seen = Pose(x - frame.alpha * spent, y, h % (2.0 * pi))
     rows, room, n = np.empty((MAX_ROWS, 5)), np.empty((MAX_ROWS, 4)), 0
     for word in words_like(rest):
-        n = solve_word(
-            x - frame.alpha * spent, y, h % (2.0 * pi), frame.alpha, 0.0, 0.0, word, room, rows, n
-        )
+        n = solve_word(seen, Velocity(frame.alpha, 0.0), 0.0, word, room, rows, n)
     if n == 0:
         return None
     time, word, *amounts = rows[0].tolist()

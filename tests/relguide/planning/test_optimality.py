@@ -243,7 +243,7 @@ def test_so_is_what_comes_before_the_slot_opens() -> None:
     )
     situation = replace(straight_behind(), leader=leader)
     frame, rows = candidates(situation).frame, np.empty((MAX_ROWS, 5))
-    assert solve(frame.x, frame.y, frame.h, frame.alpha, 0.0, rows) > 0
+    assert solve(frame.pose, frame.alpha, 0.0, rows) > 0
     assert rows[0, 0] < frame.t_release
     amounts = rows[0, 2:].tolist()
     early = assemble(situation, frame, SIGN_ROWS[int(rows[0, 1])], amounts, "").trajectory

@@ -8,6 +8,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
+from relguide.kernels.base.records import Pose, Velocity
 from relguide.kernels.bounds.contact_bound import (
     between_bound,
     cell_bound,
@@ -46,10 +47,8 @@ def row_of(
     c, s = cos(to[2]), sin(to[2])
     dx, dy = x - to[0], y - to[1]
     rows = np.empty((MAX_ROWS, 5))
-    n = solve_toward(
-        dx * c + dy * s, dy * c - dx * s, (h - to[2]) % (2.0 * pi), ax * c + ay * s,
-        ay * c - ax * s, 0.0, rows,
-    )  # fmt: skip
+    seen = Pose(dx * c + dy * s, dy * c - dx * s, (h - to[2]) % (2.0 * pi))
+    n = solve_toward(seen, Velocity(ax * c + ay * s, ay * c - ax * s), 0.0, rows)
     return rows[:n]
 
 
@@ -61,11 +60,11 @@ def keeps(
     lx, ly, lh = leader[0, 1:4]
     for sign, amount in zip(SIGNS[int(row[1])], row[2:], strict=True):
         for along in np.linspace(0.0, amount, 300):
-            px, py, _ = fly_piece(x, y, h, sign, along)
+            px, py, _ = fly_piece(Pose(x, y, h), sign, along)
             now = alpha * (t + along)
             if hypot(px - lx - now * cos(lh), py - ly - now * sin(lh)) < delta:
                 return False
-        x, y, h = fly_piece(x, y, h, sign, amount)
+        x, y, h = fly_piece(Pose(x, y, h), sign, amount)
         t += amount
     return True
 
@@ -112,7 +111,7 @@ def test_no_contact_of_a_cell_is_reached_or_left_sooner(
     )  # fmt: skip
     to_it = row_of(*start, at, alpha, 0.0)
     rows = np.empty((MAX_ROWS, 5))
-    on = rows[: solve(at[0], at[1], at[2] % (2.0 * pi), alpha, 0.0, rows)]
+    on = rows[: solve(Pose(at[0], at[1], at[2] % (2.0 * pi)), alpha, 0.0, rows)]
     if not len(to_it) or not len(on) or to_it[0, 0] + on[0, 0] >= FAR:
         return
     assert onward <= on[0, 0] + SLACK * (1.0 + on[0, 0])
@@ -178,7 +177,7 @@ def test_who_touches_nothing_is_as_fast_as_an_extremal_that_keeps_clear() -> Non
         x, y, h = *rng.uniform(-8.0, 8.0, 2), rng.uniform(0.0, 2.0 * pi)
         if hypot(x - 1.2, y) < 1.1:
             continue
-        n = solve(x, y, h, 0.8, 0.0, rows)
+        n = solve(Pose(x, y, h), 0.8, 0.0, rows)
         clear = [row[0] for row in rows[:n] if keeps(x, y, h, row, leader, 0.8, 1.1)]
         lowest = untouched_bound(x, y, h, leader, 0.8, 1.1, 0.0, 0.8, 0.0)
         assert lowest <= min(clear, default=inf) + SLACK

@@ -6,6 +6,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
+from relguide.kernels.base.records import Pose, Velocity
 from relguide.kernels.bounds.word_bound import breaks_limit, intercept_span, soonest
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, WORDS, fly_piece, solve_toward
 from tests.situations import numbers
@@ -35,7 +36,7 @@ def bound(
 
 def exact(x: float, y: float, h: float, a: tuple[float, float], not_before: float) -> np.ndarray:
     rows = np.empty((MAX_ROWS, 5))
-    return rows[: solve_toward(x, y, h % (2.0 * pi), *a, not_before, rows)]
+    return rows[: solve_toward(Pose(x, y, h % (2.0 * pi)), Velocity(*a), not_before, rows)]
 
 
 @given(
@@ -155,10 +156,10 @@ def test_a_breach_is_never_made_up(
     closest, x, y, h, t = inf, *start, 0.0, 0.0
     for sign, amount in zip(signs, amounts, strict=True):
         for along in np.linspace(0.0, min(amount, until - t), 400):
-            px, py, _ = fly_piece(x, y, h, sign, along)
+            px, py, _ = fly_piece(Pose(x, y, h), sign, along)
             lx, ly = 0.7 * (t + along) * cos(leader), 0.7 * (t + along) * sin(leader)
             closest = min(closest, float(np.hypot(px - lx, py - ly)))
-        x, y, h = fly_piece(x, y, h, sign, amount)
+        x, y, h = fly_piece(Pose(x, y, h), sign, amount)
         t += amount
         if t >= until:
             break

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
+from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.contact.boundary_arc import (
     MAX_NODES,
     boundary_arc_arrival,
@@ -81,7 +82,7 @@ LEADER = np.array(
 def flown_leader(alpha: float) -> np.ndarray:
     leader = LEADER.copy()
     for i in (1, 2):
-        leader[i, 1:4] = leader_at(leader, i - 1, alpha, leader[i, 0])
+        leader[i, 1:4] = leader_at(Scene(leader, alpha, 0.0, 0.0), i - 1, leader[i, 0])
     return leader
 
 
@@ -108,11 +109,11 @@ def test_the_arcs_of_a_ride_keep_their_distance(
     for duration, rate in arcs[:n]:
         assert abs(rate) < 1.0 + 1e-3
         for part in (0.5, 1.0):
-            px, py, _ = fly_rate(x, y, h, rate, part * duration)
+            px, py, _ = fly_rate(Pose(x, y, h), rate, part * duration)
             i = int(np.searchsorted(leader[:, 0], t + part * duration, side="right")) - 1
-            lx, ly, _ = leader_at(leader, i, alpha, t + part * duration)
+            lx, ly, _ = leader_at(Scene(leader, alpha, 0.0, 0.0), i, t + part * duration)
             assert hypot(px - lx, py - ly) == pytest.approx(delta, abs=1e-6)
-        x, y, h = fly_rate(x, y, h, rate, duration)
+        x, y, h = fly_rate(Pose(x, y, h), rate, duration)
         t += duration
 
 

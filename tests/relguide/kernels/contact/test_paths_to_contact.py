@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.contact import contact_at
 from relguide.kernels.contact.paths_to_contact import paths_to_contact
@@ -24,7 +25,7 @@ def turning_leader(rate: float, parts: int) -> FloatArray:
     leader[:parts, 4] = rate
     leader[0, 1] = 2.0
     for i in range(1, parts + 1):
-        leader[i, 1:4] = leader_at(leader, i - 1, ALPHA, leader[i, 0])
+        leader[i, 1:4] = leader_at(Scene(leader, ALPHA, 0.0, 0.0), i - 1, leader[i, 0])
     return leader
 
 
@@ -51,7 +52,7 @@ def test_words_to_a_contact_on_a_turn_lead_there_and_none_is_missed(
     for time, word, *amounts in coarse:
         px, py, ph = x, y, h
         for sign, amount in zip(SIGNS[int(word)], amounts, strict=True):
-            px, py, ph = fly_piece(px, py, ph, sign, amount)
+            px, py, ph = fly_piece(Pose(px, py, ph), sign, amount)
         cx, cy, ch = contact_at(leader, time, bearing, side, ALPHA, DELTA)
         assert sum(amounts) == pytest.approx(time, abs=1e-8)
         assert hypot(px - cx, py - cy) < 1e-6

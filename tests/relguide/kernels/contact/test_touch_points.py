@@ -5,6 +5,7 @@ from math import cos, hypot, isnan, pi, sin
 import numpy as np
 import pytest
 
+from relguide.kernels.base.records import Pose
 from relguide.kernels.contact.contact import contact_heading
 from relguide.kernels.contact.touch_points import (
     boundary_arc_end,
@@ -28,7 +29,7 @@ def flown(start: tuple[float, float, float], *pieces: tuple[float, float]) -> np
     """Where pieces of a sign and an amount end, seen from the leader, and the heading there."""
     x, y, h = start
     for sign, amount in pieces:
-        x, y, h = fly_piece(x, y, h, sign, amount)
+        x, y, h = fly_piece(Pose(x, y, h), sign, amount)
     return np.array((x - ALPHA * sum(amount for _, amount in pieces), y, h))
 
 

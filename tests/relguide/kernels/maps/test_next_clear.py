@@ -1,18 +1,19 @@
 """The next extremal that clears is the one that a search of all of them finds."""
 
-from math import cos, pi, sin
+from math import pi
 
 import numpy as np
 import pytest
 
+from relguide.kernels.base.records import Pose, Scene, start_at
 from relguide.kernels.contact.passage import word_clears
 from relguide.kernels.maps.final_leg import last_turns
 from relguide.kernels.maps.next_clear import next_clear
 from relguide.kernels.words.extremals import MAX_ROWS, solve
-from relguide.kernels.words.sooner import MOST_ROOTS, work_room
+from relguide.kernels.words.sooner import make_scratch
 from tests.relguide.kernels.maps.test_final_leg import STRAIGHT, turning
 
-ROOM, FOUND, TRIED = work_room(), np.empty((MOST_ROOTS, 4)), np.empty(5)
+SCRATCH, TRIED = make_scratch(), np.empty(5)
 
 
 @pytest.mark.parametrize("turns", [False, True], ids=["straight", "turning"])
@@ -20,14 +21,15 @@ ROOM, FOUND, TRIED = work_room(), np.empty((MOST_ROOTS, 4)), np.empty(5)
 def test_it_is_the_first_that_clears(turns: bool, alpha: float) -> None:
     limit, opens = 1.4, 2.5 if turns else 0.0
     leader = turning(alpha) if turns else STRAIGHT
-    longest = last_turns(leader, alpha, limit)
+    scene = Scene(leader, alpha, limit, opens)
+    longest = last_turns(scene)
     rng = np.random.default_rng(int(100.0 * alpha))
     rows = np.empty((MAX_ROWS, 5))
     lost = none = 0
     for i, (x, y, h) in enumerate(
         rng.uniform((-5.0, -5.0, 0.0), (7.0, 5.0, 2.0 * pi), (4000, 3)).tolist()
     ):
-        n = solve(x, y, h, alpha, opens, rows)
+        n = solve(Pose(x, y, h), alpha, opens, rows)
         if n == 0 or word_clears(x, y, h, 0.0, rows[0], leader, alpha, limit):
             continue
         expected = [
@@ -35,9 +37,8 @@ def test_it_is_the_first_that_clears(turns: bool, alpha: float) -> None:
         ]
         row = rows[0].copy()
         # the hint may be right or wrong
-        found = next_clear(
-            x, y, h, sin(h), cos(h), alpha, i % 6, leader, limit, longest, ROOM, FOUND, TRIED, row
-        )
+        start = start_at(Pose(x, y, h))
+        found = next_clear(start, scene, i % 6, longest, SCRATCH, TRIED, row)
         assert found == bool(expected), (x, y, h)
         if found:
             assert row[1] == expected[0][1], (x, y, h)

@@ -5,6 +5,7 @@ from math import cos, pi, sin, sqrt
 import numpy as np
 import pytest
 
+from relguide.kernels.base.records import Pose, Velocity
 from relguide.kernels.networks.margins import INPUTS, SIDE, inputs
 from relguide.kernels.words.branches import FEATURES, features
 from relguide.kernels.words.ccc import lrl
@@ -26,7 +27,7 @@ def laid_back(alpha: float, *pieces: tuple[float, float]) -> tuple[float, float,
     """Where a path of such pieces to the slot begins, on either side of the route."""
     x, y, h = alpha * sum(amount for _, amount in pieces), 0.0, 0.0
     for sign, amount in reversed(pieces):
-        x, y, h = fly_piece(x, y, h, sign, -amount)
+        x, y, h = fly_piece(Pose(x, y, h), sign, -amount)
     return x, y, h % (2.0 * pi)
 
 
@@ -76,7 +77,7 @@ def test_where_roots_of_three_turns_begin_in_pairs_a_margin_is_none() -> None:
         x, y = cx + sin(h), cy - cos(h)
         at_begin = told(x, y, h, alpha)[FEATURES : FEATURES + SIDE]
         assert min(abs(at_begin[at]) for at in BOTH_BEGIN) < 1e-9
-        either = [lrl(x + by, y, h, alpha, 0.0, rows, 0) for by in (-1e-5, 1e-5)]
+        either = [lrl(Pose(x + by, y, h), Velocity(alpha, 0.0), rows, 0) for by in (-1e-5, 1e-5)]
         # the turns do not add up for each pair; those that do come and go by twos
         found += abs(either[0] - either[1]) == 2
     assert found > DRAWN

@@ -6,6 +6,7 @@ from math import cos, hypot, sin
 import numpy as np
 import pytest
 
+from relguide.kernels.base.records import Pose
 from relguide.kernels.contact.chain import BOUNDARY_ARC
 from relguide.kernels.contact.constrained_rows import exact_constrained
 from relguide.kernels.contact.contact import contact_heading, slide_within
@@ -114,9 +115,9 @@ def test_ways_arrive_and_keep_the_limit() -> None:
                 continue
             for sign, amount in zip(SIGNS[int(leg[2])].tolist(), leg[3:], strict=True):
                 for part in np.linspace(0.0, amount, 40).tolist():
-                    px, py, _ = fly_piece(x, y, h, sign, part)
+                    px, py, _ = fly_piece(Pose(x, y, h), sign, part)
                     assert hypot(px - slot - alpha * (t + part), py) > limit - SLACK
-                x, y, h = fly_piece(x, y, h, sign, amount)
+                x, y, h = fly_piece(Pose(x, y, h), sign, amount)
                 t += amount
         assert abs(t - time) < 1e-9
         assert hypot(x - alpha * t, y) < 1e-6

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from relguide.kernels.base.records import Pose, Velocity
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, WORDS, fly_piece, solve, solve_toward
 from tests.situations import numbers
 
@@ -18,7 +19,7 @@ straights = st.one_of(numbers(0.0, 200.0), st.sampled_from([0.0, 1e-9]))
 
 def rows_of(x: float, y: float, h: float, alpha: float, t_release: float = 0.0) -> np.ndarray:
     rows = np.empty((MAX_ROWS, 5))
-    return rows[: solve(x, y, h % (2.0 * pi), alpha, t_release, rows)]
+    return rows[: solve(Pose(x, y, h % (2.0 * pi)), alpha, t_release, rows)]
 
 
 def start_of(
@@ -27,7 +28,7 @@ def start_of(
     """Where a path of given pieces must start to end at the slot."""
     x, y, h = 0.0, 0.0, 0.0
     for sign, amount in zip(SIGNS[word], (first, middle, last), strict=True):
-        x, y, h = fly_piece(x, y, h, sign, amount)
+        x, y, h = fly_piece(Pose(x, y, h), sign, amount)
     # turn the world by −h about the end, which is the slot at τ
     end = alpha * (first + middle + last)
     return end - x * cos(h) - y * sin(h), x * sin(h) - y * cos(h), -h % (2.0 * pi)
@@ -69,7 +70,7 @@ def test_a_target_that_moves_across_its_final_heading_is_met_too(
     x, y, h = start_of(word, first, middle, last, 0.0)
     ax, ay = alpha * cos(kappa), alpha * sin(kappa)
     rows = np.empty((MAX_ROWS, 5))
-    rows = rows[: solve_toward(x + ax * time, y + ay * time, h, ax, ay, 0.0, rows)]
+    rows = rows[: solve_toward(Pose(x + ax * time, y + ay * time, h), Velocity(ax, ay), 0.0, rows)]
     nearest = np.abs(rows[:, 0] - time).min() if len(rows) else np.inf
     assert nearest < 1e-5 * max(1.0, time), (WORDS[word], rows)
 
@@ -87,7 +88,7 @@ def test_every_row_ends_at_the_slot_in_time_on_heading(
         px, py, heading = x, y, h
         for sign, amount in zip(SIGNS[int(row[1])], row[2:], strict=True):
             assert amount >= 0.0
-            px, py, heading = fly_piece(px, py, heading, sign, amount)
+            px, py, heading = fly_piece(Pose(px, py, heading), sign, amount)
         assert row[0] == pytest.approx(row[2:].sum(), abs=1e-9)
         assert px == pytest.approx(alpha * row[0], abs=1e-6 + 1e-11 * row[0])
         assert py == pytest.approx(0.0, abs=1e-6)

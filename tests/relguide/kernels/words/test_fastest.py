@@ -5,11 +5,12 @@ from math import inf, pi
 import numpy as np
 import pytest
 
+from relguide.kernels.base.records import Pose, Window, start_at
 from relguide.kernels.words.extremals import MAX_ROWS, solve
 from relguide.kernels.words.fastest import fastest, word_before
-from relguide.kernels.words.sooner import MOST_ROOTS, work_room
+from relguide.kernels.words.sooner import make_scratch
 
-ROOM, FOUND = work_room(), np.empty((MOST_ROOTS, 4))
+SCRATCH = make_scratch()
 CLOSE = 1e-9
 """Roots next to a tangency are as ill-conditioned as that [R/V_P]; others agree to 1e-14."""
 
@@ -28,9 +29,9 @@ def test_it_is_the_first_of_all(within: float, opens: float) -> None:
             (-within, -within, 0.0, 0.0, 0.0), (within, within, 2.0 * pi, 1.2, opens), (4000, 5)
         ).tolist()
     ):
-        n = solve(x, y, h, alpha, t, every)
+        n = solve(Pose(x, y, h), alpha, t, every)
         # the hint may be right or wrong
-        assert fastest(x, y, h, alpha, t, i % 6, ROOM, FOUND, row) == (n > 0)
+        assert fastest(Pose(x, y, h), alpha, t, i % 6, SCRATCH, row) == (n > 0)
         if n > 0:
             assert same(row, every[0]), (x, y, h, alpha, t)
 
@@ -41,8 +42,8 @@ def test_on_the_axes_and_at_round_angles_too() -> None:
         for y in (-6.0, -4.0, -2.0, 0.0, 2.0, 4.0, 6.0):
             for h in (0.0, 0.5 * pi, pi, 1.5 * pi):
                 for alpha in (0.0, 1e-9, 0.5, 1.0 - 1e-9, 1.0):
-                    found = fastest(x, y, h, alpha, 0.0, 0, ROOM, FOUND, row)
-                    n = solve(x, y, h, alpha, 0.0, every)
+                    found = fastest(Pose(x, y, h), alpha, 0.0, 0, SCRATCH, row)
+                    n = solve(Pose(x, y, h), alpha, 0.0, every)
                     assert found == (n > 0)
                     if found:
                         # nearly as fast as the leader: rounding counts 1/(1 − α) times
@@ -58,12 +59,11 @@ def test_all_of_a_word_before_a_time_are_found(word: int) -> None:
     for x, y, h, alpha, beat in rng.uniform(
         (-6.0, -6.0, 0.0, 0.1, 0.0), (6.0, 6.0, 2.0 * pi, 0.99, 30.0), (4000, 5)
     ).tolist():
-        n = solve(x, y, h, alpha, 0.0, every)
+        n = solve(Pose(x, y, h), alpha, 0.0, every)
         expected = [row[0] for row in every[:n] if row[1] == word and row[0] < beat]
-        count = word_before(
-            x, y, h, np.sin(h), np.cos(h), alpha, 0.0, word, beat, True, ROOM, FOUND
-        )
-        found = sorted(FOUND[:count, 0].tolist())
+        start = start_at(Pose(x, y, h))
+        count = word_before(start, alpha, word, Window(0.0, beat), True, SCRATCH)
+        found = sorted(SCRATCH.found[:count, 0].tolist())
         for time in expected:
             assert min((abs(time - t) for t in found), default=inf) <= CLOSE, (x, y, h, alpha, beat)
         assert all(t <= beat + 2e-6 for t in found) or word >= 4

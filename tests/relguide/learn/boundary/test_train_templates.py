@@ -10,6 +10,7 @@ import pytest
 import torch
 from safetensors.numpy import load_file, save_file
 
+from relguide.kernels.base.records import Pose
 from relguide.kernels.networks.template_features import FEATURES
 from relguide.kernels.networks.template_scores import OUTPUTS, guess_of, template_shares
 from relguide.kernels.networks.templates import SIZE
@@ -45,7 +46,7 @@ def test_the_kernel_says_what_torch_says(shape: NetworkShape) -> None:
     rows, share, guess = np.empty((MAX_ROWS, 5)), np.empty(SIZE), np.empty(2)
     expected = torch.from_numpy(out[:, :SIZE]).softmax(dim=1).numpy()
     for n, (x, y, h, alpha, slot, limit) in enumerate(situations.tolist()):
-        solve(x, y, h, alpha, 0.0, rows)
+        solve(Pose(x, y, h), alpha, 0.0, rows)
         hidden = template_shares(x, y, h, slot, alpha, limit, rows[0], layers, share)
         assert np.abs(share - expected[n]).max() < 1e-5
         for kind in (0, 3, SIZE - 1):
