@@ -62,7 +62,7 @@ def test_from_json_to_a_proved_plan_and_back_to_json() -> None:
 
 
 def test_from_a_scenario_to_a_replay(tmp_path: Path) -> None:
-    told = iter([LeaderHeading(heading=radians(110.0), turn="right")])
+    told = iter([LeaderHeading(heading=radians(110.0), direction="right")])
 
     def commands(t: float) -> Iterable[Command]:
         return [next(told)] if t == 100.0 else []

@@ -27,7 +27,7 @@ from relguide.flying.documents import (
     TurnSegment,
     UnsafeAlternativeCard,
 )
-from relguide.flying.verdicts import NotAsked, OptimalityCheck, RegularCheck
+from relguide.flying.verdicts import NotChecked, OptimalityCheck, RegularCheck
 from relguide.units import DEG, NM
 
 PROOFS = {
@@ -59,7 +59,7 @@ def print_optimality(check: OptimalityCheck) -> None:
             said = Text("Stationary", "green") + ": it arrives as the slot opens, "
             console.print(said + "where no way can be faster.")
             return
-        case "free" if check.switching_ok:
+        case "free" if check.stationary:
             console.print(Text("Stationary", "green") + f", as eq. (16) asks: {residuals}")
         case "free":
             said = Text("Not stationary", "yellow") + ", a small change would make it faster: "
@@ -142,7 +142,7 @@ def print_regular(card: RegularCheck, *, min_separation: float) -> None:
         + f" (20): least {miles(near.least)} after {clock(near.at)}, limit {miles(min_separation)}."
     )
     match card.stationarity:
-        case NotAsked(not_asked=why):
+        case NotChecked(not_checked=why):
             console.print(f"Pontryagin's conditions are not asked. {why}")
         case OptimalityCheck() as check:
             print_optimality(check)

@@ -1,17 +1,17 @@
-"""What guidance has to say: its modes, its new plans, and why, in sentences for the pilot."""
+"""What guidance announces: its modes and new plans with their reasons, in sentences for a pilot."""
 
 from dataclasses import dataclass
 from math import pi
 from typing import Literal
 
-from relguide.flying.assignment import Seen
+from relguide.flying.assignment import Observation
 from relguide.flying.commitment import Commitment
 from relguide.planning.plan import NoPlan, Plan
 from relguide.units import DEG, KT, NM, MetrePerSecond, Radian
 
 Mode = Literal["heading", "converge", "capture", "follow"]
-"""heading: nothing to fly, holds its heading; converge: flies the plan; capture: closes onto the
-leader's route at its own speed; follow: on the route at D, speed matched."""
+"""heading: no plan, a heading is held; converge: the plan is flown; capture: closes onto the
+leader's route under speed control; follow: on the route D behind the leader, at its speed."""
 PlanReason = Literal[
     "engaged",
     "better_plan",
@@ -23,13 +23,13 @@ PlanReason = Literal[
     "intent_withdrawn",
 ]
 """Why a new plan was made."""
-TURNED: Radian = 1.0 * DEG  # five times what the leader's own autopilot wanders
+TURNED: Radian = 1.0 * DEG  # five times as far as the leader's own autopilot wanders
 CHANGED_SPEED: MetrePerSecond = 2.0 * KT  # below what a crew would call a speed change
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NewPlan:
-    """Another plan is flown."""
+    """A new plan is flown."""
 
     commitment: Commitment
     reason: PlanReason
@@ -45,7 +45,7 @@ class PlanMissing:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ModeChange:
-    """Guidance works differently from now on."""
+    """Guidance changes its mode."""
 
     mode: Mode
     previous: Mode
@@ -57,15 +57,15 @@ Event = NewPlan | PlanMissing | ModeChange
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Expectation:
-    """The leader as the shown plan took it."""
+    """What the announced plan assumes of the leader."""
 
     final_heading: Radian
     tas: MetrePerSecond
     intent_known: bool
 
 
-def expectation(seen: Seen) -> Expectation:
-    """The leader as it is known now."""
+def expectation(seen: Observation) -> Expectation:
+    """What is known of the leader now."""
     return Expectation(
         final_heading=seen.final_heading,
         tas=seen.leader.tas,
@@ -73,8 +73,8 @@ def expectation(seen: Seen) -> Expectation:
     )
 
 
-def leader_change(was: Expectation, seen: Seen, turned: Radian) -> PlanReason | None:
-    """What the leader does that the last plan did not know."""
+def leader_change(was: Expectation, seen: Observation, turned: Radian) -> PlanReason | None:
+    """What the leader does that the announced plan did not expect; `None` if nothing."""
     now = expectation(seen)
     if now.intent_known != was.intent_known:
         return "intent_received" if now.intent_known else "intent_withdrawn"
@@ -85,17 +85,17 @@ def leader_change(was: Expectation, seen: Seen, turned: Radian) -> PlanReason | 
     return None
 
 
-def because(reason: PlanReason, seen: Seen) -> str:
-    """Why there is a new plan."""
+def reason_sentence(reason: PlanReason, seen: Observation) -> str:
+    """Why there is a new plan, without a full stop."""
     match reason:
         case "engaged":
             return "Relative guidance engaged"
         case "better_plan":
-            return "A faster way opened"
+            return "A faster path was found"
         case "deviation":
-            return "Planned again from here"
+            return "Planned again, as the aircraft has left its path"
         case "separation":
-            return "The plan no longer kept the separation"
+            return "The plan no longer kept the minimum separation"
         case "leader_turned":
             heading = f"{round(seen.final_heading / DEG) % 360:03d}°"
             if seen.turn_to_come:
@@ -110,7 +110,7 @@ def because(reason: PlanReason, seen: Seen) -> str:
 
 
 def summary(plan: Plan) -> str:
-    """What it brings."""
+    """Its word, its time and the separation it keeps, in a clause."""
     minutes, seconds = divmod(round(plan.time_to_converge), 60)
     least = plan.certificate.least_separation / NM
     return f"{plan.word} joins in {minutes} min {seconds:02d} s and keeps {least:.1f} NM"

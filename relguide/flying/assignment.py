@@ -1,4 +1,4 @@
-"""What the pursuer was asked to do, what it knows at one instant, and the situation these make."""
+"""What the pursuer was asked to do, what it knows at one instant, and the situation of the two."""
 
 from dataclasses import dataclass
 
@@ -36,7 +36,7 @@ class Assignment:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Seen:
+class Observation:
     """What the pursuer knows at one instant."""
 
     t: Second
@@ -45,17 +45,17 @@ class Seen:
     leader_turn_rate: RadianPerSecond
     """As observed [rad/s]."""
     intent: tuple[IntentPiece, ...]
-    """What remains of the leader's intent; empty if unknown."""
+    """The part of the leader's intent still to be flown; empty if unknown."""
     intent_known: bool
 
     @property
     def turn_to_come(self) -> bool:
-        """Whether the leader has announced a turn that is not over."""
+        """Whether the leader's known intent has a turn that is not over."""
         return any(isinstance(piece, TurnTo) for piece in self.intent)
 
     @property
     def turning_unannounced(self) -> bool:
-        """Whether the leader turns, and nobody knows how far."""
+        """Whether the leader is turning and its intent does not say how far."""
         return not self.intent_known and abs(self.leader_turn_rate) > TURN_SEEN
 
     @property
@@ -64,7 +64,7 @@ class Seen:
         return final_heading(self.leader.heading, self.intent)
 
 
-def situation_of(seen: Seen, assignment: Assignment, min_separation: Metre) -> Situation:
+def situation_of(seen: Observation, assignment: Assignment, min_separation: Metre) -> Situation:
     """The situation now, to be planned for with V_P and this minimum separation [m]."""
     pursuer, leader = seen.pursuer, seen.leader
     return Situation(

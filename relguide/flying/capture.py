@@ -3,8 +3,8 @@
 One metre too close, and the minimum-time answer is a full circle. So near the slot three plain laws
 fly instead, all bank-limited:
 
-- the final turn is made tangent to the route: radius = offset / (1 − cos Δψ), a little more or less
-  bank than planned takes up what the roll-in cost;
+- the final turn is made tangent to the route: radius = offset / (1 − cos Δψ); a little more or less
+  bank than planned corrects what the roll-in cost;
 - near the route, bank answers to cross-track and track error, a damped second-order law;
 - speed follows a parabola of the spacing error, so that D is reached with no closing speed left.
 """
@@ -48,11 +48,11 @@ INTERCEPT = 30.0 * DEG
 CROSS_TRACK_GAIN = 5.0e-4  # [rad/m], with the next: ω = √(g·gain) = 0.07 rad/s, settled in 40 s
 TRACK_GAIN = 3.0  # damping 3·√g/(2·V·√gain) = 0.88 at 240 m/s: no overshoot to speak of
 TANGENT_ABOVE = 6.0 * DEG  # below it 1 − cos Δψ is 0.5 %: metres of offset would ask for any radius
-CLOSE_ENOUGH: Second = 45.0  # so long before the route, its intercept angle is kept
+CLOSE_ENOUGH: Second = 45.0  # this long before the route, the intercept angle is kept
 SPEED_LOOP: Second = 12.0  # twice the autothrust's lag: the spacing loop must be slower than it
 BRAKING = 0.4  # [m/s²] what idle thrust gives without speed brakes: those stay in reserve
-FALL_BACK: MetrePerSecond = 20.0  # slower than the leader by 40 kt at most, to open the spacing
-CATCH_UP: MetrePerSecond = 5.0  # faster by 10 kt at least, or a leader as fast is never reached
+FALL_BACK: MetrePerSecond = 20.0  # at most 40 kt slower than the leader, to increase the spacing
+CATCH_UP: MetrePerSecond = 5.0  # at least 10 kt faster, or a leader with speed V_P is never reached
 
 
 def offsets(state: AircraftState, slot: Slot) -> Offsets:
@@ -67,7 +67,7 @@ def offsets(state: AircraftState, slot: Slot) -> Offsets:
 
 
 def distance_to_slot(seen: Offsets) -> Metre:
-    """How far there is to fly to where the slot is now: the tangent arc, then the route [m].
+    """How far it is to the present place of the slot, along the tangent arc and the route [m].
 
     Positive when the slot is still ahead. On the route it is simply −ahead.
     """

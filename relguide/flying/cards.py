@@ -23,7 +23,7 @@ from relguide.flying.documents import (
     UnsafeAlternativeCard,
     WindCard,
 )
-from relguide.flying.verdicts import BoundaryArcCard, ContactCard, OptimalityCheck, OptimalityPanel
+from relguide.flying.verdicts import BoundaryArcCard, ContactCard, CostatesCard, OptimalityCheck
 from relguide.planning.alternatives import (
     Alternative,
     AnyAlternative,
@@ -93,7 +93,7 @@ def optimality_check(report: OptimalityReport) -> OptimalityCheck:
         arrival=report.arrival,
         hamiltonian_residual=report.hamiltonian_residual,
         switching_residual=report.switching_residual,
-        switching_ok=report.holds,
+        stationary=report.holds,
         contacts=tuple(
             ContactCard(t=contact.time, bearing=contact.bearing, jump=contact.jump)
             for contact in report.contacts
@@ -106,7 +106,7 @@ def optimality_check(report: OptimalityReport) -> OptimalityCheck:
             )
             for boundary_arc in report.boundary_arcs
         ),
-        panel=OptimalityPanel(
+        costates=CostatesCard(
             t=along.times,
             hamiltonian=along.hamiltonian,
             switching=along.switching,

@@ -1,17 +1,17 @@
-"""Which plan to fly: the committed one, until another is better by a margin or it fails.
+"""Which plan to fly: the committed one, until it fails or another is better by a margin.
 
-The plan is discontinuous in the situation: 100 m may move it by a minute and to the other side.
-Flown as it comes, it would chatter. So the same branch is solved again from where the aircraft
-is, and given up only for a reason.
+The fastest plan is discontinuous in the situation: 100 m may change it by a minute, and move it to
+the other side of the leader. Always to fly the fastest would be to chatter between the two. So the
+same branch is solved again from where the aircraft is, and left only for a reason.
 """
 
 from dataclasses import dataclass, replace
-from math import cos, hypot, inf, sin
+from math import cos, hypot, sin
 from typing import Literal
 
 from relguide.flying.aircraft import AircraftModel
-from relguide.flying.steering import rest, steer
-from relguide.kernels.base.motion import advance
+from relguide.flying.path_distance import SAME_PATH_SHARE, distance_between, is_same_path
+from relguide.flying.steering import remaining, steer
 from relguide.planning.certificate import certify
 from relguide.planning.plan import AS_FAST, NoPlan, Optimality, Plan, Planner
 from relguide.planning.plan import plan as exact_plan
@@ -24,12 +24,10 @@ from relguide.units import Metre, Second
 Cause = Literal["continued", "better_plan", "deviation", "separation"]
 """Why the trajectory flown from now on is what it is."""
 
-MARGIN: Second = 1.0  # a change of mind costs a roll reversal or two: about a second each
-SHARE = 0.005  # and what is far ahead is uncertain: half a percent of the time to go
-SAME_WAY: Metre = 300.0  # replanning moves a path by metres, another way is kilometres off
-SAME_WAY_SHARE = 0.03  # … and by this much of its length while rolling, when a turn begins late
-OVERDUE: Second = 10.0  # two rolls' worth: more is not what rolling costs
-AT_THE_END: Second = 30.0  # by then it brakes (guidance's LAST_STRETCH), and no longer at V_P
+MARGIN: Second = 1.0  # a change of plan costs one or two roll reversals, about a second each
+SHARE = 0.005  # what is far ahead is uncertain: half a percent of the time to go
+OVERDUE: Second = 10.0  # what two rolls cost; a longer delay has another cause
+AT_THE_END: Second = 30.0  # it brakes by then (LAST_STRETCH of guidance) and is slower than V_P
 LEASH: Metre = 600.0  # what one roll-in costs; farther off, the committed path is not being flown
 
 
@@ -42,19 +40,19 @@ class Commitment:
     made_at: Second
     """Flight time [s]."""
     due: Second
-    """When it was to arrive before it was solved again for the first time, flight time [s]."""
+    """When it was to arrive, before it was solved again for the first time, flight time [s]."""
 
-    def rest_at(self, t: Second, situation: Situation) -> Trajectory:
-        """What is left of it at flight time t, in the situation's own air-mass frame."""
+    def remaining_at(self, t: Second, situation: Situation) -> Trajectory:
+        """The part still to be flown at flight time t, in the situation's own air-mass frame."""
         elapsed = t - self.made_at
-        left = rest(self.plan.trajectory, elapsed)
+        left = remaining(self.plan.trajectory, elapsed)
         wind = situation.wind
         if wind.east == wind.north == 0.0:
             return left
         return replace(left, x=left.x + wind.east * elapsed, y=left.y + wind.north * elapsed)
 
     def place_at(self, t: Second, situation: Situation) -> tuple[Pose, Second]:
-        """Where it is at flight time t, seen as by `rest_at`, and how long it goes on."""
+        """Where it is at flight time t, in the same frame, and how long it still takes."""
         elapsed, wind = t - self.made_at, situation.wind
         left = max(self.plan.time_to_converge - elapsed, 0.0)
         return over_ground(self.plan.trajectory.pose_at(elapsed), elapsed, wind), left
@@ -67,7 +65,7 @@ class Choice:
     plan: Plan
     cause: Cause
     fell_back: bool
-    """Whether the planner had none of its own that certifies and the exact plan stood in."""
+    """Whether the planner's own answer did not certify, and the exact plan took its place."""
 
 
 def choose(
@@ -81,26 +79,26 @@ def choose(
 ) -> Choice | NoPlan:
     """Decide what to fly.
 
-    The last turn is flown as it was planned. Full bank has nothing to spare: solved again a few
-    metres outside it, the exact answer swings wide first, by a turn that grows with the root of
+    The last turn is flown as it was planned. Full bank has nothing to spare: solved again from a
+    few metres outside it, the exact answer swings wide first, by a turn that grows with the root of
     those metres. Turns before it are solved again, which makes good what rolling into them cost,
-    but not for ever: once overdue, they too are flown as they were planned last. So is a plan
-    that arrives as the slot opens: nothing is faster, and of the many that are as fast one is kept.
+    but not for ever: once overdue, they too are flown as last planned. So is a plan that arrives as
+    the slot opens: nothing is faster, and one of the many that are as fast is kept.
 
     Args:
         committed: what is flown now; `None` only before the first plan.
         t: flight time [s].
         preferred: the situation with the separation that new plans should keep.
-        required: the same with d_min itself, which the committed plan is held to, and new plans
-            when nothing keeps the preferred separation.
-        planner: makes plans; the certificate judges them, whoever made them.
+        required: the same with d_min itself, which the committed plan must keep, and new plans when
+            nothing keeps the preferred separation.
+        planner: makes plans; whoever it is, the certificate decides whether they are flown.
         model: how the aircraft rolls.
     """
     if committed is not None:
-        left = committed.rest_at(t, required)
+        left = committed.remaining_at(t, required)
         overdue = t + left.duration > committed.due + OVERDUE
-        if _as_planned(left, model, overdue=overdue) or _arrives_at_release(left, required):
-            kept = _followed_on(left, committed.plan, required)
+        if _only_turns_left(left, model, overdue=overdue) or _arrives_at_release(left, required):
+            kept = _continue_as_planned(left, committed.plan, required)
             if kept is not None:
                 return Choice(plan=kept, cause="continued", fell_back=False)
     answer, fell_back = _first_answer(planner, preferred, required)
@@ -108,9 +106,9 @@ def choose(
         if isinstance(answer, NoPlan):
             return answer
         return Choice(plan=answer, cause="better_plan", fell_back=fell_back)
-    if isinstance(answer, Plan) and _same_way(left, answer.trajectory, SAME_WAY_SHARE):
+    if isinstance(answer, Plan) and is_same_path(left, answer.trajectory):
         return Choice(plan=answer, cause="continued", fell_back=fell_back)
-    kept = _solved_again(left, required) or _followed_on(left, committed.plan, required)
+    kept = _solve_again(left, required) or _continue_as_planned(left, committed.plan, required)
     if kept is None:
         if isinstance(answer, NoPlan):
             return answer
@@ -126,20 +124,20 @@ def choose(
 def _first_answer(
     planner: Planner, preferred: Situation, required: Situation
 ) -> tuple[Plan | NoPlan, bool]:
-    """A plan that keeps the preferred separation, or the required one; as `_ask`."""
+    """As `_certified_answer`, for the preferred separation if possible, else the required one."""
     pursuer, leader = required.pursuer, required.leader
     apart = hypot(pursuer.x - leader.x, pursuer.y - leader.y)
     if apart < preferred.min_separation or preferred.min_separation <= required.min_separation:
-        return _ask(planner, required)  # nothing keeps what is lost already
-    answer, fell_back = _ask(planner, preferred)
+        return _certified_answer(planner, required)  # no path keeps what is lost already
+    answer, fell_back = _certified_answer(planner, preferred)
     if isinstance(answer, Plan):
         return answer, fell_back
-    answer, fell_back_again = _ask(planner, required)
+    answer, fell_back_again = _certified_answer(planner, required)
     return answer, fell_back or fell_back_again
 
 
-def _ask(planner: Planner, situation: Situation) -> tuple[Plan | NoPlan, bool]:
-    """The planner's answer if it certifies, else the exact plan; whether that stood in."""
+def _certified_answer(planner: Planner, situation: Situation) -> tuple[Plan | NoPlan, bool]:
+    """The planner's answer if it certifies, else the exact plan; whether that replaced it."""
     answer = planner(situation)
     if isinstance(answer, NoPlan):
         return answer, False
@@ -148,15 +146,15 @@ def _ask(planner: Planner, situation: Situation) -> tuple[Plan | NoPlan, bool]:
     return exact_plan(situation), True
 
 
-def _solved_again(left: Trajectory, situation: Situation) -> Plan | None:
-    """The extremal nearest to what is left, if it certifies."""
+def _solve_again(left: Trajectory, situation: Situation) -> Plan | None:
+    """The certified extremal nearest to the part still to be flown, if there is one near."""
     found = candidates(situation)
     near = [
         candidate
         for candidate in (*found.at_release, *found.later)
-        if _same_way(left, candidate.trajectory, 2.0 * SAME_WAY_SHARE)
+        if is_same_path(left, candidate.trajectory, share=2.0 * SAME_PATH_SHARE)
     ]
-    near.sort(key=lambda candidate: _distance_between(left, candidate.trajectory))
+    near.sort(key=lambda candidate: distance_between(left, candidate.trajectory))
     for candidate in near:
         plan = _as_plan(candidate, situation, found.bound)
         if plan.certificate.holds:
@@ -177,15 +175,15 @@ def _as_plan(candidate: Candidate, situation: Situation, bound: Second) -> Plan:
     )
 
 
-def _followed_on(left: Trajectory, plan: Plan, situation: Situation) -> Plan | None:
-    """What is left, as it was planned, if the aircraft is on it, it leads there and certifies."""
+def _continue_as_planned(left: Trajectory, plan: Plan, situation: Situation) -> Plan | None:
+    """The rest of the plan as it was, if it certifies, is being flown and ends at the slot."""
     pursuer = situation.pursuer
     if hypot(pursuer.x - left.x, pursuer.y - left.y) > LEASH or left.duration == 0.0:
         return None
-    if _misses(left, situation) > LEASH:
+    if _miss_distance(left, situation) > LEASH:
         return None
     certificate = certify(left, situation)
-    if not certificate.holds or not _clear_beside(left, situation):
+    if not certificate.holds or not _keeps_clear_beside(left, situation):
         return None
     return Plan(
         situation=situation,
@@ -198,18 +196,18 @@ def _followed_on(left: Trajectory, plan: Plan, situation: Situation) -> Plan | N
     )
 
 
-def _clear_beside(left: Trajectory, situation: Situation) -> bool:
-    """Whether d_min is kept from where the aircraft really is, beside the path it is to follow.
+def _keeps_clear_beside(left: Trajectory, situation: Situation) -> bool:
+    """Whether d_min is kept on the parallel path from where the aircraft really is.
 
-    Not at its end: there it is the spacing that is off, and speed the answer.
+    A loss near its end does not count: there the spacing is off, and speed corrects it.
     """
     pursuer = situation.pursuer
     beside = certify(replace(left, x=pursuer.x, y=pursuer.y), situation)
     return beside.holds or beside.at_time > left.duration - AT_THE_END
 
 
-def _as_planned(left: Trajectory, model: AircraftModel, *, overdue: bool) -> bool:
-    """Whether only the last turn is left, or only turns and no time to lose."""
+def _only_turns_left(left: Trajectory, model: AircraftModel, *, overdue: bool) -> bool:
+    """Whether only the last turn is left to fly, or only turns on a plan that is overdue."""
     segments = steer(left, model).segments
     if not all(isinstance(segment, Arc) for segment in segments):
         return False
@@ -217,7 +215,7 @@ def _as_planned(left: Trajectory, model: AircraftModel, *, overdue: bool) -> boo
 
 
 def _arrives_at_release(left: Trajectory, situation: Situation) -> bool:
-    """Whether no plan can be better by the margin."""
+    """Whether it arrives as the slot opens, so that no plan can be better by the margin."""
     if not situation.leader.intent:
         return left.duration < MARGIN
     frame = slot_frame(situation, situation.leader.trajectory)
@@ -225,8 +223,8 @@ def _arrives_at_release(left: Trajectory, situation: Situation) -> bool:
     return left.duration < slot_release + MARGIN
 
 
-def _misses(left: Trajectory, situation: Situation) -> Metre:
-    """How far from the slot a path ends: the leader may not be where the plan had it."""
+def _miss_distance(left: Trajectory, situation: Situation) -> Metre:
+    """How far from the slot a path ends: the leader may not be where the plan expected it."""
     frame = slot_frame(situation, situation.leader.trajectory)
     flown = situation.leader.tas * left.duration
     end = left.pose_at(left.duration)
@@ -234,32 +232,3 @@ def _misses(left: Trajectory, situation: Situation) -> Metre:
         end.x - frame.origin_x - flown * sin(frame.heading),
         end.y - frame.origin_y - flown * cos(frame.heading),
     )
-
-
-def _same_way(left: Trajectory, other: Trajectory, share: float) -> bool:
-    return _distance_between(left, other) <= SAME_WAY + share * other.length
-
-
-def _distance_between(left: Trajectory, other: Trajectory) -> Metre:
-    """How far apart two paths come, looked at after each third of the way."""
-    return max(
-        hypot(a[0] - b[0], a[1] - b[1])
-        for a, b in zip(_on_the_way(left), _on_the_way(other), strict=True)
-    )
-
-
-def _on_the_way(path: Trajectory) -> list[tuple[Metre, Metre]]:
-    """Where it is after each third, in one go: this is asked for every second."""
-    places: list[tuple[Metre, Metre]] = []
-    x, y, heading, begun = path.x, path.y, path.heading, 0.0
-    bends, length = [bend for segment in path.segments for bend in segment.bends], path.length
-    marks = [share * length for share in (0.33, 0.67, 1.0)]
-    for stretch, curvature in (*bends, (inf, 0.0)):
-        while len(places) < 3 and marks[len(places)] <= begun + stretch:
-            there = advance(x, y, heading, 1.0, curvature, marks[len(places)] - begun)
-            places.append(there[:2])
-        if len(places) == 3:
-            break
-        x, y, heading = advance(x, y, heading, 1.0, curvature, stretch)
-        begun += stretch
-    return places

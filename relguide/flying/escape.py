@@ -1,9 +1,9 @@
-"""Staying clear of the leader: the way out where no plan says how, and whether there is one left.
+"""Staying clear of the leader without a plan: an escape path, and how much separation it keeps.
 
-A leader who turns without a word is planned for as if he stopped turning now: what else could be?
-But he may go on, and a plan that keeps d_min if he stops may leave no way out if he does not. So
-while he turns, a way out is kept: a turn and a straight, begun a second later, that keeps d_min
-wherever his turn ends.
+Plans assume that a leader that turns unannounced stops turning now, as nothing else is known. But
+it may go on, and a plan that keeps d_min if it stops may leave no way out if it does not. So while
+it turns an escape path is kept: a turn and a straight, begun a second later, that keep d_min
+wherever the leader's turn ends.
 """
 
 from math import pi
@@ -22,17 +22,17 @@ from relguide.units import DEG, Metre, Radian, RadianPerSecond, Second
 
 LOOK_AHEAD: Second = 180.0  # DAIDALUS looks as far; a half turn at 240 m/s and 25° takes 165 s
 ON_ROUTE: Radian = 15.0 * DEG  # so aligned, speed alone keeps the spacing
-ENDS_EVERY: Radian = 30.0 * DEG  # between two ends of a leader's turn a third is little worse
-TURNS_ON: Radian = 180.0 * DEG  # a leader who turned farther would fly back where he came from
+ENDS_EVERY: Radian = 30.0 * DEG  # a turn that ends between two of these is little worse
+TURNS_ON: Radian = 180.0 * DEG  # a leader that turned farther would fly back to where it came from
 
 
 class EscapePath(NamedTuple):
-    """A heading to fly, and what it keeps."""
+    """A heading to fly, and the separation it keeps."""
 
     heading: Radian
     """Clockwise from north [rad]."""
     least_separation: Metre
-    """Whatever the leader does of what is looked at [m]."""
+    """Least separation over all that the leader may do [m]."""
 
 
 def escape_path(
@@ -40,22 +40,22 @@ def escape_path(
     *,
     bank: Radian,
     model: AircraftModel,
-    keep: Metre,
+    min_separation: Metre,
     leader_turn_rate: RadianPerSecond = 0.0,
     delay: Second = 0.0,
 ) -> EscapePath:
     """The heading nearest to the present one that keeps clear for three minutes.
 
-    If none does, the one that stays farthest away.
+    If no heading does, the one that stays farthest away.
 
     Args:
         situation: gives both aircraft, and the intent as far as it is known.
         bank: of the pursuer [rad]: its turn begins when it has rolled.
         model: how it rolls.
-        keep: the separation to keep [m].
+        min_separation: to be kept [m]; more than the situation's own where there is a buffer.
         leader_turn_rate: of a turn that may go on for as much as 180° more [rad/s]; 0 if there is
             none.
-        delay: goes on as it does for so long first [s].
+        delay: how long the pursuer goes on as it does before it turns [s].
     """
     pursuer = situation.pursuer
     rate, full = turn_rate(pursuer.tas, bank), pursuer.tas / pursuer.turn_radius
@@ -68,16 +68,22 @@ def escape_path(
     start, _ = kernel_arrays(pursuer.flying(()))
     leader, _ = kernel_arrays(situation.leader.trajectory)
     side, angle, least = kernel.escape_path(
-        start, full, before, leader, _leaders(situation, leader_turn_rate), keep, LOOK_AHEAD
+        start,
+        full,
+        before,
+        leader,
+        _leader_pieces(situation, leader_turn_rate),
+        min_separation,
+        LOOK_AHEAD,
     )
     turned = before[side + 1, 0] * rate + side * angle
     return EscapePath(heading=(pursuer.heading + turned) % (2.0 * pi), least_separation=least)
 
 
 def keeps_clear(seen: Offsets, to_slot: Metre, situation: Situation) -> bool:
-    """Whether the turn onto the route and on to the slot keeps d_min.
+    """Whether the turn onto the route, and the flight on to the slot, keep d_min.
 
-    On the route itself the answer to too little spacing is speed, not another way round.
+    On the route itself too little spacing is corrected by speed, not by another path.
     """
     if abs(seen.heading) < ON_ROUTE:
         return True
@@ -85,11 +91,11 @@ def keeps_clear(seen: Offsets, to_slot: Metre, situation: Situation) -> bool:
     arc = Arc(turn=turn, turn_angle=abs(seen.heading), radius=situation.pursuer.turn_radius)
     closing = situation.pursuer.tas - situation.leader.tas
     until = to_slot / closing if closing > 0.0 and to_slot > 0.0 else 0.0
-    return certify(_path(situation, arc, min(until, LOOK_AHEAD)), situation).holds
+    return certify(_turn_and_straight(situation, arc, min(until, LOOK_AHEAD)), situation).holds
 
 
-def _leaders(situation: Situation, rate: RadianPerSecond) -> np.ndarray:
-    """Pieces of all that the leader may do: what he declared, or a turn that goes on."""
+def _leader_pieces(situation: Situation, rate: RadianPerSecond) -> np.ndarray:
+    """Pieces of all that the leader may do: its declared intent, or a turn that goes on."""
     _, known = kernel_arrays(situation.leader.trajectory)
     ends = np.arange(ENDS_EVERY, TURNS_ON + 0.5 * ENDS_EVERY, ENDS_EVERY) if rate != 0.0 else ()
     pieces = np.zeros((1 + len(ends), max(len(known), 1), 2))
@@ -99,7 +105,7 @@ def _leaders(situation: Situation, rate: RadianPerSecond) -> np.ndarray:
     return pieces
 
 
-def _path(situation: Situation, arc: Arc, until: Second) -> Trajectory:
-    """A turn, and straight on until then; at a gentle bank the turn itself may take longer."""
+def _turn_and_straight(situation: Situation, arc: Arc, until: Second) -> Trajectory:
+    """A turn, and straight on until a time; at a gentle bank the turn itself may take longer."""
     straight = max(situation.pursuer.tas * until - arc.length, 0.0)
     return situation.pursuer.flying((arc, Straight(length=straight)))

@@ -12,7 +12,7 @@ from typing import Literal, assert_never
 
 from relguide.flying.aircraft import A300, AircraftModel, AircraftState
 from relguide.flying.aircraft import step as fly_step
-from relguide.flying.assignment import TURN_SEEN, Assignment, Seen
+from relguide.flying.assignment import TURN_SEEN, Assignment, Observation
 from relguide.flying.autopilot import Autopilot
 from relguide.flying.cards import wind_card
 from relguide.flying.documents import (
@@ -25,7 +25,7 @@ from relguide.flying.documents import (
     PlanChanged,
 )
 from relguide.flying.guidance import advise
-from relguide.flying.leader import FlyingLeader, LeaderFlight, advanced, replayed
+from relguide.flying.leader import FlyingLeader, LeaderFlight, advance_leader, leader_on_track
 from relguide.flying.logbook import Tally, counted, event_document, leader_route, sample
 from relguide.flying.memory import begin
 from relguide.flying.orders import Command, obey
@@ -61,7 +61,7 @@ class Scenario:
     situation: Situation
     """At t = 0, with the leader's true intent."""
     intent_known: bool = True
-    """Whether the pursuer is told it."""
+    """Whether the pursuer knows it."""
     leader_source: DeclaredLeader | RecordedTrack = DeclaredLeader()
     """A recorded leader overrules the situation's; its intent is not known."""
     pursuer_ident: str = "PURSUER"
@@ -191,7 +191,7 @@ def _fly(
             wind_north=wind.north,
             duration=step,
         )
-        leader = advanced(leader, leader_pilot, t, wind=wind, duration=step)
+        leader = advance_leader(leader, leader_pilot, t, wind=wind, duration=step)
         tally = counted(tally, before, pursuer, leader.state, joined)
         n += 1
     yield FlightEnded(
@@ -237,7 +237,7 @@ def _started(scenario: Scenario, planner: Planner, step: Second, seed: int) -> F
 def _leader(scenario: Scenario) -> LeaderFlight:
     match scenario.leader_source:
         case RecordedTrack() as track:
-            return replayed(track, 0.0, scenario.situation.wind)
+            return leader_on_track(track, 0.0, scenario.situation.wind)
         case DeclaredLeader():
             leader = scenario.situation.leader
             heading = leader.heading % (2.0 * pi)
@@ -282,20 +282,20 @@ def _limit(scenario: Scenario, leader: LeaderFlight) -> Second:
     return min(scenario.duration_limit, leader.track.duration)
 
 
-def _seen(t: Second, pursuer: AircraftState, leader: LeaderFlight, known: bool) -> Seen:
+def _seen(t: Second, pursuer: AircraftState, leader: LeaderFlight, known: bool) -> Observation:
     state = leader.state
-    return Seen(
+    return Observation(
         t=t,
         pursuer=pursuer,
         leader=state,
         leader_turn_rate=turn_rate(state.tas, state.bank),
-        intent=leader.intent_left(t) if known else (),
+        intent=leader.remaining_intent(t) if known else (),
         intent_known=known,
     )
 
 
 def _observed(
-    shown: Seen, seen: Seen, turning: bool, told: bool
+    shown: Observation, seen: Observation, turning: bool, told: bool
 ) -> tuple[tuple[LeaderChanged, ...], bool]:
     """A turn that the leader begins without having announced it."""
     rate = seen.leader_turn_rate
@@ -308,7 +308,7 @@ def _observed(
     return (change,), True
 
 
-def _route_is_news(shown: Seen, seen: Seen) -> bool:
+def _route_is_news(shown: Observation, seen: Observation) -> bool:
     """Whether the route last shown is no longer what is expected."""
     if shown.intent_known != seen.intent_known:
         return True

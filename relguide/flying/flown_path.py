@@ -1,4 +1,4 @@
-"""The leader's flown path, remembered: who follows an aircraft turns where it turned, not when."""
+"""The path that the leader has flown: an aircraft that follows turns where the leader turned."""
 
 from bisect import bisect_left
 from dataclasses import dataclass
@@ -10,8 +10,8 @@ from relguide.flying.capture import Offsets
 from relguide.units import DEG, Metre, MetrePerSecond, Radian, RadianPerSecond
 
 STRAIGHT: Radian = 2.0 * DEG  # as for joining; an autopilot takes 10 s for the last degree
-SPARE: Metre = 20_000.0  # kept beyond D, and laid out straight behind the first position seen
-WINDOW: Metre = 6_000.0  # how far from the expected place the nearest point is looked for
+SPARE: Metre = 20_000.0  # kept beyond D, and assumed straight behind the first position seen
+WINDOW: Metre = 6_000.0  # how far from the expected place the nearest point is searched
 
 
 class Mark(NamedTuple):
@@ -45,7 +45,7 @@ class FlownPath:
         return self.marks[-1]
 
     def slot_open(self, slot_distance: Metre) -> bool:
-        """Whether the leader has flown D on its present heading (at once if it never turned)."""
+        """Whether the leader has flown D on its present heading; true if it has not turned yet."""
         heading = self.last.heading
         since = bisect_left(self.marks, self.last.s - slot_distance, key=lambda mark: mark.s)
         return all(
@@ -54,7 +54,7 @@ class FlownPath:
         )
 
     def at(self, s: Metre) -> Mark:
-        """The path at length s, between marks as on a straight."""
+        """The path at length s [m], interpolated linearly between marks."""
         i = min(max(bisect_left(self.marks, s, key=lambda mark: mark.s), 1), len(self.marks) - 1)
         before, after = self.marks[i - 1], self.marks[i]
         share = (s - before.s) / (after.s - before.s)
@@ -78,7 +78,7 @@ class FlownPath:
             self.marks[max(low - 1, 0) : high + 1],
             key=lambda mark: hypot(state.x - mark.x, state.y - mark.y),
         )
-        # one projection on the mark's own tangent, then again where that leads: exact to a metre
+        # project on the mark's own tangent, then once more where that leads: exact to a metre
         for _ in range(2):
             beyond = (state.x - near.x) * sin(near.track) + (state.y - near.y) * cos(near.track)
             near = self.at(near.s + beyond)
@@ -87,8 +87,8 @@ class FlownPath:
         return Offsets(ahead=near.s - slot_s, right=right, heading=heading)
 
 
-def path_begun(leader: AircraftState, velocity: GroundVelocity, slot_distance: Metre) -> FlownPath:
-    """The memory at first sight: the leader is taken to have come straight."""
+def begin_path(leader: AircraftState, velocity: GroundVelocity, slot_distance: Metre) -> FlownPath:
+    """The path at first sight: the leader is assumed to have come straight."""
     track, behind = velocity.track, slot_distance + SPARE
     here = Mark(0.0, leader.x, leader.y, leader.heading, track, 0.0, velocity.speed)
     far = here._replace(
@@ -97,14 +97,14 @@ def path_begun(leader: AircraftState, velocity: GroundVelocity, slot_distance: M
     return FlownPath(marks=(far, here))
 
 
-def path_extended(
+def extend_path(
     path: FlownPath,
     leader: AircraftState,
     velocity: GroundVelocity,
     turn_rate: RadianPerSecond,
     slot_distance: Metre,
 ) -> FlownPath:
-    """The memory one look later."""
+    """The path with one more mark, from a new position of the leader."""
     last = path.last
     flown = hypot(leader.x - last.x, leader.y - last.y)
     if flown < 1.0:  # the same report again

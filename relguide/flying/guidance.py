@@ -1,9 +1,9 @@
 """Guidance, once a second: what the pursuer knows → a reference for its autopilot, and a speed.
 
 Modes: converge flies the committed plan; capture closes onto the leader's route by the laws of
-`capture.py`, where the plan's problem is ill-posed; follow flies the leader's own path D behind it,
-so it turns where the leader turned. With nothing to fly it holds a heading that keeps d_min.
-Every answer is a new memory and an `Advice`: nothing here changes in place.
+`capture.py`, where the minimum-time problem is ill-posed; follow flies the leader's own path, D
+behind it, so it turns where the leader turned; heading holds a heading that keeps d_min while there
+is no plan. Every answer is a new memory and an `Advice`: nothing here changes in place.
 """
 
 from dataclasses import replace
@@ -14,52 +14,48 @@ from relguide.flying.announcements import (
     TURNED,
     Event,
     NewPlan,
-    PlanMissing,
     PlanReason,
-    because,
     expectation,
     leader_change,
+    reason_sentence,
     summary,
 )
-from relguide.flying.assignment import Assignment, Seen, situation_of, slot_of
-from relguide.flying.autopilot import HoldHeading
+from relguide.flying.assignment import Assignment, Observation, situation_of, slot_of
 from relguide.flying.capture import Offsets, Slot, braking_distance, offsets, spacing_tas
 from relguide.flying.closing import (
     CAPTURE_HEADING,
     JOINED_ALONG,
-    SEPARATION_BUFFER,
     capture,
     follow,
 )
 from relguide.flying.commitment import Cause, Choice, Commitment, choose
-from relguide.flying.escape import escape_path
-from relguide.flying.flown_path import path_extended
-from relguide.flying.memory import Advice, Memory, into_mode, is_slot_open
+from relguide.flying.flown_path import extend_path
+from relguide.flying.holding import buffered_separation, hold_heading, reason_to_turn_away
+from relguide.flying.memory import Advice, Memory, enter_mode, is_slot_open
 from relguide.flying.steering import Steering, steer
-from relguide.planning.plan import NoPlan, Plan, Planner, Reason
+from relguide.planning.plan import NoPlan, Plan, Planner
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import Arc, Trajectory
 from relguide.units import DEG, NM, Metre, MetrePerSecond, Radian, Second
 
-TURNED_IN_CAPTURE: Radian = 3.0 * DEG  # less moves the slot by 0.5 km, which capture takes up
-CAPTURE_TURN: Radian = 160.0 * DEG  # a longer final turn is flown as planned until this is left
-LAST_STRETCH: Second = 30.0  # braking by now, the plan at V_P is no longer what will be flown
-GOING_AROUND: Radian = 120.0 * DEG  # a plan that turns so much from close in is a detour, or a loop
+TURNED_IN_CAPTURE: Radian = 3.0 * DEG  # moves the slot by 0.5 km, which capture corrects
+CAPTURE_TURN: Radian = 160.0 * DEG  # a final turn is flown as planned down to this angle
+LAST_STRETCH: Second = 30.0  # it brakes by now, so a plan at V_P is not what it will fly
+GOING_AROUND: Radian = 120.0 * DEG  # a plan from near the slot that turns so much goes round again
 CAPTURE_ACROSS: Metre = 1_500.0  # within the intercept law's linear range (30° ↔ 3.1 km)
-A_SECOND: Second = 1.0  # until guidance speaks again
-SHOWN_WITHIN: Metre = 0.25 * NM  # a re-solved path farther than this from the shown one is shown
-SHOWN_WITHIN_TIME: Second = 3.0  # … or one that arrives so much earlier or later
+SHOWN_WITHIN: Metre = 0.25 * NM  # a path solved again is shown if it is farther from the shown one
+SHOWN_WITHIN_TIME: Second = 3.0  # … or if it arrives so much earlier or later
 SHOWN_WITHIN_SHARE = 0.01  # and by this much of the time to go
 
 
 def advise(
-    memory: Memory, seen: Seen, assignment: Assignment, planner: Planner
+    memory: Memory, seen: Observation, assignment: Assignment, planner: Planner
 ) -> tuple[Memory, Advice]:
     """What to fly for the next second."""
     wind = assignment.wind
     memory = replace(
         memory,
-        flown=path_extended(
+        flown=extend_path(
             memory.flown,
             seen.leader,
             ground_velocity(seen.leader, wind.east, wind.north),
@@ -81,19 +77,23 @@ def advise(
 
 
 def _converge(
-    memory: Memory, seen: Seen, assignment: Assignment, situation: Situation, planner: Planner
+    memory: Memory,
+    seen: Observation,
+    assignment: Assignment,
+    situation: Situation,
+    planner: Planner,
 ) -> tuple[Memory, Advice]:
     slot = slot_of(situation)
     from_slot = offsets(seen.pursuer, slot)
-    near = _close_in(from_slot, slot, assignment)
+    near = _is_close_in(from_slot, slot, assignment)
     if seen.turning_unannounced and not near:
-        trapped = _trapped(memory, seen, assignment, situation)
-        if trapped is not None:
-            return _hold(memory, seen, assignment, situation, trapped)
+        away = reason_to_turn_away(memory, seen, assignment, situation)
+        if away is not None:
+            return hold_heading(memory, seen, assignment, situation, away)
     choice = choose(
         memory.committed,
         seen.t,
-        preferred=replace(situation, min_separation=_buffered(assignment)),
+        preferred=replace(situation, min_separation=buffered_separation(assignment)),
         required=situation,
         planner=planner,
         model=assignment.model,
@@ -101,20 +101,20 @@ def _converge(
     memory = replace(memory, slot_heading=slot.heading)
     if isinstance(choice, NoPlan):
         captured = capture(memory, seen, assignment, situation) if near else None
-        return captured or _hold(memory, seen, assignment, situation, choice)
+        return captured or hold_heading(memory, seen, assignment, situation, choice)
     memory, events = _commit(memory, seen, choice)
     steering = steer(choice.plan.trajectory, assignment.model)
-    around = near and _turning(choice.plan.trajectory) > GOING_AROUND
-    if around or _final(steering, choice.plan, slot, assignment):
+    around = near and _total_turn_angle(choice.plan.trajectory) > GOING_AROUND
+    if around or _is_last_stretch(steering, choice.plan, slot, assignment):
         captured = capture(memory, seen, assignment, situation)
         if captured is not None:
             return captured[0], replace(captured[1], events=(*events, *captured[1].events))
-    mode, mode_events = into_mode(memory, "converge", f"Converging by {choice.plan.word}.")
-    # what the plan gains on the slot: braking may have to begin before the last turn does
+    mode, mode_events = enter_mode(memory, "converge", f"Converging by {choice.plan.word}.")
+    # the plan gains so much on the slot; braking may have to begin before the last turn
     to_gain = max(assignment.tas - slot.tas, 0.0) * choice.plan.time_to_converge
     return replace(memory, mode=mode), Advice(
         reference=steering.reference,
-        commanded_tas=_braked(to_gain, slot, assignment),
+        commanded_tas=_braking_tas(to_gain, slot, assignment),
         mode=mode,
         slot=slot,
         slot_open=is_slot_open(memory, seen, assignment),
@@ -125,8 +125,8 @@ def _converge(
     )
 
 
-def _commit(memory: Memory, seen: Seen, choice: Choice) -> tuple[Memory, tuple[Event, ...]]:
-    """Remember the plan, and announce it if it is news."""
+def _commit(memory: Memory, seen: Observation, choice: Choice) -> tuple[Memory, tuple[Event, ...]]:
+    """Remember the plan, and announce it if it is new to the reader."""
     due = seen.t + choice.plan.time_to_converge
     unchanged = leader_change(memory.expected, seen, TURNED) is None
     if memory.committed is not None and choice.cause == "continued" and unchanged:
@@ -138,15 +138,15 @@ def _commit(memory: Memory, seen: Seen, choice: Choice) -> tuple[Memory, tuple[E
         missing=None,
         fallbacks=memory.fallbacks + choice.fell_back,
     )
-    reason = _news(memory, seen, choice.cause)
+    reason = _reason_to_announce(memory, seen, choice.cause)
     if reason is None:
         return memory, ()
-    message = f"{because(reason, seen)}: {summary(choice.plan)}."
+    message = f"{reason_sentence(reason, seen)}: {summary(choice.plan)}."
     memory = replace(memory, shown=commitment, planned=True, expected=expectation(seen))
     return memory, (NewPlan(commitment=commitment, reason=reason, message=message),)
 
 
-def _news(memory: Memory, seen: Seen, cause: Cause) -> PlanReason | None:
+def _reason_to_announce(memory: Memory, seen: Observation, cause: Cause) -> PlanReason | None:
     if not memory.planned:
         return "engaged"
     change = leader_change(memory.expected, seen, TURNED)
@@ -169,9 +169,12 @@ def _news(memory: Memory, seen: Seen, cause: Cause) -> PlanReason | None:
     return "deviation" if late or off else None
 
 
-def _final(steering: Steering, plan: Plan, slot: Slot, assignment: Assignment) -> bool:
-    """Whether only the last turn, or nothing but the braking, is left of the plan."""
-    if plan.time_to_converge < LAST_STRETCH and _turning(plan.trajectory) < CAPTURE_HEADING:
+def _is_last_stretch(steering: Steering, plan: Plan, slot: Slot, assignment: Assignment) -> bool:
+    """Whether only the last turn of the plan, or only its braking, is still to be flown."""
+    if (
+        plan.time_to_converge < LAST_STRETCH
+        and _total_turn_angle(plan.trajectory) < CAPTURE_HEADING
+    ):
         return True
     arcs = [segment for segment in steering.segments if isinstance(segment, Arc)]
     if len(arcs) == 0:
@@ -180,12 +183,12 @@ def _final(steering: Steering, plan: Plan, slot: Slot, assignment: Assignment) -
     return len(steering.segments) == 1 and arcs[0].turn_angle < CAPTURE_TURN
 
 
-def _turning(trajectory: Trajectory) -> Radian:
+def _total_turn_angle(trajectory: Trajectory) -> Radian:
     return sum(s.turn_angle for s in trajectory.segments if isinstance(s, Arc))
 
 
-def _close_in(seen: Offsets, slot: Slot, assignment: Assignment) -> bool:
-    """Whether the pursuer is so near the slot, and so aligned, that it only has to slide in."""
+def _is_close_in(seen: Offsets, slot: Slot, assignment: Assignment) -> bool:
+    """Whether the pursuer is so near the slot and so well aligned that no plan is needed."""
     margin = max(assignment.slot_distance - assignment.min_separation, JOINED_ALONG)
     braking = braking_distance(assignment.tas, slot.tas)
     return (
@@ -195,69 +198,8 @@ def _close_in(seen: Offsets, slot: Slot, assignment: Assignment) -> bool:
     )
 
 
-def _trapped(
-    memory: Memory, seen: Seen, assignment: Assignment, situation: Situation
-) -> NoPlan | None:
-    """Why to turn away now from a leader who turns without a word; `None` if it can wait.
-
-    What is planned keeps d_min if he stops turning. If there might be no way out a second later,
-    were he to go on, it is taken now, and left when there is room to spare.
-    """
-    spare = SEPARATION_BUFFER if memory.mode == "heading" and memory.missing else 0.0
-    keep = _buffered(assignment) + spare
-    out = escape_path(
-        situation,
-        bank=seen.pursuer.bank,
-        model=assignment.model,
-        keep=keep,
-        leader_turn_rate=seen.leader_turn_rate,
-        delay=A_SECOND,
-    )
-    if out.least_separation >= keep:
-        return None
-    return NoPlan(
-        reason=Reason.SEPARATION_UNAVOIDABLE,
-        message="The leader turns, and if he goes on there may soon be no way out.",
-    )
-
-
-def _buffered(assignment: Assignment) -> Metre:
-    """What new plans should keep; the slot itself must be far enough [m]."""
-    return min(assignment.min_separation + SEPARATION_BUFFER, assignment.slot_distance)
-
-
-def _hold(
-    memory: Memory, seen: Seen, assignment: Assignment, situation: Situation, answer: NoPlan
-) -> tuple[Memory, Advice]:
-    """Nothing to fly: hold the present heading, or the nearest that keeps clear of the leader."""
-    slot = slot_of(situation)
-    out = escape_path(
-        situation,
-        bank=seen.pursuer.bank,
-        model=assignment.model,
-        keep=_buffered(assignment),
-        leader_turn_rate=seen.leader_turn_rate if seen.turning_unannounced else 0.0,
-    )
-    news = () if memory.missing == answer.reason else (PlanMissing(answer=answer),)
-    mode, events = into_mode(
-        memory, "heading", f"No plan: holding a safe heading. {answer.message}"
-    )
-    memory = replace(memory, mode=mode, committed=None, shown=None, missing=answer.reason)
-    return memory, Advice(
-        reference=HoldHeading(out.heading),
-        commanded_tas=assignment.tas,
-        mode=mode,
-        slot=slot,
-        slot_open=is_slot_open(memory, seen, assignment),
-        to_slot=-offsets(seen.pursuer, slot).ahead,
-        time_to_go=0.0,
-        joined=False,
-        events=(*news, *events),
-    )
-
-
-def _braked(to_gain: Metre, slot: Slot, assignment: Assignment) -> MetrePerSecond:
-    """V_P, less what braking for the slot takes off it; a slower pursuer has nothing to brake."""
+def _braking_tas(to_gain: Metre, slot: Slot, assignment: Assignment) -> MetrePerSecond:
+    """V_P, or less when braking for the slot; a pursuer slower than the slot does not brake."""
     if assignment.tas <= slot.tas:
         return assignment.tas
     return spacing_tas(to_gain, slot.tas, model=assignment.model, fastest=assignment.tas)

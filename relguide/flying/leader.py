@@ -1,8 +1,8 @@
 """The leader in flight: by its own autopilot along its intent, or as it was recorded.
 
-What it declared and what it flies differ only by its roll: the intent's turns begin when declared,
-with half the roll before and half after. A recorded leader that is given a command leaves its
-recording there and flies on by itself.
+What it flies differs from what it declared only by its roll: the intent's turns begin when
+declared, with half of the roll before that and half after. A recorded leader that is given a
+command leaves its recording there and flies on under its own autopilot.
 """
 
 from math import atan, atan2, cos, hypot, pi, sin, tan
@@ -15,9 +15,10 @@ from relguide.planning.situation import FlyStraight, IntentPiece, TurnTo, Wind
 from relguide.planning.trajectory import LEFT, RIGHT, Turn
 from relguide.units import DEG, G0, MetrePerSecond, Radian, Second
 
-Way = Literal["left", "right", "shorter"]
-ROLLED_OUT: Radian = 1.0 * DEG  # half of what joining accepts: the last degree takes 10 s more
-PAST: Radian = 5.0 * DEG  # so little past the heading is not a full turn still to come
+TurnChoice = Literal["left", "right", "shorter"]
+"""Which way round to turn to a heading."""
+ROLLED_OUT: Radian = 1.0 * DEG  # half of what joining accepts; the last degree takes 10 s
+OVERSHOT: Radian = 5.0 * DEG  # so little past its heading, the leader is not to turn a full circle
 
 
 class FlyingLeader(NamedTuple):
@@ -25,16 +26,16 @@ class FlyingLeader(NamedTuple):
 
     state: AircraftState
     pieces: tuple[IntentPiece, ...]
-    """Of its intent, the one being flown first."""
+    """The rest of its intent; the first piece is being flown."""
     since: Second
-    """When that one began, flight time [s]."""
+    """When that piece began, flight time [s]."""
     heading: Radian
     """The heading it is on, or turns away from [rad]."""
     tas: MetrePerSecond
-    """What its autothrust holds [m/s]."""
+    """The true airspeed that its autothrust holds [m/s]."""
 
-    def intent_left(self, t: Second) -> tuple[IntentPiece, ...]:
-        """What remains of its intent at flight time t [s]."""
+    def remaining_intent(self, t: Second) -> tuple[IntentPiece, ...]:
+        """The part of its intent still to be flown at flight time t [s]."""
         if not self.pieces:
             return ()
         first = self.pieces[0]
@@ -43,7 +44,7 @@ class FlyingLeader(NamedTuple):
                 left = max(first.duration - (t - self.since), 0.0)
                 return (FlyStraight(duration=left), *self.pieces[1:])
             case TurnTo():
-                if _angle_left(first, self.state) > 2.0 * pi - PAST:
+                if _angle_left(first, self.state) > 2.0 * pi - OVERSHOT:
                     return self.pieces[1:]
                 return self.pieces
 
@@ -54,26 +55,26 @@ class ReplayedLeader(NamedTuple):
     state: AircraftState
     track: RecordedTrack
 
-    def intent_left(self, t: Second) -> tuple[IntentPiece, ...]:
-        """A recording declares nothing."""
+    def remaining_intent(self, t: Second) -> tuple[IntentPiece, ...]:
+        """Nothing: a recording declares no intent."""
         return ()
 
 
 LeaderFlight = FlyingLeader | ReplayedLeader
 
 
-def replayed(track: RecordedTrack, t: Second, wind: Wind) -> ReplayedLeader:
+def leader_on_track(track: RecordedTrack, t: Second, wind: Wind) -> ReplayedLeader:
     """The leader as recorded at time t [s]; heading and airspeed follow from the wind."""
     x, y, chi, ground_speed, altitude = track.state_at(t)
-    heading, tas = _air(chi, ground_speed, wind)
+    heading, tas = _air_velocity(chi, ground_speed, wind)
     _, _, later_chi, later_speed, _ = track.state_at(min(t + 1.0, track.duration))
-    later, _ = _air(later_chi, later_speed, wind)
+    later, _ = _air_velocity(later_chi, later_speed, wind)
     rate = (later - heading + pi) % (2.0 * pi) - pi  # over one second
     bank = atan(tas * rate / G0)
     return ReplayedLeader(state=AircraftState(x, y, heading, bank, 0.0, tas, altitude), track=track)
 
 
-def advanced(
+def advance_leader(
     leader: LeaderFlight,
     autopilot: Autopilot,
     t: Second,
@@ -84,7 +85,7 @@ def advanced(
     """The leader a step later."""
     match leader:
         case ReplayedLeader():
-            return replayed(leader.track, min(t + duration, leader.track.duration), wind)
+            return leader_on_track(leader.track, min(t + duration, leader.track.duration), wind)
         case FlyingLeader():
             reference = _reference(leader, t, autopilot.model)
             state = step(
@@ -101,24 +102,24 @@ def advanced(
             assert_never(leader)
 
 
-def turned(
-    leader: LeaderFlight, t: Second, heading: Radian, way: Way, bank: Radian
+def turn_leader(
+    leader: LeaderFlight, t: Second, heading: Radian, direction: TurnChoice, bank: Radian
 ) -> FlyingLeader:
-    """The leader after it was told a heading: what it had intended before is dropped."""
+    """The leader after an order to turn to a heading; its former intent is dropped."""
     change = (heading - leader.state.heading + pi) % (2.0 * pi) - pi
-    turn: Turn = LEFT if way == "left" or (way == "shorter" and change < 0.0) else RIGHT
-    return _flying(leader, t)._replace(
+    turn: Turn = LEFT if direction == "left" or (direction == "shorter" and change < 0.0) else RIGHT
+    return _leave_recording(leader, t)._replace(
         pieces=(TurnTo(heading=heading, turn=turn, bank=bank),),
         since=t,
     )
 
 
-def at_speed(leader: LeaderFlight, t: Second, tas: MetrePerSecond) -> FlyingLeader:
-    """The leader after it was told a speed."""
-    return _flying(leader, t)._replace(tas=tas)
+def set_leader_speed(leader: LeaderFlight, t: Second, tas: MetrePerSecond) -> FlyingLeader:
+    """The leader after an order to fly at a true airspeed [m/s]."""
+    return _leave_recording(leader, t)._replace(tas=tas)
 
 
-def _flying(leader: LeaderFlight, t: Second) -> FlyingLeader:
+def _leave_recording(leader: LeaderFlight, t: Second) -> FlyingLeader:
     match leader:
         case FlyingLeader():
             return leader
@@ -131,7 +132,7 @@ def _flying(leader: LeaderFlight, t: Second) -> FlyingLeader:
 
 
 def _reference(leader: FlyingLeader, t: Second, model: AircraftModel) -> Reference:
-    """The heading or turn of the piece being flown; a turn that follows is rolled into early."""
+    """The heading or turn of the piece being flown; the roll into the next turn begins early."""
     heading = leader.heading
     for i, piece in enumerate(leader.pieces):
         match piece:
@@ -143,7 +144,7 @@ def _reference(leader: FlyingLeader, t: Second, model: AircraftModel) -> Referen
             case TurnTo():
                 angle, bank = _angle_left(piece, leader.state), _bank(piece)
                 rate = G0 / leader.state.tas * tan(bank)
-                if angle < abs(rate) * roll_lead(model, bank, 0.0) or angle > 2.0 * pi - PAST:
+                if angle < abs(rate) * roll_lead(model, bank, 0.0) or angle > 2.0 * pi - OVERSHOT:
                     return HoldHeading(piece.heading)
                 return TurnRate(rate)
     return HoldHeading(heading)
@@ -177,8 +178,10 @@ def _angle_left(piece: TurnTo, state: AircraftState) -> Radian:
     return (-piece.turn * (piece.heading - state.heading)) % (2.0 * pi)
 
 
-def _air(track: Radian, ground_speed: MetrePerSecond, wind: Wind) -> tuple[Radian, MetrePerSecond]:
-    """Heading and true airspeed of an aircraft seen over the ground."""
+def _air_velocity(
+    track: Radian, ground_speed: MetrePerSecond, wind: Wind
+) -> tuple[Radian, MetrePerSecond]:
+    """Heading and true airspeed of an aircraft, from its velocity over the ground."""
     east = ground_speed * sin(track) - wind.east
     north = ground_speed * cos(track) - wind.north
     return atan2(east, north) % (2.0 * pi), hypot(east, north)

@@ -1,28 +1,28 @@
-"""What guidance carries from one second to the next, and what it answers."""
+"""What guidance remembers from one second to the next, and the advice it gives."""
 
 from dataclasses import dataclass
 
 from relguide.flying.aircraft import ground_velocity
 from relguide.flying.announcements import Event, Expectation, Mode, ModeChange, expectation
-from relguide.flying.assignment import Assignment, Seen
+from relguide.flying.assignment import Assignment, Observation
 from relguide.flying.autopilot import Reference
 from relguide.flying.capture import Slot
 from relguide.flying.commitment import Commitment
-from relguide.flying.flown_path import FlownPath, path_begun
+from relguide.flying.flown_path import FlownPath, begin_path
 from relguide.planning.plan import Reason
 from relguide.units import Metre, MetrePerSecond, Radian, Second
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Memory:
-    """What guidance carries from one second to the next."""
+    """What guidance remembers from one second to the next."""
 
     mode: Mode
     flown: FlownPath
-    """The leader's, over the ground."""
+    """The leader's path over the ground."""
     expected: Expectation
     committed: Commitment | None
-    """`None` until there is a plan, and after it is given up."""
+    """`None` until there is a plan, and after it is abandoned."""
     shown: Commitment | None
     """The plan last announced."""
     missing: Reason | None
@@ -32,12 +32,12 @@ class Memory:
     planned: bool
     """Whether a plan was ever announced."""
     fallbacks: int
-    """How often a planner's answer did not certify and the exact plan stood in."""
+    """How often a planner's answer did not certify and the exact plan took its place."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Advice:
-    """Guidance's answer for the next second."""
+    """What guidance asks for during the next second."""
 
     reference: Reference
     commanded_tas: MetrePerSecond
@@ -53,13 +53,13 @@ class Advice:
     events: tuple[Event, ...]
 
 
-def begin(seen: Seen, assignment: Assignment) -> Memory:
+def begin(seen: Observation, assignment: Assignment) -> Memory:
     """The memory at engagement."""
     wind = assignment.wind
     velocity = ground_velocity(seen.leader, wind.east, wind.north)
     return Memory(
         mode="heading",
-        flown=path_begun(seen.leader, velocity, assignment.slot_distance),
+        flown=begin_path(seen.leader, velocity, assignment.slot_distance),
         expected=expectation(seen),
         committed=None,
         shown=None,
@@ -70,13 +70,13 @@ def begin(seen: Seen, assignment: Assignment) -> Memory:
     )
 
 
-def into_mode(memory: Memory, mode: Mode, message: str) -> tuple[Mode, tuple[Event, ...]]:
-    """The mode, and the event if it is another than before."""
+def enter_mode(memory: Memory, mode: Mode, message: str) -> tuple[Mode, tuple[Event, ...]]:
+    """The mode entered, and the event that says so if it is a new one."""
     if mode == memory.mode:
         return mode, ()
     return mode, (ModeChange(mode=mode, previous=memory.mode, message=message),)
 
 
-def is_slot_open(memory: Memory, seen: Seen, assignment: Assignment) -> bool:
+def is_slot_open(memory: Memory, seen: Observation, assignment: Assignment) -> bool:
     """Whether the leader has flown D on its final leg, as far as is known."""
     return not seen.turn_to_come and memory.flown.slot_open(assignment.slot_distance)

@@ -1,4 +1,4 @@
-"""What can be said to a flight while it flies, and what the leader makes of it."""
+"""Commands to a flight in the air, and what the leader does with them."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -6,37 +6,37 @@ from math import isfinite, pi
 from typing import Literal, assert_never
 
 from relguide.flying.documents import LeaderChanged
-from relguide.flying.leader import LeaderFlight, Way, at_speed, turned
+from relguide.flying.leader import LeaderFlight, TurnChoice, set_leader_speed, turn_leader
 from relguide.planning.situation import MAX_TAS, MIN_TAS
 from relguide.units import DEG, KT, MetrePerSecond, Radian, Second
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LeaderHeading:
-    """The leader is told a heading. It drops the rest of its intent, or leaves its recording."""
+    """The leader is to turn to a heading. It drops its intent, or leaves its recording."""
 
     heading: Radian
     """To roll out on, clockwise from north [rad]."""
-    turn: Way = "shorter"
+    direction: TurnChoice = "shorter"
     kind: Literal["leader_heading"] = "leader_heading"
 
     def __post_init__(self) -> None:
-        """Refuse what is no heading."""
+        """Refuse a heading that is no number, and an unknown direction."""
         if not isfinite(self.heading):
             raise ValueError(f"heading must be a finite number, not {self.heading}.")
-        if self.turn not in ("left", "right", "shorter"):
-            raise ValueError(f"turn must be left, right or shorter, not {self.turn!r}.")
+        if self.direction not in ("left", "right", "shorter"):
+            raise ValueError(f"direction must be left, right or shorter, not {self.direction!r}.")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LeaderSpeed:
-    """The leader is told a speed. A recorded one leaves its recording."""
+    """The leader is to fly at a true airspeed [m/s]. A recorded leader leaves its recording."""
 
     tas: MetrePerSecond
     kind: Literal["leader_speed"] = "leader_speed"
 
     def __post_init__(self) -> None:
-        """Refuse what no aircraft flies."""
+        """Refuse a speed outside the accepted range."""
         if not MIN_TAS <= self.tas <= MAX_TAS:
             raise ValueError(f"tas must lie in {MIN_TAS:g} … {MAX_TAS:g} m/s, not {self.tas:g}.")
 
@@ -53,36 +53,36 @@ Command = LeaderHeading | LeaderSpeed | IntentKnown
 
 
 def no_commands(t: Second) -> Iterable[Command]:
-    """Nobody says anything."""
+    """No commands at all."""
     return ()
 
 
 def obey(
     command: Command, leader: LeaderFlight, known: bool, t: Second, bank: Radian
 ) -> tuple[LeaderFlight, bool, tuple[LeaderChanged, ...]]:
-    """The leader, whether its intent is known, and what there is to say, after a command.
+    """Carry out a command: the leader, whether its intent is known, and the documents that say so.
 
     Args:
         command: what is asked.
         leader: before.
         known: whether its intent was known before.
         t: flight time [s].
-        bank: of the turns it is told to make [rad].
+        bank: of the turns it makes on command [rad].
     """
     match command:
-        case LeaderHeading(heading=heading, turn=way):
+        case LeaderHeading(heading=heading, direction=direction):
             degrees = round(heading / DEG) % 360
-            message = f"The leader is told to turn to {degrees:03d}°."
+            message = f"The leader is instructed to turn to {degrees:03d}°."
             said = LeaderChanged(t=t, change="heading", message=message)
             return (
-                turned(leader, t, heading=heading % (2.0 * pi), way=way, bank=bank),
+                turn_leader(leader, t, heading % (2.0 * pi), direction, bank),
                 known,
                 (said,),
             )
         case LeaderSpeed(tas=tas):
-            message = f"The leader is told to fly {tas / KT:.0f} kt."
+            message = f"The leader is instructed to fly {tas / KT:.0f} kt."
             said = LeaderChanged(t=t, change="speed", message=message)
-            return at_speed(leader, t, tas), known, (said,)
+            return set_leader_speed(leader, t, tas), known, (said,)
         case IntentKnown(known=now) if now == known:
             return leader, known, ()
         case IntentKnown(known=True):

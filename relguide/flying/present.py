@@ -1,4 +1,4 @@
-"""The situation a flight is in now, read from what it said of itself."""
+"""The situation of a flight at its newest sample, read from its documents."""
 
 from collections.abc import Sequence
 from math import pi
@@ -23,17 +23,17 @@ from relguide.planning.trajectory import LEFT, RIGHT
 from relguide.units import DEG, Radian, Second
 
 LATE: Second = 10.0
-"""A turn may end so much later than its exact arc: rolling in and out takes time."""
+"""A turn may end this much later than its exact arc: rolling in and out takes time."""
 OVER: Radian = 5.0 * DEG
-"""A turn with less to go is over: the last degrees are the roll-out."""
+"""A turn with less than this still to turn is over: the last degrees are the roll-out."""
 
 
 def situation_now(started: FlightStarted, routes: Sequence[LeaderRoute], now: Sample) -> Situation:
-    """What would be planned for at this instant, by what guidance expects of the leader.
+    """The situation to plan for at this instant, by what guidance expects of the leader.
 
     Args:
         started: gives D, d_min, the wind and the bank of the plans.
-        routes: the last one counts; without any the leader keeps straight.
+        routes: the last one counts; if there is none, the leader keeps straight.
         now: gives both aircraft, at their present airspeeds.
 
     Raises:
@@ -53,7 +53,7 @@ def situation_now(started: FlightStarted, routes: Sequence[LeaderRoute], now: Sa
             y=leader.y,
             heading=leader.heading,
             tas=leader.tas,
-            intent=_left_of(routes[-1], now) if routes else (),
+            intent=_remaining_intent(routes[-1], now) if routes else (),
         ),
         slot_distance=started.slot_distance,
         min_separation=started.min_separation,
@@ -61,8 +61,8 @@ def situation_now(started: FlightStarted, routes: Sequence[LeaderRoute], now: Sa
     )
 
 
-def _left_of(route: LeaderRoute, now: Sample) -> tuple[IntentPiece, ...]:
-    """What remains of a route, without its last straight, which goes on for ever."""
+def _remaining_intent(route: LeaderRoute, now: Sample) -> tuple[IntentPiece, ...]:
+    """The part of a route still to be flown, without its last straight, which has no end."""
     pieces: list[IntentPiece] = []
     for segment in route.segments:
         match segment:

@@ -1,9 +1,9 @@
-"""regular_check(regular, situation): the paper's own form, judged, as outsiders read it."""
+"""regular_check(regular, situation): one of the paper's trajectories against its conditions."""
 
 from relguide.flying.cards import optimality_check, path_point, path_segments, separation_card
 from relguide.flying.verdicts import (
     EndErrorCard,
-    NotAsked,
+    NotChecked,
     OptimalityCheck,
     PairCard,
     RegularCheck,
@@ -17,31 +17,31 @@ from relguide.planning.situation import Situation
 from relguide.units import DEG, Metre, Radian
 
 REACHES: Metre = 100.0
-"""A regular trajectory reaches the slot if it ends this near to it [m]: θ given to a hundredth of a
-degree leaves some tens of metres."""
+"""A regular trajectory reaches the slot if it ends this near to it [m]: rounding θ to a hundredth
+of a degree moves it by some tens of metres."""
 REACHES_HEADING: Radian = 0.5 * DEG
-"""And this near to the leader's heading [rad]."""
+"""And if it ends this near to the leader's heading [rad]."""
 MOVED = 0.05
-"""What both come to in R and rad at most: R is 2 km or more at any bank that airliners fly."""
+"""The two in R and in rad are at most this: R is 2 km or more at any bank that airliners fly."""
 
 
 def regular_check(regular: RegularTrajectory, situation: Situation) -> RegularCheck:
     """Length, end conditions, separation and stationarity of a regular trajectory.
 
     Raises:
-        ValueError: if the leader's intent turns; the paper's form has none such.
+        ValueError: if the leader's intent turns; the paper's form has no such leader.
     """
     found = evaluate(regular, situation)
     trajectory = trajectory_from_regular(regular, situation)
     certificate = certify(trajectory, situation)
-    reaches = _small(found.initial) and _small(found.final)
-    stationarity: OptimalityCheck | NotAsked
+    reaches = _reaches(found.initial) and _reaches(found.final)
+    stationarity: OptimalityCheck | NotChecked
     if reaches:
         scale = max(MOVED, REACHES / situation.pursuer.turn_radius)
         stationarity = optimality_check(check(trajectory, situation, arrives=scale))
-        stationary = stationarity.switching_ok
+        stationary = stationarity.stationary
     else:
-        stationarity, stationary = NotAsked(not_asked="It does not reach the slot."), False
+        stationarity, stationary = NotChecked(not_checked="It does not reach the slot."), False
     times = [found.duration]
     for triplet in regular.triplets:
         length = triplet.length + situation.pursuer.turn_radius * triplet.turn_angle
@@ -78,7 +78,7 @@ def regular_check(regular: RegularTrajectory, situation: Situation) -> RegularCh
     )
 
 
-def _small(error: EndError) -> bool:
+def _reaches(error: EndError) -> bool:
     off = max(abs(error.along), abs(error.left))
     return off <= REACHES and abs(error.heading) <= REACHES_HEADING
 

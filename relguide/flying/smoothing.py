@@ -125,7 +125,7 @@ def _chain(t: Array, values: Array, max_rate: float, slack: float) -> tuple[Arra
     """The longest believable chain of the values that are not missing."""
     known = np.all(np.isfinite(values), axis=1)
     t, values = t[known], values[known]
-    chain = believable(t, values, max_rate, slack)
+    chain = longest_chain(t, values, max_rate, slack)
     return t[chain], values[chain]
 
 
@@ -135,7 +135,7 @@ def _fresh(place: Array) -> Array:
     return np.where(held[:, None], np.nan, place)
 
 
-def believable(t: Array, values: Array, max_rate: float, slack: float) -> NDArray[np.intp]:
+def longest_chain(t: Array, values: Array, max_rate: float, slack: float) -> NDArray[np.intp]:
     """Indices of the longest chain of points that one moving thing can have made.
 
     Neighbours in the chain are at most `MAX_GAP` apart, not at the same time, and differ by no

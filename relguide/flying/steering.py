@@ -1,8 +1,8 @@
 """From a planned trajectory to a reference for the autopilot, with the roll anticipated.
 
-A plan changes its bank at once, an aircraft takes seconds to roll. So each segment is left early by
-half the roll to the next one: the same turn is then flown, only with rounded ends. What the first
-roll-in costs, replanning makes good.
+A plan changes its bank at once; an aircraft takes seconds to roll. So each segment is left early,
+by half the duration of the roll to the next one: the same turn is flown with rounded ends. What
+the first roll-in costs is made good by planning again.
 """
 
 from math import atan, pi
@@ -22,19 +22,19 @@ from relguide.planning.trajectory import (
 from relguide.units import G0, MetrePerSecond, Radian, RadianPerSecond, Second
 
 HALF_TICK: Second = 0.5
-"""Guidance speaks once a second: on average a switch comes half a second late."""
+"""Guidance acts once a second, so on average a switch comes half a second late."""
 
 
 class Steering(NamedTuple):
-    """What to do now, and what is left after it."""
+    """What to do now, and the segments it leads through."""
 
     reference: Reference
     segments: tuple[Segment, ...]
     """From the one being flown on."""
 
 
-def rest(trajectory: Trajectory, elapsed: Second) -> Trajectory:
-    """What is left of a trajectory after a while [s]."""
+def remaining(trajectory: Trajectory, elapsed: Second) -> Trajectory:
+    """The part of a trajectory still to be flown after a time [s]."""
     pose = trajectory.pose_at(elapsed)
     left, segments = elapsed * trajectory.tas, list[Segment]()
     for segment in trajectory.segments:
@@ -51,11 +51,11 @@ def rest(trajectory: Trajectory, elapsed: Second) -> Trajectory:
 def steer(trajectory: Trajectory, model: AircraftModel) -> Steering:
     """The reference that flies a trajectory from its start.
 
-    Within the roll's lead of a turn to come, the mean turn rate over that lead is asked for. It
-    rolls in time; and when the exact path from here begins with a sliver of the opposite turn,
-    because the aircraft is a little inside its arc, the bank is eased in proportion and not
-    reversed. A segment too short to roll for is skipped when no turn follows: the heading that
-    comes after it is held, and the heading loop rolls out.
+    Shortly before a turn, the mean turn rate over the roll's lead is asked for, so that the
+    aircraft rolls in time. When it is a little inside its arc, the exact path from here begins with
+    a sliver of the opposite turn; the mean then reduces the bank in proportion, and does not
+    reverse it. A segment too short to roll for is skipped when no turn follows: the heading after
+    it is held, and the heading loop rolls out.
     """
     tas, segments, heading = trajectory.tas, trajectory.segments, trajectory.heading
     rates = trajectory.turn_rates()

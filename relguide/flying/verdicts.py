@@ -1,4 +1,4 @@
-"""What is said only if asked for: how plans and regular trajectories meet their conditions.
+"""Documents given only when asked for: how plans and regular trajectories meet their conditions.
 
 As in `documents`, `contract/wire.py` gives each its JSON form.
 """
@@ -12,62 +12,62 @@ from relguide.units import Metre, PerMetre, Radian, Second, SecondPerMetre, Seco
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ContactCard:
-    """Where a plan touches d = d_min, or where a boundary arc along it begins or ends."""
+    """A contact with d = d_min, or the beginning or end of a boundary arc."""
 
     t: Second
     bearing: Radian
     """From pursuer to leader, clockwise from north, in [−180°, 180°]."""
     jump: SecondPerMetre
-    """By how much λ_d rises there; a minimum asks that it be 0 or more."""
+    """By how much λ_d rises there; 0 or more along a minimum."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BoundaryArcCard:
-    """A stretch flown along d = d_min at partial bank."""
+    """A segment flown along d = d_min at partial bank."""
 
     start: Second
     end: Second
     least_multiplier: PerMetre
-    """Least μ on it; eq. (10) asks that it be 0 or more."""
+    """Least μ on it; 0 or more by eq. (10)."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class OptimalityPanel:
-    """H and the costates along a plan, in columns of one length.
+class CostatesCard:
+    """H, the switching function and the costates along a plan, in columns of equal length.
 
-    Each end of a segment and each touch of d_min is there twice, for before and after: there a
-    column may jump. Between two times that differ it is smooth.
+    The ends of segments and the contacts with d_min appear twice, with the values before and after:
+    columns may jump there. Between two different times they are smooth.
     """
 
     t: tuple[Second, ...]
     """Ascending."""
     hamiltonian: tuple[float, ...]
-    """H of eq. (9): 0 once the leader has no turn to come; 1 on a plan that waits for the slot."""
+    """H of eq. (9): 0 once the leader has no turn to come; 1 if it arrives as the slot opens."""
     switching: tuple[SecondPerRadian, ...]
     """λ_ψ, eq. (16): above 0 the pursuer turns left, below 0 right, at 0 it flies straight."""
     separation_costate: tuple[SecondPerMetre, ...]
-    """λ_d; jumps where d_min is touched."""
+    """λ_d; it jumps at contacts with d_min."""
     bearing_costate: tuple[SecondPerRadian, ...]
     """λ_θ."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OptimalityCheck:
-    """How a plan meets Pontryagin's conditions, eqs. (9)–(16): what `OptimalityCard` gains."""
+    """How a plan meets Pontryagin's conditions, eqs. (9)–(16): added to `OptimalityCard`."""
 
     arrival: Arrival
-    """What fixes t_f: the plan alone, the slot's opening, or being there from the start."""
+    """What sets t_f: the plan alone, the slot's release time, or that it is in the slot at once."""
     hamiltonian_residual: float
-    """Largest |H − H due|."""
+    """Largest |H − H required|."""
     switching_residual: SecondPerRadian
     """Largest |λ_ψ| at a switch or on a straight."""
-    switching_ok: bool
-    """The plan is stationary: each arc turns the way eq. (16) asks, λ_ψ vanishes where it should,
-    H is as due, and no jump and no μ is below 0, all to a thousandth of R. If not, a small change
-    would make it faster."""
+    stationary: bool
+    """Whether each arc turns as eq. (16) requires, λ_ψ vanishes where it should, H is as required,
+    and no jump and no μ is below 0, all to a thousandth of R. If not, a small change of the plan
+    makes it faster."""
     contacts: tuple[ContactCard, ...]
     boundary_arcs: tuple[BoundaryArcCard, ...]
-    panel: OptimalityPanel
+    costates: CostatesCard
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -84,7 +84,7 @@ class TripletCard:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EndErrorCard:
-    """By how much an end condition is missed."""
+    """The error in an end condition."""
 
     along: Metre
     """Along the leader's heading."""
@@ -107,10 +107,10 @@ class PairCard:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class NotAsked:
-    """Pontryagin's conditions are not asked of what does not reach the slot."""
+class NotChecked:
+    """Pontryagin's conditions were not checked, as the trajectory does not reach the slot."""
 
-    not_asked: str
+    not_checked: str
     """Why."""
 
 
@@ -123,7 +123,7 @@ class RegularCheck:
     """
 
     passed: bool
-    """It reaches the slot, keeps d_min and is stationary."""
+    """Whether it reaches the slot, keeps d_min and is stationary."""
     order: int
     length: Metre
     """Eq. (17)."""
@@ -131,17 +131,17 @@ class RegularCheck:
     reaches_slot: bool
     """Eqs. (18), (19), to 100 m and 0.5°."""
     initial_error: EndErrorCard
-    """Laid backward from the slot, how far it begins from the pursuer."""
+    """How far it begins from the pursuer if laid backward from the slot."""
     final_error: EndErrorCard
-    """Flown from the pursuer's state, how far it ends from the slot."""
+    """How far it ends from the slot if flown from the pursuer's state."""
     keeps_separation: bool
     """Eq. (20)."""
     separation: Separation
-    stationarity: OptimalityCheck | NotAsked
+    stationarity: OptimalityCheck | NotChecked
     """How it meets Pontryagin's conditions."""
     triplets: tuple[TripletCard, ...]
     pairs: tuple[PairCard, ...]
     nodes: tuple[PathPoint, ...]
     """Over the ground; node n, the last, is the pursuer's present state."""
     segments: tuple[PathSegment, ...]
-    """What is flown, in the order flown."""
+    """In the order in which they are flown."""

@@ -194,8 +194,8 @@ def _tell(flight: Airborne, command: Command) -> None:
 
 
 def _leader_heading(command: LeaderHeadingCommand) -> LeaderHeading:
-    way = command.direction or "shorter"
-    return LeaderHeading(heading=radians(command.heading_deg % 360.0), turn=way)
+    direction = command.direction or "shorter"
+    return LeaderHeading(heading=radians(command.heading_deg % 360.0), direction=direction)
 
 
 def _content(parsed: object) -> dict[str, object]:

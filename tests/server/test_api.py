@@ -63,9 +63,9 @@ def test_a_batch_is_answered_in_order_with_its_ids(client: TestClient) -> None:
 
 def test_optimality_is_told_on_demand(client: TestClient) -> None:
     asked = client.post("/api/v1/plans?optimality=true", json=EXAMPLE).json()["optimality"]
-    assert asked["switching_ok"] is True
+    assert asked["stationary"] is True
     assert asked["hamiltonian_residual"] < 1e-8
-    assert len(asked["panel"]["t_s"]) == len(asked["panel"]["switching_s_per_deg"]) > 100
+    assert len(asked["costates"]["t_s"]) == len(asked["costates"]["switching_s_per_deg"]) > 100
     plain = client.post("/api/v1/plans", json=EXAMPLE).json()["optimality"]
     assert set(plain) == {"proof", "lower_bound_s"}
     (batch,) = client.post("/api/v1/plans/batch?optimality=true", json=[EXAMPLE]).json()

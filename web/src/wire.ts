@@ -1,7 +1,7 @@
 // Made by `python -m relguide_server.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-e41670e54d08";
+export const PROTOCOL = "relguide-ef646275a1ed";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -193,11 +193,11 @@ export interface AreaRegion {
   polygons: number[][][][];
 }
 
-/** A stretch flown along d = d_min at partial bank. */
+/** A segment flown along d = d_min at partial bank. */
 export interface BoundaryArcCard {
   start_s: number;
   end_s: number;
-  /** Least μ on it; eq. (10) asks that it be 0 or more. */
+  /** Least μ on it; 0 or more by eq. (10). */
   least_multiplier_per_m: number;
 }
 
@@ -213,13 +213,32 @@ export interface BoundarySegment {
   via: PathPoint[];
 }
 
-/** Where a plan touches d = d_min, or where a boundary arc along it begins or ends. */
+/** A contact with d = d_min, or the beginning or end of a boundary arc. */
 export interface ContactCard {
   t_s: number;
   /** From pursuer to leader, clockwise from north, in [−180°, 180°]. */
   bearing_deg: number;
-  /** By how much λ_d rises there; a minimum asks that it be 0 or more. */
+  /** By how much λ_d rises there; 0 or more along a minimum. */
   jump_s_per_m: number;
+}
+
+/**
+ * H, the switching function and the costates along a plan, in columns of equal length.
+ *
+ * The ends of segments and the contacts with d_min appear twice, with the values before and after:
+ * columns may jump there. Between two different times they are smooth.
+ */
+export interface CostatesCard {
+  /** Ascending. */
+  t_s: number[];
+  /** H of eq. (9): 0 once the leader has no turn to come; 1 if it arrives as the slot opens. */
+  hamiltonian: number[];
+  /** λ_ψ, eq. (16): above 0 the pursuer turns left, below 0 right, at 0 it flies straight. */
+  switching_s_per_deg: number[];
+  /** λ_d; it jumps at contacts with d_min. */
+  separation_costate_s_per_m: number[];
+  /** λ_θ. */
+  bearing_costate_s_per_deg: number[];
 }
 
 /** A word that reaches the place of the slot before it opens. */
@@ -417,12 +436,12 @@ export interface OptimalityCard {
   proof: Proof;
   lower_bound_s: number;
   /**
-   * What fixes t_f: the plan alone, the slot's opening, or being there from the start.
+   * What sets t_f: the plan alone, the slot's release time, or that it is in the slot at once.
    * If asked for.
    */
   arrival?: "free" | "opening" | "at_once";
   /**
-   * Largest |H − H due|.
+   * Largest |H − H required|.
    * If asked for.
    */
   hamiltonian_residual?: number;
@@ -432,37 +451,18 @@ export interface OptimalityCard {
    */
   switching_residual_s_per_deg?: number;
   /**
-   * The plan is stationary: each arc turns the way eq. (16) asks, λ_ψ vanishes where it should,
-   * H is as due, and no jump and no μ is below 0, all to a thousandth of R. If not, a small change
-   * would make it faster.
+   * Whether each arc turns as eq. (16) requires, λ_ψ vanishes where it should, H is as required,
+   * and no jump and no μ is below 0, all to a thousandth of R. If not, a small change of the plan
+   * makes it faster.
    * If asked for.
    */
-  switching_ok?: boolean;
+  stationary?: boolean;
   /** If asked for. */
   contacts?: ContactCard[];
   /** If asked for. */
   boundary_arcs?: BoundaryArcCard[];
   /** If asked for. */
-  panel?: OptimalityPanel;
-}
-
-/**
- * H and the costates along a plan, in columns of one length.
- *
- * Each end of a segment and each touch of d_min is there twice, for before and after: there a
- * column may jump. Between two times that differ it is smooth.
- */
-export interface OptimalityPanel {
-  /** Ascending. */
-  t_s: number[];
-  /** H of eq. (9): 0 once the leader has no turn to come; 1 on a plan that waits for the slot. */
-  hamiltonian: number[];
-  /** λ_ψ, eq. (16): above 0 the pursuer turns left, below 0 right, at 0 it flies straight. */
-  switching_s_per_deg: number[];
-  /** λ_d; jumps where d_min is touched. */
-  separation_costate_s_per_m: number[];
-  /** λ_θ. */
-  bearing_costate_s_per_deg: number[];
+  costates?: CostatesCard;
 }
 
 /** A place and a heading along a path, over the ground. */

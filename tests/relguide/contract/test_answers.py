@@ -118,25 +118,25 @@ def test_on_demand_optimality_has_its_names_and_columns_of_one_length() -> None:
         "arrival",
         "hamiltonian_residual",
         "switching_residual_s_per_deg",
-        "switching_ok",
+        "stationary",
         "contacts",
         "boundary_arcs",
-        "panel",
+        "costates",
     ]
-    assert (told["switching_ok"], told["arrival"]) == (True, "free")
+    assert (told["stationary"], told["arrival"]) == (True, "free")
     assert told["hamiltonian_residual"] < 1e-8
-    assert list(told["panel"]) == [
+    assert list(told["costates"]) == [
         "t_s",
         "hamiltonian",
         "switching_s_per_deg",
         "separation_costate_s_per_m",
         "bearing_costate_s_per_deg",
     ]
-    assert {len(column) for column in told["panel"].values()} == {len(told["panel"]["t_s"])}
+    assert {len(column) for column in told["costates"].values()} == {len(told["costates"]["t_s"])}
     # every end of a segment is there twice
     for segment in reply["segments"][1:]:
         start = segment["start"]["t_s"]
-        assert sum(t == pytest.approx(start, abs=1e-6) for t in told["panel"]["t_s"]) == 2
+        assert sum(t == pytest.approx(start, abs=1e-6) for t in told["costates"]["t_s"]) == 2
     # a card read by its model is the card that was written
     read = TypeAdapter(PlanAnswer).validate_python(reply)
     assert json.loads(read.model_dump_json(exclude_unset=True)) == json.loads(json.dumps(reply))
@@ -147,12 +147,12 @@ def test_the_switching_function_is_per_degree_and_turns_as_eq_16_asks() -> None:
     planned = plan(situation)
     assert isinstance(planned, Plan)
     history = check(planned, situation).history
-    panel = answer(situation, anchor, plan, include=["optimality"])["optimality"]["panel"]
-    assert panel["switching_s_per_deg"] == pytest.approx([s * DEG for s in history.switching])
-    assert panel["t_s"] == pytest.approx(history.times)
+    costates = answer(situation, anchor, plan, include=["optimality"])["optimality"]["costates"]
+    assert costates["switching_s_per_deg"] == pytest.approx([s * DEG for s in history.switching])
+    assert costates["t_s"] == pytest.approx(history.times)
     # the word is RSR: right turns where λ_ψ < 0, and 0 on the straight
-    middle = len(panel["t_s"]) // 2
-    first, straight = panel["switching_s_per_deg"][0], panel["switching_s_per_deg"][middle]
+    middle = len(costates["t_s"]) // 2
+    first, straight = costates["switching_s_per_deg"][0], costates["switching_s_per_deg"][middle]
     assert first < -1e-3
     assert abs(straight) < 1e-9
 
@@ -179,7 +179,7 @@ def test_a_plan_that_is_not_stationary_says_so() -> None:
         return replace(first, trajectory=whole)
 
     told = answer(situation, anchor, weaving, include=["optimality"])["optimality"]
-    assert told["switching_ok"] is False
+    assert told["stationary"] is False
     assert told["switching_residual_s_per_deg"] > 0.01
 
 
@@ -191,7 +191,7 @@ def planned_for(situation: Situation) -> Plan:
 
 def test_a_batch_line_says_it_on_demand() -> None:
     reply = answer_line(json.dumps({"id": 1, **BODY}).encode(), plan, include=["optimality"])
-    assert reply["optimality"]["switching_ok"] is True
+    assert reply["optimality"]["stationary"] is True
     no_plan = answer_line(
         json.dumps(changed("leader.tas_mps", 300)).encode(), plan, include=["optimality"]
     )

@@ -11,7 +11,7 @@ from relguide.contract.refusal import ContractError
 from relguide.contract.triplets import MAX_TRIPLETS, regular_from_json
 from relguide.contract.wire import to_wire
 from relguide.flying.regular_card import regular_check
-from relguide.flying.verdicts import NotAsked, OptimalityCheck
+from relguide.flying.verdicts import NotChecked, OptimalityCheck
 from relguide.planning.regular import RegularTrajectory, Triplet, regular_from_trajectory
 from relguide.planning.trajectory import LEFT, RIGHT
 from tests.plans import golden_plan, planned, straight_behind, unlimited
@@ -89,8 +89,8 @@ def test_what_misses_the_slot_is_told_so() -> None:
         straight_behind(),
     )
     assert (found.passed, found.reaches_slot, found.keeps_separation) == (False, False, True)
-    assert isinstance(found.stationarity, NotAsked)
-    assert to_wire(found)["stationarity"] == {"not_asked": "It does not reach the slot."}
+    assert isinstance(found.stationarity, NotChecked)
+    assert to_wire(found)["stationarity"] == {"not_checked": "It does not reach the slot."}
 
 
 def test_a_full_circle_more_reaches_the_slot_and_so_does_order_1() -> None:

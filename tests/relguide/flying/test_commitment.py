@@ -8,7 +8,7 @@ import pytest
 from relguide.flying.aircraft import A300
 from relguide.flying.commitment import Choice, Commitment, choose
 from relguide.flying.scenarios import scenario
-from relguide.flying.steering import rest
+from relguide.flying.steering import remaining
 from relguide.planning.plan import NoPlan, Plan, Planner, Reason, plan
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import Straight
@@ -73,7 +73,7 @@ def test_a_little_better_is_not_enough() -> None:
     kept = planned(situation)
 
     def tempting(asked: Situation) -> Plan:
-        short = rest(kept.trajectory, 0.5)
+        short = remaining(kept.trajectory, 0.5)
         return replace(kept, trajectory=replace(short, x=short.x - 5e3, y=short.y - 5e3))
 
     choice = chosen(situation, 100.0, tempting)
@@ -87,7 +87,7 @@ def test_much_better_is() -> None:
 
     def better(asked: Situation) -> Plan:
         kept = planned(asked)
-        short = rest(kept.trajectory, 60.0)
+        short = remaining(kept.trajectory, 60.0)
         return replace(kept, trajectory=replace(short, x=short.x - 30e3, y=short.y - 30e3))
 
     choice = chosen(situation, 100.0, better)

@@ -32,7 +32,9 @@ def out(
     situation: Situation, *, bank: float = 0.0, rate: float = 0.0, keep: float = 0.0
 ) -> EscapePath:
     keep = keep or situation.min_separation
-    return escape_path(situation, bank=bank * DEG, model=A300, keep=keep, leader_turn_rate=rate)
+    return escape_path(
+        situation, bank=bank * DEG, model=A300, min_separation=keep, leader_turn_rate=rate
+    )
 
 
 def change(situation: Situation, found: EscapePath) -> float:

@@ -150,7 +150,7 @@ def test_leader_heading_makes_a_new_plan_within_a_second() -> None:
 
 
 def test_leader_may_be_told_which_way_round() -> None:
-    flight = flown(FIG_6B, (10.0, LeaderHeading(heading=60.0 * DEG, turn="right")))
+    flight = flown(FIG_6B, (10.0, LeaderHeading(heading=60.0 * DEG, direction="right")))
     early = [s.leader for s in flight.samples if 20.0 < s.t < 60.0]
     assert all(leader.bank > 20.0 * DEG for leader in early)
 

@@ -5,7 +5,7 @@ from math import cos, pi, sin
 import pytest
 
 from relguide.flying.aircraft import AircraftState, GroundVelocity
-from relguide.flying.flown_path import FlownPath, path_begun, path_extended
+from relguide.flying.flown_path import FlownPath, begin_path, extend_path
 from relguide.units import DEG
 
 D = 10_000.0
@@ -18,14 +18,14 @@ def leader(x: float, y: float, heading: float) -> AircraftState:
 
 def path(seconds: int, *, turn_at: int = 10_000) -> FlownPath:
     """North at 200 m/s; from `turn_at` on, right on a circle of 9 km."""
-    remembered = path_begun(leader(0.0, 0.0, 0.0), GroundVelocity(0.0, 200.0), D)
+    remembered = begin_path(leader(0.0, 0.0, 0.0), GroundVelocity(0.0, 200.0), D)
     for second in range(1, seconds + 1):
         angle = max(second - turn_at, 0) * 200.0 / RADIUS
         before = min(second, turn_at) * 200.0
         state = leader(RADIUS * (1.0 - cos(angle)), before + RADIUS * sin(angle), angle)
         velocity = GroundVelocity(200.0 * sin(angle), 200.0 * cos(angle))
         rate = 200.0 / RADIUS if second > turn_at else 0.0
-        remembered = path_extended(remembered, state, velocity, rate, D)
+        remembered = extend_path(remembered, state, velocity, rate, D)
     return remembered
 
 
@@ -44,7 +44,7 @@ def test_slot_is_closed_until_d_is_flown_on_the_new_heading() -> None:
             last.x + flown * sin(last.track), last.y + flown * cos(last.track), last.heading
         )
         velocity = GroundVelocity(200.0 * sin(last.track), 200.0 * cos(last.track))
-        remembered = path_extended(remembered, state, velocity, 0.0, D)
+        remembered = extend_path(remembered, state, velocity, 0.0, D)
         # 2° of tolerance are 310 m of the turn's end
         assert remembered.slot_open(D) == (flown > D - 320.0) or abs(flown - D) < 600.0
     assert remembered.slot_open(D)
@@ -72,5 +72,5 @@ def test_memory_is_bounded() -> None:
 
 def test_repeated_report_changes_nothing() -> None:
     remembered = path(5)
-    same = path_extended(remembered, leader(0.0, 1000.0, 0.0), GroundVelocity(0.0, 200.0), 0.0, D)
+    same = extend_path(remembered, leader(0.0, 1000.0, 0.0), GroundVelocity(0.0, 200.0), 0.0, D)
     assert same is remembered

@@ -7,7 +7,7 @@ import pytest
 
 from relguide.flying.aircraft import A300, AircraftState
 from relguide.flying.announcements import ModeChange, NewPlan, PlanMissing
-from relguide.flying.assignment import Assignment, Seen, situation_of
+from relguide.flying.assignment import Assignment, Observation, situation_of
 from relguide.flying.autopilot import HoldHeading, TurnRate
 from relguide.flying.guidance import advise
 from relguide.flying.memory import Advice, Memory, begin
@@ -30,9 +30,9 @@ def aircraft(x: float, y: float, heading: float, tas: float) -> AircraftState:
     return AircraftState(x, y, heading * DEG, 0.0, 0.0, tas, 9449.0)
 
 
-def seen(x: float, y: float, heading: float, *, tas: float = 240.0) -> Seen:
+def seen(x: float, y: float, heading: float, *, tas: float = 240.0) -> Observation:
     """The pursuer there, the leader at the origin eastbound at 200 m/s."""
-    return Seen(
+    return Observation(
         t=0.0,
         pursuer=aircraft(x, y, heading, tas),
         leader=aircraft(0.0, 0.0, 90.0, 200.0),
@@ -42,7 +42,7 @@ def seen(x: float, y: float, heading: float, *, tas: float = 240.0) -> Seen:
     )
 
 
-def asked(sight: Seen) -> tuple[Memory, Advice]:
+def asked(sight: Observation) -> tuple[Memory, Advice]:
     return advise(begin(sight, ASSIGNMENT), sight, ASSIGNMENT, plan)
 
 
@@ -152,7 +152,7 @@ def test_leader_who_turns_towards_it_unannounced_is_given_way_in_time() -> None:
     assert isinstance(advice.reference, HoldHeading)
     assert 270.0 * DEG < advice.reference.heading < 330.0 * DEG
     missing = next(event for event in advice.events if isinstance(event, PlanMissing))
-    assert missing.answer.message.startswith("The leader turns, and if he goes on")
+    assert missing.answer.message.startswith("The leader is turning; if if he goes on")
     # it is left when there is room to spare, and at once if he says where his turn ends
     told = replace(turning, intent_known=True, t=1.0)
     assert advise(memory, told, ASSIGNMENT, plan)[1].mode == "converge"

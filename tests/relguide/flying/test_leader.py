@@ -1,4 +1,4 @@
-"""The leader flies what it declared, and does what it is told."""
+"""The leader flies what it declared, and does what it is turning."""
 
 from dataclasses import replace
 from math import hypot, pi
@@ -7,7 +7,14 @@ import pytest
 
 from relguide.flying.aircraft import A300, AircraftState
 from relguide.flying.autopilot import Autopilot
-from relguide.flying.leader import FlyingLeader, LeaderFlight, advanced, at_speed, turned
+from relguide.flying.leader import (
+    FlyingLeader,
+    LeaderFlight,
+    TurnChoice,
+    advance_leader,
+    set_leader_speed,
+    turn_leader,
+)
 from relguide.planning.situation import CALM, FlyStraight, IntentPiece, Leader, TurnTo
 from relguide.planning.trajectory import LEFT, RIGHT, Turn
 from relguide.units import DEG
@@ -26,7 +33,7 @@ def turn_to(degrees: float, turn: Turn, bank: float = 25.0) -> TurnTo:
 def after(flying: LeaderFlight, duration: float, start: float = 0.0) -> LeaderFlight:
     autopilot = Autopilot(model=A300)
     for n in range(round(duration / 0.05)):
-        flying = advanced(flying, autopilot, start + n * 0.05, wind=CALM, duration=0.05)
+        flying = advance_leader(flying, autopilot, start + n * 0.05, wind=CALM, duration=0.05)
     return flying
 
 
@@ -61,35 +68,30 @@ def test_announced_turn_is_flown_within_a_hundred_metres() -> None:
 def test_what_remains_of_the_intent_shrinks_to_nothing() -> None:
     pieces = (FlyStraight(duration=60.0), turn_to(135.0, RIGHT))
     start = leader(*pieces)
-    assert start.intent_left(0.0) == pieces
-    assert start.intent_left(45.0)[0] == FlyStraight(duration=15.0)
-    assert after(start, 75.0).intent_left(75.0) == pieces[1:]
-    assert after(start, 150.0).intent_left(150.0) == ()
+    assert start.remaining_intent(0.0) == pieces
+    assert start.remaining_intent(45.0)[0] == FlyStraight(duration=15.0)
+    assert after(start, 75.0).remaining_intent(75.0) == pieces[1:]
+    assert after(start, 150.0).remaining_intent(150.0) == ()
 
 
-@pytest.mark.parametrize(("way", "side"), [("left", -1.0), ("right", 1.0), ("shorter", -1.0)])
-def test_told_heading_is_turned_to_the_way_that_was_said(way: str, side: float) -> None:
-    told = turned(leader(), 0.0, heading=30.0 * DEG, way=way, bank=25.0 * DEG)  # type: ignore[arg-type]
-    assert after(told, 20.0).state.bank * side > 20.0 * DEG
-    assert after(told, 400.0).state.heading == pytest.approx(30.0 * DEG, abs=0.2 * DEG)
+@pytest.mark.parametrize(("direction", "side"), [("left", -1.0), ("right", 1.0), ("shorter", -1.0)])
+def test_a_heading_is_turned_to_in_the_direction_given(direction: TurnChoice, side: float) -> None:
+    turning = turn_leader(leader(), 0.0, 30.0 * DEG, direction, 25.0 * DEG)
+    assert after(turning, 20.0).state.bank * side > 20.0 * DEG
+    assert after(turning, 400.0).state.heading == pytest.approx(30.0 * DEG, abs=0.2 * DEG)
 
 
 def test_command_drops_the_rest_of_the_intent() -> None:
-    told = turned(
-        leader(FlyStraight(duration=60.0), turn_to(135.0, RIGHT)),
-        10.0,
-        heading=60.0 * DEG,
-        way="shorter",
-        bank=25.0 * DEG,
-    )
-    assert told.intent_left(10.0) == (turn_to(60.0, LEFT),)
-    assert after(told, 200.0, start=10.0).state.heading == pytest.approx(60.0 * DEG, abs=0.01)
+    before = leader(FlyStraight(duration=60.0), turn_to(135.0, RIGHT))
+    turning = turn_leader(before, 10.0, 60.0 * DEG, "shorter", 25.0 * DEG)
+    assert turning.remaining_intent(10.0) == (turn_to(60.0, LEFT),)
+    assert after(turning, 200.0, start=10.0).state.heading == pytest.approx(60.0 * DEG, abs=0.01)
 
 
-def test_told_speed_is_taken_up_and_the_intent_kept() -> None:
-    told = at_speed(leader(turn_to(135.0, RIGHT)), 0.0, 180.0)
-    assert told.pieces
-    assert after(told, 120.0).state.tas == pytest.approx(180.0, abs=0.1)
+def test_a_speed_is_taken_up_and_the_intent_kept() -> None:
+    turning = set_leader_speed(leader(turn_to(135.0, RIGHT)), 0.0, 180.0)
+    assert turning.pieces
+    assert after(turning, 120.0).state.tas == pytest.approx(180.0, abs=0.1)
 
 
 def test_a_hair_past_the_heading_is_no_full_turn() -> None:

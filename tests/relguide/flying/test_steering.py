@@ -6,7 +6,7 @@ import pytest
 
 from relguide.flying.aircraft import A300, roll_lead
 from relguide.flying.autopilot import HoldHeading, TurnRate
-from relguide.flying.steering import HALF_TICK, rest, steer
+from relguide.flying.steering import HALF_TICK, remaining, steer
 from relguide.planning.trajectory import LEFT, RIGHT, Arc, Segment, Straight, Trajectory
 from relguide.units import DEG
 
@@ -66,7 +66,7 @@ def test_nothing_left_is_the_final_heading() -> None:
 @pytest.mark.parametrize("elapsed", [0.0, 10.0, 60.0, 200.0, 1000.0])
 def test_rest_ends_where_the_whole_does(elapsed: float) -> None:
     whole = path(arc(1, 40.0), Straight(length=20e3), arc(-1, 200.0))
-    left = rest(whole, elapsed)
+    left = remaining(whole, elapsed)
     assert left.duration == pytest.approx(max(whole.duration - elapsed, 0.0))
     when = max(whole.duration, elapsed)
     end, same = whole.pose_at(when), left.pose_at(when - elapsed)

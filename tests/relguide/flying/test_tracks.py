@@ -16,7 +16,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from relguide.flying import tracks
-from relguide.flying.smoothing import believable
+from relguide.flying.smoothing import longest_chain
 from relguide.flying.tracks import DEFAULT_LEADER, RecordedTrack, load_csv, load_sample
 from relguide.planning.frames import LocalPlane
 from relguide.units import DEG, FT, KT
@@ -193,7 +193,7 @@ def test_the_longest_believable_chain_has_no_jump(wrong: set[int], by: float) ->
     values = np.column_stack([100.0 * t, np.zeros(100)])
     for n in wrong:
         values[n, 1] = by * (1 + n % 3)
-    chain = believable(t, values, 200.0, 100.0)
+    chain = longest_chain(t, values, 200.0, 100.0)
     steps = np.hypot(*np.diff(values[chain], axis=0).T)
     assert np.all(steps <= 200.0 * np.diff(t[chain]) + 100.0)
     assert np.all(np.diff(t[chain]) <= 30.0)
