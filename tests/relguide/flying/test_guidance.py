@@ -152,7 +152,7 @@ def test_leader_who_turns_towards_it_unannounced_is_given_way_in_time() -> None:
     assert isinstance(advice.reference, HoldHeading)
     assert 270.0 * DEG < advice.reference.heading < 330.0 * DEG
     missing = next(event for event in advice.events if isinstance(event, PlanMissing))
-    assert missing.answer.message.startswith("The leader is turning; if if he goes on")
+    assert missing.answer.message.startswith("The leader is turning; if it goes on")
     # it is left when there is room to spare, and at once if he says where his turn ends
     told = replace(turning, intent_known=True, t=1.0)
     assert advise(memory, told, ASSIGNMENT, plan)[1].mode == "converge"
