@@ -18,7 +18,6 @@ EXTRAS = {
     "uvicorn": "serve",
     "viser": "serve",
     "websockets": "serve",
-    "safetensors": "serve",
     "scipy": "serve",
     "torch": "learn",
     "matplotlib": "figures",

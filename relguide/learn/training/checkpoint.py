@@ -1,12 +1,13 @@
 """What trainings share: where they run, their pace, and a file to go on from after a stop."""
 
-import json
 from collections.abc import Mapping
 from math import cos, pi
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from relguide.learn.training.files import whole
+from numpy.typing import NDArray
+
+from relguide.learn.training.files import load_weights, save_weights
 
 if TYPE_CHECKING:
     import torch
@@ -51,8 +52,6 @@ def save_checkpoint(
         best: the best of them.
         best_accuracy: how good that is.
     """
-    from safetensors.torch import save
-
     tensors = {f"model.{name}": value for name, value in model.state_dict().items()}
     tensors |= {f"best.{name}": value for name, value in best_state.items()}
     for number, moments in optimiser.state_dict()["state"].items():
@@ -61,9 +60,7 @@ def save_checkpoint(
         "file": CHECKPOINT, "digest": digest, "done": done, "best": best,
         "best_accuracy": best_accuracy,
     }  # fmt: skip
-    contiguous = {name: value.contiguous() for name, value in tensors.items()}
-    with whole(file) as stream:
-        stream.write(save(contiguous, metadata={"about": json.dumps(about)}))
+    save_weights(file, about, {name: value.cpu().numpy() for name, value in tensors.items()})
 
 
 def load_checkpoint(
@@ -78,18 +75,20 @@ def load_checkpoint(
     Raises:
         ValueError: if there is none, or it is of another training.
     """
-    from safetensors import SafetensorError, safe_open
+    import torch
+
+    def read(
+        about: dict[str, Any], arrays: dict[str, NDArray[Any]]
+    ) -> tuple[dict[str, Any], dict[str, "torch.Tensor"]]:
+        if about["file"] != CHECKPOINT:
+            raise KeyError(about["file"])
+        return about, {name: torch.from_numpy(array) for name, array in arrays.items()}
 
     if file is None or not file.exists():
         raise ValueError(f"There is nothing to resume: {file} does not exist.")
-    try:
-        with safe_open(file, framework="pt") as content:
-            about = json.loads(content.metadata()["about"])
-            tensors = {name: content.get_tensor(name) for name in content.keys()}
-        if about["file"] != CHECKPOINT:
-            raise KeyError(about["file"])
-    except (SafetensorError, KeyError, TypeError, ValueError):
-        raise ValueError(f"{file} is no checkpoint of relguide train, or is cut short.") from None
+    about, tensors = load_weights(
+        file, read, "is no checkpoint of relguide train, or is cut short."
+    )
     if about["digest"] != digest:
         raise ValueError(
             f"{file} was begun with other labels or options: give the same, or delete it to begin "

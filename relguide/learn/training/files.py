@@ -15,6 +15,8 @@ from zipfile import BadZipFile
 import numpy as np
 from numpy.typing import NDArray
 
+from relguide.learn.training.tensor_file import pack, unpack
+
 T = TypeVar("T")
 
 
@@ -63,11 +65,8 @@ def load_columns(
 
 def save_weights(file: Path, about: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> None:
     """Write a .safetensors file: arrays, and a JSON text `about` in its header."""
-    from safetensors.numpy import save
-
-    content = save(dict(arrays), metadata={"about": json.dumps(about, ensure_ascii=False)})
     with whole(file) as stream:
-        stream.write(content)
+        stream.write(pack(arrays, {"about": json.dumps(about, ensure_ascii=False)}))
 
 
 def load_weights(
@@ -77,22 +76,18 @@ def load_weights(
 
     Args:
         file: to read.
-        network: makes it of the text and the arrays; a KeyError, TypeError or ValueError of its
-            says that they are none.
-        refusal: what to say of a file that is none, behind its name.
+        network: makes it of the text and the arrays; a LookupError, TypeError or ValueError of its
+            says that this file holds none.
+        refusal: what to say of a file that holds none, behind its name.
 
     Raises:
-        ValueError: if it is none.
+        ValueError: if it holds none.
     """
-    from safetensors import SafetensorError, safe_open
-
-    file.stat()  # says that a file is missing in the system's words
+    content = file.read_bytes()
     try:
-        with safe_open(file, framework="numpy") as content:
-            about: dict[str, Any] = json.loads(content.metadata()["about"])
-            arrays = {name: content.get_tensor(name) for name in content.keys()}
-        return network(about, arrays)
-    except (SafetensorError, KeyError, TypeError, ValueError):
+        metadata, arrays = unpack(content)
+        return network(json.loads(metadata["about"]), arrays)
+    except (LookupError, TypeError, ValueError):
         raise ValueError(f"{file} {refusal}") from None
 
 

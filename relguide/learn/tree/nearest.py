@@ -8,10 +8,10 @@ by, the turn of an angle is as long as that angle in R, so both count alike.
 """
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
+from relguide.kernels.tree.point_grid import PointGrid, nearest_points, point_grid
 from relguide.learn.tree.tree import Floats, Ints, Tree, pairs_of, regular_from_pairs
 from relguide.planning.regular import RegularTrajectory
 from relguide.planning.situation import Situation
@@ -25,8 +25,8 @@ class Lookup:
     tree: Tree
     minima: Ints
     """The nodes that are the least of their cell."""
-    index: Any
-    """They in space: a `scipy.spatial.cKDTree`, which has no types."""
+    grid: PointGrid
+    """Their states, sorted by place."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,13 +42,11 @@ class Neighbours:
 
 def lookup_in(tree: Tree) -> Lookup:
     """Make a tree ready to be asked: a second for a million cells."""
-    from scipy.spatial import cKDTree  # type: ignore[import-untyped]  # 0.2 s to import
-
     minima = tree.minima
     if len(minima) == 0:
         raise ValueError("This tree has no state but the slot: nothing can be looked up in it.")
     points = _points(tree, tree.x[minima], tree.y[minima], tree.heading[minima])
-    return Lookup(tree=tree, minima=minima, index=cKDTree(points))
+    return Lookup(tree=tree, minima=minima, grid=point_grid(points))
 
 
 def neighbours(lookup: Lookup, x: Floats, y: Floats, heading: Floats) -> Neighbours:
@@ -61,8 +59,8 @@ def neighbours(lookup: Lookup, x: Floats, y: Floats, heading: Floats) -> Neighbo
         heading: counter-clockwise from the leader's [rad].
     """
     # the tree is on one side, but next to the route the nearest state may be on the other
-    here, at_here = lookup.index.query(_points(lookup.tree, x, y, heading))
-    there, at_there = lookup.index.query(_points(lookup.tree, x, -y, -heading))
+    here, at_here = _nearest(lookup, x, y, heading)
+    there, at_there = _nearest(lookup, x, -y, -heading)
     # where both are as near, the side the state is on decides, so that mirrors get mirrors
     mirrored = (there < here) | ((there == here) & (y < 0.0))
     return Neighbours(
@@ -84,6 +82,13 @@ def nearest(lookup: Lookup, situation: Situation) -> RegularTrajectory:
     pairs = pairs_of(lookup.tree, near.nodes)[0]
     pairs[:, 2] *= scale
     return regular_from_pairs(pairs, mirrored=bool(near.mirrored[0]))
+
+
+def _nearest(lookup: Lookup, x: Floats, y: Floats, heading: Floats) -> tuple[Floats, Ints]:
+    """How far the nearest state is, and its place in `minima`."""
+    distances, numbers = np.empty(len(x)), np.empty(len(x), np.int64)
+    nearest_points(lookup.grid, _points(lookup.tree, x, y, heading), distances, numbers)
+    return distances, numbers
 
 
 def _points(tree: Tree, x: Metre | Floats, y: Metre | Floats, heading: Radian | Floats) -> Floats:
