@@ -12,7 +12,6 @@ from dataclasses import replace
 from itertools import islice
 from math import pi
 
-from relguide.cli.output import write
 from relguide.kernels import cache
 from relguide.planning.progress import watched
 from relguide.planning.situation import (
@@ -36,10 +35,10 @@ SAMPLES = 100
 def main() -> None:
     """Compile what is not compiled yet, and say where it is kept."""
     if cache.filled(cache.folder()):
-        write("The kernels are compiled.\n")
+        sys.stdout.write("The kernels are compiled.\n")
         return
     warm_up()
-    write(f"The kernels are compiled and kept in {cache.folder()}.\n")
+    sys.stdout.write(f"The kernels are compiled and kept in {cache.folder()}.\n")
 
 
 def warm_up() -> None:

@@ -18,6 +18,7 @@ from time import monotonic
 from typing import Any, TypeVar
 
 from relguide import __version__
+from relguide.planning.extras import need
 from relguide.units import Second
 
 T = TypeVar("T")
@@ -44,16 +45,14 @@ def cluster(address: str, tell: Callable[[str], None]) -> Iterator["ClusterExecu
         tell: is given a sentence while there are no workers to be had.
 
     Raises:
-        ValueError: if Dask is not installed here, the address is none, or a machine of the cluster
-            has another program.
+        MissingExtra: if Dask is not installed here.
+        ValueError: if the address is none of a scheduler, or a machine of the cluster has another
+            program.
         OSError: if nobody answers there.
     """
-    try:
-        import distributed
-    except ModuleNotFoundError as missing:
-        raise ValueError(
-            f"--dask needs {missing.name}, which is not installed: pip install 'relguide[cluster]'."
-        ) from None
+    need("distributed")
+    import distributed
+
     # what it logs of a lost connection, we say in a sentence
     for name in ("distributed", "distributed.client"):
         logging.getLogger(name).setLevel(logging.CRITICAL)

@@ -1,17 +1,18 @@
-"""What commands print, and what the files they make tell of their origin."""
+"""What commands print, their exit statuses, and what the files they make say of their origin."""
 
 import sys
 from collections.abc import Mapping
 from datetime import UTC, datetime
+from importlib.metadata import version
 from typing import Any
-
-import numpy as np
-import orjson
 
 from relguide import __version__
 
 PROGRAM = f"relguide {__version__}"
 """What has made a file."""
+DONE, FAILED, MISUSE, STOPPED = 0, 1, 2, 130
+"""Exit statuses: done; no plan or a failed check; misuse; stopped by Ctrl-C, as shells number it.
+"""
 
 
 def write(text: str) -> None:
@@ -22,13 +23,23 @@ def write(text: str) -> None:
 
 def write_json(content: Mapping[str, Any]) -> None:
     """Write an object, indented, to standard output."""
+    import orjson
+
     write(orjson.dumps(content, option=orjson.OPT_INDENT_2).decode() + "\n")
 
 
 def say(sentence: str) -> None:
-    """Tell people something beside the result: on standard error."""
+    """Give people a sentence beside the result: on standard error."""
     sys.stderr.write(f"relguide: {sentence}\n")
     sys.stderr.flush()
+
+
+def compile_kernels() -> None:
+    """Compile what is not compiled yet, with a bar, if somebody watches."""
+    if sys.stderr.isatty():
+        from relguide.warm_up import warm_up
+
+        warm_up()
 
 
 def provenance(method: str, **more: str) -> dict[str, str]:
@@ -36,12 +47,12 @@ def provenance(method: str, **more: str) -> dict[str, str]:
 
     Args:
         method: of `relguide dataset`.
-        more: what else it shall tell, such as the command.
+        more: what else to record, for example the command.
     """
     return {
         "program": PROGRAM,
         "method": method,
         **more,
         "made": datetime.now(UTC).isoformat(timespec="seconds"),
-        "numpy": np.__version__,
+        "numpy": version("numpy"),
     }

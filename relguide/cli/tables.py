@@ -1,151 +1,37 @@
-"""Answers for people: plans and flights as tables in knots, nautical miles and degrees."""
+"""Tables for people, and how times, lengths and shares stand in them."""
 
-from collections.abc import Mapping
-from typing import Any, assert_never
+from typing import TYPE_CHECKING
 
-from rich.box import SIMPLE_HEAD
-from rich.console import Console
-from rich.table import Table
-from rich.text import Text
+from relguide.learn.training.shares import Share
+from relguide.units import NM
 
-from relguide.contract.story import Event, Story
-from relguide.flying.documents import (
-    AlternativeCard,
-    AnyAlternativeCard,
-    BoundarySegment,
-    EarlyAlternativeCard,
-    LeaderChanged,
-    MissingAlternativeCard,
-    ModeChanged,
-    NoPlanCard,
-    PathPoint,
-    PathSegment,
-    PlanCard,
-    PlanChanged,
-    PlanUnavailable,
-    StraightSegment,
-    TurnSegment,
-    UnsafeAlternativeCard,
-)
-from relguide.flying.verdicts import NotChecked, OptimalityCheck, RegularCheck
-from relguide.units import DEG, NM
+if TYPE_CHECKING:
+    from rich.table import Table
 
-PROOFS = {
-    "relaxation": "optimal: no faster plan exists, with or without the separation limit",
-    "bound": "proved to within the lower bound",
-    "none": "not proved optimal",
-}
+WIDTH = 100
+"""Of an audit's tables [characters]."""
 
 
-def print_no_plan(card: NoPlanCard) -> None:
-    """Print why there is no plan."""
-    console = Console(highlight=False)
-    console.print(Text("No plan", style="bold red") + f" ({card.reason.value})")
-    console.print(card.message)
-
-
-def print_optimality(check: OptimalityCheck) -> None:
-    """Print how a plan meets Pontryagin's conditions."""
-    console = Console(highlight=False)
-    residuals = (
-        f"H is within {check.hamiltonian_residual:.1e} of what is due, λ_ψ within "
-        f"{check.switching_residual:.1e} s/rad of 0 where it must vanish."
-    )
-    match check.arrival:
-        case "at_once":
-            console.print("Pontryagin's conditions ask nothing of a pursuer in the slot.")
-            return
-        case "opening":
-            said = Text("Stationary", "green") + ": it arrives as the slot opens, "
-            console.print(said + "where no way can be faster.")
-            return
-        case "free" if check.stationary:
-            console.print(Text("Stationary", "green") + f", as eq. (16) asks: {residuals}")
-        case "free":
-            said = Text("Not stationary", "yellow") + ", a small change would make it faster: "
-            console.print(said + residuals)
-        case _:
-            assert_never(check.arrival)
-    for contact in check.contacts:
-        console.print(
-            f"At {clock(contact.t)} it touches d_min: λ_d rises by {contact.jump:.2e} s/m."
-        )
-    for boundary_arc in check.boundary_arcs:
-        console.print(
-            f"From {clock(boundary_arc.start)} to {clock(boundary_arc.end)} it slides along d_min: "
-            f"μ is {boundary_arc.least_multiplier:.1e} /m or more."
-        )
-
-
-def print_flight(flight: Story, figures: Mapping[str, Any]) -> None:
-    """Print what happened in a flight, then its figures as `fly --json` names them."""
-    console = Console(highlight=False)
-    for started in flight.started:
-        limits = f"D {miles(started.slot_distance)}, d_min {miles(started.min_separation)}"
-        who = f"{started.pursuer.ident} behind {started.leader.ident}, {limits}"
-        console.print(Text.assemble((started.title or started.scenario, "bold"), f"\n{who}"))
-    table = Table(box=SIMPLE_HEAD, pad_edge=False)
-    table.add_column("at", justify="right")
-    table.add_column("what")
-    table.add_column("why", overflow="fold")
-    for event in flight.events:
-        table.add_row(*_event(event))
-    console.print(table)
-    summary = Table(box=None, show_header=False, pad_edge=False)
-    summary.add_column(style="dim")
-    summary.add_column()
-    for row in _figure_rows(figures).items():
-        summary.add_row(*row)
-    console.print(summary)
-
-
-def print_regular(card: RegularCheck, *, min_separation: float) -> None:
-    """Print what is found of a regular trajectory.
+def table(first: str, *, right: bool = False) -> "Table":
+    """A table that has one column so far.
 
     Args:
-        card: what to print.
-        min_separation: d_min [m].
+        first: its heading.
+        right: whether it holds numbers.
     """
-    console = Console(highlight=False)
-    console.print(
-        Text.assemble(
-            (f"Regular trajectory of order {card.order}", "bold"),
-            f": {miles(card.length)} in {clock(card.duration)}",
-        )
-    )
-    table = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
-    for heading in ("i", "ε", "θ", "l NM", "turn ≥ NM", "straight ≥ NM", "T* s"):
-        table.add_column(heading, justify="right", no_wrap=True)
-    table.add_column("eq. (20)", no_wrap=True)
-    numbered = enumerate(zip(card.triplets, card.pairs, strict=True), start=1)
-    for i, (triplet, pair) in reversed(list(numbered)):  # in the order flown
-        table.add_row(
-            f"{i}",
-            f"{triplet.epsilon:+d}",
-            f"{triplet.theta / DEG:.2f}°",
-            f"{triplet.l / NM:.2f}",
-            f"{pair.turn_proved_above / NM:.2f}",
-            f"{pair.straight_least / NM:.2f}",
-            f"{pair.t_star:.1f}",
-            "holds" if pair.keeps_separation else "fails",
-        )
-    console.print(table)
-    off = card.final_error
-    console.print(
-        _verdict("Reaches the slot", "Misses the slot", card.reaches_slot)
-        + f" (18), (19): ends {off.along:z,.1f} m along and {off.left:z,.1f} m left of it, "
-        f"heading off by {off.heading_error / DEG:z.3f}°."
-    )
-    near = card.separation
-    console.print(
-        _verdict("Keeps d_min", "Comes too close", card.keeps_separation)
-        + f" (20): least {miles(near.least)} after {clock(near.at)}, limit {miles(min_separation)}."
-    )
-    match card.stationarity:
-        case NotChecked(not_checked=why):
-            console.print(f"Pontryagin's conditions are not asked. {why}")
-        case OptimalityCheck() as check:
-            print_optimality(check)
+    from rich.box import SIMPLE_HEAD
+    from rich.table import Table
+
+    shown = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
+    shown.add_column(first, no_wrap=True, justify="right" if right else "left")
+    return shown
+
+
+def print_table(shown: "Table") -> None:
+    """Print a table, `WIDTH` characters wide at most."""
+    from rich.console import Console
+
+    Console(width=WIDTH).print(shown)
 
 
 def clock(seconds: float) -> str:
@@ -159,134 +45,17 @@ def miles(metres: float) -> str:
     return f"{metres / NM:.2f} NM"
 
 
-def print_plan(card: PlanCard, *, min_separation: float) -> None:
-    """Print a plan.
-
-    Args:
-        card: what to print.
-        min_separation: d_min [m].
-    """
-    console = Console(highlight=False)
-    console.print(
-        Text.assemble(
-            ("Joins in ", ""),
-            (clock(card.time_to_converge), "bold green"),
-            f" by {card.word}, {miles(card.length)} through the air",
-        )
-    )
-    table = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True)
-    table.add_column("piece", no_wrap=True)
-    for heading in ("at", "lasts", "NM", "turn", "bank", "to", "east NM", "north NM"):
-        table.add_column(heading, justify="right", no_wrap=True)
-    for segment in card.segments:
-        table.add_row(*_row(segment, card.length / card.time_to_converge))
-    console.print(table)
-    keeps = card.separation.least - min_separation
-    console.print(
-        f"Least separation {miles(card.separation.least)} after {clock(card.separation.at)}: "
-        f"{miles(keeps)} more than the limit; proved above {miles(card.separation.proved_above)}."
-    )
-    console.print(
-        f"{PROOFS[card.optimality.proof].capitalize()}"
-        f" (lower bound {clock(card.optimality.lower_bound)}). "
-        f"Planner {card.planner}, {card.compute:.2f} ms."
-    )
-    if not card.alternatives:
-        return
-    others = Table(box=SIMPLE_HEAD, pad_edge=False, collapse_padding=True, style="dim")
-    others.add_column("instead", no_wrap=True)
-    others.add_column("at", justify="right", no_wrap=True)
-    others.add_column("turns", justify="right", no_wrap=True)
-    others.add_column("passes", no_wrap=True)
-    others.add_column("leader on", no_wrap=True)
-    others.add_column("why not", overflow="fold")
-    for other in card.alternatives:
-        others.add_row(*_alternative(other))
-    console.print(others)
+def percent(share: Share, digits: int = 2) -> str:
+    """A share [%]; a dash if it is a share of nothing."""
+    return f"{100.0 * share.value:.{digits}f}" if share.of else "–"
 
 
-def _alternative(other: AnyAlternativeCard) -> tuple[str, ...]:
-    match other:
-        case MissingAlternativeCard():
-            return other.word, "", "", "", "", other.why
-        case EarlyAlternativeCard():
-            return other.word, clock(other.time_to_converge), "", "", "", other.why
-        case AlternativeCard() | UnsafeAlternativeCard():
-            return (
-                other.word,
-                clock(other.time_to_converge),
-                f"{other.turning / DEG:.0f}°",
-                other.passes,
-                f"its {other.side}",
-                other.why,
-            )
-        case _:
-            assert_never(other)
+def with_interval(share: Share) -> str:
+    """A share and its 95 % interval [%]."""
+    low, high = share.interval
+    return f"{percent(share)} ({100.0 * low:.2f}–{100.0 * high:.2f})"
 
 
-def _verdict(good: str, bad: str, holds: bool) -> Text:
-    return Text(good, "green") if holds else Text(bad, "red")
-
-
-def _row(segment: PathSegment, tas: float) -> tuple[str, ...]:
-    match segment:
-        case TurnSegment():
-            turn, bank = f"{segment.angle / DEG:.1f}°", f"{segment.bank / DEG:.0f}°"
-            piece: str = segment.direction
-            length = segment.angle * segment.radius
-        case StraightSegment():
-            piece, turn, bank, length = "straight", "", "", segment.length
-        case BoundarySegment():
-            piece, turn, bank = f"along limit, {segment.side}", "", ""
-            length = tas * segment.duration
-        case _:
-            assert_never(segment)
-    return (
-        piece,
-        clock(segment.start.t),
-        clock(segment.duration),
-        f"{length / NM:.2f}",
-        turn,
-        bank,
-        _heading(segment.end),
-        f"{segment.end.x / NM:.2f}",
-        f"{segment.end.y / NM:.2f}",
-    )
-
-
-def _heading(point: PathPoint) -> str:
-    return f"{round(point.heading / DEG) % 360 or 360:03d}°"
-
-
-def _event(event: Event) -> tuple[str, str, str]:
-    match event:
-        case PlanChanged(reason=reason):
-            what = f"plan: {reason.replace('_', ' ')}"
-        case PlanUnavailable(answer=answer):
-            return clock(event.t), "no plan", answer.message
-        case ModeChanged(mode=mode):
-            what = mode
-        case LeaderChanged(change=change):
-            what = f"leader: {change.replace('_', ' ')}"
-        case _:
-            assert_never(event)
-    return clock(event.t), what, event.message
-
-
-def _figure_rows(figures: Mapping[str, Any]) -> dict[str, str]:
-    rows = {"flight time": clock(figures["simulated_s"])}
-    if "joined" in figures:
-        rows |= {
-            "joined": f"after {clock(figures['join_time_s'])}" if figures["joined"] else "no",
-            "planned at engagement": clock(figures["planned_time_s"]),
-            "least separation": miles(figures["least_separation_m"]),
-            "heading swing": f"{figures['heading_swing_deg']:.0f}°",
-            "bank reversals": f"{figures['bank_reversals']}",
-            "new plans": f"{figures['replans']}",
-            "fallbacks": f"{figures['fallbacks']}",
-            "flown": f"{figures['track_nm']:.1f} NM over the ground",
-        }
-    if "wall_s" in figures:
-        speed = figures["simulated_s"] / max(figures["wall_s"], 1e-9)
-        rows["computed in"] = f"{figures['wall_s']:.2f} s, {speed:,.0f} times as fast as it flies"
-    return rows
+def short(value: float) -> str:
+    """A number below 100 with two digits; others without decimals."""
+    return f"{value:,.0f}" if value >= 100.0 else f"{value:.2g}"

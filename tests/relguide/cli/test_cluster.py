@@ -185,8 +185,8 @@ def test_without_dask_it_is_said_what_to_install(run: Run, monkeypatch: pytest.M
     monkeypatch.setitem(sys.modules, "distributed", None)
     assert run("audit", "--dask", "tcp://127.0.0.1:1")[::2] == (
         2,
-        "relguide: --dask needs distributed, which is not installed: "
-        "pip install 'relguide[cluster]'.\n",
+        "relguide: This needs the package distributed, which is not installed: "
+        "pip install 'relguide[cluster]' brings it.\n",
     )
 
 
@@ -200,7 +200,7 @@ def test_misuse_is_said_in_a_sentence(run: Run) -> None:
 
 
 def test_the_library_does_not_load_dask() -> None:
-    modules = "relguide, relguide.cli.branch_training, relguide.cli.cluster"
+    modules = "relguide, relguide.__main__, relguide.cli.workers, relguide.cli.cluster"
     loaded = f"import sys, {modules}; print('dask' in sys.modules)"
     said = subprocess.run([sys.executable, "-c", loaded], capture_output=True, check=True)
     assert said.stdout.strip() == b"False"

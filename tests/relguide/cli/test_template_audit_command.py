@@ -20,9 +20,9 @@ def test_people_get_tables_and_a_figure(run: Run) -> None:
     for name in ("tight", "near", "far", "along", "all", "it binds", "all situations"):
         assert name in names
     assert "binds, median and 99th percentile of CPU time:\nnetwork " in out
-    assert "Slower than the fastest way by more than 0.1 %: " in out
-    assert "All situations, the limit included: " in out
-    assert "Of what is answered: how much longer it takes than the fastest way" in out
+    assert "Slower than the fastest path by more than 0.1 %: " in out
+    assert "All situations, whether d_min binds or not: " in out
+    assert "Of the answers: how much longer they take than the fastest path" in out
     (drawn,) = Path("docs/figures").iterdir()
     assert drawn.name == "network_ways.svg"
     picture = drawn.read_text("utf-8")

@@ -44,7 +44,7 @@ def test_labelling_goes_on_after_a_stop(run: Run) -> None:
     assert "--resume goes on with it" in err
     code, out, _ = run(*LIMIT, "--resume")
     assert code == 0
-    assert out.startswith("templates.npz: 500 situations in which the limit binds, ")
+    assert out.startswith("templates.npz: 500 situations in which d_min binds, ")
     assert not Path("templates.npz.part").exists()
 
 

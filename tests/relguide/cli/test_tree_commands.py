@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from relguide.cli import growing
+from relguide.cli import area_command, tree_growth
 from relguide.figures.area_figure import Column, draw_areas
 from relguide.learn.tree import reverse_dp
 from relguide.learn.tree.reverse_dp import Growth, grow_order, planted
@@ -47,8 +47,8 @@ def test_dataset_writes_the_tree_and_says_what_it_is(run: Run) -> None:
 def test_dataset_tells_people_in_sentences(run: Run) -> None:
     code, out, _ = run(*DATASET, *SMALL, "--audit", "50", "--threads", "1")
     assert code == 0
-    assert f"the best ways from {len(tree().minima):,} cells" in out
-    assert "They are ways, not the fastest ones: of 50 of them" in out
+    assert f"the best paths from {len(tree().minima):,} cells" in out
+    assert "They are paths, not the fastest ones: of 50 of them" in out
     code, out, _ = run(*DATASET, *SMALL, "--audit", "0")
     assert (code, "not the fastest ones" in out) == (0, False)
 
@@ -80,8 +80,8 @@ def test_ctrl_c_leaves_what_resume_goes_on_with(run: Run, monkeypatch: pytest.Mo
 
     with monkeypatch.context() as patched:
         patched.setattr(reverse_dp, "BLOCK", 3)
-        patched.setattr(growing, "SAVE_EVERY", 0.0)
-        patched.setattr(growing, "grow_order", stopped)
+        patched.setattr(tree_growth, "SAVE_EVERY", 0.0)
+        patched.setattr(tree_growth, "grow_order", stopped)
         code, out, err = run(*DATASET, *SMALL)
     assert (code, out, err) == (130, "", "\nrelguide: stopped.\n")
     assert [path.name for path in Path().iterdir()] == ["tree.npz.part"]
@@ -134,7 +134,7 @@ def test_help_has_examples(run: Run, command: str) -> None:
 def test_planning_loads_neither_torch_nor_matplotlib() -> None:
     program = (
         "import sys, relguide, relguide.__main__ as m\n"
-        "from relguide.cli import growing\n"
+        "from relguide.cli import tree_growth\n"
         "try: m.main(['dataset', '--help'])\n"
         "except SystemExit: pass\n"
         "print('HEAVY', *sorted({'torch', 'matplotlib', 'scipy.spatial'} & set(sys.modules)))"
@@ -157,7 +157,7 @@ def test_area_draws_the_tree_beside_the_exact_area(run: Run) -> None:
 
 
 def test_what_the_tree_loses_is_never_less_than_nothing() -> None:
-    column = growing._column(tree(), 2)
+    column = area_command.column_of(tree(), 2)
     filled = np.isfinite(column.tree.time)
     assert np.array_equal(filled, np.isfinite(column.loss.time))
     assert column.loss.time[filled].min() >= -1e-6

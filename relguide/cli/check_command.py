@@ -1,0 +1,81 @@
+"""`relguide check`: a regular trajectory, given as the paper's triplets, judged and drawn."""
+
+import argparse
+from pathlib import Path
+
+from relguide.cli.output import DONE, FAILED, say, write_json
+from relguide.cli.situation_file import open_input, read_situation
+from relguide.planning.extras import need
+
+PURPOSE = "judge a regular trajectory, given as the paper's triplets (ε, θ, l)"
+EXAMPLES = """
+    relguide check situation.json triplets.json          what holds of it, as JSON
+    relguide check situation.json triplets.json --table  the same for people
+    relguide check situation.json --figure plan.svg      the fastest plan's own, drawn
+
+    Triplets are numbered backward from the slot, the one flown last comes first:
+    {"triplets": [{"epsilon": 1, "theta_deg": 3.2, "l_m": 0},
+                  {"epsilon": -1, "theta_deg": 43.4, "l_m": 267000}]}
+    epsilon 1 turns left, -1 right; l_m is the straight after the turn.
+    """
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """The options of `relguide check`."""
+    parser.add_argument(
+        "situation", metavar="SITUATION", help="a situation in JSON; - for standard input"
+    )
+    parser.add_argument(
+        "triplets",
+        metavar="TRIPLETS",
+        nargs="?",
+        default="",
+        help="triplets in JSON; left out: those of the fastest plan",
+    )
+    parser.add_argument("--table", action="store_true", help="print tables for people")
+    parser.add_argument("--figure", metavar="FILE.svg", default="", help="draw both tracks")
+
+
+def run(chosen: argparse.Namespace) -> int:
+    """Judge the trajectory: does it reach the slot, keep d_min, and is it stationary?"""
+    need("pydantic", "orjson", "rich")
+    if chosen.situation == chosen.triplets == "-":
+        raise ValueError("Only one of the two files can come from standard input.")
+    from relguide.contract.triplets import regular_from_json
+    from relguide.contract.wire import to_wire
+    from relguide.flying.regular_card import regular_check
+    from relguide.planning.plan import NoPlan, plan
+    from relguide.planning.regular import regular_from_trajectory, trajectory_from_regular
+
+    situation, _, _ = read_situation(chosen.situation)
+    if chosen.triplets:
+        with open_input(chosen.triplets) as stream:
+            regular = regular_from_json(stream.read())
+    else:
+        planned = plan(situation)
+        if isinstance(planned, NoPlan):
+            say(planned.message)
+            return FAILED
+        radius = situation.pursuer.turn_radius
+        regular = regular_from_trajectory(planned.trajectory, turn_radius=radius)
+    found = regular_check(regular, situation)
+    if chosen.figure:
+        from relguide.figures.tracks_figure import draw
+        from relguide.units import NM
+
+        picture = draw(
+            trajectory_from_regular(regular, situation),
+            situation,
+            nodes=found.nodes,
+            closest_at=found.separation.at,
+            title=f"Regular trajectory of order {found.order}: {found.duration:,.0f} s, "
+            f"least separation {found.separation.least / NM:.2f} NM",
+        )
+        Path(chosen.figure).write_text(picture, "utf-8")
+    if chosen.table:
+        from relguide.cli.plan_tables import print_regular
+
+        print_regular(found, min_separation=situation.min_separation)
+    else:
+        write_json(to_wire(found))
+    return DONE if found.passed else FAILED

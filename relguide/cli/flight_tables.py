@@ -1,0 +1,69 @@
+"""Flights for people: what happened, and the figures, as tables."""
+
+from collections.abc import Mapping
+from typing import Any, assert_never
+
+from rich.box import SIMPLE_HEAD
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from relguide.cli.tables import clock, miles
+from relguide.contract.story import Event, Story
+from relguide.flying.documents import LeaderChanged, ModeChanged, PlanChanged, PlanUnavailable
+
+
+def print_flight(flight: Story, figures: Mapping[str, Any]) -> None:
+    """Print what happened in a flight, then its figures as `fly --json` names them."""
+    console = Console(highlight=False)
+    for started in flight.started:
+        limits = f"D {miles(started.slot_distance)}, d_min {miles(started.min_separation)}"
+        who = f"{started.pursuer.ident} behind {started.leader.ident}, {limits}"
+        console.print(Text.assemble((started.title or started.scenario, "bold"), f"\n{who}"))
+    table = Table(box=SIMPLE_HEAD, pad_edge=False)
+    table.add_column("at", justify="right")
+    table.add_column("what")
+    table.add_column("why", overflow="fold")
+    for event in flight.events:
+        table.add_row(*_event(event))
+    console.print(table)
+    summary = Table(box=None, show_header=False, pad_edge=False)
+    summary.add_column(style="dim")
+    summary.add_column()
+    for row in _figure_rows(figures).items():
+        summary.add_row(*row)
+    console.print(summary)
+
+
+def _event(event: Event) -> tuple[str, str, str]:
+    match event:
+        case PlanChanged(reason=reason):
+            what = f"plan: {reason.replace('_', ' ')}"
+        case PlanUnavailable(answer=answer):
+            return clock(event.t), "no plan", answer.message
+        case ModeChanged(mode=mode):
+            what = mode
+        case LeaderChanged(change=change):
+            what = f"leader: {change.replace('_', ' ')}"
+        case _:
+            assert_never(event)
+    return clock(event.t), what, event.message
+
+
+def _figure_rows(figures: Mapping[str, Any]) -> dict[str, str]:
+    rows = {"flight time": clock(figures["simulated_s"])}
+    if "joined" in figures:
+        rows |= {
+            "joined": f"after {clock(figures['join_time_s'])}" if figures["joined"] else "no",
+            "planned at engagement": clock(figures["planned_time_s"]),
+            "least separation": miles(figures["least_separation_m"]),
+            "heading swing": f"{figures['heading_swing_deg']:.0f}°",
+            "bank reversals": f"{figures['bank_reversals']}",
+            "new plans": f"{figures['replans']}",
+            "fallbacks": f"{figures['fallbacks']}",
+            "flown": f"{figures['track_nm']:.1f} NM over the ground",
+        }
+    if "wall_s" in figures:
+        speed = figures["simulated_s"] / max(figures["wall_s"], 1e-9)
+        rows["computed in"] = f"{figures['wall_s']:.2f} s, {speed:,.0f} times as fast as it flies"
+    return rows

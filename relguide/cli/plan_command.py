@@ -1,0 +1,181 @@
+"""`relguide plan`: the plan of a situation, or of each in a file."""
+
+import argparse
+import os
+import sys
+from collections.abc import Collection, Iterator
+from typing import TYPE_CHECKING
+
+from relguide.cli.options import add_planner, make_planner
+from relguide.cli.output import DONE, FAILED, compile_kernels, say, write_json
+from relguide.cli.situation_file import open_input, read_situation
+from relguide.planning.extras import need
+
+if TYPE_CHECKING:
+    from relguide.contract.answers import Include
+    from relguide.planning.plan import NoPlan, Plan, Planner
+    from relguide.planning.situation import Situation
+
+PURPOSE = "plan a situation, or a file of them"
+EXAMPLES = """
+    relguide plan situation.json              the plan as JSON
+    relguide plan situation.json --table      the same for people
+    cat situation.json | relguide plan -      from standard input
+    relguide plan --batch situations.jsonl    one plan a line, in order
+    relguide plan situation.json --include alternatives,optimality
+                                              with what else there was, H and λ
+    relguide plan situation.json --prove 10   with a better lower bound of its time
+    """
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """The options of `relguide plan`."""
+    parser.add_argument("file", metavar="FILE", help="a situation in JSON; - for standard input")
+    parser.add_argument("--batch", action="store_true", help="FILE has one situation a line")
+    parser.add_argument("--table", action="store_true", help="print tables for people")
+    parser.add_argument(
+        "--prove",
+        metavar="SECONDS",
+        type=_proof_time,
+        default=0.0,
+        help="where d_min makes the plan longer, look this long for a better lower bound of its "
+        "time",
+    )
+    parser.add_argument(
+        "--include",
+        metavar="WHAT",
+        type=_included,
+        default=(),
+        help="alternatives: every other path to the slot and why it is not flown; optimality: how "
+        "the plan meets Pontryagin's conditions, with H and λ along it; or both, with a comma",
+    )
+    add_planner(parser)
+
+
+def run(chosen: argparse.Namespace) -> int:
+    """Plan, and print the answers."""
+    need("pydantic", "orjson", "rich")
+    compile_kernels()
+    if chosen.batch and chosen.table:
+        raise ValueError("A batch is answered in JSON, one plan a line: leave out --table.")
+    planner = make_planner(chosen.planner)
+    if chosen.batch:
+        return _plan_batch(chosen.file, planner, chosen.prove, chosen.include)
+    return _plan_one(chosen.file, planner, chosen.prove, chosen.include, table=chosen.table)
+
+
+def _plan_one(
+    file: str,
+    planner: "Planner",
+    prove_for: float,
+    include: "Collection[Include]",
+    *,
+    table: bool,
+) -> int:
+    from relguide.contract.answers import answer, checked
+    from relguide.flying.cards import no_plan_card, plan_card
+    from relguide.planning.plan import NoPlan, Plan
+
+    situation, anchor, body = read_situation(file)
+    # loads the compiled kernels: that takes seconds, planning a tenth of a millisecond, and the
+    # time measured is that of planning
+    planner(situation)
+    proving = _prove_after(planner, prove_for)
+    if table:
+        from relguide.cli.plan_tables import print_no_plan, print_optimality, print_plan
+        from relguide.planning.alternatives import alternatives
+
+        match planned := proving(situation):
+            case NoPlan():
+                print_no_plan(no_plan_card(planned))
+            case Plan():
+                others = alternatives(planned) if "alternatives" in include else ()
+                print_plan(plan_card(planned, others), min_separation=situation.min_separation)
+                if "optimality" in include:
+                    print_optimality(checked(planned))
+        return DONE if isinstance(planned, Plan) else FAILED
+    reply = answer(situation, anchor, proving, include=include)
+    name = {"id": body.id} if "id" in body.model_fields_set else {}
+    write_json(name | reply)
+    return DONE if reply["status"] == "planned" else FAILED
+
+
+def _plan_batch(
+    file: str, planner: "Planner", prove_for: float, include: "Collection[Include]"
+) -> int:
+    """Answer one line after another; those that are no situations are counted."""
+    import orjson
+
+    from relguide.contract.answers import answer_line
+    from relguide.planning.progress import watched
+
+    invalid: list[int] = []
+    read = 0
+    # no bar of its own: that of the batch goes on
+    proving = _prove_after(planner, prove_for, shown=False)
+    with open_input(file) as stream:
+        size = os.fstat(stream.fileno()).st_size if file != "-" else 0
+        lines = watched(
+            enumerate(stream, start=1), title="planning", total=size, done=lambda _: read
+        )
+        for number, line in lines:
+            read += len(line)
+            if not line.strip():
+                continue
+            reply = answer_line(line, proving, include=include)
+            if reply["status"] == "invalid":
+                invalid.append(number)
+            sys.stdout.write(orjson.dumps(reply).decode() + "\n")
+    if invalid:
+        noun = "line is" if len(invalid) == 1 else "lines are"
+        say(f"{len(invalid)} {noun} no valid situation, the first is line {invalid[0]}.")
+    return FAILED if invalid else DONE
+
+
+def _prove_after(planner: "Planner", seconds: float, *, shown: bool = True) -> "Planner":
+    """A planner which then looks this long for a better lower bound."""
+    if seconds == 0.0:
+        return planner
+    from relguide.planning.plan import NoPlan
+    from relguide.planning.progress import watched
+    from relguide.planning.prove import Bound, prove
+
+    def progress(bounds: Iterator[Bound]) -> Iterator[Bound]:
+        return watched(
+            bounds,
+            title="proving",
+            total=seconds,
+            done=lambda bound: bound.elapsed,
+            state=lambda bound: f"gap {bound.gap:.3f} s",
+        )
+
+    def plan_and_prove(situation: "Situation") -> "Plan | NoPlan":
+        planned = planner(situation)
+        if isinstance(planned, NoPlan):
+            return planned
+        return prove(planned, seconds=seconds, progress=progress if shown else iter)
+
+    return plan_and_prove
+
+
+def _included(text: str) -> "tuple[Include, ...]":
+    from relguide.contract.answers import read_include
+
+    try:
+        return read_include(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+
+
+def _proof_time(text: str) -> float:
+    from relguide.planning.prove import check_seconds
+
+    try:
+        seconds = float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"must be a number of seconds, not {text}") from None
+    try:
+        check_seconds(seconds)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+    return seconds

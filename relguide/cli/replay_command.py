@@ -1,0 +1,48 @@
+"""`relguide replay`: what a recording holds."""
+
+import argparse
+
+from relguide.cli.output import DONE, FAILED, say, write_json
+from relguide.planning.extras import need
+
+PURPOSE = "show what a recording holds"
+EXAMPLES = """
+    relguide replay flight.jsonl           what happened, when and why
+    relguide replay flight.jsonl --json    the figures as JSON
+    """
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """The options of `relguide replay`."""
+    parser.add_argument("file", metavar="FILE", help="made by relguide fly --record")
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+
+
+def run(chosen: argparse.Namespace) -> int:
+    """Print what is good of a recording; done if that is all of it."""
+    need("pydantic", "orjson", "rich")
+    from relguide.contract.recorder import replay
+    from relguide.contract.story import figures, told
+    from relguide.planning.progress import watched
+
+    flight = told(watched(replay(chosen.file), title="reading", total=0.0, done=lambda _: 0.0))
+    whole = bool(flight.ended) and not flight.broken
+    result = figures(flight.ended[0]) if flight.ended else {"simulated_s": flight.last_time}
+    if chosen.json:
+        about = {
+            "scenario": "".join(started.scenario for started in flight.started),
+            "title": "".join(started.title for started in flight.started),
+            "documents": flight.documents,
+            "complete": whole,
+        }
+        write_json(about | result)
+    else:
+        from relguide.cli.flight_tables import print_flight
+
+        print_flight(flight, result)
+    if not whole:
+        say(
+            flight.broken
+            or f"{chosen.file} ends before its flight does; it may still be being written."
+        )
+    return DONE if whole else FAILED

@@ -1,0 +1,41 @@
+"""Situations as commands are given them: in a file, or on standard input."""
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import IO, TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from relguide.contract.bodies import Anchor, NamedSituationBody
+    from relguide.planning.situation import Situation
+
+
+@contextmanager
+def open_input(file: str) -> Iterator[IO[bytes]]:
+    """Open a file to read; `-` is standard input, which stays open."""
+    if file == "-":
+        yield sys.stdin.buffer
+    else:
+        with Path(file).open("rb") as stream:
+            yield stream
+
+
+def read_situation(file: str) -> tuple["Situation", "Anchor", "NamedSituationBody"]:
+    """Read one situation.
+
+    Args:
+        file: its path; - for standard input.
+
+    Returns:
+        the situation, where on the earth it is, and what was read.
+
+    Raises:
+        ValueError: if it is no situation, saying what would be right.
+    """
+    from relguide.contract.bodies import NamedSituationBody, situation_from_body
+    from relguide.contract.refusal import parse
+
+    with open_input(file) as stream:
+        body = parse(NamedSituationBody, stream.read())
+    return *situation_from_body(body), body
