@@ -47,7 +47,7 @@ def run(chosen: argparse.Namespace) -> int:
     need("pydantic", "orjson", "rich")
     compile_kernels()
     from relguide.contract.recorder import record
-    from relguide.contract.story import failures, figures, told
+    from relguide.contract.story import failures, figures, story_of
     from relguide.flying.flight import fly
     from relguide.planning.progress import watched
 
@@ -61,7 +61,7 @@ def run(chosen: argparse.Namespace) -> int:
         documents = fly(scenario, planner, seed=chosen.seed, sample_period=1.0)
     else:
         documents = record(fly(scenario, planner, seed=chosen.seed), chosen.record)
-    flight = told(
+    flight = story_of(
         watched(
             documents,
             title=f"flying {scenario.name}",

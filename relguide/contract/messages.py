@@ -1,4 +1,4 @@
-"""Documents read back from JSON, the stream's ticks, and what flights take and give over REST.
+"""Documents read back from JSON, the ticks of the stream, and the requests and answers of flights.
 
 The models of the documents are made from their dataclasses by the rules of `wire.py`: one source
 for reading them back, for the OpenAPI document and for the browser's types.
@@ -87,7 +87,7 @@ def model_of(document_type: type[Any]) -> type[BaseModel]:
 
 
 def _on_demand(document_type: type[Any]) -> dict[str, Any]:
-    """The members of a card that are added to another if asked for."""
+    """The members of a card that are added to another card on request."""
     return {
         f.wire_name: (
             _json_type(f.annotation),
@@ -127,7 +127,7 @@ PlanAnswer: Any = _json_type(PlanCard | NoPlanCard)
 PathSegmentModel: Any = _json_type(PathSegment)
 """A piece of a path over the ground."""
 AlternativeModel: Any = _json_type(AnyAlternativeCard)
-"""Another way to the slot, and why it is not flown."""
+"""Another path to the slot, and why it is not flown."""
 ReferenceModel: Any = _json_type(ReferenceCard)
 """What guidance asks of the autopilot."""
 _DOCUMENT: TypeAdapter[BaseModel] = TypeAdapter(DocumentModel)
@@ -195,7 +195,7 @@ class ScenarioInfo(Strict):
     available: bool
     """Whether what it needs is installed."""
     message: str
-    """If not, what to install."""
+    """If it is not available, what to install."""
 
 
 class ScenarioList(Strict):
@@ -212,22 +212,22 @@ class ScenarioFlightRequest(Strict):
     rate: Rate = 1.0
     """Simulated seconds per second."""
     paused: bool = False
-    """Whether it waits for `play`."""
+    """Whether it waits for the command `play`."""
     intent_known: bool | None = None
-    """Whether the pursuer knows the leader's intent; left out: as the scenario says."""
+    """Whether the pursuer knows the leader's intent; if left out, as the scenario says."""
     seed: Seed = 0
 
 
 class SituationFlightRequest(Strict):
-    """Start a flight of a situation of one's own."""
+    """Start a flight from a situation of your own."""
 
     situation: SituationBody
     rate: Rate = 1.0
     """Simulated seconds per second."""
     paused: bool = False
-    """Whether it waits for `play`."""
+    """Whether it waits for the command `play`."""
     intent_known: bool | None = None
-    """Whether the pursuer knows the leader's intent; left out: it does."""
+    """Whether the pursuer knows the leader's intent; if left out, it does."""
     seed: Seed = 0
 
 
@@ -243,7 +243,7 @@ FlightRequest = Annotated[
     | Annotated[SituationFlightRequest, Tag("#situation")],
     Discriminator(_which_request),
 ]
-"""What starts a flight."""
+"""A request for a new flight."""
 
 
 class FlightStatus(Strict):
@@ -251,7 +251,7 @@ class FlightStatus(Strict):
 
     id: str
     scenario: str
-    """Its name; empty for a situation of one's own."""
+    """Its name; empty for a situation of your own."""
     title: str
     t_s: float
     """Flight time."""
@@ -275,19 +275,19 @@ class FlightList(Strict):
 
 
 class PlayCommand(Strict):
-    """Let the flight go on."""
+    """Continue the flight."""
 
     command: Literal["play"]
 
 
 class PauseCommand(Strict):
-    """Stop the flight where it is."""
+    """Pause the flight."""
 
     command: Literal["pause"]
 
 
 class SetRateCommand(Strict):
-    """Let simulated time go faster or slower."""
+    """Change how fast simulated time runs."""
 
     command: Literal["set_rate"]
     rate: Rate
@@ -295,17 +295,17 @@ class SetRateCommand(Strict):
 
 
 class LeaderHeadingCommand(Strict):
-    """Give the leader a heading."""
+    """Instruct the leader to turn to a heading."""
 
     command: Literal["leader_heading"]
     heading_deg: float
     """Clockwise from true north."""
     direction: Direction | None = None
-    """Which way round; left out: the shorter."""
+    """Which way round; if left out, the shorter."""
 
 
 class LeaderSpeedCommand(Strict):
-    """Give the leader a speed."""
+    """Instruct the leader to fly at a speed."""
 
     command: Literal["leader_speed"]
     tas_mps: Tas
@@ -313,7 +313,7 @@ class LeaderSpeedCommand(Strict):
 
 
 class SetIntentKnownCommand(Strict):
-    """Tell the pursuer the leader's intent, or withdraw it."""
+    """Give the leader's intent to the pursuer, or withdraw it."""
 
     command: Literal["set_intent_known"]
     known: bool
@@ -328,4 +328,4 @@ Command = Annotated[
     | SetIntentKnownCommand,
     Field(discriminator="command"),
 ]
-"""What a flight can be told."""
+"""A command to a flight."""

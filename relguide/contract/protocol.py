@@ -1,4 +1,4 @@
-"""What the browser is told of the contract: its types, and a name that changes whenever they do."""
+"""The contract as the browser gets it: its types, and a name that changes whenever they do."""
 
 from hashlib import sha256
 from typing import Any, Literal
@@ -25,21 +25,22 @@ _ALIASES: dict[str, tuple[Any, str]] = {
     "Direction": (Direction, "Which way round."),
     "Mode": (
         Mode,
-        "heading: nothing to fly, holds its heading; converge: flies the plan; capture: closes\n"
-        "onto the leader's route at its own speed; follow: on the route at D, speed matched.",
+        "heading: no plan, a heading is held; converge: the plan is flown; capture: closes onto\n"
+        "the leader's route under speed control; follow: on the route D behind the leader, at\n"
+        "its speed.",
     ),
     "Proof": (Proof, "Why a plan is optimal."),
     "PlanReason": (PlanReason, "Why a new plan was made."),
-    "LeaderChange": (LeaderChange, "What the leader does anew."),
+    "LeaderChange": (LeaderChange, "What is new about the leader."),
     "Reason": (Literal[tuple(r.value for r in Reason)], "Why there is no plan."),
     "PathSegment": (PathSegmentModel, "A piece of a path over the ground."),
-    "Alternative": (AlternativeModel, "Another way to the slot, and why it is not flown."),
+    "Alternative": (AlternativeModel, "Another path to the slot, and why it is not flown."),
     "ReferenceCard": (ReferenceModel, "What guidance asks of the autopilot."),
-    "Document": (DocumentModel, "What a flight says of itself."),
+    "Document": (DocumentModel, "A document of a flight."),
     "PlanAnswer": (PlanAnswer, "The answer to a situation."),
     "IntentPiece": (Piece, "A piece of the leader's intent."),
-    "FlightRequest": (FlightRequest, "What starts a flight."),
-    "Command": (Command, "What a flight can be told."),
+    "FlightRequest": (FlightRequest, "A request for a new flight."),
+    "Command": (Command, "A command to a flight."),
 }
 _ROOTS = (Tick, SituationBody, ScenarioList, FlightList, AreaAnswer)
 
@@ -50,9 +51,9 @@ def typescript_body(*, docs: bool) -> str:
 
 
 def protocol(body: str) -> str:
-    """The stream's sub-protocol for types written so."""
+    """The name of the stream's sub-protocol for these types."""
     return f"relguide-{sha256(body.encode()).hexdigest()[:12]}"
 
 
 PROTOCOL = protocol(typescript_body(docs=False))
-"""Sub-protocol of the stream: changes whenever a shape of the contract does."""
+"""Sub-protocol of the stream: it changes whenever a shape of the contract does."""

@@ -1,4 +1,4 @@
-"""Saying no to what comes from outside: every defect as a path and a sentence."""
+"""Refusals of what comes from outside: each defect as a path and a sentence."""
 
 import json
 from collections.abc import Mapping, Sequence
@@ -11,11 +11,11 @@ MAX_LISTED = 8
 MAX_QUOTED = 40
 """How many characters of a refused value are quoted back."""
 TAG = "#"
-"""What tags of `Discriminator`s begin with, so that they can be told from field names."""
+"""First character of the tags of `Discriminator`s, which distinguishes them from field names."""
 
 
 class Strict(BaseModel):
-    """What all outside shapes have in common: nothing is converted, added or left unsaid."""
+    """The base of all outside shapes: nothing is converted, and nothing unknown is accepted."""
 
     model_config = ConfigDict(
         strict=True,
@@ -27,7 +27,7 @@ class Strict(BaseModel):
 
 
 class ContractError(ValueError):
-    """Something from outside is not what the contract says.
+    """Something from outside does not follow the contract.
 
     Attributes:
         problems: (path of the field, sentence), at least one; the path is empty for the whole.
@@ -65,7 +65,7 @@ def loads(text: bytes | str) -> object:
         message = f"This is not JSON: {error.msg} at line {error.lineno}, column {error.colno}."
         raise ContractError([("", message)]) from None
     except ValueError:  # Python refuses to read an integer of thousands of digits
-        raise ContractError([("", "A number in this has too many digits.")]) from None
+        raise ContractError([("", "A number in this has too many digits to be read.")]) from None
     return parsed
 
 
@@ -98,13 +98,13 @@ def _unique_keys(pairs: list[tuple[str, object]]) -> dict[str, object]:
         seen: set[str] = set()
         for key, _ in pairs:
             if key in seen:
-                raise ContractError([(_cut(key), "is given more than once.")])
+                raise ContractError([(_cut(key), "is given more than once: give it once.")])
             seen.add(key)
     return members
 
 
 def _refuse_constant(name: str) -> object:
-    raise ContractError([("", f"{name} is not a number that JSON has.")])
+    raise ContractError([("", f"{name} is not a number in JSON: give a finite one.")])
 
 
 def _path(error: Any, content: object) -> str:
@@ -134,51 +134,47 @@ def _texts(members: Mapping[str, object]) -> list[str]:
     return [value for value in members.values() if isinstance(value, str)]
 
 
+_SENTENCES = {
+    "string_unicode": "must be text without lone surrogates, not {given}.",
+    "missing": "is missing.",
+    "extra_forbidden": "is not a field of the contract: leave it out.",
+    "float_type": "must be a number, not {given}.",
+    "int_type": "must be a whole number, not {given}.",
+    "int_from_float": "must be a whole number, not {given}.",
+    "int_parsing_size": "must be a whole number, not {given}.",
+    "finite_number": "must be a finite number, not {given}.",
+    "string_type": "must be a text, not {given}.",
+    "bool_type": "must be true or false, not {given}.",
+    "list_type": "must be a list, not {given}.",
+    "model_type": "must be an object with fields, not {given}.",
+    "model_attributes_type": "must be an object with fields, not {given}.",
+    "dict_type": "must be an object with fields, not {given}.",
+    "greater_than_equal": "must be at least {ge:.12g}, not {given}.",
+    "less_than_equal": "must be at most {le:.12g}, not {given}.",
+    "literal_error": "must be {expected}, not {given}.",
+    "union_tag_invalid": "must be one of {expected_tags}, not {tag}.",
+    "union_tag_not_found": "is missing: it says what kind of object this is.",
+    "too_long": "must have at most {max_length} entries, not {actual_length}.",
+    "too_short": "must have at least {min_length} entries.",
+    "string_too_long": "must have at most {max_length} characters.",
+    "string_too_short": "must have at least {min_length} characters.",
+}
+"""Pydantic's type of an error → our sentence, with the names of its context in braces."""
+_NUMBERS = ("float_type", "int_type", "int_from_float", "int_parsing_size")
+"""Types that pydantic also gives to integers too large for it."""
+
+
 def _sentence(error: Any) -> str:
-    context, given = error.get("ctx", {}), _quoted(error["input"])
-    match error["type"]:
-        case "string_unicode":
-            return f"must be text without lone surrogates, not {given}."
-        case "missing":
-            return "is missing."
-        case "extra_forbidden":
-            return "is not a field of the contract."
-        case "float_type" | "int_type" | "int_from_float" | "int_parsing_size" as kind:
-            if isinstance(error["input"], int) and not isinstance(error["input"], bool):
-                return "is too large a number."
-            noun = "a number" if kind == "float_type" else "a whole number"
-            return f"must be {noun}, not {given}."
-        case "finite_number":
-            return f"must be a finite number, not {given}."
-        case "string_type":
-            return f"must be a text, not {given}."
-        case "bool_type":
-            return f"must be true or false, not {given}."
-        case "list_type":
-            return f"must be a list, not {given}."
-        case "model_type" | "model_attributes_type" | "dict_type":
-            return f"must be an object with fields, not {given}."
-        case "greater_than_equal":
-            return f"must be at least {context['ge']:.12g}, not {given}."
-        case "less_than_equal":
-            return f"must be at most {context['le']:.12g}, not {given}."
-        case "literal_error":
-            return f"must be {context['expected']}, not {given}."
-        case "union_tag_invalid":
-            return f"must be one of {context['expected_tags']}, not {_quoted(context['tag'])}."
-        case "union_tag_not_found":
-            return "is missing: it says what this is."
-        case "too_long":
-            most, actual = context["max_length"], context["actual_length"]
-            return f"must have at most {most} entries, not {actual}."
-        case "too_short":
-            return f"must have at least {context['min_length']} entries."
-        case "string_too_long":
-            return f"must have at most {context['max_length']} characters."
-        case "string_too_short":
-            return f"must have at least {context['min_length']} characters."
-        case _:
-            return f"{error['msg']} (given: {given})."
+    kind, value = error["type"], error["input"]
+    if kind in _NUMBERS and isinstance(value, int) and not isinstance(value, bool):
+        return "is too large a number to be read."
+    sentence = _SENTENCES.get(kind)
+    if sentence is None:
+        return f"{error['msg']} (given: {_quoted(value)})."
+    context = dict(error.get("ctx", {}))
+    if "tag" in context:
+        context["tag"] = _quoted(context["tag"])
+    return sentence.format(**context, given=_quoted(value))
 
 
 def _quoted(value: object) -> str:

@@ -1,4 +1,4 @@
-"""What happened in a flight, in short: its events and its figures."""
+"""A flight in short: its events and its figures."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -25,10 +25,10 @@ class Story:
     """A flight without its samples and routes."""
 
     started: tuple[FlightStarted, ...] = ()
-    """One, or none if the documents began later."""
+    """One, or empty if the documents began later."""
     events: tuple[Event, ...] = ()
     ended: tuple[FlightEnded, ...] = ()
-    """One, or none if the documents broke off."""
+    """One, or empty if the documents broke off."""
     documents: int = 0
     """How many there were."""
     last_time: float = 0.0
@@ -37,8 +37,8 @@ class Story:
     """Why the documents broke off, if that is known."""
 
 
-def told(documents: Iterable[Document]) -> Story:
-    """The story of documents; if they break off with a `ValueError`, of those before it."""
+def story_of(documents: Iterable[Document]) -> Story:
+    """The story of a flight's documents; if a `ValueError` ends them, of those before it."""
     started: list[FlightStarted] = []
     events: list[Event] = []
     ended: list[FlightEnded] = []

@@ -1,8 +1,8 @@
-"""Documents as JSON, made mechanically from their dataclasses: every name ends in its unit.
+"""Documents as JSON, made mechanically from their dataclasses: every name ends with its unit.
 
 A field annotated with a unit of `units.py` gets that unit as suffix (`Metre` → `_m`); radians are
 written as degrees (`_deg`, `_degps`), headings and tracks in [0, 360). A trailing underscore of a
-Python name is dropped. The field that tells a union's members apart (`kind`, `status`) comes first.
+Python name is dropped. The field that names a union's member (`kind`, `status`) comes first.
 """
 
 import ast
@@ -74,8 +74,8 @@ class WireField:
     encode: Convert
     """Python value → JSON value."""
     decode_number: Convert
-    """JSON number → Python number; the identity for what is not an angle. Of each member of a
-    column of numbers."""
+    """JSON number → Python number, for angles; the identity for everything else. For a column of
+    numbers, that of each member."""
 
 
 def to_wire(document: Document | Card) -> dict[str, Any]:
@@ -107,7 +107,7 @@ def tick(
         flight_id: whose stream it is.
         t: flight time now [s].
         rate: simulated seconds per second.
-        paused: whether the flight stands still.
+        paused: whether the flight is paused.
         ended: whether it is over.
         documents: since the last tick.
     """
@@ -144,7 +144,7 @@ def field_docs(document_type: type[Any]) -> dict[str, str]:
     """The string under each field of a class, by name."""
     try:
         (definition,) = ast.parse(inspect.getsource(document_type)).body
-    except OSError:  # installed without sources: nothing to tell
+    except OSError:  # installed without sources: there are no docstrings
         return {}
     assert isinstance(definition, ast.ClassDef)
     docs: dict[str, str] = {}

@@ -7,8 +7,9 @@ export const PROTOCOL = "relguide-ef646275a1ed";
 export type Direction = "left" | "right";
 
 /**
- * heading: nothing to fly, holds its heading; converge: flies the plan; capture: closes
- * onto the leader's route at its own speed; follow: on the route at D, speed matched.
+ * heading: no plan, a heading is held; converge: the plan is flown; capture: closes onto
+ * the leader's route under speed control; follow: on the route D behind the leader, at
+ * its speed.
  */
 export type Mode = "heading" | "converge" | "capture" | "follow";
 
@@ -26,7 +27,7 @@ export type PlanReason =
   | "intent_received"
   | "intent_withdrawn";
 
-/** What the leader does anew. */
+/** What is new about the leader. */
 export type LeaderChange = "heading" | "speed" | "intent_received" | "intent_withdrawn";
 
 /** Why there is no plan. */
@@ -39,7 +40,7 @@ export type Reason =
 /** A piece of a path over the ground. */
 export type PathSegment = TurnSegment | StraightSegment | BoundarySegment;
 
-/** Another way to the slot, and why it is not flown. */
+/** Another path to the slot, and why it is not flown. */
 export type Alternative =
   | AlternativeCard
   | UnsafeAlternativeCard
@@ -49,7 +50,7 @@ export type Alternative =
 /** What guidance asks of the autopilot. */
 export type ReferenceCard = HeadingReference | TurnRateReference;
 
-/** What a flight says of itself. */
+/** A document of a flight. */
 export type Document =
   | FlightStarted
   | LeaderRoute
@@ -66,10 +67,10 @@ export type PlanAnswer = PlanCard | NoPlanCard;
 /** A piece of the leader's intent. */
 export type IntentPiece = StraightPiece | TurnPiece;
 
-/** What starts a flight. */
+/** A request for a new flight. */
 export type FlightRequest = ScenarioFlightRequest | SituationFlightRequest;
 
-/** What a flight can be told. */
+/** A command to a flight. */
 export type Command =
   | PlayCommand
   | PauseCommand
@@ -296,7 +297,7 @@ export interface FlightStarted {
 /** Where a flight stands. */
 export interface FlightStatus {
   id: string;
-  /** Its name; empty for a situation of one's own. */
+  /** Its name; empty for a situation of your own. */
   scenario: string;
   title: string;
   /** Flight time. */
@@ -352,12 +353,12 @@ export interface LeaderChanged {
   message: string;
 }
 
-/** Give the leader a heading. */
+/** Instruct the leader to turn to a heading. */
 export interface LeaderHeadingCommand {
   command: "leader_heading";
   /** Clockwise from true north. */
   heading_deg: number;
-  /** Which way round; left out: the shorter. */
+  /** Which way round; if left out, the shorter. */
   direction?: Direction | null;
 }
 
@@ -373,7 +374,7 @@ export interface LeaderRoute {
   segments: PathSegment[];
 }
 
-/** Give the leader a speed. */
+/** Instruct the leader to fly at a speed. */
 export interface LeaderSpeedCommand {
   command: "leader_speed";
   /** True airspeed. */
@@ -477,7 +478,7 @@ export interface PathPoint {
   lon_deg?: number;
 }
 
-/** Stop the flight where it is. */
+/** Pause the flight. */
 export interface PauseCommand {
   command: "pause";
 }
@@ -519,7 +520,7 @@ export interface PlanUnavailable {
   answer: NoPlanCard;
 }
 
-/** Let the flight go on. */
+/** Continue the flight. */
 export interface PlayCommand {
   command: "play";
 }
@@ -557,9 +558,9 @@ export interface ScenarioFlightRequest {
   scenario: string;
   /** Simulated seconds per second. */
   rate?: number;
-  /** Whether it waits for `play`. */
+  /** Whether it waits for the command `play`. */
   paused?: boolean;
-  /** Whether the pursuer knows the leader's intent; left out: as the scenario says. */
+  /** Whether the pursuer knows the leader's intent; if left out, as the scenario says. */
   intent_known?: boolean | null;
   seed?: number;
 }
@@ -571,7 +572,7 @@ export interface ScenarioInfo {
   description: string;
   /** Whether what it needs is installed. */
   available: boolean;
-  /** If not, what to install. */
+  /** If it is not available, what to install. */
   message: string;
 }
 
@@ -587,13 +588,13 @@ export interface Separation {
   proved_above_m: number;
 }
 
-/** Tell the pursuer the leader's intent, or withdraw it. */
+/** Give the leader's intent to the pursuer, or withdraw it. */
 export interface SetIntentKnownCommand {
   command: "set_intent_known";
   known: boolean;
 }
 
-/** Let simulated time go faster or slower. */
+/** Change how fast simulated time runs. */
 export interface SetRateCommand {
   command: "set_rate";
   /** Simulated seconds per second. */
@@ -612,14 +613,14 @@ export interface SituationBody {
   wind?: WindBody;
 }
 
-/** Start a flight of a situation of one's own. */
+/** Start a flight from a situation of your own. */
 export interface SituationFlightRequest {
   situation: SituationBody;
   /** Simulated seconds per second. */
   rate?: number;
-  /** Whether it waits for `play`. */
+  /** Whether it waits for the command `play`. */
   paused?: boolean;
-  /** Whether the pursuer knows the leader's intent; left out: it does. */
+  /** Whether the pursuer knows the leader's intent; if left out, it does. */
   intent_known?: boolean | null;
   seed?: number;
 }

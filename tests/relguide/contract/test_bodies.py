@@ -68,8 +68,8 @@ def test_a_left_turn_is_a_left_turn() -> None:
         ("pursuer.tas_mps", None, "pursuer.tas_mps", "must be a number, not null."),
         ("pursuer.tas_mps", 29.9, "pursuer.tas_mps", "must be at least 30, not 29.9."),
         ("leader.tas_mps", 400.1, "leader.tas_mps", "must be at most 400, not 400.1."),
-        ("pursuer.tas_kt", 1, "pursuer.tas_kt", "is not a field of the contract."),
-        ("pursuer.x_m", 10**400, "pursuer.x_m", "is too large a number."),
+        ("pursuer.tas_kt", 1, "pursuer.tas_kt", "is not a field of the contract: leave it out."),
+        ("pursuer.x_m", 10**400, "pursuer.x_m", "is too large a number to be read."),
         ("pursuer.x_m", 1000001, "pursuer.x_m", "must be at most 1000000, not 1000001."),
         ("pursuer.y_m", float("nan"), "pursuer.y_m", "must be a finite number, not nan."),
         ("pursuer.max_bank_deg", 60.1, "pursuer.max_bank_deg", "must be at most 60, not 60.1."),
@@ -87,7 +87,7 @@ def test_a_left_turn_is_a_left_turn() -> None:
         ("min_separation_m", -1, "min_separation_m", "must be at least 0, not -1."),
         ("min_separation_m", 12001, "slot_distance_m", "must be at least min_separation_m"),
         ("slot_distance_m", 200001, "slot_distance_m", "must be at most 200000"),
-        ("id", "a", "id", "is not a field of the contract."),
+        ("id", "a", "id", "is not a field of the contract: leave it out."),
     ],
 )
 def test_each_defect_is_named(path: str, value: Any, where: str, sentence: str) -> None:
@@ -114,10 +114,10 @@ def test_any_finite_heading_is_accepted(heading: float) -> None:
         (b'{"pursuer": ', "This is not JSON: Expecting value at line 1, column 13."),
         (b"[" * 100_000, "This is nested too deeply to be read."),
         (b'{"a":' * 100_000, "This is nested too deeply to be read."),
-        (b"1" * 10_000, "A number in this has too many digits."),
+        (b"1" * 10_000, "A number in this has too many digits to be read."),
         (b"\xff\xfe{}", "This is not UTF-8 text"),
-        (b'{"wind": NaN}', "NaN is not a number that JSON has."),
-        (b'{"wind": -Infinity}', "-Infinity is not a number that JSON has."),
+        (b'{"wind": NaN}', "NaN is not a number in JSON: give a finite one."),
+        (b'{"wind": -Infinity}', "-Infinity is not a number in JSON: give a finite one."),
         (b"null", "This must be an object with fields, not null."),
         (b"[]", "This must be an object with fields, not a list."),
     ],
@@ -130,7 +130,7 @@ def test_what_is_not_json_is_refused(text: bytes, sentence: str) -> None:
 
 def test_a_field_given_twice_is_refused() -> None:
     text = json.dumps(BODY).replace('"x_m": 0', '"x_m": 0, "x_m": 1')
-    assert problem_of(text) == ("x_m", "is given more than once.")
+    assert problem_of(text) == ("x_m", "is given more than once: give it once.")
 
 
 def test_an_overflowing_number_is_refused() -> None:

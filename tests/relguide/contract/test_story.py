@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from relguide.contract.story import failures, figures, told
+from relguide.contract.story import failures, figures, story_of
 from relguide.flying.documents import AircraftCard, FlightEnded, FlightStarted, WindCard
 from relguide.units import DEG, NM
 from tests.relguide.contract.test_wire import SAMPLE
@@ -38,7 +38,7 @@ ENDED = FlightEnded(
 
 
 def test_a_good_flight_has_no_failures() -> None:
-    flight = told([STARTED, SAMPLE, ENDED])
+    flight = story_of([STARTED, SAMPLE, ENDED])
     assert (flight.documents, flight.last_time, flight.broken) == (3, 720.0, "")
     assert failures(flight) == ()
     assert figures(ENDED)["heading_swing_deg"] == pytest.approx(400.0)
@@ -46,10 +46,10 @@ def test_a_good_flight_has_no_failures() -> None:
 
 
 def test_a_lost_separation_is_a_failure() -> None:
-    lost = told([STARTED, replace(ENDED, least_separation=4.0 * NM)])
+    lost = story_of([STARTED, replace(ENDED, least_separation=4.0 * NM)])
     assert failures(lost) == ("The separation fell below 5.00 NM: they came within 4.00 NM.",)
 
 
 def test_not_joining_is_a_failure() -> None:
-    missed = told([STARTED, replace(ENDED, joined=False)])
+    missed = story_of([STARTED, replace(ENDED, joined=False)])
     assert failures(missed) == ("It did not join within 720 s.",)

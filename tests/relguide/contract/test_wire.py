@@ -147,7 +147,7 @@ def test_garbage_in_a_document_is_refused_in_a_sentence(
         ({"mode": "dive"}, "mode", "must be 'heading', 'converge', 'capture' or 'follow'"),
         ({"reference": {"kind": "hold"}}, "reference.kind", "must be one of"),
         ({"slot": {**to_wire(SAMPLE)["slot"], "x_m": "1"}}, "slot.x_m", "must be a number"),
-        ({"separation_km": 1}, "separation_km", "is not a field of the contract."),
+        ({"separation_km": 1}, "separation_km", "is not a field of the contract: leave it out."),
     ],
 )
 def test_each_defect_is_named(change: dict[str, Any], path: str, sentence: str) -> None:
