@@ -6,6 +6,7 @@ dependencies it installs with `pip install --no-deps traffic==2.13`.
 
 import csv
 import gzip
+import json
 import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -16,7 +17,6 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-import orjson
 from numpy.typing import NDArray
 
 from relguide.flying.smoothing import MIN_POINTS, Array, smooth_motion
@@ -190,10 +190,10 @@ def _sample(collection: str) -> list[dict[str, Any]]:
         ) from None
     path = Path(str(package.locate_file(f"traffic/data/samples/{collection}.json.gz")))
     try:
-        rows = orjson.loads(gzip.decompress(path.read_bytes()))
+        rows = json.loads(gzip.decompress(path.read_bytes()))
     except FileNotFoundError:
         raise ValueError(f"traffic {package.version} has no samples {collection!r}.") from None
-    except (OSError, EOFError, zlib.error, orjson.JSONDecodeError):
+    except (OSError, EOFError, zlib.error, ValueError):
         rows = None
     if not (isinstance(rows, list) and rows and all(isinstance(row, dict) for row in rows)):
         raise ValueError(f"{path} is damaged; install it again: {INSTALL}")

@@ -19,9 +19,9 @@ from math import inf
 from typing import Any
 
 import numpy as np
-from contourpy import FillType, LineType, contour_generator
 from numpy.typing import NDArray
 
+from relguide.planning.extras import need
 from relguide.units import Second
 
 Floats = NDArray[np.float64]
@@ -115,6 +115,9 @@ def contours(
         levels: [s].
         evaluate: what the field is made by.
     """
+    need("contourpy")
+    from contourpy import LineType, contour_generator
+
     axes = _Axes(x, y)
     time = np.asarray(axes.on_grid(field.time), np.float64)
     generator = contour_generator(
@@ -242,6 +245,9 @@ def _labels(field: Field) -> NDArray[np.int64]:
 
 def _outlines(inside: Bools, column: Floats, row: Floats) -> list[list[Floats]]:
     """Outlines with their holes, in columns and rows; each vertex half way between two nodes."""
+    need("contourpy")
+    from contourpy import FillType, contour_generator
+
     # contourpy looks at what it is given whole: most labels hold in a small part of the grid
     across, along = (_around(np.any(inside, axis=axis)) for axis in (0, 1))
     part = along, across
