@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from relguide.learn.training.checkpoint import device_of, load_checkpoint, pace, save_checkpoint
 from relguide.learn.training.files import expect_part
 from relguide.learn.training.options import TrainingOptions, add_options
+from relguide.planning.extras import need
 
 if TYPE_CHECKING:
     import torch
@@ -75,6 +76,7 @@ def begin(options: TrainingOptions) -> "torch.device":
     Returns:
         where to train.
     """
+    need("torch")
     import torch
 
     torch.set_num_threads(options.threads)

@@ -14,6 +14,7 @@ from relguide.kernels.words.branches import MIRROR_OF, SIZE
 from relguide.learn.training.checkpoint import device_of
 from relguide.learn.words.branch_labels import Floats, canonical, on_the_right
 from relguide.learn.words.branch_network import BranchNetwork, Singles, features_of
+from relguide.planning.extras import need
 from relguide.planning.inputs import expect
 
 CHUNK = 4096
@@ -46,6 +47,7 @@ def branch_shares(
     Raises:
         ValueError: on situations of another shape or not finite, or on a device that is not there.
     """
+    need("torch")
     import torch
     from torch.nn.functional import silu
 
