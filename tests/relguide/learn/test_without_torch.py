@@ -32,8 +32,8 @@ from relguide_server.settings import Settings
 body = json.load(open(sys.argv[1]))
 client = TestClient(create_app(Settings(planner="network")))
 print(client.post("/api/v1/plans", json=body).json()["planner"])
-small = {"columns": "32", "rows": "24", "planner": "network"}
-print(client.post("/api/v1/areas", json=body, params=small).status_code)
+small = {"columns": "32", "rows": "24", "planner": "network", "situation": json.dumps(body)}
+print(client.get("/api/v1/areas", params=small).status_code)
 """
 )
 
