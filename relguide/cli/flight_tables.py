@@ -10,7 +10,13 @@ from rich.text import Text
 
 from relguide.cli.tables import clock, miles
 from relguide.contract.story import Event, Story
-from relguide.flying.documents import LeaderChanged, ModeChanged, PlanChanged, PlanUnavailable
+from relguide.flying.documents import (
+    LeaderChanged,
+    ModeChanged,
+    PlanChanged,
+    PlanRefused,
+    PlanUnavailable,
+)
 
 
 def print_flight(flight: Story, figures: Mapping[str, Any]) -> None:
@@ -41,6 +47,8 @@ def _event(event: Event) -> tuple[str, str, str]:
             what = f"plan: {reason.replace('_', ' ')}"
         case PlanUnavailable(answer=answer):
             return clock(event.t), "no plan", answer.message
+        case PlanRefused():
+            what = "plan refused"
         case ModeChanged(mode=mode):
             what = mode
         case LeaderChanged(change=change):

@@ -83,9 +83,10 @@ def _plan_one(
     proving = _prove_after(planner, prove_for)
     if table:
         from relguide.cli.plan_tables import print_no_plan, print_optimality, print_plan
+        from relguide.planning.acceptance import ask
         from relguide.planning.alternatives import alternatives
 
-        match planned := proving(situation):
+        match planned := ask(proving, situation).plan:
             case NoPlan():
                 print_no_plan(no_plan_card(planned))
             case Plan():

@@ -96,7 +96,7 @@ def print_optimality(check: OptimalityCheck) -> None:
         case "at_once":
             console.print("Pontryagin's conditions ask nothing of a pursuer in the slot.")
             return
-        case "opening":
+        case "release":
             said = Text("Stationary", "green") + ": it arrives as the slot opens, "
             console.print(said + "where no path can be faster.")
             return

@@ -15,6 +15,7 @@ from relguide.contract.refusal import ContractError, loads, parse, printable
 from relguide.contract.wire import to_wire
 from relguide.flying.cards import no_plan_card, optimality_check, plan_card
 from relguide.flying.verdicts import OptimalityCheck
+from relguide.planning.acceptance import ask
 from relguide.planning.alternatives import alternatives
 from relguide.planning.optimality import check
 from relguide.planning.plan import NoPlan, Plan, Planner
@@ -53,10 +54,11 @@ def answer(
     Args:
         situation: what to plan.
         anchor: how its world frame lies on the earth.
-        planner: who plans.
+        planner: who plans; what it gives is judged as in flight, and if it may not be flown the
+            exact plan stands in.
         include: what to add to the plan.
     """
-    match planned := planner(situation):
+    match planned := ask(planner, situation).plan:
         case Plan():
             others = alternatives(planned) if "alternatives" in include else ()
             reply = plan_to_wire(plan_card(planned, others), anchor)

@@ -18,7 +18,7 @@ from relguide.contract.messages import (
     Tick,
 )
 from relguide.contract.typescript import typescript
-from relguide.flying.documents import Direction, LeaderChange, Mode, PlanReason
+from relguide.flying.documents import Direction, Fault, LeaderChange, Mode, PlanReason
 from relguide.planning.plan import Proof, Reason
 
 _ALIASES: dict[str, tuple[Any, str]] = {
@@ -32,6 +32,7 @@ _ALIASES: dict[str, tuple[Any, str]] = {
     "Proof": (Proof, "Why a plan is optimal."),
     "PlanReason": (PlanReason, "Why a new plan was made."),
     "LeaderChange": (LeaderChange, "What is new about the leader."),
+    "Fault": (Fault, "What is wrong with a planner's plan."),
     "Reason": (Literal[tuple(r.value for r in Reason)], "Why there is no plan."),
     "PathSegment": (PathSegmentModel, "A piece of a path over the ground."),
     "Alternative": (AlternativeModel, "Another path to the slot, and why it is not flown."),

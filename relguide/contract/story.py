@@ -12,12 +12,13 @@ from relguide.flying.documents import (
     LeaderChanged,
     ModeChanged,
     PlanChanged,
+    PlanRefused,
     PlanUnavailable,
 )
 from relguide.planning.phrases import distance, too_close
 from relguide.units import NM
 
-Event = LeaderChanged | PlanChanged | PlanUnavailable | ModeChanged
+Event = LeaderChanged | PlanChanged | PlanUnavailable | PlanRefused | ModeChanged
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -49,7 +50,13 @@ def story_of(documents: Iterable[Document]) -> Story:
             match document:
                 case FlightStarted():
                     started.append(document)
-                case LeaderChanged() | PlanChanged() | PlanUnavailable() | ModeChanged():
+                case (
+                    LeaderChanged()
+                    | PlanChanged()
+                    | PlanUnavailable()
+                    | PlanRefused()
+                    | ModeChanged()
+                ):
                     events.append(document)
                 case FlightEnded():
                     ended.append(document)

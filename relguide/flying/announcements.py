@@ -6,6 +6,7 @@ from typing import Literal
 
 from relguide.flying.assignment import Observation
 from relguide.flying.commitment import Commitment
+from relguide.planning.acceptance import Refusal
 from relguide.planning.plan import NoPlan, Plan
 from relguide.units import DEG, KT, NM, MetrePerSecond, Radian
 
@@ -44,6 +45,13 @@ class PlanMissing:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Refused:
+    """The planner's own plan may not be flown."""
+
+    refusal: Refusal
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class ModeChange:
     """Guidance changes its mode."""
 
@@ -52,7 +60,7 @@ class ModeChange:
     message: str
 
 
-Event = NewPlan | PlanMissing | ModeChange
+Event = NewPlan | PlanMissing | Refused | ModeChange
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -8,6 +8,7 @@ from typing import assert_never
 from relguide.flying.documents import (
     AlternativeCard,
     AnyAlternativeCard,
+    ArrivalCard,
     BoundarySegment,
     Direction,
     EarlyAlternativeCard,
@@ -34,6 +35,7 @@ from relguide.planning.alternatives import (
     Slower,
     TooEarly,
 )
+from relguide.planning.arrival import Arrival
 from relguide.planning.certificate import Certificate
 from relguide.planning.optimality import OptimalityReport
 from relguide.planning.plan import NoPlan, Plan
@@ -71,9 +73,17 @@ def plan_card(plan: Plan, others: Sequence[AnyAlternative] = ()) -> PlanCard:
         length=plan.trajectory.length,
         segments=path_segments(plan.trajectory, wind=plan.situation.wind),
         separation=separation_card(certificate),
+        arrival=arrival_card(plan.arrival),
         optimality=OptimalityCard(proof=optimality.proof, lower_bound=optimality.lower_bound),
         alternatives=tuple(map(_alternative_card, others)),
         compute=plan.compute_time,
+    )
+
+
+def arrival_card(arrival: Arrival) -> ArrivalCard:
+    """How a trajectory's end meets eq. (7)."""
+    return ArrivalCard(
+        slot_error=arrival.slot_error, heading_error=arrival.heading_error, early=arrival.early
     )
 
 

@@ -6,15 +6,16 @@ same branch is solved again from where the aircraft is, and left only for a reas
 """
 
 from dataclasses import dataclass, replace
-from math import cos, hypot, sin
+from math import hypot
 from typing import Literal
 
 from relguide.flying.aircraft import AircraftModel
 from relguide.flying.path_distance import SAME_PATH_SHARE, distance_between, is_same_path
 from relguide.flying.steering import remaining, steer
+from relguide.planning.acceptance import Answer, Refusal, ask
+from relguide.planning.arrival import arrival
 from relguide.planning.certificate import certify
 from relguide.planning.plan import AS_FAST, NoPlan, Optimality, Plan, Planner
-from relguide.planning.plan import plan as exact_plan
 from relguide.planning.situation import Situation
 from relguide.planning.slot import over_ground, slot_frame
 from relguide.planning.trajectory import Arc, Pose, Trajectory
@@ -65,7 +66,19 @@ class Choice:
     plan: Plan
     cause: Cause
     fell_back: bool
-    """Whether the planner's own answer did not certify, and the exact plan took its place."""
+    """Whether the planner's own answer may not be flown, and the exact plan took its place."""
+    refusal: Refusal | None
+    """Why the planner's own plan is not flown; `None` if it was not asked, or may be flown."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NoChoice:
+    """Nothing to fly, and why."""
+
+    answer: NoPlan
+    fell_back: bool
+    """As in `Choice`: the exact planner had no plan either."""
+    refusal: Refusal | None
 
 
 def choose(
@@ -76,7 +89,7 @@ def choose(
     required: Situation,
     planner: Planner,
     model: AircraftModel,
-) -> Choice | NoPlan:
+) -> Choice | NoChoice:
     """Decide what to fly.
 
     The last turn is flown as it was planned. Full bank has nothing to spare: solved again from a
@@ -91,7 +104,7 @@ def choose(
         preferred: the situation with the separation that new plans should keep.
         required: the same with d_min itself, which the committed plan must keep, and new plans when
             nothing keeps the preferred separation.
-        planner: makes plans; whoever it is, the certificate decides whether they are flown.
+        planner: makes plans; they are judged before they are flown, whoever made them.
         model: how the aircraft rolls.
     """
     if committed is not None:
@@ -100,50 +113,45 @@ def choose(
         if _only_turns_left(left, model, overdue=overdue) or _arrives_at_release(left, required):
             kept = _continue_as_planned(left, committed.plan, required)
             if kept is not None:
-                return Choice(plan=kept, cause="continued", fell_back=False)
-    answer, fell_back = _first_answer(planner, preferred, required)
+                return Choice(plan=kept, cause="continued", fell_back=False, refusal=None)
+    answer, fell_back, refusal = _first_answer(planner, preferred, required)
+
+    def chosen(plan: Plan, cause: Cause) -> Choice:
+        return Choice(plan=plan, cause=cause, fell_back=fell_back, refusal=refusal)
+
     if committed is None:
         if isinstance(answer, NoPlan):
-            return answer
-        return Choice(plan=answer, cause="better_plan", fell_back=fell_back)
+            return NoChoice(answer=answer, fell_back=fell_back, refusal=refusal)
+        return chosen(answer, "better_plan")
     if isinstance(answer, Plan) and is_same_path(left, answer.trajectory):
-        return Choice(plan=answer, cause="continued", fell_back=fell_back)
+        return chosen(answer, "continued")
     kept = _solve_again(left, required) or _continue_as_planned(left, committed.plan, required)
     if kept is None:
         if isinstance(answer, NoPlan):
-            return answer
-        lost = not certify(left, required).holds
-        return Choice(plan=answer, cause="separation" if lost else "deviation", fell_back=fell_back)
+            return NoChoice(answer=answer, fell_back=fell_back, refusal=refusal)
+        return chosen(answer, "deviation" if certify(left, required).holds else "separation")
     if isinstance(answer, Plan):
         gain = kept.time_to_converge - answer.time_to_converge
         if gain > max(MARGIN, SHARE * kept.time_to_converge):
-            return Choice(plan=answer, cause="better_plan", fell_back=fell_back)
-    return Choice(plan=kept, cause="continued", fell_back=fell_back)
+            return chosen(answer, "better_plan")
+    return chosen(kept, "continued")
 
 
-def _first_answer(
-    planner: Planner, preferred: Situation, required: Situation
-) -> tuple[Plan | NoPlan, bool]:
-    """As `_certified_answer`, for the preferred separation if possible, else the required one."""
+def _first_answer(planner: Planner, preferred: Situation, required: Situation) -> Answer:
+    """A plan that keeps the preferred separation, or the required one."""
     pursuer, leader = required.pursuer, required.leader
     apart = hypot(pursuer.x - leader.x, pursuer.y - leader.y)
     if apart < preferred.min_separation or preferred.min_separation <= required.min_separation:
-        return _certified_answer(planner, required)  # no path keeps what is lost already
-    answer, fell_back = _certified_answer(planner, preferred)
-    if isinstance(answer, Plan):
-        return answer, fell_back
-    answer, fell_back_again = _certified_answer(planner, required)
-    return answer, fell_back or fell_back_again
-
-
-def _certified_answer(planner: Planner, situation: Situation) -> tuple[Plan | NoPlan, bool]:
-    """The planner's answer if it certifies, else the exact plan; whether that replaced it."""
-    answer = planner(situation)
-    if isinstance(answer, NoPlan):
-        return answer, False
-    if certify(answer.trajectory, situation).holds:
-        return answer, answer.fell_back
-    return exact_plan(situation), True
+        return ask(planner, required)  # nothing keeps what is lost already
+    wide = ask(planner, preferred)
+    if isinstance(wide.plan, Plan):
+        return wide
+    close = ask(planner, required)
+    return Answer(
+        close.plan,
+        fell_back=wide.fell_back or close.fell_back,
+        refusal=close.refusal or wide.refusal,
+    )
 
 
 def _solve_again(left: Trajectory, situation: Situation) -> Plan | None:
@@ -180,7 +188,7 @@ def _continue_as_planned(left: Trajectory, plan: Plan, situation: Situation) -> 
     pursuer = situation.pursuer
     if hypot(pursuer.x - left.x, pursuer.y - left.y) > LEASH or left.duration == 0.0:
         return None
-    if _miss_distance(left, situation) > LEASH:
+    if arrival(left, situation).slot_error > LEASH:  # the leader may not be where the plan had it
         return None
     certificate = certify(left, situation)
     if not certificate.holds or not _keeps_clear_beside(left, situation):
@@ -221,14 +229,3 @@ def _arrives_at_release(left: Trajectory, situation: Situation) -> bool:
     frame = slot_frame(situation, situation.leader.trajectory)
     slot_release = frame.t_release * frame.radius / situation.pursuer.tas
     return left.duration < slot_release + MARGIN
-
-
-def _miss_distance(left: Trajectory, situation: Situation) -> Metre:
-    """How far from the slot a path ends: the leader may not be where the plan expected it."""
-    frame = slot_frame(situation, situation.leader.trajectory)
-    flown = situation.leader.tas * left.duration
-    end = left.pose_at(left.duration)
-    return hypot(
-        end.x - frame.origin_x - flown * sin(frame.heading),
-        end.y - frame.origin_y - flown * cos(frame.heading),
-    )

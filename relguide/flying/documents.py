@@ -11,6 +11,7 @@ from typing import Literal
 
 from relguide.flying.announcements import Mode as Mode
 from relguide.flying.announcements import PlanReason as PlanReason
+from relguide.planning.acceptance import Fault as Fault
 from relguide.planning.plan import Proof, Reason
 from relguide.units import (
     Metre,
@@ -87,6 +88,18 @@ class Separation:
     least: Metre
     at: Second
     proved_above: Metre
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ArrivalCard:
+    """How a plan's end meets eq. (7): the pursuer at the slot, on the leader's heading, it open."""
+
+    slot_error: Metre
+    """Distance from the slot when the plan ends."""
+    heading_error: Radian
+    """Between its last heading and the leader's final one."""
+    early: Second
+    """How long before the slot opens it ends; 0 if the slot is open then."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -175,6 +188,7 @@ class PlanCard:
     """Path length in the air mass [m]."""
     segments: tuple[PathSegment, ...]
     separation: Separation
+    arrival: ArrivalCard
     optimality: OptimalityCard
     alternatives: tuple[AnyAlternativeCard, ...] = ()
     """By time; words without any path last. In an answer only if asked for."""
@@ -295,6 +309,21 @@ class PlanUnavailable:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class PlanRefused:
+    """The planner's own plan may not be flown; the exact plan stands in, if there is one.
+
+    Said once while the fault stays the same.
+    """
+
+    t: Second
+    planner: str
+    """Who made it; empty if the answer was no plan."""
+    fault: Fault
+    message: str
+    kind: Literal["plan_refused"] = "plan_refused"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class ModeChanged:
     """Guidance went from one mode to another."""
 
@@ -380,6 +409,7 @@ Document = (
     | LeaderChanged
     | PlanChanged
     | PlanUnavailable
+    | PlanRefused
     | ModeChanged
     | Sample
     | FlightEnded

@@ -15,6 +15,7 @@ from relguide.flying.announcements import (
     Event,
     NewPlan,
     PlanReason,
+    Refused,
     expectation,
     leader_change,
     reason_sentence,
@@ -28,12 +29,12 @@ from relguide.flying.closing import (
     capture,
     follow,
 )
-from relguide.flying.commitment import Cause, Choice, Commitment, choose
+from relguide.flying.commitment import Cause, Choice, Commitment, NoChoice, choose
 from relguide.flying.flown_path import extend_path
 from relguide.flying.holding import buffered_separation, hold_heading, reason_to_turn_away
 from relguide.flying.memory import Advice, Memory, enter_mode, is_slot_open
 from relguide.flying.steering import Steering, steer
-from relguide.planning.plan import NoPlan, Plan, Planner
+from relguide.planning.plan import Plan, Planner
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import Arc, Trajectory
 from relguide.units import DEG, NM, Metre, MetrePerSecond, Radian, Second
@@ -99,10 +100,15 @@ def _converge(
         model=assignment.model,
     )
     memory = replace(memory, slot_heading=slot.heading)
-    if isinstance(choice, NoPlan):
+    memory, refused = _count_refusal(memory, choice)
+    if isinstance(choice, NoChoice):
         captured = capture(memory, seen, assignment, situation) if near else None
-        return captured or hold_heading(memory, seen, assignment, situation, choice)
+        memory, advice = captured or hold_heading(
+            memory, seen, assignment, situation, choice.answer
+        )
+        return memory, replace(advice, events=(*refused, *advice.events))
     memory, events = _commit(memory, seen, choice)
+    events = *refused, *events
     steering = steer(choice.plan.trajectory, assignment.model)
     around = near and _total_turn_angle(choice.plan.trajectory) > GOING_AROUND
     if around or _is_last_stretch(steering, choice.plan, slot, assignment):
@@ -125,6 +131,15 @@ def _converge(
     )
 
 
+def _count_refusal(memory: Memory, choice: Choice | NoChoice) -> tuple[Memory, tuple[Event, ...]]:
+    """Count that the exact plan took over, and say why if the planner's fault is a new one."""
+    fault = None if choice.refusal is None else choice.refusal.fault
+    news: tuple[Event, ...] = ()
+    if choice.refusal is not None and fault != memory.refused:
+        news = (Refused(refusal=choice.refusal),)
+    return replace(memory, fallbacks=memory.fallbacks + choice.fell_back, refused=fault), news
+
+
 def _commit(memory: Memory, seen: Observation, choice: Choice) -> tuple[Memory, tuple[Event, ...]]:
     """Remember the plan, and announce it if it is new to the reader."""
     due = seen.t + choice.plan.time_to_converge
@@ -136,7 +151,6 @@ def _commit(memory: Memory, seen: Observation, choice: Choice) -> tuple[Memory, 
         memory,
         committed=commitment,
         missing=None,
-        fallbacks=memory.fallbacks + choice.fell_back,
     )
     reason = _reason_to_announce(memory, seen, choice.cause)
     if reason is None:

@@ -4,7 +4,7 @@ from math import cos, hypot, pi, sin
 from typing import NamedTuple, assert_never
 
 from relguide.flying.aircraft import AircraftState, ground_velocity
-from relguide.flying.announcements import Event, ModeChange, NewPlan, PlanMissing
+from relguide.flying.announcements import Event, ModeChange, NewPlan, PlanMissing, Refused
 from relguide.flying.autopilot import HoldHeading, Reference, TurnRate
 from relguide.flying.cards import no_plan_card, path_point, path_segments, plan_card
 from relguide.flying.documents import (
@@ -15,6 +15,7 @@ from relguide.flying.documents import (
     ModeChanged,
     PathPoint,
     PlanChanged,
+    PlanRefused,
     PlanUnavailable,
     ReferenceCard,
     Sample,
@@ -160,6 +161,10 @@ def event_document(t: Second, event: Event) -> Document:
             )
         case PlanMissing(answer=answer):
             return PlanUnavailable(t=t, answer=no_plan_card(answer))
+        case Refused(refusal=refusal):
+            return PlanRefused(
+                t=t, planner=refusal.planner, fault=refusal.fault, message=refusal.message
+            )
         case ModeChange():
             return ModeChanged(t=t, mode=event.mode, previous=event.previous, message=event.message)
         case _:

@@ -9,6 +9,7 @@ from relguide.flying.autopilot import Reference
 from relguide.flying.capture import Slot
 from relguide.flying.commitment import Commitment
 from relguide.flying.flown_path import FlownPath, begin_path
+from relguide.planning.acceptance import Fault
 from relguide.planning.plan import Reason
 from relguide.units import Metre, MetrePerSecond, Radian, Second
 
@@ -32,7 +33,9 @@ class Memory:
     planned: bool
     """Whether a plan was ever announced."""
     fallbacks: int
-    """How often a planner's answer did not certify and the exact plan took its place."""
+    """How often a planner's plan could not be flown and the exact plan took its place."""
+    refused: Fault | None
+    """What was wrong with the planner's last plan; `None` if it could be flown."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -67,6 +70,7 @@ def begin(seen: Observation, assignment: Assignment) -> Memory:
         slot_heading=0.0,
         planned=False,
         fallbacks=0,
+        refused=None,
     )
 
 

@@ -6,7 +6,7 @@ As in `documents`, `contract/wire.py` gives each its JSON form.
 from dataclasses import dataclass
 
 from relguide.flying.documents import PathPoint, PathSegment, Separation
-from relguide.planning.optimality import Arrival
+from relguide.planning.optimality import FixedBy
 from relguide.units import Metre, PerMetre, Radian, Second, SecondPerMetre, SecondPerRadian
 
 
@@ -55,7 +55,7 @@ class CostatesCard:
 class OptimalityCheck:
     """How a plan meets Pontryagin's conditions, eqs. (9)–(16): added to `OptimalityCard`."""
 
-    arrival: Arrival
+    arrival: FixedBy
     """What sets t_f: the plan alone, the slot's release time, or that it is in the slot at once."""
     hamiltonian_residual: float
     """Largest |H − H required|."""

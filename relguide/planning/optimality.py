@@ -25,14 +25,14 @@ from relguide.planning.trajectory import Trajectory
 from relguide.planning.words import HORIZON
 from relguide.units import DEG, Radian, Second
 
-Arrival = Literal["free", "opening", "at_once"]
-"""What fixes t_f: the trajectory alone, the opening of the slot, or being there from the start."""
+FixedBy = Literal["free", "release", "at_once"]
+"""What fixes t_f: the trajectory alone, the slot's release time, or being there from the start."""
 ARRIVES = 1e-5
 """A trajectory reaches the slot if it ends this near to it [R; rad]: 12 cm for an airliner."""
 MAX_ARRIVES = 10.0
 """Most that may be asked for instead [R; rad]: what ends farther off does not arrive."""
 AT_RELEASE = 1e-6
-"""An arrival this near to the opening is at the opening [R/V_P]: 60 µs for an airliner."""
+"""An arrival this near to the release time is at it [R/V_P]: 60 µs for an airliner."""
 SLIVER = 2e-3
 """Pieces shorter than this may be left out of the conditions [R]: 0.1 s for an airliner."""
 MET = 1e-3
@@ -74,8 +74,8 @@ class OptimalityReport:
     Whether it keeps d_min is for the certificate to say: where it comes closer, nothing is asked.
     """
 
-    arrival: Arrival
-    """`opening`: H(t_f) ≥ 0 takes the place of H(t_f) = 0. Then λ = 0, H = 1 meets every condition
+    arrival: FixedBy
+    """`release`: H(t_f) ≥ 0 takes the place of H(t_f) = 0. Then λ = 0, H = 1 meets every condition
     on whatever path, and is what is reported: the conditions tell no path from another.
     `at_once`: a trajectory of no length, of which nothing is asked."""
     holds: bool
@@ -178,7 +178,7 @@ def check(
     )
 
 
-def _arrival(trajectory: Trajectory, situation: Situation, arrives: float) -> Arrival:
+def _arrival(trajectory: Trajectory, situation: Situation, arrives: float) -> FixedBy:
     frame = slot_frame(situation, situation.leader.trajectory)
     end = trajectory.pose_at(trajectory.duration)
     x, y = frame.to_slot(end.x, end.y)
@@ -196,11 +196,11 @@ def _arrival(trajectory: Trajectory, situation: Situation, arrives: float) -> Ar
             "slot opens; conditions are asked only of one that reaches the open slot."
         )
     if frame.t_release > 0.0 and early >= -AT_RELEASE:
-        return "opening"
+        return "release"
     return "free" if trajectory.length > ROUNDING * frame.radius else "at_once"
 
 
-def _judge(arrival: Arrival, whole: Cut, legs: tuple[Leg, ...]) -> _Judgement:
+def _judge(arrival: FixedBy, whole: Cut, legs: tuple[Leg, ...]) -> _Judgement:
     n = len(whole.touches)
     if arrival != "free":
         rest = Costates(parts=np.zeros((n + 1, 3)), jumps=np.zeros((n, 2)), residual=0.0)

@@ -9,6 +9,7 @@ from typing import Literal
 
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.separation.clearance import SLACK
+from relguide.planning.arrival import Arrival, arrival
 from relguide.planning.certificate import Certificate, bends_of, judge, leader_bends
 from relguide.planning.constrained_path import detour
 from relguide.planning.inputs import expect
@@ -82,6 +83,11 @@ class Plan:
     def time_to_converge(self) -> Second:
         """T: when the pursuer is at the slot, on the leader's heading [s]."""
         return self.trajectory.duration
+
+    @property
+    def arrival(self) -> Arrival:
+        """How its end meets eq. (7); worked out anew each time, from the trajectory alone."""
+        return arrival(self.trajectory, self.situation)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -12,6 +12,7 @@ from relguide.flying.documents import (
     LeaderRoute,
     ModeChanged,
     PlanChanged,
+    PlanRefused,
     PlanUnavailable,
     Sample,
 )
@@ -32,6 +33,7 @@ class History:
     route: tuple[LeaderRoute, ...] = ()
     changes: deque[LeaderChanged] = field(default_factory=lambda: deque(maxlen=LEADER_CHANGES))
     plan: tuple[PlanChanged | PlanUnavailable, ...] = ()
+    refused: tuple[PlanRefused, ...] = ()
     mode: tuple[ModeChanged, ...] = ()
     trail: deque[Sample] = field(default_factory=lambda: deque(maxlen=TRAIL_SAMPLES))
     newest: tuple[Sample, ...] = ()
@@ -48,6 +50,8 @@ class History:
                 self.changes.append(document)
             case PlanChanged() | PlanUnavailable():
                 self.plan = (document,)
+            case PlanRefused():
+                self.refused = (document,)
             case ModeChanged():
                 self.mode = (document,)
             case Sample():
@@ -67,6 +71,7 @@ class History:
             *self.route,
             *self.changes,
             *self.plan,
+            *self.refused,
             *self.mode,
             *past,
             *self.newest,

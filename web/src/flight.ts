@@ -31,7 +31,7 @@ export type Link = "connecting" | "open" | "closed";
 /** One line of the log: what happened, and the flight time [s] it happened at. */
 export interface Message {
   readonly t: number;
-  readonly kind: "plan" | "no_plan" | "leader" | "mode" | "end";
+  readonly kind: "plan" | "no_plan" | "refused" | "leader" | "mode" | "end";
   readonly text: string;
 }
 
@@ -230,6 +230,9 @@ function take(
     case "plan_unavailable":
       flight.unavailable.value = document;
       log(flight, { t: document.t_s, kind: "no_plan", text: document.answer.message });
+      return;
+    case "plan_refused":
+      log(flight, { t: document.t_s, kind: "refused", text: document.message });
       return;
     case "mode_changed":
       flight.mode.value = document;

@@ -1,7 +1,7 @@
 // Made by `python -m relguide_server.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-ef646275a1ed";
+export const PROTOCOL = "relguide-ea1c941bcf52";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -30,6 +30,16 @@ export type PlanReason =
 /** What is new about the leader. */
 export type LeaderChange = "heading" | "speed" | "intent_received" | "intent_withdrawn";
 
+/** What is wrong with a planner's plan. */
+export type Fault =
+  | "no_answer"
+  | "start"
+  | "bank"
+  | "slot"
+  | "heading"
+  | "too_early"
+  | "separation";
+
 /** Why there is no plan. */
 export type Reason =
   | "slot_unreachable"
@@ -57,6 +67,7 @@ export type Document =
   | LeaderChanged
   | PlanChanged
   | PlanUnavailable
+  | PlanRefused
   | ModeChanged
   | Sample
   | FlightEnded;
@@ -192,6 +203,16 @@ export interface AreaRegion {
    * Fill them by the even-odd rule.
    */
   polygons: number[][][][];
+}
+
+/** How a plan's end meets eq. (7): the pursuer at the slot, on the leader's heading, it open. */
+export interface ArrivalCard {
+  /** Distance from the slot when the plan ends. */
+  slot_error_m: number;
+  /** Between its last heading and the leader's final one. */
+  heading_error_deg: number;
+  /** How long before the slot opens it ends; 0 if the slot is open then. */
+  early_s: number;
 }
 
 /** A segment flown along d = d_min at partial bank. */
@@ -440,7 +461,7 @@ export interface OptimalityCard {
    * What sets t_f: the plan alone, the slot's release time, or that it is in the slot at once.
    * If asked for.
    */
-  arrival?: "free" | "opening" | "at_once";
+  arrival?: "free" | "release" | "at_once";
   /**
    * Largest |H − H required|.
    * If asked for.
@@ -494,6 +515,7 @@ export interface PlanCard {
   length_m: number;
   segments: PathSegment[];
   separation: Separation;
+  arrival: ArrivalCard;
   optimality: OptimalityCard;
   /** By time; words without any path last. In an answer only if asked for. */
   alternatives?: Alternative[];
@@ -511,6 +533,20 @@ export interface PlanChanged {
   leader_at_closest: PathPoint;
   /** Where the pursuer is then. */
   pursuer_at_closest: PathPoint;
+}
+
+/**
+ * The planner's own plan may not be flown; the exact plan stands in, if there is one.
+ *
+ * Said once while the fault stays the same.
+ */
+export interface PlanRefused {
+  kind: "plan_refused";
+  t_s: number;
+  /** Who made it; empty if the answer was no plan. */
+  planner: string;
+  fault: Fault;
+  message: string;
 }
 
 /** Guidance asked for a plan and there is none. */

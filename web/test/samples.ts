@@ -100,6 +100,7 @@ export function planCard(changes: Partial<PlanCard> = {}): PlanCard {
     segments: [turn, straight(turn.end, 250 - turn.duration_s, 100)],
     separation: { least_m: 10000, at_s: 250, proved_above_m: 9999 },
     optimality: { proof: "relaxation", lower_bound_s: 250 },
+    arrival: { slot_error_m: 0, heading_error_deg: 0, early_s: 0 },
     alternatives: [],
     compute_ms: 0.08,
     ...changes,

@@ -14,6 +14,7 @@ from relguide.contract.messages import PlanAnswer
 from relguide.planning.plan import Plan
 from relguide.units import DEG
 from tests.bodies import BODY, changed
+from tests.liars import LIARS, LIED_ABOUT, Liar
 
 
 def test_a_plan_has_the_contracts_names() -> None:
@@ -27,11 +28,13 @@ def test_a_plan_has_the_contracts_names() -> None:
         "length_m",
         "segments",
         "separation",
+        "arrival",
         "optimality",
         "alternatives",
         "compute_ms",
     ]
     assert set(reply["separation"]) == {"least_m", "at_s", "proved_above_m"}
+    assert set(reply["arrival"]) == {"slot_error_m", "heading_error_deg", "early_s"}
     assert set(reply["optimality"]) == {"proof", "lower_bound_s"}
     for segment in reply["segments"]:
         names = {
@@ -196,3 +199,11 @@ def test_a_batch_line_says_it_on_demand() -> None:
         json.dumps(changed("leader.tas_mps", 300)).encode(), plan, include=["optimality"]
     )
     assert set(no_plan) == {"status", "reason", "message"}
+
+
+@pytest.mark.parametrize("liar", LIARS, ids=lambda liar: liar.__name__)
+def test_what_may_not_be_flown_is_not_answered(liar: Liar) -> None:
+    _, anchor = situation_from_json(BODY)
+    reply, exact = (answer(LIED_ABOUT, anchor, planner) for planner in (liar, plan))
+    assert reply | {"compute_ms": 0.0} == exact | {"compute_ms": 0.0}
+    assert reply["planner"] == "exact"

@@ -49,7 +49,7 @@ def test_a_replay_gives_what_was_recorded(
 
 def test_the_first_line_says_what_the_file_is(recording: Path) -> None:
     lines = recording.read_text().splitlines()
-    assert json.loads(lines[0]) == {"format": "relguide-flight", "version": 1}
+    assert json.loads(lines[0]) == {"format": "relguide-flight", "version": 2}
     assert [json.loads(line)["kind"] for line in lines[1:]] == [
         "sample",
         "leader_changed",
@@ -137,9 +137,9 @@ def test_a_file_that_is_not_compressed_though_named_so(tmp_path: Path) -> None:
 
 def test_a_later_version_is_refused(recording: Path) -> None:
     lines = recording.read_bytes().splitlines(keepends=True)
-    lines[0] = b'{"format":"relguide-flight","version":2}\n'
+    lines[0] = b'{"format":"relguide-flight","version":3}\n'
     recording.write_bytes(b"".join(lines))
-    with pytest.raises(RecordingError, match="of version 2; this program reads 1"):
+    with pytest.raises(RecordingError, match="of version 3; this program reads 2"):
         next(replay(recording))
 
 

@@ -1,17 +1,19 @@
 """What is flown is kept until there is a reason, and nothing uncertified is flown."""
 
 from dataclasses import replace
-from math import hypot
+from math import hypot, pi
 
 import pytest
 
+from relguide import Leader, Pursuer
 from relguide.flying.aircraft import A300
-from relguide.flying.commitment import Choice, Commitment, choose
+from relguide.flying.commitment import Choice, Commitment, NoChoice, choose
 from relguide.flying.scenarios import scenario
-from relguide.flying.steering import remaining
 from relguide.planning.plan import NoPlan, Plan, Planner, Reason, plan
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import Straight
+from relguide.planning.words import candidates
+from relguide.units import DEG
 
 SITUATION = scenario("fig_6a").situation
 SITUATION = replace(SITUATION, leader=replace(SITUATION.leader, intent=()))
@@ -34,7 +36,7 @@ def later(seconds: float, *, aside: float = 0.0) -> Situation:
     )
 
 
-def chosen(situation: Situation, t: float, planner: Planner = plan) -> Choice | NoPlan:
+def chosen(situation: Situation, t: float, planner: Planner = plan) -> Choice | NoChoice:
     return choose(
         Commitment(plan=planned(SITUATION), made_at=0.0, due=planned(SITUATION).time_to_converge),
         t,
@@ -67,32 +69,78 @@ def test_without_the_planner_the_same_strategy_is_solved_again() -> None:
     assert choice.plan.certificate.holds
 
 
-def test_a_little_better_is_not_enough() -> None:
-    """Another way that wins by less than a second does not change the mind."""
-    situation = later(100.0)
-    kept = planned(situation)
+def nearly_tied(leader_tas: float, gain: float) -> tuple[Situation, Commitment]:
+    """Flying away from the slot, a little off: one way round is faster, by `gain`, than the other.
 
-    def tempting(asked: Situation) -> Plan:
-        short = remaining(kept.trajectory, 0.5)
-        return replace(kept, trajectory=replace(short, x=short.x - 5e3, y=short.y - 5e3))
+    Returns:
+        the situation, and a commitment to the slower way.
+    """
+    low, high = 0.0, 0.5
+    while True:
+        off = 0.5 * (low + high)
+        pursuer = Pursuer(x=0.0, y=-20e3, heading=pi + off, tas=240.0, max_bank=45.0 * DEG)
+        leader = Leader(x=0.0, y=0.0, heading=0.0, tas=leader_tas)
+        situation = Situation(
+            pursuer=pursuer, leader=leader, slot_distance=10e3, min_separation=5e3
+        )
+        fast = planned(situation)
+        mirrored = fast.word.translate(str.maketrans("LR", "RL"))
+        other = next(c for c in candidates(situation) if c.word == mirrored)
+        by = other.time_to_converge - fast.time_to_converge
+        if abs(by - gain) < 1e-3:
+            slow = replace(fast, trajectory=other.trajectory, word=other.word)
+            due = other.time_to_converge
+            return situation, Commitment(plan=slow, made_at=0.0, due=due)
+        low, high = (off, high) if by < gain else (low, off)
 
-    choice = chosen(situation, 100.0, tempting)
+
+@pytest.mark.parametrize(
+    ("leader_tas", "takes", "gain", "cause"),
+    [
+        (180.0, 488.0, 2.3, "continued"),  # half a percent of 488 s is 2.44 s
+        (180.0, 488.0, 2.6, "better_plan"),
+        (80.0, 190.0, 0.95, "continued"),  # and it must be a second at least
+        (80.0, 190.0, 1.05, "better_plan"),
+    ],
+)
+def test_a_little_better_is_not_enough(
+    leader_tas: float, takes: float, gain: float, cause: str
+) -> None:
+    situation, committed = nearly_tied(leader_tas, gain)
+    slow = committed.plan.time_to_converge
+    assert slow == pytest.approx(takes, abs=10.0)
+    choice = choose(
+        committed, 0.0, preferred=situation, required=situation, planner=plan, model=A300
+    )
     assert isinstance(choice, Choice)
-    assert choice.cause == "continued"
-    assert choice.plan.time_to_converge == pytest.approx(kept.time_to_converge, abs=0.01)
+    assert choice.cause == cause
+    kept = slow if cause == "continued" else slow - gain
+    assert choice.plan.time_to_converge == pytest.approx(kept, abs=1e-2)
 
 
-def test_much_better_is() -> None:
-    situation = later(100.0)
-
-    def better(asked: Situation) -> Plan:
-        kept = planned(asked)
-        short = remaining(kept.trajectory, 60.0)
-        return replace(kept, trajectory=replace(short, x=short.x - 30e3, y=short.y - 30e3))
-
-    choice = chosen(situation, 100.0, better)
+@pytest.mark.parametrize(
+    ("share", "flown"),
+    [(0.027, "the answer"), (0.033, "solved again"), (0.057, "solved again"), (0.063, "another")],
+)
+def test_the_same_way_is_one_that_lies_near(share: float, flown: str) -> None:
+    """300 m, and 3 % of the way while rolling; the branch itself is found at twice that."""
+    here = planned(SITUATION)
+    aside = 300.0 + share * here.trajectory.length
+    shifted = replace(here.trajectory, x=here.trajectory.x - aside)
+    choice = choose(
+        Commitment(plan=replace(here, trajectory=shifted), made_at=0.0, due=here.time_to_converge),
+        0.0,
+        preferred=SITUATION,
+        required=SITUATION,
+        planner=lambda situation: replace(planned(situation), planner="own"),
+        model=A300,
+    )
     assert isinstance(choice, Choice)
-    assert choice.cause == "better_plan"
+    assert (choice.cause, choice.plan.planner) == {
+        "the answer": ("continued", "own"),
+        "solved again": ("continued", "exact"),
+        "another": ("deviation", "own"),
+    }[flown]
 
 
 def test_leader_gone_another_way_ends_the_commitment() -> None:
@@ -101,7 +149,8 @@ def test_leader_gone_another_way_ends_the_commitment() -> None:
     choice = chosen(away, 100.0)
     assert isinstance(choice, Choice)
     assert choice.cause in ("deviation", "separation")
-    assert chosen(away, 100.0, helpless) == helpless(away)
+    nothing = chosen(away, 100.0, helpless)
+    assert nothing == NoChoice(answer=helpless(away), fell_back=False, refusal=None)
 
 
 def test_answer_that_does_not_certify_is_replaced_and_counted() -> None:

@@ -9,12 +9,14 @@ import pytest
 
 from relguide.flying.closing import JOINED_ACROSS, JOINED_ALONG, JOINED_HEADING
 from relguide.flying.documents import (
+    Document,
     FlightEnded,
     FlightStarted,
     LeaderChanged,
     LeaderRoute,
     ModeChanged,
     PlanChanged,
+    PlanRefused,
     PlanUnavailable,
     Sample,
 )
@@ -24,9 +26,9 @@ from relguide.flying.tracks import RecordedTrack
 from relguide.planning.frames import LocalPlane
 from relguide.planning.plan import NoPlan, Plan, Reason, plan
 from relguide.planning.situation import Situation, wind_from
-from relguide.planning.trajectory import Arc
 from relguide.units import DEG, NM
 from tests.flights import Flown, flown, random_start
+from tests.liars import LIARS, LIED_ABOUT, Liar, ends_beside
 
 FIG_6B = fig_6(intent_known=True)
 KEPT = 5.0 * NM - 1.0  # 1 m: what a step of 50 ms moves a grazing pass
@@ -224,19 +226,50 @@ def test_unannounced_turns_do_not_stop_it() -> None:
     assert flight.end.joined
 
 
-def test_a_plan_that_does_not_certify_is_not_flown() -> None:
-    def careless(situation: Situation) -> Plan | NoPlan:
-        answer = plan(situation)
-        assert isinstance(answer, Plan)
-        arc = Arc(turn=1, turn_angle=6.0, radius=situation.leader.tas)
-        past = replace(
-            answer.trajectory, x=situation.leader.x, y=situation.leader.y, segments=(arc,)
-        )
-        return replace(answer, trajectory=past)
+@pytest.fixture(scope="module")
+def honest() -> Flown:
+    return flown(replace(scenario(LIED_ABOUT), duration_limit=20.0))
 
-    flight = flown(replace(fig_6(intent_known=False), duration_limit=20.0), planner=careless)
-    assert flight.end.fallbacks >= 20
-    assert flight.of(PlanChanged)[0].plan.separation.proved_above >= 5.0 * NM
+
+@pytest.mark.parametrize("liar", LIARS, ids=lambda liar: liar.__name__)
+def test_a_lie_is_said_counted_and_not_flown(liar: Liar, honest: Flown) -> None:
+    flight = flown(replace(scenario(LIED_ABOUT), duration_limit=20.0), planner=liar)
+    assert flight.samples == honest.samples
+    assert flight.end.fallbacks == 21
+    refused = flight.of(PlanRefused)
+    assert [d.fault for d in refused] == [LIARS[liar]]
+    assert refused[0].t == 0.0
+    first = flight.of(PlanChanged)[0].plan
+    assert (first.planner, first.word) == ("exact", honest.of(PlanChanged)[0].plan.word)
+
+
+def test_a_lie_told_for_a_while_is_said_again() -> None:
+    asked = iter(range(1_000_000))
+
+    def sometimes(situation: Situation) -> Plan | NoPlan:
+        return ends_beside(situation) if next(asked) // 5 % 2 else plan(situation)
+
+    flight = flown(replace(scenario(LIED_ABOUT), duration_limit=20.0), planner=sometimes)
+    assert len(flight.of(PlanRefused)) == 2
+    assert flight.end.fallbacks == 10
+
+
+def test_what_a_planner_raises_ends_the_flight_there() -> None:
+    class OwnError(Exception):
+        pass
+
+    asked = iter(range(6))
+
+    def breaks(situation: Situation) -> Plan | NoPlan:
+        if next(asked, None) is None:
+            raise OwnError
+        return plan(situation)
+
+    said: list[Document] = []
+    documents = fly(scenario(LIED_ABOUT), breaks, sample_period=1.0)
+    with pytest.raises(OwnError):
+        said.extend(documents)
+    assert list(documents) == []
 
 
 def test_no_plan_is_said_and_a_safe_heading_held() -> None:

@@ -206,7 +206,7 @@ def test_the_panel_is_smooth_between_its_times_and_jumps_only_at_contacts(ident:
 def test_a_plan_that_waits_for_the_opening_is_said_to_be_one() -> None:
     answer = golden_plan("R104")
     report = check(answer, answer.situation)
-    assert report.arrival == "opening"
+    assert report.arrival == "release"
     assert report.holds
     assert set(report.history.hamiltonian) == {1.0}
     assert set(report.history.switching) == {0.0}

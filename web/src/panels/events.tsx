@@ -9,6 +9,7 @@ import { formatClock } from "../units";
 const KIND_NAMES: Record<Message["kind"], string> = {
   plan: "PLAN",
   no_plan: "NO PLAN",
+  refused: "REFUSED",
   leader: "LEADER",
   mode: "MODE",
   end: "END",

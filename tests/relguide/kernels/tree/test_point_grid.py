@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from relguide.kernels.tree.point_grid import point_grid, nearest_points
+from relguide.kernels.tree.point_grid import nearest_points, point_grid
 
 
 def nearest(points: np.ndarray, asked: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

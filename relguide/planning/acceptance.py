@@ -1,0 +1,131 @@
+"""ask(planner, situation): a planner's answer if it may be flown, else the exact plan.
+
+Whoever made a plan, it is held to the same conditions: it begins where the pursuer is, turns no
+steeper than it may, joins (eq. 7), and keeps d_min. What a planner says of its plan counts for
+nothing: the certificate is made anew, for the situation that was asked about.
+"""
+
+from dataclasses import dataclass, replace
+from math import hypot
+from typing import Literal, NamedTuple
+
+from relguide.kernels.base.angles import wrap_signed
+from relguide.planning.arrival import (
+    MAX_EARLY,
+    MAX_HEADING_ERROR,
+    MAX_SLOT_ERROR,
+    arrival,
+)
+from relguide.planning.certificate import certify
+from relguide.planning.phrases import distance, duration, too_close
+from relguide.planning.plan import NoPlan, Plan, Planner
+from relguide.planning.plan import plan as exact_plan
+from relguide.planning.situation import Pursuer, Situation
+from relguide.planning.trajectory import Trajectory
+from relguide.units import DEG
+
+STEEPER = 1e-3
+"""By so much of itself a turn's curvature may exceed the tightest: 0.02° of bank at 25°."""
+
+Fault = Literal["no_answer", "start", "bank", "slot", "heading", "too_early", "separation"]
+"""What is wrong with a planner's answer: it is neither a plan nor says why there is none; it does
+not begin where the pursuer is; it turns too steeply; it ends beside the slot, on another heading,
+or before the slot opens; it does not keep d_min."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Refusal:
+    """Why a planner's answer is not flown."""
+
+    planner: str
+    """The name the plan gives its planner; empty if the answer is no plan."""
+    fault: Fault
+    message: str
+    """A sentence for people."""
+
+
+class Answer(NamedTuple):
+    """What may be flown, and whose it is."""
+
+    plan: Plan | NoPlan
+    fell_back: bool
+    """Whether the exact plan stands in, for the planner itself or for what was refused."""
+    refusal: Refusal | None
+    """Why the planner's own answer is not flown; `None` if it is."""
+
+
+def ask(planner: Planner, situation: Situation) -> Answer:
+    """A planner's answer if it may be flown; if not, the exact plan and why.
+
+    What a planner raises is not caught: that is its caller's to see.
+    """
+    if planner is exact_plan:
+        return Answer(planner(situation), fell_back=False, refusal=None)
+    return judge_answer(planner(situation), situation)
+
+
+def judge_answer(answer: object, situation: Situation) -> Answer:
+    """As `ask`, of an answer that has been given."""
+    match answer:
+        case NoPlan():
+            return Answer(answer, fell_back=False, refusal=None)
+        case Plan():
+            certificate = certify(answer.trajectory, situation)
+            found = find_fault(answer.trajectory, situation)
+            if found is None and not certificate.holds:
+                limit = situation.min_separation
+                found = "separation", f"it comes {too_close(certificate.least_separation, limit)}"
+            if found is None:
+                if answer.certificate != certificate or answer.situation is not situation:
+                    answer = replace(answer, situation=situation, certificate=certificate)
+                return Answer(answer, fell_back=answer.fell_back, refusal=None)
+            fault, why = found
+            message = f"The plan of {answer.planner} is not flown: {why}."
+            refusal = Refusal(planner=answer.planner, fault=fault, message=message)
+        case _:
+            kind = type(answer).__name__
+            message = f"The planner answered with neither a Plan nor a NoPlan, but with {kind}."
+            refusal = Refusal(planner="", fault="no_answer", message=message)
+    return Answer(exact_plan(situation), fell_back=True, refusal=refusal)
+
+
+def find_fault(trajectory: Trajectory, situation: Situation) -> tuple[Fault, str] | None:
+    """Why a trajectory is no way from the pursuer to the slot; `None` if it is one.
+
+    d_min is `certify`'s to judge.
+
+    Returns:
+        what is wrong first, and the second half of a sentence that says so.
+    """
+    pursuer = situation.pursuer
+    start = _fault_at_start(trajectory, pursuer)
+    if start is not None:
+        return start
+    curvature = max((abs(c) for s in trajectory.segments for _, c in s.bends), default=0.0)
+    if curvature * pursuer.turn_radius > 1.0 + STEEPER:
+        least, bank = distance(pursuer.turn_radius), pursuer.max_bank / DEG
+        return "bank", (
+            f"it turns on a radius of {distance(1.0 / curvature)}, and {least} is the least at "
+            f"{bank:.0f}° of bank"
+        )
+    end = arrival(trajectory, situation)
+    if end.slot_error > MAX_SLOT_ERROR:
+        return "slot", f"it ends {distance(end.slot_error)} from the slot"
+    if end.heading_error > MAX_HEADING_ERROR:
+        return "heading", f"it ends {end.heading_error / DEG:.1f}° off the leader's heading"
+    if end.early > MAX_EARLY:
+        return "too_early", f"it is at the slot {duration(end.early)} before it opens"
+    return None
+
+
+def _fault_at_start(trajectory: Trajectory, pursuer: Pursuer) -> tuple[Fault, str] | None:
+    """To the tolerances of the other end; of the speed, by what it makes of the whole way."""
+    beside = hypot(trajectory.x - pursuer.x, trajectory.y - pursuer.y)
+    if beside > MAX_SLOT_ERROR:
+        return "start", f"it begins {distance(beside)} from where the pursuer is"
+    turned = abs(wrap_signed(trajectory.heading - pursuer.heading))
+    if turned > MAX_HEADING_ERROR:
+        return "start", f"it begins {turned / DEG:.1f}° off the pursuer's heading"
+    if abs(trajectory.tas - pursuer.tas) * trajectory.duration > MAX_SLOT_ERROR:
+        return "start", f"it is flown at {trajectory.tas:.1f} m/s, not at {pursuer.tas:.1f} m/s"
+    return None
