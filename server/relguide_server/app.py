@@ -14,11 +14,11 @@ from relguide.planning.plan import Planner, plan
 from relguide_server import areas, flights, pages, plans, scene_relay
 from relguide_server.departures import Departures, library_departures
 from relguide_server.drift import DriftCheck
-from relguide_server.errors import Refusal, install_handlers, survives
+from relguide_server.errors import Refusal, install_handlers, run_logged
 from relguide_server.fleet import Fleet
 from relguide_server.guards import BodyLimit, StrictHeaders
 from relguide_server.metrics import Metrics
-from relguide_server.openapi import describe, json_answer, refuses
+from relguide_server.openapi import describe, json_answer, problem_responses
 from relguide_server.pages import Page
 from relguide_server.settings import Settings, settings_from
 
@@ -53,7 +53,7 @@ def create_app(
     warm = threading.Event()
 
     def warm_up() -> None:
-        if survives("Warming up", departures.rehearse):
+        if run_logged("Warming up", departures.rehearse):
             warm.set()
 
     @asynccontextmanager
@@ -111,7 +111,7 @@ async def healthz() -> Response:
     return json_answer({"status": "ok"})
 
 
-@router.get("/readyz", summary="Is it ready?", responses=refuses(503))
+@router.get("/readyz", summary="Is it ready?", responses=problem_responses(503))
 async def readyz(request: Request) -> Response:
     """Ready once the kernels are compiled and a plan has been made; before that, plans are slow."""
     if not request.app.state.warm.is_set():

@@ -2,10 +2,9 @@
 
 import asyncio
 from functools import cache
-from inspect import signature
 from typing import Annotated, Any, Literal
 
-from fastapi import APIRouter, Query, Request
+from fastapi import APIRouter, Query
 from starlette.responses import Response
 
 from relguide.contract.area_bodies import AreaAnswer, area_to_wire
@@ -32,14 +31,21 @@ from relguide.planning.words import HORIZON
 from relguide.units import Second
 from relguide_server.errors import Refusal
 from relguide_server.fleet import Fleet, FleetOf
-from relguide_server.openapi import gives, json_answer, one_of, refused, refuses
+from relguide_server.openapi import (
+    KNOWN_PARAMETERS_ONLY,
+    json_answer,
+    problem_of,
+    problem_responses,
+    response,
+    schema_of,
+)
 
 MOST_SEARCHED = 1_200
 """Most nodes of a grid that is searched exactly: some seconds of work."""
 
 MODELS = (AreaAnswer,)
 """What the OpenAPI document needs for this route."""
-router = APIRouter(prefix="/api/v1", tags=["areas"])
+router = APIRouter(prefix="/api/v1", tags=["areas"], dependencies=[KNOWN_PARAMETERS_ONLY])
 
 FlightAsked = Annotated[
     str | None, Query(max_length=100, description="Id of a flight: the area for its situation now.")
@@ -87,12 +93,11 @@ TimesAsked = Annotated[bool, Query(description="Whether to give the times of all
     "/areas",
     summary="Lines of equal time-to-converge",
     responses={
-        **gives(200, "Lines, and regions of words.", one_of(AreaAnswer)),
-        **refuses(404, 409, 422),
+        **response(200, "Lines, and regions of words.", schema_of(AreaAnswer)),
+        **problem_responses(404, 409, 422),
     },
 )
 async def draw_area(
-    request: Request,
     fleet: FleetOf,
     flight: FlightAsked = None,
     situation: SituationAsked = None,
@@ -111,10 +116,6 @@ async def draw_area(
 
     The pursuer is put on every node of a grid; everything else stays as in the situation.
     """
-    unknown = sorted(set(request.query_params) - PARAMETERS)
-    if unknown:
-        known = ", ".join(sorted(PARAMETERS))
-        raise Refusal(422, f"{unknown[0]!r} is not a parameter of an area. These are: {known}.")
     asked, anchor = _asked(fleet, flight, situation)
     try:
         grid = Grid(
@@ -136,9 +137,6 @@ async def draw_area(
     )
 
 
-PARAMETERS = frozenset(signature(draw_area).parameters) - {"request", "fleet"}
-
-
 def _asked(fleet: Fleet, flight: str | None, situation: str | None) -> tuple[Situation, Anchor]:
     if flight is not None and situation is None:
         past = fleet.find(flight).history
@@ -150,7 +148,7 @@ def _asked(fleet: Fleet, flight: str | None, situation: str | None) -> tuple[Sit
         try:
             return situation_from_json(situation)
         except ContractError as error:
-            raise refused(error, under="situation") from None
+            raise problem_of(error, under="situation") from None
     raise Refusal(422, "Give either flight or situation, and not both: whose area is it?")
 
 

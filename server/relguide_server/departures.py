@@ -20,7 +20,7 @@ from relguide.contract.refusal import ContractError
 from relguide.flying.flight import Scenario, fly
 from relguide.flying.scenarios import SCENARIOS, own_scenario, scenario
 from relguide.planning.plan import Planner
-from relguide_server.airborne import Source
+from relguide_server.live_flight import Source
 
 REHEARSED = "fig_6b"
 """The scenario that is flown a little at the start, so that all kernels are compiled."""

@@ -13,7 +13,7 @@ from threading import Event, Lock, Thread
 from relguide.planning.plan import NoPlan, Plan, Planner
 from relguide.planning.plan import plan as exact_plan
 from relguide.planning.situation import Situation
-from relguide_server.errors import survives
+from relguide_server.errors import run_logged
 from relguide_server.metrics import Metrics
 
 WAITING = 32
@@ -90,7 +90,7 @@ class DriftCheck:
             except Empty:
                 continue
             # a mistake here is in the log, and the next answer is audited all the same
-            survives("An audit of the drift check", partial(self._audit, answer))
+            run_logged("An audit of the drift check", partial(self._audit, answer))
 
     def _audit(self, answer: Plan) -> None:
         exact = self._exact(answer.situation)

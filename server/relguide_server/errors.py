@@ -127,7 +127,7 @@ async def _broken(request: Request, error: Exception) -> Response:
     )
 
 
-def survives(name: str, work: Callable[[], None]) -> bool:
+def run_logged(name: str, work: Callable[[], None]) -> bool:
     """Run the work of a thread; a mistake in it goes to the log instead of ending the process.
 
     Returns:

@@ -9,8 +9,8 @@ from typing import Annotated
 from fastapi import Depends
 from starlette.requests import HTTPConnection
 
-from relguide_server.airborne import Airborne, FlightPlate, Source
 from relguide_server.errors import Refusal
+from relguide_server.live_flight import FlightLabel, LiveFlight, Source
 from relguide_server.metrics import Metrics
 from relguide_server.settings import Settings
 
@@ -26,10 +26,10 @@ class Fleet:
     def __init__(self, settings: Settings, metrics: Metrics) -> None:
         self._settings = settings
         self._metrics = metrics
-        self._flights: dict[str, Airborne] = {}
+        self._flights: dict[str, LiveFlight] = {}
         self._tasks: list[asyncio.Task[None]] = []
 
-    def __iter__(self) -> Iterator[Airborne]:
+    def __iter__(self) -> Iterator[LiveFlight]:
         return iter(self._flights.values())
 
     def start(self) -> None:
@@ -45,7 +45,7 @@ class Fleet:
                 await task
         await asyncio.gather(*(self._land(flight) for flight in list(self)))
 
-    def find(self, flight_id: str) -> Airborne:
+    def find(self, flight_id: str) -> LiveFlight:
         """A flight by its id.
 
         Raises:
@@ -63,16 +63,16 @@ class Fleet:
 
     async def launch(
         self, scenario: str, title: str, source: Source, *, rate: float, paused: bool
-    ) -> Airborne:
+    ) -> LiveFlight:
         """Start a flight, and wait until it is in the air.
 
         Raises:
             Refusal: 429, if too many fly already; 500, if it broke before its first sample.
         """
         await self._make_room()
-        plate = FlightPlate(id=secrets.token_hex(6), scenario=scenario, title=title)
-        flight = Airborne(plate, source, rate=rate, paused=paused, metrics=self._metrics)
-        self._flights[plate.id] = flight
+        label = FlightLabel(id=secrets.token_hex(6), scenario=scenario, title=title)
+        flight = LiveFlight(label, source, rate=rate, paused=paused, metrics=self._metrics)
+        self._flights[label.id] = flight
         self._metrics.flights_started += 1
         try:
             began = await asyncio.wait_for(flight.begun(), TAKE_OFF)
@@ -87,8 +87,8 @@ class Fleet:
         """End a flight and forget it."""
         await self._land(self.find(flight_id))
 
-    async def _land(self, flight: Airborne) -> None:
-        self._flights.pop(flight.plate.id, None)
+    async def _land(self, flight: LiveFlight) -> None:
+        self._flights.pop(flight.label.id, None)
         await flight.land()
 
     async def _make_room(self) -> None:

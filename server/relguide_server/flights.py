@@ -23,10 +23,19 @@ from relguide.contract.messages import (
 from relguide.contract.protocol import PROTOCOL
 from relguide.contract.refusal import ContractError, parse
 from relguide.flying.orders import IntentKnown, LeaderHeading, LeaderSpeed
-from relguide_server.airborne import Airborne
 from relguide_server.departures import DeparturesOf
 from relguide_server.fleet import FleetOf
-from relguide_server.openapi import gives, json_answer, one_of, read_json, refused, refuses, takes
+from relguide_server.live_flight import LiveFlight
+from relguide_server.openapi import (
+    KNOWN_PARAMETERS_ONLY,
+    json_answer,
+    problem_of,
+    problem_responses,
+    read_json,
+    request_body,
+    response,
+    schema_of,
+)
 from relguide_server.stream import UNKNOWN_FLIGHT, WRONG_PROTOCOL
 
 
@@ -41,13 +50,13 @@ class FlightCommand(RootModel[Command]):
 MODELS = (NewFlight, FlightCommand, FlightStatus, FlightList, ScenarioList)
 """What the OpenAPI document needs for these routes."""
 
-router = APIRouter(prefix="/api/v1", tags=["flights"])
+router = APIRouter(prefix="/api/v1", tags=["flights"], dependencies=[KNOWN_PARAMETERS_ONLY])
 
 
 @router.get(
     "/scenarios",
     summary="Scenarios that can be flown",
-    responses=gives(200, "All scenarios.", one_of(ScenarioList)),
+    responses=response(200, "All scenarios.", schema_of(ScenarioList)),
 )
 async def list_scenarios(departures: DeparturesOf) -> Response:
     """The paper's cases and our own; one that lacks its data says what to install."""
@@ -59,10 +68,10 @@ async def list_scenarios(departures: DeparturesOf) -> Response:
     status_code=201,
     summary="Start a flight",
     responses={
-        **gives(201, "It is in the air.", one_of(FlightStatus)),
-        **refuses(400, 413, 415, 422, 429, 500),
+        **response(201, "It is in the air.", schema_of(FlightStatus)),
+        **problem_responses(400, 413, 415, 422, 429, 500),
     },
-    openapi_extra=takes(one_of(NewFlight), {"scenario": "fig_6b", "rate": 10.0}),
+    openapi_extra=request_body(schema_of(NewFlight), {"scenario": "fig_6b", "rate": 10.0}),
 )
 async def start_flight(request: Request, fleet: FleetOf, departures: DeparturesOf) -> Response:
     """Flown at `rate` times the clock on the wall, until it is ended or nobody watches any more."""
@@ -71,7 +80,7 @@ async def start_flight(request: Request, fleet: FleetOf, departures: DeparturesO
         # A recorded leader is read from a file: not on the event loop.
         departure = await asyncio.to_thread(departures.find, wanted)
     except ContractError as error:
-        raise refused(error) from None
+        raise problem_of(error) from None
     flight = await fleet.launch(
         departure.scenario,
         departure.title,
@@ -87,7 +96,7 @@ async def start_flight(request: Request, fleet: FleetOf, departures: DeparturesO
 @router.get(
     "/flights",
     summary="All flights",
-    responses=gives(200, "All flights.", one_of(FlightList)),
+    responses=response(200, "All flights.", schema_of(FlightList)),
 )
 async def list_flights(fleet: FleetOf) -> Response:
     """Those in the air, and those that ended a short while ago."""
@@ -97,7 +106,10 @@ async def list_flights(fleet: FleetOf) -> Response:
 @router.get(
     "/flights/{flight_id}",
     summary="One flight",
-    responses={**gives(200, "Where it stands.", one_of(FlightStatus)), **refuses(404)},
+    responses={
+        **response(200, "Where it stands.", schema_of(FlightStatus)),
+        **problem_responses(404),
+    },
 )
 async def show_flight(flight_id: str, fleet: FleetOf) -> Response:
     """Where it stands now."""
@@ -105,7 +117,10 @@ async def show_flight(flight_id: str, fleet: FleetOf) -> Response:
 
 
 @router.delete(
-    "/flights/{flight_id}", status_code=204, summary="End a flight", responses=refuses(404)
+    "/flights/{flight_id}",
+    status_code=204,
+    summary="End a flight",
+    responses=problem_responses(404),
 )
 async def end_flight(flight_id: str, fleet: FleetOf) -> Response:
     """Its streams and its scene close with it."""
@@ -118,10 +133,12 @@ async def end_flight(flight_id: str, fleet: FleetOf) -> Response:
     status_code=202,
     summary="Tell a flight something",
     responses={
-        **gives(202, "It will.", one_of(FlightStatus)),
-        **refuses(400, 404, 409, 413, 415, 422),
+        **response(202, "It will.", schema_of(FlightStatus)),
+        **problem_responses(400, 404, 409, 413, 415, 422),
     },
-    openapi_extra=takes(one_of(FlightCommand), {"command": "leader_heading", "heading_deg": 135.0}),
+    openapi_extra=request_body(
+        schema_of(FlightCommand), {"command": "leader_heading", "heading_deg": 135.0}
+    ),
 )
 async def command_flight(flight_id: str, request: Request, fleet: FleetOf) -> Response:
     """Pause, go on, another rate; or the leader's heading, speed, and whether its intent is known.
@@ -132,7 +149,7 @@ async def command_flight(flight_id: str, request: Request, fleet: FleetOf) -> Re
     try:
         command = parse(FlightCommand, _content(await read_json(request))).root
     except ContractError as error:
-        raise refused(error) from None
+        raise problem_of(error) from None
     _tell(flight, command)
     return json_answer(status_of(flight).model_dump(), 202)
 
@@ -157,14 +174,14 @@ async def stream(websocket: WebSocket, flight_id: str, fleet: FleetOf) -> None:
         flight.leave(client)
 
 
-def status_of(flight: Airborne) -> FlightStatus:
+def status_of(flight: LiveFlight) -> FlightStatus:
     """Where a flight stands."""
     sample = flight.history.newest[0]
-    plate, pace = flight.plate, flight.pace
+    label, pace = flight.label, flight.pace
     return FlightStatus(
-        id=plate.id,
-        scenario=plate.scenario,
-        title=plate.title,
+        id=label.id,
+        scenario=label.scenario,
+        title=label.title,
         t_s=flight.t,
         rate=pace.rate,
         paused=pace.paused,
@@ -172,12 +189,12 @@ def status_of(flight: Airborne) -> FlightStatus:
         mode=sample.mode,
         joined=sample.joined,
         separation_m=sample.separation,
-        stream_url=f"/api/v1/flights/{plate.id}/stream",
-        scene_url=f"/scene/{plate.id}/",
+        stream_url=f"/api/v1/flights/{label.id}/stream",
+        scene_url=f"/scene/{label.id}/",
     )
 
 
-def _tell(flight: Airborne, command: Command) -> None:
+def _tell(flight: LiveFlight, command: Command) -> None:
     match command:
         case PlayCommand():
             flight.pace.play()

@@ -8,7 +8,7 @@ from fastapi import APIRouter, Depends, Query, Request
 from pydantic import BaseModel, Field, RootModel, create_model
 from starlette.responses import Response
 
-from relguide.contract.answers import Include, answer
+from relguide.contract.answers import Include, answer, read_include
 from relguide.contract.bodies import Anchor, NamedSituationBody, SituationBody, situation_from_body
 from relguide.contract.messages import PlanAnswer, model_of
 from relguide.contract.refusal import ContractError, parse
@@ -18,14 +18,15 @@ from relguide.planning.situation import Situation
 from relguide_server.errors import Refusal
 from relguide_server.metrics import Metrics
 from relguide_server.openapi import (
-    gives,
+    KNOWN_PARAMETERS_ONLY,
     json_answer,
-    list_of,
-    one_of,
+    list_schema,
+    problem_of,
+    problem_responses,
     read_json,
-    refused,
-    refuses,
-    takes,
+    request_body,
+    response,
+    schema_of,
 )
 
 MAX_BATCH = 1000
@@ -59,7 +60,7 @@ class Answer(RootModel[PlanAnswer]):
     """A plan, or why there is none."""
 
 
-_ID: dict[str, Any] = {"id": (str | int, Field(default="", description="As it was given."))}
+_ID: dict[str, Any] = {"id": (str | int, Field(default="", description="As in the request."))}
 NamedPlan: type[BaseModel] = create_model("NamedPlan", __base__=model_of(PlanCard), **_ID)
 NamedNoPlan: type[BaseModel] = create_model("NamedNoPlan", __base__=model_of(NoPlanCard), **_ID)
 MODELS = (SituationBody, NamedSituationBody, Answer, NamedPlan, NamedNoPlan)
@@ -78,32 +79,36 @@ def _metrics_of(request: Request) -> Metrics:
 
 PlannerOf = Annotated[Planner, Depends(_planner_of)]
 MetricsOf = Annotated[Metrics, Depends(_metrics_of)]
-OptimalityAsked = Annotated[
-    bool,
+IncludeAsked = Annotated[
+    str,
     Query(
-        description="Whether `optimality` also says how the plan meets Pontryagin's conditions, "
-        "with H and the costates along it. Takes some milliseconds more."
+        max_length=100,
+        description="What to add to the plan, with commas between. `alternatives`: the other paths "
+        "to the slot, and why each is not flown. `optimality`: how the plan meets Pontryagin's "
+        "conditions, with H and the costates along it. Each takes a millisecond or more.",
+        examples=["alternatives,optimality"],
     ),
 ]
-router = APIRouter(prefix="/api/v1", tags=["plans"])
+router = APIRouter(prefix="/api/v1", tags=["plans"], dependencies=[KNOWN_PARAMETERS_ONLY])
 
 
 @router.post(
     "/plans",
     summary="Plan a situation",
     responses={
-        **gives(200, "A plan, or why there is none.", one_of(Answer)),
-        **refuses(400, 413, 415, 422),
+        **response(200, "A plan, or why there is none.", schema_of(Answer)),
+        **problem_responses(400, 413, 415, 422),
     },
-    openapi_extra=takes(one_of(SituationBody), EXAMPLE),
+    openapi_extra=request_body(schema_of(SituationBody), EXAMPLE),
 )
 async def make_plan(
-    request: Request, planner: PlannerOf, metrics: MetricsOf, optimality: OptimalityAsked = False
+    request: Request, planner: PlannerOf, metrics: MetricsOf, include: IncludeAsked = ""
 ) -> Response:
-    """The minimum-time plan with its proof. That there is none is an answer too."""
+    """The minimum-time plan with its proof, or the answer that there is no plan, and why."""
+    included = _included(include)
     situation, anchor = _read(await read_json(request), SituationBody)
     # 0.1 ms as a rule, but tens where the limit binds: the streams must not wait for it
-    given, seconds = await asyncio.to_thread(_answer, situation, anchor, planner, optimality)
+    given, seconds = await asyncio.to_thread(_answer, situation, anchor, planner, included)
     metrics.plan_answered(given["status"], seconds)
     return json_answer(given)
 
@@ -112,41 +117,54 @@ async def make_plan(
     "/plans/batch",
     summary="Plan many situations",
     responses={
-        **gives(
+        **response(
             200,
             "An answer for each, in order.",
-            list_of(one_of(NamedPlan, NamedNoPlan), most=MAX_BATCH),
+            list_schema(schema_of(NamedPlan, NamedNoPlan), most=MAX_BATCH),
         ),
-        **refuses(400, 413, 415, 422),
+        **problem_responses(400, 413, 415, 422),
     },
-    openapi_extra=takes(list_of(one_of(NamedSituationBody), most=MAX_BATCH), [EXAMPLE]),
+    openapi_extra=request_body(
+        list_schema(schema_of(NamedSituationBody), most=MAX_BATCH), [EXAMPLE]
+    ),
 )
 async def make_plans(
-    request: Request, planner: PlannerOf, metrics: MetricsOf, optimality: OptimalityAsked = False
+    request: Request, planner: PlannerOf, metrics: MetricsOf, include: IncludeAsked = ""
 ) -> Response:
-    """Up to 1,000 situations, an answer for each in order, with its `id` if it has one."""
+    """Up to 1,000 situations; an answer for each, in order, with its `id` if it has one."""
+    included = _included(include)
     bodies = await read_json(request)
     if not isinstance(bodies, list):
         raise Refusal(422, "The body must be a list of situations.")
     if len(bodies) > MAX_BATCH:
-        raise Refusal(422, f"At most {MAX_BATCH} situations a request, not {len(bodies)}.")
-    answers = await asyncio.to_thread(_answer_all, bodies, planner, optimality)
+        raise Refusal(
+            422,
+            f"At most {MAX_BATCH} situations a request, not {len(bodies)}.",
+        )
+    answers = await asyncio.to_thread(_answer_all, bodies, planner, included)
     for given, seconds in answers:
         metrics.plan_answered(given["status"], seconds)
     return json_answer([given for given, _ in answers])
 
 
+def _included(text: str) -> tuple[Include, ...]:
+    try:
+        return read_include(text)
+    except ValueError as error:
+        raise Refusal(422, str(error)) from None
+
+
 def _answer_all(
-    bodies: list[object], planner: Planner, optimality: bool
+    bodies: list[object], planner: Planner, included: tuple[Include, ...]
 ) -> list[tuple[dict[str, Any], float]]:
-    # All are read before any is planned: a request is refused whole or served whole.
+    # All are read before any is planned: a request is refused as a whole or served as a whole.
     read = [
         (_read(body, NamedSituationBody, under=f"[{index}]"), body)
         for index, body in enumerate(bodies)
     ]
     answers = []
     for (situation, anchor), body in read:
-        given, seconds = _answer(situation, anchor, planner, optimality)
+        given, seconds = _answer(situation, anchor, planner, included)
         if isinstance(body, dict) and "id" in body:
             given = {"id": body["id"], **given}
         answers.append((given, seconds))
@@ -161,14 +179,13 @@ def _read(
     try:
         return situation_from_body(parse(shape, content))
     except ContractError as error:
-        raise refused(error, under=under) from None
+        raise problem_of(error, under=under) from None
 
 
 def _answer(
-    situation: Situation, anchor: Anchor, planner: Planner, optimality: bool
+    situation: Situation, anchor: Anchor, planner: Planner, included: tuple[Include, ...]
 ) -> tuple[dict[str, Any], float]:
     """The answer, and how long it took [s]; counted by the caller, on the loop's own thread."""
     started = perf_counter()
-    include: tuple[Include, ...] = ("optimality",) if optimality else ()
-    given = answer(situation, anchor, planner, include=include)
+    given = answer(situation, anchor, planner, include=included)
     return given, perf_counter() - started

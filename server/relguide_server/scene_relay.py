@@ -21,8 +21,8 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, WebSocketException
 from websockets.typing import Subprotocol
 
-from relguide_server.airborne import Airborne
 from relguide_server.fleet import FleetOf
+from relguide_server.live_flight import LiveFlight
 
 PASSED_ON = frozenset({"ViewerCameraMessage", "GuiUpdateMessage"})
 """What a browser may say to the scene: where its camera is, and which view button was pressed."""
@@ -67,7 +67,7 @@ async def relay(websocket: WebSocket, flight_id: str, fleet: FleetOf) -> None:
         await flight.leave_scene()
 
 
-async def _relay(websocket: WebSocket, flight: Airborne) -> None:
+async def _relay(websocket: WebSocket, flight: LiveFlight) -> None:
     port = await flight.enter_scene()
     offered = [Subprotocol(name) for name in websocket.scope["subprotocols"]]
     try:

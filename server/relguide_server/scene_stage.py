@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import rich
 
 from relguide.flying.documents import Document
-from relguide_server.errors import survives
+from relguide_server.errors import run_logged
 from relguide_server.inbox import Inbox
 
 
@@ -40,7 +40,7 @@ class SceneStage:
             self._port.set_result(0)
 
     def _run(self) -> None:
-        if not survives(f"The 3D scene of flight {self._name}", self._draw_all):
+        if not run_logged(f"The 3D scene of flight {self._name}", self._draw_all):
             self._answer(0)
 
     def _draw_all(self) -> None:

@@ -61,17 +61,38 @@ def test_a_batch_is_answered_in_order_with_its_ids(client: TestClient) -> None:
     assert all(plan["status"] == "planned" for plan in answer.json())
 
 
-def test_optimality_is_told_on_demand(client: TestClient) -> None:
-    asked = client.post("/api/v1/plans?optimality=true", json=EXAMPLE).json()["optimality"]
+def test_optimality_comes_on_request(client: TestClient) -> None:
+    asked = client.post("/api/v1/plans?include=optimality", json=EXAMPLE).json()["optimality"]
     assert asked["stationary"] is True
     assert asked["hamiltonian_residual"] < 1e-8
     assert len(asked["costates"]["t_s"]) == len(asked["costates"]["switching_s_per_deg"]) > 100
     plain = client.post("/api/v1/plans", json=EXAMPLE).json()["optimality"]
     assert set(plain) == {"proof", "lower_bound_s"}
-    (batch,) = client.post("/api/v1/plans/batch?optimality=true", json=[EXAMPLE]).json()
+    (batch,) = client.post("/api/v1/plans/batch?include=optimality", json=[EXAMPLE]).json()
     assert batch["optimality"] == asked
-    wrong = client.post("/api/v1/plans?optimality=perhaps", json=EXAMPLE)
-    assert "optimality" in is_problem(wrong, 422, "/api/v1/plans")["detail"]
+
+
+def test_alternatives_come_on_request(client: TestClient) -> None:
+    plain = client.post("/api/v1/plans", json=EXAMPLE).json()
+    assert "alternatives" not in plain
+    asked = client.post("/api/v1/plans?include=alternatives,optimality", json=EXAMPLE).json()
+    assert {other["word"] for other in asked["alternatives"]} >= {"LSL", "RSR"} - {asked["word"]}
+    assert "costates" in asked["optimality"]
+    (batch,) = client.post("/api/v1/plans/batch?include=alternatives", json=[EXAMPLE]).json()
+    assert batch["alternatives"] == asked["alternatives"]
+
+
+@pytest.mark.parametrize("path", ["/api/v1/plans", "/api/v1/plans/batch"])
+def test_what_cannot_be_included_is_refused(client: TestClient, path: str) -> None:
+    wrong = is_problem(client.post(f"{path}?include=wings", json=EXAMPLE), 422, path)
+    assert "include must be alternatives, optimality, or both" in wrong["detail"]
+    unknown = is_problem(client.post(f"{path}?optimality=true", json=EXAMPLE), 422, path)
+    assert "has no parameter 'optimality'. It has include." in unknown["detail"]
+
+
+def test_parameters_that_a_route_does_not_have_are_refused(client: TestClient) -> None:
+    answer = client.get("/api/v1/flights?page=2")
+    assert "It has none" in is_problem(answer, 422, "/api/v1/flights")["detail"]
 
 
 def test_a_batch_says_which_situation_is_wrong(client: TestClient) -> None:

@@ -147,7 +147,7 @@ def test_by_network_times_are_the_exact_ones(client: TestClient) -> None:
         (asked(planner="oracle"), "planner"),
         (asked(exact="true", columns="60"), f"at most {MOST_SEARCHED:,} nodes"),
         (asked(EXAMPLE, exact="true"), "leader without intent"),
-        (asked(levels="3"), "These are: columns, exact, flight"),
+        (asked(levels="3"), "It has columns, exact, flight"),
     ],
 )
 def test_what_is_no_area_is_refused(

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from relguide.contract.wire import tick
 from relguide.flying.documents import Document, Sample
 from relguide.flying.orders import Command
-from relguide_server.errors import survives
+from relguide_server.errors import run_logged
 from relguide_server.history import History
 from relguide_server.inbox import Inbox
 from relguide_server.metrics import Metrics
@@ -22,7 +22,7 @@ Source = Callable[[Callable[[float], Iterable[Command]]], Iterator[Document]]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class FlightPlate:
+class FlightLabel:
     """What is written on a flight from its start to its end."""
 
     id: str
@@ -30,13 +30,13 @@ class FlightPlate:
     title: str
 
 
-class Airborne:
+class LiveFlight:
     """A flight and all that hangs on it. Lives on the event loop; only `_fly` is another thread."""
 
     def __init__(
-        self, plate: FlightPlate, source: Source, *, rate: float, paused: bool, metrics: Metrics
+        self, label: FlightLabel, source: Source, *, rate: float, paused: bool, metrics: Metrics
     ) -> None:
-        self.plate = plate
+        self.label = label
         self.pace = Pace(rate=rate, paused=paused)
         self.history = History()
         self.last_seen = asyncio.get_running_loop().time()
@@ -49,7 +49,7 @@ class Airborne:
         self._inbox = Inbox()
         self._stage: SceneStage | None = None
         self._airborne = asyncio.Event()
-        self._thread = threading.Thread(target=self._run, name=f"flight {plate.id}", daemon=True)
+        self._thread = threading.Thread(target=self._run, name=f"flight {label.id}", daemon=True)
         self._loop = asyncio.get_running_loop()
         self._thread.start()
 
@@ -126,7 +126,7 @@ class Airborne:
         """
         self.scene_viewers += 1
         if self._stage is None:
-            self._stage = SceneStage(self.plate.id, self.history.documents())
+            self._stage = SceneStage(self.label.id, self.history.documents())
         return await self._stage.port()
 
     async def leave_scene(self) -> None:
@@ -150,7 +150,7 @@ class Airborne:
 
     def _text(self, documents: Sequence[Document]) -> str:
         return tick(
-            self.plate.id,
+            self.label.id,
             t=self.t,
             rate=self.pace.rate,
             paused=self.pace.paused,
@@ -163,7 +163,7 @@ class Airborne:
             client.close(code, reason)
 
     def _run(self) -> None:
-        self.broken = not survives(f"Flight {self.plate.id}", self._fly)
+        self.broken = not run_logged(f"Flight {self.label.id}", self._fly)
         self._tell_airborne()
 
     def _fly(self) -> None:
