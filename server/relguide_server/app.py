@@ -47,7 +47,7 @@ def create_app(
     settings = settings or settings_from(os.environ)
     metrics = Metrics()
     drift = DriftCheck(metrics, every=settings.drift_check)
-    planner = drift.watching(planner or _planner(settings.planner))
+    planner = drift.watch(planner or _planner(settings.planner))
     departures = departures or library_departures(planner)
     fleet = Fleet(settings, metrics)
     warm = threading.Event()

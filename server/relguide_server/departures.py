@@ -1,4 +1,4 @@
-"""From what is asked for to what can be flown: scenarios by name, and situations of one's own."""
+"""From a request to a flight ready to start: scenarios by name, and situations of your own."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -23,7 +23,7 @@ from relguide.planning.plan import Planner
 from relguide_server.live_flight import Source
 
 REHEARSED = "fig_6b"
-"""The scenario that is flown a little at the start, so that all kernels are compiled."""
+"""The scenario that is flown for a while at the start, so that its kernels are compiled."""
 REHEARSAL = 400
 """Documents of it: 20 s of flight."""
 
@@ -33,7 +33,7 @@ class Departure:
     """A flight ready to start."""
 
     scenario: str
-    """Its name; empty for a situation of one's own."""
+    """Its name; empty for a situation of your own."""
     title: str
     source: Source
 
@@ -46,7 +46,7 @@ class Departures:
     find: Callable[[FlightRequest], Departure]
     """Raises `ContractError` for what cannot be flown."""
     rehearse: Callable[[], None]
-    """Fly a little and throw it away: afterwards everything is compiled."""
+    """Fly for a while and discard it: afterwards everything is compiled."""
 
 
 def departures_of(connection: HTTPConnection) -> Departures:
@@ -101,7 +101,7 @@ def _scenarios() -> ScenarioList:
 def _named(name: str) -> Scenario:
     try:
         return scenario(name)
-    except ValueError as error:  # not known, or its data is not installed: a sentence either way
+    except ValueError as error:  # unknown, or its data are not installed: the error says which
         raise ContractError([("scenario", str(error))]) from None
 
 

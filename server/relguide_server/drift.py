@@ -1,9 +1,9 @@
-"""DriftCheck: holds some of the network's answers against the exact planner while the service runs.
+"""DriftCheck: compares some of the network's answers with the exact planner while the service runs.
 
-A network is as good as its audit said in the situations of that audit. Whether those that are
-really asked are like them shows only here: every N-th answer of the network is planned again
-exactly, on a thread of its own, after it has been given. What is found is a matter for `/metrics`;
-nobody waits for it, and with too much to do answers are left out, and counted.
+A network is as good as its audit says only in situations like those of the audit. Whether the
+situations of real requests are like them is seen here: every N-th answer of the network is planned
+again exactly, on a separate thread, after it has been sent. The result goes to `/metrics`. No
+request waits for it; when there is too much to do, answers are skipped and counted.
 """
 
 from functools import partial
@@ -19,7 +19,7 @@ from relguide_server.metrics import Metrics
 WAITING = 32
 """Answers that may wait to be audited: where the limit binds, an exact plan takes some 10 ms."""
 LOOK = 0.5
-"""How often the thread looks whether it should end [s]."""
+"""How often the thread checks whether it should end [s]."""
 DIFFERENT = 1e-3
 """Times that differ by more are different answers [s]."""
 
@@ -31,9 +31,9 @@ class DriftCheck:
         """Prepare it.
 
         Args:
-            metrics: takes what is found.
-            every: N; 0 audits nothing, and answers are still counted.
-            exact: what an answer is held against.
+            metrics: where the results go.
+            every: N; with 0 nothing is audited, but answers are counted.
+            exact: the planner that answers are compared with.
         """
         self._metrics = metrics
         self._every = every
@@ -43,16 +43,16 @@ class DriftCheck:
         self._over = Event()
         self._thread: Thread | None = None
 
-    def watching(self, planner: Planner) -> Planner:
-        """The same planner, whose answers are seen here; may be asked from any thread."""
+    def watch(self, planner: Planner) -> Planner:
+        """The same planner, with its answers counted and audited; usable from any thread."""
 
-        def watched(situation: Situation) -> Plan | NoPlan:
+        def plan_and_note(situation: Situation) -> Plan | NoPlan:
             answer = planner(situation)
             if isinstance(answer, Plan):
-                self._see(answer)
+                self._note(answer)
             return answer
 
-        return watched
+        return plan_and_note
 
     def start(self) -> None:
         """Begin to audit."""
@@ -62,13 +62,13 @@ class DriftCheck:
             self._thread.start()
 
     def stop(self) -> None:
-        """End once the present audit is done; what waits is left out."""
+        """End after the present audit; those that wait are skipped."""
         self._over.set()
         if self._thread is not None:
             self._thread.join()
             self._thread = None
 
-    def _see(self, answer: Plan) -> None:
+    def _note(self, answer: Plan) -> None:
         with self._lock:
             if answer.fell_back:
                 self._metrics.network_fallbacks += 1
@@ -89,12 +89,12 @@ class DriftCheck:
                 answer = self._waiting.get(timeout=LOOK)
             except Empty:
                 continue
-            # a mistake here is in the log, and the next answer is audited all the same
+            # a mistake in here goes to the log, and the next answer is audited all the same
             run_logged("An audit of the drift check", partial(self._audit, answer))
 
     def _audit(self, answer: Plan) -> None:
         exact = self._exact(answer.situation)
-        # the network's answer is certified: where the exact planner has none, nothing is lost
+        # the network's answer is certified: if the exact planner has no plan, nothing is lost
         loss = 0.0 if isinstance(exact, NoPlan) else _loss(answer, exact)
         differs = isinstance(exact, NoPlan) or abs(loss) > DIFFERENT
         with self._lock:
@@ -102,5 +102,5 @@ class DriftCheck:
 
 
 def _loss(answer: Plan, exact: Plan) -> float:
-    """How much later the answer arrives [s]; below 0 if it is the exact planner that does."""
+    """How much later the answer arrives than the exact one [s]; below 0 if it is sooner."""
     return answer.time_to_converge - exact.time_to_converge

@@ -27,7 +27,7 @@ def main(arguments: list[str] | None = None) -> int:
         0, or 1 if the file is stale.
     """
     parser = argparse.ArgumentParser(prog=COMMAND, description=__doc__)
-    parser.add_argument("--check", action="store_true", help="only say whether the file is fresh")
+    parser.add_argument("--check", action="store_true", help="only check whether the file is fresh")
     parser.add_argument("--file", type=Path, default=WIRE_TS, help="default: %(default)s")
     chosen = parser.parse_args(arguments)
     fresh = wire_ts()

@@ -1,6 +1,6 @@
 """Every error as a problem document (RFC 9457), and the only place that catches `Exception`.
 
-- `Refusal`: a request we understood and do not serve; routes raise it with a sentence.
+- `Refusal`: a request that is understood and not served; routes raise it with a sentence.
 - `HTTPException`: starlette's own 404 and 405; `RequestValidationError`: FastAPI's own findings.
 - `Exception`: a mistake of ours; the traceback goes to the log, a sentence to the client.
 """
@@ -102,7 +102,7 @@ def _sentence(request: Request, status: int) -> str:
         case 404:
             return f"There is nothing at {request.url.path}. The API is described at /docs."
         case 405:
-            return f"{request.url.path} does not answer {request.method}."
+            return f"{request.url.path} does not take {request.method}: see /docs for what it does."
         case _:
             return f"{HTTPStatus(status).description or HTTPStatus(status).phrase}."
 
@@ -123,12 +123,12 @@ async def _broken(request: Request, error: Exception) -> Response:
     return problem(
         request.url.path,
         500,
-        "The server made a mistake here: it is in its log. The request may be right.",
+        "The server made a mistake: its log has the details. The request may be right.",
     )
 
 
 def run_logged(name: str, work: Callable[[], None]) -> bool:
-    """Run the work of a thread; a mistake in it goes to the log instead of ending the process.
+    """Run the work of a thread; an error in it goes to the log and does not end the process.
 
     Returns:
         Whether it ran to its end.

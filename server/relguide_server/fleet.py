@@ -1,4 +1,4 @@
-"""The flight service: all flights of this server, one tick for them all, and who makes room."""
+"""The flight service: all flights of this server, their common tick, and room for new ones."""
 
 import asyncio
 import secrets
@@ -15,7 +15,7 @@ from relguide_server.metrics import Metrics
 from relguide_server.settings import Settings
 
 REAP_PERIOD = 1.0
-"""How often flights that nobody wants any more are looked for [s]."""
+"""How often unwatched flights are looked for [s]."""
 TAKE_OFF = 60.0
 """How long a new flight may take to its first sample [s]: kernels may have to be compiled first."""
 
@@ -33,11 +33,11 @@ class Fleet:
         return iter(self._flights.values())
 
     def start(self) -> None:
-        """Begin to tick."""
+        """Start the tick and the removal of unwatched flights."""
         self._tasks = [asyncio.create_task(self._tick()), asyncio.create_task(self._reap())]
 
     async def stop(self) -> None:
-        """Land everything."""
+        """End all flights."""
         for task in self._tasks:
             task.cancel()
         for task in self._tasks:
@@ -53,8 +53,12 @@ class Fleet:
         """
         flight = self._flights.get(flight_id)
         if flight is None:
-            raise Refusal(404, f"There is no flight {flight_id!r}: it never was, or is removed.")
-        flight.seen()
+            raise Refusal(
+                404,
+                f"There is no flight {flight_id!r}: it never existed or has been removed. "
+                "GET /api/v1/flights lists those there are.",
+            )
+        flight.note_seen()
         return flight
 
     def knows(self, flight_id: str) -> bool:
@@ -75,12 +79,12 @@ class Fleet:
         self._flights[label.id] = flight
         self._metrics.flights_started += 1
         try:
-            began = await asyncio.wait_for(flight.begun(), TAKE_OFF)
+            began = await asyncio.wait_for(flight.wait_for_first_sample(), TAKE_OFF)
         except TimeoutError:
             began = False
         if not began:
             await self._land(flight)
-            raise Refusal(500, "The flight broke off before it began: the server's log says why.")
+            raise Refusal(500, "The flight stopped before it began: the server's log says why.")
         return flight
 
     async def remove(self, flight_id: str) -> None:
@@ -103,7 +107,7 @@ class Fleet:
             if not unseen:
                 raise Refusal(
                     429,
-                    f"{limit} flights are in the air, which is all this server takes. "
+                    f"{limit} flights are in the air, the most that this server flies at once. "
                     "End one (DELETE), or try again when one is no longer watched.",
                     headers={"Retry-After": str(round(self._settings.spare_after))},
                 )
@@ -115,7 +119,7 @@ class Fleet:
         while True:
             for flight in list(self):
                 flight.tick()
-            # Late by more than a tick, e.g. after the machine slept: go on from now, do not rush.
+            # Late by more than a tick, e.g. after the machine slept: continue from now, do not rush.
             due = max(due + period, loop.time() - period)
             await asyncio.sleep(due - loop.time())
 

@@ -1,4 +1,4 @@
-"""Routes of flights: start one, watch it, tell it something, end it."""
+"""Routes of flights: start one, watch it, command it, end it."""
 
 import asyncio
 from math import radians
@@ -40,11 +40,11 @@ from relguide_server.stream import UNKNOWN_FLIGHT, WRONG_PROTOCOL
 
 
 class NewFlight(RootModel[FlightRequest]):
-    """What starts a flight: the name of a scenario, or a situation of one's own."""
+    """A request for a new flight: the name of a scenario, or a situation of your own."""
 
 
 class FlightCommand(RootModel[Command]):
-    """What a flight can be told."""
+    """A command to a flight."""
 
 
 MODELS = (NewFlight, FlightCommand, FlightStatus, FlightList, ScenarioList)
@@ -59,7 +59,7 @@ router = APIRouter(prefix="/api/v1", tags=["flights"], dependencies=[KNOWN_PARAM
     responses=response(200, "All scenarios.", schema_of(ScenarioList)),
 )
 async def list_scenarios(departures: DeparturesOf) -> Response:
-    """The paper's cases and our own; one that lacks its data says what to install."""
+    """The paper's cases and ours; one whose data are missing says what to install."""
     return json_answer((await asyncio.to_thread(departures.scenarios)).model_dump())
 
 
@@ -74,7 +74,7 @@ async def list_scenarios(departures: DeparturesOf) -> Response:
     openapi_extra=request_body(schema_of(NewFlight), {"scenario": "fig_6b", "rate": 10.0}),
 )
 async def start_flight(request: Request, fleet: FleetOf, departures: DeparturesOf) -> Response:
-    """Flown at `rate` times the clock on the wall, until it is ended or nobody watches any more."""
+    """It flies at `rate` simulated seconds per second, until it is ended or no longer watched."""
     try:
         wanted = parse(NewFlight, _content(await read_json(request))).root
         # A recorded leader is read from a file: not on the event loop.
@@ -133,7 +133,7 @@ async def end_flight(flight_id: str, fleet: FleetOf) -> Response:
     status_code=202,
     summary="Tell a flight something",
     responses={
-        **response(202, "It will.", schema_of(FlightStatus)),
+        **response(202, "The command was passed on.", schema_of(FlightStatus)),
         **problem_responses(400, 404, 409, 413, 415, 422),
     },
     openapi_extra=request_body(
@@ -143,20 +143,20 @@ async def end_flight(flight_id: str, fleet: FleetOf) -> Response:
 async def command_flight(flight_id: str, request: Request, fleet: FleetOf) -> Response:
     """Pause, go on, another rate; or the leader's heading, speed, and whether its intent is known.
 
-    What is told to the leader of a paused flight is done when the flight goes on.
+    Commands to the leader of a paused flight take effect when the flight continues.
     """
     flight = fleet.find(flight_id)
     try:
         command = parse(FlightCommand, _content(await read_json(request))).root
     except ContractError as error:
         raise problem_of(error) from None
-    _tell(flight, command)
+    _command(flight, command)
     return json_answer(status_of(flight).model_dump(), 202)
 
 
 @router.websocket("/flights/{flight_id}/stream")
 async def stream(websocket: WebSocket, flight_id: str, fleet: FleetOf) -> None:
-    """Ticks of a flight; the sub-protocol says which form of them the client was built for."""
+    """Ticks of a flight; the sub-protocol says for which form of them the client was built."""
     if PROTOCOL not in websocket.scope["subprotocols"]:
         await websocket.accept()
         sentence = f"This server speaks {PROTOCOL}: load the page again."
@@ -164,7 +164,7 @@ async def stream(websocket: WebSocket, flight_id: str, fleet: FleetOf) -> None:
         return
     await websocket.accept(PROTOCOL)
     if not fleet.knows(flight_id):
-        await websocket.close(UNKNOWN_FLIGHT, "There is no such flight: it is over and removed.")
+        await websocket.close(UNKNOWN_FLIGHT, "There is no such flight: it has been removed.")
         return
     flight = fleet.find(flight_id)
     client = flight.join()
@@ -194,7 +194,7 @@ def status_of(flight: LiveFlight) -> FlightStatus:
     )
 
 
-def _tell(flight: LiveFlight, command: Command) -> None:
+def _command(flight: LiveFlight, command: Command) -> None:
     match command:
         case PlayCommand():
             flight.pace.play()

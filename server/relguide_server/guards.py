@@ -1,4 +1,4 @@
-"""What every request passes: a limit on its body, and headers that keep a browser strict."""
+"""What every request passes: a limit on its body, and headers that make a browser strict."""
 
 from starlette.datastructures import Headers, MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
@@ -15,7 +15,7 @@ SECURITY_HEADERS = {
 
 
 class StrictHeaders:
-    """ASGI middleware: adds `SECURITY_HEADERS` to every answer that does not set them itself."""
+    """ASGI middleware: adds `SECURITY_HEADERS` to every answer that does not set its own."""
 
     def __init__(self, app: ASGIApp) -> None:
         self.app = app
@@ -37,7 +37,7 @@ class StrictHeaders:
 
 
 class BodyLimit:
-    """ASGI middleware: a body above the limit is answered 413, its size declared or not."""
+    """ASGI middleware: answers 413 to a body above the limit, whether or not its size is declared."""
 
     def __init__(self, app: ASGIApp, *, max_body: int) -> None:
         self.app = app

@@ -1,4 +1,4 @@
-"""What a late joiner must hear of a flight to draw the same picture as everybody else."""
+"""The documents that a late joiner needs to draw the same picture as all other watchers."""
 
 from collections import deque
 from dataclasses import dataclass, field

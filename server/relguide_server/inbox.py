@@ -1,4 +1,4 @@
-"""Documents from one thread to another: only the newest sample waits, all other documents do."""
+"""Documents from one thread to another: of samples only the newest waits, of the rest all."""
 
 import threading
 
@@ -6,7 +6,7 @@ from relguide.flying.documents import Document, Sample
 
 
 class Inbox:
-    """What a flight said since somebody last looked. Safe between threads."""
+    """The documents of a flight since they were last taken. Safe between threads."""
 
     def __init__(self) -> None:
         self._filled = threading.Condition()
@@ -14,7 +14,7 @@ class Inbox:
         self._closed = False
 
     def put(self, document: Document) -> None:
-        """Add a document. A sample takes the place of one that nobody has looked at."""
+        """Add a document. A sample takes the place of one that still waits."""
         with self._filled:
             if isinstance(document, Sample):
                 waiting = self._documents
@@ -23,13 +23,13 @@ class Inbox:
             self._filled.notify()
 
     def drain(self) -> list[Document]:
-        """Take all that waits, in the order of the flight, without waiting."""
+        """Take all that is there, in the order of the flight, without waiting."""
         with self._filled:
             documents, self._documents = self._documents, []
             return documents
 
     def wait(self) -> list[Document]:
-        """Take all that waits as soon as there is something; nothing once the inbox is closed."""
+        """Take all as soon as there is something; nothing once the inbox is closed."""
         with self._filled:
             self._filled.wait_for(lambda: self._documents or self._closed)
             if self._closed:
@@ -38,7 +38,7 @@ class Inbox:
             return documents
 
     def close(self) -> None:
-        """Let whoever waits go."""
+        """End all waiting."""
         with self._filled:
             self._closed = True
             self._filled.notify_all()

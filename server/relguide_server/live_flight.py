@@ -1,4 +1,4 @@
-"""One flight in the air: its worker thread, what it said so far, and who watches it."""
+"""One flight in the air: its worker thread, its documents so far, and its watchers."""
 
 import asyncio
 import threading
@@ -18,12 +18,13 @@ from relguide_server.scene_stage import SceneStage
 from relguide_server.stream import FLIGHT_BROKEN, FLIGHT_GONE, StreamClient
 
 Source = Callable[[Callable[[float], Iterable[Command]]], Iterator[Document]]
-"""A flight to be flown: given what is polled for commands at each step, its documents in order."""
+"""A flight to be flown: takes a function that is polled for commands at each step, and gives the
+flight's documents in order."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FlightLabel:
-    """What is written on a flight from its start to its end."""
+    """What identifies a flight from its start to its end."""
 
     id: str
     scenario: str
@@ -31,7 +32,7 @@ class FlightLabel:
 
 
 class LiveFlight:
-    """A flight and all that hangs on it. Lives on the event loop; only `_fly` is another thread."""
+    """A flight and all that belongs to it. Lives on the event loop; only `_fly` is another thread."""
 
     def __init__(
         self, label: FlightLabel, source: Source, *, rate: float, paused: bool, metrics: Metrics
@@ -48,7 +49,7 @@ class LiveFlight:
         self._commands: deque[Command] = deque()
         self._inbox = Inbox()
         self._stage: SceneStage | None = None
-        self._airborne = asyncio.Event()
+        self._flying = asyncio.Event()
         self._thread = threading.Thread(target=self._run, name=f"flight {label.id}", daemon=True)
         self._loop = asyncio.get_running_loop()
         self._thread.start()
@@ -57,7 +58,7 @@ class LiveFlight:
 
     @property
     def over(self) -> bool:
-        """Whether it has landed, for good or by a mistake of ours."""
+        """Whether it has ended, or was stopped by a mistake of ours."""
         return bool(self.history.ended) or self.broken
 
     @property
@@ -71,36 +72,36 @@ class LiveFlight:
         last = self.history.ended or self.history.newest
         return last[0].t if last else 0.0
 
-    def seen(self) -> None:
-        """Somebody has asked for it just now."""
+    def note_seen(self) -> None:
+        """Note that somebody has just asked for it."""
         self.last_seen = self._loop.time()
 
     def command(self, command: Command) -> None:
-        """Pass a command to the flight; it is polled at the next step."""
+        """Pass a command to the flight, which polls for it at its next step."""
         self._commands.append(command)
 
-    async def begun(self) -> bool:
-        """Wait for its first sample. False if it broke before it had one."""
-        await self._airborne.wait()
+    async def wait_for_first_sample(self) -> bool:
+        """Wait until it flies. False if it broke before its first sample."""
+        await self._flying.wait()
         self.collect()
         return bool(self.history.newest)
 
     def collect(self) -> list[Document]:
-        """Take over what the worker has said since the last time."""
+        """Take the worker's documents since the last time, and remember them."""
         documents = self._inbox.drain()
         for document in documents:
             self.history.add(document)
         return documents
 
     def tick(self) -> None:
-        """A twentieth of a second has passed: tell everybody who watches."""
+        """Pass the new documents to all watchers: called each twentieth of a second."""
         documents = self.collect()
         if self.watched:
-            self.seen()
+            self.note_seen()
         if self._stage is not None:
             self._stage.offer(documents)
         if self.clients:
-            text = self._text(documents)  # encoded once, however many watch
+            text = self._text(documents)  # encoded once for all watchers
             essential = any(not isinstance(d, Sample) for d in documents)
             for client in self.clients:
                 client.offer(text, essential=essential)
@@ -116,10 +117,10 @@ class LiveFlight:
     def leave(self, client: StreamClient) -> None:
         """A client of the stream is gone."""
         self.clients.discard(client)
-        self.seen()
+        self.note_seen()
 
     async def enter_scene(self) -> int:
-        """One more looks at the scene, which is set up for the first one.
+        """Count one more viewer of the scene, which is set up for the first.
 
         Returns:
             The port of the scene's own server; 0 if it could not be set up.
@@ -130,15 +131,15 @@ class LiveFlight:
         return await self._stage.port()
 
     async def leave_scene(self) -> None:
-        """One less looks; with the last one the scene is taken down."""
+        """Count one viewer less; the scene is closed after the last."""
         self.scene_viewers -= 1
-        self.seen()
+        self.note_seen()
         if self.scene_viewers == 0 and self._stage is not None:
             stage, self._stage = self._stage, None
             await stage.close()
 
     async def land(self) -> None:
-        """End it now: streams are closed, the scene is taken down, the thread is gone."""
+        """End it now: close its streams and its scene, and wait for its thread."""
         self.pace.stop()
         self._dismiss(FLIGHT_GONE, "This flight is over and has been removed.")
         if self._stage is not None:
@@ -164,21 +165,21 @@ class LiveFlight:
 
     def _run(self) -> None:
         self.broken = not run_logged(f"Flight {self.label.id}", self._fly)
-        self._tell_airborne()
+        self._note_flying()
 
     def _fly(self) -> None:
         for document in self._source(self._take_commands):
-            if not self.pace.hold(document.t):
+            if not self.pace.wait_until(document.t):
                 return
             self._inbox.put(document)
-            if isinstance(document, Sample) and not self._airborne.is_set():
-                self._tell_airborne()
+            if isinstance(document, Sample) and not self._flying.is_set():
+                self._note_flying()
 
     def _take_commands(self, t: float) -> Iterator[Command]:
         del t
         while self._commands:
             yield self._commands.popleft()
 
-    def _tell_airborne(self) -> None:
+    def _note_flying(self) -> None:
         if not self._loop.is_closed():
-            self._loop.call_soon_threadsafe(self._airborne.set)
+            self._loop.call_soon_threadsafe(self._flying.set)

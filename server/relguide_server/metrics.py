@@ -1,11 +1,11 @@
-"""What the service counts of itself, as Prometheus reads it."""
+"""Counters of the service in the text format of Prometheus."""
 
 from bisect import bisect_left
 from dataclasses import dataclass, field
 
 BUCKETS = (0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005, 0.01, 0.1, 1.0)
-"""Upper ends of the histogram of planning times [s]: a plan takes about 0.1 ms,
-some ten where the separation limit binds."""
+"""Upper ends of the histogram of planning times [s]: a plan takes about 0.1 ms, or some 10 ms where
+the separation limit binds."""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -23,17 +23,17 @@ class Metrics:
     ticks_sent: int = 0
     """Messages put on the streams."""
     ticks_dropped: int = 0
-    """Messages that a slow client never got because newer ones took their place."""
+    """Messages that a slow client did not get because newer ones took their place."""
     network_answers: int = 0
     """Plans by network, for REST and for flights."""
     network_fallbacks: int = 0
-    """Plans by the exact planner because the network could not say."""
+    """Plans by the exact planner where the network was not sure."""
     drift_answers: dict[str, int] = field(default_factory=lambda: {"same": 0, "different": 0})
-    """Plans by network that were planned again exactly, by what came of it."""
+    """Plans by network that were planned again exactly, by result."""
     drift_dropped: int = 0
-    """Plans by network whose turn it was to be audited while too many waited."""
+    """Plans by network that were due for an audit while too many waited."""
     drift_loss: float = 0.0
-    """Sum of what audited plans lost [s]."""
+    """Sum of the losses of audited plans [s]."""
     drift_largest_loss: float = 0.0
     """The largest of those losses [s]."""
 
@@ -55,7 +55,7 @@ class Metrics:
         self.drift_largest_loss = max(loss, self.drift_largest_loss)
 
     def text(self, *, flights_running: int, stream_clients: int, scene_clients: int) -> str:
-        """The whole page in the text format 0.0.4; the gauges are given by who knows them now."""
+        """The whole page in the text format 0.0.4; the caller gives the gauges."""
         total = sum(self.plan_counts)
         lines = [
             *_header("relguide_plans_total", "counter", "Plans answered."),
@@ -79,16 +79,16 @@ class Metrics:
             *_single("relguide_drift_dropped_total", "counter",
                      "Plans by network not audited because too many waited.", self.drift_dropped),
             *_single("relguide_drift_loss_seconds_total", "counter",
-                     "Sum of what audited plans by network lost.", f"{self.drift_loss:.6f}"),
+                     "Sum of the losses of audited plans by network.", f"{self.drift_loss:.6f}"),
             *_single("relguide_drift_largest_loss_seconds", "gauge",
-                     "Most that an audited plan by network lost.",
+                     "Largest loss of an audited plan by network.",
                      f"{self.drift_largest_loss:.6f}"),
             *_single("relguide_flights_started_total", "counter", "Flights started.",
                      self.flights_started),
             *_single("relguide_stream_ticks_sent_total", "counter", "Ticks sent to clients.",
                      self.ticks_sent),
             *_single("relguide_stream_ticks_dropped_total", "counter",
-                     "Ticks a slow client missed.", self.ticks_dropped),
+                     "Ticks that slow clients missed.", self.ticks_dropped),
             *_single("relguide_flights_running", "gauge", "Flights in the air.", flights_running),
             *_single("relguide_stream_clients", "gauge", "Browsers on a stream.", stream_clients),
             *_single("relguide_scene_clients", "gauge", "Browsers on a 3D scene.", scene_clients),

@@ -1,21 +1,21 @@
-"""Flight time against the clock on the wall: a rate, a pause, and no drift."""
+"""Flight time against the wall clock: a rate, a pause, and no drift."""
 
 import threading
 import time
 from collections.abc import Callable
 
 GRAIN = 0.004
-"""Shorter waits than this [s] are not worth a system call: at ×60 a step lasts 0.8 ms."""
+"""Waits shorter than this [s] are not worth a system call: at ×60 a step lasts 0.8 ms."""
 BEHIND = 0.25
-"""A flight later than this [s] goes on from where it is instead of rushing to catch up."""
+"""A flight later than this [s] continues from where it is and does not rush to catch up."""
 
 
 class Pace:
-    """When each instant of a flight is due. One thread holds; any thread sets.
+    """When each instant of a flight is due. One thread waits; any thread may change the rate.
 
         due(t) = anchor on the wall + (t − anchor in flight) / rate
 
-    so the errors of single waits never add up.
+    so the errors of single waits do not add up.
     """
 
     def __init__(
@@ -31,23 +31,23 @@ class Pace:
 
     @property
     def rate(self) -> float:
-        """Flight seconds in a second of the wall clock."""
+        """Simulated seconds per second of the wall clock."""
         return self._rate
 
     @property
     def paused(self) -> bool:
-        """Whether the flight stands still."""
+        """Whether the flight is paused."""
         return self._paused
 
-    def hold(self, t: float) -> bool:
+    def wait_until(self, t: float) -> bool:
         """Wait until flight time t [s] is due.
 
         Returns:
-            False if the flight was stopped meanwhile.
+            False if the flight has been stopped.
         """
         with self._changed:
             while not self._stopped:
-                if t <= self._t:  # also lets a paused flight show how it begins
+                if t <= self._t:  # so that a paused flight shows its beginning
                     return True
                 if self._paused:
                     self._changed.wait()
@@ -70,20 +70,20 @@ class Pace:
             self._rate = rate
 
     def pause(self) -> None:
-        """Stand still."""
+        """Pause the flight."""
         with self._changed:
             self._paused = True
             self._changed.notify_all()
 
     def play(self) -> None:
-        """Go on."""
+        """Continue the flight."""
         with self._changed:
             if self._paused:
                 self._paused = False
                 self._restart()
 
     def stop(self) -> None:
-        """Let `hold` return False from now on."""
+        """Let `wait_until` return False from now on."""
         with self._changed:
             self._stopped = True
             self._changed.notify_all()

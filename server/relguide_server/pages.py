@@ -1,4 +1,4 @@
-"""The built cockpit page and the API's own page, both from this machine alone."""
+"""The built cockpit page and the API's page, both without any other machine."""
 
 import gzip
 import mimetypes
@@ -31,8 +31,8 @@ NOT_BUILT = """<!doctype html><html lang="en"><title>relguide</title>
 <h1>The cockpit has not been built</h1>
 <p>The service itself is running: its API is described at
 <a style="color:#17e9f2" href="/docs">/docs</a>.
-<p>To build the page, run <code>python hatch_build.py</code> in the source tree, then load this
-again.
+<p>To build the page, run <code>python hatch_build.py</code> in the source tree, then reload
+this page.
 <p style="color:#888">Looked in: {folders}"""
 
 
@@ -47,9 +47,9 @@ class _File:
 
 
 class Page:
-    """ASGI middleware: files of the built page are answered here, all else goes on to the app.
+    """ASGI middleware: answers with files of the built page; everything else goes on to the app.
 
-    They are kept in memory, and read anew when the page has been built anew.
+    They are kept in memory, and read again when the page has been built again.
     """
 
     def __init__(self, app: ASGIApp, *, folders: Sequence[Path] = PAGE_FOLDERS) -> None:
@@ -135,9 +135,9 @@ async def docs() -> HTMLResponse:
 
 @router.get("/docs/{name}")
 async def docs_file(name: str) -> Response:
-    """What the page of the API is made of."""
+    """Script and style of the API's page."""
     if name not in _SWAGGER_FILES:
-        raise Refusal(404, f"There is nothing at /docs/{name}.")
+        raise Refusal(404, f"There is nothing at /docs/{name}. The API is described at /docs.")
     headers = {"Content-Encoding": "gzip", "Cache-Control": "public, max-age=86400"}
     return Response(_packed_swagger(name), headers=headers, media_type=_SWAGGER_FILES[name])
 

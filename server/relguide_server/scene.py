@@ -2,7 +2,7 @@
 
 Scene frame: x east, y north, z up; 1 unit = 1 km, heights ×`ALTITUDE_SCALE`. Everything hangs under
 `/world`, which is moved so that the middle between the two aircraft stays at the origin: the
-camera, which belongs to the one who looks, then follows the flight without being touched.
+camera, which belongs to the viewer, then follows the flight without being moved.
 """
 
 from collections.abc import Sequence
@@ -33,11 +33,11 @@ from relguide_server.scene_shapes import ALTITUDE_SCALE, KM
 CELL = 5.0 * NM / KM
 """Cell of the ground grid [scene units]."""
 WALL = 0.8
-"""Half the height of the separation cylinder [scene units]: the limit itself is horizontal."""
+"""Half the height of the cylinder of radius d_min [scene units]: separation itself is horizontal."""
 
 
 class Scene:
-    """Draws one flight. Whoever draws is one thread."""
+    """Draws one flight, from one thread."""
 
     def __init__(self, server: ViserServer) -> None:
         self._server = server
@@ -46,7 +46,7 @@ class Scene:
         self._height = 0.0
         self._started: FlightStarted | None = None
         self._figures: dict[str, AircraftFigure] = {}
-        self._limit_lost = False
+        self._separation_lost = False
         self._slot_colour = paint.SLOT
         server.gui.configure_theme(dark_mode=True, show_logo=False, show_share_button=False)
         server.scene.set_background_image(np.full((1, 1, 3), paint.BACKGROUND, dtype=np.uint8))
@@ -150,8 +150,8 @@ class Scene:
         elif not sample.joined and self._slot_colour != paint.SLOT:
             self._draw_gate(paint.SLOT, "SLOT")
         lost = sample.separation < self._started.min_separation
-        if lost != self._limit_lost:
-            self._draw_limit(self._started.min_separation, lost=lost)
+        if lost != self._separation_lost:
+            self._draw_min_separation(self._started.min_separation, lost=lost)
 
     def _first(self, sample: Sample, started: FlightStarted) -> None:
         scene = self._scene
@@ -161,7 +161,7 @@ class Scene:
             ),
             "leader": AircraftFigure(scene, "leader", paint.LEADER, started.leader, sample.leader),
         }
-        self._draw_limit(started.min_separation, lost=False)
+        self._draw_min_separation(started.min_separation, lost=False)
         self._draw_gate(paint.SLOT, "SLOT")
 
     def _centre(self, sample: Sample) -> None:
@@ -178,15 +178,15 @@ class Scene:
         lines(self._scene, "/world/slot/drop", shapes.drop(self._height, 0.5), colour, 0.8)
         label(self._scene, "/world/slot/text", text, (0, 0, -1.4), "top-center")
 
-    def _draw_limit(self, min_separation: float, *, lost: bool) -> None:
+    def _draw_min_separation(self, min_separation: float, *, lost: bool) -> None:
         """d_min round the leader, at its altitude."""
-        self._limit_lost = lost
+        self._separation_lost = lost
         radius = min_separation / KM
         if radius <= 0.0:
             return
         colour = paint.ALERT if lost else paint.LEADER
         self._scene.add_cylinder(
-            "/world/leader/limit",
+            "/world/leader/min_separation",
             radius,
             2.0 * WALL,
             colour,
@@ -201,7 +201,7 @@ class Scene:
         text = f"MIN {min_separation / NM:.1f} NM"
         label(
             self._scene,
-            "/world/leader/limit_text",
+            "/world/leader/min_separation_text",
             text,
             (0.8 * radius, -0.6 * radius, -WALL),
             "top-left",

@@ -1,8 +1,8 @@
-"""Where the cameras of a scene are: both aircraft in the picture, until somebody takes over.
+"""Where the cameras of a scene are: both aircraft are in the picture, until a viewer moves one.
 
 The origin of the scene is the middle between the two aircraft, so a camera that stands still
 follows them. As they close in, each camera that is still where we put it comes nearer; one that was
-moved by hand is left alone until a view is chosen again.
+moved by hand stays until a view is chosen again.
 """
 
 from math import tan
@@ -47,7 +47,7 @@ class Cameras:
         server.gui.main_panel.minimize()
 
     def frame(self, separation: float, height: float) -> None:
-        """Have both aircraft in the picture.
+        """Get both aircraft into the picture.
 
         Args:
             separation: between them [scene units].

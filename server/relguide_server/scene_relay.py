@@ -1,8 +1,8 @@
-"""One port for all: viser's page at `/scene/{id}/`, its WebSocket relayed to the flight's scene.
+"""Viser's page at `/scene/{id}/` on our own port, its WebSocket relayed to the flight's scene.
 
-The page dials its own address, less one trailing slash, so the WebSocket is answered at both. Only
-what a viewer needs is passed on: any client of viser could otherwise ask it to open a tunnel to
-the outside (`ShareUrlRequest`), whether or not its button is shown.
+The page connects to its own address, less one trailing slash, so the WebSocket is served at both.
+Only messages that a viewer needs are passed on: any client of viser could otherwise ask it to open
+a tunnel to the outside (`ShareUrlRequest`), whether or not its button is shown.
 """
 
 import asyncio
@@ -25,7 +25,7 @@ from relguide_server.fleet import FleetOf
 from relguide_server.live_flight import LiveFlight
 
 PASSED_ON = frozenset({"ViewerCameraMessage", "GuiUpdateMessage"})
-"""What a browser may say to the scene: where its camera is, and which view button was pressed."""
+"""Messages that a browser may send to the scene: its camera, and the view button pressed."""
 NOT_PASSED_ON = (1008, "The scene takes camera and button messages only.")
 
 
@@ -33,7 +33,7 @@ router = APIRouter(include_in_schema=False)
 
 
 @router.get("/scene/{flight_id}")
-async def without_slash(flight_id: str, fleet: FleetOf) -> Response:
+async def redirect_to_slash(flight_id: str, fleet: FleetOf) -> Response:
     """The page lives under a trailing slash."""
     fleet.find(flight_id)
     return RedirectResponse(f"/scene/{flight_id}/", 308)
@@ -140,7 +140,7 @@ def may_pass(message: bytes) -> bool:
 
 @cache
 def _client_page() -> tuple[bytes, bytes, str]:
-    # Found without importing viser: the page of the cockpit need not wait for that.
+    # Found without importing viser, which takes time: the cockpit's page must not wait for it.
     viser = find_spec("viser")
     assert viser is not None
     assert viser.origin is not None

@@ -1,4 +1,4 @@
-"""The thread that draws a flight in 3D, for as long as somebody looks."""
+"""The thread that draws a flight in 3D, as long as it has viewers."""
 
 import asyncio
 import threading
@@ -24,16 +24,16 @@ class SceneStage:
         self._thread.start()
 
     def offer(self, documents: Sequence[Document]) -> None:
-        """Draw these soon; a sample that comes too late for the eye is left out."""
+        """Draw these soon; a sample overtaken by a newer one is left out."""
         for document in documents:
             self._inbox.put(document)
 
     async def port(self) -> int:
-        """Where its viser server listens, once the first picture is drawn; 0 if it never will."""
+        """The port of its viser server, once the first picture is drawn; 0 if it failed."""
         return await asyncio.shield(self._port)
 
     async def close(self) -> None:
-        """Take the scene down; whoever still looks sees the connection close."""
+        """Close the scene; the connections of its viewers are closed."""
         self._inbox.close()
         await asyncio.to_thread(self._thread.join, 5.0)
         if not self._port.done():
@@ -44,7 +44,7 @@ class SceneStage:
             self._answer(0)
 
     def _draw_all(self) -> None:
-        # Imported here because it takes a third of a second that the page need not wait for.
+        # Imported here because it takes a third of a second, and the page must not wait for it.
         from viser import ViserServer
 
         from relguide_server.scene import Scene

@@ -1,4 +1,4 @@
-"""What an operator may set, each with its reason, and how uvicorn is started."""
+"""The settings of an operator, each with its reason, and how uvicorn is started."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ class Settings:
     keep_unseen: float = 600.0
     """A flight that nobody has watched or asked for in this time [s] is removed."""
     spare_after: float = 15.0
-    """When the sky is full, a flight unseen for this long [s] makes room for a new one."""
+    """When no more flights fit, one unseen for this long [s] makes room for a new one."""
     max_body: int = 8 * 1024 * 1024
     """Largest request body [bytes]: 1,000 situations with 20 pieces of intent each fit in 3 MB."""
     stream_rate: float = 20.0
@@ -30,7 +30,7 @@ class Settings:
     limit binds that takes tens of milliseconds, on a thread of its own."""
 
     def __post_init__(self) -> None:
-        """Refuse limits under which nothing could run."""
+        """Refuse settings with which nothing could run."""
         if self.planner not in PLANNERS:
             raise ValueError(f"planner must be {' or '.join(PLANNERS)}, not {self.planner}.")
         if self.drift_check < 0:
@@ -45,7 +45,7 @@ class Settings:
 
 
 def settings_from(environment: Mapping[str, str]) -> Settings:
-    """Settings with what the environment overrides, e.g. `RELGUIDE_MAX_FLIGHTS=4`."""
+    """The settings, with overrides from the environment, e.g. `RELGUIDE_MAX_FLIGHTS=4`."""
     defaults = Settings()
     changed: dict[str, Any] = {}
     for name in Settings.__dataclass_fields__:

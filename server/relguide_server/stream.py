@@ -1,4 +1,4 @@
-"""One browser on a flight's stream: a queue of two that drops the oldest, and a way back in."""
+"""One browser on a flight's stream: a queue of two that drops the oldest, and snapshots."""
 
 import asyncio
 from collections import deque
@@ -11,17 +11,17 @@ from relguide_server.metrics import Metrics
 QUEUE = 2
 """Ticks that may wait for one client: a tenth of a second."""
 WRONG_PROTOCOL, UNKNOWN_FLIGHT, FLIGHT_GONE, FLIGHT_BROKEN = 4400, 4404, 4410, 4500
-"""Why we close a stream; the sentence comes with it."""
+"""Close codes of a stream, each sent with a sentence."""
 
 
 class StreamClient:
-    """What waits for one client. Lives on the event loop."""
+    """The queue of one client. Lives on the event loop."""
 
     def __init__(self, snapshot: Callable[[], str], metrics: Metrics) -> None:
         self._snapshot = snapshot
         self._metrics = metrics
         self._queue: deque[tuple[str, bool]] = deque()
-        self._behind = True  # a new client has missed all there was
+        self._behind = True  # a new client has missed everything so far
         self._goodbye: tuple[int, str] | None = None
         self._wake = asyncio.Event()
 
@@ -30,7 +30,7 @@ class StreamClient:
 
         Args:
             text: the tick.
-            essential: whether it holds more than a sample. Who misses such a tick is given a
+            essential: whether it holds more than a sample. A client that misses such a tick gets a
                 snapshot next, so a slow client may be late but is never wrong.
         """
         if len(self._queue) == QUEUE:
@@ -85,6 +85,6 @@ class StreamClient:
 
 
 async def _until_closed(websocket: WebSocket) -> None:
-    """Browsers only listen; what they send is read and forgotten."""
+    """Browsers only listen; what they send is read and ignored."""
     while (await websocket.receive())["type"] != "websocket.disconnect":
         pass

@@ -87,15 +87,15 @@ def test_a_good_network_is_not() -> None:
 
 def test_what_is_not_the_networks_is_not_audited() -> None:
     metrics = Metrics()
-    exact = DriftCheck(metrics, every=1).watching(plan)
+    exact = DriftCheck(metrics, every=1).watch(plan)
     assert isinstance(exact(SITUATION), Plan)
-    fallen = DriftCheck(metrics, every=1).watching(lambda s: replace(plan(s), fell_back=True))
+    fallen = DriftCheck(metrics, every=1).watch(lambda s: replace(plan(s), fell_back=True))
     assert isinstance(fallen(SITUATION), Plan)
     assert (metrics.network_answers, metrics.network_fallbacks) == (0, 1)
     for every, waiting in ((0, 0), (1, 3), (3, 1)):
         check = DriftCheck(Metrics(), every=every)
         for _ in range(3):
-            check.watching(as_network)(SITUATION)
+            check.watch(as_network)(SITUATION)
         assert check._waiting.qsize() == waiting
 
 
@@ -109,7 +109,7 @@ def test_with_too_much_to_do_answers_are_left_out_and_nobody_waits() -> None:
 
     metrics = Metrics()
     check = DriftCheck(metrics, every=1, exact=slow)
-    planner = check.watching(as_network)
+    planner = check.watch(as_network)
     check.start()
     planner(SITUATION)
     assert begun.wait(PATIENCE)
@@ -136,7 +136,7 @@ def test_a_mistake_in_an_audit_is_logged_and_the_next_is_made(
     check = DriftCheck(metrics, every=1, exact=broken)
     check.start()
     for _ in range(2):
-        check.watching(as_network)(SITUATION)
+        check.watch(as_network)(SITUATION)
     until(lambda: metrics.drift_answers["same"] == 1)
     check.stop()
     assert "An audit of the drift check stopped by a mistake of ours" in caplog.text
@@ -148,7 +148,7 @@ def test_where_the_exact_planner_has_none_the_answers_differ() -> None:
     assert isinstance(none, NoPlan)
     check = DriftCheck(metrics, every=1, exact=lambda _: none)
     check.start()
-    check.watching(as_network)(SITUATION)
+    check.watch(as_network)(SITUATION)
     until(lambda: metrics.drift_answers["different"] == 1)
     check.stop()
     assert metrics.drift_loss == metrics.drift_largest_loss == 0.0

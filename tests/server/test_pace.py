@@ -20,7 +20,7 @@ class Clock:
 def due_at_once(pace: Pace, t: float) -> bool:
     """Whether `hold` returns without waiting."""
     done = threading.Event()
-    thread = threading.Thread(target=lambda: (pace.hold(t), done.set()), daemon=True)
+    thread = threading.Thread(target=lambda: (pace.wait_until(t), done.set()), daemon=True)
     thread.start()
     at_once = done.wait(0.1)
     if not at_once:
@@ -43,7 +43,7 @@ def test_errors_of_waits_do_not_add() -> None:
     pace = Pace(rate=10.0, paused=False, clock=clock)
     for k in range(1, 1001):
         clock.now = 100.0 + 0.005 * k + 0.02  # every wait is 20 ms late
-        assert pace.hold(0.05 * k)
+        assert pace.wait_until(0.05 * k)
     clock.now = 105.0
     assert due_at_once(pace, 50.0)
     assert not due_at_once(pace, 51.0)
@@ -53,7 +53,7 @@ def test_a_flight_that_is_far_behind_does_not_rush() -> None:
     clock = Clock()
     pace = Pace(rate=1.0, paused=False, clock=clock)
     clock.now += 3600.0  # the machine slept
-    assert pace.hold(1.0)
+    assert pace.wait_until(1.0)
     assert not due_at_once(pace, 1.5)
 
 
@@ -61,7 +61,7 @@ def test_a_paused_flight_shows_its_beginning_and_stands() -> None:
     clock = Clock()
     pace = Pace(rate=1.0, paused=True, clock=clock)
     clock.now += 10.0
-    assert pace.hold(0.0)
+    assert pace.wait_until(0.0)
     assert not due_at_once(pace, 0.05)
 
 
@@ -71,7 +71,7 @@ def test_play_goes_on_from_where_it_stood() -> None:
     clock.now += 10.0
     pace.play()
     clock.now += 0.1
-    assert pace.hold(0.1)
+    assert pace.wait_until(0.1)
     assert not due_at_once(pace, 0.3)
 
 
@@ -79,18 +79,18 @@ def test_a_new_rate_counts_from_now() -> None:
     clock = Clock()
     pace = Pace(rate=1.0, paused=False, clock=clock)
     clock.now += 2.0
-    assert pace.hold(2.0)
+    assert pace.wait_until(2.0)
     pace.set_rate(60.0)
     assert pace.rate == 60.0
     clock.now += 1.0
-    assert pace.hold(61.0)
+    assert pace.wait_until(61.0)
     assert not due_at_once(pace, 65.0)
 
 
 def test_stop_lets_go() -> None:
     pace = Pace(rate=1.0, paused=True)
     held: list[bool] = []
-    thread = threading.Thread(target=lambda: held.append(pace.hold(1.0)))
+    thread = threading.Thread(target=lambda: held.append(pace.wait_until(1.0)))
     thread.start()
     time.sleep(0.05)
     pace.stop()

@@ -38,7 +38,14 @@ def nodes(server: ViserServer) -> dict:
 
 def test_a_flight_is_drawn_whole(viser_server: ViserServer, documents: list[Document]) -> None:
     Scene(viser_server).draw(documents)
-    for name in ("pursuer/body/mesh", "leader/limit", "plan", "route", "slot/gate", "grid"):
+    for name in (
+        "pursuer/body/mesh",
+        "leader/min_separation",
+        "plan",
+        "route",
+        "slot/gate",
+        "grid",
+    ):
         assert f"/world/{name}" in nodes(viser_server)
     sample = next(d for d in reversed(documents) if isinstance(d, Sample))
     place = nodes(viser_server)["/world/leader"].position
@@ -71,9 +78,9 @@ def test_a_lost_limit_and_a_joined_slot_change_colour(
     scene = Scene(viser_server)
     scene.draw(documents)
     sample = next(d for d in reversed(documents) if isinstance(d, Sample))
-    assert tuple(nodes(viser_server)["/world/leader/limit"].color) == paint.LEADER
+    assert tuple(nodes(viser_server)["/world/leader/min_separation"].color) == paint.LEADER
     scene.draw([replace(sample, separation=1000.0, joined=True)])
-    assert tuple(nodes(viser_server)["/world/leader/limit"].color) == paint.ALERT
+    assert tuple(nodes(viser_server)["/world/leader/min_separation"].color) == paint.ALERT
     gate = np.asarray(nodes(viser_server)["/world/slot/gate"].colors)
     assert tuple(gate.reshape(-1, 3)[0]) == paint.PLAN
 

@@ -75,7 +75,7 @@ def test_the_scene_is_relayed_at_both_paths(address: str, flight_id: str, slash:
         async with scene_of(address, f"/scene/{flight_id}{slash}") as socket:
             assert socket.subprotocol == VISER
             text = ""
-            while "/world/leader/limit" not in text or "/world/plan" not in text:
+            while "/world/leader/min_separation" not in text or "/world/plan" not in text:
                 text += told(await asyncio.wait_for(socket.recv(), 10.0))
             return text
 
