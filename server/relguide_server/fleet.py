@@ -56,7 +56,7 @@ class Fleet:
             raise Refusal(
                 404,
                 f"There is no flight {flight_id!r}: it never existed or has been removed. "
-                "GET /api/v1/flights lists those there are.",
+                "GET /api/v1/flights lists all flights.",
             )
         flight.note_seen()
         return flight
@@ -119,7 +119,7 @@ class Fleet:
         while True:
             for flight in list(self):
                 flight.tick()
-            # Late by more than a tick, e.g. after the machine slept: continue from now, do not rush.
+            # Late by more than a tick, e.g. after the machine slept: continue from now.
             due = max(due + period, loop.time() - period)
             await asyncio.sleep(due - loop.time())
 

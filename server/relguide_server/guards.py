@@ -37,7 +37,7 @@ class StrictHeaders:
 
 
 class BodyLimit:
-    """ASGI middleware: answers 413 to a body above the limit, whether or not its size is declared."""
+    """ASGI middleware: answers 413 to a body above the limit, its size declared or not."""
 
     def __init__(self, app: ASGIApp, *, max_body: int) -> None:
         self.app = app

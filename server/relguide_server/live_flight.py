@@ -32,7 +32,7 @@ class FlightLabel:
 
 
 class LiveFlight:
-    """A flight and all that belongs to it. Lives on the event loop; only `_fly` is another thread."""
+    """A flight and all that belongs to it. Lives on the event loop; `_fly` is another thread."""
 
     def __init__(
         self, label: FlightLabel, source: Source, *, rate: float, paused: bool, metrics: Metrics

@@ -33,7 +33,7 @@ from relguide_server.scene_shapes import ALTITUDE_SCALE, KM
 CELL = 5.0 * NM / KM
 """Cell of the ground grid [scene units]."""
 WALL = 0.8
-"""Half the height of the cylinder of radius d_min [scene units]: separation itself is horizontal."""
+"""Half the height of the cylinder of radius d_min [scene units]; separation is horizontal."""
 
 
 class Scene:
