@@ -1,0 +1,25 @@
+"""Whoever's work is shipped is named in THIRD_PARTY_NOTICES.md, with its licence."""
+
+import re
+
+from tests.notices import NOTICES, bundled, imported, installed
+
+SHOWN = NOTICES.read_text("utf-8")
+RENEW = "python -m tests.notices writes the file anew"
+
+
+def test_each_distribution_of_the_container_has_its_licence() -> None:
+    named = set(re.findall(r"^\| (\S+) \| \S.* \| <https?://\S+> \|$", SHOWN, re.MULTILINE))
+    found = {notice.name for notice in installed()}
+    assert {"numpy", "numba", "pydantic", "viser", "anyio"} <= found
+    assert found <= named, RENEW
+
+
+def test_each_package_in_the_page_has_the_text_of_its_licence() -> None:
+    assert imported() >= {"preact", "@preact/signals", "@fontsource/b612"}
+    for notice in bundled():
+        _, _, section = SHOWN.partition(f"\n### {notice.name}\n")
+        text = section.partition("\n##")[0]
+        assert text.startswith(f"\n{notice.licence}, <"), RENEW
+        assert "Copyright" in text, RENEW
+        assert "AS IS" in text, RENEW
