@@ -2,14 +2,12 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from math import hypot
 
 import numpy as np
 
-from relguide.kernels.base.records import Pose
 from relguide.kernels.contact.path_pieces import NO_TURN
 from relguide.kernels.words.delay import DELAY_PIECES, MAX_DELAYS, delay_paths
-from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, WORDS, solve
+from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, WORDS, solve_and_measure
 from relguide.planning.inputs import expect
 from relguide.planning.situation import Pursuer, Situation
 from relguide.planning.slot import SlotFrame, slot_frame
@@ -60,12 +58,11 @@ class Candidates:
     at_release: tuple[Candidate, ...]
     """Paths that arrive exactly when the slot opens, all equally fast; fewest turns first."""
     reachable_at_release: bool
-    """Whether the shortest way to the slot's place at t_release is short enough to be there then.
-    """
+    """Whether the shortest path to where the slot opens is short enough to be there in time."""
 
     @property
     def bound(self) -> Second:
-        """No way to the slot is faster than this, with or without the separation limit [s]."""
+        """No path to the slot is faster than this, with or without the separation limit [s]."""
         time = self.frame.t_release if self.reachable_at_release else self.rows[0, 0]
         return float(time) * self.frame.radius / self.situation.pursuer.tas
 
@@ -94,8 +91,8 @@ def candidates(situation: Situation) -> Candidates:
     leader = situation.leader.trajectory
     frame = slot_frame(situation, leader)
     rows = np.empty((MAX_ROWS, 5))
-    n = solve(frame.pose, frame.alpha, frame.t_release, rows)
-    reachable = frame.t_release > 0.0 and _dubins_length(frame) <= frame.t_release + NO_TURN
+    n, shortest = solve_and_measure(frame.x, frame.y, frame.h, frame.alpha, frame.t_release, rows)
+    reachable = shortest <= frame.t_release + NO_TURN
     at_release = _at_release(situation, frame) if reachable else ()
     within = HORIZON * situation.pursuer.tas / frame.radius
     while n > (0 if at_release else 1) and rows[n - 1, 0] > within:
@@ -123,16 +120,6 @@ def _canonical_order(candidate: Candidate) -> tuple[int, float]:
     trajectory = candidate.trajectory
     turning = sum(s.turn_angle for s in trajectory.segments if isinstance(s, Arc))
     return trajectory.turns, turning
-
-
-def _dubins_length(frame: SlotFrame) -> float:
-    """Shortest way to the slot's place at t_release [R]: the extremals to a slot at rest."""
-    end_x = frame.alpha * frame.t_release
-    if hypot(end_x - frame.x, frame.y) > frame.t_release:
-        return float("inf")
-    rows = np.empty((MAX_ROWS, 5))
-    solve(Pose(frame.x - end_x, frame.y, frame.h), 0.0, 0.0, rows)
-    return float(rows[0, 0])
 
 
 def assemble(

@@ -6,6 +6,7 @@ Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 from math import cos, sin
 from typing import NamedTuple
 
+import numpy as np
 from numba import njit
 
 from relguide.kernels.base.roots import FloatArray
@@ -84,6 +85,20 @@ class Contact(NamedTuple):
 def start_at(pose: Pose) -> Start:
     """A pose as a start."""
     return Start(pose.x, pose.y, pose.h, sin(pose.h), cos(pose.h))
+
+
+@njit(cache=True, nogil=True)
+def straight_scene(ahead: float, alpha: float, d_min: float) -> Scene:
+    """A leader that keeps straight, D in front of the slot, which is open from the start.
+
+    Args:
+        ahead: D [R].
+        alpha: V_L/V_P.
+        d_min: least allowed separation [R].
+    """
+    leader = np.zeros((1, 5))
+    leader[0, 1] = ahead
+    return Scene(leader, alpha, d_min, 0.0)
 
 
 @njit(cache=True, nogil=True)

@@ -4,7 +4,7 @@ Pontryagin's principle leaves these words only (a turn, a straight or a turn, a 
 roots are found, so the first row is the global optimum of the unlimited problem.
 """
 
-from math import cos, hypot, sin
+from math import cos, hypot, inf, sin
 
 import numpy as np
 from numba import njit
@@ -50,6 +50,32 @@ def solve(pose: Pose, alpha: float, t_release: float, rows: FloatArray) -> int:
         how many rows.
     """
     return solve_toward(pose, Velocity(alpha, 0.0), t_release, rows)
+
+
+@njit(cache=True, nogil=True)
+def solve_and_measure(
+    x: float, y: float, h: float, alpha: float, t_release: float, rows: FloatArray
+) -> tuple[int, float]:
+    """As `solve`, and how far the slot's place at t_release is, for one call from Python a plan.
+
+    Args:
+        x: the pursuer ahead of the slot [R].
+        y: and left of it [R].
+        h: its heading [rad], in [0, 2π).
+        alpha: V_L/V_P.
+        t_release: earliest arrival [R/V_P].
+        rows: as in `solve`.
+
+    Returns:
+        how many rows, and the length of the shortest path to where the slot opens [R]; infinite if
+        that is more than t_release in a straight line.
+    """
+    n, end_x = solve(Pose(x, y, h), alpha, t_release, rows), alpha * t_release
+    if t_release <= 0.0 or hypot(end_x - x, y) > t_release:
+        return n, inf
+    to_place = np.empty((MAX_ROWS, 5))
+    solve(Pose(x - end_x, y, h), 0.0, 0.0, to_place)
+    return n, to_place[0, 0]
 
 
 @njit(cache=True, nogil=True)

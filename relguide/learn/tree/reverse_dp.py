@@ -21,7 +21,8 @@ from os import cpu_count
 
 import numpy as np
 
-from relguide.kernels.tree.reverse import compass, expand, settle
+from relguide.kernels.base.records import straight_scene
+from relguide.kernels.tree.reverse import Cells, Mesh, Nodes, compass, expand, settle
 from relguide.learn.tree.tree import Floats, Ints, Tree, TreeParameters
 
 BLOCK = 2048
@@ -110,28 +111,24 @@ def grow_order(growth: Growth, *, threads: int | None = None) -> Iterator[Growth
     table = compass(parameters.headings)
     turns = growth.pairs[:, 2] * (1 - 2 * growth.pairs[:, 3])
     turns[growth.pairs[:, 1] == 0] = 0
+    nodes = Nodes(growth.states, growth.headings, turns)
+    scene = straight_scene(
+        encounter.slot_distance / radius,
+        encounter.speed_ratio,
+        encounter.min_separation / radius,
+    )
+    mesh = Mesh(
+        horizon=parameters.horizon * encounter.pursuer_tas / radius,
+        delta_l=parameters.delta_l / radius,
+        cell=parameters.cell / radius,
+        x_low=parameters.x_low / radius,
+        nx=parameters.cells_x,
+        ny=parameters.cells_y,
+    )
+    cells = Cells(growth.best_time, growth.origin, growth.pair)
 
     def work(parents: Ints, heading: int) -> tuple[int, int]:
-        laid, close = expand(
-            parents,
-            growth.states,
-            growth.headings,
-            turns,
-            table,
-            heading,
-            encounter.speed_ratio,
-            encounter.slot_distance / radius,
-            encounter.min_separation / radius,
-            parameters.horizon * encounter.pursuer_tas / radius,
-            parameters.delta_l / radius,
-            parameters.cell / radius,
-            parameters.x_low / radius,
-            parameters.cells_x,
-            parameters.cells_y,
-            growth.best_time,
-            growth.origin,
-            growth.pair,
-        )
+        laid, close = expand(parents, nodes, table, heading, scene, mesh, cells)
         return int(laid), int(close)
 
     # a heading and its mirror image, N − it, go together
@@ -148,27 +145,23 @@ def grow_order(growth: Growth, *, threads: int | None = None) -> Iterator[Growth
             )
             if growth.next < len(growth.latest):
                 yield growth
-    yield _settled(growth)
+    yield _settled(growth, nodes)
 
 
-def _settled(growth: Growth) -> Growth:
+def _settled(growth: Growth, nodes: Nodes) -> Growth:
     """What has improved a cell becomes a node, in the order of the cells."""
     parameters = growth.parameters
     improved = np.flatnonzero(growth.origin.ravel() != NONE)
     first = len(growth.states)
     parents = growth.origin.ravel()[improved]
     pairs = growth.pair.reshape(-1, 4)[improved]
-    states, headings = np.empty((len(improved), 3)), np.empty(len(improved), np.int32)
-    settle(
+    states, headings = settle(
         parents,
         pairs,
-        growth.states,
-        growth.headings,
+        nodes,
         compass(parameters.headings),
         parameters.encounter.speed_ratio,
         parameters.delta_l / parameters.encounter.turn_radius,
-        states,
-        headings,
     )
     nodes = np.arange(first, first + len(improved), dtype=np.int32)
     growth.best.ravel()[improved] = nodes
