@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from math import atan2, cos, hypot, pi, sin
 from typing import NamedTuple
 
+from relguide.kernels.base.angles import wrap
 from relguide.kernels.flight.lateral import lateral_step
 from relguide.units import DEG, Metre, MetrePerSecond, Radian, RadianPerSecond, Second
 
@@ -100,7 +101,7 @@ class GroundVelocity(NamedTuple):
     @property
     def track(self) -> Radian:
         """Direction χ, clockwise from north [rad], in [0, 2π)."""
-        return atan2(self.east, self.north) % (2.0 * pi)
+        return wrap(atan2(self.east, self.north))
 
 
 def ground_velocity(

@@ -1,11 +1,11 @@
 """What guidance announces: its modes and new plans with their reasons, in sentences for a pilot."""
 
 from dataclasses import dataclass
-from math import pi
 from typing import Literal
 
 from relguide.flying.assignment import Observation
 from relguide.flying.commitment import Commitment
+from relguide.kernels.base.angles import wrap_signed
 from relguide.planning.acceptance import Refusal
 from relguide.planning.plan import NoPlan, Plan
 from relguide.units import DEG, KT, NM, MetrePerSecond, Radian
@@ -86,7 +86,7 @@ def leader_change(was: Expectation, seen: Observation, turned: Radian) -> PlanRe
     now = expectation(seen)
     if now.intent_known != was.intent_known:
         return "intent_received" if now.intent_known else "intent_withdrawn"
-    if abs((now.final_heading - was.final_heading + pi) % (2.0 * pi) - pi) > turned:
+    if abs(wrap_signed(now.final_heading - was.final_heading)) > turned:
         return "leader_turned"
     if abs(now.tas - was.tas) > CHANGED_SPEED:
         return "leader_changed_speed"

@@ -6,12 +6,13 @@ A turn rate asked for enters after the heading PID.
 """
 
 from dataclasses import dataclass, field
-from math import atan, pi, tan
 from typing import Literal, assert_never
 
 from relguide.flying.aircraft import AircraftModel, AircraftState
 from relguide.flying.pid import Gains, Pid
-from relguide.units import DEG, G0, Radian, RadianPerSecond, Second
+from relguide.kernels.base.angles import wrap_signed
+from relguide.kernels.base.turn import bank_for_turn_rate, turn_rate
+from relguide.units import DEG, Radian, RadianPerSecond, Second
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,9 +71,9 @@ class Autopilot:
         limit = self.model.max_bank
         match reference:
             case HoldHeading(heading=wanted):
-                rate_limit = G0 / state.tas * tan(limit)
-                rate = G0 / state.tas * tan(state.bank)
-                error = (wanted - state.heading + pi) % (2.0 * pi) - pi
+                rate_limit = turn_rate(state.tas, limit)
+                rate = turn_rate(state.tas, state.bank)
+                error = wrap_signed(wanted - state.heading)
                 if abs(error) > INTEGRATE_WITHIN:
                     self.heading_loop.reset()
                 wanted_rate = self.heading_loop.update(error, -rate, rate_limit, duration)
@@ -80,7 +81,7 @@ class Autopilot:
                 self.heading_loop.reset()
             case _:
                 assert_never(reference)
-        bank = atan(state.tas * wanted_rate / G0)  # eq. (8)
+        bank = bank_for_turn_rate(state.tas, wanted_rate)
         bank = min(max(bank, -limit), limit)
         return self.roll_loop.update(
             bank - state.bank, -state.roll_rate, self.model.max_roll_rate, duration

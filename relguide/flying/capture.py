@@ -9,12 +9,14 @@ fly instead, all bank-limited:
 - speed follows a parabola of the spacing error, so that D is reached with no closing speed left.
 """
 
-from math import cos, pi, sin, sqrt, tan
+from math import cos, sin, sqrt
 from typing import NamedTuple
 
 from relguide.flying.aircraft import AircraftModel, AircraftState
+from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.base.motion import advance
-from relguide.units import DEG, G0, Metre, MetrePerSecond, Radian, RadianPerSecond, Second
+from relguide.kernels.base.turn import turn_rate
+from relguide.units import DEG, Metre, MetrePerSecond, Radian, RadianPerSecond, Second
 
 
 class Slot(NamedTuple):
@@ -62,7 +64,7 @@ def offsets(state: AircraftState, slot: Slot) -> Offsets:
     return Offsets(
         ahead=east * along_east + north * along_north,
         right=east * along_north - north * along_east,
-        heading=(state.heading - slot.heading + pi) % (2.0 * pi) - pi,
+        heading=wrap_signed(state.heading - slot.heading),
     )
 
 
@@ -92,8 +94,8 @@ def closing_turn_rate(
     Returns:
         r [rad/s], positive to the right, within the bank limit.
     """
-    limit = G0 / state.tas * tan(model.max_bank)
-    rate = G0 / state.tas * tan(state.bank)
+    limit = turn_rate(state.tas, model.max_bank)
+    rate = turn_rate(state.tas, state.bank)
     # x along the line, y to its left, as `advance` wants them: a heading of 0 is along y there
     right, _, heading = advance(seen.right, 0.0, seen.heading, state.tas, rate, lead)
     if abs(heading) > TANGENT_ABOVE and right * heading < 0.0:
@@ -106,7 +108,7 @@ def closing_turn_rate(
     reach = INTERCEPT * TRACK_GAIN / CROSS_TRACK_GAIN  # beyond it the intercept angle is full
     bank = -CROSS_TRACK_GAIN * min(max(seen.right, -reach), reach) - TRACK_GAIN * seen.heading
     bank = min(max(bank, -model.max_bank), model.max_bank)
-    return G0 / state.tas * tan(bank)
+    return turn_rate(state.tas, bank)
 
 
 def spacing_tas(

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from math import atan, atan2, ceil, pi
+from math import atan2, ceil, pi
 from typing import assert_never
 
 from relguide.flying.documents import (
@@ -25,6 +25,8 @@ from relguide.flying.documents import (
     WindCard,
 )
 from relguide.flying.verdicts import BoundaryArcCard, ContactCard, CostatesCard, OptimalityCheck
+from relguide.kernels.base.angles import wrap
+from relguide.kernels.base.turn import bank_for_turn_radius
 from relguide.planning.alternatives import (
     Alternative,
     AnyAlternative,
@@ -51,7 +53,7 @@ from relguide.planning.trajectory import (
     Trajectory,
     heading_change,
 )
-from relguide.units import G0, Second
+from relguide.units import Second
 
 VIA: Second = 5.0
 """Time between the points that draw a boundary arc along d_min [s]: chords stray from it by metres.
@@ -175,7 +177,7 @@ def path_segments(
                     TurnSegment(
                         direction="left" if piece.turn == LEFT else "right",
                         angle=piece.turn_angle,
-                        bank=atan(flown.tas**2 / (G0 * piece.radius)),
+                        bank=bank_for_turn_radius(flown.tas, piece.radius),
                         radius=piece.radius,
                         duration=duration,
                         start=start,
@@ -206,7 +208,7 @@ def path_segments(
 
 def wind_card(wind: Wind) -> WindCard:
     """A wind as reports give it: where it comes from, and how strong."""
-    direction = (atan2(wind.east, wind.north) + pi) % (2.0 * pi) if wind.speed > 0.0 else 0.0
+    direction = wrap(atan2(wind.east, wind.north) + pi) if wind.speed > 0.0 else 0.0
     return WindCard(from_=direction, speed=wind.speed)
 
 

@@ -6,13 +6,13 @@ it turns an escape path is kept: a turn and a straight, begun a second later, th
 wherever the leader's turn ends.
 """
 
-from math import pi
 from typing import NamedTuple
 
 import numpy as np
 
 from relguide.flying.aircraft import AircraftModel, roll_lead
 from relguide.flying.capture import Offsets
+from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.turn import turn_rate
 from relguide.kernels.separation import least_bad_turn as kernel
 from relguide.planning.certificate import certify, kernel_arrays
@@ -77,7 +77,7 @@ def escape_path(
         LOOK_AHEAD,
     )
     turned = before[side + 1, 0] * rate + side * angle
-    return EscapePath(heading=(pursuer.heading + turned) % (2.0 * pi), least_separation=least)
+    return EscapePath(heading=wrap(pursuer.heading + turned), least_separation=least)
 
 
 def keeps_clear(seen: Offsets, to_slot: Metre, situation: Situation) -> bool:

@@ -7,7 +7,7 @@ Everything else that flies a plan, live or not, iterates over these documents.
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
-from math import hypot, isfinite, pi
+from math import hypot, isfinite
 from typing import Literal, assert_never
 
 from relguide.flying.aircraft import A300, AircraftModel, AircraftState
@@ -34,6 +34,7 @@ from relguide.flying.orders import LeaderHeading as LeaderHeading
 from relguide.flying.orders import LeaderSpeed as LeaderSpeed
 from relguide.flying.orders import no_commands as no_commands
 from relguide.flying.tracks import RecordedTrack
+from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.base.turn import turn_rate
 from relguide.planning.plan import Plan, Planner
 from relguide.planning.situation import MAX_TAS, MIN_TAS, Situation, TurnTo
@@ -124,7 +125,7 @@ def _fly(
     pursuer = AircraftState(
         situation.pursuer.x,
         situation.pursuer.y,
-        situation.pursuer.heading % (2.0 * pi),
+        wrap(situation.pursuer.heading),
         0.0,
         0.0,
         situation.pursuer.tas,
@@ -240,7 +241,7 @@ def _leader(scenario: Scenario) -> LeaderFlight:
             return leader_on_track(track, 0.0, scenario.situation.wind)
         case DeclaredLeader():
             leader = scenario.situation.leader
-            heading = leader.heading % (2.0 * pi)
+            heading = wrap(leader.heading)
             state = AircraftState(
                 leader.x, leader.y, heading, 0.0, 0.0, leader.tas, scenario.altitude
             )
@@ -315,7 +316,7 @@ def _route_is_news(shown: Observation, seen: Observation) -> bool:
     if abs(shown.leader.tas - seen.leader.tas) > ROUTE_SPEED:
         return True
     final, before = seen.final_heading, shown.final_heading
-    return abs((final - before + pi) % (2.0 * pi) - pi) > ROUTE_TURNED
+    return abs(wrap_signed(final - before)) > ROUTE_TURNED
 
 
 def _whole(duration: Second, step: Second) -> int:

@@ -2,11 +2,12 @@
 
 from bisect import bisect_left
 from dataclasses import dataclass
-from math import cos, hypot, pi, sin
+from math import cos, hypot, sin
 from typing import NamedTuple
 
 from relguide.flying.aircraft import AircraftState, GroundVelocity
 from relguide.flying.capture import Offsets
+from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.units import DEG, Metre, MetrePerSecond, Radian, RadianPerSecond
 
 STRAIGHT: Radian = 2.0 * DEG  # as for joining; an autopilot takes 10 s for the last degree
@@ -49,8 +50,7 @@ class FlownPath:
         heading = self.last.heading
         since = bisect_left(self.marks, self.last.s - slot_distance, key=lambda mark: mark.s)
         return all(
-            abs((mark.heading - heading + pi) % (2.0 * pi) - pi) < STRAIGHT
-            for mark in self.marks[since:]
+            abs(wrap_signed(mark.heading - heading)) < STRAIGHT for mark in self.marks[since:]
         )
 
     def at(self, s: Metre) -> Mark:
@@ -58,12 +58,12 @@ class FlownPath:
         i = min(max(bisect_left(self.marks, s, key=lambda mark: mark.s), 1), len(self.marks) - 1)
         before, after = self.marks[i - 1], self.marks[i]
         share = (s - before.s) / (after.s - before.s)
-        bend = (after.heading - before.heading + pi) % (2.0 * pi) - pi
+        bend = wrap_signed(after.heading - before.heading)
         return Mark(
             s,
             before.x + share * (after.x - before.x),
             before.y + share * (after.y - before.y),
-            (before.heading + share * bend) % (2.0 * pi),
+            wrap(before.heading + share * bend),
             before.track if share < 0.5 else after.track,
             before.turn_rate + share * (after.turn_rate - before.turn_rate),
             before.ground_speed + share * (after.ground_speed - before.ground_speed),
@@ -83,7 +83,7 @@ class FlownPath:
             beyond = (state.x - near.x) * sin(near.track) + (state.y - near.y) * cos(near.track)
             near = self.at(near.s + beyond)
         right = (state.x - near.x) * cos(near.track) - (state.y - near.y) * sin(near.track)
-        heading = (state.heading - near.heading + pi) % (2.0 * pi) - pi
+        heading = wrap_signed(state.heading - near.heading)
         return Offsets(ahead=near.s - slot_s, right=right, heading=heading)
 
 

@@ -7,7 +7,7 @@ is no plan. Every answer is a new memory and an `Advice`: nothing here changes i
 """
 
 from dataclasses import replace
-from math import hypot, pi
+from math import hypot
 
 from relguide.flying.aircraft import ground_velocity
 from relguide.flying.announcements import (
@@ -34,6 +34,7 @@ from relguide.flying.flown_path import extend_path
 from relguide.flying.holding import buffered_separation, hold_heading, reason_to_turn_away
 from relguide.flying.memory import Advice, Memory, enter_mode, is_slot_open
 from relguide.flying.steering import Steering, steer
+from relguide.kernels.base.angles import wrap_signed
 from relguide.planning.plan import Plan, Planner
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import Arc, Trajectory
@@ -69,7 +70,7 @@ def advise(
         if followed is not None:
             return followed
     situation = situation_of(seen, assignment, assignment.min_separation)
-    bend = (seen.final_heading - memory.slot_heading + pi) % (2.0 * pi) - pi
+    bend = wrap_signed(seen.final_heading - memory.slot_heading)
     if memory.mode == "capture" and abs(bend) < TURNED_IN_CAPTURE:
         captured = capture(memory, seen, assignment, situation)
         if captured is not None:

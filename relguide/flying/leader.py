@@ -5,15 +5,17 @@ declared, with half of the roll before that and half after. A recorded leader th
 command leaves its recording there and flies on under its own autopilot.
 """
 
-from math import atan, atan2, cos, hypot, pi, sin, tan
+from math import atan2, cos, hypot, pi, sin
 from typing import Literal, NamedTuple, assert_never
 
 from relguide.flying.aircraft import AircraftModel, AircraftState, roll_lead, step
 from relguide.flying.autopilot import Autopilot, HoldHeading, Reference, TurnRate
 from relguide.flying.tracks import RecordedTrack
+from relguide.kernels.base.angles import wrap, wrap_signed
+from relguide.kernels.base.turn import bank_for_turn_rate, turn_rate
 from relguide.planning.situation import FlyStraight, IntentPiece, TurnTo, Wind
 from relguide.planning.trajectory import LEFT, RIGHT, Turn
-from relguide.units import DEG, G0, MetrePerSecond, Radian, Second
+from relguide.units import DEG, MetrePerSecond, Radian, Second
 
 TurnChoice = Literal["left", "right", "shorter"]
 """Which way round to turn to a heading."""
@@ -69,8 +71,8 @@ def leader_on_track(track: RecordedTrack, t: Second, wind: Wind) -> ReplayedLead
     heading, tas = _air_velocity(chi, ground_speed, wind)
     _, _, later_chi, later_speed, _ = track.state_at(min(t + 1.0, track.duration))
     later, _ = _air_velocity(later_chi, later_speed, wind)
-    rate = (later - heading + pi) % (2.0 * pi) - pi  # over one second
-    bank = atan(tas * rate / G0)
+    rate = wrap_signed(later - heading)  # over one second
+    bank = bank_for_turn_rate(tas, rate)
     return ReplayedLeader(state=AircraftState(x, y, heading, bank, 0.0, tas, altitude), track=track)
 
 
@@ -106,7 +108,7 @@ def turn_leader(
     leader: LeaderFlight, t: Second, heading: Radian, direction: TurnChoice, bank: Radian
 ) -> FlyingLeader:
     """The leader after an order to turn to a heading; its former intent is dropped."""
-    change = (heading - leader.state.heading + pi) % (2.0 * pi) - pi
+    change = wrap_signed(heading - leader.state.heading)
     turn: Turn = LEFT if direction == "left" or (direction == "shorter" and change < 0.0) else RIGHT
     return _leave_recording(leader, t)._replace(
         pieces=(TurnTo(heading=heading, turn=turn, bank=bank),),
@@ -143,7 +145,7 @@ def _reference(leader: FlyingLeader, t: Second, model: AircraftModel) -> Referen
                     return HoldHeading(heading)
             case TurnTo():
                 angle, bank = _angle_left(piece, leader.state), _bank(piece)
-                rate = G0 / leader.state.tas * tan(bank)
+                rate = turn_rate(leader.state.tas, bank)
                 if angle < abs(rate) * roll_lead(model, bank, 0.0) or angle > 2.0 * pi - OVERSHOT:
                     return HoldHeading(piece.heading)
                 return TurnRate(rate)
@@ -159,7 +161,7 @@ def _next_piece(leader: FlyingLeader, state: AircraftState, t: Second) -> Flying
                 if t - since >= first.duration:
                     pieces, since = pieces[1:], since + first.duration
             case TurnTo():
-                off = (state.heading - first.heading + pi) % (2.0 * pi) - pi
+                off = wrap_signed(state.heading - first.heading)
                 if abs(off) < ROLLED_OUT:
                     pieces, since, heading = pieces[1:], t, first.heading
     return FlyingLeader(state=state, pieces=pieces, since=since, heading=heading, tas=leader.tas)
@@ -175,7 +177,7 @@ def _bank(piece: IntentPiece) -> Radian:
 
 def _angle_left(piece: TurnTo, state: AircraftState) -> Radian:
     """How far there is still to turn [rad], in [0, 2π)."""
-    return (-piece.turn * (piece.heading - state.heading)) % (2.0 * pi)
+    return wrap(-piece.turn * (piece.heading - state.heading))
 
 
 def _air_velocity(
@@ -184,4 +186,4 @@ def _air_velocity(
     """Heading and true airspeed of an aircraft, from its velocity over the ground."""
     east = ground_speed * sin(track) - wind.east
     north = ground_speed * cos(track) - wind.north
-    return atan2(east, north) % (2.0 * pi), hypot(east, north)
+    return wrap(atan2(east, north)), hypot(east, north)

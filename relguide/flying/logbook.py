@@ -1,6 +1,6 @@
 """From what happens in flight to the documents that say so, and the figures of its summary."""
 
-from math import cos, hypot, pi, sin
+from math import cos, hypot, sin
 from typing import NamedTuple, assert_never
 
 from relguide.flying.aircraft import AircraftState, ground_velocity
@@ -22,6 +22,7 @@ from relguide.flying.documents import (
     TurnRateReference,
 )
 from relguide.flying.memory import Advice
+from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.base.turn import turn_rate
 from relguide.planning.alternatives import alternatives
 from relguide.planning.situation import IntentPiece, Leader, Wind
@@ -54,7 +55,7 @@ def counted(
     least = min(tally.least_separation, separation)
     if joined:
         return tally._replace(least_separation=least)
-    turned = abs((now.heading - before.heading + pi) % (2.0 * pi) - pi)
+    turned = abs(wrap_signed(now.heading - before.heading))
     side = tally.banked
     if abs(now.bank) > BANKED:
         side = 1 if now.bank > 0.0 else -1
@@ -113,9 +114,7 @@ def sample(
         separation=separation,
         closure=closure,
         least_separation=tally.least_separation,
-        slot=PathPoint(
-            t=t, x=slot_x, y=slot_y, heading=(slot.heading + 2.0 * half_turn) % (2.0 * pi)
-        ),
+        slot=PathPoint(t=t, x=slot_x, y=slot_y, heading=wrap(slot.heading + 2.0 * half_turn)),
         slot_open=advice.slot_open,
         spacing_error=-(dx * slot_east + dy * slot_north) / slot_speed,
         cross_track=(dx * slot_north - dy * slot_east) / slot_speed,

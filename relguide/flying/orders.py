@@ -2,11 +2,12 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from math import isfinite, pi
+from math import isfinite
 from typing import Literal, assert_never
 
 from relguide.flying.documents import LeaderChanged
 from relguide.flying.leader import LeaderFlight, TurnChoice, set_leader_speed, turn_leader
+from relguide.kernels.base.angles import wrap
 from relguide.planning.situation import MAX_TAS, MIN_TAS
 from relguide.units import DEG, KT, MetrePerSecond, Radian, Second
 
@@ -75,7 +76,7 @@ def obey(
             message = f"The leader is instructed to turn to {degrees:03d}°."
             said = LeaderChanged(t=t, change="heading", message=message)
             return (
-                turn_leader(leader, t, heading % (2.0 * pi), direction, bank),
+                turn_leader(leader, t, wrap(heading), direction, bank),
                 known,
                 (said,),
             )

@@ -1,7 +1,6 @@
 """The situation of a flight at its newest sample, read from its documents."""
 
 from collections.abc import Sequence
-from math import pi
 
 from relguide.flying.documents import (
     FlightStarted,
@@ -10,6 +9,7 @@ from relguide.flying.documents import (
     StraightSegment,
     TurnSegment,
 )
+from relguide.kernels.base.angles import wrap
 from relguide.planning.situation import (
     FlyStraight,
     IntentPiece,
@@ -71,7 +71,7 @@ def _remaining_intent(route: LeaderRoute, now: Sample) -> tuple[IntentPiece, ...
                 pieces.append(FlyStraight(duration=left))
             case TurnSegment() if segment.end.t + LATE > now.t:
                 turn = LEFT if segment.direction == "left" else RIGHT
-                to_go = -turn * (segment.end.heading - now.leader.heading) % (2.0 * pi)
+                to_go = wrap(-turn * (segment.end.heading - now.leader.heading))
                 if segment.start.t >= now.t or OVER < to_go <= segment.angle + OVER:
                     pieces.append(TurnTo(heading=segment.end.heading, turn=turn, bank=segment.bank))
     while pieces and isinstance(pieces[-1], FlyStraight):

@@ -5,11 +5,12 @@ by half the duration of the roll to the next one: the same turn is flown with ro
 the first roll-in costs is made good by planning again.
 """
 
-from math import atan, pi
 from typing import NamedTuple
 
 from relguide.flying.aircraft import AircraftModel, roll_lead
 from relguide.flying.autopilot import HoldHeading, Reference, TurnRate
+from relguide.kernels.base.angles import wrap
+from relguide.kernels.base.turn import bank_for_turn_rate
 from relguide.planning.trajectory import (
     Arc,
     BoundaryArc,
@@ -19,7 +20,7 @@ from relguide.planning.trajectory import (
     after,
     heading_change,
 )
-from relguide.units import G0, MetrePerSecond, Radian, RadianPerSecond, Second
+from relguide.units import MetrePerSecond, Radian, RadianPerSecond, Second
 
 HALF_TICK: Second = 0.5
 """Guidance acts once a second, so on average a switch comes half a second late."""
@@ -70,17 +71,17 @@ def steer(trajectory: Trajectory, model: AircraftModel) -> Steering:
             mean = (left * rates[i] + (window - left) * rate_after) / window
             return Steering(TurnRate(mean), segments[i + 1 :])
         heading += heading_change(segment)
-    return Steering(HoldHeading(heading % (2.0 * pi)), ())
+    return Steering(HoldHeading(wrap(heading)), ())
 
 
 def _reference(segment: Segment, heading: Radian, rate: RadianPerSecond) -> Reference:
     match segment:
         case Straight():
-            return HoldHeading(heading % (2.0 * pi))
+            return HoldHeading(wrap(heading))
         case Arc() | BoundaryArc():
             return TurnRate(rate)
 
 
 def _bank(rate: RadianPerSecond, tas: MetrePerSecond) -> Radian:
     """Bank of a turn rate, eq. (8)."""
-    return atan(tas * rate / G0)
+    return bank_for_turn_rate(tas, rate)

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from importlib.metadata import PackageNotFoundError, distribution
-from math import atan2, hypot, inf, isfinite, isnan, nan, pi
+from math import atan2, hypot, inf, isfinite, isnan, nan
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from relguide.flying.smoothing import MIN_POINTS, Array, smooth_motion
+from relguide.kernels.base.angles import wrap
 from relguide.planning.frames import LocalPlane
 from relguide.units import DEG, FT, KT, Metre, MetrePerSecond, Radian, Second
 
@@ -119,7 +120,7 @@ class RecordedTrack:
         return TrackState(
             x=a * x0 + (1.0 - a) * x1 + step * (b * east0 + c * east1) + east * beyond,
             y=a * y0 + (1.0 - a) * y1 + step * (b * north0 + c * north1) + north * beyond,
-            track=atan2(east, north) % (2.0 * pi),
+            track=wrap(atan2(east, north)),
             ground_speed=hypot(east, north),
             altitude=altitude0 + u * (altitude1 - altitude0),
         )

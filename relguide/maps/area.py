@@ -12,6 +12,7 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
+from relguide.kernels.base.angles import wrap
 from relguide.planning.batch import Situations, Times, plan_arrays
 from relguide.planning.situation import Leader, Pursuer, Situation
 from relguide.planning.slot import slot_frame
@@ -62,7 +63,7 @@ class Encounter:
             pursuer=Pursuer(
                 x=x - self.slot_distance,
                 y=y,
-                heading=(0.5 * pi - heading) % (2.0 * pi),
+                heading=wrap(0.5 * pi - heading),
                 tas=self.pursuer_tas,
                 max_bank=self.max_bank,
             ),

@@ -15,13 +15,13 @@ from os import cpu_count
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from relguide.kernels.base.turn import turn_radii
 from relguide.kernels.contact import time_rows as kernel
 from relguide.kernels.words.extremals import WORDS
 from relguide.planning import situation as limits
 from relguide.planning.constrained_path import BEARINGS
 from relguide.planning.inputs import expect, expect_function, truth, whole
 from relguide.planning.words import HORIZON
-from relguide.units import G0
 
 Floats = NDArray[np.float64]
 CHUNK = 512
@@ -252,7 +252,7 @@ def _in_slot_frame(
     # the slot is D behind along the leader's ground track
     share = distance / np.hypot(ground_east, ground_north)
     back_east, back_north = share * ground_east, share * ground_north
-    radius = tas**2 / (G0 * np.tan(bank))
+    radius = turn_radii(tas, bank)
 
     def to_slot(dx: Floats, dy: Floats) -> tuple[Floats, Floats]:
         return (

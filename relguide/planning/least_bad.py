@@ -1,10 +1,11 @@
 """What to do where no plan keeps d_min: the turn that restores separation, or loses least of it."""
 
 from dataclasses import dataclass
-from math import inf, pi
+from math import inf
 
 import numpy as np
 
+from relguide.kernels.base.angles import wrap
 from relguide.kernels.separation.least_bad_turn import soonest_apart, widest_miss
 from relguide.planning.certificate import kernel_arrays
 from relguide.planning.phrases import distance
@@ -81,7 +82,7 @@ def _recovery(situation: Situation, angle: float, least: float, at: float) -> Re
     t = at if at < inf else 0.0
     there = over_ground(situation.leader.trajectory.pose_at(t), t, situation.wind)
     return Recovery(
-        heading=(situation.pursuer.heading + angle) % (2.0 * pi),
+        heading=wrap(situation.pursuer.heading + angle),
         turn_angle=angle,
         least_separation=least,
         at_time=at,

@@ -7,11 +7,11 @@ as the arc it is, which (21)–(24) lay out as a straight.
 """
 
 from dataclasses import dataclass
-from math import cos, inf, pi, sin
+from math import cos, inf, sin
 
 import numpy as np
 
-from relguide.kernels.base.angles import wrap_signed
+from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.base.motion import advance
 from relguide.kernels.separation.approach import closest_of_straights, least_separation
 from relguide.kernels.separation.clearance import SLACK
@@ -96,7 +96,7 @@ def evaluate(regular: RegularTrajectory, situation: Situation) -> RegularEvaluat
     at_end = leader.pose_at(duration)
     east, north, _ = slot_offset(at_end.heading, leader.tas, situation)
     slot = Pose(x=at_end.x + east, y=at_end.y + north, heading=at_end.heading)
-    present = Pose(x=pursuer.x, y=pursuer.y, heading=pursuer.heading % (2.0 * pi))
+    present = Pose(x=pursuer.x, y=pursuer.y, heading=wrap(pursuer.heading))
     nodes, separations, t = [present], [], 0.0
     for pair in reversed(regular.triplets):
         separations.append(_separation(pair, nodes[-1], t, leader, situation))
@@ -128,7 +128,7 @@ def _fly(pair: Triplet, pose: Pose, situation: Situation) -> Pose:
     rate, turning, straight = _rate_and_times(pair, situation)
     x, y, heading = advance(pose.x, pose.y, pose.heading, tas, rate, turning)
     x, y, heading = advance(x, y, heading, tas, 0.0, straight)
-    return Pose(x=x, y=y, heading=heading % (2.0 * pi))
+    return Pose(x=x, y=y, heading=wrap(heading))
 
 
 def _fly_back(pair: Triplet, pose: Pose, situation: Situation) -> Pose:
@@ -136,7 +136,7 @@ def _fly_back(pair: Triplet, pose: Pose, situation: Situation) -> Pose:
     rate, turning, straight = _rate_and_times(pair, situation)
     x, y, heading = advance(pose.x, pose.y, pose.heading, tas, 0.0, -straight)
     x, y, heading = advance(x, y, heading, tas, rate, -turning)
-    return Pose(x=x, y=y, heading=heading % (2.0 * pi))
+    return Pose(x=x, y=y, heading=wrap(heading))
 
 
 def _off(pose: Pose, due: Pose, leader_heading: Radian) -> EndError:

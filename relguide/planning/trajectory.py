@@ -5,9 +5,10 @@ The paper numbers the pieces backward from the slot; here they run forward from 
 
 from dataclasses import dataclass
 from itertools import chain
-from math import inf, isfinite, pi
+from math import inf, isfinite
 from typing import Literal
 
+from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.motion import advance
 from relguide.planning.inputs import number, turn_sign
 from relguide.units import Metre, MetrePerSecond, Radian, RadianPerSecond, Second
@@ -194,16 +195,16 @@ class Trajectory:
             left -= duration
             if left <= 0.0:
                 break
-        return Pose(x=x, y=y, heading=heading % (2.0 * pi))
+        return Pose(x=x, y=y, heading=wrap(heading))
 
     def breakpoints(self) -> tuple[Pose, ...]:
         """Start of the first segment, then the end of each."""
-        poses = [Pose(x=self.x, y=self.y, heading=self.heading % (2.0 * pi))]
+        poses = [Pose(x=self.x, y=self.y, heading=wrap(self.heading))]
         x, y, heading = self.x, self.y, self.heading
         for segment in self.segments:
             for length, curvature in segment.bends:
                 x, y, heading = advance(x, y, heading, 1.0, curvature, length)
-            poses.append(Pose(x=x, y=y, heading=heading % (2.0 * pi)))
+            poses.append(Pose(x=x, y=y, heading=wrap(heading)))
         return tuple(poses)
 
 

@@ -260,7 +260,7 @@ def round_bound(
         other_half: of the other cell.
     """
     sign = 1.0 - 2.0 * way
-    gap = (sign * (other_bearing - bearing)) % TWO_PI - half - other_half
+    gap = wrap(sign * (other_bearing - bearing)) - half - other_half
     if gap <= 0.0 or gap + 2.0 * (half + other_half) >= TWO_PI:
         return 0.0
     begin, end = bearing + sign * half, other_bearing - sign * other_half

@@ -18,7 +18,7 @@ from math import atan2, cos, hypot, inf, pi, sin
 
 from numba import njit
 
-from relguide.kernels.base.angles import TWO_PI
+from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.motion import advance
 from relguide.kernels.base.roots import FloatArray
 
@@ -86,7 +86,7 @@ def least_switching(
     least = inf
     for k in range(4):
         if k < 2:
-            t = ((along + pi * k - psi) * -wanted % TWO_PI) / abs(r)
+            t = wrap((along + pi * k - psi) * -wanted) / abs(r)
         else:
             t = duration * (k - 2)
         if t <= duration:

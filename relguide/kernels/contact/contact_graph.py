@@ -14,7 +14,7 @@ from math import inf
 import numpy as np
 from numba import njit
 
-from relguide.kernels.base.angles import TWO_PI, wrap_signed
+from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.base.records import Pose
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain import BOUNDARY_ARC, MAX_CONTACTS, WORD, earliest_contact
@@ -59,7 +59,7 @@ def _next(
             break
         m, gap = -1, inf
         for j in range(size):
-            ahead = (way * (bearings[group + j] - bearing)) % TWO_PI
+            ahead = wrap(way * (bearings[group + j] - bearing))
             if 1e-9 < ahead < gap:
                 m, gap = group + j, ahead
         left = leader[i + 1, 0] - t if i + 1 < len(leader) else inf
@@ -84,7 +84,7 @@ def _onward(
     The bound is the arrival without the limit, or when the slot opens: what is early may wait.
     """
     x, y, h = contact_at(leader, t, bearing, side, alpha, delta)
-    n = solve(Pose(x - alpha * t, y, h % TWO_PI), alpha, 0.0, rows)
+    n = solve(Pose(x - alpha * t, y, wrap(h)), alpha, 0.0, rows)
     if n == 0:
         return inf, inf
     lower = max(t + rows[0, 0], t_release)

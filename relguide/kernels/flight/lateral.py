@@ -1,9 +1,10 @@
 """One step of an aircraft: roll mode, coordinated turn, speed, drift with the wind."""
 
-from math import exp, pi
+from math import exp
 
 from numba import njit
 
+from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.motion import advance
 from relguide.kernels.base.turn import turn_rate
 
@@ -63,7 +64,7 @@ def lateral_step(
     return (
         x_end + wind_east * dt,
         y_end + wind_north * dt,
-        psi_end % (2.0 * pi),
+        wrap(psi_end),
         phi_end,
         p_end,
         v_end,

@@ -148,7 +148,7 @@ def free_length(end: State, scene: Scene) -> float:
     root = along * along - speed_squared * spare
     if root <= 0.0:
         return inf
-    return (-along - sqrt(root)) / speed_squared
+    return float((-along - sqrt(root)) / speed_squared)
 
 
 @njit(cache=True, nogil=True)

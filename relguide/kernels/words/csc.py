@@ -29,7 +29,7 @@ from math import acos, atan2, cos, hypot, pi, sin, sqrt
 import numpy as np
 from numba import njit
 
-from relguide.kernels.base.angles import TWO_PI, turn_to
+from relguide.kernels.base.angles import TWO_PI, turn_to, wrap
 from relguide.kernels.base.records import Pose, Velocity
 from relguide.kernels.base.roots import MAX_CUTS, FloatArray, all_roots, insert_cut
 
@@ -50,7 +50,7 @@ def lsl(pose: Pose, target: Velocity, out: FloatArray, n: int) -> int:
     (x, y, h), (ax, ay) = pose, target
     cx, cy = x - sin(h), y + cos(h)
     one_less = 1.0 - ax * ax - ay * ay
-    around = (TWO_PI - h) % TWO_PI
+    around = wrap(TWO_PI - h)
     for k in range(2):
         turned = around + TWO_PI * k
         ex, ey = ax * turned - cx, ay * turned + 1.0 - cy

@@ -78,7 +78,7 @@ def lsl_before(start: Start, alpha: float, window: Window, scratch: Scratch) -> 
     cx, cy = x - sin_h, y + cos_h
     one_less = 1.0 - alpha * alpha
     ey = 1.0 - cy
-    turned = (TWO_PI - h) % TWO_PI
+    turned = wrap(TWO_PI - h)
     for _ in range(2):
         ex = alpha * turned - cx
         b = alpha * ex

@@ -7,11 +7,12 @@ certificate.
 """
 
 from dataclasses import dataclass, replace
-from math import atan, inf
+from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
 
+from relguide.kernels.base.turn import bank_for_turn_radius
 from relguide.kernels.contact.constrained_rows import limit_binds_rows
 from relguide.kernels.networks.branch_scores import judge_rows
 from relguide.kernels.words.branches import SIZE
@@ -32,7 +33,7 @@ from relguide.learn.words.branch_network import BranchNetwork
 from relguide.learn.words.train_branches import NEAR
 from relguide.planning.situation import Leader, Pursuer, Situation
 from relguide.planning.words import HORIZON
-from relguide.units import G0, MetrePerSecond, Second
+from relguide.units import MetrePerSecond, Second
 
 UNIT: Second = 40.0
 """R/V_P of the airliner in whose seconds delays are told, and that the planner is asked for."""
@@ -120,7 +121,7 @@ def _planned(ways: TemplateNetwork, network: BranchNetwork, row: Floats) -> floa
 def situation_of(row: Floats) -> Situation:
     """An airliner there: the leader at the origin, on heading north."""
     x, y, h, alpha, slot, limit = row.tolist()
-    bank = atan(TAS / (G0 * UNIT))
+    bank = bank_for_turn_radius(TAS, TAS * UNIT)
     radius = TAS * UNIT
     return Situation(
         pursuer=Pursuer(

@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from relguide.kernels.base.angles import wrap_each
 from relguide.kernels.base.records import Pose, Velocity
 from relguide.kernels.networks.branch_scores import choose, judge_rows
 from relguide.kernels.words.branches import BRANCHES, SIZE, WORD_OF
@@ -225,7 +226,7 @@ def ends_of(pairs: Floats, situations: Floats) -> Floats:
         x = x + turn * (np.sin(after) - np.sin(h)) + length * np.cos(after)
         y = y - turn * (np.cos(after) - np.cos(h)) + length * np.sin(after)
         h, spent = after, spent + angle + length
-    off = np.abs((h + pi) % (2.0 * pi) - pi)
+    off = np.abs(wrap_each(h + pi) - pi)
     return np.column_stack((np.hypot(x - alpha * spent, y), off))
 
 

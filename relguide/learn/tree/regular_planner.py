@@ -17,11 +17,11 @@ tree only says which word to solve.
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from math import pi
 from time import perf_counter_ns
 
 import numpy as np
 
+from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.records import Pose, Velocity
 from relguide.kernels.words.branches import direct_time
 from relguide.kernels.words.extremals import MAX_ROWS, WORDS, fly_piece, solve_word
@@ -126,7 +126,7 @@ def _closed(
     for letter, amount in flown:
         x, y, h = fly_piece(Pose(x, y, h), SIGN[letter], amount)
     spent = sum(amount for _, amount in flown)
-    seen = Pose(x - frame.alpha * spent, y, h % (2.0 * pi))
+    seen = Pose(x - frame.alpha * spent, y, wrap(h))
     rows, room, n = np.empty((MAX_ROWS, 5)), np.empty((MAX_ROWS, 4)), 0
     for word in words_like(rest):
         n = solve_word(seen, Velocity(frame.alpha, 0.0), 0.0, word, room, rows, n)

@@ -163,8 +163,8 @@ def _settled(growth: Growth, nodes: Nodes) -> Growth:
         parameters.encounter.speed_ratio,
         parameters.delta_l / parameters.encounter.turn_radius,
     )
-    nodes = np.arange(first, first + len(improved), dtype=np.int32)
-    growth.best.ravel()[improved] = nodes
+    numbers = np.arange(first, first + len(improved), dtype=np.int32)
+    growth.best.ravel()[improved] = numbers
     growth.origin.fill(NONE)
     return replace(
         growth,
@@ -175,7 +175,7 @@ def _settled(growth: Growth, nodes: Nodes) -> Growth:
         parents=np.concatenate((growth.parents, parents)),
         pairs=np.concatenate((growth.pairs, pairs)),
         # a straight before a straight is one straight, which its parent's own children have
-        latest=nodes[pairs[:, 1] > 0],
+        latest=numbers[pairs[:, 1] > 0],
     )
 
 

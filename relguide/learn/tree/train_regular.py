@@ -5,11 +5,11 @@ The same tree, options and number of threads give the same weights on the same C
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from math import pi
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.records import Pose
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, solve
 from relguide.learn.training.fitting import Scaled, arrays_of, begin, origin_of, scaled, split
@@ -103,7 +103,7 @@ def exact_pairs(x: Floats, y: Floats, h: Floats, parameters: TreeParameters) -> 
     for i, (ahead, left, heading) in enumerate(
         zip(x.tolist(), y.tolist(), h.tolist(), strict=True)
     ):
-        solve(Pose(ahead, left, heading % (2.0 * pi)), alpha, 0.0, rows)
+        solve(Pose(ahead, left, wrap(heading)), alpha, 0.0, rows)
         at = 0
         signs = SIGNS[int(rows[0, 1])]
         for sign, amount in zip(signs, rows[0, 2:], strict=True):

@@ -22,6 +22,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from relguide.kernels.base.angles import wrap_each
 from relguide.kernels.words.branches import BRANCHES, SIZE, WORD_OF, branch_times
 from relguide.kernels.words.extremals import SIGNS
 from relguide.learn.training.chunks import gathered
@@ -178,7 +179,7 @@ def times_of(situations: Floats) -> Floats:
 def canonical(situations: Floats) -> Floats:
     """Situations on the right of the route replaced by their mirror images."""
     x, y, h, alpha = situations.T
-    h = _heading(h)
+    h = wrap_each(h)
     mirrored = np.where(h > 0.0, 2.0 * pi - h, 0.0)
     return np.column_stack((x, np.abs(y), np.where(on_the_right(situations), mirrored, h), alpha))
 
@@ -186,14 +187,8 @@ def canonical(situations: Floats) -> Floats:
 def on_the_right(situations: Floats) -> NDArray[np.bool_]:
     """Which situations lie right of the route, or on it and lead there."""
     _, y, h, _ = situations.T
-    right: NDArray[np.bool_] = (y < 0.0) | ((y == 0.0) & (_heading(h) > pi))
+    right: NDArray[np.bool_] = (y < 0.0) | ((y == 0.0) & (wrap_each(h) > pi))
     return right
-
-
-def _heading(h: Floats) -> Floats:
-    """In [0, 2π): a tiny negative one rounds to 2π itself."""
-    h = h % (2.0 * pi)
-    return np.where(h >= 2.0 * pi, 0.0, h)
 
 
 def _in_box(rng: np.random.Generator, box: Box, size: int) -> Floats:

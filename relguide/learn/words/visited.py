@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from relguide.flying.flight import Scenario, fly
+from relguide.kernels.base.angles import wrap
 from relguide.planning.plan import NoPlan, Plan, Planner, plan
 from relguide.planning.situation import (
     FlyStraight,
@@ -105,7 +106,7 @@ def draw_flight(rng: np.random.Generator, *, ratios: tuple[float, float] = (0.6,
         heading -= turn * float(rng.uniform(10.0, 150.0)) * DEG
         intent.append(FlyStraight(duration=float(rng.uniform(0.0, 300.0))))
         bank = float(rng.uniform(15.0, 30.0)) * DEG
-        intent.append(TurnTo(heading=heading % (2.0 * pi), turn=turn, bank=bank))
+        intent.append(TurnTo(heading=wrap(heading), turn=turn, bank=bank))
     return Scenario(
         name="visited",
         title="Visited",
