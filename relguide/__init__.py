@@ -17,6 +17,7 @@ d_min. Five conventions hold everywhere:
 import importlib
 import typing
 
+from relguide.kernels import cache
 from relguide.planning.certificate import Certificate as Certificate
 from relguide.planning.certificate import certify as certify
 from relguide.planning.plan import NoPlan as NoPlan
@@ -116,3 +117,6 @@ def __getattr__(name: str) -> typing.Any:
 def __dir__() -> list[str]:
     """All public names, loaded or not."""
     return sorted({*globals(), *_ON_DEMAND})
+
+
+cache.adopt()

@@ -1,18 +1,28 @@
-"""`python -m relguide.warm_up`: compile every kernel once, at installation, and keep the result.
+"""`python -m relguide.warm_up`: compile kernels ahead of their use, and keep the result.
 
-Numba compiles a kernel when it is first called, which takes a minute for all of them, and reads it
-from disk ever after (`kernels/cache.py`). So here everything that calls a kernel is done once, on
-situations that lead through all branches. `tests/relguide/test_warm_up.py` sees that none is
-missing.
+Numba compiles a kernel when it is first called, minutes for all of them, and reads it from disk
+ever after (`kernels/cache.py`). So here everything that calls a kernel is done once, on situations
+that lead through all branches. `tests/relguide/test_warm_up.py` sees that none is missing.
+
+It is done in steps, each in a process of its own, since numba compiles one function at a time in a
+process. A step begins once those it builds on are done, and reads from disk what they compiled.
 """
 
+import argparse
+import os
+import subprocess
 import sys
-from collections.abc import Callable, Iterator
-from dataclasses import replace
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from importlib.util import find_spec
 from itertools import islice
 from math import pi
+from queue import Empty, Queue
+from threading import Thread
+from typing import NamedTuple, TextIO
 
 from relguide.kernels import cache
+from relguide.kernels.compiling import each_kernel, first_use
 from relguide.planning.progress import watched
 from relguide.planning.situation import (
     FlyStraight,
@@ -26,81 +36,258 @@ from relguide.planning.situation import (
 from relguide.planning.trajectory import LEFT, RIGHT
 from relguide.units import DEG
 
-Step = tuple[str, float, Callable[[], object]]
-"""What is compiled, how long that takes [s], and what does it."""
-SAMPLES = 100
+SAMPLES = 400
 """Documents of a flight after which its every kernel has been called."""
+SETS = {
+    "plan": ("flying", "limited", "proofs"),
+    "serve": ("flying", "limited", "areas", "proofs", "bulk"),
+    "all": ("flying", "limited", "areas", "proofs", "bulk", "networks", "tree", "learning"),
+}
+"""What `--for` may name, and its steps in the order they are begun."""
+POLL = 0.2
+"""How often it is looked whether to stop [s]."""
 
 
-def main() -> None:
-    """Compile what is not compiled yet, and say where it is kept."""
-    if cache.filled(cache.folder()):
-        sys.stdout.write("The kernels are compiled.\n")
-        return
-    warm_up()
-    sys.stdout.write(f"The kernels are compiled and kept in {cache.folder()}.\n")
+@dataclass(frozen=True, slots=True)
+class Step:
+    """Kernels that are compiled together."""
+
+    title: str
+    seconds: float
+    """Of one core, about: what a share of the whole is reckoned by."""
+    run: Callable[[], None]
+    """Calls the kernels."""
+    after: tuple[str, ...] = ()
+    """Steps whose kernels these are built on."""
+    packages: tuple[str, ...] = ()
+    """What it needs beside numpy and numba; without them it is left out."""
 
 
-def warm_up() -> None:
-    """Call every kernel, with a progress bar if that takes long; at once if all are on disk."""
-    if cache.filled(cache.folder()):
-        return
-    steps = _steps()
-    total = sum(seconds for _, seconds, _ in steps)
-    for _ in watched(_done(steps), title="compiling the kernels", total=total, done=float):
-        pass
-    cache.record(cache.folder())
+class Preparing(NamedTuple):
+    """How far it has come."""
+
+    title: str
+    """What is being compiled."""
+    share: float
+    """Of that, 0 to 1."""
+    seconds: float
+    """Of all steps, reckoned as in `Step.seconds`."""
+    done: tuple[str, ...]
+    """Steps that are compiled, by name."""
 
 
-def _done(steps: tuple[Step, ...]) -> Iterator[float]:
-    """Take the steps; yields how far each has brought us [s]."""
-    reached = 0.0
-    yield reached
-    for name, seconds, step in steps:
-        if not sys.stderr.isatty():
-            sys.stderr.write(f"compiling {name} …\n")
-        step()
-        reached += seconds
-        yield reached
+class _News(NamedTuple):
+    step: str
+    seconds: float
+    ended: bool = False
+    complaint: str = ""
 
 
-def _steps() -> tuple[Step, ...]:
-    return (
-        ("the extremals and the certificate", 11.0, _plan_free),
-        ("the ways round the limit", 30.0, _plan_limited),
-        ("what to do where there is none", 4.0, _plan_none),
-        ("the proofs of optimality", 15.0, _conditions),
-        ("plans in bulk", 30.0, _bulk),
-        ("the convergence area", 6.0, _area),
-        ("reverse dynamic programming", 4.0, _tree),
-        ("the networks", 40.0, _network),
-        ("the closed loop", 3.0, _flight),
+class WarmUpError(RuntimeError):
+    """A step broke off."""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Compile what is not compiled yet, and say where it is kept.
+
+    Returns:
+        the exit code.
+    """
+    parser = argparse.ArgumentParser(prog="python -m relguide.warm_up", description=__doc__)
+    parser.add_argument(
+        "--for", dest="wanted", choices=SETS, default="all", help="what for (default: all)"
     )
+    parser.add_argument(
+        "--jobs", type=int, default=os.cpu_count() or 1, help="processes (default: one a core)"
+    )
+    parser.add_argument("--step", choices=STEPS, help=argparse.SUPPRESS)
+    chosen = parser.parse_args(arguments)
+    if chosen.step:
+        _work(chosen.step)
+        return 0
+    wanted = SETS[chosen.wanted]
+    for name in wanted:
+        if not _available(name):
+            sys.stderr.write(f"Left out, since packages are missing: {STEPS[name].title}.\n")
+    left = missing(wanted)
+    if left:
+        warm_up(left, jobs=chosen.jobs)
+    kept = f"kept in {cache.folder()}" if left else "in place"
+    sys.stdout.write(f"The kernels are compiled and {kept}.\n")
+    return 0
 
 
-def _plan_free() -> None:
+def missing(wanted: Iterable[str]) -> tuple[str, ...]:
+    """The steps of these that are still to be compiled, and can be."""
+    place = cache.folder()
+    return tuple(name for name in wanted if _available(name) and not cache.warm(name, place))
+
+
+def warm_up(wanted: Sequence[str], *, jobs: int) -> None:
+    """Compile the kernels of some steps, with a progress bar if that takes long."""
+    total = sum(STEPS[name].seconds for name in wanted)
+    shown = ""
+    for state in watched(
+        prepare(wanted, jobs=jobs),
+        title="compiling",
+        total=total,
+        done=lambda state: state.seconds,
+        state=lambda state: state.title,
+    ):
+        if state.title not in (shown, "") and not sys.stderr.isatty():
+            sys.stderr.write(f"compiling {state.title} …\n")
+        shown = state.title
+
+
+def prepare(
+    wanted: Sequence[str], *, jobs: int, stopped: Callable[[], bool] = lambda: False
+) -> Iterator[Preparing]:
+    """Compile the kernels of some steps in processes of their own; yields how far that is.
+
+    Args:
+        wanted: names of steps, in the order they are begun.
+        jobs: how many processes there may be at a time.
+        stopped: looked at now and then; once it is true, the processes are ended.
+
+    Raises:
+        WarmUpError: if a step breaks off, with what it wrote.
+    """
+    pending, done = list(wanted), tuple[str, ...]()
+    spent = dict.fromkeys(wanted, 0.0)
+    running: dict[str, subprocess.Popen[str]] = {}
+    news: Queue[_News] = Queue()
+    try:
+        while pending or running:
+            for name in _ready(pending, running)[: max(1, jobs) - len(running)]:
+                pending.remove(name)
+                running[name] = _begin(name, news)
+            yield _state(running, spent, done)
+            heard = _next(news, stopped)
+            if heard is None:
+                return
+            name = heard.step
+            spent[name] += heard.seconds
+            if not heard.ended:
+                continue
+            if running.pop(name).wait() != 0:
+                raise WarmUpError(f"Compiling {STEPS[name].title} broke off.\n{heard.complaint}")
+            spent[name] = STEPS[name].seconds
+            done += (name,)
+            cache.record([name], cache.folder())
+        if all(cache.warm(name, cache.folder()) for name in STEPS):
+            cache.record([cache.EVERYTHING], cache.folder())
+        yield _state(running, spent, done)
+    finally:
+        for process in running.values():
+            process.terminate()
+            process.wait()
+
+
+def _ready(pending: Sequence[str], running: Iterable[str]) -> list[str]:
+    """Steps that nothing before them holds up."""
+    unfinished = {*pending, *running}
+    return [name for name in pending if not unfinished.intersection(STEPS[name].after)]
+
+
+def _begin(name: str, news: "Queue[_News]") -> "subprocess.Popen[str]":
+    process = subprocess.Popen(
+        [sys.executable, "-m", "relguide.warm_up", "--step", name],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    )
+    Thread(target=_listen, args=(name, process.stdout, news), daemon=True).start()
+    return process
+
+
+def _listen(name: str, lines: TextIO, news: "Queue[_News]") -> None:
+    """Pass on what a process writes: a number is the seconds of a kernel, all else a complaint."""
+    complaint = ""
+    with lines:
+        for line in lines:
+            try:
+                news.put(_News(name, float(line)))
+            except ValueError:
+                complaint += line
+    news.put(_News(name, 0.0, ended=True, complaint=complaint))
+
+
+def _next(news: "Queue[_News]", stopped: Callable[[], bool]) -> "_News | None":
+    while not stopped():
+        try:
+            return news.get(timeout=POLL)
+        except Empty:
+            continue
+    return None
+
+
+def _state(running: Iterable[str], spent: dict[str, float], done: tuple[str, ...]) -> Preparing:
+    # a slower machine than the one the seconds were measured on: not at 100 % before it is done
+    reached = {name: min(spent[name], 0.99 * STEPS[name].seconds) for name in running}
+    total = sum(reached.values()) + sum(STEPS[name].seconds for name in done)
+    for name in reached:  # the first one begun
+        return Preparing(STEPS[name].title, reached[name] / STEPS[name].seconds, total, done)
+    return Preparing("", 1.0, total, done)
+
+
+def _work(name: str) -> None:
+    """A step in this process, which is started for it; writes the seconds each kernel took."""
+    if hasattr(os, "nice"):
+        os.nice(5)  # who flies or plans meanwhile comes first
+    first_use.announced = True
+
+    def say(seconds: float) -> None:
+        sys.stdout.write(f"{seconds:.3f}\n")
+        sys.stdout.flush()
+
+    with each_kernel(say):
+        STEPS[name].run()
+
+
+def _available(name: str) -> bool:
+    return all(find_spec(package) for package in STEPS[name].packages)
+
+
+def _flying() -> None:
+    from relguide.flying.flight import fly
+    from relguide.flying.scenarios import scenario
     from relguide.planning.plan import plan
 
+    for _ in islice(fly(scenario("fig_6b"), plan), SAMPLES):
+        pass
     plan(_situation(-40e3, 40e3, 90.0))
     plan(_situation(-20e3, 5e3, 0.0, intent=TURNING))
 
 
-def _plan_limited() -> None:
-    from relguide.planning.plan import plan
+def _limited() -> None:
+    from relguide.flying.flight import fly
+    from relguide.flying.scenarios import scenario
+    from relguide.planning.alternatives import alternatives
+    from relguide.planning.plan import Plan, plan
 
     for situation in LIMITED:
-        plan(situation)
-
-
-def _plan_none() -> None:
-    from relguide.planning.plan import plan
-
+        planned = plan(situation)
+        if isinstance(planned, Plan):
+            alternatives(planned)
     plan(_situation(10.0, 500.0, 0.0))
     plan(_situation(-9200.0, 16_300.0, 136.0, tas=205.0))
+    lost = replace(scenario("fig_6b"), situation=_situation(10.0, 500.0, 0.0))
+    for _ in islice(fly(lost, plan), SAMPLES):
+        pass
 
 
-def _conditions() -> None:
-    from relguide.planning.alternatives import alternatives
+def _areas() -> None:
+    from relguide.learn.words.area_words import area_words
+    from relguide.learn.words.branch_network import load_network
+    from relguide.maps.isochrones import Grid, isochrones
+
+    grid = Grid(x=0.0, y=0.0, columns=9, rows=9)
+    isochrones(LIMITED[1], grid)
+    area_words(load_network(), LIMITED[1], grid)
+
+
+def _proofs() -> None:
     from relguide.planning.optimality import check
     from relguide.planning.plan import Plan, plan
     from relguide.planning.prove import prove
@@ -110,7 +297,6 @@ def _conditions() -> None:
     for situation in (_situation(-40e3, 40e3, 90.0), *LIMITED):
         planned = plan(situation)
         if isinstance(planned, Plan):
-            alternatives(planned)
             check(planned, situation)
             prove(planned, seconds=0.1)
             if "B" not in planned.word and not situation.leader.intent:
@@ -120,6 +306,7 @@ def _conditions() -> None:
 
 
 def _bulk() -> None:
+    from relguide.maps.isochrones import Grid, isochrones
     from relguide.planning.batch import Situations, plan_arrays
 
     plan_arrays(
@@ -128,16 +315,16 @@ def _bulk() -> None:
             max_bank=25 * DEG, leader_tas=200.0, slot_distance=12e3, min_separation=9e3,
         )
     )  # fmt: skip
+    isochrones(LIMITED[0], Grid(x=0.0, y=0.0, columns=3, rows=3), exact=True)
 
 
-def _area() -> None:
-    from relguide.learn.words.area_words import area_words
+def _networks() -> None:
+    from relguide.learn.network_planner import network_planner
     from relguide.learn.words.branch_network import load_network
-    from relguide.maps.isochrones import Grid, isochrones
 
-    grid = Grid(x=0.0, y=0.0, columns=9, rows=9)
-    isochrones(LIMITED[1], grid)
-    area_words(load_network(), LIMITED[1], grid)
+    planner = network_planner(load_network())
+    for situation in (_situation(-40e3, 40e3, 90.0), *LIMITED):
+        planner(situation)
 
 
 def _tree() -> None:
@@ -160,7 +347,7 @@ def _tree() -> None:
     regular_planner(_situation(0.0, 30e3, 180.0))
 
 
-def _network() -> None:
+def _learning() -> None:
     from numpy.random import default_rng
 
     from relguide.learn.audits.branch_judging import audit_request, judge_chunk, latencies
@@ -169,14 +356,10 @@ def _network() -> None:
     from relguide.learn.boundary.template_labels import LimitRequest, later, limit_chunk
     from relguide.learn.boundary.template_network import load_template_network, template_features_of
     from relguide.learn.boundary.train_templates import taught
-    from relguide.learn.network_planner import network_planner
     from relguide.learn.words.branch_labels import LabelRequest, label_chunk
     from relguide.learn.words.branch_network import features_of, load_network
 
     network = load_network()
-    planner = network_planner(network)
-    for situation in (_situation(-40e3, 40e3, 90.0), *LIMITED):
-        planner(situation)
     limited = limit_chunk(LimitRequest(count=10), 0)
     template_features_of(limited.situations)
     taught(later(limited.ways, default_rng(0)))
@@ -186,18 +369,6 @@ def _network() -> None:
     ways = load_template_network()
     judge_template_chunk(ways, network, template_request(ways, 10, 1), 0)
     template_latencies(ways, limited.situations)
-
-
-def _flight() -> None:
-    from relguide.flying.flight import fly
-    from relguide.flying.scenarios import scenario
-    from relguide.planning.plan import plan
-
-    flown = scenario("fig_6b")
-    lost = replace(flown, situation=_situation(10.0, 500.0, 0.0))
-    for flight in (flown, lost):
-        for _ in islice(fly(flight, plan), SAMPLES):
-            pass
 
 
 def _situation(
@@ -247,6 +418,17 @@ LIMITED = (
 """Where d_min is touched: once, while the leader turns, along a boundary arc, before the slot
 opens.
 """
+STEPS = {
+    "flying": Step("flights and plans without the limit", 17.0, _flying),
+    "limited": Step("the limited search", 53.0, _limited, after=("flying",)),
+    "areas": Step("areas", 10.0, _areas, after=("flying",), packages=("contourpy",)),
+    "proofs": Step("proofs of optimality", 7.0, _proofs, after=("limited",)),
+    "bulk": Step("plans in bulk", 9.0, _bulk, after=("limited",), packages=("contourpy",)),
+    "networks": Step("networks", 30.0, _networks, after=("limited",)),
+    "tree": Step("the tree", 2.0, _tree, after=("flying",)),
+    "learning": Step("learning", 20.0, _learning, after=("networks",), packages=("torch",)),
+}
+"""All of them, by name."""
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -12,6 +12,8 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, settings
 
+from relguide.kernels.compiling import first_use
+
 APART = ("bench", "browser")
 
 # The first call of a kernel compiles it, so no example has a deadline.
@@ -21,6 +23,9 @@ settings.register_profile(
 settings.register_profile("explore", settings.get_profile("same"), derandomize=False)
 settings.register_profile("quick", settings.get_profile("same"), max_examples=10)
 settings.load_profile("same")
+
+# What is compiled on the way is not what a test asks about.
+first_use.announced = True
 
 
 @pytest.fixture(autouse=True)

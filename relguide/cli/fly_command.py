@@ -8,7 +8,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from relguide.cli.options import add_planner, make_planner
-from relguide.cli.output import DONE, FAILED, compile_kernels, say, write_json
+from relguide.cli.output import DONE, FAILED, say, write_json
 from relguide.cli.situation_file import read_situation
 from relguide.planning.extras import need
 
@@ -45,7 +45,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(chosen: argparse.Namespace) -> int:
     """Fly, and print how it went: did it join, and keep d_min?"""
     need("pydantic", "orjson", "rich")
-    compile_kernels()
     from relguide.contract.recorder import record
     from relguide.contract.story import failures, figures, story_of
     from relguide.flying.flight import fly

@@ -34,14 +34,6 @@ def say(sentence: str) -> None:
     sys.stderr.flush()
 
 
-def compile_kernels() -> None:
-    """Compile what is not compiled yet, with a bar, if somebody watches."""
-    if sys.stderr.isatty():
-        from relguide.warm_up import warm_up
-
-        warm_up()
-
-
 def provenance(method: str, **more: str) -> dict[str, str]:
     """Who makes a data set, how and when.
 

@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterator
 from typing import TYPE_CHECKING
 
 from relguide.cli.options import add_planner, make_planner
-from relguide.cli.output import DONE, FAILED, compile_kernels, say, write_json
+from relguide.cli.output import DONE, FAILED, say, write_json
 from relguide.cli.situation_file import open_input, read_situation
 from relguide.planning.extras import need
 
@@ -55,7 +55,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(chosen: argparse.Namespace) -> int:
     """Plan, and print the answers."""
     need("pydantic", "orjson", "rich")
-    compile_kernels()
     if chosen.batch and chosen.table:
         raise ValueError("A batch is answered in JSON, one plan a line: leave out --table.")
     planner = make_planner(chosen.planner)

@@ -1,3 +1,4 @@
 """Numbers in, numbers out: the compiled kernels. The files above give these numbers names."""
 
 from relguide.kernels import cache as cache
+from relguide.kernels import compiling as compiling

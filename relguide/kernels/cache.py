@@ -6,13 +6,21 @@ install another version over this one, and numba would go on running what was. S
 one of a file and all files of ours that it imports. Numba asks the class below first.
 
 They are kept in `NUMBA_CACHE_DIR` if that is set, else beside the sources, else in the user's own
-cache: in the first that can be written, or that `python -m relguide.warm_up` has filled and that
-can be read (another user's installation, a container with a read-only disk).
+cache: in the first that can be written, or that holds all kernels and can be read (another user's
+installation, a container with a read-only disk).
+
+A folder also holds records: which steps of `relguide.warm_up` were compiled into it, and for what.
+A wheel may bring kernels compiled for any CPU of its kind (`SHIPPED`): `adopt` makes them this
+machine's own.
 """
 
 import json
 import os
+import pickle
 import re
+import sys
+from collections.abc import Iterable, Iterator
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
@@ -20,15 +28,34 @@ from tempfile import TemporaryFile, mkdtemp
 from typing import Any, Self
 
 from numba import __version__ as numba_version
+from numba.core import caching as numba_caching
+from numba.core import serialize as numba_serialize
 from numba.core.caching import CacheImpl, InTreeCacheLocator, UserWideCacheLocator
 from numba.core.registry import cpu_target
 
+try:
+    import fcntl
+except ImportError:  # Windows: there only one process at a time should compile
+    fcntl = None  # type: ignore[assignment]
+
 HERE = Path(__file__).parent
 """The kernels' sources."""
-RECORD = "relguide-kernels.json"
-"""The file that says for what a folder has been filled."""
+SHIPPED = HERE / "compiled"
+"""Kernels that came with the wheel, if it brought any."""
 IMPORT = re.compile(rb"^from relguide\.(kernels\.\w+\.\w+|units) import", re.MULTILINE)
 """How our files name what they are made of."""
+RECORD = ".warm"
+"""How the name of a record ends."""
+ADOPTED = "adopted"
+"""The record of what has been taken over from a wheel."""
+EVERYTHING = "everything"
+"""The record of a folder that holds all kernels."""
+ANY_CPU = ["generic", ""]
+"""What numba calls a CPU with no more than all of its kind have: its name and features."""
+
+
+caching: Any = numba_caching
+serialize: Any = numba_serialize
 
 
 class KernelLocator(InTreeCacheLocator):
@@ -51,6 +78,29 @@ class KernelLocator(InTreeCacheLocator):
         """Nothing to do: `folder` has looked."""
 
 
+class LockedIndex(caching.IndexDataCacheFile):  # type: ignore[misc]
+    """Numba's index of one function's machine code, safe where several processes compile.
+
+    Numba reads the index, picks the next free number for a file, writes the index and then the
+    file. Two processes that compile the same function for different types could pick the same
+    number, and one that reads in between could find machine code of older sources.
+    """
+
+    def save(self, key: Any, data: Any) -> None:
+        """Store the machine code for one signature."""
+        with self._alone():
+            super().save(key, data)
+
+    def load(self, key: Any) -> Any:
+        """The machine code for one signature, if it is there."""
+        with self._alone():
+            return super().load(key)
+
+    def _alone(self) -> AbstractContextManager[None]:
+        place = Path(self._cache_path)
+        return _alone(place) if place == folder() else nullcontext()
+
+
 @cache
 def folder() -> Path:
     """Where kernels are kept."""
@@ -66,20 +116,68 @@ def folder() -> Path:
 
 def filled(place: Path) -> bool:
     """Whether a folder holds every kernel, of these sources and for this machine."""
-    try:
-        return bool(json.loads((place / RECORD).read_text()) == _wanted())
-    except (OSError, ValueError):
-        return False
+    return warm(EVERYTHING, place)
 
 
-def record(place: Path) -> None:
-    """Note that a folder holds every kernel."""
-    (place / RECORD).write_text(json.dumps(_wanted()))
+def warm(step: str, place: Path) -> bool:
+    """Whether a folder holds the kernels of a step, of these sources and for this machine."""
+    return _recorded(step, place) == _wanted()
 
 
+def record(steps: Iterable[str], place: Path) -> None:
+    """Note that a folder holds the kernels of some steps."""
+    for step in steps:
+        _write(_record(step, place), json.dumps(_wanted()).encode())
+
+
+def adopt(shipped: Path = SHIPPED) -> None:
+    """Take over kernels that a wheel brought, once, if they are of these sources and this numba.
+
+    Numba files machine code under the name of the CPU it was compiled for, and runs no other. What
+    is compiled for any CPU of this kind runs on this one, so it is filed under this one's name.
+    All modules of kernels must be importable: their types are named in the index.
+    """
+    offered, place = _recorded(EVERYTHING, shipped), folder()
+    if offered is None or shipped == place or _recorded(ADOPTED, place) == offered:
+        return
+    with _alone(place):
+        if offered == [*_wanted()[:-2], *ANY_CPU] and not filled(place):
+            for index in sorted(shipped.glob("*.nbi")):
+                _adopt_function(index, place)
+            for file in shipped.glob(f"*{RECORD}"):
+                _write(place / file.name, json.dumps(_wanted()).encode())
+        _write(_record(ADOPTED, place), json.dumps(offered).encode())
+
+
+def _adopt_function(index: Path, place: Path) -> None:
+    """The machine code of one function, as numba's `IndexDataCacheFile` writes it."""
+    machine = tuple(_wanted()[-3:])
+    with index.open("rb") as file:
+        version = pickle.load(file)
+        stamp, overloads = pickle.load(file)
+    own = {(signature, machine, code): name for (signature, _, code), name in overloads.items()}
+    for name in own.values():
+        _write(place / name, (index.parent / name).read_bytes())
+    head = pickle.dumps(version, protocol=-1)
+    _write(place / index.name, head + serialize.dumps((stamp, own)))
+
+
+@cache
 def _wanted() -> list[str]:
     machine = cpu_target.target_context.codegen().magic_tuple()
-    return [_stamp(tuple(sorted(HERE.rglob("*.py")))), numba_version, *map(str, machine)]
+    sources = _stamp(tuple(sorted(HERE.rglob("*.py"))))
+    return [sources, numba_version, str(sys.implementation.cache_tag), *map(str, machine)]
+
+
+def _record(step: str, place: Path) -> Path:
+    return place / f"{step}{RECORD}"
+
+
+def _recorded(step: str, place: Path) -> object:
+    try:
+        return json.loads(_record(step, place).read_text())
+    except (OSError, ValueError):
+        return None
 
 
 @cache
@@ -123,4 +221,26 @@ def _can_write(place: Path) -> bool:
         return False
 
 
+def _write(file: Path, content: bytes) -> None:
+    """Write a file whole or not at all, whoever reads it meanwhile."""
+    new = file.with_name(f"{file.name}.{os.getpid()}")
+    new.write_bytes(content)
+    os.replace(new, file)
+
+
+@contextmanager
+def _alone(place: Path) -> Iterator[None]:
+    """Keep other processes out of a folder meanwhile."""
+    if fcntl is None:
+        yield
+        return
+    lock = os.open(place, os.O_RDONLY)
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(lock)
+
+
 CacheImpl._locator_classes.insert(0, KernelLocator)
+caching.IndexDataCacheFile = LockedIndex

@@ -4,10 +4,12 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from relguide.kernels import cache
+from relguide import warm_up
+from relguide.kernels import cache, compiling
 
 USED = """
 import sys
@@ -23,7 +25,7 @@ from relguide.learn.words.branch_labels import LabelRequest, label_chunk
 from relguide.learn.words.branch_network import features_of, load_network
 from relguide.learn.network_planner import network_planner
 from relguide.learn.tree.regular_planner import regular_planner
-from relguide.warm_up import _steps
+from relguide.warm_up import STEPS
 from tests.situations import golden
 
 def called():
@@ -32,8 +34,8 @@ def called():
     found = {f for module in modules for f in vars(module).values() if isinstance(f, Dispatcher)}
     return {f"{f.py_func.__name__}{sig}" for f in found for sig in f.signatures}
 
-for *_, step in _steps():
-    step()
+for step in STEPS.values():
+    step.run()
 compiled = called()
 for situation, _ in golden("reference")[::7]:
     planned = plan(situation)
@@ -77,12 +79,135 @@ def test_nothing_is_left_to_compile() -> None:
 
 
 @pytest.mark.slow
-def test_it_is_said_where_kernels_are_kept_and_then_nothing_more() -> None:
+def test_it_says_where_kernels_are_kept_and_then_nothing_more() -> None:
     warmed = _run("-m", "relguide.warm_up")
     assert warmed.returncode == 0, warmed.stderr
-    assert "The kernels are compiled" in warmed.stdout
+    assert "The kernels are compiled and" in warmed.stdout
     again = _run("-m", "relguide.warm_up")
-    assert (again.stdout, again.stderr) == ("The kernels are compiled.\n", "")
+    assert (again.stdout, again.stderr) == ("The kernels are compiled and in place.\n", "")
+
+
+def test_a_step_waits_for_those_it_builds_on() -> None:
+    order = list(warm_up.STEPS)
+    for name, step in warm_up.STEPS.items():
+        assert all(order.index(before) < order.index(name) for before in step.after)
+    assert warm_up._ready(["flying", "limited", "tree"], ()) == ["flying"]
+    assert warm_up._ready(["limited", "proofs", "tree"], ()) == ["limited", "tree"]
+    assert warm_up._ready(["proofs", "tree"], ["limited"]) == ["tree"]
+
+
+def test_steps_run_in_processes_and_are_recorded(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(cache, "folder", lambda: tmp_path)
+    monkeypatch.setattr(warm_up, "STEPS", {
+        "first": warm_up.Step("one", 1.0, lambda: None),
+        "second": warm_up.Step("two", 1.0, lambda: None, after=("first",)),
+    })  # fmt: skip
+    _workers(monkeypatch, "print(0.25); print(5.0)")
+    states = list(warm_up.prepare(["first", "second"], jobs=2))
+    assert states[0] == ("one", 0.0, 0.0, ())
+    assert ("one", 0.25, 0.25, ()) in states
+    assert ("two", 0.99, 1.99, ("first",)) in states  # slow, and not done for that
+    assert states[-1] == ("", 1.0, 2.0, ("first", "second"))
+    assert cache.warm("first", tmp_path)
+    assert cache.filled(tmp_path)
+    assert warm_up.missing(["first", "second"]) == ()
+
+
+def test_a_step_that_breaks_off_says_why_and_is_not_recorded(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(cache, "folder", lambda: tmp_path)
+    _workers(monkeypatch, "raise SystemExit('the disk is full')")
+    with pytest.raises(warm_up.WarmUpError, match="the disk is full"):
+        list(warm_up.prepare(["flying"], jobs=1))
+    assert warm_up.missing(["flying"]) == ("flying",)
+
+
+def test_steps_are_ended_when_stopped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cache, "folder", lambda: tmp_path)
+    _workers(monkeypatch, "import time; time.sleep(60)")
+    states = list(warm_up.prepare(["flying"], jobs=1, stopped=lambda: True))
+    assert states == [(warm_up.STEPS["flying"].title, 0.0, 0.0, ())]
+    assert not cache.warm("flying", tmp_path)
+
+
+def _workers(monkeypatch: pytest.MonkeyPatch, code: str) -> None:
+    """Run something else in the place of every step."""
+    start = subprocess.Popen
+
+    def begin(command: list[str], **options: Any) -> "subprocess.Popen[str]":
+        return start([sys.executable, "-c", code], **options)
+
+    monkeypatch.setattr(warm_up.subprocess, "Popen", begin)
+
+
+SAVES = """
+import sys
+from relguide.kernels import cache
+index = cache.LockedIndex(str(cache.folder()), "f-1.py3", "stamp")
+for i in range(30):
+    index.save((sys.argv[1], i), (sys.argv[1], i))
+"""
+
+
+@pytest.mark.slow
+def test_processes_that_compile_the_same_kernel_do_not_mix_it_up(tmp_path: Path) -> None:
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
+    processes = [
+        subprocess.Popen([sys.executable, "-c", SAVES, name], env=environment) for name in "abcd"
+    ]
+    assert [process.wait() for process in processes] == [0] * 4
+    index = cache.LockedIndex(str(tmp_path / "relguide"), "f-1.py3", "stamp")
+    keys = [(name, i) for name in "abcd" for i in range(30)]
+    assert [index.load(key) for key in keys] == keys
+
+
+def test_kernels_of_a_wheel_become_this_machines_own(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shipped, place, other = tmp_path / "shipped", tmp_path / "place", tmp_path / "other"
+    for each in (shipped, place, other):
+        each.mkdir()
+    here = cache._wanted()
+    for_any = [*here[:-2], *cache.ANY_CPU]
+    index = cache.LockedIndex(str(shipped), "f-1.py3", "stamp")
+    index.save(("types", tuple(for_any[-3:]), "code"), "machine code")
+    monkeypatch.setattr(cache, "_wanted", lambda: for_any)
+    cache.record(["flying", cache.EVERYTHING], shipped)
+    monkeypatch.setattr(cache, "_wanted", lambda: here)
+
+    monkeypatch.setattr(cache, "folder", lambda: place)
+    cache.adopt(shipped)
+    assert cache.filled(place)
+    assert cache.warm("flying", place)
+    own = cache.LockedIndex(str(place), "f-1.py3", "stamp")
+    assert own.load(("types", tuple(here[-3:]), "code")) == "machine code"
+    (place / "f-1.py3.nbi").unlink()
+    cache.adopt(shipped)  # once is enough
+    assert not (place / "f-1.py3.nbi").exists()
+
+    monkeypatch.setattr(cache, "folder", lambda: other)
+    monkeypatch.setattr(cache, "_wanted", lambda: ["other sources", *here[1:]])
+    cache.adopt(shipped)
+    assert not list(other.glob("*.nbi"))
+
+
+@pytest.mark.parametrize(("terminal", "spent"), [(True, 0.4), (False, 2.1)])
+def test_the_first_use_is_announced_once(
+    terminal: bool,
+    spent: float,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    first = compiling.FirstUse()
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: terminal, raising=False)
+    first._count(0.5 * spent)
+    assert capsys.readouterr().err == ""
+    first._count(0.5 * spent)
+    first._count(spent)
+    assert capsys.readouterr().err == compiling.SENTENCE
 
 
 def test_a_stamp_changes_with_what_is_imported(
@@ -118,10 +243,10 @@ def test_a_folder_that_can_only_be_read_serves_if_it_was_filled(
     monkeypatch.setattr(cache, "_can_write", lambda place: False)
     assert not cache.filled(read_only)
     assert cache.folder.__wrapped__().name.startswith("relguide-")
-    cache.record(read_only)
+    cache.record([cache.EVERYTHING], read_only)
     assert cache.filled(read_only)
     assert cache.folder.__wrapped__() == read_only
-    (read_only / cache.RECORD).write_text("{")
+    (read_only / f"{cache.EVERYTHING}{cache.RECORD}").write_text("{")
     assert not cache.filled(read_only)
 
 
