@@ -3,19 +3,19 @@
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from threading import Timer
+from shutil import get_terminal_size
+from threading import Lock, Timer
 from time import monotonic
-from typing import TYPE_CHECKING, TypeVar
+from typing import TextIO, TypeVar
 
 from relguide.planning.inputs import number
-
-if TYPE_CHECKING:
-    from rich.progress import Progress, TaskID
 
 PATIENCE = 2.0
 """How long nothing is shown [s]."""
 REFRESH = 0.1
 """Between two updates [s]."""
+LENGTH = 40
+"""Of the bar [characters]."""
 
 T = TypeVar("T")
 
@@ -37,16 +37,11 @@ def watched(
         done: how far an item has brought us.
         state: what more to say of it, behind the title.
     """
-    shown = 0.0
-    with _bar(title, total) as bars:
+    with _show_bar(title, total) as bar:
         for item in items:
             yield item
-            if bars and monotonic() - shown > REFRESH:
-                shown = monotonic()
-                progress, task = bars[0]
-                progress.update(
-                    task, completed=done(item), description=f"{title} {state(item)}".rstrip()
-                )
+            if bar.due:
+                bar.draw(done(item), state(item))
 
 
 @contextmanager
@@ -62,45 +57,77 @@ def progress_bar(title: str, *, total: float) -> Iterator[Callable[[float], None
     """
     total = number("total", total)
     reached = 0.0
-    with _bar(title, total) as bars:
+    with _show_bar(title, total) as bar:
 
         def count(advance: float) -> None:
             nonlocal reached
             reached += number("advance", advance)
-            for progress, task in bars:
-                progress.update(task, completed=reached)
+            if bar.due:
+                bar.draw(reached)
 
         yield count
 
 
+class _Bar:
+    """One line on a terminal, drawn in place."""
+
+    def __init__(self, title: str, total: float, terminal: TextIO) -> None:
+        self._title, self._total, self._terminal = title, total, terminal
+        self._began = self._drawn = monotonic()
+        self._shown = False
+        self._lock = Lock()  # the clock that shows the bar is a thread of its own
+
+    @property
+    def due(self) -> bool:
+        """Whether it is time to draw it again."""
+        return self._shown and monotonic() - self._drawn > REFRESH
+
+    def show(self) -> None:
+        """Draw it for the first time."""
+        self._shown = True
+        self.draw(0.0)
+
+    def draw(self, reached: float, state: str = "") -> None:
+        """Draw it as it stands: how far, and how long it will still take at this pace."""
+        self._drawn = monotonic()
+        name = f"{self._title} {state}".rstrip()
+        share = min(max(reached / self._total, 0.0), 1.0) if self._total > 0.0 else 0.0
+        if share > 0.0:
+            left = (self._drawn - self._began) * (1.0 / share - 1.0)
+            filled = round(share * LENGTH)
+            name += f" {'━' * filled}{'╌' * (LENGTH - filled)} {share:4.0%}, {left:.0f} s left"
+        else:
+            name += " …"
+        self._write(name)
+
+    def clear(self) -> None:
+        """Take it away."""
+        if self._shown:
+            self._write("")
+
+    def _write(self, line: str) -> None:
+        width = get_terminal_size().columns - 1  # a full line would be wrapped
+        with self._lock:
+            self._terminal.write(f"\r{line[:width]:<{width}}\r{line[:width]}")
+            self._terminal.flush()
+
+
 @contextmanager
-def _bar(title: str, total: float) -> Iterator["list[tuple[Progress, TaskID]]"]:
-    """The bar in a list, which stays empty until it is shown.
+def _show_bar(title: str, total: float) -> Iterator[_Bar]:
+    """A bar that stays hidden until `PATIENCE` is over, and always where nobody watches.
 
     A clock of its own shows it: the first item may be what takes so long.
     """
-    bars: list[tuple[Progress, TaskID]] = []
-
-    def show() -> None:
-        # rich takes 50 ms to load, which what is quick need not pay
-        from rich.console import Console
-        from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
-
-        columns = (TextColumn("{task.description}"), BarColumn(), TimeRemainingColumn())
-        progress = Progress(*columns, console=Console(stderr=True), transient=True)
-        progress.start()
-        bars.append((progress, progress.add_task(title, total=total or None)))
-
-    clock = Timer(PATIENCE, show)
-    clock.daemon = True
+    bar = _Bar(title, total, sys.stderr)
     if not sys.stderr.isatty():
-        yield bars
+        yield bar
         return
+    clock = Timer(PATIENCE, bar.show)
+    clock.daemon = True
     clock.start()
     try:
-        yield bars
+        yield bar
     finally:
         clock.cancel()
         clock.join()  # it may be about to show the bar
-        for progress, _ in bars:
-            progress.stop()
+        bar.clear()

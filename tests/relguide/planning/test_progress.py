@@ -60,3 +60,29 @@ def test_a_file_gets_no_bar(
             sleep(0.01)
             count(item)
     assert capsys.readouterr().err == ""
+
+
+def test_it_says_how_far_and_is_taken_away(monkeypatch: pytest.MonkeyPatch) -> None:
+    terminal = _at_a_terminal(monkeypatch)
+    monkeypatch.setattr(progress, "PATIENCE", 0.0)
+    monkeypatch.setattr(progress, "REFRESH", 0.0)
+    monkeypatch.setenv("COLUMNS", "100")
+    for _ in watched(range(1, 5), title="proving", total=4, done=float, state=lambda n: f"gap {n}"):
+        while not terminal.text:
+            sleep(0.01)
+    lines = [line.rstrip() for line in terminal.text.split("\r")]
+    assert "proving …" in lines
+    (half,) = {line for line in lines if "gap 2" in line}
+    assert f"proving gap 2 {20 * '━'}{20 * '╌'}  50%, 0 s left" == half
+    assert max(map(len, lines)) < 100
+    assert lines[-2:] == ["", ""]
+
+
+def test_where_the_end_is_not_known_it_says_so_much(monkeypatch: pytest.MonkeyPatch) -> None:
+    terminal = _at_a_terminal(monkeypatch)
+    with progress_bar("explaining gaps", total=0.0) as count:
+        while not terminal.text:
+            sleep(0.01)
+        count(1)
+    assert "explaining gaps …" in terminal.text
+    assert "%" not in terminal.text
