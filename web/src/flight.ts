@@ -205,7 +205,7 @@ function take(
 ): void {
   switch (document.kind) {
     case "flight_started":
-      // Also the head of what a late joiner or a reconnected page is told: the trails come anew.
+      // Also the first document for a late joiner or a reconnected page: the trails come again.
       flight.started.value = document;
       flight.trail.pursuer.value = [];
       flight.trail.leader.value = [];
@@ -267,7 +267,7 @@ function endSentence(ended: FlightEnded): string {
 
 function log(flight: Flight, message: Message): void {
   const known = flight.messages.value;
-  // A reconnected page is told the last documents again.
+  // A reconnected page gets the last documents again.
   if (known.some((each) => each.t === message.t && each.text === message.text)) return;
   flight.messages.value = [message, ...known].slice(0, MESSAGES_KEPT);
 }

@@ -55,7 +55,7 @@ export function pointAlong(segment: PathSegment, t: number, wind: Vector = CALM)
   };
 }
 
-/** A ride along the limit comes as points close enough to join by lines. */
+/** A boundary arc comes as points close enough to join by lines. */
 function alongBoundary(segment: BoundarySegment, t: number): PathPoint {
   const points = [segment.start, ...segment.via, segment.end];
   const next = points.findIndex((point) => point.t_s > t);

@@ -1,4 +1,4 @@
-/** What the numbers beside the picture say, worked out from plan and sample: plain functions, no DOM. */
+/** The texts of the numbers beside the picture, from plan and sample: plain functions, no DOM. */
 
 import { formatClock, formatHeading, formatKnots, formatMiles, NM } from "./units";
 import type {
@@ -57,49 +57,51 @@ export function plannerName(planner: string): string {
   return PLANNER_NAMES[planner] ?? planner;
 }
 
-/** What is proved of the plan's time, in plain words. */
+/** What is proved of the plan's time, in a sentence. */
 export function proofSentence(optimality: OptimalityCard, time: number): string {
   switch (optimality.proof) {
     case "relaxation":
-      return "Optimal: even without the separation limit no path is faster.";
+      return "Optimal: no path is faster, even without the minimum separation.";
     case "bound":
-      return `At most ${formatClock(time - optimality.lower_bound_s)} above the optimum: nothing is faster than ${formatClock(optimality.lower_bound_s)}.`;
+      return `At most ${formatClock(time - optimality.lower_bound_s)} above the optimum: no path is faster than ${formatClock(optimality.lower_bound_s)}.`;
     case "none":
-      if (optimality.lower_bound_s < 1) return "Keeps the limit, optimum not proved.";
-      return `Keeps the limit, optimum not proved: nothing is faster than ${formatClock(optimality.lower_bound_s)}.`;
+      if (optimality.lower_bound_s < 1)
+        return "The optimum is not proved; the plan keeps the minimum separation.";
+      return `The optimum is not proved; no path is faster than ${formatClock(optimality.lower_bound_s)}.`;
   }
 }
 
-/** Why an alternative is not flown: how much slower it is, where it comes too close, or what else. */
+/** Why an alternative is not flown, short enough for one line of the list. */
 export function alternativeSentence(alternative: Alternative, plan: PlanCard): string {
   switch (alternative.rejected) {
     case "separation": {
-      const least = belowLimit(alternative.least_separation_m);
-      return `loses separation: ${least} NM at ${formatClock(alternative.at_s)}`;
+      const least = milesBelow(alternative.least_separation_m);
+      return `only ${least} NM at ${formatClock(alternative.at_s)}`;
     }
     case "slower":
       return formatDelay(alternative.time_to_converge_s - plan.time_to_converge_s);
     case "not_open":
-      return `too early: slot opens at ${formatClock(alternative.release_time_s)}`;
+      return `slot opens ${formatClock(alternative.release_time_s)}`;
+    case "no_root":
+      return "no such path";
     case "as_fast":
     case "faster":
-    case "no_root":
       return alternative.why;
   }
 }
 
-/** When an alternative would arrive; a dash for a word that never does. */
+/** When an alternative would arrive; a dash for a word without a path to the slot. */
 export function alternativeTime(alternative: Alternative): string {
   if (alternative.rejected === "no_root") return "–";
   return formatClock(alternative.time_to_converge_s);
 }
 
-/** A distance below a limit never rounds up to it [NM]. */
-function belowLimit(distance: number): string {
+/** A separation below the minimum, rounded down so that it never reads as the minimum [NM]. */
+function milesBelow(distance: number): string {
   return (Math.floor((distance / NM) * 10) / 10).toFixed(1);
 }
 
-/** How much later: in seconds while that says something, else in minutes. */
+/** How much later: in seconds below two minutes, else as mm:ss. */
 function formatDelay(time: number): string {
   if (time >= 120) return `+${formatClock(time)}`;
   return `+${time < 10 ? time.toFixed(1) : Math.round(time)} s`;
@@ -113,7 +115,7 @@ export function referenceText(reference: ReferenceCard): string {
   return `TURN ${Math.abs(rate).toFixed(1)}°/s ${rate > 0 ? "R" : "L"}`;
 }
 
-/** Distance to the slot along the route: what is still to close, or how far ahead. `error` [m] */
+/** Distance to the slot along the route, and whether it is still behind or ahead. `error` [m] */
 export function spacingText(error: number): string {
   const miles = formatMiles(Math.abs(error), 2);
   return miles === "0.00" ? "0.00 NM" : `${miles} NM ${error > 0 ? "behind" : "ahead"}`;

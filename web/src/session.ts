@@ -1,4 +1,4 @@
-/** What the page around the instruments knows, and what its buttons can do: signals and types, no network. */
+/** The state of the page around the instruments, and what its buttons do: signals and types, no network. */
 
 import { type Signal, signal } from "@preact/signals";
 import { type Flight, LOST_AGE } from "./flight";

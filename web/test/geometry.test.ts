@@ -100,7 +100,7 @@ describe("a path over the ground", () => {
   });
 });
 
-test("a ride along the limit is read between its points, and cut like any segment", () => {
+test("a boundary arc is read between its points, and cut like any segment", () => {
   const at = (t_s: number, x_m: number, y_m: number, heading_deg: number) => ({
     t_s,
     x_m,

@@ -54,7 +54,7 @@ describe("numbers beside the picture", () => {
       at_s: 208,
       why: "comes within 4.99 NM at 208 s",
     } as const;
-    expect(alternativeSentence(close, plan)).toBe("loses separation: 4.9 NM at 03:28");
+    expect(alternativeSentence(close, plan)).toBe("only 4.9 NM at 03:28");
     const equal = { ...slower, rejected: "as_fast", why: "as fast" } as const;
     expect(alternativeSentence(equal, plan)).toBe("as fast");
   });
@@ -67,10 +67,10 @@ describe("numbers beside the picture", () => {
       why: "reaches the slot 40 s before it opens",
       rejected: "not_open",
     } as const;
-    expect(alternativeSentence(early, planCard())).toBe("too early: slot opens at 04:10");
+    expect(alternativeSentence(early, planCard())).toBe("slot opens 04:10");
     expect(alternativeTime(early)).toBe("03:30");
     const none = { word: "LRL", why: "no such path to the slot", rejected: "no_root" } as const;
-    expect(alternativeSentence(none, planCard())).toBe("no such path to the slot");
+    expect(alternativeSentence(none, planCard())).toBe("no such path");
     expect(alternativeTime(none)).toBe("–");
   });
 

@@ -6,7 +6,7 @@ import { separation } from "./states";
 import { ink, SEPARATION } from "./style";
 import { onMap, placeAt, project, toMap } from "./view";
 
-/** The least separation allowed, round the leader. */
+/** The minimum separation, round the leader. */
 export function SeparationCircle({ flight, view }: LayerProps) {
   const place = useComputed(() => {
     const now = shownNow(flight);
@@ -33,14 +33,14 @@ export function SeparationCircle({ flight, view }: LayerProps) {
   );
 }
 
-/** What the circle is worth, on its side away from the own ship. */
+/** The size of the circle, on its side away from the own ship. */
 export function circleLabel({ flight, view }: LayerProps): Label | null {
   const [now, pose] = [shownNow(flight), view.pose.value];
-  const limit = flight.started.value?.min_separation_m;
-  if (now === null || pose === null || limit === undefined) return null;
+  const minSeparation = flight.started.value?.min_separation_m;
+  if (now === null || pose === null || minSeparation === undefined) return null;
   const layout = view.layout.value;
   const centre = project(layout, pose, now.leader);
-  const radius = limit * layout.scale;
+  const radius = minSeparation * layout.scale;
   const { colour } = SEPARATION[separation(flight).state];
   for (const turn of [0, 45, -45, 90, -90, 135, -135, 180]) {
     const side = away(layout.centre, centre) + turn;
@@ -49,7 +49,7 @@ export function circleLabel({ flight, view }: LayerProps): Label | null {
       y: centre.y - radius * Math.cos(side * DEG),
     };
     if (!onMap(layout, at, 30)) continue;
-    const lines = [{ text: `MIN ${formatMiles(limit)}`, colour }];
+    const lines = [{ text: `MIN ${formatMiles(minSeparation)}`, colour }];
     return { id: "circle", at, lines, side, gap: 6, size: 18, optional: false };
   }
   return null;

@@ -42,8 +42,8 @@ function Ghost({ flight, view, who }: LayerProps & { who: "pursuer" | "leader" }
 
 function closestColour(flight: LayerProps["flight"]) {
   const least = flight.plan.value?.plan.separation.least_m ?? Number.POSITIVE_INFINITY;
-  const limit = flight.started.value?.min_separation_m ?? 0;
-  return least < limit - GRAZE ? "caution" : "label";
+  const minSeparation = flight.started.value?.min_separation_m ?? 0;
+  return least < minSeparation - GRAZE ? "caution" : "label";
 }
 
 /** The closest approach of the plan flown, while it is still to come. */
@@ -53,7 +53,7 @@ function closest(flight: LayerProps["flight"]) {
   return { pursuer: plan.pursuer_at_closest, leader: plan.leader_at_closest, plan };
 }
 
-/** Whether the two come no closer than they are at the slot: then the capture point's label says it. */
+/** Whether they are closest at the slot itself: then the label of the capture point says how close. */
 export function closestAtEnd({ plan }: PlanChanged): boolean {
   return plan.time_to_converge_s - plan.separation.at_s < 1;
 }

@@ -7,10 +7,10 @@ import { type LayerProps, shownNow } from "./picture";
 import { ink, LINES } from "./style";
 import { offNose, onMap, onwards, placeAt, project, toMap } from "./view";
 
-/** An undeclared future is shown this far ahead, and no further [s]. */
+/** How far ahead the path is shown when the intent is unknown [s]. */
 const GUESS = 180;
 
-/** What the leader said it will fly (dash-dot, new legs marked), or straight on if it said nothing (dots). */
+/** The leader's declared intent (dash-dot, new legs marked), or straight on if it is unknown (dots). */
 export function LeaderIntent({ flight, view }: LayerProps) {
   const path = useComputed(() => {
     const route = flight.route.value;
@@ -59,7 +59,7 @@ function isTurn(segment: PathSegment): segment is TurnSegment {
   return segment.kind === "turn";
 }
 
-/** The heading of each new leg, or that nothing was declared. */
+/** The heading of each new leg, or that the intent is unknown. */
 export function intentLabels({ flight, view }: LayerProps): Label[] {
   const [now, pose, route] = [shownNow(flight), view.pose.value, flight.route.value];
   if (now === null || pose === null || route === null) return [];

@@ -50,9 +50,9 @@ const SHOWN = 10_000;
 /** A warning stays this long after its cause is gone, so that it does not blink on the edge [ms]. */
 const HELD = 3_000;
 
-/** All that is to be said now, the most urgent first. */
+/** All notices of this moment, the most urgent first. */
 export function createNotices(flight: Flight): ReadonlySignal<readonly Notice[]> {
-  // When the plan and the end of the join were first seen; the flight tells its own time, not the wall's.
+  // When the plan and the end of the join were first seen, by the wall clock; documents have flight time.
   const planned = computed(() => ({ plan: flight.plan.value, wall: performance.now() }));
   const joined = computed(() => ({
     joined: flight.sample.value?.joined ?? false,
@@ -91,7 +91,7 @@ export function createNotices(flight: Flight): ReadonlySignal<readonly Notice[]>
   });
 }
 
-/** Seen a short while ago, and not already old when it was seen (a late joiner is told of old plans too). */
+/** Seen a short while ago, and not yet old when it was seen (a late joiner also gets old plans). */
 function isRecent(flight: Flight, t: number, seen: number): boolean {
   const wall = ((flight.simTime.value - t) / flight.clock.value.rate) * 1000;
   return seen < SHOWN && wall < SHOWN;

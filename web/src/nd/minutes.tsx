@@ -14,7 +14,7 @@ const TICKS_TO = 80;
 /** Half the length of a tick [px]. */
 const HALF = 5;
 
-/** A minute mark on both paths is the same minute: how the two stand to each other in time. */
+/** Marks of the same minutes on both paths: where the two are relative to each other in time. */
 export function TimeTicks({ flight, view }: LayerProps) {
   const plan = useComputed(() => shownPlan(flight));
   const shown = useComputed(() => view.layout.value.range <= TICKS_TO);

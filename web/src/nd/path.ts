@@ -7,7 +7,7 @@ import { distance, type Layout, type Place, round, toMap } from "./view";
 
 /** How far a sampled turn may lie from the true one [px]. */
 const TOLERANCE = 0.1;
-/** One SVG arc command is told apart from its mirror only below half a turn. */
+/** An SVG arc command differs from its mirror image only below half a turn [deg]. */
 const ARC_LIMIT = 120;
 
 /** Draws segments one after another, as path data in map pixels. */

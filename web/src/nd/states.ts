@@ -5,7 +5,7 @@ import { pathPointAt, windVector } from "../geometry";
 import { moveAircraft } from "../motion";
 import { distance } from "./view";
 
-/** off: holds its heading; unable: asked for a plan and got none; the rest as the modes of guidance. */
+/** off: holds its heading; unable: there is no plan; the others are the modes of guidance. */
 export const GUIDANCES = ["off", "converge", "capture", "follow", "unable"] as const;
 export type Guidance = (typeof GUIDANCES)[number];
 
@@ -13,7 +13,7 @@ export type Guidance = (typeof GUIDANCES)[number];
 export const AGES = ["fresh", "coasting", "old", "dropped", "gone", "none"] as const;
 export type Age = (typeof AGES)[number];
 
-/** predicted: it would be lost within a minute; lost: it is lost now. */
+/** predicted: it will be lost within a minute; lost: it is lost now. */
 export const SEPARATIONS = ["kept", "predicted", "lost"] as const;
 export type Separation = (typeof SEPARATIONS)[number];
 
@@ -26,7 +26,7 @@ export function guidance(flight: Flight): Guidance {
 
 export function age(flight: Flight): Age {
   if (flight.now.value === null) return "none";
-  if (flight.clock.value.ended) return "fresh"; // nothing moves any more, so nothing grows old
+  if (flight.clock.value.ended) return "fresh"; // nothing moves any more, so no data grow old
   const seconds = flight.dataAge.value;
   if (seconds <= 2) return "fresh";
   if (seconds <= 5) return "coasting";
@@ -36,7 +36,7 @@ export function age(flight: Flight): Age {
 
 /** How far ahead a loss of separation is looked for [s]. */
 const LOOK_AHEAD = 60;
-/** Plans may graze the limit: this much below it is still no loss [m]. */
+/** Plans may graze the minimum separation: this much below it is no loss yet [m]. */
 export const GRAZE = 20;
 
 export interface Outlook {
@@ -45,19 +45,19 @@ export interface Outlook {
   readonly within: number;
 }
 
-/** Whether the separation holds now and for the next minute, by what both are known to fly. */
+/** Whether the minimum separation is kept now and for the next minute, on the paths known for both. */
 export function separation(flight: Flight): Outlook {
   const now = flight.now.value;
-  const limit = flight.started.value?.min_separation_m;
-  if (now === null || limit === undefined) return { state: "kept", within: 0 };
-  if (now.separation_m < limit - GRAZE) return { state: "lost", within: 0 };
+  const minSeparation = flight.started.value?.min_separation_m;
+  if (now === null || minSeparation === undefined) return { state: "kept", within: 0 };
+  if (now.separation_m < minSeparation - GRAZE) return { state: "lost", within: 0 };
   const state = guidance(flight);
-  // From capture on guidance slows down as the spacing closes: carrying on at this speed predicts nothing.
+  // From capture on guidance slows down as the spacing closes, so constant speed predicts nothing.
   if (state === "capture" || state === "follow") return { state: "kept", within: 0 };
   for (let ahead = 2; ahead <= LOOK_AHEAD; ahead += 2) {
     const own = state === "converge" ? ownAhead(flight, ahead) : moveAircraft(now.pursuer, ahead);
     if (own === null) break;
-    if (distance(own, leaderAhead(flight, ahead) ?? now.leader) < limit - GRAZE)
+    if (distance(own, leaderAhead(flight, ahead) ?? now.leader) < minSeparation - GRAZE)
       return { state: "predicted", within: ahead };
   }
   return { state: "kept", within: 0 };
@@ -82,7 +82,7 @@ function leaderAhead(flight: Flight, ahead: number) {
   return pathPointAt(route.segments, t, windVector(started.wind));
 }
 
-/** The wall clock [ms] at this frame; whoever reads it follows the frames. */
+/** The wall clock [ms] at this frame; reading it subscribes to the frames. */
 export function wallNow(flight: Flight): number {
   void flight.simTime.value;
   void flight.dataAge.value;

@@ -1,4 +1,4 @@
-/** The other ways to the slot that were looked at, and why each is not flown. */
+/** The other paths to the slot that were considered, and why each is not flown. */
 
 import { Panel } from "../parts";
 import { alternativeSentence, alternativeTime } from "../reading";
@@ -14,7 +14,7 @@ export function Alternatives(props: { session: Session }) {
         <p class="hint">They come with the first plan.</p>
       ) : (
         <table class="list">
-          <caption class="visually-hidden">Paths looked at, fastest first</caption>
+          <caption class="visually-hidden">Paths considered, fastest first</caption>
           <thead class="visually-hidden">
             <tr>
               <th scope="col">Path</th>
@@ -42,7 +42,7 @@ export function Alternatives(props: { session: Session }) {
   );
 }
 
-/** Of one word there may be several ways: no two at the same time. */
+/** One word may have several paths: no two have the same time. */
 function alternativeKey(alternative: Alternative): string {
   const time = alternative.rejected === "no_root" ? "" : alternative.time_to_converge_s;
   return `${alternative.word} ${alternative.rejected} ${time}`;

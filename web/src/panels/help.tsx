@@ -12,12 +12,12 @@ const KEYS: readonly (readonly [string, string])[] = [
 ];
 
 const LINES: readonly (readonly [string, string])[] = [
-  ["key-plan", "solid: the path flown"],
-  ["key-proposed", "dashed: a path proposed"],
+  ["key-plan", "solid: the path being flown"],
+  ["key-proposed", "dashed: a proposed path"],
   ["key-leader", "dash-dot: the leader's declared route"],
   ["key-dotted", "dotted: no intent, straight ahead assumed"],
   ["key-slot", "pennant: the slot, D behind the leader"],
-  ["key-limit", "circle: the separation limit"],
+  ["key-min", "circle: the minimum separation"],
 ];
 
 export function Help(props: { session: Session }) {
@@ -48,7 +48,7 @@ export function Help(props: { session: Session }) {
       </ul>
       <p>
         Headings are true, in degrees; a dial takes digits, arrow keys or the wheel, Enter sends.
-        The address of this page holds the flight: whoever opens it sees the same.
+        The address of this page names the flight: all who open it see the same.
       </p>
       <p>
         <a href="/docs">The service's interface</a> · version {__VERSION__}

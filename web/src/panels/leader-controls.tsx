@@ -1,4 +1,4 @@
-/** What the leader is told: a heading, a speed, and whether it declares its intent. */
+/** Commands to the leader: a heading, a speed, and whether its intent is known. */
 
 import { useSignal } from "@preact/signals";
 import { Dial } from "../dial";
@@ -10,7 +10,7 @@ export function LeaderControls(props: { session: Session; actions: Actions }) {
   const { session, actions } = props;
   const leader = session.reading.value?.leader;
   const ident = session.flight.started.value?.leader.ident ?? "";
-  // Until the hand touches a dial it shows what the leader flies now.
+  // A dial shows what the leader flies now until it is used.
   const heading = useSignal<number | null>(null);
   const knots = useSignal<number | null>(null);
   const headingNow = leader === undefined ? 0 : Math.round(leader.heading_deg);

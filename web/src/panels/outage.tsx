@@ -22,7 +22,7 @@ function Remedy(props: { outage: Outage; actions: Actions }) {
     case "no_answer":
       return (
         <>
-          <p>It is tried again by itself.</p>
+          <p>The page tries again by itself.</p>
           <button type="button" class="primary" onClick={actions.retry}>
             Try now
           </button>

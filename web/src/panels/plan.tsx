@@ -24,7 +24,7 @@ export function PlanNumbers(props: { session: Session }) {
     return (
       <Panel name="plan" title="Convergence">
         <p class="hint">
-          {flight.sample.value === null ? "The first position is awaited." : "The data are lost."}
+          {flight.sample.value === null ? "Waiting for the first position." : "The data are lost."}
         </p>
       </Panel>
     );
@@ -155,7 +155,7 @@ function SpacingReadings(props: { flight: Flight; sample: Sample; engaged: boole
 function SafetyReadings(props: { flight: Flight; plan: PlanChanged; sample: Sample }) {
   const { flight, plan, sample } = props;
   const { separation } = plan.plan;
-  const limit = flight.started.value?.min_separation_m ?? 0;
+  const minSeparation = flight.started.value?.min_separation_m ?? 0;
   const flown = sample.least_separation_m;
   const known = flight.route.value?.intent_known ?? null;
   return (
@@ -171,8 +171,8 @@ function SafetyReadings(props: { flight: Flight; plan: PlanChanged; sample: Samp
         label="Least so far"
         value={formatMiles(flown)}
         unit="NM"
-        tone={flown < limit ? "alert" : "value"}
-        note={flown < limit ? `LOST, limit ${formatMiles(limit)}` : `limit ${formatMiles(limit)}`}
+        tone={flown < minSeparation ? "alert" : "value"}
+        note={`${flown < minSeparation ? "LOST " : ""}(MIN ${formatMiles(minSeparation)})`}
       />
       <Reading
         label="Leader intent"

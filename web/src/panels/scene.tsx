@@ -6,7 +6,7 @@ import type { Session } from "../session";
 
 export function Scene(props: { session: Session }) {
   const { flight, status, sceneMaximised } = props.session;
-  // Asked for only once the flight flies: the scene's page is 0.8 MB and its picture costs the GPU.
+  // Loaded only once the flight flies: the scene's page has 0.8 MB, and its picture costs GPU time.
   const flying = useComputed(() => flight.sample.value !== null);
   const url = status.value?.scene_url;
   const maximised = sceneMaximised.value;
@@ -19,7 +19,7 @@ export function Scene(props: { session: Session }) {
           <li class="key-plan">plan</li>
           <li class="key-leader">leader</li>
           <li class="key-slot">slot</li>
-          <li class="key-limit">limit</li>
+          <li class="key-min">MIN</li>
         </ul>
         <button
           type="button"

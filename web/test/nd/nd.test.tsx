@@ -164,7 +164,7 @@ test("a loss that is coming is amber and says when", () => {
   const flight = flightAt("fig_6b", 300, "heading");
   const sample = flight.sample.value;
   if (sample === null) throw new Error("An empty flight.");
-  // Head on, 24 km apart: the limit is passed in half a minute.
+  // Head on, 24 km apart: the minimum separation is lost in half a minute.
   const { x_m, y_m } = sample.leader;
   const pursuer = { ...sample.pursuer, x_m: x_m + 17_000, y_m: y_m - 17_000, heading_deg: 315 };
   change(flight, { pursuer: { ...pursuer, track_deg: 315 }, separation_m: 24_000 });
