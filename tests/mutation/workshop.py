@@ -8,17 +8,15 @@ without the fault.
 """
 
 import os
-import resource
 import shutil
-import signal
 import subprocess
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from time import monotonic
 from typing import Literal
 
+from tests.mutation.pytest_process import run_pytest
 from tests.mutation.sampling import Mutant
 
 Result = Literal["killed", "timeout", "survived"]
@@ -29,8 +27,6 @@ SLACK = 4.0
 """How many times longer than without the fault tests may take."""
 STARTING, COMPILING = 20.0, 240.0
 """What they may take besides, and once more where kernels are compiled [s]."""
-MEMORY = 8 << 30
-"""What a run of tests may claim for data [bytes]: a fault may ask for everything."""
 KILLED = (1, 2)
 """pytest's exit codes when a test fails, and when one could not even be imported."""
 
@@ -130,40 +126,10 @@ class Workshop:
         self, tests: Sequence[Path], compiled: bool, limit: float, kernels: Path
     ) -> tuple[int | None, str]:
         """pytest's exit code, None if it did not end in time, and what it printed."""
-        environment = os.environ | {
-            "PYTHONPATH": f"{self.tree}{os.pathsep}{self.tree / 'server'}",
-            "PYTHONDONTWRITEBYTECODE": "1",  # else an old .pyc could hide a fault of equal length
+        log = self.folder / "pytest.log"
+        environment = {
             "NUMBA_CACHE_DIR": str(kernels),
             "NUMBA_DISABLE_JIT": str(int(not compiled)),
         }
-        options = ["-x", "-q", "-rfE", "--tb=no", "-p", "no:cacheprovider"]
-        options += ["-p", "tests.mutation.hasty", "--hypothesis-profile=hasty"]
-        running = subprocess.Popen(
-            [sys.executable, "-m", "pytest", *options, *map(str, tests)],
-            cwd=self.tree,
-            env=environment,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            start_new_session=True,
-            preexec_fn=_bounded,
-        )
-        try:
-            said, _ = running.communicate(timeout=limit)
-        except subprocess.TimeoutExpired:
-            return None, ""
-        finally:  # and whatever the tests have started
-            _end(running)
-        return running.returncode, said
-
-
-def _bounded() -> None:
-    resource.setrlimit(resource.RLIMIT_DATA, (MEMORY, MEMORY))
-
-
-def _end(running: "subprocess.Popen[str]") -> None:
-    try:
-        os.killpg(running.pid, signal.SIGKILL)
-    except ProcessLookupError:
-        pass
-    running.wait()
+        code = run_pytest(self.tree, tests, environment, log, limit)
+        return code, log.read_text() if log.exists() else ""
