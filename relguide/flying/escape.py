@@ -15,8 +15,9 @@ from relguide.flying.capture import Offsets
 from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.turn import turn_rate
 from relguide.kernels.separation import least_bad_turn as kernel
-from relguide.planning.certificate import certify, kernel_arrays
+from relguide.planning.certificate import certify
 from relguide.planning.situation import Situation
+from relguide.planning.tables import motion_of
 from relguide.planning.trajectory import LEFT, RIGHT, Arc, Straight, Trajectory
 from relguide.units import DEG, Metre, Radian, RadianPerSecond, Second
 
@@ -65,13 +66,11 @@ def escape_path(
             for side in (-1.0, 0.0, 1.0)
         ]
     )
-    start, _ = kernel_arrays(pursuer.flying(()))
-    leader, _ = kernel_arrays(situation.leader.trajectory)
     side, angle, least = kernel.escape_path(
-        start,
+        motion_of(pursuer.flying(())),
         full,
         before,
-        leader,
+        motion_of(situation.leader.trajectory),
         _leader_pieces(situation, leader_turn_rate),
         min_separation,
         LOOK_AHEAD,
@@ -96,7 +95,7 @@ def keeps_clear(seen: Offsets, to_slot: Metre, situation: Situation) -> bool:
 
 def _leader_pieces(situation: Situation, rate: RadianPerSecond) -> np.ndarray:
     """Pieces of all that the leader may do: its declared intent, or a turn that goes on."""
-    _, known = kernel_arrays(situation.leader.trajectory)
+    known = motion_of(situation.leader.trajectory).pieces
     ends = np.arange(ENDS_EVERY, TURNS_ON + 0.5 * ENDS_EVERY, ENDS_EVERY) if rate != 0.0 else ()
     pieces = np.zeros((1 + len(ends), max(len(known), 1), 2))
     pieces[0, : len(known)] = known

@@ -4,22 +4,18 @@ The certificate never trusts who made the trajectory: it reads its segments, not
 """
 
 from dataclasses import dataclass
-from itertools import chain
-
-import numpy as np
 
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.separation.approach import least_on_paths
 from relguide.kernels.separation.clearance import SLACK
 from relguide.planning.inputs import expect
 from relguide.planning.situation import Situation
+from relguide.planning.tables import bends_of, leader_bends
 from relguide.planning.trajectory import Trajectory
 from relguide.units import Metre, Second
 
 TOLERANCE = 1e-7
 """How far below the least separation found the proof may stop [R]: 1 mm for an airliner."""
-
-_STRAIGHT = np.empty(0)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -70,30 +66,3 @@ def judge(
         lower_bound=bound,
         holds=bound >= situation.min_separation - SLACK * radius,
     )
-
-
-def leader_bends(situation: Situation) -> FloatArray:
-    """What the leader flies before its final leg, as `judge` takes it."""
-    return bends_of(situation.leader.trajectory) if situation.leader.intent else _STRAIGHT
-
-
-def bends_of(trajectory: Trajectory) -> FloatArray:
-    """Length [m] and curvature [rad/m, right positive] of each piece in turn.
-
-    shape (2·pieces,)
-    """
-    told: list[float] = []
-    for segment in trajectory.segments:
-        told.extend(chain.from_iterable(segment.bends))
-    return np.array(told)
-
-
-def kernel_arrays(trajectory: Trajectory) -> tuple[FloatArray, FloatArray]:
-    """A trajectory as the kernels take it.
-
-    Returns:
-        x, y, ψ, V at t = 0, shape (4,); duration and turn rate of each piece, shape (pieces, 2).
-    """
-    start = np.array((trajectory.x, trajectory.y, trajectory.heading, trajectory.tas))
-    bends = trajectory.bends()
-    return start, np.array(bends) if bends else np.empty((0, 2))

@@ -3,18 +3,17 @@
 from dataclasses import dataclass
 from math import inf
 
-import numpy as np
-
 from relguide.kernels.base.angles import wrap
+from relguide.kernels.base.motion import Motion
 from relguide.kernels.separation.least_bad_turn import soonest_apart, widest_miss
-from relguide.planning.certificate import kernel_arrays
 from relguide.planning.phrases import distance
 from relguide.planning.situation import Situation
 from relguide.planning.slot import over_ground
+from relguide.planning.tables import motion_of
 from relguide.units import DEG, Metre, Radian, Second
 
 HORIZON: Second = 900.0
-"""How far ahead it is looked: two aircraft that have not parted by then fly together [s]."""
+"""How far ahead to look: two aircraft that have not parted by then fly together [s]."""
 _LOOKED = f"{HORIZON / 60.0:.0f} minutes"
 
 
@@ -39,15 +38,15 @@ class Recovery:
 
 def restore(situation: Situation) -> Recovery:
     """Inside d_min: the turn and straight that brings the aircraft d_min apart soonest."""
-    pursuer, rate, leader, pieces = _arrays(situation)
-    angle, time = soonest_apart(pursuer, rate, leader, pieces, situation.min_separation, HORIZON)
-    _, now, _ = widest_miss(pursuer, rate, leader, pieces, 0.0)
+    pursuer, rate, leader = _both(situation)
+    angle, time = soonest_apart(pursuer, rate, leader, situation.min_separation, HORIZON)
+    _, now, _ = widest_miss(pursuer, rate, leader, 0.0)
     return _recovery(situation, angle, now, time)
 
 
 def least_bad(situation: Situation) -> Recovery:
     """Where d_min cannot be kept: the turn and straight whose least separation is largest."""
-    angle, least, at = widest_miss(*_arrays(situation), HORIZON)
+    angle, least, at = widest_miss(*_both(situation), HORIZON)
     return _recovery(situation, angle, least, at)
 
 
@@ -91,11 +90,11 @@ def _recovery(situation: Situation, angle: float, least: float, at: float) -> Re
     )
 
 
-def _arrays(situation: Situation) -> tuple[np.ndarray, float, np.ndarray, np.ndarray]:
+def _both(situation: Situation) -> tuple[Motion, float, Motion]:
+    """The pursuer, its turn rate at full bank [rad/s], and the leader."""
     pursuer = situation.pursuer
-    start, _ = kernel_arrays(pursuer.flying(()))
-    leader, pieces = kernel_arrays(situation.leader.trajectory)
-    return start, pursuer.tas / pursuer.turn_radius, leader, pieces
+    rate = pursuer.tas / pursuer.turn_radius
+    return motion_of(pursuer.flying(())), rate, motion_of(situation.leader.trajectory)
 
 
 def _turn(recovery: Recovery) -> str:

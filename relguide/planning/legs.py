@@ -15,6 +15,7 @@ import numpy as np
 from relguide.kernels.base.motion import advance
 from relguide.kernels.bounds.costate import contacts
 from relguide.planning.situation import Situation
+from relguide.planning.tables import motion_of
 from relguide.planning.trajectory import Trajectory
 
 TOUCHES = 1e-5
@@ -195,8 +196,8 @@ def _contacts(trajectory: Trajectory, situation: Situation) -> list[float]:
     radius, leader = situation.pursuer.turn_radius, situation.leader.trajectory
     found = np.empty(MAX_CONTACTS)
     n = contacts(
-        *_tables(trajectory),
-        *_tables(leader),
+        motion_of(trajectory),
+        motion_of(leader),
         trajectory.duration,
         situation.min_separation - TOUCHES * radius,
         situation.min_separation + TOUCHES * radius,
@@ -204,12 +205,6 @@ def _contacts(trajectory: Trajectory, situation: Situation) -> list[float]:
         found,
     )
     return [float(t) * trajectory.tas / radius for t in found[:n]]
-
-
-def _tables(trajectory: Trajectory) -> tuple[np.ndarray, np.ndarray]:
-    """Its start, and its pieces, as the kernel takes them."""
-    start = np.array((trajectory.x, trajectory.y, trajectory.heading, trajectory.tas), float)
-    return start, np.array(trajectory.bends()).reshape(-1, 2)  # (pieces, 2)
 
 
 def _legs(

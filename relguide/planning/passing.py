@@ -1,38 +1,38 @@
 """passing(trajectory, surroundings): behind the leader or ahead of it, and on which side.
 
-Seen from the leader all ways to the slot lead from one place to one other, and as long as they keep
-off it, how far the line of sight turns on the way differs only by whole turns. The way that keeps
-behind the leader is the one whose line of sight never sweeps, on balance, over the line ahead.
+Seen from the leader all paths to the slot lead from one place to one other, and as long as they
+avoid the leader itself, how far the line of sight turns along them differs only by whole turns. The
+path that keeps behind the leader is the one whose line of sight never sweeps, on balance, over the
+line ahead.
 """
 
 from dataclasses import dataclass
 from math import atan2, hypot, pi
 from typing import Literal
 
-import numpy as np
-
 from relguide.kernels.base.angles import wrap_signed
+from relguide.kernels.base.motion import Motion
 from relguide.kernels.separation.winding import sight_turn
-from relguide.planning.certificate import kernel_arrays
 from relguide.planning.situation import Situation
 from relguide.planning.slot import slot_frame, slot_offset
+from relguide.planning.tables import motion_of
 from relguide.planning.trajectory import LEFT, RIGHT, Trajectory, Turn
 from relguide.units import Metre, Radian
 
 NEAREST = 1e-2
-"""Below this separation how the leader is passed is not told [R]."""
+"""Below this separation it is not said how the leader is passed [R]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Passing:
-    """How a way passes the leader."""
+    """How a path passes the leader."""
 
     side: Turn
     """`LEFT`: the line of sight turns counter-clockwise on balance, the pursuer goes round the
     leader that way and has it on its left hand. `RIGHT`: clockwise. As for slides along d_min."""
     laps: int
     """How often it crosses the line ahead of the leader on its final leg, clockwise round it
-    positive, counter-clockwise negative: 0 for a way that passes behind."""
+    positive, counter-clockwise negative: 0 for a path that passes behind."""
 
     @property
     def where(self) -> Literal["behind", "ahead"]:
@@ -42,13 +42,13 @@ class Passing:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Surroundings:
-    """What all ways of a situation have in common, as seen from the leader.
+    """What all paths of a situation have in common, as seen from the leader.
 
     Angles are those of the pursuer, clockwise from straight behind the leader on its final leg.
     """
 
-    leader: tuple[np.ndarray, np.ndarray]
-    """As the kernels take it."""
+    leader: Motion
+    """How the leader moves."""
     nearest: Metre
     """The separation below which steps grow no shorter."""
     begins: Radian
@@ -58,7 +58,7 @@ class Surroundings:
 
 
 def surroundings(situation: Situation) -> Surroundings:
-    """What the ways of a situation have in common."""
+    """What the paths of a situation have in common."""
     pursuer, leader = situation.pursuer, situation.leader.trajectory
     frame = slot_frame(situation, leader)
     nearest = NEAREST * frame.radius
@@ -70,7 +70,7 @@ def surroundings(situation: Situation) -> Surroundings:
         return wrap_signed(atan2(dx, dy) - frame.heading - pi)
 
     return Surroundings(
-        leader=kernel_arrays(leader),
+        leader=motion_of(leader),
         nearest=nearest,
         begins=from_behind(pursuer.x - leader.x, pursuer.y - leader.y),
         ends=from_behind(slot_x, slot_y),
@@ -79,8 +79,6 @@ def surroundings(situation: Situation) -> Surroundings:
 
 def passing(trajectory: Trajectory, around: Surroundings) -> Passing:
     """How a trajectory that ends in the slot passes the leader."""
-    turned = sight_turn(
-        *kernel_arrays(trajectory), *around.leader, trajectory.duration, around.nearest
-    )
+    turned = sight_turn(motion_of(trajectory), around.leader, trajectory.duration, around.nearest)
     laps = round((around.begins + turned - around.ends) / (2.0 * pi))
     return Passing(side=RIGHT if turned > 0.0 else LEFT, laps=laps)

@@ -10,7 +10,7 @@ from typing import Literal
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.separation.clearance import SLACK
 from relguide.planning.arrival import Arrival, arrival
-from relguide.planning.certificate import Certificate, bends_of, judge, leader_bends
+from relguide.planning.certificate import Certificate, judge
 from relguide.planning.constrained_path import detour
 from relguide.planning.inputs import expect
 from relguide.planning.least_bad import (
@@ -22,6 +22,7 @@ from relguide.planning.least_bad import (
 from relguide.planning.phrases import distance
 from relguide.planning.situation import Situation
 from relguide.planning.straight_ahead import direct
+from relguide.planning.tables import bends_of, leader_bends
 from relguide.planning.trajectory import Trajectory
 from relguide.planning.words import HORIZON, Candidate, Candidates, candidates
 from relguide.units import KT, Metre, Millisecond, Second

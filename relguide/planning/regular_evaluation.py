@@ -12,7 +12,7 @@ from math import cos, inf, sin
 import numpy as np
 
 from relguide.kernels.base.angles import wrap, wrap_signed
-from relguide.kernels.base.motion import advance
+from relguide.kernels.base.motion import Motion, advance
 from relguide.kernels.separation.approach import closest_of_straights, least_separation
 from relguide.kernels.separation.clearance import SLACK
 from relguide.planning.certificate import TOLERANCE
@@ -161,10 +161,8 @@ def _separation(
     rate, turning, straight = _rate_and_times(pair, situation)
     theirs = leader.pose_at(t)
     least, _, bound = least_separation(
-        np.array((start.x, start.y, start.heading, tas)),
-        np.array(((turning, rate),)),
-        np.array((theirs.x, theirs.y, theirs.heading, leader.tas)),
-        np.empty((0, 2)),
+        Motion(start.x, start.y, start.heading, tas, np.array(((turning, rate),))),
+        Motion(theirs.x, theirs.y, theirs.heading, leader.tas, np.empty((0, 2))),
         turning,
         TOLERANCE * radius,
     )

@@ -1,8 +1,26 @@
 """Position and heading after an arc or a straight at constant speed: eqs. (1)–(3), world frame."""
 
 from math import cos, sin
+from typing import NamedTuple
 
 from numba import njit
+
+from relguide.kernels.base.roots import FloatArray
+
+
+class Motion(NamedTuple):
+    """How an aircraft moves: arcs and straights at one speed, then straight on for ever."""
+
+    x: float
+    """At t = 0, east [m]."""
+    y: float
+    """The same, north [m]."""
+    heading: float
+    """ψ there, clockwise from north [rad]."""
+    tas: float
+    """V [m/s]."""
+    pieces: FloatArray
+    """Duration [s] and turn rate [rad/s, right positive] of each in turn. shape (n, 2)"""
 
 
 @njit(cache=True, nogil=True)
@@ -32,3 +50,9 @@ def advance(
         sinc = sin(half) / half
     chord = speed * t * sinc
     return x + chord * sin(heading + half), y + chord * cos(heading + half), heading + 2.0 * half
+
+
+@njit(cache=True, nogil=True)
+def with_pieces(motion: Motion, pieces: FloatArray) -> Motion:
+    """The same start, and other pieces."""
+    return Motion(motion.x, motion.y, motion.heading, motion.tas, pieces)

@@ -19,7 +19,7 @@ from math import atan2, cos, hypot, inf, pi, sin
 from numba import njit
 
 from relguide.kernels.base.angles import wrap
-from relguide.kernels.base.motion import advance
+from relguide.kernels.base.motion import Motion, advance
 from relguide.kernels.base.roots import FloatArray
 
 
@@ -97,8 +97,8 @@ def least_switching(
 
 @njit(cache=True, nogil=True)
 def contacts(
-    pursuer: FloatArray, pursuer_pieces: FloatArray, leader: FloatArray, leader_pieces: FloatArray,
-    horizon: float, low: float, high: float, stride: float, out: FloatArray,
+    pursuer: Motion, leader: Motion, horizon: float, low: float, high: float, stride: float,
+    out: FloatArray,
 ) -> int:  # fmt: skip
     """When the separation passes a local minimum between two values.
 
@@ -106,10 +106,8 @@ def contacts(
     they are `stride`: minima closer together than that count as one.
 
     Args:
-        pursuer: x, y [m], ψ [rad], V [m/s] at t = 0. shape (4,)
-        pursuer_pieces: duration [s], turn rate [rad/s, right positive] of each. shape (n, 2)
-        leader: as `pursuer`.
-        leader_pieces: as `pursuer_pieces`; past the last piece both go on straight.
+        pursuer: how the pursuer moves.
+        leader: and the leader.
         horizon: until when [s].
         low: least separation that counts [m].
         high: largest that does [m].
@@ -121,16 +119,16 @@ def contacts(
     """
     n = 0
     t, earlier = 0.0, 0.0
-    d, last = _closing(pursuer, pursuer_pieces, leader, leader_pieces, t)
+    d, last = _closing(pursuer, leader, t)
     while t < horizon and n < len(out):
         earlier = t
-        t = min(t + max(stride, (d - high) / (pursuer[3] + leader[3])), horizon)
-        d, rate = _closing(pursuer, pursuer_pieces, leader, leader_pieces, t)
+        t = min(t + max(stride, (d - high) / (pursuer.tas + leader.tas)), horizon)
+        d, rate = _closing(pursuer, leader, t)
         if last < 0.0 <= rate:
             left, right = earlier, t
             for _ in range(60):
                 middle = 0.5 * (left + right)
-                reached, slope = _closing(pursuer, pursuer_pieces, leader, leader_pieces, middle)
+                reached, slope = _closing(pursuer, leader, middle)
                 if slope < 0.0:
                     left = middle
                 else:
@@ -143,26 +141,23 @@ def contacts(
 
 
 @njit(cache=True, nogil=True)
-def _closing(
-    pursuer: FloatArray, pursuer_pieces: FloatArray, leader: FloatArray, leader_pieces: FloatArray,
-    t: float,
-) -> tuple[float, float]:  # fmt: skip
+def _closing(pursuer: Motion, leader: Motion, t: float) -> tuple[float, float]:
     """Separation [m] and its rate of change [m/s] at time t; the separation is not 0."""
-    px, py, ppsi = _fly(pursuer, pursuer_pieces, t)
-    lx, ly, lpsi = _fly(leader, leader_pieces, t)
+    px, py, ppsi = _fly(pursuer, t)
+    lx, ly, lpsi = _fly(leader, t)
     dx, dy = px - lx, py - ly
-    dvx = pursuer[3] * sin(ppsi) - leader[3] * sin(lpsi)
-    dvy = pursuer[3] * cos(ppsi) - leader[3] * cos(lpsi)
+    dvx = pursuer.tas * sin(ppsi) - leader.tas * sin(lpsi)
+    dvy = pursuer.tas * cos(ppsi) - leader.tas * cos(lpsi)
     d = hypot(dx, dy)
     return d, (dx * dvx + dy * dvy) / max(d, 1e-9)  # 1e-9 m: where they meet it has no rate
 
 
 @njit(cache=True, nogil=True)
-def _fly(start: FloatArray, pieces: FloatArray, t: float) -> tuple[float, float, float]:
-    x, y, psi = start[0], start[1], start[2]
+def _fly(motion: Motion, t: float) -> tuple[float, float, float]:
+    x, y, psi, tas, pieces = motion
     for i in range(len(pieces)):
-        x, y, psi = advance(x, y, psi, start[3], pieces[i, 1], min(t, pieces[i, 0]))
+        x, y, psi = advance(x, y, psi, tas, pieces[i, 1], min(t, pieces[i, 0]))
         t -= pieces[i, 0]
         if t <= 0.0:
             return x, y, psi
-    return advance(x, y, psi, start[3], 0.0, t)
+    return advance(x, y, psi, tas, 0.0, t)

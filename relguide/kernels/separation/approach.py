@@ -17,8 +17,8 @@ derivatives,
     d²(τ) ≥ |p|² + 2 p·v τ + (|v|² + p·a) τ² − |v·a + p·j/3| |τ|³ − (8|v|J + 6A² + 2|p|S) τ⁴/24,
 
 J = V_P r_P² + V_L r_L² and S = V_P|r_P|³ + V_L|r_L|³ being the largest of the next derivatives, |v|
-and |p| in the last term at their largest in the window. It closes with w⁴. Of both bounds the
-larger one counts. The work is bounded too: windows are not halved for less than rounding, and only
+and |p| in the last term at their largest in the window. It closes with w⁴. The larger of the two
+bounds counts. The work is bounded too: windows are not halved for less than rounding, and only
 so many are looked at.
 """
 
@@ -27,15 +27,14 @@ from math import cos, hypot, inf, sin, sqrt
 import numpy as np
 from numba import njit
 
+from relguide.kernels.base.motion import Motion
 from relguide.kernels.base.roots import FloatArray
 
 ROUNDING = 1e-6
 """Taken off every proved bound for rounding [m]: coordinates of 1e6 m carry 1e-10 m each."""
 _SHARE = 1e-14  # of the way flown, taken off besides: some 50 roundings of its largest coordinate
 _MOST_WINDOWS = 131_072  # looked at; what is pending then keeps the bound it has
-_DEPTH = (
-    64  # windows pending at once; a halved window leaves one behind, so this is 2⁻⁶⁴ of a piece
-)
+_DEPTH = 64  # windows pending at once: halving leaves one behind, so this is 2⁻⁶⁴ of a piece
 
 
 @njit(cache=True, nogil=True)
@@ -89,17 +88,17 @@ def least_by_squares(
     """
     square, slope = dx * dx + dy * dy, 2.0 * (dx * dvx + dy * dvy)
     speed_squared = dvx * dvx + dvy * dvy
-    opening = speed_squared + dx * dax + dy * day
-    least = square - abs(slope) * half + opening * half * half
-    if opening > 0.0 and abs(slope) < 2.0 * opening * half:
-        least = square - slope * slope / (4.0 * opening)
+    growth = speed_squared + dx * dax + dy * day
+    least = square - abs(slope) * half + growth * half * half
+    if growth > 0.0 and abs(slope) < 2.0 * growth * half:
+        least = square - slope * slope / (4.0 * growth)
     twist = dvx * dax + dvy * day + (dx * djx + dy * djy) / 3.0
     fastest = sqrt(speed_squared) + bend * half
     farthest = sqrt(square) + fastest * half
     rest = (8.0 * fastest * jerk + 6.0 * bend * bend + 2.0 * farthest * snap) / 24.0
     least -= (abs(twist) + rest * half) * half * half * half
     # some twenty roundings of the largest term, which near 0 would count for much
-    least -= 4e-15 * (square + abs(slope) * half + abs(opening) * half * half)
+    least -= 4e-15 * (square + abs(slope) * half + abs(growth) * half * half)
     return sqrt(max(least, 0.0))
 
 
@@ -119,24 +118,21 @@ def _flown(
 
 @njit(cache=True, nogil=True)
 def least_separation(
-    pursuer: FloatArray, pursuer_pieces: FloatArray, leader: FloatArray, leader_pieces: FloatArray,
-    horizon: float, tolerance: float,
-) -> tuple[float, float, float]:  # fmt: skip
+    pursuer: Motion, leader: Motion, horizon: float, tolerance: float
+) -> tuple[float, float, float]:
     """Least separation of two aircraft on [0, horizon], with a proved lower bound on it.
 
     Args:
-        pursuer: x, y [m], ψ [rad], V [m/s] at t = 0. shape (4,)
-        pursuer_pieces: duration [s], turn rate [rad/s, right positive] of each. shape (n, 2)
-        leader: as `pursuer`.
-        leader_pieces: as `pursuer_pieces`; past the last piece both go on straight.
+        pursuer: how one of them moves.
+        leader: and the other.
         horizon: until when [s].
         tolerance: how far below the least separation found the bound may stay [m], > 0.
 
     Returns:
         least separation found [m], when [s], proved lower bound [m].
     """
-    px, py, ppsi, pv = pursuer[0], pursuer[1], pursuer[2], pursuer[3]
-    lx, ly, lpsi, lv = leader[0], leader[1], leader[2], leader[3]
+    px, py, ppsi, pv, pursuer_pieces = pursuer
+    lx, ly, lpsi, lv, leader_pieces = leader
     best, best_at = hypot(px - lx, py - ly), 0.0
     proved = best
     reach = abs(px) + abs(py) + abs(lx) + abs(ly) + (pv + lv) * horizon
@@ -221,7 +217,7 @@ def least_on_paths(
     leader_y: float, leader_heading: float, leader_tas: float, leader_bends: FloatArray,
     tolerance: float,
 ) -> tuple[float, float, float]:  # fmt: skip
-    """`least_separation` until the end of the pursuer's path.
+    """`least_separation` until the end of the pursuer's path; loose numbers, called once a plan.
 
     Args:
         x: the pursuer at t = 0, east [m].
@@ -235,13 +231,13 @@ def least_on_paths(
         leader_heading: as `heading`.
         leader_tas: as `tas`.
         leader_bends: as `bends`; past the last of them it goes on straight.
-        tolerance: as there [m].
+        tolerance: as in `least_separation` [m].
     """
-    pursuer = np.array((x, y, heading, tas))
-    leader = np.array((leader_x, leader_y, leader_heading, leader_tas))
-    pieces, leader_pieces = _in_time(bends, tas), _in_time(leader_bends, leader_tas)
-    horizon = pieces[:, 0].sum()
-    return least_separation(pursuer, pieces, leader, leader_pieces, horizon, tolerance)
+    pursuer = Motion(x, y, heading, tas, _in_time(bends, tas))
+    leader = Motion(
+        leader_x, leader_y, leader_heading, leader_tas, _in_time(leader_bends, leader_tas)
+    )
+    return least_separation(pursuer, leader, pursuer.pieces[:, 0].sum(), tolerance)
 
 
 @njit(cache=True, nogil=True)

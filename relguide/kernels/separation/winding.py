@@ -8,30 +8,24 @@ from math import atan2, hypot
 
 from numba import njit
 
-from relguide.kernels.base.motion import advance
-from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.base.motion import Motion, advance
 
 _STRIDE = 0.9
 
 
 @njit(cache=True, nogil=True)
-def sight_turn(
-    pursuer: FloatArray, pursuer_pieces: FloatArray, leader: FloatArray, leader_pieces: FloatArray,
-    duration: float, nearest: float,
-) -> float:  # fmt: skip
+def sight_turn(pursuer: Motion, leader: Motion, duration: float, nearest: float) -> float:
     """By how much the bearing θ from pursuer to leader changes, clockwise positive [rad].
 
     Args:
-        pursuer: x, y [m], ψ [rad], V [m/s] at t = 0. shape (4,)
-        pursuer_pieces: duration [s], turn rate [rad/s, right positive] of each. shape (n, 2)
-        leader: as `pursuer`.
-        leader_pieces: as `pursuer_pieces`; past the last piece both go on straight.
+        pursuer: how the pursuer moves.
+        leader: and the leader.
         duration: until when [s].
-        nearest: steps are as for this separation where it is less [m], > 0: it bounds the work, and
-            of aircraft that meet the turn is not known.
+        nearest: where they are nearer than this, steps are as if they were not [m], > 0: it bounds
+            the work, and the turn of aircraft that meet is not known.
     """
-    px, py, ppsi, pv = pursuer[0], pursuer[1], pursuer[2], pursuer[3]
-    lx, ly, lpsi, lv = leader[0], leader[1], leader[2], leader[3]
+    px, py, ppsi, pv, pursuer_pieces = pursuer
+    lx, ly, lpsi, lv, leader_pieces = leader
     i, j = 0, 0
     p_left = pursuer_pieces[0, 0] if len(pursuer_pieces) > 0 else duration
     l_left = leader_pieces[0, 0] if len(leader_pieces) > 0 else duration

@@ -5,15 +5,15 @@ from math import cos, hypot, pi, sin
 import numpy as np
 import pytest
 
-from relguide.kernels.base.motion import advance
+from relguide.kernels.base.motion import Motion, advance
 from relguide.kernels.separation.approach import least_by_squares, least_separation
 
 TOLERANCE = 1e-3  # [m]
 
 
-def sampled(start: np.ndarray, pieces: np.ndarray, times: np.ndarray) -> np.ndarray:
+def sampled(motion: Motion, times: np.ndarray) -> np.ndarray:
     """Where an aircraft is at ascending times."""
-    x, y, heading, speed = start.tolist()
+    x, y, heading, speed, pieces = motion
     begun, places = 0.0, []
     left = [*pieces.tolist(), [np.inf, 0.0]]
     for t in times.tolist():
@@ -30,27 +30,27 @@ def test_no_sample_lies_below_the_bound_and_the_bound_is_close() -> None:
     for _ in range(60):
         both = []
         for _ in range(2):
-            start = np.array([*rng.uniform(-2e4, 2e4, 2), rng.uniform(0.0, 2 * pi), 200.0])
+            x, y, heading = *rng.uniform(-2e4, 2e4, 2).tolist(), rng.uniform(0.0, 2 * pi)
             pieces = np.column_stack((rng.uniform(1.0, 200.0, 4), rng.uniform(-0.03, 0.03, 4)))
-            both.append((start, pieces))
+            both.append(Motion(x, y, heading, 200.0, pieces))
         horizon = 600.0
-        least, at, bound = least_separation(*both[0], *both[1], horizon, TOLERANCE)
+        least, at, bound = least_separation(*both, horizon, TOLERANCE)
         times = np.linspace(0.0, horizon, 6001)
-        away = np.hypot(*(sampled(*both[0], times) - sampled(*both[1], times)).T)
+        away = np.hypot(*(sampled(both[0], times) - sampled(both[1], times)).T)
         assert away.min() >= bound
         assert least - TOLERANCE - 1e-4 <= bound <= least
         assert least <= away.min() + TOLERANCE
-        place, other = (sampled(*one, np.array([at]))[0] for one in both)
+        place, other = (sampled(one, np.array([at]))[0] for one in both)
         assert hypot(*(place - other)) == pytest.approx(least, abs=1e-6)
 
 
 def test_a_circle_round_the_leader_is_proved_to_its_distance() -> None:
     # at 7 km round a leader at rest in the air mass, all the way round
     radius, speed = 7000.0, 200.0
-    pursuer = np.array([radius, 0.0, 0.0, speed])
-    pieces = np.array([[2.0 * pi * radius / speed, -speed / radius]])
-    leader, none = np.array([0.0, 0.0, 0.0, 0.0]), np.empty((0, 2))
-    _, _, bound = least_separation(pursuer, pieces, leader, none, pieces[0, 0], TOLERANCE)
+    once = 2.0 * pi * radius / speed
+    pursuer = Motion(radius, 0.0, 0.0, speed, np.array([[once, -speed / radius]]))
+    leader = Motion(0.0, 0.0, 0.0, 0.0, np.empty((0, 2)))
+    _, _, bound = least_separation(pursuer, leader, once, TOLERANCE)
     assert bound == pytest.approx(radius, abs=TOLERANCE + 1e-5)
 
 

@@ -5,6 +5,7 @@ from math import inf, pi
 import numpy as np
 import pytest
 
+from relguide.kernels.base.motion import Motion
 from relguide.kernels.separation.winding import sight_turn
 
 NO_PIECES = np.empty((0, 2))
@@ -17,24 +18,30 @@ def test_circles_round_a_leader_that_stands(rate: float, laps: float) -> None:
     radius, duration = 100.0 / abs(rate), laps * 2.0 * pi / abs(rate)
     beside = radius if rate > 0.0 else -radius
     turned = sight_turn(
-        np.array((0.0, 0.0, 0.0, 100.0)), np.array(((duration, rate),)),
-        np.array((beside, 0.0, 1.0, 0.0)), NO_PIECES, duration, 10.0,
-    )  # fmt: skip
+        Motion(0.0, 0.0, 0.0, 100.0, np.array(((duration, rate),))),
+        Motion(beside, 0.0, 1.0, 0.0, NO_PIECES),
+        duration,
+        10.0,
+    )
     assert turned == pytest.approx(laps * 2.0 * pi * (1.0 if rate > 0.0 else -1.0))
 
 
 def test_passing_each_other_turns_it_by_half() -> None:
     """Opposite ways on parallel lines 100 m apart, each on the other's right, 4,000 km a side."""
     turned = sight_turn(
-        np.array((0.0, -2e6, 0.0, 200.0)), NO_PIECES,
-        np.array((100.0, 2e6, pi, 200.0)), np.array(((5_000.0, 0.0), (1.0, 0.0))), 2e4, 1.0,
-    )  # fmt: skip
+        Motion(0.0, -2e6, 0.0, 200.0, NO_PIECES),
+        Motion(100.0, 2e6, pi, 200.0, np.array(((5_000.0, 0.0), (1.0, 0.0)))),
+        2e4,
+        1.0,
+    )
     assert turned == pytest.approx(pi, abs=1e-4)
 
 
 def test_aircraft_that_meet_cost_no_endless_work() -> None:
     turned = sight_turn(
-        np.array((0.0, -1e4, 0.0, 200.0)), NO_PIECES,
-        np.array((0.0, 1e4, pi, 200.0)), NO_PIECES, 100.0, 10.0,
-    )  # fmt: skip
+        Motion(0.0, -1e4, 0.0, 200.0, NO_PIECES),
+        Motion(0.0, 1e4, pi, 200.0, NO_PIECES),
+        100.0,
+        10.0,
+    )
     assert abs(turned) < inf
