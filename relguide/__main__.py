@@ -21,6 +21,7 @@ from relguide.cli import (
     replay_command,
     serve_command,
     train_command,
+    warm_up_command,
 )
 from relguide.cli.output import FAILED, MISUSE, STOPPED, say
 from relguide.planning.extras import MissingExtra, with_command
@@ -49,6 +50,7 @@ COMMANDS: dict[str, Command] = {
     "train": train_command,
     "audit": audit_command,
     "area": area_command,
+    "warm-up": warm_up_command,
 }
 
 

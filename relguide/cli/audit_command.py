@@ -29,7 +29,13 @@ BRANCHES, TEMPLATES, BESIDE = 100_000, 20_000, 20_000
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """The options of `relguide audit`."""
-    parser.add_argument("weights", metavar="WEIGHTS.safetensors", type=Path, nargs="?")
+    parser.add_argument(
+        "weights",
+        metavar="WEIGHTS.safetensors",
+        type=Path,
+        nargs="?",
+        help="left out: the weights that come with the program",
+    )
     parser.add_argument(
         "--method",
         choices=METHODS,
@@ -55,7 +61,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         metavar="N",
         type=count,
         help="branches: situations to judge it in beside the paper's network, the nearest path "
-        f"of its tree and direct regression; 0: none; default: {BESIDE}",
+        f"of its tree and direct regression; default: {BESIDE}",
     )
     parser.add_argument(
         "--figures", metavar="FOLDER", type=Path, help="draw what is found, as .svg"

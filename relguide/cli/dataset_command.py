@@ -41,7 +41,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="reverse-dp: the tree of Fig. 3; exact: situations with the exact time of each word; "
         "templates: situations in which d_min binds, each with the fastest constrained path",
     )
-    parser.add_argument("--out", metavar="FILE.npz", type=_npz, required=True)
+    parser.add_argument(
+        "--out", metavar="FILE.npz", type=_npz, required=True, help="where to write it"
+    )
     parser.add_argument(
         "--resume",
         action="store_true",
@@ -54,7 +56,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         metavar="N",
         type=count,
         default=2000,
-        help="reverse-dp: compare N of its states with the exact planner; 0: none; "
+        help="reverse-dp: how many of its states to compare with the exact planner; "
         "default: %(default)s",
     )
     parser.add_argument(
@@ -64,7 +66,11 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help=f"exact: how many situations, default: {LABELS}; templates: {PATH_LABELS}",
     )
     parser.add_argument(
-        "--seed", metavar="N", type=count, default=7, help="exact, templates: default: %(default)s"
+        "--seed",
+        metavar="N",
+        type=count,
+        default=7,
+        help="exact, templates: of the situations; default: %(default)s",
     )
     parser.add_argument(
         "--loops",

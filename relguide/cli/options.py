@@ -24,8 +24,8 @@ def add_planner(parser: argparse.ArgumentParser) -> None:
         "--planner",
         choices=PLANNERS,
         default="exact",
-        help="network: it picks the words to solve; regular_dp: the paper's tree does; "
-        "default: exact",
+        help="exact: all words are solved; network: a network picks those to solve; regular_dp: "
+        "the paper's tree picks them; default: exact",
     )
 
 
@@ -48,7 +48,7 @@ def make_planner(name: str) -> "Planner":
 def add_workers(parser: argparse.ArgumentParser) -> None:
     """Let it be chosen where parts are made: `workers.start_workers` takes what is chosen."""
     workers = parser.add_mutually_exclusive_group()
-    workers.add_argument("--threads", metavar="N", type=count, help="default: all cores")
+    workers.add_argument("--threads", metavar="N", type=count, help="how many; default: all cores")
     workers.add_argument(
         "--dask",
         metavar="tcp://HOST:PORT",

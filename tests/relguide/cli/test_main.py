@@ -226,3 +226,10 @@ def test_check_without_a_plan_and_with_a_leader_that_turns(run: Run) -> None:
     code, out, err = run("check", written(BODY))
     assert (code, out) == (2, "")
     assert "the intent of this one turns" in err
+
+
+def test_what_may_be_compiled_is_what_the_steps_are_named_by() -> None:
+    from relguide.cli.warm_up_command import FOR
+    from relguide.warm_up import SETS
+
+    assert FOR == tuple(SETS)
