@@ -10,7 +10,7 @@ from relguide.cli.output import DONE, provenance, write, write_json
 from relguide.planning.extras import need
 
 if TYPE_CHECKING:
-    from relguide.learn.tree.tree import Losses, Tree
+    from relguide.learn.tree.tree import Losses
 
 PURPOSE = "make a data set to learn from"
 EXAMPLES = """
@@ -99,7 +99,7 @@ def run(chosen: argparse.Namespace) -> int:
 def _make_tree(chosen: argparse.Namespace) -> None:
     import numpy as np
 
-    from relguide.cli.tree_growth import grow_on, load_kernels, load_part
+    from relguide.cli.tree_growth import compare_states, grow_on, load_kernels, load_part
     from relguide.learn.training.files import expect_part
     from relguide.learn.tree.reverse_dp import planted, tree_from
     from relguide.learn.tree.tree import parameters_as_json
@@ -121,7 +121,7 @@ def _make_tree(chosen: argparse.Namespace) -> None:
     tree = tree_from(growth, provenance("reverse-dp"))
     save_tree(tree, file)
     part.unlink()
-    found = _audit_tree(tree, chosen.audit, threads)
+    found = compare_states(tree, chosen.audit, threads=threads)
     figures = {
         "file": str(file),
         "parameters": parameters_as_json(parameters),
@@ -154,28 +154,6 @@ def _make_tree(chosen: argparse.Namespace) -> None:
     )
     if found is not None:
         write(_losses_in_words(found))
-
-
-def _audit_tree(tree: "Tree", states: int, threads: int | None) -> "Losses | None":
-    """Compare a fixed choice of states with the exact planner."""
-    import numpy as np
-
-    from relguide.cli.tree_growth import plan_places
-    from relguide.learn.tree.tree import losses
-
-    minima = tree.minima
-    if states == 0 or len(minima) == 0:
-        return None
-    choice = np.random.default_rng(0).permutation(minima)[:states]
-    exact = plan_places(
-        tree.parameters,
-        tree.x[choice],
-        tree.y[choice],
-        tree.heading[choice],
-        title="auditing",
-        threads=threads,
-    )
-    return losses(tree, choice, exact)
 
 
 def _losses_in_words(found: "Losses") -> str:

@@ -4,8 +4,17 @@ from math import pi
 from pathlib import Path
 from time import perf_counter
 
+import numpy as np
+
 from relguide.learn.tree.reverse_dp import Growth, grow_order, planted, reverse_tree, tree_from
-from relguide.learn.tree.tree import LEAST_HORIZON, Tree, TreeParameters, parameters_as_json
+from relguide.learn.tree.tree import (
+    LEAST_HORIZON,
+    Losses,
+    Tree,
+    TreeParameters,
+    losses,
+    parameters_as_json,
+)
 from relguide.learn.tree.tree_file import load_growth, save_growth
 from relguide.maps.area import Floats, exact_times
 from relguide.planning.progress import progress_bar, watched
@@ -66,6 +75,29 @@ def load_kernels(parameters: TreeParameters) -> None:
             horizon=LEAST_HORIZON,
         )
     )
+
+
+def compare_states(tree: Tree, states: int, *, threads: int | None) -> Losses | None:
+    """Compare a fixed choice of a tree's states with exact plans; `None` if there are none.
+
+    Args:
+        tree: the tree.
+        states: how many.
+        threads: how many; all cores if none is given.
+    """
+    minima = tree.minima
+    if states == 0 or len(minima) == 0:
+        return None
+    choice = np.random.default_rng(0).permutation(minima)[:states]
+    exact = plan_places(
+        tree.parameters,
+        tree.x[choice],
+        tree.y[choice],
+        tree.heading[choice],
+        title="auditing",
+        threads=threads,
+    )
+    return losses(tree, choice, exact)
 
 
 def plan_places(
