@@ -1,7 +1,7 @@
 """Where d_min cannot be kept: the least bad turn, checked by flying it and by looking harder."""
 
 from dataclasses import replace
-from math import hypot, inf, pi
+from math import cos, hypot, inf, pi
 
 import numpy as np
 import pytest
@@ -55,6 +55,9 @@ def test_no_other_turn_restores_separation_sooner(situation: Situation, angle: f
     assume(gap < 0.9 * situation.min_separation)
     found = restore(situation)
     assume(found.at_time < inf)
+    assert 0.0 <= found.heading < 2.0 * pi
+    turned = situation.pursuer.heading + found.turn_angle
+    assert cos(found.heading - turned) == pytest.approx(1.0, abs=1e-12)
     at_end, _, _ = flown(situation, found.turn_angle, found.at_time)
     assert at_end >= situation.min_separation - 1.0
     # half a second of both aircraft: how late the time may be

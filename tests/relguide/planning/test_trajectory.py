@@ -5,14 +5,14 @@ from math import pi
 import pytest
 from hypothesis import given
 
-from relguide import LEFT, RIGHT, Arc, Straight, Trajectory
+from relguide import LEFT, RIGHT, Arc, BoundaryArc, Straight, Trajectory
 from relguide.kernels.base.turn import turn_radius, turn_rate
 from relguide.units import DEG
 from tests.oracle import integrate, pieces_of
 from tests.situations import numbers
 
 
-def path(*segments: Arc | Straight) -> Trajectory:
+def path(*segments: Arc | BoundaryArc | Straight) -> Trajectory:
     return Trajectory(x=1_000.0, y=-2_000.0, heading=0.3, tas=200.0, segments=segments)
 
 
@@ -78,3 +78,10 @@ def test_radius_and_rate_belong_together() -> None:
 def test_a_segment_that_cannot_be_flown_is_refused(length: float) -> None:
     with pytest.raises(ValueError, match=r"must (be|have) a finite"):
         path(Straight(length=length))
+
+
+@pytest.mark.parametrize("backward", range(5))
+def test_no_piece_of_a_boundary_arc_is_flown_backward(backward: int) -> None:
+    bends = tuple((-20.0 if k == backward else 100.0, 1e-4) for k in range(5))
+    with pytest.raises(ValueError, match=r"length of 0 m or more, not -20"):
+        path(BoundaryArc(side=LEFT, bends=bends))

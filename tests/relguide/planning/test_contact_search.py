@@ -1,0 +1,99 @@
+"""The cells that a proof begins with: every contact lies in one, and halving loses none."""
+
+from collections import defaultdict
+from dataclasses import replace
+from itertools import pairwise
+from math import inf, pi
+
+import numpy as np
+import pytest
+
+from relguide.planning.contact_search import Cell, Question
+
+LEADER = np.array(
+    [[0.0, 1.0, 0.5, -0.7, 0.4], [2.0, 2.6, 0.2, 0.1, -0.2], [3.0, 3.5, 0.3, -0.1, 0.0]]
+)
+QUESTION = Question(
+    start=(0.0, 0.0, 0.0),
+    leader=LEADER,
+    alpha=0.9,
+    delta=0.8,
+    goal_x=-1.0,
+    goal_speed=0.9,
+    t_release=5.0,
+    never_at_release=False,
+    horizon=inf,
+)
+
+
+def windows(question: Question) -> dict[tuple[int, float], dict[tuple[float, float], list[Cell]]]:
+    """The cells by piece and side, and those by window of time."""
+    found: dict[tuple[int, float], dict[tuple[float, float], list[Cell]]]
+    found = defaultdict(lambda: defaultdict(list))
+    for cell in question.first_contacts():
+        found[cell.piece, cell.side][cell.start, cell.end].append(cell)
+    return found
+
+
+def test_cells_cover_every_bearing_once_and_none_reaches_into_two_quadrants() -> None:
+    for by_window in windows(QUESTION).values():
+        for cells in by_window.values():
+            edges = [(cell.bearing - cell.half, cell.bearing + cell.half) for cell in cells]
+            assert edges[0][0] == pytest.approx(-pi, abs=1e-12)
+            assert edges[-1][1] == pytest.approx(pi, abs=1e-12)
+            for (_, end), (begin, _) in pairwise(edges):
+                assert begin == pytest.approx(end, abs=1e-12)
+            for begin, end in edges:
+                assert np.floor(begin / (0.5 * pi) + 1e-9) == np.floor(end / (0.5 * pi) - 1e-9)
+
+
+@pytest.mark.parametrize(
+    ("t_release", "last"),
+    [(5.0, [(3.0, 5.0), (5.0, inf)]), (2.5, [(3.0, inf)]), (0.0, [(3.0, inf)])],
+)
+def test_cells_cover_every_time_and_are_cut_where_the_slot_opens(
+    t_release: float, last: list[tuple[float, float]]
+) -> None:
+    found = windows(replace(QUESTION, t_release=t_release))
+    assert set(found) == {(piece, side) for piece in range(3) for side in (-1.0, 1.0)}
+    for (piece, _), by_window in found.items():
+        assert sorted(by_window) == [[(0.0, 2.0)], [(2.0, 3.0)], last][piece]
+
+
+def test_contacts_after_the_horizon_have_no_cell() -> None:
+    found = windows(replace(QUESTION, horizon=2.5))
+    assert {(piece, *window) for (piece, _), some in found.items() for window in some} == {
+        (0, 0.0, 2.0),
+        (1, 2.0, 2.5),
+    }
+    # … but there is always one: a question begins with a cell
+    assert set(windows(replace(QUESTION, horizon=0.0))) == {(0, -1.0), (0, 1.0)}
+
+
+@pytest.mark.parametrize(
+    ("cell", "by_time"),
+    [
+        (Cell(0, 1.0, 0.3, 0.1, 0.0, 2.0), True),
+        (Cell(0, 1.0, 0.3, 0.1, 1.9, 2.0), False),
+        (Cell(0, 1.0, 0.3, 0.1, 1.66, 2.0), False),  # half of 0.34 against 1.8 times 0.1
+        (Cell(0, 1.0, 0.3, 0.1, 1.62, 2.0), True),
+        (Cell(2, -1.0, 0.3, 0.1, 5.0, inf), False),
+    ],
+)
+def test_the_halves_of_a_cell_are_the_cell_cut_across_its_longer_side(
+    cell: Cell, by_time: bool
+) -> None:
+    one, other = cell.halves(QUESTION.delta)
+    assert (one.piece, one.side) == (other.piece, other.side) == (cell.piece, cell.side)
+    if by_time:
+        middle = 0.5 * (cell.start + cell.end)
+        assert (one.start, one.end) == (cell.start, middle)
+        assert (other.start, other.end) == (middle, cell.end)
+        assert one.half == other.half == cell.half
+        assert one.bearing == other.bearing == cell.bearing
+    else:
+        assert (one.start, one.end) == (other.start, other.end) == (cell.start, cell.end)
+        assert one.half == other.half == 0.5 * cell.half
+        assert one.bearing - one.half == pytest.approx(cell.bearing - cell.half)
+        assert one.bearing + one.half == pytest.approx(other.bearing - other.half)
+        assert other.bearing + other.half == pytest.approx(cell.bearing + cell.half)
