@@ -8,7 +8,7 @@ LIBRARY, TESTS = Path("relguide"), Path("tests")
 GOLDEN = TESTS / "relguide/planning/test_golden.py"
 APART = {"test_warm_up.py", "test_readme.py"}
 """They compile everything, or start processes that do."""
-ENOUGH, MOST = 2, 4
+ENOUGH, MOST = 3, 4
 """Importers are followed upward until so many modules are found, and at most so many are taken."""
 
 
