@@ -20,13 +20,13 @@ from relguide.units import Metre, MetrePerSecond, Radian, Second
 
 Floats = NDArray[np.float64]
 SAME = 1e-6
-"""Ratios that differ by less than this part of themselves belong to one encounter: rounding of
-numbers that people typed."""
+"""Ratios that differ by less than this part of themselves belong to one encounter: people round
+the numbers they type."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Encounter:
-    """Who joins whom, all but the place: what a convergence area belongs to."""
+    """Two aircraft, D and d_min, but not where the pursuer is: one convergence area for each."""
 
     pursuer_tas: MetrePerSecond
     """V_P [m/s]."""
@@ -40,7 +40,7 @@ class Encounter:
     """d_min [m], 0 ≤ d_min ≤ D."""
 
     def __post_init__(self) -> None:
-        """Refuse what no situation may be."""
+        """Refuse numbers that no situation may have."""
         self.situation(0.0, 0.0, 0.0)
 
     @property
@@ -113,7 +113,7 @@ def exact_times(
     """Plan from every place.
 
     Args:
-        encounter: who joins whom.
+        encounter: which aircraft joins which.
         x: places ahead of the slot [m]. shape (n,)
         y: and left of it [m]. shape (n,)
         heading: counter-clockwise from the leader's [rad]. shape (n,)

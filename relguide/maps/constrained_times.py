@@ -1,9 +1,9 @@
-"""Where the limit binds: the full search for ways along d_min, at the nodes of a grid.
+"""Where the limit binds: the full search for constrained paths, at the nodes of a grid.
 
-It takes some ten ms a node, or up to a second if the leader turns: too long to ask it for each
-vertex of a line, so between nodes its times are interpolated. What is found is still given with its
-bound: nothing proves the ways along d_min to be optimal. At each node the work is bounded as that
-of `plan` is; how many nodes are searched is the caller's choice, and a server's limit.
+It takes some ten ms a node, or up to a second if the leader turns: too long for each vertex of a
+line, so between nodes its times are interpolated. The times are still given with their bound:
+constrained paths are not proved to be optimal. At each node the work is bounded as that of `plan`
+is; the caller chooses how many nodes are searched, and a server limits them.
 """
 
 from collections.abc import Callable
@@ -24,11 +24,11 @@ SEARCHED = 64
 """Nodes searched between two reports: about a second."""
 
 
-def searched(
+def search_nodes(
     situation: Situation, field: Field, x: Floats, y: Floats,
     threads: int | None, progress: Callable[[int], object],
 ) -> Field:  # fmt: skip
-    """The same field, and where the limit binds the times of the exact planner's full search.
+    """The same field, with the times of the exact planner's full search where the limit binds.
 
     Args:
         situation: all but the pursuer's place counts.
@@ -51,9 +51,7 @@ def searched(
 
 
 def between_nodes(field: Field, x: Floats, y: Floats, evaluate: Evaluate) -> Evaluate:
-    """Where the limit binds, what lies between nodes that were searched: a mean of the four.
-
-    Elsewhere what `evaluate` says.
+    """Times between searched nodes: where the limit binds a mean of the four, else `evaluate`'s.
 
     Args:
         field: of the nodes, row after row. (rows · columns,)

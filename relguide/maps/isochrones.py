@@ -6,15 +6,15 @@ stays as it is: speeds, bank, D, d_min, wind, the leader with its intent. Each n
 - a time: that of the fastest extremal that keeps d_min, certified against the leader as it really
   flies, its turns included;
 - a bound: the time of the fastest extremal without the limit. No plan is faster. Where both agree
-  the time is the optimum, proved; where they do not, the limit binds, and ways that touch d_min or
-  slide along it may be faster than the time given. They are searched only if asked for (`exact`).
+  the time is the optimum, proved; where they do not, the limit binds, and paths that touch d_min or
+  slide along it may be faster than the time given. They are searched only with `exact`.
 
 An intent is planned for as in `plan`: toward a leader that was on its final leg all along, whose
 slot opens when the real one gets there. Where the slot can be reached before, T is that instant;
 if of the paths of that length two simple families do not keep d_min, the time given is that of the
 first extremal after it, again with its bound.
 
-Who gives the times is an argument (`Evaluate`): lines and regions are drawn from any.
+What gives the times is an argument (`Evaluate`): lines and regions are drawn from any.
 """
 
 from collections.abc import Callable, Sequence
@@ -33,7 +33,7 @@ from relguide.kernels.maps.field import NO_WORD, field_rows
 from relguide.kernels.maps.final_leg import last_turns
 from relguide.kernels.separation.clearance import SLACK
 from relguide.kernels.words.extremals import WORDS
-from relguide.maps.constrained_times import CONSTRAINED, between_nodes, searched
+from relguide.maps.constrained_times import CONSTRAINED, between_nodes, search_nodes
 from relguide.maps.contours import Contour, Evaluate, Field, Floats, Region, contours, regions
 from relguide.planning.constrained_path import leader_table
 from relguide.planning.inputs import expect, number, within
@@ -85,7 +85,7 @@ class Grid:
     rows: int = ROWS
 
     def __post_init__(self) -> None:
-        """Refuse what is no grid, or one with more nodes than a display has use for."""
+        """Refuse a grid without nodes, or with more than a display can show."""
         for name, count in (("columns", self.columns), ("rows", self.rows)):
             if not isinstance(count, int) or not 2 <= count <= MAX_NODES:
                 raise ValueError(
@@ -139,9 +139,9 @@ def isochrones(
         situation: all but the pursuer's place counts.
         grid: where to look; 160 × 120 km round the leader if left out.
         levels: times of the lines [s], ascending; some round ones if empty.
-        evaluate: who gives the times; `times_around(situation)` if left out. Two threads ask at
+        evaluate: gives the times; `times_around(situation)` if left out. Two threads call it at
             once, unless `threads` is 1.
-        exact: whether to search the ways along d_min at each node where the limit binds, which
+        exact: whether to search the constrained paths at each node where the limit binds, which
             takes some ten ms, or up to a second if the leader turns. Between those nodes their
             times are then interpolated.
         threads: how many; all cores if left out.
@@ -156,10 +156,10 @@ def isochrones(
     east, north = (axis.ravel() for axis in np.meshgrid(x, y))
     field = evaluate(east, north)
     if exact:
-        field = searched(situation, field, east, north, threads, progress)
+        field = search_nodes(situation, field, east, north, threads, progress)
         evaluate = between_nodes(field, x, y, evaluate)
     levels = levels or round_levels(field)
-    lines, words = _drawn(field, x, y, levels, evaluate, beside=threads != 1)
+    lines, words = _draw(field, x, y, levels, evaluate, beside=threads != 1)
     return Isochrones(
         grid=grid,
         field=field,
@@ -169,11 +169,11 @@ def isochrones(
     )
 
 
-def _drawn(
+def _draw(
     field: Field, x: Floats, y: Floats, levels: Sequence[Second], evaluate: Evaluate, *,
     beside: bool,
 ) -> tuple[tuple[Contour, ...], tuple[Region, ...]]:  # fmt: skip
-    """Lines and regions; if so wished side by side, as Python draws while the kernels work."""
+    """Lines and regions; side by side if wanted, as Python draws while the kernels work."""
     if not beside:
         return (
             contours(field, x, y, levels, evaluate),
@@ -185,7 +185,7 @@ def _drawn(
 
 
 def grid_around(situation: Situation) -> Grid:
-    """The grid that is taken if none is given: its middle is the leader, if there is room."""
+    """The grid taken if none is given: round the leader, if there is room."""
     leader = situation.leader
     east, north = MAX_POSITION - 0.5 * WIDTH, MAX_POSITION - 0.5 * HEIGHT
     return Grid(x=min(max(leader.x, -east), east), y=min(max(leader.y, -north), north))
@@ -217,12 +217,12 @@ def round_levels(field: Field) -> tuple[Second, ...]:
 def times_around(
     situation: Situation, *, threads: int | None = None, words: Words | None = None
 ) -> Evaluate:
-    """Times from the exact kernels, all but the ways along d_min: some 600,000 places a second.
+    """Times from the exact kernels without constrained paths: some 600,000 places a second.
 
     Args:
         situation: all but the pursuer's place counts.
         threads: how many; all cores if left out.
-        words: who says where one word alone need be solved; all of them everywhere if left out.
+        words: says where one word alone need be solved; all of them everywhere if left out.
     """
     frame = slot_frame(situation, situation.leader.trajectory)
     table = leader_table(situation, frame)

@@ -6,7 +6,7 @@ from math import atan2, ceil, cos, hypot, sin
 import numpy as np
 
 from relguide.kernels.bounds.costate import hamiltonian, polar_costate
-from relguide.planning.costates import Costates, riding_costate
+from relguide.planning.costates import Costates, sliding_costate
 from relguide.planning.legs import Cut
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import Trajectory
@@ -17,7 +17,7 @@ from relguide.units import Second
 class AdjointHistory:
     """H and the adjoint variables along a trajectory: as many of each as there are times.
 
-    An instant at which both aircraft are in one place is left out: (1)–(3) do not hold there.
+    An instant at which both aircraft are in one place is left out: (1)–(3) have no meaning there.
     """
 
     times: tuple[Second, ...]
@@ -60,7 +60,7 @@ def adjoint_history(
             (lam_x, lam_y), sigma = found.position(leg.part), found.switching(leg.part, x, y)
             if leg.sliding:
                 alpha = leader.tas / tas
-                lam_x, lam_y = riding_costate(
+                lam_x, lam_y = sliding_costate(
                     found.kappa(leg.part, whole.touches[leg.part]),
                     (sin(heading), cos(heading)),
                     (alpha * sin(theirs.heading), alpha * cos(theirs.heading)),

@@ -1,6 +1,6 @@
-"""Does a trajectory keep d_min? A proved lower bound on the separation, all turns included.
+"""certify(trajectory, situation): a proved lower bound on the separation, all turns included.
 
-The certificate never trusts who made the trajectory: it reads its segments, nothing else.
+It does not depend on where the trajectory comes from: it reads the segments alone.
 """
 
 from dataclasses import dataclass

@@ -5,10 +5,10 @@ Between two touches of d = d_min a part has three constants (see `kernels.costat
 
     H(t_f) = 0;    H goes on unbroken where d_min is touched;    at a contact so does λ_ψ.
 
-The rest is met as well as can be, in least squares: λ_ψ = 0 at each switch, on each straight and
+The others are met in least squares: λ_ψ = 0 at each switch, on each straight and
 at both ends of a boundary arc. An extremal without the limit has as many equations as unknowns; a
-detour may have one more for each contact: it holds only if the contact lies best. A piece of no
-length leaves fewer equations than unknowns; then the choice is made by eq. (16) and ν ≥ 0.
+constrained path may have one more for each contact: it is met only if the contact lies best. A
+piece of no length leaves fewer equations than unknowns; then eq. (16) and ν ≥ 0 choose.
 
 Sliding, λ_ψ ≡ 0 and λ_p is along the course: λ_p = κ û / (1 − û·v̂_L), κ = λ_p · (û − v̂_L) being
 what H keeps while the leader flies straight. All in R and R/V_P, as in `legs`.
@@ -23,9 +23,9 @@ from relguide.planning.extras import need
 from relguide.planning.legs import ROUNDING, Cut, Encounter, Leg, Touch, Vector
 
 RANK = 1e-8
-"""Equations with a singular value below this say nothing."""
+"""Equations with a singular value below this are no equations."""
 PROBES = 16
-"""Points of an arc at which eq. (16) is asked for where it has to choose."""
+"""Points of an arc at which eq. (16) is checked where it has to choose."""
 FARTHEST = 1e3
 """Largest multiplier that such a choice may make."""
 
@@ -54,7 +54,7 @@ class Costates:
         return float(_switching(x, y) @ self.parts[part])
 
 
-def riding_costate(kappa: float, course: Vector, leader_velocity: Vector) -> Vector:
+def sliding_costate(kappa: float, course: Vector, leader_velocity: Vector) -> Vector:
     """λ_p on a boundary arc."""
     k = kappa / (1.0 - dot(course, leader_velocity))
     return k * course[0], k * course[1]
@@ -78,7 +78,7 @@ def find_costates(whole: Cut, legs: tuple[Leg, ...]) -> Costates:
 
     Args:
         whole: the trajectory.
-        legs: those of its legs on which conditions are asked, joined; at least one.
+        legs: those of its legs on which conditions are checked, one after another; at least one.
     """
     n = 3 * (len(whole.touches) + 1)
     exact = _exact_rows(whole, legs, n)
@@ -152,9 +152,7 @@ def _vanishing_rows(whole: Cut, legs: tuple[Leg, ...], n: int) -> FloatArray:
 
 
 def _switches(before: Leg, after: Leg) -> bool:
-    """Whether one arc follows another at another rate; the ends of boundary arcs are seen to
-    elsewhere.
-    """
+    """Whether one arc follows another at another rate, neither of them part of a boundary arc."""
     if before.sliding or after.sliding or before.rate == 0.0:
         return False
     return abs(before.rate - after.rate) > ROUNDING
@@ -173,7 +171,7 @@ def _jump_rows(touches: tuple[Touch, ...], n: int) -> FloatArray:
             (2 * i, touch.entry, i, before, 1.0),
             (2 * i + 1, touch.exit, i + 1, after, -1.0),
         ):
-            share = dot(riding_costate(1.0, at.course, at.leader_velocity), at.toward)
+            share = dot(sliding_costate(1.0, at.course, at.leader_velocity), at.toward)
             kappa = _wide(part, np.array((*at.passing, 0.0)), n)
             rows[row] = sign * (whole_row - share * kappa)
     return rows

@@ -26,7 +26,7 @@ class Recovery:
     turn_angle: Radian
     """Signed, positive to the right [rad]."""
     least_separation: Metre
-    """The least separation on the way; now, where it is already lost [m]."""
+    """The least separation from now on; now, where it is already lost [m]."""
     at_time: Second
     """When separation is restored, or when it is least [s]; infinite if it is not restored within
     `HORIZON`, or still falls then."""

@@ -1,4 +1,4 @@
-"""cut(trajectory, situation): the legs on which Pontryagin's conditions are asked.
+"""cut(trajectory, situation): the legs on which Pontryagin's conditions are checked.
 
 A leg ends where the control changes or where d = d_min is touched. Touching is a contact at one
 instant, or a boundary arc: arcs of partial bank, one after another, that keep to d = d_min.
@@ -23,9 +23,7 @@ TOUCHES = 1e-5
 STRIDE = 0.01
 """Contacts closer together than this may count as one: half a second for an airliner."""
 EDGE = 1e-4
-"""A contact this near to a boundary arc belongs to it: where the boundary arc begins it is found
-twice.
-"""
+"""A contact this near to a boundary arc belongs to it: where the arc begins it is found twice."""
 MAX_CONTACTS = 4096
 """Room for contacts, those between the many arcs of a boundary arc included."""
 ROUNDING = 1e-9
@@ -114,9 +112,9 @@ class Cut:
     """A trajectory in legs."""
 
     legs: tuple[Leg, ...]
-    """In the order flown; none shorter than `ROUNDING`, none at all if it has no length."""
+    """In the order flown; none shorter than `ROUNDING`; empty if it has no length."""
     touches: tuple[Touch, ...]
-    """In the order flown; contacts at the trajectory's two ends ask nothing and are left out."""
+    """In the order flown, without contacts at the trajectory's two ends: they add no condition."""
     end: Encounter
     """At t_f."""
 
@@ -147,13 +145,13 @@ def cut(trajectory: Trajectory, situation: Situation) -> Cut:
     spans += [
         (t, t)
         for t in _contacts(trajectory, situation)
-        # at its two ends a trajectory's λ may be what it likes
+        # at its two ends a trajectory's λ is free
         if ROUNDING < t < times[-1] - ROUNDING
         and not any(low - EDGE < t < high + EDGE for low, high in spans)
     ]
     spans.sort()
     return Cut(
-        legs=joined(_legs(pieces, trajectory.heading, spans)),
+        legs=join_legs(_legs(pieces, trajectory.heading, spans)),
         touches=tuple(
             Touch(nodes=tuple(encounter(t) for t in (times if a < b else (a,)) if a <= t <= b))
             for a, b in spans
@@ -176,7 +174,7 @@ def _pieces(trajectory: Trajectory, scale: float) -> Iterator[tuple[float, float
         yield duration, last
 
 
-def partial(rate: float) -> bool:
+def is_partial(rate: float) -> bool:
     """Whether a turn is flown at another bank than the nominal."""
     return rate != 0.0 and abs(abs(rate) - 1.0) > ROUNDING
 
@@ -186,7 +184,8 @@ def _boundary_arcs(
 ) -> list[tuple[int, int]]:
     """Runs of pieces that slide: number of the first, and of the first after."""
     sliding = [
-        partial(rate) and max(off_limit[i : i + 2]) < TOUCHES for i, (_, rate) in enumerate(pieces)
+        is_partial(rate) and max(off_limit[i : i + 2]) < TOUCHES
+        for i, (_, rate) in enumerate(pieces)
     ]
     edges = [i for i, (a, b) in enumerate(pairwise([False, *sliding, False])) if a != b]
     return list(zip(edges[::2], edges[1::2], strict=True))
@@ -210,7 +209,7 @@ def _contacts(trajectory: Trajectory, situation: Situation) -> list[float]:
 def _legs(
     pieces: list[tuple[float, float]], heading: float, spans: list[tuple[float, float]]
 ) -> Iterator[Leg]:
-    """The pieces, cut at contacts; places are left to `joined`."""
+    """The pieces, cut at contacts; places are left to `join_legs`."""
     t, end, part = 0.0, 0.0, 0
     for duration, rate in pieces:
         end += duration
@@ -228,7 +227,7 @@ def _legs(
             t = stop
 
 
-def joined(legs: Iterable[Leg]) -> tuple[Leg, ...]:
+def join_legs(legs: Iterable[Leg]) -> tuple[Leg, ...]:
     """The legs, moved so that each begins where the one before ends, and the last at the origin."""
     chain: list[Leg] = []
     x, y = 0.0, 0.0

@@ -17,7 +17,7 @@ from relguide.kernels.bounds.costate import least_switching
 from relguide.planning.adjoint import AdjointHistory, adjoint_history
 from relguide.planning.costates import Costates, dot, find_costates, multiplier
 from relguide.planning.inputs import expect, within
-from relguide.planning.legs import ROUNDING, Cut, Leg, cut, joined, partial
+from relguide.planning.legs import ROUNDING, Cut, Leg, cut, is_partial, join_legs
 from relguide.planning.plan import Plan
 from relguide.planning.situation import Situation
 from relguide.planning.slot import slot_frame
@@ -149,7 +149,7 @@ def check(
     longer = tuple(leg for leg in whole.legs if leg.duration > SLIVER or leg.sliding)
     if not judged.holds and 0 < len(longer) < len(whole.legs):
         # a search that ends on an edge leaves pieces of hardly any length, which should not be
-        without = _judge(arrival, whole, joined(longer))
+        without = _judge(arrival, whole, join_legs(longer))
         judged = without if without.holds else judged
     scale = situation.pursuer.turn_radius / trajectory.tas
     found, touches = judged.costates, whole.touches
@@ -224,7 +224,7 @@ def _judge(arrival: FixedBy, whole: Cut, legs: tuple[Leg, ...]) -> _Judgement:
         residual = max(residual, abs(held - levels[leg.part]))
         if leg.rate != 0.0:
             least = least_switching(leg.heading, leg.rate, leg.duration, 1.0, lam_x, lam_y, sigma)
-            signs_ok &= least >= -MET and not partial(leg.rate)
+            signs_ok &= least >= -MET and not is_partial(leg.rate)
     return _Judgement(
         legs=legs,
         costates=found,

@@ -21,7 +21,7 @@ from relguide.planning.least_bad import (
 )
 from relguide.planning.phrases import distance
 from relguide.planning.situation import Situation
-from relguide.planning.straight_ahead import direct
+from relguide.planning.straight_ahead import first_candidate
 from relguide.planning.tables import bends_of, leader_bends
 from relguide.planning.trajectory import Trajectory
 from relguide.planning.words import HORIZON, Candidate, Candidates, candidates
@@ -150,7 +150,7 @@ def plan(situation: Situation) -> Plan | NoPlan:
 
 def _at_once(situation: Situation, radius: Metre) -> _Chosen | None:
     """The fastest extremal to a slot that is open, if it keeps d_min."""
-    first = direct(situation, radius)
+    first = first_candidate(situation, radius)
     if first is None:
         return None
     candidate, time = first

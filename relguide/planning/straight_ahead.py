@@ -1,8 +1,7 @@
-"""direct(situation): the fastest way to the slot, where the leader keeps straight.
+"""first_candidate(situation): the fastest path to the slot, where the leader keeps straight.
 
 Without an intent the slot is open from the start, and the fastest extremal is the plan wherever it
-keeps d_min, as it does in nine situations of ten. So it is looked at first, alone; what else there
-is, `candidates` lists for those that need it.
+keeps d_min, as it does in nine situations of ten. So it is tried alone; `candidates` has all others.
 """
 
 from relguide.kernels.words import straight_leader as kernel
@@ -12,7 +11,7 @@ from relguide.planning.words import HORIZON, SIGN_ROWS, Candidate, candidate_of,
 from relguide.units import Metre
 
 
-def direct(situation: Situation, radius: Metre) -> tuple[Candidate, float] | None:
+def first_candidate(situation: Situation, radius: Metre) -> tuple[Candidate, float] | None:
     """The first of `candidates(situation)`, and how soon it arrives [s].
 
     Args:
@@ -20,12 +19,12 @@ def direct(situation: Situation, radius: Metre) -> tuple[Candidate, float] | Non
         radius: R, which callers have at hand [m].
 
     Returns:
-        `None` where the leader has an intent, and where there is no way within the horizon.
+        `None` where the leader has an intent, and where there is no path within the horizon.
     """
     pursuer, leader, wind = situation.pursuer, situation.leader, situation.wind
     if leader.intent:
         return None
-    arrival, word, *amounts = kernel.direct(
+    arrival, word, *amounts = kernel.fastest_to_slot(
         pursuer.x, pursuer.y, pursuer.heading, pursuer.tas, radius,
         leader.x, leader.y, leader.heading, leader.tas,
         situation.slot_distance, wind.east, wind.north,

@@ -2,8 +2,8 @@
 
 Two forms, for two uses:
 
-- `bends_of`: lengths and curvatures, for the certificate. Every plan needs it, so it is a flat array
-  of what the segments hold already, and `least_on_paths` makes times of it.
+- `bends_of`: lengths and curvatures, for the certificate. Every plan needs it, so it is a flat
+  array of what the segments contain already, and `least_on_paths` makes times of it.
 - `motion_of`: durations and turn rates with the start, in the world frame, for all other kernels
   that fly both aircraft there.
 """

@@ -53,10 +53,10 @@ def lateral_step(
     Returns:
         x, y, psi in [0, 2π), phi, p, v at the end. Roll is exact, the turn of second order in dt.
     """
-    asked = min(max(aileron, -p_max), p_max)
+    wanted = min(max(aileron, -p_max), p_max)
     decay = exp(-dt / roll_time)
-    p_end = asked + (p - asked) * decay
-    phi_end = phi + asked * dt + (p - asked) * roll_time * (1.0 - decay)
+    p_end = wanted + (p - wanted) * decay
+    phi_end = phi + wanted * dt + (p - wanted) * roll_time * (1.0 - decay)
     v_end = v + dt * min(max((v_asked - v) / v_time, -deceleration), acceleration)
     v_mean = 0.5 * (v + v_end)
     rate = turn_rate(v_mean, 0.5 * (phi + phi_end))

@@ -29,7 +29,7 @@ ByteArray = np.ndarray[tuple[int, ...], np.dtype[np.int8]]
 DELAY = len(WORDS)
 """Word number of a delay: a path that arrives exactly when the slot opens."""
 NO_WORD = -1
-"""Word number where nothing that clears was found."""
+"""Word number where no path that clears was found."""
 
 
 @njit(cache=True, nogil=True)
@@ -45,8 +45,8 @@ def field_rows(
         h: its heading [rad], in [0, 2π).
         scene: d_min is 0 where there is no limit; t_release is 0 for a leader that keeps straight.
         longest: of `final_leg.last_turns`, for d_min less `SLACK`.
-        answers: takes the arrival by the fastest path found that clears; before what nothing
-            arrives (infinite if the slot is out of reach, or the limit broken from the start); the
+        answers: takes the arrival by the fastest path found that clears; before what no path
+            arrives (infinite if the slot is out of reach, or d_min broken from the start); the
             path's word number; 1 if the fastest path without the limit comes too close.
             shape (n, 4)
     """

@@ -1,15 +1,15 @@
-"""Does an extremal keep its distance? As `word_clears`, for maps: cheap tests first.
+"""Whether an extremal keeps its distance. As `word_clears`, for maps: cheap tests first.
 
-Over a piece of the pursuer and one of the leader, what lies between them is looked at by its ends:
+For a piece of the pursuer and one of the leader, their ends give a bound:
 
 - seen from a leader that keeps straight a straight remains one: its least distance is in closed
   form;
 - a turn stays within 1 (= R) of its centre, which stands still;
 - a leader that turns at ω strays from its chord, flown evenly, by at most α|ω| T²/8 in a time T;
-- the last turn ends in the slot, so once the leader is on its final leg all last turns the same way
+- the last turn ends in the slot, so once the leader is on its final leg all last turns to one side
   are parts of one curve, and those up to a certain angle clear.
 
-What these tests do not decide is left to `piece_clears`, so the answers are the same.
+Where these tests do not decide, `piece_clears` does, so the answers are the same.
 """
 
 from math import cos, inf, sin, sqrt

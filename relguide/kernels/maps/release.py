@@ -1,7 +1,7 @@
-"""Paths that arrive exactly when the slot opens, for maps: whether there are any, and simple ones.
+"""Delays for maps: whether the slot is reached before it opens, and simple paths that arrive then.
 
-Where the slot can be reached before it opens every path that takes until then is optimal. Of the
-many families of `delay` two are tried here, enough almost everywhere: a straight put before or
+Where the slot can be reached before it opens, every path that arrives as it opens is optimal. Of
+the many families of `delay` two are tried here, enough almost everywhere: a straight put before or
 behind a turn–straight–turn word.
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader is a table as in
@@ -24,7 +24,7 @@ from relguide.kernels.words.delay import word_from
 ON_TIME = 1e-9
 """A path this much too long still arrives when the slot opens [R]: rounding."""
 _ROUNDING = 1e-6  # of the bound of a path's length [R]: wide of what it is
-_STEPS = 24  # of false position; ten are enough where nothing jumps
+_STEPS = 24  # of false position; ten are enough where no turn jumps
 
 
 @njit(cache=True, nogil=True)
@@ -130,7 +130,8 @@ def _straight_to_release(
 ) -> float:
     """Length of the straight with which a word takes exactly t_release; negative if not found.
 
-    By false position (Illinois): the length is nearly linear in it, but where a turn jumps by 2π.
+    By false position (Illinois): the word's length is nearly linear in it, but jumps where a turn
+    does, by 2π.
     """
     t_release = scene.t_release
     end_x = scene.alpha * t_release

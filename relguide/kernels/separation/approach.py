@@ -4,22 +4,22 @@ Two straights have it in closed form, eqs. (21)–(24) corrected:
 
     t_cpa = −(Δp·Δv)/|Δv|²  held to [0, l];   d² = |Δp|² − (Δp·Δv)²/|Δv|² in between.
 
-The paper lays arcs out as straights; that bounds nothing during a turn. Here, over a window of
+The paper lays arcs out as straights, which is no bound during a turn. Here, over a window of
 half-width w about its middle, the relative motion differs from its tangent there by at most
 ½ A w², A = V_P|r_P| + V_L|r_L| being the largest relative acceleration. So the closed form for the
 tangent, less ½ A w², is a lower bound; windows whose bound is not above the best value seen are
 halved. It closes quadratically, and is exact where both fly straight.
 
-Along d = d_min that takes thousands of windows. There the square of the distance is as good as
-constant, and so another bound is closer: with p, v, a, j the relative motion in the middle and its
+Along d = d_min that takes thousands of windows. There the square of the distance is nearly
+constant, and another bound is closer: with p, v, a, j the relative motion in the middle and its
 derivatives,
 
     d²(τ) ≥ |p|² + 2 p·v τ + (|v|² + p·a) τ² − |v·a + p·j/3| |τ|³ − (8|v|J + 6A² + 2|p|S) τ⁴/24,
 
 J = V_P r_P² + V_L r_L² and S = V_P|r_P|³ + V_L|r_L|³ being the largest of the next derivatives, |v|
 and |p| in the last term at their largest in the window. It closes with w⁴. The larger of the two
-bounds counts. The work is bounded too: windows are not halved for less than rounding, and only
-so many are looked at.
+bounds counts. The work is bounded too: windows are not halved for less than rounding, and their
+number is limited.
 """
 
 from math import cos, hypot, inf, sin, sqrt
@@ -32,8 +32,8 @@ from relguide.kernels.base.roots import FloatArray
 
 ROUNDING = 1e-6
 """Taken off every proved bound for rounding [m]: coordinates of 1e6 m carry 1e-10 m each."""
-_SHARE = 1e-14  # of the way flown, taken off besides: some 50 roundings of its largest coordinate
-_MOST_WINDOWS = 131_072  # looked at; what is pending then keeps the bound it has
+_SHARE = 1e-14  # of the distance flown, also taken off: some 50 roundings of the coordinates
+_MOST_WINDOWS = 131_072  # after these, pending windows keep the bound they have
 _DEPTH = 64  # windows pending at once: halving leaves one behind, so this is 2⁻⁶⁴ of a piece
 
 
@@ -70,7 +70,7 @@ def least_by_squares(
     dx: float, dy: float, dvx: float, dvy: float, dax: float, day: float, djx: float, djy: float,
     bend: float, jerk: float, snap: float, half: float,
 ) -> float:  # fmt: skip
-    """Lower bound on the distance in a window, from its square and three derivatives in the middle.
+    """Lower bound on the distance in a window, from the relative motion in its middle.
 
     Args:
         dx: pursuer minus leader in the middle, east [m].

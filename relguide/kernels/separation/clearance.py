@@ -1,6 +1,6 @@
-"""Does a path keep its distance from the leader? Yes or no, proved, in the slot frame.
+"""Whether a path keeps its distance from the leader: yes or no, proved, in the slot frame.
 
-The same bound as in `approach`, made to stop at the first point found too close. Lengths in R,
+The same bound as in `approach`, but it stops at the first point found too close. Lengths in R,
 times in R/V_P, angles counter-clockwise. The leader is a table of its pieces, as in `Scene`.
 """
 
@@ -15,10 +15,8 @@ from relguide.kernels.base.roots import FloatArray
 SLACK = 1e-6
 """Touching d_min counts as keeping it, to this much of R: 1 cm for an airliner."""
 _DEPTH = 64
-_NARROW = 1e-6  # a window this short that is still undecided touches the limit: counted as lost
-_MOST_WINDOWS = (
-    32_768  # looked at; then too: sliding a millimetre outside round a disc takes 10,000
-)
+_NARROW = 1e-6  # a window this short that is still undecided counts as too close
+_MOST_WINDOWS = 32_768  # as does a path that takes more: 1 mm outside the disc takes 10,000
 
 
 @njit(cache=True, nogil=True)
@@ -84,8 +82,8 @@ def piece_clears(pose: Pose, rate: float, t: float, duration: float, scene: Scen
                 continue
             px, py, ph = fly_rate(pose, rate, mid + at)
             lx, ly, lh = leader_at(scene, i, t + mid + at)
-            lost = hypot(px - lx, py - ly) < scene.d_min
-            if lost or half < _NARROW or n + 2 > _DEPTH or looked > _MOST_WINDOWS:
+            close = hypot(px - lx, py - ly) < scene.d_min
+            if close or half < _NARROW or n + 2 > _DEPTH or looked > _MOST_WINDOWS:
                 return False
             mids[n], halves[n] = mid - 0.5 * half, 0.5 * half
             mids[n + 1], halves[n + 1] = mid + 0.5 * half, 0.5 * half

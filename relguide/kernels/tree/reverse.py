@@ -1,9 +1,9 @@
 """One step of reverse dynamic programming: every (turn, straight) pair laid back from many states.
 
-Seen from the slot the leader stands still, so what a pair reaches and how close it comes depend on
-the state it leads to and on nothing else: laying pairs back from the slot works with the separation
-limit. A pair flown forward is a turn θ = kΔθ, then a straight l = hΔl; laid back, the straight
-comes first. Headings stay multiples of Δθ, numbered 0 … N − 1.
+Seen from the slot the leader stands still, so where a pair begins and how close it comes depend
+only on the state it leads to: laying pairs back from the slot works with the separation limit. A
+pair flown forward is a turn θ = kΔθ, then a straight l = hΔl; laid back, the straight comes first.
+Headings stay multiples of Δθ, numbered 0 … N − 1.
 
 The tree is kept on one side, y ≥ 0: a state of the other side is stored as its mirror image.
 

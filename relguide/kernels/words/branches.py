@@ -1,7 +1,7 @@
-"""Branches: the words, those of three turns split by their middle arc; and what tells of them.
+"""Branches: the words, those of three turns split by their middle arc; and a network's features.
 
-A word of three turns has two branches of solutions, with a middle arc below and above π, which are
-born together where the word begins to exist. Apart, the time of each is smooth.
+A word of three turns has two branches of solutions, with a middle arc below and above π. They begin
+to exist together; taken separately, the time of each is smooth.
 
 Slot frame as in `extremals`: lengths in R, times in R/V_P, angles counter-clockwise.
 """
@@ -60,13 +60,13 @@ def branch_times(situations: FloatArray, first: int, last: int, times: FloatArra
 
 @njit(cache=True, nogil=True)
 def needs_mirror(y: float, h: float) -> bool:
-    """Whether a situation is the mirror image of the one that is looked at in its place."""
+    """Whether a situation is replaced by its mirror image, which has y > 0, or y = 0 and h ≤ π."""
     return y < 0.0 or (y == 0.0 and h > pi)
 
 
 @njit(cache=True, nogil=True)
 def direct_time(x: float, y: float, alpha: float) -> float:
-    """When a pursuer that need not turn would be at the slot: nobody is there sooner [R/V_P].
+    """When a pursuer that need not turn would reach the slot: no path is faster [R/V_P].
 
         |(αT₀ − x, −y)| = T₀
 
@@ -83,10 +83,10 @@ def direct_time(x: float, y: float, alpha: float) -> float:
 
 @njit(cache=True, nogil=True)
 def features(x: float, y: float, h: float, alpha: float, out: FloatArray) -> None:
-    """What a network is told of a situation: where the slot is, and where simple turns would lead.
+    """What a network is given: where the slot is, and where simple turns would lead.
 
-    Circles of the end are looked at where they are at T₀ (`direct_time`), except for two turns the
-    same way, where the straight between them is known in closed form (see `csc`).
+    Circles at the slot are taken where they are at T₀ (`direct_time`), except for two turns to the
+    same side, where the straight between them is known in closed form (see `csc`).
 
     Args:
         x: pursuer ahead of the slot [R].

@@ -1,6 +1,6 @@
 """Three turns to a moving target: all of LRL, both middle arcs. RLR is its mirror image.
 
-Frame and target as in `csc`. Both end circles are left ones; the way between their centres is
+Frame and target as in `csc`. Both end circles are left ones; the vector between their centres is
 d = aτ + (0, 1) − c₁. A middle arc of angle m between them means |d| = 4 sin(m/2), for m below and
 above π alike, and d points along the mean heading of the middle arc. The turns add up to
 τ = 2m + w, w = 2πk − h, hence one equation in m, in the form of `roots`:
@@ -27,7 +27,7 @@ def lrl(pose: Pose, target: Velocity, out: FloatArray, n: int) -> int:
     ex, ey = -(x - sin(h)), 1.0 - (y + cos(h))
     alpha_squared = ax * ax + ay * ay
     closing = ax * ex + ay * ey
-    # nowhere on its way is the target within reach of the middle circle
+    # the target never comes within reach of the middle circle
     if ex * ex + ey * ey - closing * closing / max(alpha_squared, 1e-12) > 16.0 + 1e-9:
         return n
     k = np.empty(6)

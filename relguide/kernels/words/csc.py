@@ -10,8 +10,8 @@ round. With e = aA + (0, 1) − c₁ and the straight l = τ − A,
     l² = |al + e|²      ⇔      (1 − α²) l² − 2(a·e) l − |e|² = 0.
 
 LSR. The end circle's centre is aτ − (0, 1). Let β be the course of the straight and d = aτ − (0, 1)
-− c₁ the way between the centres. That the straight touches both circles, and that it is as long as
-what τ leaves, is
+− c₁ the vector between the centres. The straight touches both circles, and all three pieces
+together take τ:
 
     dₓ sin β − dᵧ cos β = 2,    l = dₓ cos β + dᵧ sin β,    τ = A(β) + l,    A = 2β − h + 2πk.
 

@@ -1,10 +1,10 @@
-"""Paths of an exact length to a slot that has yet to open: T = t_release, however short the way.
+"""Delays: paths of an exact length to a slot that has yet to open, T = t_release.
 
 When the slot could be reached before it opens, every path of length exactly t_release is optimal.
 Here they are made by one free amount put before or after a Dubins word to the slot's place at
 t_release: a straight before, a straight after, both, or a turn before. For each the total length is
 a scalar function of the free amount; its crossings of t_release are bracketed on a grid and
-refined. The grid may miss a path: it is a choice among many, and never an argument for a time.
+refined. The grid may miss a path: these are some of many, and no proof rests on them.
 """
 
 from math import asin, atan2, hypot, sqrt

@@ -80,7 +80,7 @@ def solve_and_measure(
 
 @njit(cache=True, nogil=True)
 def solve_toward(pose: Pose, target: Velocity, t_release: float, rows: FloatArray) -> int:
-    """As `solve`, for a target that moves any way, met on heading 0."""
+    """As `solve`, for a target with any velocity, met on heading 0."""
     found = np.empty((MAX_ROWS, 4))
     n = 0
     for word in range(6):
@@ -101,7 +101,7 @@ def solve_word(
         t_release: earliest arrival [R/V_P].
         word: its number.
         found: room to work in. shape (MAX_ROWS, 4)
-        rows: holds n rows already, in order of time.
+        rows: contains n rows already, in order of time.
         n: how many.
 
     Returns:
@@ -137,7 +137,7 @@ def solve_word(
 
 @njit(cache=True, nogil=True)
 def closes(pose: Pose, target: Velocity, word: int, row: FloatArray) -> bool:
-    """Does the path really end at the target? A root found next to a tangency may not."""
+    """Whether a path ends at the target: one of a root next to a tangency may not."""
     for piece in range(3):
         pose = fly_piece(pose, SIGNS[word, piece], row[piece + 1])
     miss = hypot(pose.x - target.ahead * row[0], pose.y - target.left * row[0])

@@ -49,7 +49,7 @@ def fastest(
                     best[0], best[1] = found[i, 0], found[i, 1]
                     best[2], best[3] = found[i, 2], found[i, 3]
                     best_word = word
-        # two turns the same way that add up to the change of heading end at the slot by themselves
+        # LSL and RSR end at the slot if their turns add up to the change of heading, as they do
         if best_word >= 2 and not ends_at_slot(start, alpha, best_word, best):
             best_word = -1
         if best_word >= 0:

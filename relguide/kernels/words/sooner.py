@@ -1,8 +1,8 @@
-"""Paths of one word that arrive before a given time: no root is sought where none can be.
+"""Paths of one word that arrive before a given time: roots are sought only where they can be.
 
 For maps, where a time to beat is known for nearly every word. Symbols as in `csc` and `ccc`, for
-the slot itself (κ = 0, α < 1): d(τ) is the way between the centres of the first and the last
-circle. As the slot moves on, d's end runs along a straight line.
+the slot itself (κ = 0, α < 1): d(τ) is the vector between the centres of the first and the
+last circle. As the slot moves on, d's end runs along a straight line.
 
 LSR. A root means τ = A + l with l² = |d(τ)|² − 4, and the course of the straight is β = arg d +
 arcsin(2/|d|). Where |d| ≥ 2,
@@ -11,8 +11,8 @@ arcsin(2/|d|). Where |d| ≥ 2,
 
 does not change sign: its zeros would need E² = −N². So while τ runs through an interval, β runs
 through one between its values at the ends, by less than π. In that window A(β) has a least value
-A₀, and (τ − A₀)² ≥ |d(τ)|² − 4 bounds τ anew from below. What is left of the window after some
-rounds is where roots are sought, by the equation of `csc`.
+A₀, and (τ − A₀)² ≥ |d(τ)|² − 4 bounds τ anew from below. After some rounds roots are
+sought in the window that remains, by the equation of `csc`.
 
 LRL. A root means |d(τ)| ≤ 4, and τ = 2m + w is the middle arc m but for a constant: a window too.
 There |d|² and 8(1 − cos m) must meet.
@@ -32,7 +32,7 @@ MOST_ROOTS = 64
 """Room for the paths of one word."""
 EARLY = 1e-9
 """This much before it opens the slot counts as open [R/V_P], as in `solve`."""
-_ROUNDS = 2  # more gain nothing
+_ROUNDS = 2  # more do not help
 _ROUNDING = 1e-6  # of angles and of times [R/V_P]: windows are wider by this
 
 
@@ -139,7 +139,7 @@ def _lsr_within(centres: _Centres, t_from: float, t_to: float, scratch: Scratch,
         return n
     # A(β) is least where β is h or 0
     least_turn, low, width = min(h, TWO_PI - h) - _ROUNDING, 0.0, 0.0
-    course_to = 0.0  # far ahead of the slot the straight leads along its way
+    course_to = 0.0  # far ahead of the slot the straight leads along its route
     for step in range(_ROUNDS):
         start = max(_not_before(centres, least_turn, t_from) - _ROUNDING, t_from)
         if start > t_to + _ROUNDING:
@@ -149,7 +149,7 @@ def _lsr_within(centres: _Centres, t_from: float, t_to: float, scratch: Scratch,
         swept = wrap_signed(course_to - _inner_course(alpha * start + east, north))
         low = wrap((course_to - swept if swept > 0.0 else course_to) - _ROUNDING)
         width = abs(swept) + 2.0 * _ROUNDING
-        # A(β) rises but where β passes h or 0: there a turn falls from 2π to nothing
+        # A(β) rises except where β passes h or 0: there a turn falls from 2π to 0
         turn = wrap(low - h) + low
         if wrap(h - low) <= width:
             turn = min(turn, h)

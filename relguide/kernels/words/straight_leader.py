@@ -1,7 +1,7 @@
 """The fastest path to the slot of a leader that keeps straight, in one call from the world frame.
 
 Most plans are of this kind, and a call into compiled code with the conversions around it takes as
-long as the search itself. So `slot` and `fastest` are joined here.
+long as the search itself. So `slot_frame` and `fastest` are called together here.
 """
 
 from math import inf
@@ -17,7 +17,7 @@ from relguide.kernels.words.sooner import make_scratch
 
 
 @njit(cache=True, nogil=True)
-def direct(
+def fastest_to_slot(
     x: float, y: float, heading: float, tas: float, radius: float, leader_x: float,
     leader_y: float, leader_heading: float, leader_tas: float, slot_distance: float,
     wind_east: float, wind_north: float,
@@ -32,7 +32,7 @@ def direct(
         radius: R [m].
         leader_x: the leader at t = 0, east [m].
         leader_y: the same, north [m].
-        leader_heading: its heading, kept for ever, clockwise from north [rad].
+        leader_heading: its heading, which it keeps, clockwise from north [rad].
         leader_tas: V_L [m/s].
         slot_distance: D [m].
         wind_east: the air mass over the ground [m/s].

@@ -7,7 +7,7 @@ from hypothesis import given
 
 from relguide import FlyStraight, Leader, Plan, Pursuer, Situation, candidates, certify, plan
 from relguide.planning.plan import AS_FAST
-from relguide.planning.straight_ahead import direct
+from relguide.planning.straight_ahead import first_candidate
 from relguide.planning.words import HORIZON
 from relguide.units import DEG
 from tests.situations import situations
@@ -19,7 +19,7 @@ ROUNDING = 1e-9
 @given(situations(with_intent=False, speed_ratio=(0.5, 1.1)))
 def test_it_is_the_first_of_all_candidates(situation: Situation) -> None:
     found = candidates(situation)
-    first = direct(situation, situation.pursuer.turn_radius)
+    first = first_candidate(situation, situation.pursuer.turn_radius)
     assert (first is None) == (len(found) == 0 or found.bound > HORIZON)
     if first is not None:
         fastest, time = next(iter(found)), first[1]
@@ -29,7 +29,7 @@ def test_it_is_the_first_of_all_candidates(situation: Situation) -> None:
 
 @given(situations(with_intent=False))
 def test_it_is_the_plan_where_it_keeps_the_limit(situation: Situation) -> None:
-    first = direct(situation, situation.pursuer.turn_radius)
+    first = first_candidate(situation, situation.pursuer.turn_radius)
     assert first is not None
     planned = plan(situation)
     if certify(first[0].trajectory, situation).holds:
@@ -58,20 +58,20 @@ def behind(*, leader_tas: float, heading: float = 0.0, straight: bool = False) -
 
 def test_an_intent_is_for_others() -> None:
     situation = behind(leader_tas=180.0, straight=True)
-    assert direct(situation, situation.pursuer.turn_radius) is None
+    assert first_candidate(situation, situation.pursuer.turn_radius) is None
 
 
 @pytest.mark.parametrize("leader_tas", [200.0, 210.0, 199.5])
 def test_what_is_never_reached_or_too_late_is_for_others(leader_tas: float) -> None:
     situation = behind(leader_tas=leader_tas)
-    assert direct(situation, situation.pursuer.turn_radius) is None
+    assert first_candidate(situation, situation.pursuer.turn_radius) is None
 
 
 @pytest.mark.parametrize("turns", [-3, -1, 1, 7])
 def test_headings_past_a_whole_turn_are_the_same(turns: int) -> None:
     usual, wound = behind(leader_tas=180.0), behind(leader_tas=180.0, heading=turns * 2.0 * pi)
     radius = usual.pursuer.turn_radius
-    first, second = direct(usual, radius), direct(wound, radius)
+    first, second = first_candidate(usual, radius), first_candidate(wound, radius)
     assert first is not None
     assert second is not None
     assert second[1] == pytest.approx(first[1], rel=ROUNDING)
