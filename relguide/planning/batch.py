@@ -40,9 +40,9 @@ VERDICTS = (
 )
 """Status or reason of each verdict of the kernel, and of the one made here."""
 BEYOND = VERDICTS.index("beyond_horizon")
-NAMES = (*WORDS, "detour", "")
+NAMES = (*WORDS, "constrained", "")
 """Words by their number."""
-DETOUR, NO_WORD = len(WORDS), len(WORDS) + 1
+CONSTRAINED, NO_WORD = len(WORDS), len(WORDS) + 1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -115,7 +115,7 @@ class Times:
 
     @property
     def word(self) -> NDArray[np.str_]:
-        """The extremal's word; `detour` for a way that touches or slides along d_min."""
+        """The extremal's word; `constrained` for a path that touches d_min or slides along it."""
         return np.array(NAMES)[self.words]
 
 
@@ -187,7 +187,7 @@ def _take(times: Times, block: slice, answers: Floats, scale: Floats) -> None:
     times.time_to_converge[block] = time
     times.lower_bound[block] = bound
     times.verdicts[block] = verdict
-    word[word < 0] = DETOUR
+    word[word == kernel.CONSTRAINED] = CONSTRAINED
     times.words[block] = np.where(time < inf, word, NO_WORD)
 
 

@@ -1,11 +1,11 @@
-"""detour(candidates): the fastest way to the slot that touches d_min, or slides along it."""
+"""constrained_path(candidates): the fastest path that touches d_min, or slides along it."""
 
 from math import inf
 
 import numpy as np
 
+from relguide.kernels.base.records import Scene
 from relguide.kernels.contact.constrained_search import MAX_LEGS, any_path, best_constrained_path
-from relguide.kernels.contact.passage import GRAZE
 from relguide.kernels.contact.path_pieces import NO_TURN, pieces_of
 from relguide.kernels.contact.tangent import tangents
 from relguide.planning.situation import Situation
@@ -27,55 +27,41 @@ TURNING_BEARINGS = 72
 """Round one that turns: every 5°, since contacts must fall into the time of one piece."""
 
 
-def detour(found: Candidates, *, beat: Second) -> Candidate | None:
-    """The fastest way through contacts with d = d_min, if it arrives before `beat` [s].
+def constrained_path(found: Candidates, *, beat: Second) -> Candidate | None:
+    """The fastest path through contacts with d = d_min, if it arrives before `beat` [s].
 
-    Up to the first contact, between contacts and from the last one on, the way is an extremal
+    Up to the first contact, between contacts and from the last one on, the path is an extremal
     without the limit, from the same complete enumeration of words, or it slides along d_min. The
     contacts' bearings are searched round the leader, for each piece of its intent and both sides.
-    If there is none, and nothing to beat, any way that begins with a turn and a straight will do.
+    If there is none, and nothing to beat, any path that begins with a turn and a straight will do.
     """
     situation, frame = found.situation, found.frame
-    scale = frame.radius / situation.pursuer.tas
-    limit = situation.min_separation / frame.radius
-    if limit <= 0.0:
+    if situation.min_separation <= 0.0:
         return None
-    leader = leader_table(situation, frame)
-    start = frame.x, frame.y, frame.h
-    disc = leader, frame.alpha, limit + GRAZE
+    scale = frame.radius / situation.pursuer.tas
+    start, scene = frame.pose, scene_of(situation, frame)
+    bearings = BEARINGS if len(scene.leader) == 1 else TURNING_BEARINGS
     legs, row = np.zeros((MAX_LEGS, 6)), np.zeros(5)
     time, count = best_constrained_path(
-        *start,
-        *disc,
-        frame.t_release,
-        BEARINGS if len(leader) == 1 else TURNING_BEARINGS,
-        tangents(*start, *disc),
-        beat / scale,
-        legs,
+        start, scene, bearings, tangents(start, scene), beat / scale, legs
     )
     if count > 0:
-        pieces = pieces_of(
-            *start,
-            leader,
-            frame.alpha,
-            limit,
-            frame.t_release,
-            frame.radius,
-            1.0,
-            time,
-            legs[:count],
-        )
+        pieces = pieces_of(start, scene, frame.radius, 1.0, time, legs[:count])
         if pieces.shape[1] > 0:
             return candidate_of(situation.pursuer, segments_flown(frame.radius, pieces))
     if beat < HORIZON:
         return None
-    time, sign, turned, straight = any_path(
-        *start, leader, frame.alpha, limit, frame.t_release, beat / scale, row
-    )
+    time, sign, turned, straight = any_path(start, scene, beat / scale, row)
     if time >= beat / scale:
         return None
     signs = [sign, 0.0, *SIGN_ROWS[int(row[1])]]
     return assemble(situation, frame, signs, [turned, straight, *row[2:].tolist()], "")
+
+
+def scene_of(situation: Situation, frame: SlotFrame) -> Scene:
+    """What a path has to reckon with, in the slot frame."""
+    leader, d_min = leader_table(situation, frame), situation.min_separation / frame.radius
+    return Scene(leader, frame.alpha, d_min, frame.t_release)
 
 
 def leader_table(situation: Situation, frame: SlotFrame) -> np.ndarray:

@@ -5,22 +5,24 @@ keeps it, or it has a first contact, and a last one. So none arrives before the 
 extremal and the least, over all contacts, of the soonest arrival at the contact and the soonest way
 on from there. If that way on breaks the limit, there is another contact, and the last of them
 counts too. Contacts are put into cells, of bearing and time, for which all this is bounded at once
-(`kernels/bounds/contact_bound.py`). The branch with the least bound is halved again and again: that
+(`kernels/bounds/contact_bound.py`). The paths with the least bound are halved again and again: that
 bound is proved, at any moment.
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 from heapq import heappop, heappush
 from itertools import count
 from math import inf, pi
+from typing import NamedTuple
 
-import numpy as np
-
+from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.bounds.contact_bound import (
+    Cell,
+    Goal,
     between_bound,
     cell_bound,
     leaving_bound,
@@ -30,10 +32,10 @@ from relguide.kernels.bounds.contact_bound import (
     untouched_bound,
 )
 
-MAX_BRANCHES = 400_000
-"""Most branches kept, some 100 MB; the search ends there."""
+MAX_BUNDLES = 400_000
+"""Most bundles of paths kept, some 100 MB; the search ends there."""
 _SMALLEST = 1e-10  # a cell no wider than this is not halved: rounding counts for more [rad]
-_REMEMBERED = 65_536  # cells whose bounds are kept at hand, for the branches that share them
+_REMEMBERED = 65_536  # cells whose bounds are kept at hand, for the bundles that share them
 _EASED = 0.03  # cells narrower than this are looked at closely [rad]
 _CLOSELY = 50  # times a cell is halved to find what is least in it
 _NARROW = 1e-6  # and how narrow its parts may become: what is left counts for some 1e-5 R/V_P [rad]
@@ -42,50 +44,29 @@ _QUADRANT_CELLS = 2
 """Cells a quadrant is cut into at first; none may reach into two."""
 
 
-@dataclass(frozen=True, slots=True)
-class Cell:
-    """Contacts: a window of bearings, and of time, on one piece of the leader's intent and a side.
+class _Bundle(NamedTuple):
+    """Paths, by how soon they can arrive."""
 
-    Lengths in R, times in R/V_P.
-    """
-
-    piece: int
-    side: float
-    bearing: float
-    half: float
-    start: float = 0.0
-    end: float = inf
-
-    def halves(self, delta: float) -> "tuple[Cell, Cell]":
-        """Its two halves, across the longer side."""
-        span = 0.5 * (self.end - self.start)
-        if inf > span > (delta + 1.0) * self.half:
-            middle = self.start + span
-            return replace(self, end=middle), replace(self, start=middle)
-        half = 0.5 * self.half
-        return (
-            replace(self, bearing=self.bearing - half, half=half),
-            replace(self, bearing=self.bearing + half, half=half),
-        )
-
-
-_Branch = tuple[float, int, Cell, Cell | None, bool]
-"""Paths, by how soon they can arrive: a number that tells them apart, the cell of their first
-contact, that of their last one if it is of the final leg and matters, and whether the way round
-between them was looked at closely."""
+    bound: float
+    """None arrives before [R/V_P]."""
+    number: int
+    """Tells bundles apart."""
+    first: Cell
+    """Of their first contact."""
+    last: Cell | None
+    """Of their last one, if it is of the final leg and matters."""
+    eased: bool
+    """Whether the time round the disc between the two was looked at closely."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Question:
     """How soon can a path that keeps d_min be at a goal? In the slot frame."""
 
-    start: tuple[float, float, float]
-    leader: np.ndarray
-    alpha: float
-    delta: float
-    goal_x: float
-    goal_speed: float
-    t_release: float
+    start: Pose
+    scene: Scene
+    """With t_release the time before which arrivals do not count."""
+    goal: Goal
     never_at_release: bool
     """Whether no path at all can be at the goal the moment t_release: who is not too early is late.
     """
@@ -94,58 +75,163 @@ class Question:
 
     def first_contacts(self) -> Iterator[Cell]:
         """All contacts there are, in cells."""
-        for i, start in enumerate(self.leader[:, 0].tolist()):
-            end = self.leader[i + 1, 0].item() if i + 1 < len(self.leader) else inf
+        leader, t_release = self.scene.leader, self.scene.t_release
+        for i, start in enumerate(leader[:, 0].tolist()):
+            end = leader[i + 1, 0].item() if i + 1 < len(leader) else inf
             # until the slot opens a contact leaves so much time, and after that any
-            windows = ((start, self.t_release), (self.t_release, inf))
-            for low, high in windows if start < self.t_release < end == inf else ((start, end),):
+            windows = ((start, t_release), (t_release, inf))
+            for low, high in windows if start < t_release < end == inf else ((start, end),):
                 high = min(high, self.horizon)
                 if low < high or low == 0.0:
                     yield from _all_round(i, low, high)
 
-    def untouched(self) -> float:
-        """No path that nowhere touches d_min arrives sooner."""
-        return untouched_bound(
-            *self.start, self.leader, self.alpha, self.delta, self.goal_x, self.goal_speed,
-            self.t_release,
-        )  # fmt: skip
-
-    def reached(self, cell: Cell, beat: float) -> tuple[float, float]:
-        """How soon a first contact can be in the cell, and the goal from there."""
-        late = self.t_release if self.never_at_release else 0.0
-        return cell_bound(
-            *self.start, self.leader, cell.piece, self.alpha, self.delta, self.goal_x,
-            self.goal_speed, late, cell.side, cell.bearing, cell.half, cell.start, cell.end,
-            beat,
-        )  # fmt: skip
-
-    def left(self, cell: Cell, beat: float) -> float:
-        """How soon the slot can be reached from a last contact in the cell, on the final leg."""
-        return leaving_bound(
-            self.leader, self.alpha, self.delta, cell.side, cell.bearing, cell.half, beat
-        )
-
-    def between(self, first: Cell, last: Cell, table: np.ndarray, beat: float) -> float:
-        """How soon one contact can follow the other, on the final leg."""
-        here, there = (first.bearing, first.half), (last.bearing, last.half)
-        way_round = min(round_bound(table, way, *here, *there) for way in (0, 1))
-        if way_round >= beat:
-            return inf
-        word = between_bound(
-            self.alpha, self.delta, first.side, *here, last.side, *there, beat
-        )  # fmt: skip
-        return max(way_round, word)
+    def last_contacts(self) -> tuple[Cell, ...]:
+        """All contacts of the final leg from which the slot is reached, in cells."""
+        if self.goal.speed != self.scene.alpha:
+            return ()
+        return tuple(_all_round(len(self.scene.leader) - 1, 0.0, inf))
 
     def warm_up(self) -> None:
         """Load the kernels."""
         cell = next(self.first_contacts())
-        self.untouched()
-        self.reached(cell, 0.0)
-        self.left(cell, 0.0)
-        table = times_round(self.alpha, self.delta)
+        untouched_bound(self.start, self.scene, self.goal)
+        cell_bound(self.start, self.scene, self.goal, cell, 0.0)
+        leaving_bound(self.scene, cell, 0.0)
+        table = times_round(self.scene.alpha, self.scene.d_min)
         round_time(table, 0, 0.0)
-        self.between(cell, cell, table, 0.0)
-        between_bound(self.alpha, self.delta, 1.0, 0.1, 0.1, 1.0, 0.1, 0.1, 0.0)
+        round_bound(table, 0, cell, cell)
+        between_bound(self.scene, cell, cell, 0.0)
+
+    def bounds(self, beat: float) -> Iterator[float]:
+        """Ever better bounds of the time of all paths, up to `beat`, where they end."""
+        # no path that nowhere touches d_min arrives sooner than the first of these
+        beat = min(beat, untouched_bound(self.start, self.scene, self.goal))
+        yield from _Search(self, beat).bounds()
+
+
+class _Search:
+    """The bundles of paths that may arrive before `beat`, the soonest first."""
+
+    def __init__(self, question: Question, beat: float) -> None:
+        scene = question.scene
+        self.beat = beat
+        self.question = question
+        self.final = len(scene.leader) - 1
+        self.table = times_round(scene.alpha, scene.d_min)
+        self.last_contacts = question.last_contacts()
+        self.bundles: list[_Bundle] = []
+        self.numbers = count()
+        late = scene if question.never_at_release else scene._replace(t_release=0.0)
+        start, goal = question.start, question.goal
+
+        @lru_cache(_REMEMBERED)
+        def reach(cell: Cell) -> tuple[float, float]:
+            return cell_bound(start, late, goal, cell, beat)
+
+        @lru_cache(_REMEMBERED)
+        def leave(cell: Cell) -> float:
+            return leaving_bound(scene, cell, beat)
+
+        self.reach = reach
+        """How soon a first contact can be in the cell, and the goal from there."""
+        self.leave = leave
+        """How soon the slot can be reached from a last contact in the cell, on the final leg."""
+        self.round_from = lru_cache(_REMEMBERED)(self._round_from)
+        self.round_to = lru_cache(_REMEMBERED)(self._round_to)
+
+    def bounds(self) -> Iterator[float]:
+        """Ever better bounds, up to `beat`."""
+        for cell in self.question.first_contacts():
+            self.add(cell, None, 0.0)
+        while self.bundles and len(self.bundles) < MAX_BUNDLES:
+            bundle = heappop(self.bundles)
+            yield bundle.bound
+            if max(bundle.first.half, bundle.last.half if bundle.last else 0.0) < _SMALLEST:
+                return
+            if self.needs_last_contact(bundle):
+                for cell in self.last_contacts:
+                    self.add(bundle.first, cell, bundle.bound)
+            elif not self.ease(bundle):
+                self.halve(bundle)
+        if not self.bundles:
+            yield self.beat
+
+    def add(self, first: Cell, last: Cell | None, least: float) -> None:
+        """Keep the paths through these cells, known to arrive no sooner than `least`."""
+        soon, onward = self.reach(first)
+        if soon == inf:
+            return
+        if last is None:
+            bound = soon + onward
+        else:
+            leaving = self.leave(last)
+            bound = soon + leaving + self.between(first, last, self.beat - soon - leaving)
+        bound = max(bound, least, self.question.scene.t_release)
+        if bound < self.beat:
+            heappush(self.bundles, _Bundle(bound, next(self.numbers), first, last, eased=False))
+
+    def between(self, first: Cell, last: Cell, beat: float) -> float:
+        """How soon one contact can follow the other, on the final leg."""
+        round_disc = min(round_bound(self.table, way, first, last) for way in (0, 1))
+        if round_disc >= beat:
+            return inf
+        return max(round_disc, between_bound(self.question.scene, first, last, beat))
+
+    def needs_last_contact(self, bundle: _Bundle) -> bool:
+        """Whether the way on breaks the limit, and so is none: then there is a last contact too."""
+        first, last = bundle.first, bundle.last
+        if last is not None or first.piece != self.final or not self.last_contacts:
+            return False
+        return self.leave(first) > self.reach(first)[1] + _SMALLEST
+
+    def ease(self, bundle: _Bundle) -> bool:
+        """Look closely at the time round the disc; whether that was better than the bound."""
+        first, last = bundle.first, bundle.last
+        if last is None or bundle.eased or max(first.half, last.half) >= _EASED:
+            return False
+        closer = min(self.round_trip(first, last, way) for way in (0, 1))
+        if bundle.bound >= closer:
+            return False
+        if closer < self.beat:
+            heappush(self.bundles, _Bundle(closer, next(self.numbers), first, last, eased=True))
+        return True
+
+    def halve(self, bundle: _Bundle) -> None:
+        """Keep both halves of the wider cell."""
+        first, last, d_min = bundle.first, bundle.last, self.question.scene.d_min
+        if last is not None and last.half >= first.half:
+            for half in halves(last, d_min):
+                self.add(first, half, bundle.bound)
+        else:
+            for half in halves(first, d_min):
+                self.add(half, last, bundle.bound)
+
+    # the time round is the difference of two times, one for each contact: so each may be looked at
+    # with its own, and much more closely than both together
+
+    def round_trip(self, first: Cell, last: Cell, way: int) -> float:
+        """How soon paths that go round this way, 0 counter-clockwise or 1 clockwise, can arrive."""
+        behind = (1.0 - 2.0 * way) * (first.bearing - last.bearing) >= first.half + last.half
+        whole = float(self.table[way, -1]) * (behind - 2.0 * _SLACK)
+        return self.round_from(first, way) + self.round_to(last, way) + whole
+
+    def _round_from(self, cell: Cell, way: int) -> float:
+        sense = 1.0 - 2.0 * way
+
+        def bound(part: Cell) -> float:
+            edge = part.bearing + sense * part.half
+            return float(self.reach(part)[0] - sense * round_time(self.table, way, edge))
+
+        return self.least(cell, bound)
+
+    def _round_to(self, cell: Cell, way: int) -> float:
+        sense = 1.0 - 2.0 * way
+
+        def bound(part: Cell) -> float:
+            edge = part.bearing - sense * part.half
+            return float(self.leave(part) + sense * round_time(self.table, way, edge))
+
+        return self.least(cell, bound)
 
     def least(self, cell: Cell, bound: Callable[[Cell], float]) -> float:
         """The least that a bound comes to in a cell, looked at closely."""
@@ -154,85 +240,26 @@ class Question:
         for _ in range(_CLOSELY):
             if parts[0][0] == inf or parts[0][2].half < _NARROW:
                 break
-            for half in heappop(parts)[2].halves(self.delta):
+            for half in halves(heappop(parts)[2], self.question.scene.d_min):
                 heappush(parts, (bound(half), next(numbers), half))
         return parts[0][0]
 
-    def bounds(self, beat: float) -> Iterator[float]:
-        """Ever better bounds of the time of all paths, up to `beat`, where they end."""
-        beat = min(beat, self.untouched())
-        final = len(self.leader) - 1
-        reached = lru_cache(_REMEMBERED)(lambda cell: self.reached(cell, beat))
-        left = lru_cache(_REMEMBERED)(lambda cell: self.left(cell, beat))
-        table = times_round(self.alpha, self.delta)
-        last_contacts = tuple(_all_round(final, 0.0, inf)) if self.goal_speed == self.alpha else ()
-        # the way round is the difference of two times, one for each contact: so each may be
-        # looked at with its own, and much more closely than both together
 
-        @lru_cache(_REMEMBERED)
-        def round_from(cell: Cell, way: int) -> float:
-            def bound(part: Cell) -> float:
-                edge = part.bearing + (1.0 - 2.0 * way) * part.half
-                return reached(part)[0] - (1.0 - 2.0 * way) * round_time(table, way, edge)
-
-            return self.least(cell, bound)
-
-        @lru_cache(_REMEMBERED)
-        def round_to(cell: Cell, way: int) -> float:
-            def bound(part: Cell) -> float:
-                edge = part.bearing - (1.0 - 2.0 * way) * part.half
-                return left(part) + (1.0 - 2.0 * way) * round_time(table, way, edge)
-
-            return self.least(cell, bound)
-
-        def round_trip(first: Cell, last: Cell, way: int) -> float:
-            behind = (1.0 - 2.0 * way) * (first.bearing - last.bearing) >= first.half + last.half
-            whole = float(table[way, -1]) * (behind - 2.0 * _SLACK)
-            return float(round_from(first, way) + round_to(last, way) + whole)
-
-        branches: list[_Branch] = []
-        numbers = count()
-
-        def add(first: Cell, last: Cell | None, least: float) -> None:
-            soon, onward = reached(first)
-            if soon == inf:
-                return
-            if last is None:
-                bound = soon + onward
-            else:
-                leaving = left(last)
-                bound = soon + leaving + self.between(first, last, table, beat - soon - leaving)
-            bound = max(bound, least, self.t_release)
-            if bound < beat:
-                heappush(branches, (bound, next(numbers), first, last, False))
-
-        for cell in self.first_contacts():
-            add(cell, None, 0.0)
-        while branches and len(branches) < MAX_BRANCHES:
-            bound, _, first, last, eased = heappop(branches)
-            yield bound
-            if max(first.half, last.half if last else 0.0) < _SMALLEST:
-                return
-            if last is None and first.piece == final and last_contacts:
-                # a way on that breaks the limit is none: then there is a last contact too
-                if left(first) > reached(first)[1] + _SMALLEST:
-                    for cell in last_contacts:
-                        add(first, cell, bound)
-                    continue
-            if last is not None and max(first.half, last.half) < _EASED and not eased:
-                closer = min(round_trip(first, last, way) for way in (0, 1))
-                if bound < closer:
-                    if closer < beat:
-                        heappush(branches, (closer, next(numbers), first, last, True))
-                    continue
-            if last is not None and last.half >= first.half:
-                for half in last.halves(self.delta):
-                    add(first, half, bound)
-            else:
-                for half in first.halves(self.delta):
-                    add(half, last, bound)
-        if not branches:
-            yield beat
+def halves(cell: Cell, d_min: float) -> tuple[Cell, Cell]:
+    """The two halves of a cell, across the longer side."""
+    piece, side, bearing, half, start, end = cell
+    span = 0.5 * (end - start)
+    if inf > span > (d_min + 1.0) * half:
+        middle = start + span
+        return (
+            Cell(piece, side, bearing, half, start, middle),
+            Cell(piece, side, bearing, half, middle, end),
+        )
+    half *= 0.5
+    return (
+        Cell(piece, side, bearing - half, half, start, end),
+        Cell(piece, side, bearing + half, half, start, end),
+    )
 
 
 def _all_round(piece: int, start: float, end: float) -> Iterator[Cell]:

@@ -11,7 +11,7 @@ from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.separation.clearance import SLACK
 from relguide.planning.arrival import Arrival, arrival
 from relguide.planning.certificate import Certificate, judge
-from relguide.planning.constrained_path import detour
+from relguide.planning.constrained_path import constrained_path
 from relguide.planning.inputs import expect
 from relguide.planning.least_bad import (
     least_bad,
@@ -193,7 +193,7 @@ def _first_that_holds(found: Candidates, situation: Situation, radius: Metre) ->
             if i == 0 and not found.reachable_at_release:
                 return *chosen, Optimality(proof="relaxation", lower_bound=bound)
             break
-    around = detour(found, beat=chosen[0].time_to_converge if chosen else HORIZON)
+    around = constrained_path(found, beat=chosen[0].time_to_converge if chosen else HORIZON)
     if around is not None:
         certificate = judge(around.trajectory, situation, radius, leading)
         if certificate.holds:

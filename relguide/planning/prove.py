@@ -11,11 +11,12 @@ from dataclasses import dataclass, replace
 from math import inf
 from time import perf_counter
 
-from relguide.planning.constrained_path import leader_table
+from relguide.kernels.bounds.contact_bound import Goal
+from relguide.planning.constrained_path import scene_of
 from relguide.planning.contact_search import Question
 from relguide.planning.inputs import expect, expect_function, within
 from relguide.planning.plan import Optimality, Plan
-from relguide.planning.words import candidates
+from relguide.planning.words import Candidates, candidates
 from relguide.units import Second
 
 MAX_SECONDS: Second = 3_600.0
@@ -23,7 +24,7 @@ MAX_SECONDS: Second = 3_600.0
 TOLERANCE: Second = 1e-3
 """A gap this small ends the proof [s]: aircraft take a thousand times as long to roll."""
 _REPORT: Second = 0.05  # from one report to the next
-_LATER = 1e-9  # a way this much longer than the time to the opening does not arrive at it
+_LATER = 1e-9  # a path this much longer than t_release does not arrive just then
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -78,7 +79,7 @@ def check_seconds(seconds: object) -> Second:
 
 
 def bounds(plan: Plan, *, seconds: Second) -> Iterator[Bound]:
-    """Reports on the way to a better bound, some twenty a second, none worse than the last."""
+    """Reports of ever better bounds, some twenty a second, none worse than the last."""
     pursuer = plan.situation.pursuer
     scale = pursuer.turn_radius / pursuer.tas
     time = plan.time_to_converge
@@ -102,27 +103,17 @@ def bounds(plan: Plan, *, seconds: Second) -> Iterator[Bound]:
 
 def _steps(plan: Plan, time: float) -> Iterator[float]:
     """Bounds of the plan's time [R/V_P], in ever new rounds until there are no better ones."""
-    situation = plan.situation
-    found = candidates(situation)
-    frame = found.frame
-    slot = Question(
-        start=(frame.x, frame.y, frame.h),
-        leader=leader_table(situation, frame),
-        alpha=frame.alpha,
-        delta=situation.min_separation / frame.radius,
-        goal_x=0.0,
-        goal_speed=frame.alpha,
-        t_release=frame.t_release,
-        never_at_release=not found.reachable_at_release,
-        horizon=inf,
-    )
+    found = candidates(plan.situation)
+    frame, slot = found.frame, question_of(found)
     slot.warm_up()
     yield 0.0
     if found.reachable_at_release:
         place = replace(
-            slot, goal_x=frame.alpha * frame.t_release, goal_speed=0.0, t_release=0.0,
+            slot,
+            scene=slot.scene._replace(t_release=0.0),
+            goal=Goal(frame.alpha * frame.t_release, 0.0),
             horizon=frame.t_release,
-        )  # fmt: skip
+        )
         after = frame.t_release * (1.0 + _LATER)
         shortest = 0.0
         for shortest in place.bounds(after):
@@ -130,3 +121,15 @@ def _steps(plan: Plan, time: float) -> Iterator[float]:
         if shortest < after:
             return
     yield from slot.bounds(time)
+
+
+def question_of(found: Candidates) -> Question:
+    """How soon the slot can be reached with d_min kept."""
+    frame = found.frame
+    return Question(
+        start=frame.pose,
+        scene=scene_of(found.situation, frame),
+        goal=Goal(0.0, frame.alpha),
+        never_at_release=not found.reachable_at_release,
+        horizon=inf,
+    )

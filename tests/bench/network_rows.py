@@ -12,7 +12,7 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI
-from relguide.kernels.base.records import Pose
+from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.passage import word_clears
 from relguide.kernels.contact.path_pieces import pieces_of
@@ -44,7 +44,7 @@ def answer_rows(
         situations: x, y, h of the pursuer; α; x, y of the leader; d_min. shape (n, 7)
         words: names the words to the slot.
         ways: names the kinds of ways round the limit.
-        bearings: how finely detours are looked for, where `plan_rows` is asked.
+        bearings: how finely the disc is scanned for constrained paths, where `plan_rows` is asked.
         first: from this row on.
         last: up to this row.
         answers: as `plan_rows` gives them, or with the verdict `BY_NETWORK`. shape (n, 4)
@@ -78,7 +78,7 @@ def _answer_rows(
         pieces = np.empty((3, 0))
         if not fastest(Pose(x, y, h), alpha, 0.0, 0, scratch, free):
             time = inf
-        elif word_clears(x, y, h, 0.0, free, leader, alpha, limit - SLACK):
+        elif word_clears(Pose(x, y, h), 0.0, free, Scene(leader, alpha, limit - SLACK, 0.0)):
             if np.hypot(x, y) <= box[0] and box[1] <= alpha <= box[2]:
                 _, count = choose(x, y, h, alpha, words, sure[0], sure[1], rows)
                 if count > 0:
@@ -98,8 +98,9 @@ def _answer_rows(
             )
             if count > 0:
                 pieces = pieces_of(
-                    x, y, h, leader, alpha, limit, 0.0, _RADIUS, 1.0, time, legs[:count]
-                )
+                    Pose(x, y, h), Scene(leader, alpha, limit, 0.0), _RADIUS, 1.0, time,
+                    legs[:count],
+                )  # fmt: skip
         if pieces.shape[1] > 0 and _keeps(x, y, h, slot, alpha, limit, pieces):
             answers[n, 0], answers[n, 2] = time, BY_NETWORK
         else:

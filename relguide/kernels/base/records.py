@@ -81,6 +81,28 @@ class Contact(NamedTuple):
     """+1 passes counter-clockwise round the leader, −1 clockwise."""
 
 
+class Disc(NamedTuple):
+    """What a path must not enter, seen from the leader, and how it is passed."""
+
+    alpha: float
+    """V_L/V_P."""
+    distance: float
+    """Of contacts and boundary arcs from the leader, δ [R]."""
+    side: float
+    """As in `Contact`."""
+    turning: float
+    """The leader's turn rate ω [V_P/R]."""
+
+
+class Bracket(NamedTuple):
+    """Two arguments with a root of a function between them, and its values there."""
+
+    low: float
+    high: float
+    at_low: float
+    at_high: float
+
+
 @njit(cache=True, nogil=True)
 def start_at(pose: Pose) -> Start:
     """A pose as a start."""

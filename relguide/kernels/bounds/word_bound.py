@@ -23,13 +23,13 @@ decided is let through: that may lower the bound, and never raises it.
 """
 
 from math import asin, atan2, cos, hypot, inf, pi, sin, sqrt
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, wrap, wrap_signed
-from relguide.kernels.base.records import Pose, Scene
-from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.base.records import Pose, Scene, Velocity, Window
 from relguide.kernels.separation.clearance import leader_at
 from relguide.kernels.words.extremals import fly_piece
 
@@ -42,12 +42,99 @@ _STEPS = 100  # toward where it may be met: fewer say less
 _STRIDE = 0.02  # least step of the look for a breach [R/V_P]
 
 
+class Blur(NamedTuple):
+    """How far the poses of a set may lie from its middle."""
+
+    left: float
+    """The centre of the left circle [R]."""
+    right: float
+    """The centre of the right circle [R]."""
+    heading: float
+    """[rad]."""
+    end: float
+    """How much of that is because the heading on which the target is met may differ [rad]."""
+
+
+class Sieve(NamedTuple):
+    """Which words are left out: those that certainly break the limit, read backward."""
+
+    used: bool
+    """Whether any are."""
+    back: Pose
+    """Where the path began: from the middle of the set it is flown back in time to there."""
+    scene: Scene
+    """The leader, and the separation to be kept."""
+
+
+class NearWord(NamedTuple):
+    """All paths of a word whose amounts lie near these."""
+
+    signs: tuple[float, float, float]
+    """ε of the pieces."""
+    first: float
+    """Amount of the first piece [rad]."""
+    first_blur: float
+    """How much it may differ."""
+    middle: float
+    """Amount of the second [rad or R]."""
+    middle_blur: float
+    """How much it may differ; infinite if it is not known."""
+    until: float
+    """When the word is not yet over [R/V_P]."""
+
+
+class _Side(NamedTuple):
+    """What is asked of the words that begin with a left turn, or in the mirror with a right one."""
+
+    h: float
+    """Heading of the middle of the set, in [0, 2π) [rad]."""
+    cx: float
+    """Centre of the circle of the first turn [R]."""
+    cy: float
+    """[R]."""
+    radius: float
+    """How far the unknown pose may displace what is compared, r [R]."""
+    heading: float
+    """How much the heading may differ [rad]."""
+    end: float
+    """As in `Blur`."""
+    target: Velocity
+    """Of the target."""
+    alpha: float
+    """Its speed [V_P]."""
+    mirror: float
+    """+1, or −1 in the mirror."""
+
+
+class _Interval(NamedTuple):
+    """What an interval of the unknown angle leaves possible."""
+
+    time: float
+    """No path of it arrives sooner [R/V_P]; infinite if none can arrive in time."""
+    fine: bool
+    """Whether halving it would say no more."""
+    turned: float
+    """Both outer turns together, at its middle [rad]."""
+    first: float
+    """First turn of the path read backward [rad]."""
+    astray: float
+    """How much that may differ [rad]."""
+    middle: float
+    """Amount of the middle piece [rad or R]."""
+    middle_blur: float
+    """How much that may differ."""
+
+
+_NOTHING = _Interval(inf, True, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
 @njit(cache=True, nogil=True)
-def intercept_span(ex: float, ey: float, ax: float, ay: float, blur: float) -> tuple[float, float]:
+def intercept_span(ex: float, ey: float, target: Velocity, blur: float) -> tuple[float, float]:
     """Least and greatest l ≥ 0 with |a l + e'| = l for some e' within blur of e.
 
     The least is infinite if there is none, the greatest if it is not bounded (α ≥ 1).
     """
+    ax, ay = target
     one_less = 1.0 - ax * ax - ay * ay
     closing = ax * ex + ay * ey
     beyond = ex * ex + ey * ey - blur * blur
@@ -72,8 +159,8 @@ def intercept_span(ex: float, ey: float, ax: float, ay: float, blur: float) -> t
 
 
 @njit(cache=True, nogil=True)
-def _narrowed(
-    ex: float, ey: float, ax: float, ay: float, blur: float, least: float, greatest: float
+def _narrow(
+    ex: float, ey: float, target: Velocity, blur: float, least: float, greatest: float
 ) -> tuple[float, float]:
     """The part of [least, greatest] outside which |a l + e'| ≠ l, by steps too short to miss it.
 
@@ -81,6 +168,7 @@ def _narrowed(
     """
     if not greatest < inf:
         return least, greatest
+    ax, ay = target
     steepest = 1.0 + hypot(ax, ay)
     for _ in range(_STEPS):
         gap = abs(hypot(ax * least + ex, ay * least + ey) - least) - blur
@@ -96,175 +184,132 @@ def _narrowed(
 
 
 @njit(cache=True, nogil=True)
-def breaks_limit(
-    x: float, y: float, h: float, signs: tuple[float, float, float], first: float,
-    first_blur: float, middle: float, middle_blur: float, until: float, leader: FloatArray,
-    alpha: float, limit: float, stride: float,
-) -> bool:  # fmt: skip
+def breaks_limit(start: Pose, word: NearWord, scene: Scene, stride: float) -> bool:
     """Whether every path of a word with amounts near these comes closer than the limit in time.
 
     It is looked at now and then only: a breach that is short may be missed, and none is made up.
 
     Args:
-        x: start, slot frame [R].
-        y: start [R].
-        h: start heading [rad].
-        signs: of the three pieces.
-        first: amount of the first piece [rad].
-        first_blur: how much it may differ.
-        middle: amount of the second [rad or R].
-        middle_blur: how much it may differ; infinite if it is not known.
-        until: when the word is not yet over [R/V_P].
-        leader: table of its pieces. shape (k, 5)
-        alpha: V_L/V_P.
-        limit: the separation to be kept [R].
+        start: where the path begins, at t = 0.
+        word: which paths.
+        scene: the leader, and the separation to be kept.
         stride: least step from one look to the next [R/V_P].
     """
-    if middle_blur == inf:
+    if word.middle_blur == inf:
         return False
+    leader = scene.leader
     # headings differ by no more than this in the second piece and in the third
-    slow = first_blur if signs[1] == 0.0 else 2.0 * first_blur
-    fast = 2.0 * (first_blur + middle_blur)
-    first, middle = max(first, 0.0), max(middle, 0.0)
-    parted = max(first - first_blur, 0.0)
-    turning = parted + max(middle - middle_blur, 0.0)
-    at_x, at_y, at_h = fly_piece(Pose(x, y, h), signs[0], first)
-    on_x, on_y, on_h = fly_piece(Pose(at_x, at_y, at_h), signs[1], middle)
+    slow = word.first_blur if word.signs[1] == 0.0 else 2.0 * word.first_blur
+    fast = 2.0 * (word.first_blur + word.middle_blur)
+    first, middle = max(word.first, 0.0), max(word.middle, 0.0)
+    parted = max(first - word.first_blur, 0.0)
+    turning = parted + max(middle - word.middle_blur, 0.0)
+    second = fly_piece(start, word.signs[0], first)
+    third = fly_piece(second, word.signs[1], middle)
     i = 0
     t = 0.0
-    while t < until:
+    while t < word.until:
         while i + 1 < len(leader) and leader[i + 1, 0] <= t:
             i += 1
         if t <= first:
-            px, py, _ = fly_piece(Pose(x, y, h), signs[0], t)
+            at = fly_piece(start, word.signs[0], t)
         elif t <= first + middle:
-            px, py, _ = fly_piece(Pose(at_x, at_y, at_h), signs[1], t - first)
+            at = fly_piece(second, word.signs[1], t - first)
         else:
-            px, py, _ = fly_piece(Pose(on_x, on_y, on_h), signs[2], t - first - middle)
-        lx, ly, _ = leader_at(Scene(leader, alpha, 0.0, 0.0), i, t)
+            at = fly_piece(third, word.signs[2], t - first - middle)
+        there = leader_at(scene, i, t)
         astray = slow * max(t - parted, 0.0) + fast * max(t - turning, 0.0)
-        gap = hypot(px - lx, py - ly) + astray + _ROUNDING - limit
+        gap = hypot(at.x - there.x, at.y - there.y) + astray + _ROUNDING - scene.d_min
         if gap < 0.0:
             return True
-        t += max(gap / (1.0 + alpha), stride)
+        t += max(gap / (1.0 + scene.alpha), stride)
     return False
 
 
 @njit(cache=True, nogil=True)
-def soonest(
-    x: float, y: float, h: float, blur_left: float, blur_right: float, blur_h: float,
-    blur_end: float, ax: float, ay: float, not_before: float, beat: float,
-    kept: bool, back: tuple[float, float, float], leader: FloatArray, alpha: float, limit: float,
-) -> float:  # fmt: skip
+def soonest(pose: Pose, blur: Blur, target: Velocity, window: Window, sieve: Sieve) -> float:
     """No word meets the target sooner than this, from any pose of the set.
 
     Args:
-        x: middle of the set, ahead of the target along the heading to meet it on [R].
-        y: and left of it [R].
-        h: its heading, counter-clockwise from that heading [rad].
-        blur_left: how far the centre of the left circle may lie from that of the middle [R].
-        blur_right: the same of the right circle [R].
-        blur_h: how much the heading may differ [rad].
-        blur_end: how much of that is because the heading to meet the target on may [rad].
-        ax: the target's velocity along the heading to meet it on [V_P].
-        ay: and to the left of it [V_P].
-        not_before: words that meet it sooner do not count [R/V_P].
-        beat: bounds from here on do not matter, and come back as infinite [R/V_P].
-        kept: whether words that certainly break the limit are left out. They are then read
-            backward: from the middle of the set back in time to where the path began.
-        back: that pose, slot frame.
-        leader: table of its pieces. shape (k, 5)
-        alpha: V_L/V_P.
-        limit: the separation to be kept [R].
+        pose: middle of the set, seen from the target along the heading to meet it on.
+        blur: how far the set reaches.
+        target: its velocity.
+        window: words that meet it earlier do not count; bounds from `beat` on do not matter, and
+            come back as infinite.
+        sieve: words left out.
     """
-    if beat <= 0.0:
+    if window.beat <= 0.0:
         return inf
-    best = beat
+    best = window.beat
     for hand in range(2):
-        m = 1.0 - 2.0 * hand
-        blur = (blur_left if hand == 0 else blur_right) + _ROUNDING
-        best = _same_side(
-            x, m * y, wrap(m * h), blur, blur_h + _ROUNDING, blur_end, ax, m * ay, not_before,
-            best, kept, m, back, leader, alpha, limit,
-        )  # fmt: skip
+        side = _side_of(pose, blur, target, hand)
+        best = _bound_same_side(side, Window(window.earliest, best), sieve)
         for turns in range(2):
-            best = _by_halves(
-                turns == 1, x, m * y, wrap(m * h), blur, blur_h + _ROUNDING, blur_end, ax,
-                m * ay, not_before, best, kept, m, back, leader, alpha, limit,
-            )  # fmt: skip
-    return best if best < beat else inf
+            best = _bound_by_halves(turns == 1, side, Window(window.earliest, best), sieve)
+    return best if best < window.beat else inf
 
 
 @njit(cache=True, nogil=True)
-def _same_side(
-    x: float, y: float, h: float, blur: float, blur_h: float, blur_end: float, ax: float,
-    ay: float, not_before: float, beat: float, kept: bool, m: float,
-    back: tuple[float, float, float], leader: FloatArray, alpha: float, limit: float,
-) -> float:  # fmt: skip
+def _side_of(pose: Pose, blur: Blur, target: Velocity, hand: int) -> _Side:
+    """The words that begin with a left turn, or with hand = 1 a right one, in the mirror."""
+    m = 1.0 - 2.0 * hand
+    h = wrap(m * pose.h)
+    alpha = hypot(target.ahead, target.left)
+    circle = (blur.left if hand == 0 else blur.right) + _ROUNDING
+    heading = blur.heading + _ROUNDING
+    return _Side(
+        h, pose.x - sin(h), m * pose.y + cos(h), circle + alpha * heading, heading, blur.end,
+        Velocity(target.ahead, m * target.left), alpha, m,
+    )  # fmt: skip
+
+
+@njit(cache=True, nogil=True)
+def _bound_same_side(side: _Side, window: Window, sieve: Sieve) -> float:
     """The bound for LSL; `beat` if it is not lower."""
-    best = beat
-    cx, cy = x - sin(h), y + cos(h)
-    radius = blur + hypot(ax, ay) * blur_h
+    best = window.beat
+    ax, ay = side.target
     for k in range(4):
-        turned = TWO_PI * k - h
-        if turned + blur_h < 0.0 or turned - blur_h > 2.0 * TWO_PI:
+        turned = TWO_PI * k - side.h
+        if turned + side.heading < 0.0 or turned - side.heading > 2.0 * TWO_PI:
             continue
-        ex, ey = ax * turned - cx, ay * turned + 1.0 - cy
-        least, greatest = intercept_span(ex, ey, ax, ay, radius)
-        soonest_turned = max(turned - blur_h, 0.0)
-        least = max(least, not_before - turned - blur_h)
+        ex, ey = ax * turned - side.cx, ay * turned + 1.0 - side.cy
+        least, greatest = intercept_span(ex, ey, side.target, side.radius)
+        soonest_turned = max(turned - side.heading, 0.0)
+        least = max(least, window.earliest - turned - side.heading)
         greatest = min(greatest, best - soonest_turned)
-        if hypot(ax, ay) > _FAST:
-            least, greatest = _narrowed(ex, ey, ax, ay, radius, least, greatest)
+        if side.alpha > _FAST:
+            least, greatest = _narrow(ex, ey, side.target, side.radius, least, greatest)
         time = soonest_turned + least
         if greatest < least or time >= best:
             continue
-        middle, half = least, inf
+        middle, middle_blur = least, inf
         astray = pi
         course = 0.0
         if greatest < inf:
-            middle, half = 0.5 * (least + greatest), 0.5 * (greatest - least)
+            middle, middle_blur = 0.5 * (least + greatest), 0.5 * (greatest - least)
             to_x, to_y = ax * middle + ex, ay * middle + ey
-            slack = radius + hypot(ax, ay) * half
+            slack = side.radius + side.alpha * middle_blur
             if slack < hypot(to_x, to_y):
                 astray = asin(slack / hypot(to_x, to_y))
                 course = atan2(to_y, to_x)
-        for j in range(3):
-            last = TWO_PI * j - course
-            if (
-                last < -astray - blur_end
-                or last > TWO_PI + astray + blur_end
-                or turned - last < -astray - blur_h
-                or turned - last > TWO_PI + astray + blur_h
-            ):
-                continue
-            if kept and breaks_limit(
-                back[0], back[1], back[2], (-m, 0.0, -m), last, astray, middle, half, time,
-                leader, alpha, limit, _STRIDE,
-            ):  # fmt: skip
-                continue
+        found = _Interval(time, True, turned, -course, astray, middle, middle_blur)
+        if _is_possible(found, (-1.0, 0.0, -1.0), 3, 0.0, side, sieve):
             best = time
-            break
     return best
 
 
 @njit(cache=True, nogil=True)
-def _by_halves(
-    three_turns: bool, x: float, y: float, h: float, blur: float, blur_h: float, blur_end: float,
-    ax: float, ay: float, not_before: float, beat: float, kept: bool, m: float,
-    back: tuple[float, float, float], leader: FloatArray, alpha: float, limit: float,
-) -> float:  # fmt: skip
+def _bound_by_halves(three_turns: bool, side: _Side, window: Window, sieve: Sieve) -> float:
     """The bound for LSR, or for LRL if `three_turns`; `beat` if it is not lower."""
-    best = beat
-    cx, cy = x - sin(h), y + cos(h)
-    a = hypot(ax, ay)
-    radius = blur + a * blur_h
+    best = window.beat
     mids, halves = np.empty(_DEPTH), np.empty(_DEPTH)
     for k in range(-1, 4):
+        around = TWO_PI * k
         # where both outer turns are between none and a full one
-        past = 0.0 if three_turns else blur_end
-        low = max(h - blur_h - TWO_PI * k, -past)
-        high = min((2.0 if three_turns else 1.0) * TWO_PI + h + blur_h - TWO_PI * k, TWO_PI + past)
+        past = 0.0 if three_turns else side.end
+        most = (2.0 if three_turns else 1.0) * TWO_PI
+        low = max(side.h - side.heading - around, -past)
+        high = min(most + side.h + side.heading - around, TWO_PI + past)
         if high < low:
             continue
         mids[0], halves[0] = 0.5 * (low + high), 0.5 * (high - low) + _FINEST
@@ -272,85 +317,128 @@ def _by_halves(
         while n > 0:
             n -= 1
             mid, half = mids[n], halves[n]
+            left = Window(window.earliest, best)
             if three_turns:
-                turned = mid + TWO_PI * k - h
-                time = max(turned + mid - 2.0 * half - blur_h, 0.0)
-                latest = turned + mid + 2.0 * half + blur_h
-                if time >= best or latest < not_before:
-                    continue
-                to_x = ax * (turned + mid) - cx
-                to_y = ay * (turned + mid) + 1.0 - cy
-                gap = hypot(to_x, to_y)
-                if abs(gap - 4.0 * sin(0.5 * mid)) > radius + 2.0 * (1.0 + a) * half:
-                    continue
-                fine = 2.0 * (1.0 + a) * half <= radius
-                slack = radius + 2.0 * a * half
-                astray = pi if slack >= gap else asin(slack / gap) + 0.5 * half
-                last = 0.5 * mid - atan2(to_y, to_x)
-                length, length_blur = mid, half
+                found = _three_turns_within(mid, half, around, side, left)
             else:
-                turned = 2.0 * mid + TWO_PI * k - h
-                c, s = cos(mid), sin(mid)
-                qx, qy = c - ax, s - ay
-                q = hypot(qx, qy)
-                vx = ax * turned - cx - 2.0 * s
-                vy = ay * turned - cy - 1.0 + 2.0 * c
-                soonest_turned = max(turned - 2.0 * half - blur_h, 0.0)
-                # |v| ≤ l |q| + r, wherever in the interval
-                shortest = (hypot(vx, vy) - radius - 2.0 * half * (q + half)) / (q + half)
-                longest = best - soonest_turned
-                near = inf
-                if q > 1e-9:
-                    along, beside = (vx * qx + vy * qy) / q, abs(vx * qy - vy * qx) / q
-                    wander = half * abs(ay * c - ax * s) / q + 0.5 * half * half
-                    near = radius + half * half
-                    if q > wander:
-                        longest = min(longest, (along + near + 2.0 * half * q) / (q - wander))
-                    if beside > near + longest * half:
-                        continue
-                    near += longest * wander
-                    shortest = max(shortest, (along - near) / q - 2.0 * half)
-                shortest = max(shortest, 0.0)
-                if longest < shortest:
-                    continue
-                time = soonest_turned + shortest
-                latest = turned + 2.0 * half + blur_h + longest
-                if near < inf:
-                    time = max(time, turned - blur_h + (along - near) / q)
-                    latest = min(latest, turned + blur_h + (along + near) / q)
-                if time >= best or latest < not_before:
-                    continue
-                fine = longest < inf and half * (longest + half) <= radius
-                last, astray = mid, half
-                length, length_blur = 0.5 * (shortest + longest), 0.5 * (longest - shortest)
-            if not (fine or half < _FINEST or n + 2 > _DEPTH):
+                found = _opposite_turns_within(mid, half, around, side, left)
+            if found.time == inf:
+                continue
+            if not (found.fine or half < _FINEST or n + 2 > _DEPTH):
                 # the half that begins sooner is looked at first
                 halves[n] = halves[n + 1] = 0.5 * half
                 mids[n], mids[n + 1] = mid + 0.5 * half, mid - 0.5 * half
                 n += 2
-                continue
-            possible = not three_turns
-            if three_turns:
-                last = wrap_signed(last)
-                for j in range(2):
-                    end = last + TWO_PI * j
-                    if (
-                        end < -astray - blur_end
-                        or end > TWO_PI + astray + blur_end
-                        or turned - end < -astray - half - blur_h
-                        or turned - end > TWO_PI + astray + half + blur_h
-                    ):
-                        continue
-                    if not kept or not breaks_limit(
-                        back[0], back[1], back[2], (-m, m, -m), end, astray, length, length_blur,
-                        time, leader, alpha, limit, _STRIDE,
-                    ):  # fmt: skip
-                        possible = True
-            elif kept:
-                possible = not breaks_limit(
-                    back[0], back[1], back[2], (m, 0.0, -m), last, astray, length, length_blur,
-                    time, leader, alpha, limit, _STRIDE,
-                )  # fmt: skip
-            if possible:
-                best = time
+            elif three_turns:
+                if _is_possible(found, (-1.0, 1.0, -1.0), 2, half, side, sieve):
+                    best = found.time
+            elif not _is_sifted(found, (1.0, 0.0, -1.0), found.first, side, sieve):
+                best = found.time
     return best
+
+
+@njit(cache=True, nogil=True)
+def _three_turns_within(
+    mid: float, half: float, around: float, side: _Side, window: Window
+) -> _Interval:
+    """LRL with a middle arc in mid ± half, and `around` how much more the outer turns make."""
+    ax, ay = side.target
+    turned = mid + around - side.h
+    time = max(turned + mid - 2.0 * half - side.heading, 0.0)
+    latest = turned + mid + 2.0 * half + side.heading
+    if time >= window.beat or latest < window.earliest:
+        return _NOTHING
+    to_x = ax * (turned + mid) - side.cx
+    to_y = ay * (turned + mid) + 1.0 - side.cy
+    gap = hypot(to_x, to_y)
+    spread = 2.0 * (1.0 + side.alpha) * half
+    if abs(gap - 4.0 * sin(0.5 * mid)) > side.radius + spread:
+        return _NOTHING
+    slack = side.radius + 2.0 * side.alpha * half
+    astray = pi if slack >= gap else asin(slack / gap) + 0.5 * half
+    first = wrap_signed(0.5 * mid - atan2(to_y, to_x))
+    return _Interval(time, spread <= side.radius, turned, first, astray, mid, half)
+
+
+@njit(cache=True, nogil=True)
+def _opposite_turns_within(
+    mid: float, half: float, around: float, side: _Side, window: Window
+) -> _Interval:
+    """LSR whose straight has a course in mid ± half; `around` is as in `_three_turns_within`."""
+    ax, ay = side.target
+    turned = 2.0 * mid + around - side.h
+    c, s = cos(mid), sin(mid)
+    qx, qy = c - ax, s - ay
+    q = hypot(qx, qy)
+    vx = ax * turned - side.cx - 2.0 * s
+    vy = ay * turned - side.cy - 1.0 + 2.0 * c
+    soonest_turned = max(turned - 2.0 * half - side.heading, 0.0)
+    # |v| ≤ l |q| + r, wherever in the interval
+    shortest = (hypot(vx, vy) - side.radius - 2.0 * half * (q + half)) / (q + half)
+    longest = window.beat - soonest_turned
+    near, along = inf, 0.0
+    if q > 1e-9:
+        along, beside = (vx * qx + vy * qy) / q, abs(vx * qy - vy * qx) / q
+        wander = half * abs(ay * c - ax * s) / q + 0.5 * half * half
+        near = side.radius + half * half
+        if q > wander:
+            longest = min(longest, (along + near + 2.0 * half * q) / (q - wander))
+        if beside > near + longest * half:
+            return _NOTHING
+        near += longest * wander
+        shortest = max(shortest, (along - near) / q - 2.0 * half)
+    shortest = max(shortest, 0.0)
+    if longest < shortest:
+        return _NOTHING
+    time = soonest_turned + shortest
+    latest = turned + 2.0 * half + side.heading + longest
+    if near < inf:
+        time = max(time, turned - side.heading + (along - near) / q)
+        latest = min(latest, turned + side.heading + (along + near) / q)
+    if time >= window.beat or latest < window.earliest:
+        return _NOTHING
+    fine = longest < inf and half * (longest + half) <= side.radius
+    middle, middle_blur = 0.5 * (shortest + longest), 0.5 * (longest - shortest)
+    return _Interval(time, fine, turned, mid, half, middle, middle_blur)
+
+
+@njit(cache=True, nogil=True)
+def _is_possible(
+    found: _Interval, signs: tuple[float, float, float], turns: int, half: float, side: _Side,
+    sieve: Sieve,
+) -> bool:  # fmt: skip
+    """Whether both outer turns may lie between none and a full one, in a word that is not sifted.
+
+    Args:
+        found: what is asked about.
+        signs: of the pieces, read backward, but for the mirror.
+        turns: how many full turns the first turn may be off.
+        half: how much both outer turns together may differ besides [rad].
+        side: of which words.
+        sieve: words left out.
+    """
+    for j in range(turns):
+        first = found.first + TWO_PI * j
+        other, spare = found.turned - first, found.astray + half + side.heading
+        if (
+            -found.astray - side.end <= first <= TWO_PI + found.astray + side.end
+            and -spare <= other <= TWO_PI + spare
+            and not _is_sifted(found, signs, first, side, sieve)
+        ):
+            return True
+    return False
+
+
+@njit(cache=True, nogil=True)
+def _is_sifted(
+    found: _Interval, signs: tuple[float, float, float], first: float, side: _Side, sieve: Sieve
+) -> bool:
+    """Whether a word is left out, as every path of it certainly breaks the limit."""
+    if not sieve.used:
+        return False
+    m = side.mirror
+    word = NearWord(
+        (m * signs[0], m * signs[1], m * signs[2]), first, found.astray, found.middle,
+        found.middle_blur, found.time,
+    )  # fmt: skip
+    return breaks_limit(sieve.back, word, sieve.scene, _STRIDE)

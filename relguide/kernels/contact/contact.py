@@ -17,14 +17,27 @@ from math import acos, cos, inf, sin, sqrt
 
 from numba import njit
 
-from relguide.kernels.base.records import Scene
-from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.base.records import Contact, Disc, Pose, Scene
 from relguide.kernels.separation.clearance import leader_at, piece_at
 
+GRAZE = 3e-7
+"""The contact is flown this far outside d_min [R], so that rounding cannot break it."""
 _STEP = 0.07  # bearing step of Simpson's rule: 4°, right to 1e-9
 _SLOWLY = 0.1  # or this much of the speed round the leader, where the boundary arc is slow
 _STILL = 0.01  # slower round the leader than this, a boundary arc gets nowhere [V_P]
-_BANK_SLACK = 1e-9  # ends of what can be ridden are found by bisection, and count as inside
+_BANK_SLACK = 1e-9  # the ends of a boundary arc are found by bisection, and count as inside
+
+
+@njit(cache=True, nogil=True)
+def contact_distance(d_min: float) -> float:
+    """How far from the leader contacts and boundary arcs are flown [R]."""
+    return d_min + GRAZE
+
+
+@njit(cache=True, nogil=True)
+def disc_on(scene: Scene, i: int, side: float) -> Disc:
+    """The disc round the leader on its piece i, at the distance of contacts."""
+    return Disc(scene.alpha, contact_distance(scene.d_min), side, scene.leader[i, 4])
 
 
 @njit(cache=True, nogil=True)
@@ -46,108 +59,92 @@ def contact_heading(bearing: float, side: float, alpha: float) -> float:
 
 
 @njit(cache=True, nogil=True)
-def contact_on(
-    leader: FloatArray, i: int, t: float, bearing: float, side: float, alpha: float, delta: float
-) -> tuple[float, float, float]:
-    """The pursuer's pose at a contact at time t, the leader on its piece i.
+def contact_on(scene: Scene, contact: Contact, t: float) -> Pose:
+    """The pursuer's pose at a contact at time t.
 
-    Args:
-        leader: table of its pieces, as in `clearance`. shape (k, 5)
-        i: piece; it may begin later, and is then thought to go back to t.
-        t: time [R/V_P].
-        bearing: as in `contact_heading` [rad].
-        side: as there.
-        alpha: V_L/V_P.
-        delta: distance [R].
+    The leader's piece may begin later: the leader is then thought to have come along it.
     """
-    lx, ly, lh = leader_at(Scene(leader, alpha, 0.0, 0.0), i, t)
-    return (
-        lx + delta * cos(lh + bearing),
-        ly + delta * sin(lh + bearing),
-        lh + contact_heading(bearing, side, alpha),
+    lx, ly, lh = leader_at(scene, contact.piece, t)
+    distance = contact_distance(scene.d_min)
+    return Pose(
+        lx + distance * cos(lh + contact.bearing),
+        ly + distance * sin(lh + contact.bearing),
+        lh + contact_heading(contact.bearing, contact.side, scene.alpha),
     )
 
 
 @njit(cache=True, nogil=True)
-def contact_at(
-    leader: FloatArray, t: float, bearing: float, side: float, alpha: float, delta: float
-) -> tuple[float, float, float]:
+def contact_at(scene: Scene, t: float, bearing: float, side: float) -> Pose:
     """The pursuer's pose at a contact at time t, on whatever piece the leader then is."""
-    return contact_on(leader, piece_at(leader, t), t, bearing, side, alpha, delta)
+    return contact_on(scene, Contact(piece_at(scene.leader, t), bearing, side), t)
 
 
 @njit(cache=True, nogil=True)
-def boundary_arc_rates(
-    bearing: float, side: float, alpha: float, delta: float, turning: float
-) -> tuple[float, float]:
-    """b′ and h′ of a boundary arc at δ; both infinite where the disc cannot be touched.
+def seen_from(pose: Pose, origin: Pose) -> Pose:
+    """A pose in the frame of another; its heading not wrapped."""
+    c, s = cos(origin.h), sin(origin.h)
+    dx, dy = pose.x - origin.x, pose.y - origin.y
+    return Pose(dx * c + dy * s, dy * c - dx * s, pose.h - origin.h)
+
+
+@njit(cache=True, nogil=True)
+def boundary_arc_rates(bearing: float, disc: Disc) -> tuple[float, float]:
+    """b′ and h′ of a boundary arc; both infinite where the disc cannot be touched.
 
     Args:
         bearing: as in `contact_heading` [rad].
-        side: as there.
-        alpha: V_L/V_P.
-        delta: distance of the boundary arc [R].
-        turning: the leader's turn rate ω [V_P/R].
+        disc: with the distance δ of the boundary arc, and the leader's turn rate ω.
     """
-    along = alpha * cos(bearing)
+    along = disc.alpha * cos(bearing)
     if abs(along) >= 1.0:
         return inf, inf
     across = sqrt(1.0 - along * along)
-    round_it = (side * across + alpha * sin(bearing)) / delta - turning
-    return round_it, turning + round_it * (1.0 + side * alpha * sin(bearing) / across)
+    ahead = disc.alpha * sin(bearing)
+    round_it = (disc.side * across + ahead) / disc.distance - disc.turning
+    return round_it, disc.turning + round_it * (1.0 + disc.side * ahead / across)
 
 
 @njit(cache=True, nogil=True)
-def boundary_arc_sense(
-    bearing: float, side: float, alpha: float, delta: float, turning: float
-) -> float:
+def boundary_arc_sense(bearing: float, disc: Disc) -> float:
     """Which way a boundary arc moves the bearing: +1, −1, or 0 where it cannot be flown."""
-    round_it, rate = boundary_arc_rates(bearing, side, alpha, delta, turning)
-    if abs(rate) > 1.0 + _BANK_SLACK or abs(round_it) * delta < _STILL:
+    round_it, rate = boundary_arc_rates(bearing, disc)
+    if abs(rate) > 1.0 + _BANK_SLACK or abs(round_it) * disc.distance < _STILL:
         return 0.0
     return 1.0 if round_it > 0.0 else -1.0
 
 
 @njit(cache=True, nogil=True)
-def _slowness(
-    bearing: float, way: float, side: float, alpha: float, delta: float, turning: float
-) -> float:
+def _slowness(bearing: float, sense: float, disc: Disc) -> float:
     """Time per bearing; infinite where the boundary arc cannot be flown, or goes the other way."""
-    if boundary_arc_sense(bearing, side, alpha, delta, turning) != way:
+    if boundary_arc_sense(bearing, disc) != sense:
         return inf
-    return way / boundary_arc_rates(bearing, side, alpha, delta, turning)[0]
+    return sense / boundary_arc_rates(bearing, disc)[0]
 
 
 @njit(cache=True, nogil=True)
-def slide_within(
-    bearing: float, goal: float, side: float, alpha: float, delta: float, turning: float,
-    left: float,
-) -> tuple[float, float]:  # fmt: skip
-    """Ride from one bearing to another while the leader keeps its turn rate.
+def slide_within(bearing: float, goal: float, disc: Disc, left: float) -> tuple[float, float]:
+    """Slide from one bearing to another while the leader keeps its turn rate.
 
     Args:
         bearing: where it begins [rad].
-        goal: where it ends; not wrapped, so that it tells the way [rad].
-        side: as in `contact_heading`.
-        alpha: V_L/V_P.
-        delta: distance of the boundary arc [R].
-        turning: the leader's turn rate ω [V_P/R].
-        left: how long the leader keeps it [R/V_P].
+        goal: where it ends; not wrapped, so that it says which way round [rad].
+        disc: that the boundary arc goes round.
+        left: how long the leader keeps its turn rate [R/V_P].
 
     Returns:
         the bearing reached and the time it took: the goal, or what is reached when the time is up;
         an infinite time where the boundary arc cannot be flown.
     """
-    way = 1.0 if goal > bearing else -1.0
+    sense = 1.0 if goal > bearing else -1.0
     used, low = 0.0, bearing
-    slow_low = _slowness(low, way, side, alpha, delta, turning)
+    slow_low = _slowness(low, sense, disc)
     while low != goal:
         if slow_low == inf:
             return low, inf
-        step = min(_STEP, _SLOWLY * delta / slow_low)
-        high = low + way * step if abs(goal - low) > 1.001 * step else goal
-        slow_high = _slowness(high, way, side, alpha, delta, turning)
-        slow_middle = _slowness(0.5 * (low + high), way, side, alpha, delta, turning)
+        step = min(_STEP, _SLOWLY * disc.distance / slow_low)
+        high = low + sense * step if abs(goal - low) > 1.001 * step else goal
+        slow_high = _slowness(high, sense, disc)
+        slow_middle = _slowness(0.5 * (low + high), sense, disc)
         took = abs(high - low) * (slow_low + 4.0 * slow_middle + slow_high) / 6.0
         if took == inf:
             return low, inf
@@ -158,8 +155,8 @@ def slide_within(
                 end = low + share * (high - low)
                 partly = (
                     slow_low
-                    + 4.0 * _slowness(0.5 * (low + end), way, side, alpha, delta, turning)
-                    + _slowness(end, way, side, alpha, delta, turning)
+                    + 4.0 * _slowness(0.5 * (low + end), sense, disc)
+                    + _slowness(end, sense, disc)
                 )
                 if used + share * abs(high - low) * partly / 6.0 < left:
                     near = share

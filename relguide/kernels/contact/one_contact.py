@@ -1,11 +1,10 @@
-"""Ways through one contact with d = d_min: the disc is scanned, and its best bearings refined.
+"""Paths through one contact with d = d_min: the disc is scanned, and its best bearings refined.
 
 A path that the limit bends touches the forbidden disc, and the state at a contact is fixed by its
 bearing, for each piece of the leader's intent and each side: the arrival is a function of that
 bearing (see `passage`), searched on a grid first and then downward.
 
-Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader is a table as in
-`clearance`.
+Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
 from math import inf
@@ -13,237 +12,182 @@ from math import inf
 import numpy as np
 from numba import njit
 
-from relguide.kernels.base.angles import TWO_PI, wrap
+from relguide.kernels.base.records import Contact, Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain_refinement import FINEST, GAIN, vertex
-from relguide.kernels.contact.contact import boundary_arc_sense, contact_at, contact_exists
-from relguide.kernels.contact.passage import through_contact
+from relguide.kernels.contact.contact import contact_at, contact_exists
+from relguide.kernels.contact.nodes import Nodes, contact_of
+from relguide.kernels.contact.passage import Workspace, through_contact, workspace
 from relguide.kernels.contact.paths_to_contact import not_before, not_before_slot
-from relguide.kernels.words.extremals import MAX_ROWS
 
 _BASINS = 8  # refined: the best of them wins in every reference case; the rest is insurance
-_BESIDE = 1e-6  # how far beside a tangent contact it is looked: 1 cm at R = 12 km
 _HIDDEN = 0.14  # how much a basin may fall below what the scan sees of it [R/V_P]
 _PARTS = 4  # into which the bearings beside a basin without a neighbour are cut
 
 
 @njit(cache=True, nogil=True)
-def contact_nodes(
-    leader: FloatArray, alpha: float, delta: float, bearings: int, tangents: FloatArray
-) -> tuple[FloatArray, FloatArray]:
-    """Sides and bearings of the contacts looked at: for each piece both sides, ascending.
-
-    A grid; both sides of each tangent contact, since the words that end there exist on one of them
-    only; and the ends of what can be ridden.
-    """
-    groups = 2 * len(leader)
-    own = np.empty((groups, 2 * bearings + 2 * len(tangents)))
-    sizes = np.zeros(groups, dtype=np.int64)
-    for group in range(groups):
-        i, side = group // 2, 1.0 - 2.0 * (group % 2)
-        n = 0
-        for j in range(bearings):
-            low, high = TWO_PI * j / bearings, TWO_PI * (j + 1) / bearings
-            own[group, n] = low
-            n += 1
-            way = boundary_arc_sense(low, side, alpha, delta, leader[i, 4])
-            if way != boundary_arc_sense(high, side, alpha, delta, leader[i, 4]):
-                for _ in range(50):
-                    middle = 0.5 * (low + high)
-                    if boundary_arc_sense(middle, side, alpha, delta, leader[i, 4]) == way:
-                        low = middle
-                    else:
-                        high = middle
-                own[group, n] = low if way != 0.0 else high
-                n += 1
-        for tangent in tangents:
-            if tangent[1] == side and tangent[3] == i:
-                own[group, n] = wrap(tangent[0] - _BESIDE)
-                own[group, n + 1] = wrap(tangent[0] + _BESIDE)
-                n += 2
-        sizes[group] = n
-    # all groups are made alike in length: spare ones fill the grid
-    size = sizes.max()
-    sides, placed = np.empty(groups * size), np.empty(groups * size)
-    for group in range(groups):
-        for n in range(sizes[group], size):
-            own[group, n] = TWO_PI * (n - sizes[group] + 0.5) / bearings
-        sides[group * size : (group + 1) * size] = 1.0 - 2.0 * (group % 2)
-        placed[group * size : (group + 1) * size] = np.sort(own[group, :size])
-    return sides, placed
-
-
-@njit(cache=True, nogil=True)
-def scan_contacts(
-    x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float, t_release: float,
-    sides: FloatArray, placed: FloatArray, beat: float, time: FloatArray, lower: FloatArray,
-    values: FloatArray, way: FloatArray,
-) -> float:  # fmt: skip
-    """The fastest way through one of many contacts, those that may be reached soonest first.
+def scan_contacts(start: Pose, scene: Scene, nodes: Nodes, beat: float, path: FloatArray) -> float:
+    """The fastest path through one of many contacts, those that may be reached soonest first.
 
     Args:
-        x: start, slot frame [R].
-        y: start [R].
-        h: start heading [rad].
-        leader: table of its pieces. shape (k, 5)
-        alpha: V_L/V_P.
-        delta: distance at the contacts [R].
-        t_release: when the slot opens [R/V_P].
-        sides: of the contacts, from `contact_nodes`. shape (n,)
-        placed: their bearings [rad]. shape (n,)
+        start: where the path begins, at t = 0.
+        scene: what it has to reckon with.
+        nodes: the contacts; takes what is found of each.
         beat: an arrival already known [R/V_P].
-        time: takes the earliest time at each contact [R/V_P], infinite where none matters. (n,)
-        lower: takes before what no way on from there arrives [R/V_P]. shape (n,)
-        values: takes the arrivals [R/V_P], infinite where far too late. shape (n,)
-        way: takes the two rows of the fastest way. shape (2, 5)
+        path: takes the two rows of the fastest path. shape (2, 5)
 
     Returns:
         its arrival [R/V_P]; `beat` if none is earlier.
     """
-    rows, onward = np.empty((MAX_ROWS, 5)), np.empty((MAX_ROWS, 5))
-    trial, reached = np.empty((2, 5)), np.empty(2)
-    count, size = len(placed), len(placed) // (2 * len(leader))
-    time[:], lower[:], values[:] = inf, inf, inf
-    soonest = np.full(count, inf)
-    for n in range(count):
-        if contact_exists(placed[n], alpha):
-            i = n // (2 * size)
-            t = not_before(x, y, h, 0.0, leader, i, alpha, delta, placed[n], sides[n])
-            soonest[n] = max(t, t_release)
-            if i + 1 == len(leader):
-                # on the final leg the contact keeps its place from the slot
-                cx, cy, ch = contact_at(leader, t, placed[n], sides[n], alpha, delta)
-                soonest[n] = not_before_slot(cx, cy, ch, t, alpha, t_release)
+    room = workspace()
+    soonest = _soonest_arrivals(start, scene, nodes)
     best = beat
     for n in np.argsort(soonest):
         if soonest[n] >= best + _HIDDEN:
             break
-        values[n] = through_contact(
-            x, y, h, leader, n // (2 * size), alpha, delta, t_release, placed[n], sides[n],
-            best + _HIDDEN, rows, onward, trial, reached,
-        )  # fmt: skip
-        time[n], lower[n] = reached[0], reached[1]
-        if values[n] >= best + _HIDDEN:
-            values[n] = inf
-        elif values[n] < best:
-            best = values[n]
-            way[:] = trial
+        arrival = through_contact(start, scene, contact_of(nodes, n), best + _HIDDEN, room)
+        nodes.time[n], nodes.lower[n] = room.reached[0], room.reached[1]
+        nodes.arrival[n] = arrival if arrival < best + _HIDDEN else inf
+        if arrival < best:
+            best = arrival
+            path[:] = room.path
     return best
 
 
 @njit(cache=True, nogil=True)
+def _soonest_arrivals(start: Pose, scene: Scene, nodes: Nodes) -> FloatArray:
+    """No path through a contact is at the slot before its time here [R/V_P]: shape (n,)."""
+    count = len(nodes.bearings)
+    soonest = np.full(count, inf)
+    for n in range(count):
+        contact = contact_of(nodes, n)
+        if contact_exists(contact.bearing, scene.alpha):
+            t = not_before(start, 0.0, scene, contact)
+            soonest[n] = max(t, scene.t_release)
+            if contact.piece + 1 == len(scene.leader):
+                # on the final leg the contact keeps its place from the slot
+                there = contact_at(scene, t, contact.bearing, contact.side)
+                soonest[n] = not_before_slot(there, t, scene)
+    return soonest
+
+
+@njit(cache=True, nogil=True)
 def descend_basins(
-    x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float, t_release: float,
-    sides: FloatArray, placed: FloatArray, values: FloatArray, bearings: int, best: float,
-    way: FloatArray,
-) -> float:  # fmt: skip
-    """From the lowest of what a scan has seen, downward between its bearings.
+    start: Pose, scene: Scene, nodes: Nodes, width: float, best: float, path: FloatArray
+) -> float:
+    """From the least arrivals that a scan has seen, downward between its bearings.
 
     Args:
-        x: start, slot frame [R].
-        y: start [R].
-        h: start heading [rad].
-        leader: table of its pieces. shape (k, 5)
-        alpha: V_L/V_P.
-        delta: distance at the contacts [R].
-        t_release: when the slot opens [R/V_P].
-        sides: of the contacts. shape (n,)
-        placed: their bearings [rad]. shape (n,)
-        values: arrivals through them, from `scan_contacts`. shape (n,)
-        bearings: how many of them make the round.
+        start: where the path begins, at t = 0.
+        scene: what it has to reckon with.
+        nodes: the contacts, from `scan_contacts`.
+        width: from one bearing of the grid to the next [rad].
         best: the least arrival so far [R/V_P].
-        way: takes the two rows of a faster way. shape (2, 5)
+        path: takes the two rows of a faster path. shape (2, 5)
 
     Returns:
         the least arrival [R/V_P].
     """
-    rows, onward = np.empty((MAX_ROWS, 5)), np.empty((MAX_ROWS, 5))
-    nearby, trial, reached = np.empty((2, 5)), np.empty((2, 5)), np.empty(2)
-    count, size = len(placed), len(placed) // (2 * len(leader))
-    taken = np.zeros(count)
+    room, nearby = workspace(), np.empty((2, 5))
+    taken = np.zeros(len(nodes.bearings))
     for _ in range(_BASINS):
-        at = -1
-        for n in range(count):
-            group = n // size * size
-            if (
-                values[n] < inf
-                and taken[n] == 0.0
-                and (at < 0 or values[n] < values[at])
-                and values[n] <= values[group + (n - group + 1) % size]
-                and values[n] <= values[group + (n - group - 1) % size]
-            ):
-                at = n
+        at = _lowest_basin(nodes, taken)
         if at < 0:
             break
         taken[at] = 1.0
-        group = at // size * size
-        after, before = group + (at - group + 1) % size, group + (at - group - 1) % size
-        # how much lower it may be between here and its neighbours: what a parabola says, or the
-        # rise to them where an edge may hide more
-        _, promised = vertex(values[before], values[at], values[after], TWO_PI / bearings)
-        rise = max(values[after], values[before]) - values[at]
-        hidden = 1.5 * promised + 0.01 if promised > 0.0 else min(rise, _HIDDEN)
-        if values[at] > best and values[at] - hidden >= best:
+        before, after = _neighbours(nodes, at)
+        here, contact = nodes.arrival[at], contact_of(nodes, at)
+        if here > best and here - _hidden_below(nodes, at, width) >= best:
             continue
-        here = _descend(
-            x, y, h, leader, at // (2 * size), alpha, delta, t_release, placed[at], sides[at],
-            values[at], 0.5 * TWO_PI / bearings, rows, onward, trial, reached, nearby,
-        )  # fmt: skip
-        if here < best:
-            best = here
-            way[:] = nearby
-        if len(leader) == 1:
+        least = _descend(start, scene, contact, here, 0.5 * width, room, nearby)
+        if least < best:
+            best = least
+            path[:] = nearby
+        if len(scene.leader) == 1:
             continue
         # while the leader turns windows are narrow: it may fall towards either end of this one
-        for k in range(2):
-            if values[before if k == 0 else after] < inf:
-                continue
-            away = (2.0 * k - 1.0) * TWO_PI / bearings
-            edge, there = inf, placed[at]
-            for part in range(1, _PARTS):
-                value = through_contact(
-                    x, y, h, leader, at // (2 * size), alpha, delta, t_release,
-                    placed[at] + away * part / _PARTS, sides[at], best + _HIDDEN, rows, onward,
-                    trial, reached,
-                )  # fmt: skip
-                if value >= best + _HIDDEN:
-                    break
-                edge, there = value, placed[at] + away * part / _PARTS
-                if edge < best:
-                    best = edge
-                    way[:] = trial
-            if edge == inf:
-                continue
-            here = _descend(
-                x, y, h, leader, at // (2 * size), alpha, delta, t_release, there, sides[at], edge,
-                0.5 * abs(away) / _PARTS, rows, onward, trial, reached, nearby,
-            )  # fmt: skip
-            if here < best:
-                best = here
-                way[:] = nearby
+        if nodes.arrival[before] == inf:
+            best = _descend_edge(start, scene, contact, -width, best, room, path)
+        if nodes.arrival[after] == inf:
+            best = _descend_edge(start, scene, contact, width, best, room, path)
+    return best
+
+
+@njit(cache=True, nogil=True)
+def _neighbours(nodes: Nodes, n: int) -> tuple[int, int]:
+    """The nodes before and after one in its ring."""
+    ring = n // nodes.size * nodes.size
+    return ring + (n - ring - 1) % nodes.size, ring + (n - ring + 1) % nodes.size
+
+
+@njit(cache=True, nogil=True)
+def _lowest_basin(nodes: Nodes, taken: FloatArray) -> int:
+    """The node of least arrival, not taken yet, whose neighbours are no lower; −1 if none is."""
+    at, arrival = -1, nodes.arrival
+    for n in range(len(arrival)):
+        if arrival[n] < inf and taken[n] == 0.0 and (at < 0 or arrival[n] < arrival[at]):
+            before, after = _neighbours(nodes, n)
+            if arrival[n] <= arrival[after] and arrival[n] <= arrival[before]:
+                at = n
+    return at
+
+
+@njit(cache=True, nogil=True)
+def _hidden_below(nodes: Nodes, at: int, width: float) -> float:
+    """How much lower it may be between a node and its neighbours.
+
+    What a parabola says, or the rise to them where an edge may hide more.
+    """
+    before, after = _neighbours(nodes, at)
+    arrival = nodes.arrival
+    _, promised = vertex(arrival[before], arrival[at], arrival[after], width)
+    rise = max(arrival[after], arrival[before]) - arrival[at]
+    return 1.5 * promised + 0.01 if promised > 0.0 else min(rise, _HIDDEN)
+
+
+@njit(cache=True, nogil=True)
+def _descend_edge(
+    start: Pose, scene: Scene, contact: Contact, away: float, best: float, room: Workspace,
+    path: FloatArray,
+) -> float:  # fmt: skip
+    """The least arrival on the way from a contact to a bearing with none: best or less."""
+    edge, there = inf, contact
+    for part in range(1, _PARTS):
+        moved = Contact(contact.piece, contact.bearing + away * part / _PARTS, contact.side)
+        value = through_contact(start, scene, moved, best + _HIDDEN, room)
+        if value >= best + _HIDDEN:
+            break
+        edge, there = value, moved
+        if edge < best:
+            best = edge
+            path[:] = room.path
+    if edge == inf:
+        return best
+    nearby = np.empty((2, 5))
+    least = _descend(start, scene, there, edge, 0.5 * abs(away) / _PARTS, room, nearby)
+    if least < best:
+        best = least
+        path[:] = nearby
     return best
 
 
 @njit(cache=True, nogil=True)
 def _descend(
-    x: float, y: float, h: float, leader: FloatArray, i: int, alpha: float, delta: float,
-    t_release: float, bearing: float, side: float, here: float, stride: float, rows: FloatArray,
-    onward: FloatArray, trial: FloatArray, reached: FloatArray, way: FloatArray,
+    start: Pose, scene: Scene, contact: Contact, here: float, stride: float, room: Workspace,
+    path: FloatArray,
 ) -> float:  # fmt: skip
-    """The least arrival near a bearing whose own is `here`; `way` takes the way if it is less."""
+    """The least arrival near a contact whose own is `here`; `path` takes the path if it is less."""
+    piece, bearing, side = contact
     while stride > FINEST:
         moved = False
         values = (inf, inf)
         for direction in range(2):
             there = bearing + stride * (2.0 * direction - 1.0)
-            found = through_contact(
-                x, y, h, leader, i, alpha, delta, t_release, there, side, here + 0.2, rows, onward,
-                trial, reached,
-            )  # fmt: skip
+            found = through_contact(start, scene, Contact(piece, there, side), here + 0.2, room)
             values = (values[1], found)
             if found < here:
                 here, bearing, moved = found, there, True
-                way[:] = trial
+                path[:] = room.path
                 break
         if moved:
             continue
@@ -251,14 +195,12 @@ def _descend(
         if promised == 0.0:
             stride *= 0.4
             continue
-        found = through_contact(
-            x, y, h, leader, i, alpha, delta, t_release, bearing + shift, side, here, rows, onward,
-            trial, reached,
-        )  # fmt: skip
+        there = bearing + shift
+        found = through_contact(start, scene, Contact(piece, there, side), here, room)
         smooth = abs(here - found - promised) <= 0.1 * promised + GAIN
         if found < here:
-            here, bearing = found, bearing + shift
-            way[:] = trial
+            here, bearing = found, there
+            path[:] = room.path
         if smooth and promised < GAIN:
             break
         stride *= 0.1 if smooth else 0.4

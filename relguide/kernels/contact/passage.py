@@ -1,62 +1,82 @@
-"""Through one contact with d = d_min: the ways to it, and the best one on from it.
+"""Through one contact with d = d_min: the paths to it, and the best one on from it.
 
 Up to a contact and from it on, the path is an extremal without the limit: so it is fixed by the
 contact, and that by one bearing and a side (see `contact`). Both halves come from the same
 enumeration of words.
 
-Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader is a table as in
-`clearance`.
+Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
 from math import inf
+from typing import NamedTuple
 
+import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import wrap
-from relguide.kernels.base.records import Pose, Scene
+from relguide.kernels.base.records import Contact, Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.contact import contact_exists, contact_on
 from relguide.kernels.contact.paths_to_contact import not_before_slot, paths_to_contact
 from relguide.kernels.separation.clearance import piece_clears
-from relguide.kernels.words.extremals import SIGNS, fly_piece, solve
+from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, fly_piece, solve
 
-GRAZE = 3e-7
-"""The contact is flown this far outside d_min [R], so that rounding cannot break it."""
 _EARLY = 1e-9  # this much before it opens the slot counts as open [R/V_P], as in `solve`
+
+
+class Workspace(NamedTuple):
+    """Room for `through_contact`, and what it finds."""
+
+    rows: FloatArray
+    """Words to the contact. shape (MAX_ROWS, 5)"""
+    onward: FloatArray
+    """Words from there to the slot. shape (MAX_ROWS, 5)"""
+    path: FloatArray
+    """Takes the two rows of the path found. shape (2, 5)"""
+    reached: FloatArray
+    """Takes the earliest time at which the contact is reached with the limit kept, and a lower
+    bound of the arrival from there; infinite if that is too late. shape (2,)"""
+
+
+@njit(cache=True, nogil=True)
+def workspace() -> Workspace:
+    """Room, empty."""
+    return Workspace(
+        np.empty((MAX_ROWS, 5)), np.empty((MAX_ROWS, 5)), np.empty((2, 5)), np.empty(2)
+    )
 
 
 @njit(cache=True, nogil=True)
 def pieces_clear(
-    x: float, y: float, h: float, t: float, signs: FloatArray, amounts: FloatArray,
-    leader: FloatArray, alpha: float, limit: float,
-) -> bool:  # fmt: skip
-    """Whether pieces at full bank or straight, flown from time t, stay `limit` away."""
+    pose: Pose, t: float, signs: FloatArray, amounts: FloatArray, scene: Scene
+) -> bool:
+    """Whether pieces at full bank or straight, flown from time t, keep d_min."""
     for k in range(len(signs)):
         sign, amount = signs[k], amounts[k]
-        if amount > 0.0 and not piece_clears(
-            Pose(x, y, h), sign, t, amount, Scene(leader, alpha, limit, 0.0)
-        ):
+        if amount > 0.0 and not piece_clears(pose, sign, t, amount, scene):
             return False
-        x, y, h = fly_piece(Pose(x, y, h), sign, amount)
+        pose = fly_piece(pose, sign, amount)
         t += amount
     return True
 
 
 @njit(cache=True, nogil=True)
-def word_clears(
-    x: float, y: float, h: float, t: float, row: FloatArray, leader: FloatArray, alpha: float,
-    limit: float,
-) -> bool:  # fmt: skip
-    """Whether a row of `solve`, flown from time t, stays `limit` away from the leader."""
-    return pieces_clear(x, y, h, t, SIGNS[int(row[1])], row[2:5], leader, alpha, limit)
+def word_clears(pose: Pose, t: float, row: FloatArray, scene: Scene) -> bool:
+    """Whether a row of `solve`, flown from time t, keeps d_min."""
+    return pieces_clear(pose, t, SIGNS[int(row[1])], row[2:5], scene)
+
+
+@njit(cache=True, nogil=True)
+def seen_from_slot(pose: Pose, t: float, alpha: float) -> Pose:
+    """A pose at time t in the slot's own frame of that time, its heading in [0, 2π)."""
+    return Pose(pose.x - alpha * t, pose.y, wrap(pose.h))
 
 
 @njit(cache=True, nogil=True)
 def first_clear(
-    x: float, y: float, h: float, t: float, rows: FloatArray, leader: FloatArray, alpha: float,
-    limit: float, t_release: float, beat: float,
-) -> tuple[float, int]:  # fmt: skip
-    """The first of the rows of `solve`, flown from time t, that is not early and clears.
+    pose: Pose, t: float, rows: FloatArray, scene: Scene, beat: float
+) -> tuple[float, int]:
+    """The first of the rows of `solve`, flown from time t, that is not early and keeps d_min.
 
     Returns:
         arrival time and its number; infinite and −1 if none arrives before `beat`.
@@ -65,80 +85,67 @@ def first_clear(
         arrival = t + rows[k, 0]
         if arrival >= beat:
             break
-        if arrival >= t_release - _EARLY and word_clears(x, y, h, t, rows[k], leader, alpha, limit):
+        if arrival >= scene.t_release - _EARLY and word_clears(pose, t, rows[k], scene):
             return arrival, k
     return inf, -1
 
 
 @njit(cache=True, nogil=True)
 def best_word(
-    x: float, y: float, h: float, t: float, leader: FloatArray, alpha: float, limit: float,
-    t_release: float, beat: float, rows: FloatArray,
-) -> tuple[float, int]:  # fmt: skip
-    """The fastest extremal to the slot, from time t on, that clears; arrival time and its row.
+    pose: Pose, t: float, scene: Scene, beat: float, rows: FloatArray
+) -> tuple[float, int]:
+    """The fastest extremal to the slot, from time t on, that keeps d_min: arrival and row number.
 
     Infinite and −1 if none arrives before `beat`.
     """
-    n = solve(Pose(x - alpha * t, y, wrap(h)), alpha, max(t_release - t, 0.0), rows)
-    return first_clear(x, y, h, t, rows[:n], leader, alpha, limit, t_release, beat)
+    left = max(scene.t_release - t, 0.0)
+    n = solve(seen_from_slot(pose, t, scene.alpha), scene.alpha, left, rows)
+    return first_clear(pose, t, rows[:n], scene, beat)
 
 
 @njit(cache=True, nogil=True)
 def through_contact(
-    x: float, y: float, h: float, leader: FloatArray, i: int, alpha: float, delta: float,
-    t_release: float, bearing: float, side: float, beat: float, rows: FloatArray,
-    onward: FloatArray, way: FloatArray, reached: FloatArray,
-) -> float:  # fmt: skip
-    """Arrival by the fastest way through one contact that clears, if it is before `beat`.
+    start: Pose, scene: Scene, contact: Contact, beat: float, room: Workspace
+) -> float:
+    """Arrival by the fastest path through one contact that keeps d_min, if it is before `beat`.
 
     Args:
-        x: start, slot frame [R].
-        y: start [R].
-        h: start heading [rad].
-        leader: table of its pieces. shape (k, 5)
-        i: piece it is on at the contact.
-        alpha: V_L/V_P.
-        delta: distance at the contact [R].
-        t_release: when the slot opens [R/V_P].
-        bearing: of the contact from the leader, relative to its heading [rad].
-        side: +1 counter-clockwise round the leader, −1 clockwise.
+        start: where the path begins, at t = 0.
+        scene: what it has to reckon with.
+        contact: that it goes through.
         beat: arrivals from here on do not matter [R/V_P].
-        rows: room for words. shape (MAX_ROWS, 5)
-        onward: the same.
-        way: takes the two rows of the way found. shape (2, 5)
-        reached: takes the earliest time the contact is reached clear of the limit, and before what
-            no way on from there arrives; infinite if not in time. shape (2,)
+        room: to work in; takes the path, and when it is at the contact.
 
     Returns:
-        arrival time; infinite if there is none before `beat`.
+        arrival time; infinite if there is no contact, `beat` if no path arrives before.
     """
+    reached, onward = room.reached, room.onward
     reached[:] = inf
-    if not contact_exists(bearing, alpha):
+    if not contact_exists(contact.bearing, scene.alpha):
         return inf
-    limit = delta - GRAZE
-    n = paths_to_contact(x, y, h, 0.0, leader, i, alpha, delta, bearing, side, rows)
+    n = paths_to_contact(start, 0.0, scene, contact, room.rows)
     m = -1
     for k in range(n):
-        t = rows[k, 0]
+        t = room.rows[k, 0]
         if t >= beat:
             continue
-        cx, cy, ch = contact_on(leader, i, t, bearing, side, alpha, delta)
-        if not_before_slot(cx, cy, ch, t, alpha, t_release) >= beat:
+        there = contact_on(scene, contact, t)
+        if not_before_slot(there, t, scene) >= beat:
             continue
-        if m < 0 or i + 1 < len(leader):
-            # on the final leg the ways on are the same at any time
-            m = solve(Pose(cx - alpha * t, cy, wrap(ch)), alpha, 0.0, onward)
+        if m < 0 or contact.piece + 1 < len(scene.leader):
+            # on the final leg the paths on are the same at any time
+            m = solve(seen_from_slot(there, t, scene.alpha), scene.alpha, 0.0, onward)
         if m == 0:
             continue
-        # the cheap test first: could it be in time at all? What is too early may wait
-        lower = max(t + onward[0, 0], t_release)
-        if lower >= beat or not word_clears(x, y, h, 0.0, rows[k], leader, alpha, limit):
+        # the cheap test first: could it be in time at all? What is too early may be delayed
+        lower = max(t + onward[0, 0], scene.t_release)
+        if lower >= beat or not word_clears(start, 0.0, room.rows[k], scene):
             continue
         if t < reached[0]:
             reached[0], reached[1] = t, lower
-        arrival, j = first_clear(cx, cy, ch, t, onward[:m], leader, alpha, limit, t_release, beat)
+        arrival, j = first_clear(there, t, onward[:m], scene, beat)
         if j >= 0:
             beat = arrival
-            way[0] = rows[k]
-            way[1] = onward[j]
+            room.path[0] = room.rows[k]
+            room.path[1] = onward[j]
     return beat

@@ -1,8 +1,6 @@
-"""A way's legs as the pieces that are flown: turns at full bank, straights, the arcs of boundary
-arcs.
+"""The pieces that are flown of a constrained path: turns, straights, the arcs of boundary arcs.
 
-Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader is a table as in
-`clearance`. What comes out is in metres.
+Slot frame: lengths in R, times in R/V_P, angles counter-clockwise. What comes out is in metres.
 """
 
 from math import inf
@@ -10,13 +8,13 @@ from math import inf
 import numpy as np
 from numba import njit
 
-from relguide.kernels.base.angles import wrap
-from relguide.kernels.base.records import Pose
+from relguide.kernels.base.records import Pose, Scene, with_limit
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.boundary_arc import MAX_NODES, boundary_arc_pieces
-from relguide.kernels.contact.chain import BOUNDARY_ARC, WAIT
+from relguide.kernels.contact.chain import BOUNDARY_ARC, DELAY
+from relguide.kernels.contact.contact import GRAZE
 from relguide.kernels.contact.delay_after_contact import delay_until_release
-from relguide.kernels.contact.passage import GRAZE, best_word, word_clears
+from relguide.kernels.contact.passage import best_word, seen_from_slot, word_clears
 from relguide.kernels.words.delay import DELAY_PIECES
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, fly_piece
 from relguide.kernels.words.fastest import fastest
@@ -25,83 +23,69 @@ from relguide.kernels.words.sooner import make_scratch
 NO_TURN = 1e-9
 """A turn below this is rounding [rad]; likewise a straight, in R."""
 SAME = 2e-4
-"""Flown in pieces a way takes as long as it did when it was found, to this [R/V_P]: some ms."""
+"""Flown in pieces a path takes as long as it did when it was found, to this [R/V_P]: some ms."""
+_UNLIKE = 2.0  # no ε: what follows a boundary arc is no part of it
 
 
 @njit(cache=True, nogil=True)
 def pieces_of(
-    x: float, y: float, h: float, leader: FloatArray, alpha: float, limit: float, t_release: float,
-    radius: float, sense: float, time: float, legs: FloatArray,
-) -> FloatArray:  # fmt: skip
-    """The pieces of a way; the last word anew, from where the boundary arcs really end.
+    pose: Pose, scene: Scene, radius: float, mirror: float, time: float, legs: FloatArray
+) -> FloatArray:
+    """The pieces of a path; its last word is solved anew from where the boundary arcs really end.
 
     What is only rounding is left out. Two pieces that meet in a contact may be one turn, or one
     straight.
 
     Args:
-        x: start, slot frame [R].
-        y: start [R].
-        h: start heading [rad].
-        leader: table of its pieces. shape (k, 5)
-        alpha: V_L/V_P.
-        limit: d_min [R].
-        t_release: when the slot opens [R/V_P].
+        pose: where the path begins, at t = 0.
+        scene: what it has to reckon with.
         radius: R [m].
-        sense: +1, or −1 for the mirror image of what is flown here.
-        time: when the way arrives as it was found [R/V_P].
+        mirror: +1, or −1 for the mirror image of what is flown here.
+        time: when the path arrives as it was found [R/V_P].
         legs: as `chain.fly_links` gives them. shape (n, 6)
 
     Returns:
-        a column a piece: 0, or of a boundary arc's arc the boundary arc's number, negative if it
-        goes clockwise round the leader; ε (+1 left, 0 straight), or of a boundary arc's arc its
-        curvature, positive to the right [1/m]; turn angle [rad] or length [m]. No columns if no
-        word leads on from where the last boundary arc ends, or none as soon. shape (3, pieces)
+        a column for each piece: 0 for a turn or a straight; for an arc of a boundary arc the number
+        of its leg, negative if it goes clockwise round the leader. Then ε (+1 left, 0 straight), or
+        the arc's curvature, positive to the right [1/m]; then turn angle [rad] or length [m]. No
+        columns if no word leads on from where the last boundary arc ends, or none as soon.
+        shape (3, pieces)
     """
     boundary_arcs = 0
     for k in range(len(legs)):
         boundary_arcs += legs[k, 0] == BOUNDARY_ARC
     pieces = np.empty((3, 3 * len(legs) + DELAY_PIECES + 2 * MAX_NODES * boundary_arcs))
     arcs = np.empty((2 * MAX_NODES if boundary_arcs > 0 else 0, 2))
+    # what has been found keeps d_min, but for rounding
+    eased = with_limit(scene, scene.d_min - GRAZE)
     row = np.empty(5)
-    n, t, last = (
-        0,
-        0.0,
-        2.0,
-    )  # of two words in a row the turns that meet may be one; of boundary arcs none
+    n, t, last = 0, 0.0, _UNLIKE
     for k in range(len(legs)):
         if legs[k, 0] == BOUNDARY_ARC:
             side = legs[k, 1]
-            count, x, y, h, t = boundary_arc_pieces(
-                x, y, h, t, leader, alpha, limit + GRAZE, side, legs[k, 2], legs[k, 3], arcs
-            )
+            count, pose, t = boundary_arc_pieces(pose, t, scene, side, legs[k, 2], legs[k, 3], arcs)
             for i in range(count):
-                pieces[0, n] = sense * side * (k + 1.0)
+                pieces[0, n] = mirror * side * (k + 1.0)
                 # counter-clockwise rates become curvatures positive to the right
-                pieces[1, n], pieces[2, n] = -sense * arcs[i, 1] / radius, arcs[i, 0] * radius
+                pieces[1, n], pieces[2, n] = -mirror * arcs[i, 1] / radius, arcs[i, 0] * radius
                 n += 1
-            last = 2.0
+            last = _UNLIKE
             continue
-        if legs[k, 0] == WAIT:
-            waiting = np.empty((DELAY_PIECES, 2))
-            if not delay_until_release(
-                x, y, h, t, leader, alpha, limit - GRAZE, t_release, waiting
-            ):  # fmt: skip
+        if legs[k, 0] == DELAY:
+            delay = np.empty((DELAY_PIECES, 2))
+            if not delay_until_release(pose, t, eased, delay):
                 return pieces[:, :0]
-            signs, amounts = waiting[:, 0], waiting[:, 1]
+            signs, amounts = delay[:, 0], delay[:, 1]
         else:
             row[:] = legs[k, 1:6]
             # a boundary arc's last node lies within rounding of the limit: it must not cost the
             # best word
-            if (
-                boundary_arcs > 0
-                and k + 1 == len(legs)
-                and not _word_on(x, y, h, t, leader, alpha, limit - GRAZE, t_release, row)
-            ):
+            if boundary_arcs > 0 and k + 1 == len(legs) and not _go_on(pose, t, eased, row):
                 return pieces[:, :0]
             signs, amounts = SIGNS[int(row[1])], row[2:5]
         for i in range(len(signs)):
             sign, amount = signs[i], amounts[i]
-            x, y, h = fly_piece(Pose(x, y, h), sign, amount)
+            pose = fly_piece(pose, sign, amount)
             t += amount
             if amount <= NO_TURN:
                 continue
@@ -109,41 +93,34 @@ def pieces_of(
             if sign == last:
                 pieces[2, n - 1] += amount
                 continue
-            pieces[0, n], pieces[1, n], pieces[2, n] = 0.0, sense * sign, amount
+            pieces[0, n], pieces[1, n], pieces[2, n] = 0.0, mirror * sign, amount
             n += 1
             last = sign
     return pieces[:, :n] if t <= time + SAME else pieces[:, :0]
 
 
 @njit(cache=True, nogil=True)
-def _word_on(
-    x: float, y: float, h: float, t: float, leader: FloatArray, alpha: float, limit: float,
-    t_release: float, row: FloatArray,
-) -> bool:  # fmt: skip
-    """The fastest extremal to the slot, from time t on, that clears.
+def _go_on(pose: Pose, t: float, scene: Scene, row: FloatArray) -> bool:
+    """The fastest extremal to the slot, from time t on, that keeps d_min.
 
     Args:
-        x: from here on [R].
-        y: the same [R].
-        h: the same [rad].
+        pose: from here on.
         t: when [R/V_P].
-        leader: table of its pieces. shape (k, 5)
-        alpha: V_L/V_P.
-        limit: to be kept [R].
-        t_release: when the slot opens [R/V_P].
+        scene: what the path has to reckon with.
         row: one that leads on from nearby, with the word that is likely; takes it. shape (5,)
 
     Returns:
         whether there is one.
     """
-    scratch, hint = make_scratch(), int(row[1])
-    # the fastest alone is found in a third of the time, and mostly clears
-    if fastest(
-        Pose(x - alpha * t, y, wrap(h)), alpha, max(t_release - t, 0.0), hint, scratch, row
-    ) and word_clears(x, y, h, t, row, leader, alpha, limit):
+    seen = seen_from_slot(pose, t, scene.alpha)
+    left = max(scene.t_release - t, 0.0)
+    # the fastest alone is found in a third of the time, and mostly keeps d_min
+    if fastest(seen, scene.alpha, left, int(row[1]), make_scratch(), row) and word_clears(
+        pose, t, row, scene
+    ):
         return True
     rows = np.empty((MAX_ROWS, 5))
-    _, i = best_word(x, y, h, t, leader, alpha, limit, t_release, inf, rows)
+    _, i = best_word(pose, t, scene, inf, rows)
     if i < 0:
         return False
     row[:] = rows[i]

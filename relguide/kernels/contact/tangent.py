@@ -1,5 +1,4 @@
-"""Contacts that end a turn and a straight, or two opposite turns: where a boundary arc begins or
-ends best.
+"""Contacts that end a turn and a straight, or two opposite turns: the best ends of boundary arcs.
 
 From the start, turn by θ and go straight: the closest approach to the leader is a function of θ
 alone, and where it equals δ the straight is tangent to the disc. So is a turn the other way at its
@@ -15,13 +14,15 @@ keeps heading 0.
 """
 
 from math import atan2, cos, hypot, inf, pi, sin
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, wrap
-from relguide.kernels.base.records import Pose, Scene
+from relguide.kernels.base.records import Bracket, Pose, Scene
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.contact.contact import contact_distance, seen_from
 from relguide.kernels.separation.clearance import leader_at
 from relguide.kernels.words.extremals import fly_piece
 
@@ -34,9 +35,25 @@ _STEP = 0.2  # step along the second turn: 11°
 _SIN_STEP, _COS_STEP = sin(_STEP), cos(_STEP)
 
 
+class _Approach(NamedTuple):
+    """A turn and what follows it, to be flown past the leader."""
+
+    pose: Pose
+    """Where the turn begins, seen from the leader."""
+    alpha: float
+    """V_L/V_P."""
+    distance: float
+    """Of the contact, δ [R]."""
+    first: float
+    """ε of the turn."""
+    second: float
+    """ε of what follows it: 0 for a straight."""
+
+
 @njit(cache=True, nogil=True)
-def _first_approach(x: float, y: float, h: float, alpha: float, sign: float) -> float:
+def _first_approach(pose: Pose, alpha: float, sign: float) -> float:
     """When a full turn first stops closing in on the leader; −1 if it never does."""
+    x, y, h = pose
     s0, c0 = sin(h), cos(h)
     s, c = s0, c0
     last = x * (c - alpha) + y * s
@@ -70,41 +87,37 @@ def _first_approach(x: float, y: float, h: float, alpha: float, sign: float) -> 
 
 
 @njit(cache=True, nogil=True)
-def _miss(
-    x: float, y: float, h: float, alpha: float, delta: float, first: float, second: float,
-    turned: float, contact: FloatArray,
-) -> float:  # fmt: skip
+def _miss(approach: _Approach, turned: float, contact: FloatArray) -> float:
     """Closest approach of what follows a first turn, less δ; NaN if it only moves away.
 
     `contact` takes the relative position and the time of the closest approach.
     """
-    px, py, ph = fly_piece(Pose(x, y, h), first, turned)
+    alpha, second = approach.alpha, approach.second
+    px, py, ph = fly_piece(approach.pose, approach.first, turned)
     px -= alpha * turned
     if second == 0.0:
         vx, vy = cos(ph) - alpha, sin(ph)
         speed_squared = vx * vx + vy * vy
         after = -(px * vx + py * vy) / speed_squared if speed_squared > 1e-12 else -1.0
     else:
-        after = _first_approach(px, py, ph, alpha, second)
+        after = _first_approach(Pose(px, py, ph), alpha, second)
     if after <= 0.0:
         return np.nan
     qx, qy, _ = fly_piece(Pose(px, py, ph), second, after)
     contact[0], contact[1], contact[2] = qx - alpha * after, qy, turned + after
-    return hypot(contact[0], contact[1]) - delta
+    return hypot(contact[0], contact[1]) - approach.distance
 
 
 @njit(cache=True, nogil=True)
-def _touch(
-    x: float, y: float, h: float, alpha: float, delta: float, first: float, second: float,
-    low: float, high: float, at_low: float, at_high: float, contact: FloatArray,
-) -> float:  # fmt: skip
+def _touch(approach: _Approach, turns: Bracket, contact: FloatArray) -> float:
     """Where the closest approach is δ: the secant, kept inside the bracket (Illinois)."""
+    low, high, at_low, at_high = turns
     middle = high
     for k in range(60):
         # every third step halves: a jump is then found out soon, too
         share = 0.5 if k % 3 == 2 else at_high / (at_high - at_low)
         middle = high - share * (high - low)
-        value = _miss(x, y, h, alpha, delta, first, second, middle, contact)
+        value = _miss(approach, middle, contact)
         if abs(value) < 1e-14 or high - low < 1e-15:
             break
         if (value < 0.0) == (at_low < 0.0):
@@ -117,17 +130,13 @@ def _touch(
 
 
 @njit(cache=True, nogil=True)
-def tangent_contacts(
-    x: float, y: float, h: float, alpha: float, delta: float, found: FloatArray
-) -> int:
+def tangent_contacts(pose: Pose, alpha: float, distance: float, found: FloatArray) -> int:
     """Contacts reached by a turn and a straight, or by a turn and one the other way.
 
     Args:
-        x: start ahead of the leader [R].
-        y: start left of it [R].
-        h: start heading [rad].
+        pose: where the turn begins, seen from the leader.
         alpha: V_L/V_P.
-        delta: distance of the contact [R].
+        distance: of the contact, δ [R].
         found: takes bearing [rad, in [0, 2π)], side and time of each. shape (MAX_TANGENTS, 3)
 
     Returns:
@@ -138,18 +147,18 @@ def tangent_contacts(
     for k in range(4):
         first = 1.0 - 2.0 * (k % 2)
         second = 0.0 if k < 2 else -first
+        approach = _Approach(pose, alpha, distance, first, second)
         last = np.nan
         for j in range(_TURNS + 1):
             turned = TWO_PI * j / _TURNS
-            gap = _miss(x, y, h, alpha, delta, first, second, turned, contact)
+            gap = _miss(approach, turned, contact)
             if last * gap < 0.0 and n < MAX_TANGENTS:
                 high = _touch(
-                    x, y, h, alpha, delta, first, second, turned - TWO_PI / _TURNS, turned, last,
-                    gap, contact,
-                )  # fmt: skip
-                value = _miss(x, y, h, alpha, delta, first, second, high, contact)
+                    approach, Bracket(turned - TWO_PI / _TURNS, turned, last, gap), contact
+                )
+                value = _miss(approach, high, contact)
                 if abs(value) < 1e-9:
-                    _, _, heading = fly_piece(Pose(x, y, h), first, high)
+                    heading = fly_piece(pose, first, high).h
                     if second != 0.0:
                         heading += second * (contact[2] - high)
                     across = contact[0] * sin(heading) - contact[1] * (cos(heading) - alpha)
@@ -162,44 +171,35 @@ def tangent_contacts(
 
 
 @njit(cache=True, nogil=True)
-def tangents(
-    x: float, y: float, h: float, leader: FloatArray, alpha: float, delta: float
-) -> FloatArray:
+def tangents(start: Pose, scene: Scene) -> FloatArray:
     """Tangent contacts of the start and of the slot, in the slot frame.
 
-    Of the start while the leader keeps straight, on any of its pieces; none where it keeps straight
+    Of the start while the leader keeps straight, on any of its pieces; not where it keeps straight
     for ever and is so far away that the scan sees all there is. Of the slot on the final leg.
-
-    Args:
-        x: start, slot frame [R].
-        y: start [R].
-        h: start heading [rad].
-        leader: table of its pieces, as in `clearance`. shape (k, 5)
-        alpha: V_L/V_P.
-        delta: distance of the contacts [R].
 
     Returns:
         rows of bearing [rad], side, time [R/V_P], number of the leader's piece.
     """
+    leader, distance = scene.leader, contact_distance(scene.d_min)
     pieces = len(leader)
     kept = np.empty(((pieces + 1) * MAX_TANGENTS, 4))
     found = np.empty((MAX_TANGENTS, 3))
     n = 0
     for i in range(pieces):
-        lx, ly, lh = leader_at(Scene(leader, alpha, 0.0, 0.0), i, 0.0)
-        if leader[i, 4] != 0.0 or (pieces == 1 and hypot(x - lx, y - ly) > delta + NEAR):
+        at = leader_at(scene, i, 0.0)
+        if leader[i, 4] != 0.0 or (
+            pieces == 1 and hypot(start.x - at.x, start.y - at.y) > distance + NEAR
+        ):
             continue
         end = leader[i + 1, 0] if i + 1 < pieces else inf
-        c, s = cos(lh), sin(lh)
-        dx, dy = x - lx, y - ly
-        m = tangent_contacts(dx * c + dy * s, dy * c - dx * s, h - lh, alpha, delta, found)
+        m = tangent_contacts(seen_from(start, at), scene.alpha, distance, found)
         for j in range(m):
             if leader[i, 0] <= found[j, 2] <= end:
                 kept[n, :3] = found[j]
                 kept[n, 3] = i
                 n += 1
-    lx, ly, _ = leader_at(Scene(leader, alpha, 0.0, 0.0), pieces - 1, 0.0)
-    m = tangent_contacts(lx, ly, 0.0, alpha, delta, found)
+    at = leader_at(scene, pieces - 1, 0.0)
+    m = tangent_contacts(Pose(at.x, at.y, 0.0), scene.alpha, distance, found)
     for j in range(m):
         kept[n, 0], kept[n, 1] = wrap(found[j, 0] + pi), -found[j, 1]
         kept[n, 2], kept[n, 3] = found[j, 2], pieces - 1

@@ -1,5 +1,4 @@
-"""Contacts by themselves: where simple pieces touch the disc, and where boundary arcs begin and
-end.
+"""Contacts by themselves: where simple pieces touch the disc, and boundary arcs begin and end.
 
 A turn and a straight touch the disc at isolated bearings only, and so do two opposite turns. Here
 they are found from one start, on one side, all of them or the one next to a guess; `tangent` looks
@@ -15,7 +14,7 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, wrap
-from relguide.kernels.base.records import Pose
+from relguide.kernels.base.records import Bracket, Disc, Pose
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.contact import boundary_arc_sense, slide_within
 from relguide.kernels.words.extremals import fly_piece
@@ -27,35 +26,41 @@ LONGEST_BOUNDARY_ARC = 1.5 * pi
 
 
 @njit(cache=True, nogil=True)
+def opposite(disc: Disc) -> Disc:
+    """The disc passed on its other side."""
+    return Disc(disc.alpha, disc.distance, -disc.side, disc.turning)
+
+
+@njit(cache=True, nogil=True)
 def _straight_miss(
-    px: float, py: float, h: float, alpha: float, delta: float, sign: float, side: float,
-    turned: float,
-) -> tuple[float, float, float, float]:  # fmt: skip
+    pose: Pose, disc: Disc, sign: float, turned: float
+) -> tuple[float, float, float, float]:
     """Turn, then straight: by how much the tangent on a side is missed, how long the straight is.
 
     Returns:
         the signed miss times the relative speed, time from the turn to the closest approach, and
         where that is as seen from the leader.
     """
-    c, s = cos(h + sign * turned), sin(h + sign * turned)
-    qx = px + sign * (s - sin(h)) - alpha * turned
-    qy = py - sign * (c - cos(h))
-    vx = c - alpha
+    c, s = cos(pose.h + sign * turned), sin(pose.h + sign * turned)
+    qx = pose.x + sign * (s - sin(pose.h)) - disc.alpha * turned
+    qy = pose.y - sign * (c - cos(pose.h))
+    vx = c - disc.alpha
     speed = sqrt(vx * vx + s * s)
     after = -(qx * vx + qy * s) / max(speed * speed, 1e-12)
-    return qx * s - qy * vx - side * delta * speed, after, qx + after * vx, qy + after * s
+    miss = qx * s - qy * vx - disc.side * disc.distance * speed
+    return miss, after, qx + after * vx, qy + after * s
 
 
 @njit(cache=True, nogil=True)
 def _tangent_between(
-    px: float, py: float, h: float, alpha: float, delta: float, sign: float, side: float,
-    low: float, high: float, at_low: float, at_high: float, contact: FloatArray,
-) -> bool:  # fmt: skip
+    pose: Pose, disc: Disc, sign: float, turns: Bracket, contact: FloatArray
+) -> bool:
     """The turn between two whose straight on touches the disc (Illinois), if that lies ahead."""
+    low, high, at_low, at_high = turns
     turned, kept = high, 0
     for _ in range(40):
         turned = high - (high - low) * at_high / (at_high - at_low)
-        value, _, _, _ = _straight_miss(px, py, h, alpha, delta, sign, side, turned)
+        value, _, _, _ = _straight_miss(pose, disc, sign, turned)
         if abs(value) < 1e-13 or high - low < 1e-14:
             break
         # an end that is kept twice counts half
@@ -67,37 +72,30 @@ def _tangent_between(
             high, at_high = turned, value
             at_low *= 0.5 if kept == -1 else 1.0
             kept = -1
-    _, after, cx, cy = _straight_miss(px, py, h, alpha, delta, sign, side, turned)
+    _, after, cx, cy = _straight_miss(pose, disc, sign, turned)
     contact[0], contact[1], contact[2] = atan2(cy, cx), turned, after
     return after > 0.0
 
 
 @njit(cache=True, nogil=True)
-def straight_tangents(
-    px: float, py: float, h: float, alpha: float, delta: float, sign: float, side: float,
-    contacts: FloatArray,
-) -> int:  # fmt: skip
-    """All turns of one sign, up to a full one, whose straight on touches the disc on a side.
+def straight_tangents(pose: Pose, disc: Disc, sign: float, contacts: FloatArray) -> int:
+    """All turns of one sign, up to a full one, whose straight on touches the disc on its side.
 
     Args:
-        px: start ahead of the leader [R].
-        py: and left of it [R].
-        h: start heading [rad].
-        alpha: V_L/V_P.
-        delta: distance of the contact [R].
+        pose: where the turn begins, seen from the leader.
+        disc: round a leader that keeps straight.
         sign: of the turn.
-        side: +1 counter-clockwise round the leader, −1 clockwise.
         contacts: takes bearing, turn and straight of each. shape (·, 3)
 
     Returns:
         how many.
     """
     n = 0
-    where = px, py, h, alpha, delta, sign, side
+    alpha, h = disc.alpha, pose.h
     step = TWO_PI / _SCAN
     # round the circle of the turn by one rotation after the other, which takes no sine
     c, s = cos(h - sign * step), sin(h - sign * step)
-    mx, my = px - sign * sin(h), py + sign * cos(h)
+    mx, my = pose.x - sign * sin(h), pose.y + sign * cos(h)
     turn_c, turn_s = cos(step), sign * sin(step)
     before = last = 0.0
     for k in range(-1, _SCAN + 1):
@@ -105,26 +103,26 @@ def straight_tangents(
         miss = (
             (mx + sign * s - alpha * step * k) * s
             - (my - sign * c) * vx
-            - side * delta * sqrt(vx * vx + s * s)
+            - disc.side * disc.distance * sqrt(vx * vx + s * s)
         )
         c, s = c * turn_c - s * turn_s, s * turn_c + c * turn_s
         low, high = step * (k - 1), step * k
         if k > 0 and (last < 0.0) != (miss < 0.0):
-            if n < len(contacts) and _tangent_between(*where, low, high, last, miss, contacts[n]):
+            between = Bracket(low, high, last, miss)
+            if n < len(contacts) and _tangent_between(pose, disc, sign, between, contacts[n]):
                 n += 1
         elif k > 0 and (before < 0.0) == (last < 0.0) and abs(last) < min(abs(before), abs(miss)):
             # next to the disc two of them lie closer to each other than is looked
             bend = before - 2.0 * last + miss
             top = low + 0.5 * step * (before - miss) / bend
-            value, _, _, _ = _straight_miss(*where, top)
+            value, _, _, _ = _straight_miss(pose, disc, sign, top)
             if (value < 0.0) != (last < 0.0):
-                for begin, end, at_begin, at_end in (
-                    (low - step, top, before, value),
-                    (top, high, value, miss),
-                ):
+                for between in (
+                    Bracket(low - step, top, before, value), Bracket(top, high, value, miss)
+                ):  # fmt: skip
                     if (
                         n < len(contacts)
-                        and _tangent_between(*where, begin, end, at_begin, at_end, contacts[n])
+                        and _tangent_between(pose, disc, sign, between, contacts[n])
                         and contacts[n, 1] >= 0.0
                     ):
                         n += 1
@@ -133,59 +131,52 @@ def straight_tangents(
 
 
 @njit(cache=True, nogil=True)
-def next_contact(
-    bearing: float, side: float, alpha: float, delta: float, course: float, contact: FloatArray
-) -> bool:
+def next_contact(bearing: float, disc: Disc, course: float, contact: FloatArray) -> bool:
     """From a contact by a turn to its own side and a straight to the next contact on that side.
 
     Args:
         bearing: of the first contact [rad].
-        side: +1 counter-clockwise round the leader, −1 clockwise.
-        alpha: V_L/V_P.
-        delta: distance of both [R].
-        course: heading there [rad].
+        disc: round a leader that keeps straight.
+        course: heading at the first contact [rad].
         contact: takes bearing, turn and straight. shape (3,)
 
     Returns:
         whether there is one.
     """
-    where = delta * cos(bearing), delta * sin(bearing), course, alpha, delta, side, side
+    pose = Pose(disc.distance * cos(bearing), disc.distance * sin(bearing), course)
     low = _TO_NEXT
-    last, _, _, _ = _straight_miss(*where, low)
+    last, _, _, _ = _straight_miss(pose, disc, disc.side, low)
     for k in range(1, _SCAN // 2):
         high = TWO_PI * k / _SCAN
-        miss, _, _, _ = _straight_miss(*where, high)
+        miss, _, _, _ = _straight_miss(pose, disc, disc.side, high)
         if (last < 0.0) != (miss < 0.0):
-            return _tangent_between(*where, low, high, last, miss, contact)
+            between = Bracket(low, high, last, miss)
+            return _tangent_between(pose, disc, disc.side, between, contact)
         low, last = high, miss
     return False
 
 
 @njit(cache=True, nogil=True)
 def turn_tangent(
-    px: float, py: float, h: float, alpha: float, delta: float, sign: float, side: float,
-    first: float, second: float,
-) -> tuple[float, float, float]:  # fmt: skip
+    pose: Pose, disc: Disc, sign: float, first: float, second: float
+) -> tuple[float, float, float]:
     """Two opposite turns of which the second touches the disc, next to a guess: Newton.
 
         p·v = 0,    p × v = s δ |v|,    p, v relative to the leader at the end
 
     Args:
-        px: start ahead of the leader [R].
-        py: and left of it [R].
-        h: start heading [rad].
-        alpha: V_L/V_P.
-        delta: distance of the contact [R].
+        pose: where the first turn begins, seen from the leader.
+        disc: round a leader that keeps straight.
         sign: of the first turn.
-        side: +1 counter-clockwise round the leader, −1 clockwise.
         first: guess of the first turn [rad].
         second: and of the second [rad].
 
     Returns:
         bearing, first and second turn; the turns are NaN if there is none next to the guess.
     """
+    alpha, edge = disc.alpha, disc.side * disc.distance
     for _ in range(20):
-        mx, my, mh = fly_piece(Pose(px, py, h), sign, first)
+        mx, my, mh = fly_piece(pose, sign, first)
         qx, qy, qh = fly_piece(Pose(mx, my, mh), -sign, second)
         # the second arc turns with the end of the first one
         along, across = qx - mx, qy - my
@@ -193,7 +184,7 @@ def turn_tangent(
         c, s = cos(qh), sin(qh)
         vx, vy = c - alpha, s
         speed = sqrt(vx * vx + vy * vy)
-        closing, miss = qx * vx + qy * vy, qx * vy - qy * vx - side * delta * speed
+        closing, miss = qx * vx + qy * vy, qx * vy - qy * vx - edge * speed
         if abs(closing) + abs(miss) < 1e-12:
             if 0.0 <= first <= TWO_PI and 0.0 <= second <= TWO_PI:
                 return atan2(qy, qx), first, second
@@ -208,7 +199,7 @@ def turn_tangent(
             ux, uy = -turning * s, turning * c
             jacobian[0, k] = dx * vx + dy * vy + qx * ux + qy * uy
             jacobian[1, k] = (
-                dx * vy - dy * vx + qx * uy - qy * ux - side * delta * (vx * ux + vy * uy) / speed
+                dx * vy - dy * vx + qx * uy - qy * ux - edge * (vx * ux + vy * uy) / speed
             )
         determinant = jacobian[0, 0] * jacobian[1, 1] - jacobian[0, 1] * jacobian[1, 0]
         if abs(determinant) < 1e-12:
@@ -222,20 +213,21 @@ def turn_tangent(
 
 
 @njit(cache=True, nogil=True)
-def boundary_arc_end(
-    slot: float, alpha: float, delta: float, side: float
-) -> tuple[float, float, float]:
-    """Where a boundary arc ends that goes on to the slot by a straight and a turn to the boundary
-    arc's own side.
+def boundary_arc_end(slot: float, disc: Disc) -> tuple[float, float, float]:
+    """Where a boundary arc ends that goes on to the slot by a straight and a turn to its own side.
 
     Backward in time, with the world turned by π, that is a turn and a straight from the slot (see
     `tangent`).
+
+    Args:
+        slot: D [R].
+        disc: round a leader that keeps straight.
 
     Returns:
         bearing, straight and turn; the soonest of them. NaN if there is none.
     """
     contacts = np.empty((4, 3))
-    n = straight_tangents(slot, 0.0, 0.0, alpha, delta, -side, -side, contacts)
+    n = straight_tangents(Pose(slot, 0.0, 0.0), opposite(disc), -disc.side, contacts)
     best, at = inf, -1
     for k in range(n):
         if contacts[k, 1] + contacts[k, 2] < best:
@@ -246,17 +238,13 @@ def boundary_arc_end(
 
 
 @njit(cache=True, nogil=True)
-def slide_between(
-    bearing: float, end: float, side: float, alpha: float, delta: float
-) -> tuple[float, float]:
-    """A boundary arc from one bearing on to another: its last bearing, unwrapped, and how long it
-    takes.
-    """
-    way = boundary_arc_sense(bearing, side, alpha, delta, 0.0)
-    if way == 0.0:
+def slide_between(bearing: float, end: float, disc: Disc) -> tuple[float, float]:
+    """A boundary arc from one bearing on to another: its last bearing, unwrapped, and its time."""
+    sense = boundary_arc_sense(bearing, disc)
+    if sense == 0.0:
         return bearing, inf
-    ahead = wrap(way * (end - bearing))
+    ahead = wrap(sense * (end - bearing))
     if ahead > LONGEST_BOUNDARY_ARC:
         return bearing, inf
-    _, took = slide_within(bearing, bearing + way * ahead, side, alpha, delta, 0.0, inf)
-    return bearing + way * ahead, took
+    _, took = slide_within(bearing, bearing + sense * ahead, disc, inf)
+    return bearing + sense * ahead, took

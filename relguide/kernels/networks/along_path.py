@@ -12,11 +12,10 @@ from math import cos, sin
 from numba import njit
 
 from relguide.kernels.base.angles import mirror_heading, wrap
-from relguide.kernels.base.records import Pose
+from relguide.kernels.base.records import Disc, Pose
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain import BOUNDARY_ARC
-from relguide.kernels.contact.contact import contact_heading
-from relguide.kernels.contact.passage import GRAZE
+from relguide.kernels.contact.contact import contact_distance, contact_heading
 from relguide.kernels.contact.touch_points import slide_between
 from relguide.kernels.words.branches import needs_mirror
 from relguide.kernels.words.extremals import SIGNS, fly_piece
@@ -46,7 +45,7 @@ def along(
     for k in range(len(legs)):
         if legs[k, 0] == BOUNDARY_ARC:
             begin, end = legs[k, 2], legs[k, 3]
-            _, took = slide_between(begin, end, legs[k, 1], alpha, delta)
+            _, took = slide_between(begin, end, Disc(alpha, delta, legs[k, 1], 0.0))
             part = min(1.0, (time - done) / took) if took > 0.0 else 1.0
             bearing = begin + part * (end - begin)
             done += part * took
@@ -82,7 +81,8 @@ def along_rows(
     """
     for n in range(len(situations)):
         x, y, h, alpha, slot, limit = situations[n]
-        x, y, h = along(x, y, h, slot, alpha, limit + GRAZE, legs[n, : int(counts[n])], times[n])
+        delta = contact_distance(limit)
+        x, y, h = along(x, y, h, slot, alpha, delta, legs[n, : int(counts[n])], times[n])
         x, y, h = x + off[n, 0], y + off[n, 1], wrap(h + off[n, 2])
         if needs_mirror(y, h):
             y, h = -y, mirror_heading(h)
@@ -110,7 +110,8 @@ def later_rows(
     for n in range(len(situations)):
         x, y, h, alpha, slot, limit = situations[n]
         count, turned = int(counts[n]), shares[n] * legs[n, 0, 3]
-        x, y, h = along(x, y, h, slot, alpha, limit + GRAZE, legs[n, :count], turned)
+        delta = contact_distance(limit)
+        x, y, h = along(x, y, h, slot, alpha, delta, legs[n, :count], turned)
         h = wrap(h)
         rest[n] = legs[n]
         rest[n, 0, 1] -= turned

@@ -20,10 +20,10 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import wrap
-from relguide.kernels.base.records import Pose, Velocity
+from relguide.kernels.base.records import Disc, Pose, Velocity
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.contact import contact_heading
-from relguide.kernels.contact.touch_points import next_contact, slide_between
+from relguide.kernels.contact.touch_points import next_contact, opposite, slide_between
 from relguide.kernels.words.extremals import solve_word
 
 LS, RS, LR, RL = 8, 9, 10, 11
@@ -114,6 +114,7 @@ def through(
     Returns:
         time; infinite if there is no such way.
     """
+    disc = Disc(alpha, delta, side, 0.0)
     time = 0.0
     if on != ARCS_AGAIN:
         i = enter(x, y, h, slot, alpha, delta, bearing, side, entry, found, rows)
@@ -123,9 +124,9 @@ def through(
         time = float(way[0, 0])
         if on == AGAIN_ARCS:
             course = contact_heading(bearing, side, alpha)
-            if not next_contact(bearing, side, alpha, delta, course, link):
+            if not next_contact(bearing, disc, course, link):
                 return inf
-            link[3], link[4] = slide_between(link[0], fixed[0], side, alpha, delta)
+            link[3], link[4] = slide_between(link[0], fixed[0], disc)
             return float(time + link[1] + link[2] + link[4] + fixed[1])
     branch = on if on != ARCS_AGAIN else (0 if side > 0.0 else 1)
     i = leave(slot, alpha, delta, bearing, side, branch, found, rows)
@@ -135,10 +136,10 @@ def through(
     if on == ARCS_AGAIN:
         # backward in time, with the world turned by π, the straight and the turn come after
         course = contact_heading(bearing, side, alpha)
-        if not next_contact(bearing + pi, -side, alpha, delta, course, link):
+        if not next_contact(bearing + pi, opposite(disc), course, link):
             return inf
         link[0] += pi
-        link[3], link[4] = slide_between(fixed[0], link[0], side, alpha, delta)
+        link[3], link[4] = slide_between(fixed[0], link[0], disc)
         time = fixed[1] + link[4] + link[2] + link[1]
     return float(time + way[1, 0])
 

@@ -9,9 +9,10 @@ from math import inf
 from numba import njit
 
 from relguide.kernels.base.angles import mirror_heading, wrap
+from relguide.kernels.base.records import Pose
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.base.slot_frame import slot_offset, to_slot
-from relguide.kernels.contact.constrained_rows import breaks_limit
+from relguide.kernels.contact.constrained_rows import breaks_limit, straight_scene
 from relguide.kernels.separation.clearance import SLACK
 from relguide.kernels.words.branches import direct_time, needs_mirror
 
@@ -63,5 +64,7 @@ def seen(
         away, turned = left, h
         if needs_mirror(left, h):
             away, turned = -left, mirror_heading(h)
-        binds = breaks_limit(along, away, turned, alpha, slot, limit - SLACK, free)
+        binds = breaks_limit(
+            Pose(along, away, turned), straight_scene(alpha, slot, limit - SLACK), free
+        )
     return binds, soonest, (along, left, h, slot, alpha, limit)

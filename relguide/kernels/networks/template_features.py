@@ -10,7 +10,7 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, wrap
-from relguide.kernels.base.records import Pose
+from relguide.kernels.base.records import Disc, Pose
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.contact import boundary_arc_rates
 from relguide.kernels.contact.touch_points import (
@@ -48,13 +48,13 @@ def _passing(
 
 
 @njit(cache=True, nogil=True)
-def _about_riding(bearing: float, end: float, side: float, alpha: float, limit: float) -> float:
+def _about_riding(bearing: float, end: float, disc: Disc) -> float:
     """About how long a boundary arc takes from one bearing on to another; infinite if it cannot be
     flown.
 
     To a thousandth, which `touch_points.slide_between` takes ten times as long to know better.
     """
-    rate, _ = boundary_arc_rates(bearing, side, alpha, limit, 0.0)
+    rate, _ = boundary_arc_rates(bearing, disc)
     way = 1.0 if rate > 0.0 else -1.0
     ahead = wrap(way * (end - bearing))
     if ahead > LONGEST_BOUNDARY_ARC:
@@ -62,7 +62,7 @@ def _about_riding(bearing: float, end: float, side: float, alpha: float, limit: 
     total = 0.0
     for k in range(_PARTS + 1):
         there = bearing + way * ahead * k / _PARTS
-        rate, turning = boundary_arc_rates(there, side, alpha, limit, 0.0)
+        rate, turning = boundary_arc_rates(there, disc)
         if abs(turning) > 1.0 or way * rate <= 0.0:
             return inf
         weight = 1.0 if k == 0 or k == _PARTS else (4.0 if k % 2 == 1 else 2.0)
@@ -86,11 +86,12 @@ def _riding(
     out[:] = 0.0
     at = 0
     # on the other side all is the mirror image
-    end, straight, turn = boundary_arc_end(slot, alpha, limit, 1.0)
+    end, straight, turn = boundary_arc_end(slot, Disc(alpha, limit, 1.0, 0.0))
     for k in range(4):
         side, sign = 1.0 - 2.0 * (k // 2), 1.0 - 2.0 * (k % 2)
         best = -1
-        for i in range(straight_tangents(x - slot, y, h, alpha, limit, sign, side, contacts)):
+        disc = Disc(alpha, limit, side, 0.0)
+        for i in range(straight_tangents(Pose(x - slot, y, h), disc, sign, contacts)):
             if best < 0 or contacts[i, 1] + contacts[i, 2] < contacts[best, 1] + contacts[best, 2]:
                 best = i
         if best >= 0:
@@ -101,7 +102,7 @@ def _riding(
             out[at + 3] = turned / pi - 1.0
             out[at + 4] = log1p(flown)
             if not isnan(end):
-                took = _about_riding(bearing, side * end, side, alpha, limit)
+                took = _about_riding(bearing, side * end, disc)
                 if took < inf:
                     late = turned + flown + took + straight + turn - free
                     out[at + 5] = 1.0

@@ -8,11 +8,11 @@ from math import cos, sin
 
 from numba import njit
 
-from relguide.kernels.base.records import Pose
+from relguide.kernels.base.records import Disc, Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain import BOUNDARY_ARC, WORD
-from relguide.kernels.contact.contact import contact_heading
-from relguide.kernels.contact.passage import GRAZE, word_clears
+from relguide.kernels.contact.contact import GRAZE, contact_heading
+from relguide.kernels.contact.passage import word_clears
 from relguide.kernels.contact.touch_points import slide_between
 from relguide.kernels.networks.near_guess import AGAIN_ARCS, ARCS_AGAIN, ARCS_ON
 from relguide.kernels.words.extremals import SIGNS, fly_piece
@@ -73,16 +73,18 @@ def clears(
         legs: the way. shape (n, 6)
     """
     slot, t = leader[0, 1], 0.0
+    disc = Disc(alpha, delta, side, 0.0)
+    eased = Scene(leader, alpha, delta - 2.0 * GRAZE, 0.0)
     for k in range(len(legs)):
         if legs[k, 0] == BOUNDARY_ARC:
             bearing = legs[k, 3]
-            _, took = slide_between(legs[k, 2], bearing, side, alpha, delta)
+            _, took = slide_between(legs[k, 2], bearing, disc)
             t += took
             x, y = slot + alpha * t + delta * cos(bearing), delta * sin(bearing)
             h = contact_heading(bearing, side, alpha)
             continue
         row = legs[k, 1:6]
-        if not word_clears(x, y, h, t, row, leader, alpha, delta - 2.0 * GRAZE):
+        if not word_clears(Pose(x, y, h), t, row, eased):
             return False
         for piece in range(3):
             x, y, h = fly_piece(Pose(x, y, h), SIGNS[int(row[1]), piece], row[2 + piece])

@@ -14,8 +14,10 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import mirror_heading
+from relguide.kernels.base.records import Pose
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain import MAX_CONTACTS
+from relguide.kernels.contact.constrained_rows import straight_scene
 from relguide.kernels.contact.path_pieces import pieces_of
 from relguide.kernels.networks.branch_scores import Layers, last_hidden
 from relguide.kernels.networks.template_features import FEATURES, template_features
@@ -171,6 +173,5 @@ def way_round(
     )
     if count == 0 or time > longest:
         return np.empty((3, 0))
-    leader = np.zeros((1, 5))
-    leader[0, 1] = slot
-    return pieces_of(x, y, h, leader, alpha, limit, 0.0, radius, sense, time, legs[:count])
+    scene = straight_scene(alpha, slot, limit)
+    return pieces_of(Pose(x, y, h), scene, radius, sense, time, legs[:count])

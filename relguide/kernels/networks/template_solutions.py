@@ -10,12 +10,14 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import wrap_signed
-from relguide.kernels.base.records import Pose
+from relguide.kernels.base.records import Disc, Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain import WORD
-from relguide.kernels.contact.passage import GRAZE, word_clears
+from relguide.kernels.contact.contact import GRAZE, contact_distance
+from relguide.kernels.contact.passage import word_clears
 from relguide.kernels.contact.touch_points import (
     boundary_arc_end,
+    opposite,
     slide_between,
     straight_tangents,
     turn_tangent,
@@ -72,16 +74,18 @@ def solve_template(
     leader[0, 1] = slot
     rows = np.empty((MAX_ROWS, 5))
     if kind == FREE:
+        eased = Scene(leader, alpha, limit - GRAZE, 0.0)
         for k in range(solve(Pose(x, y, h), alpha, 0.0, rows)):
             if rows[k, 0] >= beat:
                 break
-            if word_clears(x, y, h, 0.0, rows[k], leader, alpha, limit - GRAZE):
+            if word_clears(Pose(x, y, h), 0.0, rows[k], eased):
                 legs[0, 0] = WORD
                 legs[0, 1:6] = rows[k]
                 return rows[k, 0], 1
         return inf, 0
     entry, side, on = int(PARTS[kind, 0]), float(PARTS[kind, 1]), int(PARTS[kind, 2])
-    delta = limit + GRAZE
+    delta = contact_distance(limit)
+    disc = Disc(alpha, delta, side, 0.0)
     found = np.empty((MAX_ROWS, 4))
     way = np.zeros((2, 5))
     link, fixed = np.zeros(5), np.zeros(2)
@@ -92,7 +96,7 @@ def solve_template(
             link,
         )  # fmt: skip
     elif on == AGAIN_ARCS:
-        end, straight, turn = boundary_arc_end(slot, alpha, delta, side)
+        end, straight, turn = boundary_arc_end(slot, disc)
         if isnan(end):
             return inf, 0
         fixed[0], fixed[1] = end, straight + turn
@@ -104,7 +108,7 @@ def solve_template(
     elif entry >= LR:
         sign = 1.0 if entry == LR else -1.0
         bearing, first, second = turn_tangent(
-            x - slot, y, h, alpha, delta, sign, side, pi * (guess[0] + 1.0), pi * (guess[1] + 1.0)
+            Pose(x - slot, y, h), disc, sign, pi * (guess[0] + 1.0), pi * (guess[1] + 1.0)
         )
         if isnan(first):
             return inf, 0
@@ -118,8 +122,9 @@ def solve_template(
         # backward in time, with the world turned by π: two turns from the slot
         sign = 1.0 if on == ON_LR else -1.0
         bearing, last, middle = turn_tangent(
-            slot, 0.0, 0.0, alpha, delta, sign, -side, pi * (guess[1] + 1.0), pi * (guess[0] + 1.0)
-        )
+            Pose(slot, 0.0, 0.0), opposite(disc), sign, pi * (guess[1] + 1.0),
+            pi * (guess[0] + 1.0),
+        )  # fmt: skip
         if isnan(last):
             return inf, 0
         bearing += pi
@@ -167,10 +172,11 @@ def _start(
     if entry >= 4 or on >= 4 or SIGNS[entry, 2] != side or SIGNS[on, 0] != side:
         return guess
     to, on_from = np.empty((4, 3)), np.empty((4, 3))
-    n = straight_tangents(x - slot, y, h, alpha, delta, SIGNS[entry, 0], side, to)
+    disc = Disc(alpha, delta, side, 0.0)
+    n = straight_tangents(Pose(x - slot, y, h), disc, SIGNS[entry, 0], to)
     if n == 0:
         return guess
-    m = straight_tangents(slot, 0.0, 0.0, alpha, delta, -SIGNS[on, 2], -side, on_from)
+    m = straight_tangents(Pose(slot, 0.0, 0.0), opposite(disc), -SIGNS[on, 2], on_from)
     best, start = inf, guess
     for i in range(n):
         for j in range(m):
@@ -201,30 +207,32 @@ def _by_boundary_arc(
 
     `way` takes the rows before and after, `link` the rest, as in `near_guess.through`.
     """
+    disc = Disc(alpha, delta, side, 0.0)
     end, straight, turn = 0.0, 0.0, 0.0
     if on == ARCS_ON:
-        end, straight, turn = boundary_arc_end(slot, alpha, delta, side)
+        end, straight, turn = boundary_arc_end(slot, disc)
         if isnan(end):
             return inf, 0.0
         straight_turn(side, straight, turn, way[1])
     if entry >= LR:
         sign = 1.0 if entry == LR else -1.0
         begin, first, second = turn_tangent(
-            x - slot, y, h, alpha, delta, sign, side, pi * (guess[0] + 1.0), pi * (guess[1] + 1.0)
+            Pose(x - slot, y, h), disc, sign, pi * (guess[0] + 1.0), pi * (guess[1] + 1.0)
         )
         if isnan(first):
             return inf, 0.0
-        link[3], link[4] = slide_between(begin, end, side, alpha, delta)
+        link[3], link[4] = slide_between(begin, end, disc)
         two_turns(sign, first, second, 0.0, way[0])
         return first + second + link[4] + straight + turn, begin
     sign = -1.0 if entry == RS else 1.0
     contacts, row, fixed = np.empty((4, 3)), np.zeros(5), np.zeros(2)
     trial, joint = np.zeros((2, 5)), np.zeros(5)
     best, begun = beat, 0.0
-    for k in range(straight_tangents(x - slot, y, h, alpha, delta, sign, side, contacts)):
+    eased = Scene(leader, alpha, delta - 2.0 * GRAZE, 0.0)
+    for k in range(straight_tangents(Pose(x - slot, y, h), disc, sign, contacts)):
         begin, before = contacts[k, 0], contacts[k, 1] + contacts[k, 2]
         if on == ARCS_ON:
-            joint[3], joint[4] = slide_between(begin, end, side, alpha, delta)
+            joint[3], joint[4] = slide_between(begin, end, disc)
             time = before + joint[4] + straight + turn
         else:
             fixed[0], fixed[1] = begin, before
@@ -236,7 +244,7 @@ def _by_boundary_arc(
             continue
         turn_straight(sign, contacts[k, 1], contacts[k, 2], row)
         # where two turns of a sign touch, the straight of the sooner one may lead through the disc
-        if word_clears(x, y, h, 0.0, row, leader, alpha, delta - 2.0 * GRAZE):
+        if word_clears(Pose(x, y, h), 0.0, row, eased):
             best, begun = time, begin
             way[0] = row
             link[:] = joint

@@ -62,7 +62,7 @@ def test_each_row_is_what_plan_says() -> None:
                 assert answers.word[i] == answer.word
         seen.add(str(answers.verdict[i]))
         seen.add(str(answers.word[i]))
-    assert {"planned", "separation_already_lost", "detour", "LSL"} <= seen
+    assert {"planned", "separation_already_lost", "constrained", "LSL"} <= seen
 
 
 def test_threads_change_nothing_and_progress_counts() -> None:

@@ -24,10 +24,9 @@ from relguide import (
 )
 from relguide.kernels.base.turn import turn_radius
 from relguide.kernels.contact.constrained_search import MAX_LEGS, best_constrained_path
-from relguide.kernels.contact.passage import GRAZE
 from relguide.kernels.contact.tangent import tangents
-from relguide.planning import constrained_path as detour
-from relguide.planning.constrained_path import BEARINGS, TURNING_BEARINGS, leader_table
+from relguide.planning import constrained_path as module
+from relguide.planning.constrained_path import BEARINGS, TURNING_BEARINGS, scene_of
 from relguide.planning.optimality import check
 from tests.oracle import arrival_error
 from tests.situations import headings, numbers
@@ -210,10 +209,10 @@ def test_a_ride_is_closed_by_the_word_it_was_searched_with(off: float) -> None:
 
 
 def test_two_contacts_move_along_an_edge_together(monkeypatch: pytest.MonkeyPatch) -> None:
-    """It boundary arcs, leaves straight and comes back to touch: 0.11 s are lost if each moves
-    alone.
+    """It slides along d_min, leaves straight and comes back to touch: 0.11 s are lost if each
+    contact moves alone.
     """
-    monkeypatch.setattr(detour, "BEARINGS", 48)
+    monkeypatch.setattr(module, "BEARINGS", 48)
     answer = plan(LEAVING_STRAIGHT)
     assert isinstance(answer, Plan)
     assert answer.time_to_converge == pytest.approx(655.925, abs=2e-3)
@@ -222,13 +221,10 @@ def test_two_contacts_move_along_an_edge_together(monkeypatch: pytest.MonkeyPatc
 def searched(situation: Situation, effort: int = 1) -> float:
     """Arrival by the search with the limit alone [s], with so many times the usual bearings."""
     frame = candidates(situation).frame
-    table = leader_table(situation, frame)
-    disc = frame.x, frame.y, frame.h, table, frame.alpha, situation.min_separation / frame.radius
-    start = (*disc[:5], disc[5] + GRAZE)
-    bearings = effort * (BEARINGS if len(table) == 1 else TURNING_BEARINGS)
-    time, _ = best_constrained_path(
-        *start, frame.t_release, bearings, tangents(*start), inf, np.zeros((MAX_LEGS, 6))
-    )
+    scene = scene_of(situation, frame)
+    bearings = effort * (BEARINGS if len(scene.leader) == 1 else TURNING_BEARINGS)
+    near = tangents(frame.pose, scene)
+    time, _ = best_constrained_path(frame.pose, scene, bearings, near, inf, np.zeros((MAX_LEGS, 6)))
     return time * frame.radius / situation.pursuer.tas
 
 

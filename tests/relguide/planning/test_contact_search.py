@@ -8,19 +8,17 @@ from math import inf, pi
 import numpy as np
 import pytest
 
-from relguide.planning.contact_search import Cell, Question
+from relguide.kernels.base.records import Pose, Scene
+from relguide.kernels.bounds.contact_bound import Cell, Goal
+from relguide.planning.contact_search import Question, halves
 
 LEADER = np.array(
     [[0.0, 1.0, 0.5, -0.7, 0.4], [2.0, 2.6, 0.2, 0.1, -0.2], [3.0, 3.5, 0.3, -0.1, 0.0]]
 )
 QUESTION = Question(
-    start=(0.0, 0.0, 0.0),
-    leader=LEADER,
-    alpha=0.9,
-    delta=0.8,
-    goal_x=-1.0,
-    goal_speed=0.9,
-    t_release=5.0,
+    start=Pose(0.0, 0.0, 0.0),
+    scene=Scene(LEADER, 0.9, 0.8, 5.0),
+    goal=Goal(-1.0, 0.9),
     never_at_release=False,
     horizon=inf,
 )
@@ -54,7 +52,7 @@ def test_cells_cover_every_bearing_once_and_none_reaches_into_two_quadrants() ->
 def test_cells_cover_every_time_and_are_cut_where_the_slot_opens(
     t_release: float, last: list[tuple[float, float]]
 ) -> None:
-    found = windows(replace(QUESTION, t_release=t_release))
+    found = windows(replace(QUESTION, scene=QUESTION.scene._replace(t_release=t_release)))
     assert set(found) == {(piece, side) for piece in range(3) for side in (-1.0, 1.0)}
     for (piece, _), by_window in found.items():
         assert sorted(by_window) == [[(0.0, 2.0)], [(2.0, 3.0)], last][piece]
@@ -83,7 +81,7 @@ def test_contacts_after_the_horizon_have_no_cell() -> None:
 def test_the_halves_of_a_cell_are_the_cell_cut_across_its_longer_side(
     cell: Cell, by_time: bool
 ) -> None:
-    one, other = cell.halves(QUESTION.delta)
+    one, other = halves(cell, QUESTION.scene.d_min)
     assert (one.piece, one.side) == (other.piece, other.side) == (cell.piece, cell.side)
     if by_time:
         middle = 0.5 * (cell.start + cell.end)

@@ -19,10 +19,11 @@ from relguide import (
     TurnTo,
     candidates,
 )
-from relguide.kernels.contact.passage import GRAZE, through_contact
+from relguide.kernels.base.records import Contact
+from relguide.kernels.contact.passage import through_contact, workspace
 from relguide.kernels.words.extremals import MAX_ROWS, solve
-from relguide.planning import constrained_path as detour
-from relguide.planning.constrained_path import leader_table
+from relguide.planning import constrained_path as module
+from relguide.planning.constrained_path import scene_of
 from relguide.planning.optimality import check
 from relguide.planning.words import SIGN_ROWS, assemble
 from relguide.units import DEG
@@ -54,7 +55,7 @@ def test_so_does_one_that_joins_a_faster_leader(situation: Situation) -> None:
     assert_exact(check(answer, situation, samples=1), situation)
 
 
-def test_detours_meet_the_conditions_with_a_jump_that_is_not_negative() -> None:
+def test_constrained_paths_meet_the_conditions_with_a_jump_that_is_not_negative() -> None:
     """λ_d after the contact − before, by (10) and (11): 27 golden plans touch d_min once."""
     held = touching = 0
     for situation, expected in golden("reference"):
@@ -79,27 +80,23 @@ def test_detours_meet_the_conditions_with_a_jump_that_is_not_negative() -> None:
 
 
 def test_a_contact_that_lies_elsewhere_fails_by_as_much_as_it_lies_off() -> None:
-    """The way through a neighbouring contact reaches the slot too, but is no extremal."""
+    """The path through a neighbouring contact reaches the slot too, but is no extremal."""
     situation = golden_plan("R061").situation
     found = candidates(situation)
-    frame, table = found.frame, leader_table(situation, found.frame)
+    frame, scene = found.frame, scene_of(situation, found.frame)
     contact = check(golden_plan("R061"), situation, samples=1).contacts[0]
     ours = contact.bearing + pi  # of the pursuer from the leader, clockwise from north
-    way, rows, onward = np.zeros((2, 5)), np.empty((MAX_ROWS, 5)), np.empty((MAX_ROWS, 5))
     residuals = []
     for off in (0.01, 0.02):
         arrivals = []
         for side in (1.0, -1.0):
-            trial, reached = np.zeros((2, 5)), np.zeros(2)
-            time = through_contact(
-                frame.x, frame.y, frame.h, table, 0, frame.alpha,
-                situation.min_separation / frame.radius + GRAZE, frame.t_release,
-                situation.leader.heading - ours + off, side, 50.0, rows, onward, trial, reached,
-            )  # fmt: skip
-            arrivals.append((time, trial))
-        time, way = min(arrivals, key=lambda arrival: arrival[0])
-        signs = [sign for row in way for sign in SIGN_ROWS[int(row[1])]]
-        beside = assemble(situation, frame, signs, way[:, 2:].ravel().tolist(), "").trajectory
+            room = workspace()
+            there = Contact(0, situation.leader.heading - ours + off, side)
+            time = through_contact(frame.pose, scene, there, 50.0, room)
+            arrivals.append((time, room.path))
+        time, path = min(arrivals, key=lambda arrival: arrival[0])
+        signs = [sign for row in path for sign in SIGN_ROWS[int(row[1])]]
+        beside = assemble(situation, frame, signs, path[:, 2:].ravel().tolist(), "").trajectory
         report = check(beside, situation, samples=1)
         assert not report.holds
         residuals.append(report.switching_residual)
@@ -113,7 +110,7 @@ def test_contacts_close_together_share_their_jumps(monkeypatch: pytest.MonkeyPat
     Each of the two jumps hangs on rounding, and may be negative. Looked for more finely, there is a
     way 0.08 s faster, without that.
     """
-    monkeypatch.setattr(detour, "BEARINGS", 36)
+    monkeypatch.setattr(module, "BEARINGS", 36)
     situation = Situation(
         pursuer=Pursuer(
             x=5126.6374828192065,

@@ -13,9 +13,7 @@ from hypothesis import assume, given
 
 from relguide import NoPlan, Plan, Situation, plan, prove
 from relguide.__main__ import main
-from relguide.planning.constrained_path import leader_table
-from relguide.planning.contact_search import Question
-from relguide.planning.prove import MAX_SECONDS, TOLERANCE, Bound, bounds
+from relguide.planning.prove import MAX_SECONDS, TOLERANCE, Bound, bounds, question_of
 from relguide.planning.words import candidates
 from tests.bodies import BODY
 from tests.plans import golden_plan, straight_behind
@@ -32,24 +30,6 @@ SHORTFALL = 0.05
 """Golden plans keep d_min but for half a metre, which is worth some hundredths of a second."""
 QUICK = "R051"
 """Its plan is proved optimal at once."""
-
-
-def question(situation: Situation) -> tuple[Question, float]:
-    """How soon the slot can be reached, and how many seconds R/V_P is."""
-    found = candidates(situation)
-    frame = found.frame
-    asked = Question(
-        start=(frame.x, frame.y, frame.h),
-        leader=leader_table(situation, frame),
-        alpha=frame.alpha,
-        delta=situation.min_separation / frame.radius,
-        goal_x=0.0,
-        goal_speed=frame.alpha,
-        t_release=frame.t_release,
-        never_at_release=not found.reachable_at_release,
-        horizon=inf,
-    )
-    return asked, frame.radius / situation.pursuer.tas
 
 
 @pytest.mark.slow
@@ -70,11 +50,12 @@ def test_plans_that_d_min_made_longer_are_proved(
 @given(situation=situations())
 def test_no_plan_is_faster_than_what_is_proved(situation: Situation) -> None:
     planned = plan(situation)
-    assume(isinstance(planned, Plan) and not candidates(situation).reachable_at_release)
+    found = candidates(situation)
+    assume(isinstance(planned, Plan) and not found.reachable_at_release)
     assert isinstance(planned, Plan)
-    asked, scale = question(situation)
+    scale = found.frame.radius / situation.pursuer.tas
     # with a horizon beyond the plan, so that the plan itself does not end the search
-    steps = list(islice(asked.bounds(1.5 * planned.time_to_converge / scale), 400))
+    steps = list(islice(question_of(found).bounds(1.5 * planned.time_to_converge / scale), 400))
     assert max(steps) * scale <= planned.time_to_converge * (1.0 + 1e-9) + 1e-5
     assert all(later >= earlier for earlier, later in pairwise(steps))
 

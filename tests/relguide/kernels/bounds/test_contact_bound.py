@@ -8,8 +8,10 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from relguide.kernels.base.records import Pose, Velocity
+from relguide.kernels.base.records import Pose, Scene, Velocity
 from relguide.kernels.bounds.contact_bound import (
+    Cell,
+    Goal,
     between_bound,
     cell_bound,
     contacts_within,
@@ -18,7 +20,8 @@ from relguide.kernels.bounds.contact_bound import (
     times_round,
     untouched_bound,
 )
-from relguide.kernels.contact.contact import contact_exists, contact_heading
+from relguide.kernels.contact.contact import contact_exists, contact_heading, seen_from
+from relguide.kernels.separation.clearance import leader_at, piece_at
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, fly_piece, solve, solve_toward
 from tests.situations import numbers
 
@@ -32,154 +35,139 @@ sides = st.sampled_from([1.0, -1.0])
 
 
 @st.composite
-def cells(draw: st.DrawFn) -> tuple[float, float, float]:
-    """A side, a bearing and half a width, within a quadrant."""
+def cells(draw: st.DrawFn) -> Cell:
+    """A window of bearings within a quadrant, at any time."""
     parts = 2 ** draw(st.integers(1, 14))
     k = draw(st.integers(0, 4 * parts - 1))
     width = 0.5 * pi / parts
-    return draw(sides), (k + 0.5) * width - pi, 0.5 * width
+    return Cell(0, draw(sides), (k + 0.5) * width - pi, 0.5 * width, 0.0, inf)
 
 
-def row_of(
-    x: float, y: float, h: float, to: tuple[float, float, float], ax: float, ay: float
-) -> np.ndarray:
-    """Words from a pose to a moving pose, in the slot frame."""
-    c, s = cos(to[2]), sin(to[2])
-    dx, dy = x - to[0], y - to[1]
-    rows = np.empty((MAX_ROWS, 5))
-    seen = Pose(dx * c + dy * s, dy * c - dx * s, (h - to[2]) % (2.0 * pi))
-    n = solve_toward(seen, Velocity(ax * c + ay * s, ay * c - ax * s), 0.0, rows)
-    return rows[:n]
+def straight(alpha: float, d_min: float, ahead: float) -> Scene:
+    """A leader that keeps straight, so far ahead of the slot."""
+    return Scene(np.array([[0.0, ahead, 0.0, 0.0, 0.0]]), alpha, d_min, 0.0)
 
 
-def keeps(
-    x: float, y: float, h: float, row: np.ndarray, leader: np.ndarray, alpha: float, delta: float
-) -> bool:
-    """Whether a word keeps the limit from a straight leader, sampled."""
+def words_to(pose: Pose, to: Pose, alpha: float) -> np.ndarray:
+    """Words from a pose to one that moves along the x axis."""
+    seen, rows = seen_from(pose, to), np.empty((MAX_ROWS, 5))
+    toward = Velocity(alpha * cos(to.h), -alpha * sin(to.h))
+    return rows[: solve_toward(seen._replace(h=seen.h % (2.0 * pi)), toward, 0.0, rows)]
+
+
+def keeps(pose: Pose, row: np.ndarray, scene: Scene) -> bool:
+    """Whether a word keeps d_min, sampled."""
     t = 0.0
-    lx, ly, lh = leader[0, 1:4]
     for sign, amount in zip(SIGNS[int(row[1])], row[2:], strict=True):
         for along in np.linspace(0.0, amount, 300):
-            px, py, _ = fly_piece(Pose(x, y, h), sign, along)
-            now = alpha * (t + along)
-            if hypot(px - lx - now * cos(lh), py - ly - now * sin(lh)) < delta:
+            at = fly_piece(pose, sign, along)
+            there = leader_at(scene, piece_at(scene.leader, t + along), t + along)
+            if hypot(at.x - there.x, at.y - there.y) < scene.d_min:
                 return False
-        x, y, h = fly_piece(Pose(x, y, h), sign, amount)
+        pose = fly_piece(pose, sign, amount)
         t += amount
     return True
 
 
-@given(cell=cells(), alpha=ratios, delta=limits, share=numbers(-1.0, 1.0))
-def test_a_cell_holds_its_contacts(
-    cell: tuple[float, float, float], alpha: float, delta: float, share: float
-) -> None:
-    side, bearing, half = cell
-    middle, differs, left, right = contacts_within(bearing, half, side, alpha, delta)
-    b = bearing + share * half
+@given(cell=cells(), alpha=ratios, d_min=limits, share=numbers(-1.0, 1.0))
+def test_a_cell_holds_its_contacts(cell: Cell, alpha: float, d_min: float, share: float) -> None:
+    spread = contacts_within(cell, alpha, d_min)
+    b = cell.bearing + share * cell.half
     if not contact_exists(b, alpha):
         return
-    h = contact_heading(b, side, alpha)
-    assert abs(h - middle) <= differs + 1e-12
-    for hand, blur in ((1.0, left), (-1.0, right)):
+    h = contact_heading(b, cell.side, alpha)
+    assert abs(h - spread.heading) <= spread.differs + 1e-12
+    for hand, blur in ((1.0, spread.left), (-1.0, spread.right)):
         moved = hypot(
-            delta * (cos(b) - cos(bearing)) - hand * (sin(h) - sin(middle)),
-            delta * (sin(b) - sin(bearing)) + hand * (cos(h) - cos(middle)),
+            d_min * (cos(b) - cos(cell.bearing)) - hand * (sin(h) - sin(spread.heading)),
+            d_min * (sin(b) - sin(cell.bearing)) + hand * (cos(h) - cos(spread.heading)),
         )
         assert moved <= blur + 1e-9
 
 
 @given(
-    start=st.tuples(numbers(-8.0, 8.0), numbers(-8.0, 8.0), numbers(0.0, 2.0 * pi)),
-    cell=cells(), alpha=ratios, delta=limits, behind=numbers(0.0, 4.0), share=numbers(-1.0, 1.0),
+    x=numbers(-8.0, 8.0), y=numbers(-8.0, 8.0), h=numbers(0.0, 2.0 * pi),
+    cell=cells(), alpha=ratios, d_min=limits, behind=numbers(0.0, 4.0), share=numbers(-1.0, 1.0),
 )  # fmt: skip
 def test_no_contact_of_a_cell_is_reached_or_left_sooner(
-    start: tuple[float, float, float], cell: tuple[float, float, float], alpha: float,
-    delta: float, behind: float, share: float,
+    x: float, y: float, h: float, cell: Cell, alpha: float, d_min: float, behind: float,
+    share: float,
 ) -> None:  # fmt: skip
-    side, bearing, half = cell
-    leader = np.array([[0.0, delta + behind, 0.0, 0.0, 0.0]])
-    assume(hypot(start[0] - leader[0, 1], start[1]) > delta)
-    soon, onward = cell_bound(
-        *start, leader, 0, alpha, delta, 0.0, alpha, 0.0, side, bearing, half, 0.0, inf, FAR
-    )
-    leaving = leaving_bound(leader, alpha, delta, side, bearing, half, FAR)
-    b = bearing + share * half
+    start, scene = Pose(x, y, h), straight(alpha, d_min, d_min + behind)
+    assume(hypot(x - d_min - behind, y) > d_min)
+    soon, onward = cell_bound(start, scene, Goal(0.0, alpha), cell, FAR)
+    leaving = leaving_bound(scene, cell, FAR)
+    b = cell.bearing + share * cell.half
     if not contact_exists(b, alpha):
         return
-    at = (
-        leader[0, 1] + delta * cos(b), delta * sin(b), contact_heading(b, side, alpha),
-    )  # fmt: skip
-    to_it = row_of(*start, at, alpha, 0.0)
-    rows = np.empty((MAX_ROWS, 5))
-    on = rows[: solve(Pose(at[0], at[1], at[2] % (2.0 * pi)), alpha, 0.0, rows)]
+    at = Pose(d_min + behind + d_min * cos(b), d_min * sin(b), contact_heading(b, cell.side, alpha))
+    to_it, on = words_to(start, at, alpha), words_to(at, Pose(0.0, 0.0, 0.0), alpha)
     if not len(to_it) or not len(on) or to_it[0, 0] + on[0, 0] >= FAR:
         return
     assert onward <= on[0, 0] + SLACK * (1.0 + on[0, 0])
     for row in to_it:
-        if row[0] + on[0, 0] < FAR and keeps(*start, row, leader, alpha, delta):
+        if row[0] + on[0, 0] < FAR and keeps(start, row, scene):
             assert soon <= row[0] + SLACK * (1.0 + row[0])
             break
     for row in on:
-        if row[0] < FAR and keeps(*at, row, leader, alpha, delta - 1e-9):
+        if row[0] < FAR and keeps(at, row, scene._replace(d_min=d_min - 1e-9)):
             assert leaving <= row[0] + SLACK * (1.0 + row[0])
             break
 
 
-@given(cells=st.tuples(cells(), cells()), alpha=ratios, delta=limits, shares=st.tuples(
-    numbers(-1.0, 1.0), numbers(-1.0, 1.0)))  # fmt: skip
+@given(
+    first=cells(), last=cells(), alpha=ratios, d_min=limits,
+    shares=st.tuples(numbers(-1.0, 1.0), numbers(-1.0, 1.0)),
+)  # fmt: skip
 def test_no_contact_follows_another_sooner(
-    cells: tuple[tuple[float, float, float], tuple[float, float, float]], alpha: float,
-    delta: float, shares: tuple[float, float],
-) -> None:  # fmt: skip
-    (side, bearing, half), (other, to, wide) = cells
-    lowest = between_bound(alpha, delta, side, bearing, half, other, to, wide, FAR)
-    b, e = bearing + shares[0] * half, to + shares[1] * wide
-    if not (contact_exists(b, alpha) and contact_exists(e, alpha)):
-        return
-    begin = delta * cos(b), delta * sin(b), contact_heading(b, side, alpha)
-    end = delta * cos(e), delta * sin(e), contact_heading(e, other, alpha)
-    rows = row_of(*begin, end, alpha, 0.0)
+    first: Cell, last: Cell, alpha: float, d_min: float, shares: tuple[float, float]
+) -> None:
+    lowest = between_bound(straight(alpha, d_min, 0.0), first, last, FAR)
+    poses = []
+    for cell, share in zip((first, last), shares, strict=True):
+        b = cell.bearing + share * cell.half
+        if not contact_exists(b, alpha):
+            return
+        poses.append(Pose(d_min * cos(b), d_min * sin(b), contact_heading(b, cell.side, alpha)))
+    rows = words_to(*poses, alpha)
     if len(rows) and rows[0, 0] < FAR:
         assert lowest <= rows[0, 0] + SLACK * (1.0 + rows[0, 0])
 
 
 @given(
-    cells=st.tuples(cells(), cells()), alpha=numbers(0.3, 0.97), delta=limits,
+    first=cells(), last=cells(), alpha=numbers(0.3, 0.97), d_min=limits,
     way=st.sampled_from([0, 1]), shares=st.tuples(numbers(-1.0, 1.0), numbers(-1.0, 1.0)),
 )  # fmt: skip
-def test_the_way_round_is_as_long_as_the_ride(
-    cells: tuple[tuple[float, float, float], tuple[float, float, float]], alpha: float,
-    delta: float, way: int, shares: tuple[float, float],
-) -> None:  # fmt: skip
-    (_, bearing, half), (_, to, wide) = cells
-    lowest = round_bound(times_round(alpha, delta), way, bearing, half, to, wide)
+def test_the_time_round_is_that_of_the_boundary_arc(
+    first: Cell, last: Cell, alpha: float, d_min: float, way: int, shares: tuple[float, float]
+) -> None:
+    lowest = round_bound(times_round(alpha, d_min), way, first, last)
     sign = 1.0 - 2.0 * way
-    b, e = bearing + shares[0] * half, to + shares[1] * wide
+    b, e = first.bearing + shares[0] * first.half, last.bearing + shares[1] * last.half
 
     def slowness(angle: float) -> float:
-        return delta / (
-            sqrt(1.0 - (alpha * cos(angle)) ** 2) + sign * alpha * sin(angle)
-        )  # fmt: skip
+        return d_min / (sqrt(1.0 - (alpha * cos(angle)) ** 2) + sign * alpha * sin(angle))
 
     turned = (sign * (e - b)) % (2.0 * pi)
     took, error = quad(lambda u: slowness(b + sign * u), 0.0, turned, limit=200)
     assert lowest <= took + error + 1e-9
-    if min(half, wide) > 0.0 and lowest > 0.0 and max(half, wide) < 1e-3:
-        assert lowest >= took - 4e-3 * delta / (1.0 - alpha) - 1e-4 * took
+    if min(first.half, last.half) > 0.0 and lowest > 0.0 and max(first.half, last.half) < 1e-3:
+        assert lowest >= took - 4e-3 * d_min / (1.0 - alpha) - 1e-4 * took
 
 
 def test_who_touches_nothing_is_as_fast_as_an_extremal_that_keeps_clear() -> None:
     rng = np.random.default_rng(0)
     rows = np.empty((MAX_ROWS, 5))
-    leader = np.array([[0.0, 1.2, 0.0, 0.0, 0.0]])
+    scene = straight(0.8, 1.1, 1.2)
     barred = 0
     for _ in range(500):
         x, y, h = *rng.uniform(-8.0, 8.0, 2), rng.uniform(0.0, 2.0 * pi)
         if hypot(x - 1.2, y) < 1.1:
             continue
-        n = solve(Pose(x, y, h), 0.8, 0.0, rows)
-        clear = [row[0] for row in rows[:n] if keeps(x, y, h, row, leader, 0.8, 1.1)]
-        lowest = untouched_bound(x, y, h, leader, 0.8, 1.1, 0.0, 0.8, 0.0)
+        start = Pose(x, y, h)
+        n = solve(start, 0.8, 0.0, rows)
+        clear = [row[0] for row in rows[:n] if keeps(start, row, scene)]
+        lowest = untouched_bound(start, scene, Goal(0.0, 0.8))
         assert lowest <= min(clear, default=inf) + SLACK
         # or it has a full loop
         assert lowest == pytest.approx(min(clear, default=inf)) or lowest > 2.0 * pi

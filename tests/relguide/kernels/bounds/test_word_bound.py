@@ -6,14 +6,22 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from relguide.kernels.base.records import Pose, Velocity
-from relguide.kernels.bounds.word_bound import breaks_limit, intercept_span, soonest
+from relguide.kernels.base.records import Pose, Scene, Velocity, Window
+from relguide.kernels.bounds.word_bound import (
+    Blur,
+    NearWord,
+    Sieve,
+    breaks_limit,
+    intercept_span,
+    soonest,
+)
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, WORDS, fly_piece, solve_toward
 from tests.situations import numbers
 
 ROUNDING = 1e-9
 NOBODY = np.array([[0.0, 1e6, 1e6, 0.0, 0.0]])
 """A leader that is nowhere near."""
+NO_SIEVE = Sieve(False, Pose(0.0, 0.0, 0.0), Scene(NOBODY, 0.5, 0.0, 0.0))
 
 places = st.one_of(numbers(-3.0, 3.0), numbers(-40.0, 40.0), st.sampled_from([0.0, 1.0, 2.0, 4.0]))
 courses = st.one_of(
@@ -27,11 +35,9 @@ def bound(
     pose: tuple[float, float, float], a: tuple[float, float], blur: float, turn: float,
     not_before: float = 0.0, beat: float = inf,
 ) -> float:  # fmt: skip
-    x, y, h = pose
     return soonest(
-        x, y, h, blur, blur, turn, 0.0, *a, not_before, beat, False, (0.0, 0.0, 0.0), NOBODY, 0.5,
-        0.0,
-    )  # fmt: skip
+        Pose(*pose), Blur(blur, blur, turn, 0.0), Velocity(*a), Window(not_before, beat), NO_SIEVE
+    )
 
 
 def exact(x: float, y: float, h: float, a: tuple[float, float], not_before: float) -> np.ndarray:
@@ -123,7 +129,7 @@ def test_an_interception_lies_within_its_span(
     e: tuple[float, float], ratio: float, toward: float, blur: float, far: float, way: float
 ) -> None:
     ax, ay = ratio * cos(toward), ratio * sin(toward)
-    least, greatest = intercept_span(*e, ax, ay, blur)
+    least, greatest = intercept_span(*e, Velocity(ax, ay), blur)
     ex, ey = e[0] + far * blur * cos(way), e[1] + far * blur * sin(way)
     for l in np.roots([1.0 - ratio * ratio, -2.0 * (ax * ex + ay * ey), -(ex * ex + ey * ey)]):
         if abs(l.imag) < 1e-12 and l.real >= 0.0 and l.real < 1e6:
@@ -144,9 +150,8 @@ def test_a_breach_is_never_made_up(
     signs = tuple(SIGNS[word].tolist())
     table = np.array([[0.0, 0.0, 0.0, leader, 0.0]])
     until = first + middle + last
-    if not breaks_limit(
-        *start, 0.0, signs, first, blurs[0], middle, blurs[1], until, table, 0.7, limit, 0.02
-    ):
+    near = NearWord(signs, first, blurs[0], middle, blurs[1], until)
+    if not breaks_limit(Pose(*start, 0.0), near, Scene(table, 0.7, limit, 0.0), 0.02):
         return
     amounts = (
         max(first + shares[0] * blurs[0], 0.0),

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from relguide.kernels.base.records import Pose, Scene
+from relguide.kernels.base.records import Disc, Pose, Scene
 from relguide.kernels.contact.boundary_arc import (
     MAX_NODES,
     boundary_arc_arrival,
@@ -17,8 +17,10 @@ from relguide.kernels.contact.contact import (
     boundary_arc_rates,
     boundary_arc_sense,
     contact_at,
+    contact_distance,
     contact_exists,
     contact_heading,
+    disc_on,
     slide_within,
 )
 from relguide.kernels.contact.tangent import tangent_contacts
@@ -37,7 +39,8 @@ def test_a_contact_is_tangent(bearing: float, side: float, alpha: float) -> None
     assert vx * cos(bearing) + vy * sin(bearing) == pytest.approx(0.0, abs=1e-7)
     assume(abs(alpha * cos(bearing)) < 0.999)
     around = vy * cos(bearing) - vx * sin(bearing)
-    assert boundary_arc_rates(bearing, side, alpha, 2.0, 0.0)[0] == pytest.approx(around / 2.0)
+    rates = boundary_arc_rates(bearing, Disc(alpha, 2.0, side, 0.0))
+    assert rates[0] == pytest.approx(around / 2.0)
 
 
 @given(bearing=headings, side=sides, alpha=numbers(0.3, 1.3), turning=turn_rates)
@@ -45,7 +48,7 @@ def test_a_ride_turns_as_fast_as_the_contact_heading_does(
     bearing: float, side: float, alpha: float, turning: float
 ) -> None:
     assume(abs(alpha * cos(bearing)) < 0.99)
-    round_it, rate = boundary_arc_rates(bearing, side, alpha, 2.0, turning)
+    round_it, rate = boundary_arc_rates(bearing, Disc(alpha, 2.0, side, turning))
     step = 1e-6
     turned = contact_heading(bearing + round_it * step, side, alpha)
     turned -= contact_heading(bearing - round_it * step, side, alpha)
@@ -56,21 +59,22 @@ def test_a_ride_turns_as_fast_as_the_contact_heading_does(
 def test_a_ride_takes_as_long_as_its_rate_says(
     bearing: float, side: float, alpha: float, turning: float
 ) -> None:
-    way = boundary_arc_sense(bearing, side, alpha, 3.0, turning)
-    assume(way != 0.0)
-    goal = bearing + 0.3 * way
-    reached, took = slide_within(bearing, goal, side, alpha, 3.0, turning, inf)
+    disc = Disc(alpha, 3.0, side, turning)
+    sense = boundary_arc_sense(bearing, disc)
+    assume(sense != 0.0)
+    goal = bearing + 0.3 * sense
+    reached, took = slide_within(bearing, goal, disc, inf)
     assume(took < inf)
     assert reached == goal
     b, steps = bearing, 4_000
     for _ in range(steps):  # the midpoint rule, as something else than Simpson's
-        half = b + 0.5 * took / steps * boundary_arc_rates(b, side, alpha, 3.0, turning)[0]
-        b += took / steps * boundary_arc_rates(half, side, alpha, 3.0, turning)[0]
+        half = b + 0.5 * took / steps * boundary_arc_rates(b, disc)[0]
+        b += took / steps * boundary_arc_rates(half, disc)[0]
     assert b == pytest.approx(goal, abs=1e-5)
     # with half the time, about half the way
-    reached, took_half = slide_within(bearing, goal, side, alpha, 3.0, turning, 0.5 * took)
+    reached, took_half = slide_within(bearing, goal, disc, 0.5 * took)
     assert took_half == 0.5 * took
-    assert 0.0 < (reached - bearing) * way < 0.3
+    assert 0.0 < (reached - bearing) * sense < 0.3
 
 
 LEADER = np.array(
@@ -90,42 +94,40 @@ def flown_leader(alpha: float) -> np.ndarray:
 def test_the_arcs_of_a_ride_keep_their_distance(
     bearing: float, side: float, alpha: float, length: float
 ) -> None:
-    leader, delta, begin = flown_leader(alpha), 3.0, 1.0
+    scene, begin = Scene(flown_leader(alpha), alpha, 3.0, 0.0), 1.0
     assume(contact_exists(bearing, alpha))
-    way = boundary_arc_sense(bearing, side, alpha, delta, 0.0)
-    goal = bearing + way * length
-    arrival = boundary_arc_arrival(leader, begin, bearing, goal, side, alpha, delta)
-    assume(way != 0.0 and arrival < inf)
-    x, y, h = contact_at(leader, begin, bearing, side, alpha, delta)
+    sense = boundary_arc_sense(bearing, disc_on(scene, 0, side))
+    goal = bearing + sense * length
+    arrival = boundary_arc_arrival(scene, begin, bearing, goal, side)
+    assume(sense != 0.0 and arrival < inf)
+    pose = contact_at(scene, begin, bearing, side)
     arcs = np.empty((2 * MAX_NODES, 2))
-    n, ex, ey, eh, et = boundary_arc_pieces(
-        x, y, h, begin, leader, alpha, delta, side, bearing, goal, arcs
-    )
+    n, (ex, ey, eh), et = boundary_arc_pieces(pose, begin, scene, side, bearing, goal, arcs)
     assert et == pytest.approx(arrival, abs=1e-4)
-    gx, gy, gh = contact_at(leader, et, goal, side, alpha, delta)
+    gx, gy, gh = contact_at(scene, et, goal, side)
     assert hypot(ex - gx, ey - gy) < 1e-5
     assert cos(eh - gh) > 1.0 - 1e-12
     t = begin
     for duration, rate in arcs[:n]:
         assert abs(rate) < 1.0 + 1e-3
         for part in (0.5, 1.0):
-            px, py, _ = fly_rate(Pose(x, y, h), rate, part * duration)
-            i = int(np.searchsorted(leader[:, 0], t + part * duration, side="right")) - 1
-            lx, ly, _ = leader_at(Scene(leader, alpha, 0.0, 0.0), i, t + part * duration)
-            assert hypot(px - lx, py - ly) == pytest.approx(delta, abs=1e-6)
-        x, y, h = fly_rate(Pose(x, y, h), rate, duration)
+            px, py, _ = fly_rate(pose, rate, part * duration)
+            i = int(np.searchsorted(scene.leader[:, 0], t + part * duration, side="right")) - 1
+            lx, ly, _ = leader_at(scene, i, t + part * duration)
+            assert hypot(px - lx, py - ly) == pytest.approx(contact_distance(3.0), abs=1e-6)
+        pose = fly_rate(pose, rate, duration)
         t += duration
 
 
 def test_where_the_leader_is_faster_some_bearings_cannot_be_touched() -> None:
     assert not contact_exists(0.0, 1.2)
     assert contact_exists(acos(1.0 / 1.2) + 1e-9, 1.2)
-    assert boundary_arc_sense(0.0, 1.0, 1.2, 2.0, 0.0) == 0.0
+    assert boundary_arc_sense(0.0, Disc(1.2, 2.0, 1.0, 0.0)) == 0.0
 
 
 def test_tangent_contacts_touch() -> None:
     found = np.empty((32, 3))
-    n = tangent_contacts(6.0, 1.0, 2.5, 0.8, 2.0, found)
+    n = tangent_contacts(Pose(6.0, 1.0, 2.5), 0.8, 2.0, found)
     assert n >= 2
     for bearing, side, time in found[:n]:
         assert 0.0 <= bearing < 2.0 * pi

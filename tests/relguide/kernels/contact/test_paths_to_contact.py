@@ -7,35 +7,32 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from relguide.kernels.base.records import Pose, Scene
-from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.base.records import Contact, Pose, Scene
 from relguide.kernels.contact.contact import contact_at
 from relguide.kernels.contact.paths_to_contact import paths_to_contact
 from relguide.kernels.separation.clearance import leader_at
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, fly_piece
 from tests.situations import headings, numbers
 
-ALPHA, DELTA = 0.7, 1.2
+ALPHA, D_MIN = 0.7, 1.2
 
 
-def turning_leader(rate: float, parts: int) -> FloatArray:
+def turning_leader(rate: float, parts: int) -> Scene:
     """A turn of 2.5 R/V_P, in so many pieces, then straight."""
     leader = np.zeros((parts + 1, 5))
     leader[:, 0] = np.linspace(0.0, 2.5, parts + 1)
     leader[:parts, 4] = rate
     leader[0, 1] = 2.0
     for i in range(1, parts + 1):
-        leader[i, 1:4] = leader_at(Scene(leader, ALPHA, 0.0, 0.0), i - 1, leader[i, 0])
-    return leader
+        leader[i, 1:4] = leader_at(Scene(leader, ALPHA, D_MIN, 0.0), i - 1, leader[i, 0])
+    return Scene(leader, ALPHA, D_MIN, 0.0)
 
 
-def ways(
-    start: tuple[float, float, float], leader: FloatArray, *contact: float
-) -> list[list[float]]:
+def paths(start: Pose, scene: Scene, bearing: float, side: float) -> list[list[float]]:
     """Rows to a contact on any piece but the last, in order of time."""
     rows, found = np.empty((MAX_ROWS, 5)), []
-    for i in range(len(leader) - 1):
-        n = paths_to_contact(*start, 0.0, leader, i, ALPHA, DELTA, *contact, rows)
+    for i in range(len(scene.leader) - 1):
+        n = paths_to_contact(start, 0.0, scene, Contact(i, bearing, side), rows)
         found += rows[:n].tolist()
     return sorted(found)
 
@@ -47,18 +44,18 @@ def ways(
 def test_words_to_a_contact_on_a_turn_lead_there_and_none_is_missed(
     x: float, y: float, h: float, bearing: float, side: float, rate: float
 ) -> None:
-    leader = turning_leader(rate, 1)
-    coarse = ways((x, y, h), leader, bearing, side)
+    start, scene = Pose(x, y, h), turning_leader(rate, 1)
+    coarse = paths(start, scene, bearing, side)
     for time, word, *amounts in coarse:
-        px, py, ph = x, y, h
+        end = start
         for sign, amount in zip(SIGNS[int(word)], amounts, strict=True):
-            px, py, ph = fly_piece(Pose(px, py, ph), sign, amount)
-        cx, cy, ch = contact_at(leader, time, bearing, side, ALPHA, DELTA)
+            end = fly_piece(end, sign, amount)
+        there = contact_at(scene, time, bearing, side)
         assert sum(amounts) == pytest.approx(time, abs=1e-8)
-        assert hypot(px - cx, py - cy) < 1e-6
-        assert cos(ph - ch) > 1.0 - 1e-9
+        assert hypot(end.x - there.x, end.y - there.y) < 1e-6
+        assert cos(end.h - there.h) > 1.0 - 1e-9
     # in forty pieces the same turn is looked at forty times as finely
-    fine = ways((x, y, h), turning_leader(rate, 40), bearing, side)
+    fine = paths(start, turning_leader(rate, 40), bearing, side)
     for time, word, *_ in fine:
         nearest = min((abs(time - t) for t, w, *_ in coarse if w == word), default=inf)
         assert nearest < 1e-5, (time, word)

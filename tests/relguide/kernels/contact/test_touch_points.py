@@ -5,7 +5,7 @@ from math import cos, hypot, isnan, pi, sin
 import numpy as np
 import pytest
 
-from relguide.kernels.base.records import Pose
+from relguide.kernels.base.records import Disc, Pose
 from relguide.kernels.contact.contact import contact_heading
 from relguide.kernels.contact.touch_points import (
     boundary_arc_end,
@@ -15,27 +15,32 @@ from relguide.kernels.contact.touch_points import (
 )
 from relguide.kernels.words.extremals import fly_piece
 
-ALPHA, DELTA = 0.8, 2.0
+ALPHA, DISTANCE = 0.8, 2.0
 SAME = 1e-9  # ≈ 1e-5 m at R = 12 km
 
 
-def pose(rng: np.random.Generator) -> tuple[float, float, float]:
+def drawn(rng: np.random.Generator) -> Pose:
     """Somewhere outside of the disc, seen from the leader."""
     away, bearing, h = rng.uniform(2.1, 9.0), rng.uniform(0.0, 2 * pi), rng.uniform(0.0, 2 * pi)
-    return away * cos(bearing), away * sin(bearing), float(h)
+    return Pose(away * cos(bearing), away * sin(bearing), float(h))
 
 
-def flown(start: tuple[float, float, float], *pieces: tuple[float, float]) -> np.ndarray:
+def disc(side: float) -> Disc:
+    """The disc, passed on this side."""
+    return Disc(ALPHA, DISTANCE, side, 0.0)
+
+
+def flown(start: Pose, *pieces: tuple[float, float]) -> np.ndarray:
     """Where pieces of a sign and an amount end, seen from the leader, and the heading there."""
-    x, y, h = start
+    end = start
     for sign, amount in pieces:
-        x, y, h = fly_piece(Pose(x, y, h), sign, amount)
-    return np.array((x - ALPHA * sum(amount for _, amount in pieces), y, h))
+        end = fly_piece(end, sign, amount)
+    return np.array((end.x - ALPHA * sum(amount for _, amount in pieces), end.y, end.h))
 
 
 def touches(end: np.ndarray, bearing: float, side: float) -> None:
     """At the contact of a bearing, tangent to the disc, on its side."""
-    assert end[:2] == pytest.approx((DELTA * cos(bearing), DELTA * sin(bearing)), abs=SAME)
+    assert end[:2] == pytest.approx((DISTANCE * cos(bearing), DISTANCE * sin(bearing)), abs=SAME)
     turned = end[2] - contact_heading(bearing, side, ALPHA)
     assert cos(turned) == pytest.approx(1.0, abs=SAME)
 
@@ -46,8 +51,8 @@ def test_a_turn_and_a_straight_end_in_the_contact(sign: float, side: float) -> N
     rng = np.random.default_rng(1)
     contacts, seen = np.empty((4, 3)), 0
     for _ in range(200):
-        start = pose(rng)
-        for k in range(straight_tangents(*start, ALPHA, DELTA, sign, side, contacts)):
+        start = drawn(rng)
+        for k in range(straight_tangents(start, disc(side), sign, contacts)):
             bearing, turn, straight = contacts[k].tolist()
             touches(flown(start, (sign, turn), (0.0, straight)), bearing, side)
             seen += 1
@@ -59,8 +64,9 @@ def test_next_to_the_disc_hardly_any_tangent_is_overlooked() -> None:
     turns, contacts = np.linspace(0.0, 2.0 * pi, 20001), np.empty((4, 3))
     overlooked = seen = 0
     for _ in range(1500):
-        delta, alpha, h = rng.uniform(0.3, 4.0), rng.uniform(0.5, 0.99), rng.uniform(0.0, 2.0 * pi)
-        away = delta * (1.0 + 10.0 ** rng.uniform(-5.0, -0.5))
+        distance, alpha = rng.uniform(0.3, 4.0), rng.uniform(0.5, 0.99)
+        h = rng.uniform(0.0, 2.0 * pi)
+        away = distance * (1.0 + 10.0 ** rng.uniform(-5.0, -0.5))
         bearing = rng.uniform(0.0, 2.0 * pi)
         px, py = away * cos(bearing), away * sin(bearing)
         sign, side = rng.choice((1.0, -1.0)), rng.choice((1.0, -1.0))
@@ -69,10 +75,10 @@ def test_next_to_the_disc_hardly_any_tangent_is_overlooked() -> None:
         qx = px + sign * (np.sin(heading) - sin(h)) - alpha * turns
         qy = py - sign * (np.cos(heading) - cos(h))
         vx, vy = np.cos(heading) - alpha, np.sin(heading)
-        miss = qx * vy - qy * vx - side * delta * np.hypot(vx, vy)
+        miss = qx * vy - qy * vx - side * distance * np.hypot(vx, vy)
         ahead = -(qx * vx + qy * vy) / (vx * vx + vy * vy)
         there = ((miss[1:] < 0.0) != (miss[:-1] < 0.0)) & (ahead[:-1] > 1e-6)
-        n = straight_tangents(px, py, h, alpha, delta, sign, side, contacts)
+        n = straight_tangents(Pose(px, py, h), Disc(alpha, distance, side, 0.0), sign, contacts)
         overlooked += abs(there.sum() - np.sum(contacts[:n, 2] > 1e-6))
         seen += there.sum()
     assert seen > 1000
@@ -85,9 +91,9 @@ def test_two_turns_end_in_the_contact(sign: float, side: float) -> None:
     rng = np.random.default_rng(2)
     seen = 0
     for _ in range(300):
-        start = pose(rng)
+        start = drawn(rng)
         guess = rng.uniform(0.3, 5.0, 2).tolist()
-        bearing, first, second = turn_tangent(*start, ALPHA, DELTA, sign, side, *guess)
+        bearing, first, second = turn_tangent(start, disc(side), sign, *guess)
         if isnan(first):
             continue
         touches(flown(start, (sign, first), (-sign, second)), bearing, side)
@@ -98,12 +104,9 @@ def test_two_turns_end_in_the_contact(sign: float, side: float) -> None:
 @pytest.mark.parametrize("side", [1.0, -1.0])
 def test_where_a_ride_ends_a_straight_and_a_turn_lead_to_the_slot(side: float) -> None:
     slot = 2.9
-    bearing, straight, turn = boundary_arc_end(slot, ALPHA, DELTA, side)
-    start = (
-        DELTA * cos(bearing),
-        DELTA * sin(bearing),
-        contact_heading(bearing, side, ALPHA),
-    )
+    bearing, straight, turn = boundary_arc_end(slot, disc(side))
+    course = contact_heading(bearing, side, ALPHA)
+    start = Pose(DISTANCE * cos(bearing), DISTANCE * sin(bearing), course)
     x, y, h = flown(start, (0.0, straight), (side, turn))
     assert hypot(x + slot, y) < SAME
     assert cos(h) == pytest.approx(1.0, abs=SAME)
@@ -114,10 +117,10 @@ def test_the_next_contact_is_another_on_the_same_side(side: float) -> None:
     contact, seen = np.empty(3), 0
     for bearing in np.linspace(0.0, 2.0 * pi, 90, endpoint=False).tolist():
         course = contact_heading(bearing, side, ALPHA)
-        if not next_contact(bearing, side, ALPHA, DELTA, course, contact):
+        if not next_contact(bearing, disc(side), course, contact):
             continue
         there, turn, straight = contact.tolist()
-        start = (DELTA * cos(bearing), DELTA * sin(bearing), course)
+        start = Pose(DISTANCE * cos(bearing), DISTANCE * sin(bearing), course)
         touches(flown(start, (side, turn), (0.0, straight)), there, side)
         assert turn > 0.01
         seen += 1

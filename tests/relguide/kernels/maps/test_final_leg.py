@@ -46,7 +46,7 @@ def test_it_says_what_the_windows_say(turns: bool, limit: float) -> None:
                 cheap = keeps_clear(
                     start_at(Pose(x, y, h)), 0.0, row, alpha * row[0], scene, longest
                 )
-                assert cheap == word_clears(x, y, h, 0.0, row, leader, alpha, limit), (x, y, h)
+                assert cheap == word_clears(Pose(x, y, h), 0.0, row, scene), (x, y, h)
                 said.append(cheap)
     assert 0.1 < np.mean(said) < 0.98
 

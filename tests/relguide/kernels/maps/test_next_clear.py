@@ -30,11 +30,9 @@ def test_it_is_the_first_that_clears(turns: bool, alpha: float) -> None:
         rng.uniform((-5.0, -5.0, 0.0), (7.0, 5.0, 2.0 * pi), (4000, 3)).tolist()
     ):
         n = solve(Pose(x, y, h), alpha, opens, rows)
-        if n == 0 or word_clears(x, y, h, 0.0, rows[0], leader, alpha, limit):
+        if n == 0 or word_clears(Pose(x, y, h), 0.0, rows[0], scene):
             continue
-        expected = [
-            row for row in rows[1:n] if word_clears(x, y, h, 0.0, row, leader, alpha, limit)
-        ]
+        expected = [row for row in rows[1:n] if word_clears(Pose(x, y, h), 0.0, row, scene)]
         row = rows[0].copy()
         # the hint may be right or wrong
         start = start_at(Pose(x, y, h))

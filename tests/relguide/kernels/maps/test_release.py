@@ -79,7 +79,7 @@ def test_a_path_that_clears_is_one_of_the_many_families(limit: float) -> None:
         before = (signs[:n, 0] == 0.0) & (amounts[:n, 4] == 0.0) & turns
         behind = (signs[:n, 0] == 0.0) & (amounts[:n, 0] == 0.0) & turns
         simple = [
-            pieces_clear(x, y, h, 0.0, signs[i], amounts[i], leader, alpha, limit)
+            pieces_clear(Pose(x, y, h), 0.0, signs[i], amounts[i], scene)
             for i in np.flatnonzero(before | behind)
         ]
         if found:
@@ -87,7 +87,7 @@ def test_a_path_that_clears_is_one_of_the_many_families(limit: float) -> None:
             word_signs = SIGNS[int(ROW[1])].tolist()
             assert any(
                 ends(x, y, h, *pieces) == pytest.approx((alpha * opens, 0.0, 0.0), abs=1e-6)
-                and pieces_clear(x, y, h, 0.0, *pieces, leader, alpha, limit)
+                and pieces_clear(Pose(x, y, h), 0.0, *pieces, scene)
                 for pieces in (
                     (np.array([0.0, *word_signs]), np.array(straight + word)),
                     (np.array([*word_signs, 0.0]), np.array(word + straight)),
@@ -114,6 +114,6 @@ def test_a_word_that_begins_later_is_flown_later() -> None:
                 continue
             row = np.array((length, branch, *PIECE))
             clears = keeps_clear(start_at(Pose(x, y, h)), t, row, end_x, scene, longest)
-            assert clears == pieces_clear(x, y, h, t, SIGNS[branch], PIECE, leader, alpha, 1.2)
+            assert clears == pieces_clear(Pose(x, y, h), t, SIGNS[branch], PIECE, scene)
             said.append(clears)
     assert 0.1 < np.mean(said) < 0.95

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from relguide.kernels.contact.constrained_rows import exact_constrained
-from relguide.kernels.contact.passage import GRAZE
+from relguide.kernels.contact.contact import contact_distance
 from relguide.kernels.networks.near_guess import descend
 from relguide.kernels.networks.template_solutions import solve_template
 from relguide.kernels.networks.templates import PARTS, TEMPLATES, template_of
@@ -38,6 +38,6 @@ def test_a_way_at_an_edge_is_found_from_a_guess_beside(
     room = np.empty((16, 4)), np.empty((16, 5)), np.zeros((2, 5)), np.zeros(5)
     bearing = np.arctan2(guess[1], guess[0])
     valley, _ = descend(
-        x, y, h, slot, alpha, limit + GRAZE, bearing, side, entry, on, np.zeros(2), *room
+        x, y, h, slot, alpha, contact_distance(limit), bearing, side, entry, on, np.zeros(2), *room
     )
     assert abs(valley - times[0, 2]) > 1e-6

@@ -6,7 +6,7 @@ from math import cos, hypot, sin
 import numpy as np
 import pytest
 
-from relguide.kernels.base.records import Pose
+from relguide.kernels.base.records import Disc, Pose
 from relguide.kernels.contact.chain import BOUNDARY_ARC
 from relguide.kernels.contact.constrained_rows import exact_constrained
 from relguide.kernels.contact.contact import contact_heading, slide_within
@@ -109,7 +109,7 @@ def test_ways_arrive_and_keep_the_limit() -> None:
                 _, side, first, last = leg[:4]
                 delta = hypot(x - slot - alpha * t, y)
                 assert delta > limit - SLACK
-                t += slide_within(first, last, side, alpha, delta, 0.0, np.inf)[1]
+                t += slide_within(first, last, Disc(alpha, delta, side, 0.0), np.inf)[1]
                 x, y = slot + alpha * t + delta * cos(last), delta * sin(last)
                 h = contact_heading(last, side, alpha)
                 continue
