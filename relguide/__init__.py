@@ -18,14 +18,18 @@ import importlib
 import typing
 
 from relguide.kernels import cache
+from relguide.planning.arrival import Arrival as Arrival
 from relguide.planning.certificate import Certificate as Certificate
 from relguide.planning.certificate import certify as certify
+from relguide.planning.extras import with_command as _with_command
 from relguide.planning.plan import NoPlan as NoPlan
+from relguide.planning.plan import Optimality as Optimality
 from relguide.planning.plan import Plan as Plan
 from relguide.planning.plan import Planner as Planner
 from relguide.planning.plan import Reason as Reason
 from relguide.planning.plan import plan as plan
 from relguide.planning.progress import progress_bar as progress_bar
+from relguide.planning.sampling import Samples as Samples
 from relguide.planning.situation import CALM as CALM
 from relguide.planning.situation import FlyStraight as FlyStraight
 from relguide.planning.situation import Leader as Leader
@@ -45,9 +49,33 @@ from relguide.planning.words import Candidate as Candidate
 from relguide.planning.words import candidates as candidates
 
 if typing.TYPE_CHECKING:
+    from relguide.contract.recorder import record as record
+    from relguide.contract.recorder import replay as replay
+    from relguide.flying.documents import Document as Document
+    from relguide.flying.documents import FlightEnded as FlightEnded
+    from relguide.flying.documents import FlightStarted as FlightStarted
+    from relguide.flying.documents import LeaderChanged as LeaderChanged
+    from relguide.flying.documents import LeaderRoute as LeaderRoute
+    from relguide.flying.documents import ModeChanged as ModeChanged
+    from relguide.flying.documents import PlanChanged as PlanChanged
+    from relguide.flying.documents import PlanRefused as PlanRefused
+    from relguide.flying.documents import PlanUnavailable as PlanUnavailable
+    from relguide.flying.documents import Sample as Sample
+    from relguide.flying.flight import DeclaredLeader as DeclaredLeader
+    from relguide.flying.flight import Scenario as Scenario
+    from relguide.flying.flight import fly as fly
+    from relguide.flying.scenarios import own_scenario as own_scenario
+    from relguide.flying.scenarios import scenario as scenario
+    from relguide.flying.scenarios import scenario_behind as scenario_behind
+    from relguide.flying.tracks import RecordedTrack as RecordedTrack
+    from relguide.flying.tracks import load_track as load_track
+    from relguide.maps.isochrones import Grid as Grid
+    from relguide.maps.isochrones import Isochrones as Isochrones
+    from relguide.maps.isochrones import isochrones as isochrones
     from relguide.planning.alternatives import Alternative as Alternative
     from relguide.planning.alternatives import alternatives as alternatives
     from relguide.planning.batch import Situations as Situations
+    from relguide.planning.batch import TimeRow as TimeRow
     from relguide.planning.batch import Times as Times
     from relguide.planning.batch import plan_arrays as plan_arrays
     from relguide.planning.optimality import OptimalityReport as OptimalityReport
@@ -57,9 +85,33 @@ if typing.TYPE_CHECKING:
 __version__ = "0.1.0"
 
 _ON_DEMAND = {
+    "record": "relguide.contract.recorder",
+    "replay": "relguide.contract.recorder",
+    "Document": "relguide.flying.documents",
+    "FlightEnded": "relguide.flying.documents",
+    "FlightStarted": "relguide.flying.documents",
+    "LeaderChanged": "relguide.flying.documents",
+    "LeaderRoute": "relguide.flying.documents",
+    "ModeChanged": "relguide.flying.documents",
+    "PlanChanged": "relguide.flying.documents",
+    "PlanRefused": "relguide.flying.documents",
+    "PlanUnavailable": "relguide.flying.documents",
+    "Sample": "relguide.flying.documents",
+    "DeclaredLeader": "relguide.flying.flight",
+    "Scenario": "relguide.flying.flight",
+    "fly": "relguide.flying.flight",
+    "own_scenario": "relguide.flying.scenarios",
+    "scenario_behind": "relguide.flying.scenarios",
+    "scenario": "relguide.flying.scenarios",
+    "RecordedTrack": "relguide.flying.tracks",
+    "load_track": "relguide.flying.tracks",
+    "Grid": "relguide.maps.isochrones",
+    "Isochrones": "relguide.maps.isochrones",
+    "isochrones": "relguide.maps.isochrones",
     "Alternative": "relguide.planning.alternatives",
     "alternatives": "relguide.planning.alternatives",
     "Situations": "relguide.planning.batch",
+    "TimeRow": "relguide.planning.batch",
     "Times": "relguide.planning.batch",
     "plan_arrays": "relguide.planning.batch",
     "OptimalityReport": "relguide.planning.optimality",
@@ -74,21 +126,40 @@ __all__ = [
     "RIGHT",
     "Alternative",
     "Arc",
+    "Arrival",
     "BoundaryArc",
     "Candidate",
     "Certificate",
+    "DeclaredLeader",
+    "Document",
+    "FlightEnded",
+    "FlightStarted",
     "FlyStraight",
+    "Grid",
+    "Isochrones",
     "Leader",
+    "LeaderChanged",
+    "LeaderRoute",
+    "ModeChanged",
     "NoPlan",
+    "Optimality",
     "OptimalityReport",
     "Plan",
+    "PlanChanged",
+    "PlanRefused",
+    "PlanUnavailable",
     "Planner",
     "Pose",
     "Pursuer",
     "Reason",
+    "RecordedTrack",
+    "Sample",
+    "Samples",
+    "Scenario",
     "Situation",
     "Situations",
     "Straight",
+    "TimeRow",
     "Times",
     "Trajectory",
     "TurnTo",
@@ -97,10 +168,18 @@ __all__ = [
     "candidates",
     "certify",
     "check",
+    "fly",
+    "isochrones",
+    "load_track",
+    "own_scenario",
     "plan",
     "plan_arrays",
     "progress_bar",
     "prove",
+    "record",
+    "replay",
+    "scenario",
+    "scenario_behind",
     "wind_from",
 ]
 
@@ -109,7 +188,11 @@ def __getattr__(name: str) -> typing.Any:
     """Load what is used beside `plan` when it is."""
     if name not in _ON_DEMAND:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    value = getattr(importlib.import_module(_ON_DEMAND[name]), name)
+    try:
+        module = importlib.import_module(_ON_DEMAND[name])
+    except ModuleNotFoundError as error:
+        raise _with_command(error) from None
+    value = getattr(module, name)
     globals()[name] = value
     return value
 

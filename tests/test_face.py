@@ -18,7 +18,10 @@ def test_all_is_sorted_and_complete() -> None:
 
 
 def test_import_is_light() -> None:
-    heavy = ("torch", "pydantic", "fastapi", "viser", "uvicorn", "relguide_server")
+    heavy = (
+        "torch", "pydantic", "orjson", "fastapi", "viser", "uvicorn", "relguide_server",
+        "relguide.flying", "relguide.maps", "relguide.contract",
+    )  # fmt: skip
     code = f"import relguide, sys; sys.exit(' '.join(m for m in {heavy} if m in sys.modules) or 0)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert done.returncode == 0, f"import relguide loads {done.stderr.strip()}"
@@ -31,19 +34,25 @@ def test_what_is_used_beside_plan_is_loaded_when_asked_for() -> None:
         import relguide
 
         later = {
-            "alternatives": ("Alternative", "alternatives"),
-            "batch": ("Situations", "Times", "plan_arrays"),
-            "optimality": ("OptimalityReport", "check"),
-            "prove": ("prove",),
+            "planning.alternatives": ("Alternative", "alternatives"),
+            "planning.batch": ("Situations", "TimeRow", "Times", "plan_arrays"),
+            "planning.optimality": ("OptimalityReport", "check"),
+            "planning.prove": ("prove",),
+            "flying.flight": ("DeclaredLeader", "Scenario", "fly"),
+            "flying.scenarios": ("own_scenario", "scenario", "scenario_behind"),
+            "flying.tracks": ("RecordedTrack", "load_track"),
+            "flying.documents": ("FlightEnded", "PlanChanged", "PlanRefused", "Sample"),
+            "contract.recorder": ("record", "replay"),
+            "maps.isochrones": ("Grid", "Isochrones", "isochrones"),
         }
         assert set(relguide.__all__) <= set(dir(relguide)), "dir() leaves a name out"
         for module in later:
-            assert f"relguide.planning.{module}" not in sys.modules, f"{module} is loaded"
+            assert f"relguide.{module}" not in sys.modules, f"{module} is loaded"
         for module, names in later.items():
             for name in names:
                 found = getattr(relguide, name)
                 assert found.__name__ == name, f"{name} is {found}"
-                assert found.__module__ == f"relguide.planning.{module}", f"{name} is not its"
+                assert found.__module__ == f"relguide.{module}", f"{name} is not its"
                 assert name in vars(relguide), f"{name} is looked up each time"
         assert all(hasattr(relguide, name) for name in relguide.__all__)
     """

@@ -84,13 +84,13 @@ def run(chosen: argparse.Namespace) -> int:
 
 
 def _scenario(name: str) -> "Scenario":
-    from relguide.flying.scenarios import own_scenario, recorded, scenario
+    from relguide.flying.scenarios import own_scenario, scenario, scenario_behind
 
     path = Path(name)
     if path.suffix == ".csv":
-        from relguide.flying.tracks import load_csv
+        from relguide.flying.tracks import load_track
 
-        return recorded(load_csv(path))
+        return scenario_behind(load_track(path))
     if path.suffix == ".json" or name == "-" or path.is_file():
         situation, _, _ = read_situation(name)
         title = (

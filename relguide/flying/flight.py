@@ -7,7 +7,7 @@ Everything else that flies a plan, live or not, iterates over these documents.
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
-from math import hypot, isfinite
+from math import hypot
 from typing import Literal, assert_never
 
 from relguide.flying.aircraft import A300, AircraftModel, AircraftState
@@ -36,13 +36,21 @@ from relguide.flying.orders import no_commands as no_commands
 from relguide.flying.tracks import RecordedTrack
 from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.base.turn import turn_rate
+from relguide.planning.inputs import expect, expect_function, number, text, truth, whole, within
+from relguide.planning.limits import MAX_TAS, MIN_TAS
 from relguide.planning.plan import Plan, Planner
-from relguide.planning.situation import MAX_TAS, MIN_TAS, Situation, TurnTo
+from relguide.planning.situation import Situation, TurnTo
 from relguide.units import DEG, KT, Metre, MetrePerSecond, Radian, RadianPerSecond, Second
 
 ROUTE_TURNED: Radian = 1.0 * DEG  # a route drawn a degree off is 2 % of its length beside the truth
 ROUTE_SPEED: MetrePerSecond = 2.0 * KT  # what the display rounds to
 TURN_OVER: RadianPerSecond = 0.1 * DEG
+
+
+TEXTS = ("name", "title", "description", "pursuer_ident", "leader_ident", "leader_type")
+"""Fields of a scenario for people."""
+ALTITUDES: tuple[Metre, Metre] = (-500.0, 30_000.0)
+"""Where aircraft fly [m]: from below the Dead Sea's shore to above any of them."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -76,10 +84,16 @@ class Scenario:
     """How long it goes on once joined [s]."""
 
     def __post_init__(self) -> None:
-        """Refuse times that are none."""
-        if not (isfinite(self.duration_limit) and self.duration_limit > 0.0):
+        """Refuse what cannot be flown."""
+        for name in TEXTS:
+            text(name, getattr(self, name))
+        expect("situation", self.situation, Situation)
+        expect("leader_source", self.leader_source, DeclaredLeader, RecordedTrack)
+        truth("intent_known", self.intent_known)
+        within("altitude", self.altitude, *ALTITUDES, "m")
+        if number("duration_limit", self.duration_limit) <= 0.0:
             raise ValueError(f"duration_limit must be above 0 s, not {self.duration_limit}.")
-        if not self.after_joining >= 0.0:
+        if number("after_joining", self.after_joining) < 0.0:
             raise ValueError(f"after_joining must be 0 s or more, not {self.after_joining}.")
 
 
@@ -104,9 +118,13 @@ def fly(
         seed: written into the first document; nothing is random yet.
 
     Yields:
-        `FlightStarted` first, `FlightEnded` last.
+        `FlightStarted` first, `FlightEnded` last. What the planner raises comes out as it is.
     """
-    a_second, a_sample = _whole(1.0, step), _whole(sample_period, step)
+    expect("scenario", scenario, Scenario)
+    expect_function("planner", planner)
+    expect_function("commands", commands)
+    seed, step = whole("seed", seed, 0), number("step", step)
+    a_second, a_sample = _whole(1.0, step), _whole(number("sample_period", sample_period), step)
     return _fly(scenario, planner, commands, step, a_second, a_sample, seed)
 
 

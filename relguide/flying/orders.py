@@ -8,7 +8,7 @@ from typing import Literal, assert_never
 from relguide.flying.documents import LeaderChanged
 from relguide.flying.leader import LeaderFlight, TurnChoice, set_leader_speed, turn_leader
 from relguide.kernels.base.angles import wrap
-from relguide.planning.situation import MAX_TAS, MIN_TAS
+from relguide.planning.limits import MAX_TAS, MIN_TAS
 from relguide.units import DEG, KT, MetrePerSecond, Radian, Second
 
 

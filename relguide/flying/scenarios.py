@@ -21,6 +21,7 @@ from math import cos, sin
 
 from relguide.flying.flight import Scenario
 from relguide.flying.tracks import DEFAULT_LEADER, INSTALL, RecordedTrack, load_sample
+from relguide.planning.inputs import expect, number
 from relguide.planning.situation import CALM, FlyStraight, Leader, Pursuer, Situation, TurnTo
 from relguide.planning.trajectory import RIGHT
 from relguide.units import DEG, NM, Metre, Second
@@ -80,14 +81,18 @@ def fig_6(*, intent_known: bool, leader_turns_at: Second = LEADER_TURNS_AT) -> S
     )
 
 
-def recorded(track: RecordedTrack, *, behind: Metre = BEHIND, abeam: Metre = ABEAM) -> Scenario:
-    """A recorded leader, and a pursuer 20 % faster behind it and to its left.
+def scenario_behind(
+    track: RecordedTrack, *, behind: Metre = BEHIND, abeam: Metre = ABEAM
+) -> Scenario:
+    """A flight behind a recorded leader, by a pursuer 20 % faster, behind it and to its left.
 
     Args:
         track: the leader; its heading and speed changes come as they were flown, unannounced.
         behind: where the pursuer begins, back along the leader's first track [m].
         abeam: and to the left of it [m].
     """
+    expect("track", track, RecordedTrack)
+    behind, abeam = number("behind", behind), number("abeam", abeam)
     first = track.state_at(0.0)
     along_x, along_y = sin(first.track), cos(first.track)
     speed = 1.2 * max(first.ground_speed, *(track.state_at(t).ground_speed for t in (60.0, 180.0)))
@@ -122,6 +127,7 @@ def scenario(name: str) -> Scenario:
     Raises:
         ValueError: if there is none, or its data is not installed, in a sentence.
     """
+    expect("name", name, str)
     if name not in SCENARIOS:
         raise ValueError(f"There is no scenario {name!r}; there are {', '.join(SCENARIOS)}.")
     return SCENARIOS[name].build()
@@ -171,7 +177,7 @@ SCENARIOS: Mapping[str, NamedScenario] = {
     for name, build, missing in (
         ("fig_6a", lambda: fig_6(intent_known=False), _nothing_missing),
         ("fig_6b", lambda: fig_6(intent_known=True), _nothing_missing),
-        ("recorded_leader", lambda: recorded(load_sample(DEFAULT_LEADER)), _samples_missing),
+        ("recorded_leader", lambda: scenario_behind(load_sample(DEFAULT_LEADER)), _samples_missing),
     )
 }
 """All of them, by name."""

@@ -151,7 +151,7 @@ def load_sample(callsign: str, collection: str = QUICKSTART) -> RecordedTrack:
     return _track(callsign, aircraft_type, numbers, f"{callsign} of {collection}")
 
 
-def load_csv(path: Path | str, callsign: str = "") -> RecordedTrack:
+def load_track(path: Path | str, callsign: str = "") -> RecordedTrack:
     """A track from a CSV file as OpenSky and traffic write them.
 
     Columns: timestamp (UTC: ISO 8601, or seconds since 1970), icao24, callsign, latitude, longitude

@@ -36,8 +36,9 @@ from relguide.kernels.words.extremals import WORDS
 from relguide.maps.constrained_times import CONSTRAINED, between_nodes, search_nodes
 from relguide.maps.contours import Contour, Evaluate, Field, Floats, Region, contours, regions
 from relguide.planning.constrained_path import leader_table
-from relguide.planning.inputs import expect, number, within
-from relguide.planning.situation import MAX_POSITION, Situation
+from relguide.planning.inputs import expect, expect_function, number, truth, whole, within
+from relguide.planning.limits import MAX_POSITION
+from relguide.planning.situation import Situation
 from relguide.planning.slot import SlotFrame, slot_frame
 from relguide.planning.words import HORIZON
 from relguide.units import Metre, Millisecond, Second
@@ -148,8 +149,16 @@ def isochrones(
         progress: called with the number of nodes searched since the last call.
     """
     expect("situation", situation, Situation)
+    exact = truth("exact", exact)
+    if threads is not None:
+        threads = whole("threads", threads, 1)
+    if evaluate is not None:
+        expect_function("evaluate", evaluate)
+    expect_function("progress", progress)
+    if grid is None:
+        grid = grid_around(situation)
+    expect("grid", grid, Grid)
     started = perf_counter_ns()
-    grid = grid or grid_around(situation)
     levels = check_levels(levels)
     evaluate = evaluate or times_around(situation, threads=threads)
     x, y = grid.axes
@@ -197,6 +206,7 @@ def check_levels(levels: Sequence[Second]) -> tuple[Second, ...]:
     Raises:
         ValueError: if one is no time, or there are too many.
     """
+    expect("levels", levels, tuple, list)
     if len(levels) > MAX_LEVELS:
         raise ValueError(f"There must be at most {MAX_LEVELS} levels, not {len(levels)}.")
     return tuple(sorted({within("A level", level, 0.0, HORIZON, "s") for level in levels}))

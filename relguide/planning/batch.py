@@ -10,7 +10,9 @@ and the answer, 18 bytes a situation, there are some 40 MB.
 from collections.abc import Callable
 from dataclasses import dataclass, fields
 from math import inf
+from numbers import Integral
 from os import cpu_count
+from typing import Any, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,10 +20,11 @@ from numpy.typing import ArrayLike, NDArray
 from relguide.kernels.base.turn import turn_radii
 from relguide.kernels.contact import time_rows as kernel
 from relguide.kernels.words.extremals import WORDS
-from relguide.planning import situation as limits
+from relguide.planning import limits
 from relguide.planning.constrained_path import BEARINGS
 from relguide.planning.inputs import expect, expect_function, truth, whole
 from relguide.planning.words import HORIZON
+from relguide.units import Second
 
 Floats = NDArray[np.float64]
 CHUNK = 512
@@ -84,18 +87,64 @@ class Situations:
         return columns
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+class TimeRow(NamedTuple):
+    """The answer to one of `Situations`."""
+
+    time_to_converge: Second
+    lower_bound: Second
+    verdict: str
+    word: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
 class Times:
-    """Answers to `Situations`, row by row."""
+    """Answers to `Situations`, row by row: columns of one length n.
+
+    `times[7]` is a row, `times[7:9]` and `times[times.planned]` are those rows as columns again.
+    """
 
     time_to_converge: Floats
-    """T [s]; infinite where there is no plan."""
+    """T [s]; infinite where there is no plan. shape (n,)"""
     lower_bound: Floats
-    """No plan that keeps d_min is faster [s]; infinite where the slot is out of reach."""
+    """No plan that keeps d_min is faster [s]; infinite if the slot is out of reach. shape (n,)"""
     verdicts: NDArray[np.int8]
-    """Numbers of `VERDICTS`."""
+    """Numbers of `VERDICTS`. shape (n,)"""
     words: NDArray[np.int8]
-    """Numbers of `NAMES`."""
+    """Numbers of `NAMES`. shape (n,)"""
+
+    def __len__(self) -> int:
+        return len(self.verdicts)
+
+    @overload
+    def __getitem__(self, rows: int) -> TimeRow: ...
+    @overload
+    def __getitem__(self, rows: slice | NDArray[np.bool_] | NDArray[np.intp]) -> "Times": ...
+    def __getitem__(
+        self, rows: int | slice | NDArray[np.bool_] | NDArray[np.intp]
+    ) -> "TimeRow | Times":
+        """One row by its number, or some by a slice, a mask or their numbers."""
+        if isinstance(rows, Integral):
+            return TimeRow(
+                float(self.time_to_converge[rows]),
+                float(self.lower_bound[rows]),
+                VERDICTS[self.verdicts[rows]],
+                NAMES[self.words[rows]],
+            )
+        return Times(**{f.name: getattr(self, f.name)[rows] for f in fields(self)})
+
+    def __repr__(self) -> str:
+        planned = self.time_to_converge[self.planned]
+        span = f", {planned.min():.1f} … {planned.max():.1f} s" if len(planned) else ""
+        return f"Times({len(self)} situations, {len(planned)} with a plan{span})"
+
+    def to_dict(self) -> dict[str, NDArray[Any]]:
+        """Columns by name, as data frames and savez take them; verdict and word as text."""
+        return {
+            "time_to_converge": self.time_to_converge,
+            "lower_bound": self.lower_bound,
+            "verdict": self.verdict,
+            "word": self.word,
+        }
 
     @property
     def planned(self) -> NDArray[np.bool_]:

@@ -55,6 +55,17 @@ def whole(name: str, value: object, low: int) -> int:
     raise ValueError(f"{name} must be a whole number of {low} or more, not {_shown(value)}.")
 
 
+def text(name: str, value: object) -> str:
+    """A text.
+
+    Raises:
+        ValueError: for anything else.
+    """
+    if isinstance(value, str):
+        return value
+    raise ValueError(f"{name} must be a text, not {_shown(value)}.")
+
+
 def truth(name: str, value: object) -> bool:
     """A truth value, numpy's too.
 

@@ -7,12 +7,14 @@ from math import hypot
 from time import perf_counter_ns
 from typing import Literal
 
+from numpy.typing import ArrayLike
+
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.separation.clearance import SLACK
 from relguide.planning.arrival import Arrival, arrival
-from relguide.planning.certificate import Certificate, judge
+from relguide.planning.certificate import Certificate, certify, judge
 from relguide.planning.constrained_path import constrained_path
-from relguide.planning.inputs import expect
+from relguide.planning.inputs import expect, number
 from relguide.planning.least_bad import (
     least_bad,
     least_bad_sentence,
@@ -20,10 +22,11 @@ from relguide.planning.least_bad import (
     restore_sentence,
 )
 from relguide.planning.phrases import distance
+from relguide.planning.sampling import Samples
 from relguide.planning.situation import Situation
 from relguide.planning.straight_ahead import first_candidate
 from relguide.planning.tables import bends_of, leader_bends
-from relguide.planning.trajectory import Trajectory
+from relguide.planning.trajectory import Trajectory, pieces_text
 from relguide.planning.words import HORIZON, Candidate, Candidates, candidates
 from relguide.units import KT, Metre, Millisecond, Second
 
@@ -51,7 +54,7 @@ class Optimality:
     """No plan that keeps d_min is faster than this [s]."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Plan:
     """A certified trajectory to the slot."""
 
@@ -84,6 +87,55 @@ class Plan:
     def time_to_converge(self) -> Second:
         """T: when the pursuer is at the slot, on the leader's heading [s]."""
         return self.trajectory.duration
+
+    @classmethod
+    def from_trajectory(
+        cls,
+        trajectory: Trajectory,
+        situation: Situation,
+        *,
+        planner: str,
+        lower_bound: Second = 0.0,
+    ) -> "Plan":
+        """What a planner of one's own answers: its trajectory, with a certificate made for it.
+
+        Whether it may be flown is judged where it is: `certificate.holds` and `arrival.holds` say
+        what will be found.
+
+        Args:
+            trajectory: in the air mass, from the pursuer's present state to the slot.
+            situation: what was asked about.
+            planner: its name, 1 to 40 printable characters.
+            lower_bound: no plan that keeps d_min is faster, if anything is known of that [s].
+        """
+        certificate, bound = certify(trajectory, situation), number("lower_bound", lower_bound)
+        return cls(
+            situation=situation,
+            trajectory=trajectory,
+            word=trajectory.letters,
+            certificate=certificate,
+            optimality=Optimality(proof="bound" if bound > 0.0 else "none", lower_bound=bound),
+            planner=planner,
+        )
+
+    def sample(self, t: ArrayLike) -> Samples:
+        """Where the pursuer is at many times at once, as `Trajectory.sample`."""
+        return self.trajectory.sample(t)
+
+    def over_ground(self, t: ArrayLike | None = None) -> Samples:
+        """The same over the ground, in the situation's wind, as `Trajectory.over_ground`."""
+        return self.trajectory.over_ground(self.situation.wind, t)
+
+    def __repr__(self) -> str:
+        """Three lines: the way, the separation, the proof."""
+        found, proof = self.certificate, self.optimality
+        return (
+            f"Plan({self.word} by {self.planner}: joins in {self.time_to_converge:.1f} s, "
+            f"{pieces_text(self.trajectory)},\n"
+            f"     least separation {found.least_separation:.1f} m at {found.at_time:.1f} s, "
+            f"proved above {found.lower_bound:.1f} m,\n"
+            f"     proof: {proof.proof}, no plan is faster than {proof.lower_bound:.1f} s)"
+        )
 
     @property
     def arrival(self) -> Arrival:

@@ -2,7 +2,7 @@
 
 A `Situation` is data and its own judge: what cannot be flown is refused when it is made, with a
 sentence that says what would be right, always by a `ValueError`. What may be flown is bounded on
-all sides (the constants below), and with it the work that a plan takes. Positions and headings are
+all sides (see `limits`), and with it the work that a plan takes. Positions and headings are
 of the world frame (x east, y north, heading clockwise from north), at t = 0, over the ground.
 """
 
@@ -13,27 +13,24 @@ from typing import Literal
 from relguide.kernels.base.angles import turn_to
 from relguide.kernels.base.turn import turn_radius
 from relguide.planning.inputs import expect, number, turn_sign, within
-from relguide.planning.trajectory import Arc, Segment, Straight, Trajectory, Turn
-from relguide.units import DEG, Metre, MetrePerSecond, Radian, Second
-
-MIN_TAS, MAX_TAS = 30.0, 400.0
-"""Accepted true airspeeds [m/s]."""
-MIN_BANK, MAX_BANK = 1.0 * DEG, 60.0 * DEG
-"""Accepted bank angles [rad]."""
-MAX_POSITION = 1_000_000.0
-"""Largest accepted |x| and |y| [m]."""
-MAX_HEADING = 1e6
-"""Largest accepted |heading| [rad]: above it the last digit of a float is worth more than 1e-10."""
-MAX_SLOT_DISTANCE = 200_000.0
-"""Largest accepted D [m]."""
-MAX_WIND = 150.0
-"""Largest accepted wind speed [m/s]: above the strongest jet streams on record."""
-MIN_HEADWAY = 1.0
-"""Least ground speed of the leader on its final leg [m/s]: below it has no ground track."""
-MAX_PIECE = 86_400.0
-"""Longest straight piece of an intent [s]."""
-MAX_PIECES = 20
-"""Most pieces an intent may have."""
+from relguide.planning.limits import (
+    MAX_BANK,
+    MAX_HEADING,
+    MAX_PIECE,
+    MAX_PIECES,
+    MAX_POSITION,
+    MAX_SLOT_DISTANCE,
+    MAX_TAS,
+    MIN_BANK,
+    MIN_HEADWAY,
+    MIN_TAS,
+)
+from relguide.planning.reprs import as_code
+from relguide.planning.trajectory import LEFT, RIGHT, Arc, Segment, Straight, Trajectory, Turn
+from relguide.planning.wind import CALM as CALM
+from relguide.planning.wind import Wind as Wind
+from relguide.planning.wind import wind_from as wind_from
+from relguide.units import DEG, KT, NM, Metre, MetrePerSecond, Radian, Second
 
 
 def _settle(piece: object, name: str, value: object) -> None:
@@ -59,7 +56,7 @@ def _bank(name: str, value: object) -> float:
     return bank
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Pursuer:
     """The aircraft we guide, at t = 0."""
 
@@ -74,10 +71,25 @@ class Pursuer:
     max_bank: Radian
     """φ_max, the bank its turns are flown at [rad]."""
 
+    __repr__ = as_code
+
     def __post_init__(self) -> None:
         """Refuse what cannot be flown."""
         _settle_aircraft("pursuer", self)
         _settle(self, "max_bank", _bank("pursuer.max_bank", self.max_bank))
+
+    @classmethod
+    def from_display(
+        cls, *, x_nm: float, y_nm: float, heading_deg: float, tas_kt: float, max_bank_deg: float
+    ) -> "Pursuer":
+        """In the units of aviation: nautical miles east and north, degrees, knots."""
+        return cls(
+            x=x_nm * NM,
+            y=y_nm * NM,
+            heading=heading_deg * DEG,
+            tas=tas_kt * KT,
+            max_bank=max_bank_deg * DEG,
+        )
 
     @property
     def turn_radius(self) -> float:
@@ -89,7 +101,7 @@ class Pursuer:
         return Trajectory(x=self.x, y=self.y, heading=self.heading, tas=self.tas, segments=segments)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class FlyStraight:
     """A piece of intent: keep the heading for a while."""
 
@@ -97,13 +109,15 @@ class FlyStraight:
     """How long [s], ≥ 0."""
     kind: Literal["straight"] = "straight"
 
+    __repr__ = as_code
+
     def __post_init__(self) -> None:
         """Refuse a duration that is not one."""
         duration = within("intent straight.duration", self.duration, 0.0, MAX_PIECE, "s")
         _settle(self, "duration", max(duration, 0.0))
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class TurnTo:
     """A piece of intent: turn at constant bank to a heading, the way round that `turn` says."""
 
@@ -115,11 +129,27 @@ class TurnTo:
     """|φ| of the turn [rad]."""
     kind: Literal["turn"] = "turn"
 
+    __repr__ = as_code
+
     def __post_init__(self) -> None:
         """Refuse a turn that cannot be flown."""
         _settle(self, "heading", _heading("intent turn.heading", self.heading))
         _settle(self, "turn", turn_sign("intent turn.turn", self.turn))
         _settle(self, "bank", _bank("intent turn.bank", self.bank))
+
+    @classmethod
+    def from_display(
+        cls, *, heading_deg: float, direction: Literal["left", "right"], bank_deg: float
+    ) -> "TurnTo":
+        """In degrees, with the direction as a word.
+
+        Raises:
+            ValueError: for what cannot be flown, or a direction that is neither.
+        """
+        if direction not in ("left", "right"):
+            raise ValueError(f"direction must be 'left' or 'right', not {direction!r}.")
+        turn = LEFT if direction == "left" else RIGHT
+        return cls(heading=heading_deg * DEG, turn=turn, bank=bank_deg * DEG)
 
 
 IntentPiece = FlyStraight | TurnTo
@@ -131,7 +161,7 @@ def final_heading(heading: Radian, intent: tuple[IntentPiece, ...]) -> Radian:
     return turns[-1] if turns else heading
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Leader:
     """The aircraft to be joined, at t = 0, with what it has declared it will do."""
 
@@ -146,6 +176,8 @@ class Leader:
     intent: tuple[IntentPiece, ...] = ()
     """Pieces to come; what follows the last one is the endless final leg."""
 
+    __repr__ = as_code
+
     def __post_init__(self) -> None:
         """Refuse what cannot be flown."""
         _settle_aircraft("leader", self)
@@ -159,6 +191,21 @@ class Leader:
             if not isinstance(piece, FlyStraight | TurnTo):
                 raise ValueError(f"leader.intent[{i}] must be a FlyStraight or a TurnTo.")
         _settle(self, "intent", tuple(self.intent))
+
+    @classmethod
+    def from_display(
+        cls,
+        *,
+        x_nm: float = 0.0,
+        y_nm: float = 0.0,
+        heading_deg: float,
+        tas_kt: float,
+        intent: tuple[IntentPiece, ...] = (),
+    ) -> "Leader":
+        """In the units of aviation: nautical miles east and north, degrees, knots."""
+        return cls(
+            x=x_nm * NM, y=y_nm * NM, heading=heading_deg * DEG, tas=tas_kt * KT, intent=intent
+        )
 
     @property
     def final_heading(self) -> float:
@@ -190,44 +237,7 @@ class Leader:
         )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Wind:
-    """Uniform wind: the velocity of the air mass over the ground."""
-
-    east: MetrePerSecond = 0.0
-    """Toward the east [m/s]."""
-    north: MetrePerSecond = 0.0
-    """Toward the north [m/s]."""
-
-    def __post_init__(self) -> None:
-        """Refuse a wind that no atmosphere has."""
-        _settle(self, "east", number("wind.east", self.east))
-        _settle(self, "north", number("wind.north", self.north))
-        within("wind.speed", hypot(self.east, self.north), 0.0, MAX_WIND, "m/s")
-
-    @property
-    def speed(self) -> float:
-        """Wind speed [m/s]."""
-        return hypot(self.east, self.north)
-
-
-CALM = Wind()
-"""No wind."""
-
-
-def wind_from(direction: float, speed: float) -> Wind:
-    """The wind that blows *from* a direction, as reports give it.
-
-    Args:
-        direction: where it comes from, clockwise from north [rad].
-        speed: [m/s], ≥ 0.
-    """
-    direction = _heading("wind direction", direction)
-    speed = within("wind speed", speed, 0.0, MAX_WIND, "m/s")
-    return Wind(east=-speed * sin(direction), north=-speed * cos(direction))
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Situation:
     """Everything a plan depends on, at one instant (t = 0)."""
 
@@ -238,6 +248,8 @@ class Situation:
     min_separation: Metre
     """d_min [m], 0 ≤ d_min ≤ D."""
     wind: Wind = CALM
+
+    __repr__ = as_code
 
     def __post_init__(self) -> None:
         """Refuse distances that contradict each other."""
@@ -268,3 +280,23 @@ class Situation:
                 f"In this wind the leader makes no headway on its final leg ({headway:.1f} m/s "
                 f"over the ground; at least {MIN_HEADWAY:g} m/s is needed): it has no behind."
             )
+
+    @classmethod
+    def from_display(
+        cls,
+        *,
+        pursuer: Pursuer,
+        leader: Leader,
+        slot_distance_nm: float,
+        min_separation_nm: float,
+        wind_from_deg: float = 0.0,
+        wind_kt: float = 0.0,
+    ) -> "Situation":
+        """In the units of aviation: nautical miles, knots, and where the wind comes from."""
+        return cls(
+            pursuer=pursuer,
+            leader=leader,
+            slot_distance=slot_distance_nm * NM,
+            min_separation=min_separation_nm * NM,
+            wind=wind_from(wind_from_deg * DEG, wind_kt * KT) if wind_kt else CALM,
+        )

@@ -8,10 +8,15 @@ from itertools import chain
 from math import inf, isfinite
 from typing import Literal
 
+import numpy as np
+from numpy.typing import ArrayLike
+
 from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.motion import advance
-from relguide.planning.inputs import number, turn_sign
-from relguide.units import Metre, MetrePerSecond, Radian, RadianPerSecond, Second
+from relguide.planning.inputs import expect, number, turn_sign
+from relguide.planning.sampling import Samples, sample_bends
+from relguide.planning.wind import Wind
+from relguide.units import DEG, Metre, MetrePerSecond, Radian, RadianPerSecond, Second
 
 Turn = Literal[1, -1]
 """Direction of a turn, ε of the paper: +1 is a left turn."""
@@ -111,7 +116,7 @@ def after(segment: Segment, flown: Metre) -> Segment:
             return BoundaryArc(side=segment.side, bends=tuple(bends))
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Trajectory:
     """Segments flown one after another at constant true airspeed, in the air mass.
 
@@ -197,6 +202,29 @@ class Trajectory:
                 break
         return Pose(x=x, y=y, heading=wrap(heading))
 
+    def sample(self, t: ArrayLike) -> Samples:
+        """Where it is at many times at once, in the air mass; past the end it goes on straight.
+
+        Args:
+            t: times [s], ≥ 0. shape (n,), or one number
+        """
+        return sample_bends((self.x, self.y, self.heading), self.tas, self.bends(), t)
+
+    def over_ground(self, wind: Wind, t: ArrayLike | None = None) -> Samples:
+        """As `sample`, over the ground: arcs become trochoids.
+
+        Args:
+            wind: moves the air mass, which is the world frame at t = 0.
+            t: times [s], ≥ 0; each second and the end if left out. shape (n,)
+        """
+        expect("wind", wind, Wind)
+        if t is None:
+            t = np.append(np.arange(0.0, self.duration, 1.0), self.duration)
+        return self.sample(t).over_ground(wind)
+
+    def __repr__(self) -> str:
+        return f"Trajectory({pieces_text(self)}; {self.duration:.1f} s)"
+
     def breakpoints(self) -> tuple[Pose, ...]:
         """Start of the first segment, then the end of each."""
         poses = [Pose(x=self.x, y=self.y, heading=wrap(self.heading))]
@@ -206,6 +234,17 @@ class Trajectory:
                 x, y, heading = advance(x, y, heading, 1.0, curvature, length)
             poses.append(Pose(x=x, y=y, heading=wrap(heading)))
         return tuple(poses)
+
+
+def pieces_text(trajectory: Trajectory) -> str:
+    """Each segment's letter, with how far it turns or how long it is: `R 5.2° S 203.00 km`."""
+    return " ".join(map(_piece_text, trajectory.segments))
+
+
+def _piece_text(segment: Segment) -> str:
+    if isinstance(segment, Arc):
+        return f"{_letter(segment)} {segment.turn_angle / DEG:.1f}°"
+    return f"{_letter(segment)} {segment.length / 1000.0:.2f} km"
 
 
 def _is_sound(segment: Segment) -> bool:

@@ -26,7 +26,8 @@ from relguide.maps.isochrones import (
     isochrones,
     times_around,
 )
-from relguide.planning.situation import MAX_POSITION, Situation
+from relguide.planning.limits import MAX_POSITION
+from relguide.planning.situation import Situation
 from relguide.planning.words import HORIZON
 from relguide.units import Second
 from relguide_server.errors import Refusal

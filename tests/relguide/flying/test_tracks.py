@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 
 from relguide.flying import tracks
 from relguide.flying.smoothing import longest_chain
-from relguide.flying.tracks import DEFAULT_LEADER, RecordedTrack, load_csv, load_sample
+from relguide.flying.tracks import DEFAULT_LEADER, RecordedTrack, load_sample, load_track
 from relguide.planning.frames import LocalPlane
 from relguide.units import DEG, FT, KT
 
@@ -95,7 +95,7 @@ def worst(track: RecordedTrack, *, start: float = 0.0) -> float:
 
 
 def test_a_csv_is_read_as_it_was_flown(file: Path) -> None:
-    track = load_csv(written(file, rows()))
+    track = load_track(written(file, rows()))
     assert (track.ident, track.aircraft_type) == ("TEST12", "")
     assert track.duration == 599.0
     assert worst(track) < 20.0
@@ -106,14 +106,14 @@ def test_a_csv_is_read_as_it_was_flown(file: Path) -> None:
 
 
 def test_positions_alone_will_do(file: Path) -> None:
-    track = load_csv(written(file, rows(), ("timestamp", "latitude", "longitude", "altitude")))
+    track = load_track(written(file, rows(), ("timestamp", "latitude", "longitude", "altitude")))
     assert track.ident == ""
     assert worst(track) < 60.0  # 8 s of smoothing cut the corner of a turn begun at once
     assert track.state_at(230.0).track / DEG == pytest.approx(45.0, abs=2.0)
 
 
 def test_position_and_velocity_are_continuous_and_agree(file: Path) -> None:
-    track = load_csv(written(file, rows()))
+    track = load_track(written(file, rows()))
     dt = 1e-3
     for t in np.arange(190.0, 275.0, 0.31):
         before, after = track.state_at(float(t)), track.state_at(float(t) + dt)
@@ -126,7 +126,7 @@ def test_position_and_velocity_are_continuous_and_agree(file: Path) -> None:
 
 
 def test_beyond_its_ends_it_flies_straight_on(file: Path) -> None:
-    track = load_csv(written(file, rows()))
+    track = load_track(written(file, rows()))
     end, later = track.state_at(track.duration), track.state_at(track.duration + 10.0)
     assert later.track == end.track
     assert math.hypot(later.x - end.x, later.y - end.y) == pytest.approx(10.0 * end.ground_speed)
@@ -154,7 +154,7 @@ def test_held_missing_and_wrong_values_do_no_harm(file: Path) -> None:
     dirty[350]["altitude"] = 123_100.0
     dirty[400]["groundspeed"], dirty[400]["track"] = 9000.0, 180.0
     dirty.append(dirty[50])
-    track = load_csv(written(file, reversed(dirty)))
+    track = load_track(written(file, reversed(dirty)))
     assert track.duration >= 598.0
     assert worst(track, start=599.0 - track.duration) < 30.0
     top = max(track.altitude)
@@ -163,9 +163,9 @@ def test_held_missing_and_wrong_values_do_no_harm(file: Path) -> None:
 
 def test_a_gap_of_more_than_30_s_cuts(file: Path) -> None:
     short_gap = [r for n, r in enumerate(rows()) if not 100 <= n < 129]
-    assert load_csv(written(file, short_gap)).duration == 599.0
+    assert load_track(written(file, short_gap)).duration == 599.0
     long_gap = [r for n, r in enumerate(rows()) if not 100 <= n < 131]
-    assert load_csv(written(file, long_gap)).duration == 599.0 - 131.0
+    assert load_track(written(file, long_gap)).duration == 599.0 - 131.0
 
 
 def test_what_is_not_airborne_is_left_out(file: Path) -> None:
@@ -178,7 +178,7 @@ def test_what_is_not_airborne_is_left_out(file: Path) -> None:
         r["timestamp"] = row(500.0 + n)["timestamp"]
         r["groundspeed"] = round(5.0 / KT)
         landed.append(r)
-    track = load_csv(written(file, landed))
+    track = load_track(written(file, landed))
     assert track.duration == pytest.approx(499.0, abs=6.0)
     assert min(track.ground_speed) >= tracks.AIRBORNE
 
@@ -220,7 +220,7 @@ def test_a_bad_cell_is_named(file: Path, column: str, text: str, sentence: str) 
     bad = rows(100)
     bad[2][column] = text
     with pytest.raises(ValueError, match=sentence):
-        load_csv(written(file, bad))
+        load_track(written(file, bad))
 
 
 @pytest.mark.parametrize(
@@ -233,7 +233,7 @@ def test_times_may_be_written_in_several_ways(file: Path, form: str) -> None:
             r["timestamp"] = form.format(1633608000 + n)
     else:
         good[0]["timestamp"] = form
-    assert load_csv(written(file, good)).duration == 99.0
+    assert load_track(written(file, good)).duration == 99.0
 
 
 @pytest.mark.parametrize(
@@ -252,13 +252,13 @@ def test_times_may_be_written_in_several_ways(file: Path, form: str) -> None:
 def test_a_file_that_is_no_track_is_refused(file: Path, content: bytes, sentence: str) -> None:
     file.write_bytes(content)
     with pytest.raises(ValueError, match=str(file)) as caught:
-        load_csv(file)
+        load_track(file)
     assert sentence in str(caught.value)
 
 
 def test_no_altitudes_no_track(file: Path) -> None:
     with pytest.raises(ValueError, match="has only 0 believable altitudes"):
-        load_csv(written(file, [{**r, "altitude": ""} for r in rows(100)]))
+        load_track(written(file, [{**r, "altitude": ""} for r in rows(100)]))
 
 
 def test_a_parked_aircraft_is_no_leader(file: Path) -> None:
@@ -266,17 +266,17 @@ def test_a_parked_aircraft_is_no_leader(file: Path) -> None:
     for r in parked:
         r["longitude"], r["groundspeed"], r["track"] = 2.0, "", ""
     with pytest.raises(ValueError, match="never flies 30 s faster"):
-        load_csv(written(file, parked))
+        load_track(written(file, parked))
 
 
 def test_of_several_flights_one_must_be_chosen(file: Path) -> None:
     other = [{**r, "callsign": "OTHER"} for r in rows(100)]
     written(file, rows(200) + other)
     with pytest.raises(ValueError, match=r"choose one\. It has 2, such as OTHER, TEST12\."):
-        load_csv(file)
+        load_track(file)
     with pytest.raises(ValueError, match="has no flight 'NONE'"):
-        load_csv(file, "NONE")
-    assert load_csv(file, "OTHER").duration == 99.0
+        load_track(file, "NONE")
+    assert load_track(file, "OTHER").duration == 99.0
 
 
 @given(noise=st.text(max_size=200))
@@ -288,11 +288,11 @@ def test_noise_is_refused_in_a_sentence(
     header = "timestamp,latitude,longitude,altitude\n"
     file.write_bytes((header + noise).encode("utf-8", "surrogatepass"))
     with pytest.raises(ValueError, match=r"a\.csv"):
-        load_csv(file)
+        load_track(file)
 
 
 def test_a_track_checks_itself(file: Path) -> None:
-    track = load_csv(written(file, rows(100)))
+    track = load_track(written(file, rows(100)))
     for bad in (
         {"x": track.x[:-1]},
         {"x": np.where(track.t == 3.0, math.nan, track.x)},

@@ -34,6 +34,7 @@ from relguide import (
     plan,
     wind_from,
 )
+from relguide.planning.limits import MAX_POSITION, MAX_SLOT_DISTANCE, MAX_WIND
 from relguide.planning.optimality import check
 from relguide.planning.regular import (
     RegularTrajectory,
@@ -42,7 +43,6 @@ from relguide.planning.regular import (
     trajectory_from_regular,
 )
 from relguide.planning.regular_evaluation import evaluate
-from relguide.planning.situation import MAX_POSITION, MAX_SLOT_DISTANCE, MAX_WIND
 from relguide.planning.words import HORIZON
 from relguide.units import DEG
 

@@ -166,3 +166,30 @@ def test_beyond_the_horizon_as_plan_says() -> None:
     answers = plan_arrays(slow, limited=False)
     assert answers.verdict.tolist() == ["beyond_horizon"]
     assert answers.time_to_converge.tolist() == [inf]
+
+
+def test_times_are_rows_and_columns() -> None:
+    times = plan_arrays(
+        Situations(
+            pursuer_x=0.0,
+            pursuer_y=-40e3,
+            pursuer_heading=0.0,
+            pursuer_tas=[220.0, 220.0, 180.0],
+            max_bank=25.0 * DEG,
+            leader_tas=[180.0, 200.0, 180.0],
+            slot_distance=9e3,
+            min_separation=5e3,
+        )
+    )
+    assert len(times) == 3
+    assert times[0] == (pytest.approx(775.0), pytest.approx(775.0), "planned", "LSL")
+    assert times[0].word == "LSL"
+    assert times[-1].verdict == "slot_unreachable"
+    assert [row.time_to_converge for row in times] == times.time_to_converge.tolist()
+    assert len(times[times.planned]) == 2
+    assert times[1:].verdicts.tolist() == times.verdicts[1:].tolist()
+    columns = times.to_dict()
+    assert list(columns) == ["time_to_converge", "lower_bound", "verdict", "word"]
+    assert {len(column) for column in columns.values()} == {3}
+    assert repr(times) == "Times(3 situations, 2 with a plan, 775.0 … 1550.0 s)"
+    assert repr(times[2:]) == "Times(1 situations, 0 with a plan)"

@@ -22,9 +22,11 @@ from relguide import (
     certify,
     plan,
 )
+from relguide.planning.plan import Optimality
 from relguide.planning.situation import IntentPiece
 from relguide.units import DEG
 from tests.oracle import arrival_error
+from tests.plans import planned, straight_behind
 from tests.situations import headings, numbers, situations
 
 TIME = 1e-5
@@ -227,3 +229,35 @@ def test_a_slot_that_opens_later_is_taken_the_moment_it_opens() -> None:
     assert answer.optimality.proof == "relaxation"
     distance, _, _ = arrival_error(situation, answer.trajectory)
     assert distance < 0.02
+
+
+def test_the_same_plan_twice_is_one() -> None:
+    first, second = planned(straight_behind()), planned(straight_behind())
+    assert first.compute_time != second.compute_time
+    assert first == second
+
+
+def test_a_plan_prints_in_three_lines() -> None:
+    answer = planned(straight_behind())
+    lines = repr(answer).splitlines()
+    assert lines[0] == "Plan(LSL by exact: joins in 775.0 s, S 170.50 km,"
+    assert lines[1] == "     least separation 9000.0 m at 775.0 s, proved above 9000.0 m,"
+    assert lines[2] == "     proof: relaxation, no plan is faster than 775.0 s)"
+    assert len(lines) == 3
+    assert repr(answer.trajectory) == "Trajectory(S 170.50 km; 775.0 s)"
+
+
+@pytest.mark.parametrize("name", ["", " ", "a" * 41, "two\nlines", None, 7])
+def test_a_planner_must_have_a_name_to_show(name: object) -> None:
+    with pytest.raises(ValueError, match="planner must be a name of 1 to 40 printable characters"):
+        replace(planned(straight_behind()), planner=name)  # type: ignore[arg-type]
+
+
+def test_from_a_trajectory_of_ones_own_comes_a_plan_with_its_certificate() -> None:
+    exact = planned(straight_behind())
+    own = Plan.from_trajectory(exact.trajectory, exact.situation, planner="own", lower_bound=700.0)
+    assert (own.planner, own.word) == ("own", "S")
+    assert own.certificate == exact.certificate
+    assert own.optimality == Optimality(proof="bound", lower_bound=700.0)
+    nothing_known = Plan.from_trajectory(exact.trajectory, exact.situation, planner="own")
+    assert nothing_known.optimality == Optimality(proof="none", lower_bound=0.0)

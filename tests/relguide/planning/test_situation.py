@@ -18,8 +18,8 @@ from relguide import (
     Wind,
     wind_from,
 )
-from relguide.units import DEG
-from tests.situations import headings, numbers
+from relguide.units import DEG, KT, NM
+from tests.situations import headings, numbers, situations
 
 PURSUER = Pursuer(x=0.0, y=0.0, heading=0.0, tas=200.0, max_bank=25 * DEG)
 LEADER = Leader(x=20_000.0, y=0.0, heading=0.0, tas=180.0)
@@ -104,3 +104,59 @@ def test_a_turn_ends_on_its_heading_and_both_ways_make_a_full_one(start: float, 
     apart = (start - end) % (2.0 * pi)
     if 1e-8 < apart < 2.0 * pi - 1e-8:  # to the present heading is no turn, either way
         assert sum(angles) == pytest.approx(2.0 * pi, abs=1e-9)
+
+
+def test_in_the_units_of_aviation_it_is_the_same_situation() -> None:
+    shown = Situation.from_display(
+        pursuer=Pursuer.from_display(
+            x_nm=-20.0, y_nm=10.0, heading_deg=90.0, tas_kt=460.0, max_bank_deg=25.0
+        ),
+        leader=Leader.from_display(
+            x_nm=1.0,
+            y_nm=2.0,
+            heading_deg=80.0,
+            tas_kt=400.0,
+            intent=(
+                FlyStraight(duration=60.0),
+                TurnTo.from_display(heading_deg=135.0, direction="right", bank_deg=20.0),
+            ),
+        ),
+        slot_distance_nm=6.0,
+        min_separation_nm=5.0,
+        wind_from_deg=270.0,
+        wind_kt=30.0,
+    )
+    assert shown == Situation(
+        pursuer=Pursuer(
+            x=-20.0 * NM, y=10.0 * NM, heading=90.0 * DEG, tas=460.0 * KT, max_bank=25.0 * DEG
+        ),
+        leader=Leader(
+            x=1.0 * NM,
+            y=2.0 * NM,
+            heading=80.0 * DEG,
+            tas=400.0 * KT,
+            intent=(
+                FlyStraight(duration=60.0),
+                TurnTo(heading=135.0 * DEG, turn=RIGHT, bank=20.0 * DEG),
+            ),
+        ),
+        slot_distance=6.0 * NM,
+        min_separation=5.0 * NM,
+        wind=wind_from(270.0 * DEG, 30.0 * KT),
+    )
+    left = TurnTo.from_display(heading_deg=0.0, direction="left", bank_deg=20.0)
+    assert left.turn == LEFT
+    with pytest.raises(ValueError, match="direction must be 'left' or 'right', not 'up'"):
+        TurnTo.from_display(heading_deg=0.0, direction="up", bank_deg=20.0)  # type: ignore[arg-type]
+
+
+@given(situation=situations())
+def test_it_prints_as_code_to_paste(situation: Situation) -> None:
+    assert eval(repr(situation)) == situation
+
+
+def test_what_is_as_always_is_not_printed() -> None:
+    assert repr(Wind()) == "Wind()"
+    assert repr(FlyStraight(duration=1.0)) == "FlyStraight(duration=1.0)"
+    leader = Leader(x=0.0, y=0.0, heading=0.0, tas=200.0)
+    assert repr(leader) == "Leader(x=0.0, y=0.0, heading=0.0, tas=200.0)"

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from decimal import Decimal
 from fractions import Fraction
-from math import inf, nan
+from math import inf, nan, pi
 from typing import Any
 
 import numpy as np
@@ -18,12 +18,16 @@ from relguide import (
     RIGHT,
     Arc,
     BoundaryArc,
+    DeclaredLeader,
     FlyStraight,
+    Grid,
     Leader,
     NoPlan,
     Plan,
     Pursuer,
     Reason,
+    RecordedTrack,
+    Scenario,
     Situation,
     Situations,
     Straight,
@@ -34,12 +38,19 @@ from relguide import (
     candidates,
     certify,
     check,
+    fly,
+    isochrones,
+    own_scenario,
     plan,
     plan_arrays,
     progress_bar,
     prove,
+    record,
+    scenario,
+    scenario_behind,
     wind_from,
 )
+from relguide.planning.frames import LocalPlane
 from relguide.units import DEG
 
 PURSUER = Pursuer(x=-40e3, y=-20e3, heading=1.0, tas=240.0, max_bank=25 * DEG)
@@ -70,6 +81,18 @@ def planned() -> Plan:
 
 PLAN = planned()
 PATH = PLAN.trajectory
+SECONDS = np.arange(200.0)
+TRACK = RecordedTrack(
+    ident="REC1",
+    aircraft_type="A320",
+    origin=LocalPlane(48.0, 2.0),
+    t=SECONDS,
+    x=180.0 * SECONDS,
+    y=0.0 * SECONDS,
+    track=np.full(200, 0.5 * pi),
+    ground_speed=np.full(200, 180.0),
+    altitude=np.full(200, 5_000.0),
+)
 CALLS: dict[str, tuple[Callable[..., object], dict[str, Any]]] = {
     "Leader": (
         Leader,
@@ -107,18 +130,71 @@ CALLS: dict[str, tuple[Callable[..., object], dict[str, Any]]] = {
         {"situations": Situations(**COLUMNS), "limited": True, "threads": 1, "progress": None},
     ),
     "pose_at": (PATH.pose_at, {"t": 1.0}),
+    "sample": (PATH.sample, {"t": [1.0, 2.0]}),
+    "over_ground": (PATH.over_ground, {"wind": CALM, "t": [1.0, 2.0]}),
+    "from_trajectory": (
+        Plan.from_trajectory,
+        {"trajectory": PATH, "situation": SITUATION, "planner": "own", "lower_bound": 1.0},
+    ),
+    "Grid": (Grid, {"x": 0.0, "y": 0.0, "width": 5e4, "height": 4e4, "columns": 4, "rows": 3}),
+    "isochrones": (
+        isochrones,
+        {
+            "situation": SITUATION,
+            "grid": Grid(x=0.0, y=0.0, columns=4, rows=3),
+            "levels": (300.0,),
+            "evaluate": None,
+            "exact": False,
+            "threads": 1,
+            "progress": print,
+        },
+    ),
+    "Scenario": (
+        Scenario,
+        {
+            "name": "own",
+            "title": "",
+            "description": "",
+            "situation": SITUATION,
+            "intent_known": True,
+            "leader_source": DeclaredLeader(),
+            "altitude": 9e3,
+            "duration_limit": 1.0,
+            "after_joining": 0.0,
+        },
+    ),
+    "fly": (
+        fly,
+        {
+            "scenario": scenario("fig_6a"),
+            "planner": plan,
+            "commands": lambda t: (),
+            "step": 0.05,
+            "sample_period": 1.0,
+            "seed": 0,
+        },
+    ),
+    "scenario": (scenario, {"name": "fig_6a"}),
+    "own_scenario": (own_scenario, {"situation": SITUATION, "intent_known": False}),
+    "scenario_behind": (scenario_behind, {"track": TRACK, "behind": 3e4, "abeam": 2e4}),
+    "record": (record, {"documents": (), "file": "flight.jsonl"}),
     "progress_bar": (lambda title, total: list(shown(title, total)), {"title": "", "total": 1.0}),
     "prove": (prove, {"plan": PLAN, "seconds": 0.0, "progress": iter}),
     "wind_from": (wind_from, {"direction": 1.0, "speed": 10.0}),
 }
 """What may be called, with arguments that are right."""
 ANSWERS = {
-    "Alternative", "Candidate", "Certificate", "NoPlan", "OptimalityReport", "Plan", "Planner",
-    "Pose", "Reason", "Times",
+    "Alternative", "Arrival", "Candidate", "Certificate", "Document", "FlightEnded",
+    "FlightStarted", "Isochrones", "LeaderChanged", "LeaderRoute", "ModeChanged", "NoPlan",
+    "Optimality", "OptimalityReport", "Plan", "PlanChanged", "PlanRefused", "PlanUnavailable",
+    "Planner", "Pose", "Reason", "Sample", "Samples", "TimeRow", "Times",
 }  # fmt: skip
 """What calls give back, and is not asked for."""
-PARTS = {"Arc", "BoundaryArc", "Straight"}
-"""What a `Trajectory` checks as it is made of them."""
+PARTS = {"Arc", "BoundaryArc", "DeclaredLeader", "RecordedTrack", "Straight"}
+"""What a `Trajectory` or a `Scenario` checks as it is made of them."""
+FILES = {"load_track", "replay"}
+"""What reads a file: tests of its own say what it refuses."""
+METHODS = {"from_trajectory", "over_ground", "pose_at", "sample"}
 ARGUMENTS = [(name, argument) for name, (_, given) in CALLS.items() for argument in given]
 
 junk = st.one_of(
@@ -171,7 +247,7 @@ def shown(title: Any, total: Any) -> Any:
 
 def test_all_that_can_be_called_is() -> None:
     public = {name for name in relguide.__all__ if name not in ("CALM", "LEFT", "RIGHT")}
-    assert public == (set(CALLS) | ANSWERS | PARTS) - {"pose_at"}
+    assert public == (set(CALLS) | ANSWERS | PARTS | FILES) - METHODS
 
 
 @pytest.mark.parametrize("name", CALLS)
@@ -192,7 +268,9 @@ def test_a_wrong_argument_is_refused_with_a_sentence(name: str, argument: str, w
     else:
         return
     assert said.endswith(".")
-    assert any(word in said for word in ("must", "at least", "at most", "reaches", "headway"))
+    assert any(
+        word in said for word in ("must", "at least", "at most", "reaches", "headway", "there are")
+    )
 
 
 @given(amount=junk, other=junk, boundary_arc=junk)

@@ -1,0 +1,48 @@
+"""Uniform wind: it moves both aircraft alike, so planning is done in the air mass."""
+
+from dataclasses import dataclass
+from math import cos, hypot, sin
+
+from relguide.planning.inputs import number, within
+from relguide.planning.limits import MAX_HEADING, MAX_WIND
+from relguide.planning.reprs import as_code
+from relguide.units import MetrePerSecond
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
+class Wind:
+    """Uniform wind: the velocity of the air mass over the ground."""
+
+    east: MetrePerSecond = 0.0
+    """Toward the east [m/s]."""
+    north: MetrePerSecond = 0.0
+    """Toward the north [m/s]."""
+
+    __repr__ = as_code
+
+    def __post_init__(self) -> None:
+        """Refuse a wind that no atmosphere has."""
+        object.__setattr__(self, "east", number("wind.east", self.east))
+        object.__setattr__(self, "north", number("wind.north", self.north))
+        within("wind.speed", hypot(self.east, self.north), 0.0, MAX_WIND, "m/s")
+
+    @property
+    def speed(self) -> float:
+        """Wind speed [m/s]."""
+        return hypot(self.east, self.north)
+
+
+CALM = Wind()
+"""No wind."""
+
+
+def wind_from(direction: float, speed: float) -> Wind:
+    """The wind that blows *from* a direction, as reports give it.
+
+    Args:
+        direction: where it comes from, clockwise from north [rad].
+        speed: [m/s], ≥ 0.
+    """
+    direction = within("wind direction", direction, -MAX_HEADING, MAX_HEADING, "rad")
+    speed = within("wind speed", speed, 0.0, MAX_WIND, "m/s")
+    return Wind(east=-speed * sin(direction), north=-speed * cos(direction))
