@@ -312,10 +312,10 @@ class LeaderSpeedCommand(Strict):
     """True airspeed."""
 
 
-class SetIntentKnownCommand(Strict):
+class IntentKnownCommand(Strict):
     """Give the leader's intent to the pursuer, or withdraw it."""
 
-    command: Literal["set_intent_known"]
+    command: Literal["intent_known"]
     known: bool
 
 
@@ -325,7 +325,7 @@ Command = Annotated[
     | SetRateCommand
     | LeaderHeadingCommand
     | LeaderSpeedCommand
-    | SetIntentKnownCommand,
+    | IntentKnownCommand,
     Field(discriminator="command"),
 ]
 """A command to a flight."""

@@ -117,7 +117,7 @@ async def draw_area(
 
     The pursuer is put on every node of a grid; everything else stays as in the situation.
     """
-    asked, anchor = _asked(fleet, flight, situation)
+    asked, anchor = _situation_asked(fleet, flight, situation)
     try:
         grid = Grid(
             x=asked.leader.x if x_m is None else x_m,
@@ -138,7 +138,9 @@ async def draw_area(
     )
 
 
-def _asked(fleet: Fleet, flight: str | None, situation: str | None) -> tuple[Situation, Anchor]:
+def _situation_asked(
+    fleet: Fleet, flight: str | None, situation: str | None
+) -> tuple[Situation, Anchor]:
     if flight is not None and situation is None:
         past = fleet.find(flight).history
         try:

@@ -98,7 +98,7 @@ class DriftCheck:
         loss = 0.0 if isinstance(exact, NoPlan) else _loss(answer, exact)
         differs = isinstance(exact, NoPlan) or abs(loss) > DIFFERENT
         with self._lock:
-            self._metrics.drift_audited(differs=differs, loss=loss)
+            self._metrics.count_audit(differs=differs, loss=loss)
 
 
 def _loss(answer: Plan, exact: Plan) -> float:

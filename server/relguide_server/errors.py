@@ -80,12 +80,12 @@ def problem(
 
 def install_handlers(app: FastAPI) -> None:
     """Make every error of the app a problem document."""
-    app.add_exception_handler(HTTPException, _refused)
-    app.add_exception_handler(RequestValidationError, _invalid)
-    app.add_exception_handler(Exception, _broken)
+    app.add_exception_handler(HTTPException, _answer_refusal)
+    app.add_exception_handler(RequestValidationError, _answer_invalid)
+    app.add_exception_handler(Exception, _answer_broken)
 
 
-async def _refused(request: Request, error: Exception) -> Response:
+async def _answer_refusal(request: Request, error: Exception) -> Response:
     assert isinstance(error, HTTPException)
     path, status = request.url.path, error.status_code
     errors = error.errors if isinstance(error, Refusal) else ()
@@ -107,7 +107,7 @@ def _sentence(request: Request, status: int) -> str:
             return f"{HTTPStatus(status).description or HTTPStatus(status).phrase}."
 
 
-async def _invalid(request: Request, error: Exception) -> Response:
+async def _answer_invalid(request: Request, error: Exception) -> Response:
     assert isinstance(error, RequestValidationError)
     errors = [
         ProblemError(path=".".join(map(str, item["loc"])), message=item["msg"])
@@ -117,7 +117,7 @@ async def _invalid(request: Request, error: Exception) -> Response:
     return problem(request.url.path, 422, detail, errors=errors)
 
 
-async def _broken(request: Request, error: Exception) -> Response:
+async def _answer_broken(request: Request, error: Exception) -> Response:
     # Starlette raises the error again after this answer, so that the server logs its traceback.
     del error
     return problem(

@@ -12,12 +12,12 @@ from relguide.contract.messages import (
     FlightList,
     FlightRequest,
     FlightStatus,
+    IntentKnownCommand,
     LeaderHeadingCommand,
     LeaderSpeedCommand,
     PauseCommand,
     PlayCommand,
     ScenarioList,
-    SetIntentKnownCommand,
     SetRateCommand,
 )
 from relguide.contract.protocol import PROTOCOL
@@ -206,7 +206,7 @@ def _command(flight: LiveFlight, command: Command) -> None:
             flight.command(_leader_heading(command))
         case LeaderSpeedCommand(tas_mps=tas):
             flight.command(LeaderSpeed(tas=tas))
-        case SetIntentKnownCommand(known=known):
+        case IntentKnownCommand(known=known):
             flight.command(IntentKnown(known=known))
 
 

@@ -37,13 +37,13 @@ class Metrics:
     drift_largest_loss: float = 0.0
     """The largest of those losses [s]."""
 
-    def plan_answered(self, status: str, seconds: float) -> None:
+    def count_plan(self, status: str, seconds: float) -> None:
         """Count one plan."""
         self.plans[status] += 1
         self.plan_seconds += seconds
         self.plan_counts[bisect_left(BUCKETS, seconds)] += 1
 
-    def drift_audited(self, *, differs: bool, loss: float) -> None:
+    def count_audit(self, *, differs: bool, loss: float) -> None:
         """Count one plan by network that was planned again exactly.
 
         Args:

@@ -105,11 +105,11 @@ async def make_plan(
     request: Request, planner: PlannerOf, metrics: MetricsOf, include: IncludeAsked = ""
 ) -> Response:
     """The minimum-time plan with its proof, or the answer that there is no plan, and why."""
-    included = _included(include)
+    included = _read_include(include)
     situation, anchor = _read(await read_json(request), SituationBody)
     # 0.1 ms as a rule, but tens where the limit binds: the streams must not wait for it
     given, seconds = await asyncio.to_thread(_answer, situation, anchor, planner, included)
-    metrics.plan_answered(given["status"], seconds)
+    metrics.count_plan(given["status"], seconds)
     return json_answer(given)
 
 
@@ -132,7 +132,7 @@ async def make_plans(
     request: Request, planner: PlannerOf, metrics: MetricsOf, include: IncludeAsked = ""
 ) -> Response:
     """Up to 1,000 situations; an answer for each, in order, with its `id` if it has one."""
-    included = _included(include)
+    included = _read_include(include)
     bodies = await read_json(request)
     if not isinstance(bodies, list):
         raise Refusal(422, "The body must be a list of situations.")
@@ -143,11 +143,11 @@ async def make_plans(
         )
     answers = await asyncio.to_thread(_answer_all, bodies, planner, included)
     for given, seconds in answers:
-        metrics.plan_answered(given["status"], seconds)
+        metrics.count_plan(given["status"], seconds)
     return json_answer([given for given, _ in answers])
 
 
-def _included(text: str) -> tuple[Include, ...]:
+def _read_include(text: str) -> tuple[Include, ...]:
     try:
         return read_include(text)
     except ValueError as error:

@@ -130,7 +130,7 @@ class Scene:
         points = shapes.path_points(route.segments, self._wind, self._height)
         # The style carries the state: long dashes are a declared intent, dots are a guess.
         dash, gap = (2.4, 1.4) if route.intent_known else (0.4, 1.6)
-        segments = shapes.dashed(points, dash=dash, gap=gap)
+        segments = shapes.dashes(points, dash=dash, gap=gap)
         lines(self._scene, "/world/route", segments, paint.LEADER, 2.0)
 
     def _sample(self, sample: Sample) -> None:

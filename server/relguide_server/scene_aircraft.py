@@ -6,7 +6,7 @@ from viser import SceneApi
 from relguide.flying.documents import AircraftCard, AircraftSample
 from relguide.units import FT, KT
 from relguide_server import scene_shapes as shapes
-from relguide_server.scene_paint import Colour, dimmed, label, lines
+from relguide_server.scene_paint import Colour, dim, label, lines
 from relguide_server.scene_shapes import ALTITUDE_SCALE, KM
 
 LENGTH = 54.0
@@ -50,9 +50,9 @@ class AircraftFigure:
         self._level = label(
             scene, f"{root}/level", "", (0.3, 0, -0.5 * self._height), "center-left"
         )
-        nothing, dim = np.zeros((1, 2, 3)), dimmed(colour, 0.6)
-        self._past = lines(scene, f"/world/{name}_trail", nothing, dim, 2.2)
-        self._recent = lines(scene, f"/world/{name}_recent", nothing, dim, 2.2)
+        nothing, faint = np.zeros((1, 2, 3)), dim(colour, 0.6)
+        self._past = lines(scene, f"/world/{name}_trail", nothing, faint, 2.2)
+        self._recent = lines(scene, f"/world/{name}_recent", nothing, faint, 2.2)
 
     def move(self, now: AircraftSample, t: float) -> None:
         """Show the aircraft as it is at flight time t [s]."""

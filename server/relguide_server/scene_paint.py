@@ -30,7 +30,7 @@ Anchor = Literal[
 ]
 
 
-def dimmed(colour: Colour, share: float) -> Colour:
+def dim(colour: Colour, share: float) -> Colour:
     """The same hue, darker."""
     red, green, blue = (int(share * part) for part in colour)
     return red, green, blue

@@ -156,7 +156,7 @@ def polyline(points: Points) -> Points:
     return np.stack((points[:-1], points[1:]), axis=1) if len(points) > 1 else np.empty((0, 2, 3))
 
 
-def dashed(points: Points, *, dash: float, gap: float) -> Points:
+def dashes(points: Points, *, dash: float, gap: float) -> Points:
     """The dashes along a line, as line segments.
 
     Args:

@@ -48,7 +48,7 @@ class StreamClient:
     async def pump(self, websocket: WebSocket) -> None:
         """Send to an accepted WebSocket until either side ends it."""
         sender = asyncio.create_task(self._send_all(websocket))
-        watcher = asyncio.create_task(_until_closed(websocket))
+        watcher = asyncio.create_task(_wait_until_closed(websocket))
         try:
             done, _ = await asyncio.wait((sender, watcher), return_when=asyncio.FIRST_COMPLETED)
         finally:
@@ -84,7 +84,7 @@ class StreamClient:
             await self._wake.wait()
 
 
-async def _until_closed(websocket: WebSocket) -> None:
+async def _wait_until_closed(websocket: WebSocket) -> None:
     """Browsers only listen; what they send is read and ignored."""
     while (await websocket.receive())["type"] != "websocket.disconnect":
         pass

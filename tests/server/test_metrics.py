@@ -6,8 +6,8 @@ from relguide_server.metrics import BUCKETS, Metrics
 def test_the_histogram_is_cumulative_and_ends_with_all() -> None:
     metrics = Metrics()
     for seconds in (0.00005, 0.0001, 0.0002, 5.0):
-        metrics.plan_answered("planned", seconds)
-    metrics.plan_answered("no_plan", 0.02)
+        metrics.count_plan("planned", seconds)
+    metrics.count_plan("no_plan", 0.02)
     lines = metrics.text(flights_running=2, stream_clients=3, scene_clients=1).splitlines()
     buckets = [int(li.split()[1]) for li in lines if li.startswith("relguide_plan_seconds_bucket")]
     assert len(buckets) == len(BUCKETS) + 1

@@ -57,11 +57,11 @@ def test_every_turn_meets_the_straight_after_it() -> None:
 
 def test_dashes_cover_their_share_of_the_line() -> None:
     line = np.array([[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [10.0, 10.0, 0.0]])
-    dashes = shapes.dashed(line, dash=2.0, gap=2.0)
+    dashes = shapes.dashes(line, dash=2.0, gap=2.0)
     assert dashes.shape == (5, 2, 3)
     assert np.linalg.norm(dashes[0, 1] - dashes[0, 0]) == pytest.approx(2.0)
 
 
 def test_a_point_is_no_line() -> None:
     assert shapes.polyline(np.zeros((1, 3))).shape == (0, 2, 3)
-    assert shapes.dashed(np.zeros((1, 3)), dash=1.0, gap=1.0).shape == (0, 2, 3)
+    assert shapes.dashes(np.zeros((1, 3)), dash=1.0, gap=1.0).shape == (0, 2, 3)

@@ -132,7 +132,7 @@ def test_all_clients_get_the_same_ticks(address: str) -> None:
 
 @pytest.mark.parametrize("protocol", ["relguide-000000000000", "viser-v1.1.1"])
 def test_a_page_of_another_version_is_told_so(address: str, protocol: str) -> None:
-    code, reason = asyncio.run(_refused(address, start(address), protocol))
+    code, reason = asyncio.run(_answer_refusal(address, start(address), protocol))
     assert code == 4400
     assert PROTOCOL in reason
 
@@ -151,7 +151,7 @@ def test_no_protocol_at_all_is_refused_too(address: str) -> None:
 
 
 def test_an_unknown_flight_is_told_so(address: str) -> None:
-    code, reason = asyncio.run(_refused(address, "nothing", PROTOCOL))
+    code, reason = asyncio.run(_answer_refusal(address, "nothing", PROTOCOL))
     assert code == 4404
     assert reason
 
@@ -231,7 +231,7 @@ async def _ticks_of(address: str, flight_id: str, count: int) -> list[dict]:
         return await ticks(socket, count)
 
 
-async def _refused(address: str, flight_id: str, protocol: str) -> tuple[int | None, str]:
+async def _answer_refusal(address: str, flight_id: str, protocol: str) -> tuple[int | None, str]:
     async with stream_of(address, flight_id, protocol) as socket:
         with pytest.raises(ConnectionClosed):
             await socket.recv()

@@ -143,7 +143,7 @@ export function createActions(
     },
     setIntentKnown(known) {
       const text = known ? "Leader's intent received" : "Leader's intent withdrawn";
-      void command({ command: "set_intent_known", known }, `${text}…`, `${text}.`);
+      void command({ command: "intent_known", known }, `${text}…`, `${text}.`);
     },
     retry() {
       if (stream !== null) {

@@ -1,7 +1,7 @@
 // Made by `python -m relguide_server.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-ea1c941bcf52";
+export const PROTOCOL = "relguide-8e2be64aef76";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -88,7 +88,7 @@ export type Command =
   | SetRateCommand
   | LeaderHeadingCommand
   | LeaderSpeedCommand
-  | SetIntentKnownCommand;
+  | IntentKnownCommand;
 
 /** Who an aircraft is. */
 export interface AircraftCard {
@@ -366,6 +366,12 @@ export interface HeadingReference {
   heading_deg: number;
 }
 
+/** Give the leader's intent to the pursuer, or withdraw it. */
+export interface IntentKnownCommand {
+  command: "intent_known";
+  known: boolean;
+}
+
 /** The leader does something new, or its intent was received or withdrawn. */
 export interface LeaderChanged {
   kind: "leader_changed";
@@ -622,12 +628,6 @@ export interface Separation {
   least_m: number;
   at_s: number;
   proved_above_m: number;
-}
-
-/** Give the leader's intent to the pursuer, or withdraw it. */
-export interface SetIntentKnownCommand {
-  command: "set_intent_known";
-  known: boolean;
 }
 
 /** Change how fast simulated time runs. */

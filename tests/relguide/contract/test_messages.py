@@ -34,7 +34,7 @@ def test_a_flight_is_asked_for_by_scenario_or_situation() -> None:
         {"command": "leader_heading", "heading_deg": 135},
         {"command": "leader_heading", "heading_deg": 135, "direction": "left"},
         {"command": "leader_speed", "tas_mps": 200},
-        {"command": "set_intent_known", "known": True},
+        {"command": "intent_known", "known": True},
     ],
 )
 def test_commands_are_read(command: dict[str, Any]) -> None:
