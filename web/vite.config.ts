@@ -1,4 +1,5 @@
-import { defineConfig } from "vitest/config";
+/// <reference types="vitest/config" />
+import { defineConfig } from "vite";
 import manifest from "./package.json" with { type: "json" };
 
 const server = "http://127.0.0.1:8000";

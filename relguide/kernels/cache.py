@@ -20,7 +20,7 @@ import pickle
 import re
 import sys
 from collections.abc import Iterable, Iterator
-from contextlib import AbstractContextManager, contextmanager, nullcontext
+from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
@@ -87,8 +87,8 @@ class LockedIndex(caching.IndexDataCacheFile):  # type: ignore[misc]
     """
 
     def save(self, key: Any, data: Any) -> None:
-        """Store the machine code for one signature."""
-        with self._alone():
+        """Store the machine code for one signature; on a read-only disk it is for this process."""
+        with self._alone(), suppress(OSError):
             super().save(key, data)
 
     def load(self, key: Any) -> Any:

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import StrEnum
+from itertools import islice
 from math import hypot
 from time import perf_counter_ns
 from typing import Literal
@@ -186,8 +187,26 @@ def plan(situation: Situation) -> Plan | NoPlan:
             f"{restore_sentence(restore(situation))}",
         )
     chosen = _at_once(situation, radius) or _searched(situation, radius)
-    if isinstance(chosen, NoPlan):
-        return chosen
+    return chosen if isinstance(chosen, NoPlan) else _plan_of(chosen, situation, started)
+
+
+def plan_at_once(situation: Situation) -> Plan | None:
+    """The plan where the limit costs nothing, as `plan` gives it; None if a search is needed.
+
+    It runs a small part of the planner's machine code.
+    """
+    expect("situation", situation, Situation)
+    started = perf_counter_ns()
+    radius = situation.pursuer.turn_radius
+    chosen = _at_once(situation, radius)
+    if chosen is None:
+        found = candidates(situation)
+        if len(found) > 0 and found.bound <= HORIZON:
+            chosen = _relaxed(found, situation, radius, bends_of(found.leader))
+    return None if chosen is None else _plan_of(chosen, situation, started)
+
+
+def _plan_of(chosen: _Chosen, situation: Situation, started: int) -> Plan:
     candidate, certificate, optimality = chosen
     return Plan(
         situation=situation,
@@ -233,17 +252,15 @@ def _searched(situation: Situation, radius: Metre) -> _Chosen | NoPlan:
 
 def _first_that_holds(found: Candidates, situation: Situation, radius: Metre) -> _Chosen | None:
     bound, leading = found.bound, bends_of(found.leader)
-    if found.reachable_at_release:
-        best = _canonical(found.at_release, situation, radius, leading)
-        if best is not None:
-            return *best, Optimality(proof="relaxation", lower_bound=bound)
+    relaxed = _relaxed(found, situation, radius, leading)
+    if relaxed is not None:
+        return relaxed
     chosen: tuple[Candidate, Certificate] | None = None
-    for i, candidate in enumerate(found.later):
+    refused = 0 if found.reachable_at_release else 1
+    for candidate in islice(found.later, refused, None):
         certificate = judge(candidate.trajectory, situation, radius, leading)
         if certificate.holds:
             chosen = candidate, certificate
-            if i == 0 and not found.reachable_at_release:
-                return *chosen, Optimality(proof="relaxation", lower_bound=bound)
             break
     around = constrained_path(found, beat=chosen[0].time_to_converge if chosen else HORIZON)
     if around is not None:
@@ -256,6 +273,17 @@ def _first_that_holds(found: Candidates, situation: Situation, radius: Metre) ->
     # a way that touches d_min and arrives as the slot opens is as fast as any without the limit
     proof: Proof = "relaxation" if time <= bound + AS_FAST else "bound"
     return *chosen, Optimality(proof=proof, lower_bound=min(bound, time))
+
+
+def _relaxed(
+    found: Candidates, situation: Situation, radius: Metre, leading: FloatArray
+) -> _Chosen | None:
+    """The fastest of all extremals, if it keeps d_min."""
+    fastest = found.at_release if found.reachable_at_release else tuple(islice(found.later, 1))
+    best = _canonical(fastest, situation, radius, leading)
+    if best is None:
+        return None
+    return *best, Optimality(proof="relaxation", lower_bound=found.bound)
 
 
 def _canonical(

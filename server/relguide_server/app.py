@@ -2,7 +2,6 @@
 
 import asyncio
 import os
-import threading
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 
@@ -14,12 +13,13 @@ from relguide.planning.plan import Planner, plan
 from relguide_server import areas, flights, pages, plans, scene_relay
 from relguide_server.departures import Departures, library_departures
 from relguide_server.drift import DriftCheck
-from relguide_server.errors import Refusal, install_handlers, run_logged
+from relguide_server.errors import install_handlers
 from relguide_server.fleet import Fleet
 from relguide_server.guards import BodyLimit, StrictHeaders
 from relguide_server.metrics import Metrics
-from relguide_server.openapi import describe, json_answer, problem_responses
+from relguide_server.openapi import describe, json_answer, response, schema_of
 from relguide_server.pages import Page
+from relguide_server.preparation import Preparation, PreparationOf, Readiness, steps_for
 from relguide_server.settings import Settings, settings_from
 
 DESCRIPTION = """Minimum-time relative guidance: plans with a proof, and flights that fly them.
@@ -36,6 +36,7 @@ def create_app(
     *,
     planner: Planner | None = None,
     departures: Departures | None = None,
+    preparation: Preparation | None = None,
 ) -> FastAPI:
     """The whole service.
 
@@ -43,28 +44,26 @@ def create_app(
         settings: limits; from the environment if left out.
         planner: who plans, for REST and for flights; the settings' if left out.
         departures: what can be flown; the library's scenarios if left out.
+        preparation: compiles ahead what is not compiled yet; if left out, nothing does.
     """
     settings = settings or settings_from(os.environ)
     metrics = Metrics()
     drift = DriftCheck(metrics, every=settings.drift_check)
+    preparation = preparation or Preparation()
     planner = drift.watch(planner or _planner(settings.planner))
-    departures = departures or library_departures(planner)
+    patient = preparation.guard(planner, settings, waiting=True)
+    departures = departures or library_departures(patient)
     fleet = Fleet(settings, metrics)
-    warm = threading.Event()
-
-    def warm_up() -> None:
-        if run_logged("Warming up", departures.rehearse):
-            warm.set()
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        # Compiling the kernels takes seconds the first time ever: the page need not wait for it.
-        threading.Thread(target=warm_up, name="warm up", daemon=True).start()
+        preparation.start(departures.rehearse)
         drift.start()
         fleet.start()
         yield
         await fleet.stop()
         await asyncio.to_thread(drift.stop)
+        await asyncio.to_thread(preparation.stop)
 
     app = FastAPI(
         title="relguide",
@@ -75,8 +74,9 @@ def create_app(
         docs_url=None,
         redoc_url=None,
     )
-    app.state.planner, app.state.departures = planner, departures
-    app.state.fleet, app.state.metrics, app.state.warm = fleet, metrics, warm
+    app.state.planner = preparation.guard(planner, settings, waiting=False)
+    app.state.settings, app.state.departures = settings, departures
+    app.state.fleet, app.state.metrics, app.state.preparation = fleet, metrics, preparation
     for part in (
         router,
         plans.router,
@@ -87,7 +87,7 @@ def create_app(
     ):
         app.include_router(part)
     install_handlers(app)
-    describe(app, (*plans.MODELS, *areas.MODELS, *flights.MODELS))
+    describe(app, (Readiness, *plans.MODELS, *areas.MODELS, *flights.MODELS))
     # The last one added is the first one passed.
     app.add_middleware(Page)
     app.add_middleware(BodyLimit, max_body=settings.max_body)
@@ -111,12 +111,21 @@ async def healthz() -> Response:
     return json_answer({"status": "ok"})
 
 
-@router.get("/readyz", summary="Is it ready?", responses=problem_responses(503))
-async def readyz(request: Request) -> Response:
-    """Ready once the kernels are compiled and a plan has been made; before that, plans are slow."""
-    if not request.app.state.warm.is_set():
-        raise Refusal(503, "The kernels are being compiled: plans are slow until then.")
-    return json_answer({"status": "ready"})
+@router.get(
+    "/readyz",
+    summary="Is it ready?",
+    responses={
+        **response(200, "All that it serves is compiled.", schema_of(Readiness)),
+        **response(503, "The first start is not done yet.", schema_of(Readiness)),
+    },
+)
+async def readyz(preparation: PreparationOf) -> Response:
+    """Ready once all that it serves is compiled and a flight has been rehearsed."""
+    report = preparation.report()
+    if preparation.ready:
+        return json_answer(report)
+    again = {"Retry-After": str(preparation.seconds_left())}
+    return json_answer(report, 503, headers=again)
 
 
 @router.get("/metrics", summary="Numbers for Prometheus", response_class=PlainTextResponse)
@@ -131,4 +140,5 @@ async def metrics_page(request: Request) -> Response:
     return Response(text, media_type="text/plain; version=0.0.4; charset=utf-8")
 
 
-app = create_app()
+_settings = settings_from(os.environ)
+app = create_app(_settings, preparation=Preparation(steps_for(_settings)))

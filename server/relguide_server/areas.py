@@ -40,6 +40,7 @@ from relguide_server.openapi import (
     response,
     schema_of,
 )
+from relguide_server.preparation import PreparationOf
 
 MOST_SEARCHED = 1_200
 """Most nodes of a grid that is searched exactly: some seconds of work."""
@@ -95,11 +96,12 @@ TimesAsked = Annotated[bool, Query(description="Whether to give the times of all
     summary="Lines of equal time-to-converge",
     responses={
         **response(200, "Lines, and regions of words.", schema_of(AreaAnswer)),
-        **problem_responses(404, 409, 422),
+        **problem_responses(404, 409, 422, 503),
     },
 )
 async def draw_area(
     fleet: FleetOf,
+    preparation: PreparationOf,
     flight: FlightAsked = None,
     situation: SituationAsked = None,
     x_m: Place = None,
@@ -117,6 +119,7 @@ async def draw_area(
 
     The pursuer is put on every node of a grid; everything else stays as in the situation.
     """
+    preparation.require("areas", *(["bulk"] if exact else []))
     asked, anchor = _situation_asked(fleet, flight, situation)
     try:
         grid = Grid(

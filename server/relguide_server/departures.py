@@ -20,6 +20,7 @@ from relguide.contract.refusal import ContractError
 from relguide.flying.flight import Scenario, fly
 from relguide.flying.scenarios import SCENARIOS, own_scenario, scenario
 from relguide.planning.plan import Planner
+from relguide.planning.situation import Situation
 from relguide_server.live_flight import Source
 
 REHEARSED = "fig_6b"
@@ -36,6 +37,8 @@ class Departure:
     """Its name; empty for a situation of your own."""
     title: str
     source: Source
+    first: Situation | None = None
+    """What is planned first, if that is known."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -75,6 +78,7 @@ def library_departures(planner: Planner) -> Departures:
             scenario=name,
             title=found.title,
             source=lambda commands: fly(found, planner, commands=commands, seed=seed),
+            first=_first_planned(found),
         )
 
     def rehearse() -> None:
@@ -82,6 +86,13 @@ def library_departures(planner: Planner) -> Departures:
             pass
 
     return Departures(scenarios=_scenarios, find=find, rehearse=rehearse)
+
+
+def _first_planned(flown: Scenario) -> Situation:
+    """Its situation, as far as the pursuer is told of the leader's intent."""
+    if flown.intent_known:
+        return flown.situation
+    return replace(flown.situation, leader=replace(flown.situation.leader, intent=()))
 
 
 def _scenarios() -> ScenarioList:

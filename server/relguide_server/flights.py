@@ -36,6 +36,7 @@ from relguide_server.openapi import (
     response,
     schema_of,
 )
+from relguide_server.preparation import PreparationOf
 from relguide_server.stream import UNKNOWN_FLIGHT, WRONG_PROTOCOL
 
 
@@ -69,11 +70,13 @@ async def list_scenarios(departures: DeparturesOf) -> Response:
     summary="Start a flight",
     responses={
         **response(201, "It is in the air.", schema_of(FlightStatus)),
-        **problem_responses(400, 413, 415, 422, 429, 500),
+        **problem_responses(400, 413, 415, 422, 429, 500, 503),
     },
     openapi_extra=request_body(schema_of(NewFlight), {"scenario": "fig_6b", "rate": 10.0}),
 )
-async def start_flight(request: Request, fleet: FleetOf, departures: DeparturesOf) -> Response:
+async def start_flight(
+    request: Request, fleet: FleetOf, departures: DeparturesOf, preparation: PreparationOf
+) -> Response:
     """It flies at `rate` simulated seconds per second, until it is ended or no longer watched."""
     try:
         wanted = parse(NewFlight, _content(await read_json(request))).root
@@ -81,6 +84,8 @@ async def start_flight(request: Request, fleet: FleetOf, departures: DeparturesO
         departure = await asyncio.to_thread(departures.find, wanted)
     except ContractError as error:
         raise problem_of(error) from None
+    if departure.first is not None:
+        await asyncio.to_thread(preparation.admit, departure.first, request.app.state.settings)
     flight = await fleet.launch(
         departure.scenario,
         departure.title,

@@ -28,6 +28,7 @@ from relguide_server.openapi import (
     response,
     schema_of,
 )
+from relguide_server.preparation import PreparationOf
 
 MAX_BATCH = 1000
 """Most situations in one request."""
@@ -97,15 +98,21 @@ router = APIRouter(prefix="/api/v1", tags=["plans"], dependencies=[KNOWN_PARAMET
     summary="Plan a situation",
     responses={
         **response(200, "A plan, or why there is none.", schema_of(Answer)),
-        **problem_responses(400, 413, 415, 422),
+        **problem_responses(400, 413, 415, 422, 503),
     },
     openapi_extra=request_body(schema_of(SituationBody), EXAMPLE),
 )
 async def make_plan(
-    request: Request, planner: PlannerOf, metrics: MetricsOf, include: IncludeAsked = ""
+    request: Request,
+    planner: PlannerOf,
+    metrics: MetricsOf,
+    preparation: PreparationOf,
+    include: IncludeAsked = "",
 ) -> Response:
     """The minimum-time plan with its proof, or the answer that there is no plan, and why."""
     included = _read_include(include)
+    if "optimality" in included:
+        preparation.require("proofs")
     situation, anchor = _read(await read_json(request), SituationBody)
     # 0.1 ms as a rule, but tens where the limit binds: the streams must not wait for it
     given, seconds = await asyncio.to_thread(_answer, situation, anchor, planner, included)
@@ -122,17 +129,23 @@ async def make_plan(
             "An answer for each, in order.",
             list_schema(schema_of(NamedPlan, NamedNoPlan), most=MAX_BATCH),
         ),
-        **problem_responses(400, 413, 415, 422),
+        **problem_responses(400, 413, 415, 422, 503),
     },
     openapi_extra=request_body(
         list_schema(schema_of(NamedSituationBody), most=MAX_BATCH), [EXAMPLE]
     ),
 )
 async def make_plans(
-    request: Request, planner: PlannerOf, metrics: MetricsOf, include: IncludeAsked = ""
+    request: Request,
+    planner: PlannerOf,
+    metrics: MetricsOf,
+    preparation: PreparationOf,
+    include: IncludeAsked = "",
 ) -> Response:
     """Up to 1,000 situations; an answer for each, in order, with its `id` if it has one."""
     included = _read_include(include)
+    if "optimality" in included:
+        preparation.require("proofs")
     bodies = await read_json(request)
     if not isinstance(bodies, list):
         raise Refusal(422, "The body must be a list of situations.")

@@ -46,11 +46,16 @@ export function createActions(
   }
 
   async function begin(scenario: string, rate: number): Promise<void> {
+    if (again !== null) clearTimeout(again);
     say("sending", "Starting the flight…");
     const answer = await createFlight({ scenario, rate });
     if (answer.kind === "done") {
       show(answer.value);
       say("done", `New flight: ${answer.value.title}.`);
+    } else if (answer.retryAfter !== undefined) {
+      session.outage.value = null;
+      say("sending", `${answer.sentence} It will start by itself.`);
+      again = setTimeout(() => void begin(scenario, rate), 1000 * answer.retryAfter);
     } else if (session.status.value === null) {
       fail(answer, () => void begin(scenario, rate));
     } else {

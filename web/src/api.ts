@@ -5,7 +5,20 @@ import type { Command, FlightRequest, FlightStatus, ScenarioInfo, ScenarioList }
 /** What the server said. `status` is 0 when it did not answer at all. */
 export type Answer<T> =
   | { readonly kind: "done"; readonly value: T }
-  | { readonly kind: "refused"; readonly status: number; readonly sentence: string };
+  | {
+      readonly kind: "refused";
+      readonly status: number;
+      readonly sentence: string;
+      /** The server asks to be asked again after so long [s]. */
+      readonly retryAfter?: number;
+    };
+
+/** What a first start has compiled already: the answer of `/readyz`, ready or not. */
+export interface Readiness {
+  readonly status: "ready" | "preparing";
+  readonly warm: Readonly<Record<string, boolean>>;
+  readonly preparing: { readonly name: string; readonly share: number } | null;
+}
 
 const ROOT = "/api/v1";
 /** The server answers in milliseconds; after this long [ms] nobody is there. */
@@ -30,6 +43,16 @@ export function commandFlight(id: string, command: Command): Promise<Answer<Flig
   return request("POST", `${ROOT}/flights/${encodeURIComponent(id)}/commands`, command);
 }
 
+/** Null if the server does not say. */
+export async function readReadiness(): Promise<Readiness | null> {
+  try {
+    const response = await fetch("/readyz", { signal: AbortSignal.timeout(PATIENCE) });
+    return (await response.json()) as Readiness;
+  } catch {
+    return null;
+  }
+}
+
 async function request<T>(
   method: string,
   path: string,
@@ -51,11 +74,13 @@ async function request<T>(
   }
   const content = parse(text);
   if (response.ok && content !== undefined) return { kind: "done", value: content as T };
-  return {
+  const refused = {
     kind: "refused",
     status: response.status,
     sentence: sentenceOf(content, response.status),
-  };
+  } as const;
+  const retryAfter = Number(response.headers.get("retry-after") ?? "");
+  return response.status === 503 && retryAfter > 0 ? { ...refused, retryAfter } : refused;
 }
 
 function parse(text: string): unknown {

@@ -7,6 +7,7 @@ import { Aircraft } from "./panels/aircraft";
 import { Alternatives } from "./panels/alternatives";
 import { Efis } from "./panels/efis";
 import { Announcer, Events } from "./panels/events";
+import { FirstStart } from "./panels/first-start";
 import { FlightControls } from "./panels/flight-controls";
 import { Header } from "./panels/header";
 import { Help } from "./panels/help";
@@ -27,6 +28,7 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
     <>
       <Header session={session}>
         <ScenarioPicker session={session} actions={actions} />
+        <FirstStart readiness={session.firstStart} />
       </Header>
       <main class={session.sceneMaximised.value ? "maximised" : ""}>
         <div class="instrument">

@@ -11,6 +11,7 @@ import "./styles/numbers.css";
 import { render } from "preact";
 import { createActions } from "./actions";
 import { Cockpit } from "./cockpit";
+import { followFirstStart } from "./first-start";
 import { createFlightStore } from "./flight";
 import { isTaken, keyAction } from "./keyboard";
 import { createSession, takeReading } from "./session";
@@ -19,7 +20,7 @@ import { createSession, takeReading } from "./session";
 const READING_PERIOD = 200;
 
 const store = createFlightStore();
-const session = createSession(store.flight);
+const session = createSession(store.flight, followFirstStart());
 const actions = createActions(session, store);
 
 const place = document.querySelector("#cockpit");

@@ -1,6 +1,7 @@
 /** The state of the page around the instruments, and what its buttons do: signals and types, no network. */
 
 import { type Signal, signal } from "@preact/signals";
+import type { Readiness } from "./api";
 import { type Flight, LOST_AGE } from "./flight";
 import type { Direction, FlightStatus, Sample, ScenarioInfo } from "./wire";
 
@@ -40,6 +41,8 @@ export interface Session {
   readonly ndRange: Signal<NdRange>;
   readonly sceneMaximised: Signal<boolean>;
   readonly helpOpen: Signal<boolean>;
+  /** What a first start has yet to prepare; null when that is done. */
+  readonly firstStart: Signal<Readiness | null>;
 }
 
 /** What the buttons do. Each ends in `session.feedback`. */
@@ -60,7 +63,10 @@ export interface Actions {
   reload(): void;
 }
 
-export function createSession(flight: Flight): Session {
+export function createSession(
+  flight: Flight,
+  firstStart: Signal<Readiness | null> = signal(null),
+): Session {
   return {
     flight,
     reading: signal(null),
@@ -72,6 +78,7 @@ export function createSession(flight: Flight): Session {
     ndRange: signal(40),
     sceneMaximised: signal(false),
     helpOpen: signal(false),
+    firstStart,
   };
 }
 

@@ -1,0 +1,201 @@
+"""Preparation: kernels that a first start has yet to compile, and what must wait for them.
+
+The first start of an installation compiles for a minute, in processes of its own. Meanwhile the
+page is shown, and flies as soon as what flights need is compiled. A request that needs more is
+refused with 503 and the time to try again; a flight under way that needs more waits.
+"""
+
+import os
+import threading
+from collections.abc import Callable, Sequence
+from math import ceil
+from typing import Annotated, Literal
+
+from fastapi import Depends
+from pydantic import BaseModel, Field
+from starlette.requests import HTTPConnection
+
+from relguide.planning.plan import NoPlan, Plan, Planner, plan_at_once
+from relguide.planning.situation import Situation
+from relguide.warm_up import SETS, STEPS, Preparing, WarmUpError, missing, prepare
+from relguide_server.errors import Refusal, log, run_logged
+from relguide_server.settings import Settings
+
+PLANNED_WITH = {"exact": ("limited",), "network": ("limited", "networks")}
+"""Steps a planner needs for any situation; without the limit "flying" is enough."""
+
+
+def steps_for(settings: Settings) -> tuple[str, ...]:
+    """The steps of `relguide.warm_up` that a service with these settings needs."""
+    extra = (name for name in PLANNED_WITH[settings.planner] if name not in SETS["serve"])
+    return (*SETS["serve"], *extra)
+
+
+class NowPreparing(BaseModel):
+    """What is being compiled."""
+
+    name: str = Field(description="A few words, e.g. `the limited search`.")
+    share: float = Field(description="How much of it is done, from 0 to 1.")
+
+
+class Readiness(BaseModel):
+    """What a service can answer already."""
+
+    status: Literal["ready", "preparing"]
+    warm: dict[str, bool] = Field(description="Parts of the planner, and whether each is compiled.")
+    preparing: NowPreparing | None
+
+
+class Preparation:
+    """What is compiled of some steps; compiles the rest, from `start` to `stop`.
+
+    What is asked of no step needs no waiting: without steps every kernel is compiled when used.
+    """
+
+    def __init__(self, steps: Sequence[str] = ()) -> None:
+        self._steps = tuple(steps)
+        self._missing = missing(steps)
+        self._state: Preparing | None = None
+        self._rehearsed = False
+        self._changed = threading.Condition()
+        self._stopped = threading.Event()
+        self._thread: threading.Thread | None = None
+
+    def start(self, rehearse: Callable[[], None]) -> None:
+        """Begin to compile, and rehearse a flight as soon as it can be flown."""
+        self._thread = threading.Thread(
+            target=run_logged, args=("Preparing", lambda: self._run(rehearse)), name="prepare",
+            daemon=True,
+        )  # fmt: skip
+        self._thread.start()
+
+    def stop(self) -> None:
+        """End it, with the processes that compile."""
+        self._stopped.set()
+        with self._changed:
+            self._changed.notify_all()
+        if self._thread is not None:
+            self._thread.join(5.0)
+
+    @property
+    def ready(self) -> bool:
+        """Whether all that is served is compiled, and a flight has been rehearsed."""
+        return self._rehearsed and not self._missing
+
+    def report(self) -> dict[str, object]:
+        """What is compiled and what is being compiled: a `Readiness`."""
+        state = self._state
+        now = {"name": state.title, "share": round(state.share, 2)} if state else None
+        return {
+            "status": "ready" if self.ready else "preparing",
+            "warm": {name: self.has(name) for name in self._steps},
+            "preparing": now,
+        }
+
+    def has(self, *steps: str) -> bool:
+        """Whether the kernels of some steps are compiled, or nobody compiles them ahead."""
+        return not any(step in self._missing for step in steps)
+
+    def require(self, *steps: str) -> None:
+        """Refuse what cannot be answered yet.
+
+        Raises:
+            Refusal: 503, with what is being prepared and when to try again.
+        """
+        if self.has(*steps):
+            return
+        raise Refusal(
+            503,
+            f"First start: {self._progress()}. What you ask for needs "
+            f"{next(STEPS[step].title for step in steps if not self.has(step))}: "
+            "try again in a moment.",
+            headers={"Retry-After": str(self.seconds_left(*steps))},
+        )
+
+    def seconds_left(self, *steps: str) -> int:
+        """About how long it takes until steps are compiled, or all; from 1 to 30 [s]."""
+        steps = steps or self._steps
+        left = sum(STEPS[step].seconds for step in steps if not self.has(step))
+        state = self._state
+        if state and any(STEPS[step].title == state.title for step in steps):
+            left *= 1.0 - state.share
+        return max(1, min(30, ceil(left)))
+
+    def wait(self, *steps: str) -> None:
+        """Wait, in a thread of one's own, until the kernels of some steps are compiled."""
+        with self._changed:
+            self._changed.wait_for(lambda: self.has(*steps) or self._stopped.is_set())
+
+    def admit(self, situation: Situation, settings: Settings) -> None:
+        """Refuse a situation whose plan needs what is not compiled yet.
+
+        Raises:
+            Refusal: 503, as in `require`.
+        """
+        self.require("flying")
+        steps = PLANNED_WITH[settings.planner]
+        if not self.has(*steps) and plan_at_once(situation) is None:
+            self.require(*steps)
+
+    def guard(self, planner: Planner, settings: Settings, *, waiting: bool) -> Planner:
+        """The same planner; while kernels are missing, plans that need none of them.
+
+        Args:
+            planner: the planner.
+            settings: which one it is.
+            waiting: whether all other plans wait, as in a flight, or are refused.
+        """
+        steps = PLANNED_WITH[settings.planner]
+
+        def guarded(situation: Situation) -> Plan | NoPlan:
+            if not self.has("flying", *steps):
+                if waiting:
+                    self.wait("flying")
+                self.require("flying")
+                found = plan_at_once(situation)
+                if found is not None:
+                    return found
+                if waiting:
+                    self.wait(*steps)
+                self.require(*steps)
+            return planner(situation)
+
+        return guarded
+
+    def _progress(self) -> str:
+        state = self._state
+        return f"preparing {state.title}, {state.share:.0%}" if state else "preparing"
+
+    def _run(self, rehearse: Callable[[], None]) -> None:
+        first = self._missing
+        try:
+            if self.has("flying"):
+                self._rehearse(rehearse)
+            for state in prepare(first, jobs=os.cpu_count() or 1, stopped=self._stopped.is_set):
+                self._note(state, tuple(name for name in first if name not in state.done))
+                if not self._rehearsed and self.has("flying"):
+                    self._rehearse(rehearse)
+        except WarmUpError as error:
+            log.error("%s Kernels are compiled when they are first used instead.", error)
+            self._note(None, ())
+            self._rehearse(rehearse)
+        if not self._stopped.is_set():
+            self._note(None, ())
+
+    def _rehearse(self, rehearse: Callable[[], None]) -> None:
+        self._rehearsed = run_logged("The rehearsal of a flight", rehearse)
+
+    def _note(self, state: Preparing | None, left: tuple[str, ...]) -> None:
+        with self._changed:
+            self._state, self._missing = state, left
+            self._changed.notify_all()
+
+
+def preparation_of(connection: HTTPConnection) -> Preparation:
+    """The preparation of the app that serves this connection."""
+    preparation: Preparation = connection.app.state.preparation
+    return preparation
+
+
+PreparationOf = Annotated[Preparation, Depends(preparation_of)]
+"""How a route asks for it."""
