@@ -1,7 +1,7 @@
 """first_candidate(situation): the fastest path to the slot, where the leader keeps straight.
 
 Without an intent the slot is open from the start, and the fastest extremal is the plan wherever it
-keeps d_min, as it does in nine situations of ten. So it is tried alone; `candidates` has all others.
+keeps d_min, as it does in nine situations of ten. So it is tried alone; `candidates` lists all.
 """
 
 from relguide.kernels.words import straight_leader as kernel
