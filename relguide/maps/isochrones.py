@@ -28,18 +28,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from relguide.kernels.base.records import Scene, with_limit
+from relguide.kernels.base.records import with_limit
 from relguide.kernels.maps.field import NO_WORD, field_rows
 from relguide.kernels.maps.final_leg import last_turns
 from relguide.kernels.separation.clearance import SLACK
 from relguide.kernels.words.extremals import WORDS
 from relguide.maps.constrained_times import CONSTRAINED, between_nodes, search_nodes
 from relguide.maps.contours import Contour, Evaluate, Field, Floats, Region, contours, regions
-from relguide.planning.constrained_path import leader_table
 from relguide.planning.inputs import expect, expect_function, number, truth, whole, within
 from relguide.planning.limits import MAX_POSITION
 from relguide.planning.situation import Situation
 from relguide.planning.slot import SlotFrame, slot_frame
+from relguide.planning.tables import scene_of
 from relguide.planning.words import HORIZON
 from relguide.units import Metre, Millisecond, Second
 
@@ -235,10 +235,8 @@ def times_around(
         words: says where one word alone need be solved; all of them everywhere if left out.
     """
     frame = slot_frame(situation, situation.leader.trajectory)
-    table = leader_table(situation, frame)
-    limit = situation.min_separation / frame.radius
-    scene = Scene(table, frame.alpha, limit, frame.t_release)
-    longest = last_turns(with_limit(scene, limit - SLACK))
+    scene = scene_of(situation, frame)
+    longest = last_turns(with_limit(scene, scene.d_min - SLACK))
     scale = frame.radius / situation.pursuer.tas
     workers = threads or cpu_count() or 1
     pool = ThreadPoolExecutor(workers)  # its threads start when needed, and end with it

@@ -1,15 +1,11 @@
 """constrained_path(candidates): the fastest path that touches d_min, or slides along it."""
 
-from math import inf
-
 import numpy as np
 
-from relguide.kernels.base.records import Scene
 from relguide.kernels.contact.constrained_search import MAX_LEGS, any_path, best_constrained_path
-from relguide.kernels.contact.path_pieces import NO_TURN, pieces_of
+from relguide.kernels.contact.path_pieces import pieces_of
 from relguide.kernels.contact.tangent import tangents
-from relguide.planning.situation import Situation
-from relguide.planning.slot import SlotFrame
+from relguide.planning.tables import scene_of
 from relguide.planning.words import (
     HORIZON,
     SIGN_ROWS,
@@ -56,27 +52,3 @@ def constrained_path(found: Candidates, *, beat: Second) -> Candidate | None:
         return None
     signs = [sign, 0.0, *SIGN_ROWS[int(row[1])]]
     return assemble(situation, frame, signs, [turned, straight, *row[2:].tolist()], "")
-
-
-def scene_of(situation: Situation, frame: SlotFrame) -> Scene:
-    """What a path has to reckon with, in the slot frame."""
-    leader, d_min = leader_table(situation, frame), situation.min_separation / frame.radius
-    return Scene(leader, frame.alpha, d_min, frame.t_release)
-
-
-def leader_table(situation: Situation, frame: SlotFrame) -> np.ndarray:
-    """The leader's pieces in the slot frame, a row each: start time, x, y, heading, turn rate.
-
-    Lengths in R, times in R/V_P, angles counter-clockwise; the last row is the endless final leg.
-    """
-    leader, tas = situation.leader.trajectory, situation.pursuer.tas
-    table: list[tuple[float, ...]] = []
-    t = 0.0
-    pieces = zip((*leader.durations(), inf), (*leader.turn_rates(), 0.0), strict=True)
-    for pose, (duration, rate) in zip(leader.breakpoints(), pieces, strict=True):
-        if duration * tas / frame.radius > NO_TURN:  # shorter pieces are rounding
-            x, y = frame.to_slot(pose.x, pose.y)
-            turning = -rate * frame.radius / tas
-            table.append((t * tas / frame.radius, x, y, frame.heading - pose.heading, turning))
-        t += duration
-    return np.array(table)

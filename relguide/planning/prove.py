@@ -12,10 +12,10 @@ from math import inf
 from time import perf_counter
 
 from relguide.kernels.bounds.contact_bound import Goal
-from relguide.planning.constrained_path import scene_of
 from relguide.planning.contact_search import Question
 from relguide.planning.inputs import expect, expect_function, within
 from relguide.planning.plan import Optimality, Plan
+from relguide.planning.tables import scene_of
 from relguide.planning.words import Candidates, candidates
 from relguide.units import Second
 

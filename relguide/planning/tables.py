@@ -1,20 +1,26 @@
 """A trajectory as the kernels take it: the leader's intent above all, in one home.
 
-Two forms, for two uses:
+Three forms, for three uses:
 
 - `bends_of`: lengths and curvatures, for the certificate. Every plan needs it, so it is a flat
   array of what the segments contain already, and `least_on_paths` makes times of it.
 - `motion_of`: durations and turn rates with the start, in the world frame, for all other kernels
   that fly both aircraft there.
+- `scene_of`: the leader's pieces as a table in the slot frame, with d_min and the release time, for
+  the searches.
 """
 
 from itertools import chain
+from math import inf
 
 import numpy as np
 
 from relguide.kernels.base.motion import Motion
+from relguide.kernels.base.records import Scene
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.contact.path_pieces import NO_TURN
 from relguide.planning.situation import Situation
+from relguide.planning.slot import SlotFrame
 from relguide.planning.trajectory import Trajectory
 
 _STRAIGHT = np.empty(0)
@@ -41,3 +47,28 @@ def motion_of(trajectory: Trajectory) -> Motion:
     bends = trajectory.bends()
     pieces = np.array(bends) if bends else np.empty((0, 2))
     return Motion(trajectory.x, trajectory.y, trajectory.heading, trajectory.tas, pieces)
+
+
+def scene_of(situation: Situation, frame: SlotFrame) -> Scene:
+    """What a path has to reckon with, in the slot frame."""
+    leader, d_min = leader_table(situation, frame), situation.min_separation / frame.radius
+    return Scene(leader, frame.alpha, d_min, frame.t_release)
+
+
+def leader_table(situation: Situation, frame: SlotFrame) -> FloatArray:
+    """The leader's pieces in the slot frame, a row each: start time, x, y, heading, turn rate.
+
+    Lengths in R, times in R/V_P, angles counter-clockwise; the last row is the endless final leg.
+    shape (pieces, 5)
+    """
+    leader, tas = situation.leader.trajectory, situation.pursuer.tas
+    table: list[tuple[float, ...]] = []
+    t = 0.0
+    pieces = zip((*leader.durations(), inf), (*leader.turn_rates(), 0.0), strict=True)
+    for pose, (duration, rate) in zip(leader.breakpoints(), pieces, strict=True):
+        if duration * tas / frame.radius > NO_TURN:  # shorter pieces are rounding
+            x, y = frame.to_slot(pose.x, pose.y)
+            turning = -rate * frame.radius / tas
+            table.append((t * tas / frame.radius, x, y, frame.heading - pose.heading, turning))
+        t += duration
+    return np.array(table)

@@ -26,8 +26,9 @@ from relguide.kernels.base.turn import turn_radius
 from relguide.kernels.contact.constrained_search import MAX_LEGS, best_constrained_path
 from relguide.kernels.contact.tangent import tangents
 from relguide.planning import constrained_path as module
-from relguide.planning.constrained_path import BEARINGS, TURNING_BEARINGS, scene_of
+from relguide.planning.constrained_path import BEARINGS, TURNING_BEARINGS
 from relguide.planning.optimality import check
+from relguide.planning.tables import scene_of
 from tests.oracle import arrival_error
 from tests.situations import headings, numbers
 
