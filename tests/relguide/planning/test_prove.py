@@ -46,6 +46,13 @@ def test_plans_that_d_min_made_longer_are_proved(
     assert proved.lower_bound >= planned.time_to_converge - 0.05
 
 
+def test_a_proof_ends_as_soon_as_the_gap_is_within_the_tolerance() -> None:
+    *before, last = bounds(golden_plan("R053"), seconds=20.0)
+    assert last.gap <= TOLERANCE < min(bound.gap for bound in before)
+    # the next half a millisecond would take several times as long
+    assert last.gap > 0.5 * TOLERANCE
+
+
 @pytest.mark.slow
 @given(situation=situations())
 def test_no_plan_is_faster_than_what_is_proved(situation: Situation) -> None:

@@ -85,3 +85,9 @@ def test_no_piece_of_a_boundary_arc_is_flown_backward(backward: int) -> None:
     bends = tuple((-20.0 if k == backward else 100.0, 1e-4) for k in range(5))
     with pytest.raises(ValueError, match=r"length of 0 m or more, not -20"):
         path(BoundaryArc(side=LEFT, bends=bends))
+
+
+def test_a_boundary_arc_has_pairs_of_a_length_and_a_curvature() -> None:
+    for bends in ([(1.0, 0.0)], (), ((1.0,),), ([1.0, 0.0],), (1.0, 0.0)):
+        with pytest.raises(ValueError, match=r"must have bends: a tuple of \(length, curvature\)"):
+            path(BoundaryArc(side=LEFT, bends=bends))  # type: ignore[arg-type]
