@@ -32,8 +32,8 @@ NAMED = (
     Named(
         name="the contact of a turning leader strays",
         file="relguide/kernels/bounds/contact_bound.py",
-        before="strays = swing + 0.5 * (alpha + abs(rate) * (delta + 1.0)) * swing * span",
-        after="strays = 0.0 * span",
+        before="return swing, swing + 0.5",
+        after="return swing, 0.0 * swing + 0.0",
     ),
     Named(
         name="a root where the function only touches zero",
