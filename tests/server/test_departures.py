@@ -24,12 +24,12 @@ def test_a_real_flight_obeys_its_commands() -> None:
             assert first["documents"][0]["kind"] == "flight_started"
             command = {"command": "leader_heading", "heading_deg": 20.0, "direction": "left"}
             assert client.post(f"{where}/commands", json=command).status_code == 202
-            told: list[str] = []
+            kinds: list[str] = []
             until = time.monotonic() + 10.0
-            while "plan_changed" not in told and time.monotonic() < until:
-                told += [document["kind"] for document in socket.receive_json()["documents"]]
-            assert "leader_changed" in told
-            assert "plan_changed" in told[told.index("leader_changed") :]
+            while "plan_changed" not in kinds and time.monotonic() < until:
+                kinds += [document["kind"] for document in socket.receive_json()["documents"]]
+            assert "leader_changed" in kinds
+            assert "plan_changed" in kinds[kinds.index("leader_changed") :]
 
 
 @pytest.mark.slow

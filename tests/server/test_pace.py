@@ -8,7 +8,7 @@ from relguide_server.pace import Pace
 
 
 class Clock:
-    """Stands still unless told."""
+    """Stands still until it is moved."""
 
     def __init__(self) -> None:
         self.now = 100.0

@@ -48,7 +48,7 @@ def scene_of(address: str, path: str, protocol: Subprotocol = VISER) -> connect:
     return connect(f"ws://{address}{path}", subprotocols=[protocol], max_size=None, proxy=None)
 
 
-def told(frame: bytes) -> str:
+def text_of(frame: bytes) -> str:
     """The messages in a frame of viser, as text enough to look for names in."""
     size, packed = (int.from_bytes(frame[k : k + 8], "little") for k in (0, 8))
     return repr(zstandard.ZstdDecompressor().decompress(frame[16 : 16 + packed], size))
@@ -76,7 +76,7 @@ def test_the_scene_is_relayed_at_both_paths(address: str, flight_id: str, slash:
             assert socket.subprotocol == VISER
             text = ""
             while "/world/leader/min_separation" not in text or "/world/plan" not in text:
-                text += told(await asyncio.wait_for(socket.recv(), 10.0))
+                text += text_of(await asyncio.wait_for(socket.recv(), 10.0))
             return text
 
     text = asyncio.run(look())
@@ -89,7 +89,9 @@ def test_the_picture_moves(address: str, flight_id: str) -> None:
         async with scene_of(address, f"/scene/{flight_id}") as socket:
             moves = 0
             while moves < 10:
-                moves += "SetPositionMessage" in told(await asyncio.wait_for(socket.recv(), 10.0))
+                moves += "SetPositionMessage" in text_of(
+                    await asyncio.wait_for(socket.recv(), 10.0)
+                )
             return moves
 
     assert asyncio.run(look()) == 10
@@ -134,7 +136,7 @@ def test_no_tunnel_to_the_outside(address: str, flight_id: str, unwanted: bytes 
             async with asyncio.timeout(10.0):
                 try:
                     while True:
-                        assert "ShareUrlUpdated" not in told(await socket.recv())
+                        assert "ShareUrlUpdated" not in text_of(await socket.recv())
                 except ConnectionClosed:
                     return socket.close_code
 

@@ -74,8 +74,8 @@ def test_a_slow_client_skips_samples_and_holds_up_nobody() -> None:
 def test_who_missed_a_plan_is_told_all_anew() -> None:
     async def scenario() -> None:
         browser = Browser()
-        told = iter(("first snapshot", "second snapshot"))
-        client = StreamClient(lambda: next(told), Metrics())
+        snapshots = iter(("first snapshot", "second snapshot"))
+        client = StreamClient(lambda: next(snapshots), Metrics())
         pump = asyncio.create_task(client.pump(browser))  # type: ignore[arg-type]
         await settle()
         browser.reading.clear()

@@ -38,7 +38,7 @@ def start(address: str, **body: object) -> str:
     return flight_id
 
 
-def tell(address: str, flight_id: str, **command: object) -> None:
+def send_command(address: str, flight_id: str, **command: object) -> None:
     url = f"http://{address}/api/v1/flights/{flight_id}/commands"
     assert httpx.post(url, json=command).status_code == 202
 
@@ -77,8 +77,8 @@ def test_the_first_tick_draws_the_whole_picture(address: str) -> None:
     flight_id = start(address, rate=60.0)
     time.sleep(0.8)  # nearly a minute of flight
     first, *_ = asyncio.run(_ticks_of(address, flight_id, 1))
-    told = kinds(first)
-    assert told[:4] == ["flight_started", "leader_route", "plan_changed", "mode_changed"]
+    found = kinds(first)
+    assert found[:4] == ["flight_started", "leader_route", "plan_changed", "mode_changed"]
     trail = [d["t_s"] for d in first["documents"] if d["kind"] == "sample"]
     assert len(trail) >= 3
     assert all(later - earlier >= 9.0 for earlier, later in pairwise(trail[:-1]))
@@ -86,11 +86,11 @@ def test_the_first_tick_draws_the_whole_picture(address: str) -> None:
 
 
 def test_a_command_changes_the_flight(address: str) -> None:
-    async def told() -> dict:
+    async def command_and_wait() -> dict:
         async with stream_of(address, flight_id) as socket:
             await ticks(socket, 1)
             command = {"command": "leader_heading", "heading_deg": 135.0, "direction": "right"}
-            await asyncio.to_thread(tell, address, flight_id, **command)
+            await asyncio.to_thread(send_command, address, flight_id, **command)
             while True:
                 (tick,) = await ticks(socket, 1)
                 for document in tick["documents"]:
@@ -98,7 +98,7 @@ def test_a_command_changes_the_flight(address: str) -> None:
                         return document
 
     flight_id = start(address, rate=1.0)
-    document = asyncio.run(asyncio.wait_for(told(), 5.0))
+    document = asyncio.run(asyncio.wait_for(command_and_wait(), 5.0))
     assert "LeaderHeading" in document["message"]
     assert "right" in document["message"]
 
@@ -109,8 +109,8 @@ def test_a_paused_flight_stands_and_still_ticks(address: str) -> None:
     assert {tick["t_s"] for tick in standing} == {0.0}
     assert all(tick["paused"] for tick in standing)
     assert kinds(standing[0])[-1] == "sample"
-    tell(address, flight_id, command="set_rate", rate=60.0)
-    tell(address, flight_id, command="play")
+    send_command(address, flight_id, command="set_rate", rate=60.0)
+    send_command(address, flight_id, command="play")
     moving = asyncio.run(_ticks_of(address, flight_id, 10))
     assert moving[-1]["t_s"] > 5.0
     assert moving[-1]["rate"] == 60.0
