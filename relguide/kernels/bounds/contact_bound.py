@@ -20,7 +20,8 @@ from numba import njit
 from relguide.kernels.base.angles import TWO_PI, wrap
 from relguide.kernels.base.records import Pose, Scene, Velocity, Window, with_limit
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.bounds.word_bound import Blur, NearWord, Sieve, breaks_limit, soonest
+from relguide.kernels.bounds.breach import NearWord, Sieve, breaks_limit
+from relguide.kernels.bounds.word_bound import Blur, soonest
 from relguide.kernels.contact.contact import contact_heading, seen_from
 from relguide.kernels.separation.clearance import leader_at, piece_at
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, fly_piece, solve
@@ -140,7 +141,7 @@ def cell_bound(
     rate = scene.leader[cell.piece, 4]
     vx = scene.alpha * cos(there.h) - rate * scene.d_min * sin(at)
     vy = scene.alpha * sin(there.h) + rate * scene.d_min * cos(at)
-    swing, strays = _turning_blur(scene, rate, span)
+    swing, strays = turning_blur(scene, rate, span)
     differs = spread.differs + swing
     # the slot does not turn with it: what the contact moves relative to the goal is blur
     if cell.piece + 1 == len(scene.leader) and goal.speed == scene.alpha:
@@ -182,10 +183,17 @@ def cell_bound(
 
 
 @njit(cache=True, nogil=True)
-def _turning_blur(scene: Scene, rate: float, span: float) -> tuple[float, float]:
-    """How much a contact turns in a time either way [rad], and how far it strays from a straight.
+def turning_blur(scene: Scene, rate: float, span: float) -> tuple[float, float]:
+    """How much a contact turns with the leader within a time, and how far it strays.
 
-    That counts the circles beside it too, whose centres are 1 R away and turn with it [R].
+    Args:
+        scene: the leader and d_min.
+        rate: the leader's turn rate [V_P/R].
+        span: the time, either way [R/V_P].
+
+    Returns:
+        the turn [rad], and how far the centres of the circles beside it, which turn with it, may
+        lie from where they would be had it kept its velocity and heading [R].
     """
     swing = abs(rate) * span
     return swing, swing + 0.5 * (scene.alpha + abs(rate) * (scene.d_min + 1.0)) * swing * span

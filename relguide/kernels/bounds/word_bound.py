@@ -29,12 +29,9 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, wrap, wrap_signed
-from relguide.kernels.base.records import Pose, Scene, Velocity, Window
-from relguide.kernels.separation.clearance import leader_at
-from relguide.kernels.words.extremals import fly_piece
+from relguide.kernels.base.records import Pose, Velocity, Window
+from relguide.kernels.bounds.breach import ROUNDING, NearWord, Sieve, breaks_limit
 
-_ROUNDING = 2e-7
-"""Added to every blur: twice what an accepted path may miss its end by, `extremals.CLOSURE` [R]."""
 _DEPTH = 192
 _FINEST = 1e-12  # an interval this short is not halved again [rad]
 _FAST = 0.95  # a target at this speed may be met twice, or late [V_P]
@@ -53,34 +50,6 @@ class Blur(NamedTuple):
     """[rad]."""
     end: float
     """How much of that is because the heading on which the target is met may differ [rad]."""
-
-
-class Sieve(NamedTuple):
-    """Which words are left out: those that certainly break the limit, read backward."""
-
-    used: bool
-    """Whether any are."""
-    back: Pose
-    """Where the path began: from the middle of the set it is flown back in time to there."""
-    scene: Scene
-    """The leader, and the separation to be kept."""
-
-
-class NearWord(NamedTuple):
-    """All paths of a word whose amounts lie near these."""
-
-    signs: tuple[float, float, float]
-    """ε of the pieces."""
-    first: float
-    """Amount of the first piece [rad]."""
-    first_blur: float
-    """How much it may differ."""
-    middle: float
-    """Amount of the second [rad or R]."""
-    middle_blur: float
-    """How much it may differ; infinite if it is not known."""
-    until: float
-    """When the word is not yet over [R/V_P]."""
 
 
 class _Side(NamedTuple):
@@ -184,49 +153,6 @@ def _narrow(
 
 
 @njit(cache=True, nogil=True)
-def breaks_limit(start: Pose, word: NearWord, scene: Scene, stride: float) -> bool:
-    """Whether every path of a word with amounts near these comes closer than the limit in time.
-
-    It is looked at now and then only: a breach that is short may be missed, and none is made up.
-
-    Args:
-        start: where the path begins, at t = 0.
-        word: which paths.
-        scene: the leader, and the separation to be kept.
-        stride: least step from one look to the next [R/V_P].
-    """
-    if word.middle_blur == inf:
-        return False
-    leader = scene.leader
-    # headings differ by no more than this in the second piece and in the third
-    slow = word.first_blur if word.signs[1] == 0.0 else 2.0 * word.first_blur
-    fast = 2.0 * (word.first_blur + word.middle_blur)
-    first, middle = max(word.first, 0.0), max(word.middle, 0.0)
-    parted = max(first - word.first_blur, 0.0)
-    turning = parted + max(middle - word.middle_blur, 0.0)
-    second = fly_piece(start, word.signs[0], first)
-    third = fly_piece(second, word.signs[1], middle)
-    i = 0
-    t = 0.0
-    while t < word.until:
-        while i + 1 < len(leader) and leader[i + 1, 0] <= t:
-            i += 1
-        if t <= first:
-            at = fly_piece(start, word.signs[0], t)
-        elif t <= first + middle:
-            at = fly_piece(second, word.signs[1], t - first)
-        else:
-            at = fly_piece(third, word.signs[2], t - first - middle)
-        there = leader_at(scene, i, t)
-        astray = slow * max(t - parted, 0.0) + fast * max(t - turning, 0.0)
-        gap = hypot(at.x - there.x, at.y - there.y) + astray + _ROUNDING - scene.d_min
-        if gap < 0.0:
-            return True
-        t += max(gap / (1.0 + scene.alpha), stride)
-    return False
-
-
-@njit(cache=True, nogil=True)
 def soonest(pose: Pose, blur: Blur, target: Velocity, window: Window, sieve: Sieve) -> float:
     """No word meets the target sooner than this, from any pose of the set.
 
@@ -255,8 +181,8 @@ def _side_of(pose: Pose, blur: Blur, target: Velocity, hand: int) -> _Side:
     m = 1.0 - 2.0 * hand
     h = wrap(m * pose.h)
     alpha = hypot(target.ahead, target.left)
-    circle = (blur.left if hand == 0 else blur.right) + _ROUNDING
-    heading = blur.heading + _ROUNDING
+    circle = (blur.left if hand == 0 else blur.right) + ROUNDING
+    heading = blur.heading + ROUNDING
     return _Side(
         h, pose.x - sin(h), m * pose.y + cos(h), circle + alpha * heading, heading, blur.end,
         Velocity(target.ahead, m * target.left), alpha, m,

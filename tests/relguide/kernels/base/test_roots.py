@@ -1,6 +1,7 @@
 """All roots of the words' one equation, against a dense grid refined by scipy."""
 
 import numpy as np
+import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.optimize import brentq
@@ -47,3 +48,42 @@ def test_cuts_stay_sorted_and_inside(points: list[float]) -> None:
     cuts, n = cuts_of(*points)
     assert n == 2 + sum(0.0 < p < 2.0 * np.pi for p in points)
     assert list(cuts[:n]) == sorted(cuts[:n])
+
+
+@given(
+    at=st.one_of(numbers(0.05, 6.2), st.sampled_from([0.5, 1.0, np.pi, 6.0])),
+    bend=st.sampled_from([1.0, -1.0, 0.3, -7.0]),
+)
+def test_a_root_where_the_function_only_touches_zero_is_found_once(at: float, bend: float) -> None:
+    """q (1 − cos(u − u₀)), which nowhere changes its sign; f′ is 0 there and half a turn on."""
+    k = np.array([0.0, 0.0, bend, 0.0, -bend * np.sin(at), -bend * np.cos(at)])
+    # cuts half way between the extremes, so that f′ has one zero in each interval
+    cuts, n = cuts_of((at + 0.5 * np.pi) % (2.0 * np.pi), (at + 1.5 * np.pi) % (2.0 * np.pi))
+    found = np.empty(2 * MAX_CUTS)
+    found = found[: all_roots(k, cuts, n, found)]
+    assert len(found) == 1
+    assert abs(found[0] - at) < 1e-6
+
+
+@given(at=numbers(0.5, 5.5), gap=st.sampled_from([1e-3, 1e-5, 1e-7, -1e-7, -1e-3]))
+def test_beside_a_touch_there_are_two_roots_or_none(at: float, gap: float) -> None:
+    """1 − cos(u − u₀) − c: two roots close to each other for c > 0, none for c < 0."""
+    k = np.array([0.0, 0.0, 1.0 - gap, 0.0, -np.sin(at), -np.cos(at)])
+    cuts, n = cuts_of((at + 0.5 * np.pi) % (2.0 * np.pi), (at + 1.5 * np.pi) % (2.0 * np.pi))
+    found = np.empty(2 * MAX_CUTS)
+    found = found[: all_roots(k, cuts, n, found)]
+    away = np.arccos(1.0 - gap) if gap > 0.0 else None
+    assert list(found) == (
+        [] if away is None else [pytest.approx(at - away), pytest.approx(at + away)]
+    )
+
+
+def test_a_function_that_touches_zero_at_a_cut_or_an_end_has_a_root_there() -> None:
+    found = np.empty(2 * MAX_CUTS)
+    for at in (0.0, np.pi, 2.0 * np.pi):
+        k = np.array([0.0, 0.0, 1.0, 0.0, -np.sin(at), -np.cos(at)])
+        cuts, n = cuts_of(np.pi)
+        roots = found[: all_roots(k, cuts, n, found)].tolist()
+        expected = [np.pi] if at == np.pi else [0.0, 2.0 * np.pi]
+        # where a cut lies at the very touch, both intervals may find it
+        assert sorted({round(root, 6) for root in roots}) == pytest.approx(expected, abs=1e-6)

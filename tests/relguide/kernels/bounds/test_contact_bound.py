@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
+from numba import njit
 from scipy.integrate import quad
 
 from relguide.kernels.base.records import Pose, Scene, Velocity
+from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.contact_bound import (
     Cell,
     Goal,
@@ -18,6 +20,7 @@ from relguide.kernels.bounds.contact_bound import (
     leaving_bound,
     round_bound,
     times_round,
+    turning_blur,
     untouched_bound,
 )
 from relguide.kernels.contact.contact import contact_exists, contact_heading, seen_from
@@ -55,11 +58,14 @@ def words_to(pose: Pose, to: Pose, alpha: float) -> np.ndarray:
     return rows[: solve_toward(seen._replace(h=seen.h % (2.0 * pi)), toward, 0.0, rows)]
 
 
-def keeps(pose: Pose, row: np.ndarray, scene: Scene) -> bool:
+@njit(nogil=True)
+def keeps(pose: Pose, row: FloatArray, scene: Scene) -> bool:
     """Whether a word keeps d_min, sampled."""
     t = 0.0
-    for sign, amount in zip(SIGNS[int(row[1])], row[2:], strict=True):
-        for along in np.linspace(0.0, amount, 300):
+    for k in range(3):
+        sign, amount = SIGNS[int(row[1]), k], row[2 + k]
+        for i in range(300):
+            along = amount * i / 299
             at = fly_piece(pose, sign, along)
             there = leader_at(scene, piece_at(scene.leader, t + along), t + along)
             if hypot(at.x - there.x, at.y - there.y) < scene.d_min:
@@ -173,3 +179,93 @@ def test_who_touches_nothing_is_as_fast_as_an_extremal_that_keeps_clear() -> Non
         assert lowest == pytest.approx(min(clear, default=inf)) or lowest > 2.0 * pi
         barred += lowest > rows[0, 0]
     assert barred > 5
+
+
+def turning(rng: np.random.Generator) -> Scene:
+    """A leader that turns, then keeps straight."""
+    alpha, d_min = rng.uniform(0.4, 0.98), rng.uniform(0.3, 4.0)
+    table = np.zeros((2, 5))
+    table[0] = 0.0, *rng.uniform(-4.0, 4.0, 2), rng.uniform(-pi, pi), rng.choice((1.0, -1.0))
+    table[0, 4] *= rng.uniform(0.2, 1.2)
+    table[1, 0] = rng.uniform(1.0, 3.0)
+    scene = Scene(table, alpha, d_min, 0.0)
+    table[1, 1:4] = leader_at(scene, 0, table[1, 0])
+    return scene
+
+
+def flown_backward(end: Pose, row: np.ndarray) -> Pose:
+    """Where a path begins whose word ends there."""
+    signs, amounts = SIGNS[int(row[1])], row[2:]
+    for sign, amount in zip(signs[::-1], amounts[::-1], strict=True):
+        # backward a turn is one to the other side, on the opposite heading
+        back = fly_piece(Pose(end.x, end.y, end.h + pi), -sign, amount)
+        end = Pose(back.x, back.y, back.h - pi)
+    return end
+
+
+def contact_with(scene: Scene, bearing: float, side: float, t: float) -> Pose:
+    """The pose of a contact at d_min itself, the leader on its first piece."""
+    there = leader_at(scene, 0, t)
+    return Pose(
+        there.x + scene.d_min * cos(there.h + bearing),
+        there.y + scene.d_min * sin(there.h + bearing),
+        there.h + contact_heading(bearing, side, scene.alpha),
+    )
+
+
+def test_a_contact_with_a_leader_that_turns_strays_no_further() -> None:
+    rng = np.random.default_rng(5)
+    nearly = 0
+    for _ in range(2_000):
+        scene = turning(rng)
+        bearing, side, t = rng.uniform(-pi, pi), rng.choice((1.0, -1.0)), rng.uniform(0.0, 3.0)
+        span, step = 4.0 * 0.5 ** rng.uniform(0.0, 12.0), 1e-5
+        swing, strays = turning_blur(scene, scene.leader[0, 4], span)
+        late = rng.choice((1.0, -1.0)) * span
+        middle, before, after, end = (
+            contact_with(scene, bearing, side, t + off) for off in (0.0, -step, step, late)
+        )
+        assert abs(end.h - middle.h) <= swing + 1e-12
+        for hand in (1.0, -1.0):
+            along = middle.x + late * (after.x - before.x) / (2.0 * step)
+            across = middle.y + late * (after.y - before.y) / (2.0 * step)
+            strayed = hypot(
+                end.x - along - hand * (sin(end.h) - sin(middle.h)),
+                end.y - across + hand * (cos(end.h) - cos(middle.h)),
+            )
+            assert strayed <= strays + 1e-8 * (1.0 + span)
+            nearly += strayed > 0.9 * strays
+    assert nearly > 100
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_no_contact_with_a_leader_that_turns_is_reached_or_left_sooner(seed: int) -> None:
+    """Words are flown back from contacts at the edges of a cell, where it is widest in time."""
+    rng = np.random.default_rng(seed)
+    reached = left = 0
+    for _ in range(4_000):
+        scene = turning(rng)
+        until = scene.leader[1, 0]
+        half = 0.25 * pi * 0.5 ** rng.integers(2, 16)
+        bearing = (rng.integers(0, round(2.0 * pi / (2.0 * half))) + 0.5) * 2.0 * half - pi
+        middle, span = rng.uniform(0.1, 0.9) * until, until * 0.5 ** rng.integers(1, 8)
+        window = max(middle - span, 0.0), min(middle + span, until)
+        cell = Cell(0, rng.choice((1.0, -1.0)), bearing, half, *window)
+        b, t = bearing + rng.choice((-1.0, 0.0, 1.0)) * half, rng.choice(window)
+        contact = contact_with(scene, b, cell.side, t)
+        amounts = rng.dirichlet((1.0, 1.0, 1.0)) * t
+        row = np.array((t, rng.integers(0, 6), *amounts))
+        start = flown_backward(contact, row)
+        goal = Goal(rng.uniform(-6.0, 6.0), rng.choice((scene.alpha, 0.0)))
+        soon, onward = cell_bound(start, scene, goal, cell, FAR)
+        rows = np.empty((MAX_ROWS, 5))
+        on = Pose(contact.x - goal.x - goal.speed * t, contact.y, contact.h % (2.0 * pi))
+        if solve(on, goal.speed, 0.0, rows) == 0 or rows[0, 0] >= 100.0:
+            continue
+        assert onward <= rows[0, 0] + SLACK * (1.0 + rows[0, 0])
+        left += 1
+        if keeps(start, row, scene._replace(d_min=scene.d_min - SLACK)):
+            assert soon <= t + SLACK * (1.0 + t)
+            reached += 1
+    assert left > 3_000
+    assert reached > 300

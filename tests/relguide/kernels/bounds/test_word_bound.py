@@ -7,14 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from relguide.kernels.base.records import Pose, Scene, Velocity, Window
-from relguide.kernels.bounds.word_bound import (
-    Blur,
-    NearWord,
-    Sieve,
-    breaks_limit,
-    intercept_span,
-    soonest,
-)
+from relguide.kernels.bounds.breach import NearWord, Sieve, breaks_limit
+from relguide.kernels.bounds.word_bound import Blur, intercept_span, soonest
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, WORDS, fly_piece, solve_toward
 from tests.situations import numbers
 

@@ -1,0 +1,87 @@
+"""Whether all paths of a word break the limit, when its amounts are known only nearly.
+
+Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
+"""
+
+from math import hypot, inf
+from typing import NamedTuple
+
+from numba import njit
+
+from relguide.kernels.base.records import Pose, Scene
+from relguide.kernels.separation.clearance import leader_at
+from relguide.kernels.words.extremals import fly_piece
+
+ROUNDING = 2e-7
+"""Added to every blur: twice what an accepted path may miss its end by, `extremals.CLOSURE` [R]."""
+
+
+class Sieve(NamedTuple):
+    """Which words are left out: those that certainly break the limit, read backward."""
+
+    used: bool
+    """Whether any are."""
+    back: Pose
+    """Where the path began: from the middle of the set it is flown back in time to there."""
+    scene: Scene
+    """The leader, and the separation to be kept."""
+
+
+class NearWord(NamedTuple):
+    """All paths of a word whose amounts lie near these."""
+
+    signs: tuple[float, float, float]
+    """ε of the pieces."""
+    first: float
+    """Amount of the first piece [rad]."""
+    first_blur: float
+    """How much it may differ."""
+    middle: float
+    """Amount of the second [rad or R]."""
+    middle_blur: float
+    """How much it may differ; infinite if it is not known."""
+    until: float
+    """When the word is not yet over [R/V_P]."""
+
+
+@njit(cache=True, nogil=True)
+def breaks_limit(start: Pose, word: NearWord, scene: Scene, stride: float) -> bool:
+    """Whether every path of a word with amounts near these comes closer than the limit in time.
+
+    It is looked at now and then only: a breach that is short may be missed, and none is made up.
+
+    Args:
+        start: where the path begins, at t = 0.
+        word: which paths.
+        scene: the leader, and the separation to be kept.
+        stride: least step from one look to the next [R/V_P].
+    """
+    if word.middle_blur == inf:
+        return False
+    leader = scene.leader
+    # headings differ by no more than this in the second piece and in the third
+    slow = word.first_blur if word.signs[1] == 0.0 else 2.0 * word.first_blur
+    fast = 2.0 * (word.first_blur + word.middle_blur)
+    first, middle = max(word.first, 0.0), max(word.middle, 0.0)
+    parted = max(first - word.first_blur, 0.0)
+    turning = parted + max(middle - word.middle_blur, 0.0)
+    second = fly_piece(start, word.signs[0], first)
+    third = fly_piece(second, word.signs[1], middle)
+    i = 0
+    t = 0.0
+    while t < word.until:
+        while i + 1 < len(leader) and leader[i + 1, 0] <= t:
+            i += 1
+        if t <= first:
+            at = fly_piece(start, word.signs[0], t)
+        elif t <= first + middle:
+            at = fly_piece(second, word.signs[1], t - first)
+        else:
+            at = fly_piece(third, word.signs[2], t - first - middle)
+        there = leader_at(scene, i, t)
+        astray = slow * max(t - parted, 0.0) + fast * max(t - turning, 0.0)
+        gap = hypot(at.x - there.x, at.y - there.y) + astray + ROUNDING - scene.d_min
+        if gap < 0.0:
+            return True
+        t += max(gap / (1.0 + scene.alpha), stride)
+    return False
