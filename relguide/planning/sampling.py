@@ -7,6 +7,7 @@ from math import pi
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from relguide.kernels.base.angles import wrap_each
 from relguide.planning.wind import Wind
 
 Floats = NDArray[np.float64]
@@ -51,7 +52,7 @@ class Samples:
             self,
             x=self.x + wind.east * self.t,
             y=self.y + wind.north * self.t,
-            track=np.arctan2(east, north) % (2.0 * pi),
+            track=wrap_each(np.arctan2(east, north)),
             speed=np.hypot(east, north),
         )
 
@@ -86,7 +87,7 @@ def sample_bends(
     piece = np.searchsorted(begins, t, side="right") - 1
     since = t - begins[piece]
     east, north = _moved(headings[piece], rates[piece], since, tas)
-    heading = (headings[piece] + rates[piece] * since) % (2.0 * pi)
+    heading = wrap_each(headings[piece] + rates[piece] * since)
     return Samples(
         t=t,
         x=xs[piece] + east,

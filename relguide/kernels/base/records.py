@@ -110,16 +110,16 @@ def start_at(pose: Pose) -> Start:
 
 
 @njit(cache=True, nogil=True)
-def straight_scene(ahead: float, alpha: float, d_min: float) -> Scene:
-    """A leader that keeps straight, D in front of the slot, which is open from the start.
+def straight_scene(alpha: float, slot: float, d_min: float) -> Scene:
+    """A leader that keeps straight, and a slot that is open from the start.
 
     Args:
-        ahead: D [R].
         alpha: V_L/V_P.
+        slot: D, how far the leader is ahead of the slot [R].
         d_min: least allowed separation [R].
     """
     leader = np.zeros((1, 5))
-    leader[0, 1] = ahead
+    leader[0, 1] = slot
     return Scene(leader, alpha, d_min, 0.0)
 
 

@@ -9,7 +9,7 @@ from math import inf
 import numpy as np
 from numba import njit
 
-from relguide.kernels.base.records import Pose, Scene, with_limit
+from relguide.kernels.base.records import Pose, Scene, straight_scene, with_limit
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain import WORD
 from relguide.kernels.contact.constrained_search import MAX_LEGS, best_constrained_path
@@ -19,14 +19,6 @@ from relguide.kernels.contact.tangent import tangents
 from relguide.kernels.words.extremals import MAX_ROWS, solve
 from relguide.kernels.words.fastest import fastest
 from relguide.kernels.words.sooner import make_scratch
-
-
-@njit(cache=True, nogil=True)
-def straight_scene(alpha: float, slot: float, d_min: float) -> Scene:
-    """The scene of a leader that keeps straight, D/R ahead of a slot that is open."""
-    leader = np.zeros((1, 5))
-    leader[0, 1] = slot
-    return Scene(leader, alpha, d_min, 0.0)
 
 
 @njit(cache=True, nogil=True)

@@ -6,7 +6,7 @@ close the answer is a time that can be flown, and a bound below it. A caller tha
 is the fastest may say so: then it alone is solved, and the bound is that of a straight line.
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader is a table as in
-`clearance`.
+`Scene`.
 """
 
 from math import cos, hypot, inf, sin

@@ -3,7 +3,7 @@
 As the first of the rows of `solve` that clears, but roots are sought only before the best so far.
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader is a table as in
-`clearance`.
+`Scene`.
 """
 
 from math import inf

@@ -5,7 +5,7 @@ the many families of `delay` two are tried here, enough almost everywhere: a str
 behind a turn–straight–turn word.
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader is a table as in
-`clearance`. The slot opens at (end_x, 0), end_x = α t_release, and is entered on heading 0.
+`Scene`. The slot opens at (end_x, 0), end_x = α t_release, and is entered on heading 0.
 """
 
 from math import atan2, sqrt

@@ -9,10 +9,10 @@ from math import inf
 from numba import njit
 
 from relguide.kernels.base.angles import mirror_heading, wrap
-from relguide.kernels.base.records import Pose
+from relguide.kernels.base.records import Pose, straight_scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.base.slot_frame import slot_offset, to_slot
-from relguide.kernels.contact.constrained_rows import breaks_limit, straight_scene
+from relguide.kernels.contact.constrained_rows import breaks_limit
 from relguide.kernels.separation.clearance import SLACK
 from relguide.kernels.words.branches import direct_time, needs_mirror
 

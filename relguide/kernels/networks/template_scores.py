@@ -14,10 +14,9 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import mirror_heading
-from relguide.kernels.base.records import Pose
+from relguide.kernels.base.records import Pose, straight_scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain import MAX_CONTACTS
-from relguide.kernels.contact.constrained_rows import straight_scene
 from relguide.kernels.contact.path_pieces import pieces_of
 from relguide.kernels.networks.branch_scores import Layers, last_hidden
 from relguide.kernels.networks.template_features import FEATURES, template_features

@@ -113,8 +113,8 @@ def grow_order(growth: Growth, *, threads: int | None = None) -> Iterator[Growth
     turns[growth.pairs[:, 1] == 0] = 0
     nodes = Nodes(growth.states, growth.headings, turns)
     scene = straight_scene(
-        encounter.slot_distance / radius,
         encounter.speed_ratio,
+        encounter.slot_distance / radius,
         encounter.min_separation / radius,
     )
     mesh = Mesh(
