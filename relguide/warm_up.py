@@ -233,7 +233,7 @@ def _state(running: Iterable[str], spent: dict[str, float], done: tuple[str, ...
 
 def _work(name: str) -> None:
     """A step in this process, which is started for it; writes the seconds each kernel took."""
-    if hasattr(os, "nice"):
+    if STEPS[name].after and hasattr(os, "nice"):
         os.nice(5)  # who flies or plans meanwhile comes first
     first_use.announced = True
 
