@@ -30,6 +30,7 @@ ARGUMENTS = (
     "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader",
 )
+ROOT = Path(__file__).parents[2]
 PATIENCE = 120.0
 """The service may have to compile its kernels first [s]."""
 
@@ -62,7 +63,7 @@ def running_service(folder: Path, port: int | None = None) -> Iterator[Service]:
             cwd=folder,
             stdout=output,
             stderr=subprocess.STDOUT,
-            env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])},
+            env={**os.environ, "PYTHONPATH": os.pathsep.join(map(str, (ROOT, ROOT / "server")))},
         )
     service = Service(f"http://127.0.0.1:{port}", process, log)
     try:
