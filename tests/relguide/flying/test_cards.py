@@ -7,6 +7,8 @@ from hypothesis import assume, given
 
 from relguide import (
     CALM,
+    LEFT,
+    BoundaryArc,
     NoPlan,
     Plan,
     Reason,
@@ -21,10 +23,12 @@ from relguide import (
 from relguide.flying.cards import no_plan_card, path_segments, plan_card, wind_card
 from relguide.flying.documents import (
     AlternativeCard,
+    BoundarySegment,
     EarlyAlternativeCard,
     TurnSegment,
     UnsafeAlternativeCard,
 )
+from relguide.planning.slot import over_ground
 from relguide.units import DEG
 from tests.oracle import integrate, pieces_of
 from tests.situations import golden, headings, numbers, situations
@@ -114,3 +118,29 @@ def test_of_a_slot_that_opens_later_it_is_told_who_comes_too_early() -> None:
     assert isinstance(first, EarlyAlternativeCard)
     assert first.release_time == pytest.approx(answer.time_to_converge)
     assert first.time_to_converge < first.release_time
+
+
+@pytest.mark.parametrize(
+    ("duration", "times"), [(4.9, []), (12.0, [4.0, 8.0]), (20.4, [4.08, 8.16, 12.24, 16.32])]
+)
+def test_a_boundary_arc_is_sent_with_a_point_every_five_seconds(
+    duration: float, times: list[float]
+) -> None:
+    flown = Trajectory(
+        x=100.0,
+        y=200.0,
+        heading=0.4,
+        tas=200.0,
+        segments=(
+            Straight(length=1_000.0),
+            BoundaryArc(side=LEFT, bends=((50.0, 1e-4), (200.0 * duration - 50.0, -5e-5))),
+        ),
+    )
+    wind = Wind(east=10.0, north=-5.0)
+    _, along = path_segments(flown, wind=wind, start_time=7.0)
+    assert isinstance(along, BoundarySegment)
+    assert [point.t for point in along.via] == pytest.approx([12.0 + time for time in times])
+    for point, time in zip(along.via, times, strict=True):
+        there = over_ground(flown.pose_at(5.0 + time), 5.0 + time, wind)
+        expected = pytest.approx((there.x, there.y, there.heading), abs=1e-9)
+        assert (point.x, point.y, point.heading) == expected

@@ -166,6 +166,15 @@ def test_leader_speed_makes_a_new_plan() -> None:
     assert flight.samples[-1].leader.tas == pytest.approx(180.0, abs=0.5)
 
 
+def test_a_leader_slows_down_without_brakes() -> None:
+    """At most 0.5 m/s², half of what an A300 can do with them."""
+    tas = FIG_6B.situation.leader.tas
+    flight = flown(FIG_6B, (100.0, LeaderSpeed(tas=tas - 40.0)))
+    speeds = [(sample.t, sample.leader.tas) for sample in flight.samples if 99.0 < sample.t < 160.0]
+    falls = [(v - w) / (u - t) for (t, v), (u, w) in pairwise(speeds)]
+    assert max(falls) == pytest.approx(0.5, abs=0.01)
+
+
 def test_intent_withdrawn_and_received() -> None:
     withdrawn, received = IntentKnown(known=False), IntentKnown(known=True)
     flight = flown(FIG_6B, (100.0, withdrawn), (101.0, withdrawn), (200.0, received))
