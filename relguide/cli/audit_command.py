@@ -197,5 +197,5 @@ def _audit_templates(chosen: argparse.Namespace) -> None:
 
 
 def _latency(asked: dict[str, tuple[float, float]]) -> dict[str, dict[str, float]]:
-    """Median and 99th percentile of a query by each way of asking, as JSON names them."""
+    """Median and 99th percentile of a query, by who is asked, as JSON names them."""
     return {name: {"p50_us": low, "p99_us": high} for name, (low, high) in asked.items()}

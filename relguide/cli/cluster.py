@@ -1,8 +1,8 @@
-"""cluster(address) → Executor: a Dask cluster's workers, for `learn/training/chunks.gathered`.
+"""cluster(address) → Executor: a Dask cluster's workers, which make the parts of a data set.
 
 A part is the same wherever it is made if the program is the same, so every machine must have this
-one: it is asked when we connect, and again with every part, as workers may join later. Needs the
-extra `cluster`; nothing here is loaded before it is asked for.
+one: that is checked on connecting, and again with every part, as workers may join later. Needs the
+extra `cluster`, which is loaded on connecting.
 """
 
 import errno
@@ -37,12 +37,12 @@ PARTS_OF_IT = ("kernels", "learn")
 
 
 @contextmanager
-def cluster(address: str, tell: Callable[[str], None]) -> Iterator["ClusterExecutor"]:
+def cluster(address: str, say: Callable[[str], None]) -> Iterator["ClusterExecutor"]:
     """Connect to a Dask cluster.
 
     Args:
         address: of its scheduler, e.g. tcp://192.0.2.1:8786.
-        tell: is given a sentence while there are no workers to be had.
+        say: called with a sentence while the cluster has no workers.
 
     Raises:
         MissingExtra: if Dask is not installed here.
@@ -67,7 +67,7 @@ def cluster(address: str, tell: Callable[[str], None]) -> Iterator["ClusterExecu
         raise ValueError(f"{address} is no address of a Dask scheduler: {error}.") from None
     try:
         _check_machines(client)
-        yield ClusterExecutor(client, address, tell)
+        yield ClusterExecutor(client, address, say)
     except ImportError as missing:  # of a worker that joined later
         raise ValueError(
             f"A machine of the Dask cluster cannot make parts: {missing}."
@@ -79,23 +79,23 @@ def cluster(address: str, tell: Callable[[str], None]) -> Iterator["ClusterExecu
 class ClusterExecutor(Executor):
     """The workers of a cluster; a `Cluster` of `learn/training/chunks`."""
 
-    def __init__(self, client: Client, address: str, tell: Callable[[str], None]) -> None:
+    def __init__(self, client: Client, address: str, say: Callable[[str], None]) -> None:
         from distributed.scheduler import KilledWorker
 
         self.losses: tuple[type[Exception], ...] = (KilledWorker, CancelledError)
         self._client = client
         self._address = address
-        self._tell = tell
+        self._say = say
         # a part asked for again is not the same task, lest its loss be remembered
         self._executor = client.get_executor(pure=False)
         self._cores = 0
         self._counted_at = -COUNTED_EVERY
         self._seen_at = monotonic()
-        self._told = False
+        self._said = False
 
     def submit(self, fn: Callable[..., T], /, *args: Any, **kwargs: Any) -> Future[T]:
         """Have one part made."""
-        future: Future[T] = self._executor.submit(made_alike, program(), fn, *args, **kwargs)
+        future: Future[T] = self._executor.submit(make_alike, program(), fn, *args, **kwargs)
         return future
 
     @property
@@ -109,7 +109,7 @@ class ClusterExecutor(Executor):
             except OSError:
                 self._cores = 0  # the connection is being lost: `check` says whether for good
         if self._cores:
-            self._seen_at, self._told = now, False
+            self._seen_at, self._said = now, False
         return self._cores
 
     def check(self) -> None:
@@ -129,14 +129,14 @@ class ClusterExecutor(Executor):
                 f"the Dask cluster has had no workers for {NO_WORKERS:g} s",
                 self._address,
             )
-        if missed > COUNTED_EVERY and not self._told:
-            self._told = True
-            self._tell(f"{self._address} has no workers: waiting up to {NO_WORKERS:g} s for one.")
+        if missed > COUNTED_EVERY and not self._said:
+            self._said = True
+            self._say(f"{self._address} has no workers: waiting up to {NO_WORKERS:g} s for one.")
 
 
 @cache
 def program() -> tuple[tuple[str, str], ...]:
-    """What makes parts here: packages with their versions, and a fingerprint of our own code."""
+    """The program here: packages with their versions, and a fingerprint of our own code."""
     found = sha256()
     here = Path(__file__).parents[1]
     for folder in PARTS_OF_IT:
@@ -150,13 +150,13 @@ def program() -> tuple[tuple[str, str], ...]:
     )
 
 
-def made_alike(
+def make_alike(
     expected: tuple[tuple[str, str], ...], task: Callable[..., T], /, *args: Any, **kwargs: Any
 ) -> T:
-    """Make a part, in a worker, if its program is the one that asks.
+    """Make a part in a worker, if its program is the same as the one that asks.
 
     Raises:
-        ValueError: if it is another.
+        ValueError: if its program is another.
     """
     ours = dict(program())
     for name, asked in expected:
@@ -171,10 +171,10 @@ def made_alike(
 
 def _check_machines(client: Client) -> None:
     """Refuse machines whose packages are not ours; they could not even read what is sent."""
-    told = client.get_versions(packages=list(PACKAGES))
-    machines = {"scheduler": told["scheduler"]}
-    machines |= {f"worker {address}": found for address, found in told["workers"].items()}
-    ours = told["client"]["packages"]
+    seen = client.get_versions(packages=list(PACKAGES))
+    machines = {"scheduler": seen["scheduler"]}
+    machines |= {f"worker {address}": found for address, found in seen["workers"].items()}
+    ours = seen["client"]["packages"]
     for machine, found in machines.items():
         for name in PACKAGES:
             if found["packages"][name] != ours[name]:
@@ -184,6 +184,6 @@ def _check_machines(client: Client) -> None:
 def _differs(machine: str, name: str, theirs: str | None, ours: str) -> str:
     has = f"has {name} {theirs}" if theirs else f"does not have {name}"
     return (
-        f"The Dask {machine} {has}, and here is {ours}: what it made would not be the same. "
+        f"The Dask {machine} {has}, and here is {ours}: its parts would not be the same. "
         "Install the same relguide on all machines."
     )

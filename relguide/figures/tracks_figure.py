@@ -21,7 +21,7 @@ MARGIN = 64.0
 NARROWEST = 320.0
 """Between the margins, for the title [px]."""
 ROOM = 0.04
-"""Left free around what is shown, as a part of its span."""
+"""Left free around the tracks, as a share of their span."""
 STEPS = 400
 """Points of a track."""
 INK, PURSUER, LEADER, LIMIT = "#333", "#1a6fb4", "#c2542d", "#b3122d"
@@ -35,14 +35,17 @@ def draw(
     closest_at: Second,
     title: str,
 ) -> str:
-    """The picture.
+    """Draw both tracks.
 
     Args:
-        flown: by the pursuer, in the air mass.
-        situation: gives the leader, D, d_min and the wind.
-        nodes: to mark on it, numbered from 1 at the slot.
-        closest_at: when the two are nearest [s].
-        title: what stands above.
+        flown: what the pursuer flies, in the air mass.
+        situation: its leader, D, d_min and wind.
+        nodes: points of the pursuer's track to mark, numbered from 1 at the slot.
+        closest_at: when the two aircraft are nearest [s].
+        title: the line above the picture.
+
+    Returns:
+        the text of an SVG file.
     """
     leader, end = situation.leader.trajectory, flown.duration
 
@@ -86,7 +89,7 @@ def draw(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Page:
-    """Places on paper: the same scale both ways, north up."""
+    """Where places lie in the picture: one scale for both axes, north up."""
 
     west: float
     """Edges of what is shown [NM]."""
@@ -96,7 +99,7 @@ class _Page:
 
     @property
     def scale(self) -> float:
-        """Pixels a nautical mile."""
+        """Pixels per nautical mile."""
         return (WIDTH - 2.0 * MARGIN) / max(self.east - self.west, self.north - self.south)
 
     @property
@@ -166,7 +169,7 @@ class _Page:
 
 
 def _page(places: Sequence[Place]) -> _Page:
-    """With room for all of them, and a little around."""
+    """A page with room for all places and a little more."""
     east, north = ([place[k] for place in places] for k in (0, 1))
     span = max(max(east) - min(east), max(north) - min(north), 1.0)
     room = ROOM * span
@@ -179,7 +182,7 @@ def _page(places: Sequence[Place]) -> _Page:
 
 
 def _round_step(wanted: float) -> float:
-    """1, 2 or 5 times a power of ten, the least not below what is wanted."""
+    """The least of 1, 2 and 5 times powers of ten that is not below what is wanted."""
     power = 10.0 ** floor(log10(wanted))
     return next(k * power for k in (1.0, 2.0, 5.0, 10.0) if k * power >= wanted * (1.0 - 1e-9))
 

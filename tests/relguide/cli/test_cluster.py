@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 from relguide.cli import cluster as clusters
-from relguide.cli.cluster import cluster, made_alike, program
+from relguide.cli.cluster import cluster, make_alike, program
 from relguide.learn.training import chunks
 from relguide.learn.training.chunks import Cluster, gathered
 from relguide.learn.words.branch_labels import (
@@ -159,7 +159,7 @@ def test_a_scheduler_that_is_gone_is_told_in_a_sentence(
 def test_another_program_is_refused(
     machines: LocalCluster, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    assert made_alike(program(), abs, -3) == 3
+    assert make_alike(program(), abs, -3) == 3
     asked = dict(program()) | {"its code": "another"}
     with cluster(machines.address, told_nothing) as workers:
         monkeypatch.setattr(clusters, "program", lambda: tuple(asked.items()))
