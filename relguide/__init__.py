@@ -17,36 +17,7 @@ d_min. Five conventions hold everywhere:
 import importlib
 import typing
 
-from relguide.kernels import cache
-from relguide.planning.arrival import Arrival as Arrival
-from relguide.planning.certificate import Certificate as Certificate
-from relguide.planning.certificate import certify as certify
 from relguide.planning.extras import with_command as _with_command
-from relguide.planning.plan import NoPlan as NoPlan
-from relguide.planning.plan import Optimality as Optimality
-from relguide.planning.plan import Plan as Plan
-from relguide.planning.plan import Planner as Planner
-from relguide.planning.plan import Reason as Reason
-from relguide.planning.plan import plan as plan
-from relguide.planning.progress import progress_bar as progress_bar
-from relguide.planning.sampling import Samples as Samples
-from relguide.planning.situation import CALM as CALM
-from relguide.planning.situation import FlyStraight as FlyStraight
-from relguide.planning.situation import Leader as Leader
-from relguide.planning.situation import Pursuer as Pursuer
-from relguide.planning.situation import Situation as Situation
-from relguide.planning.situation import TurnTo as TurnTo
-from relguide.planning.situation import Wind as Wind
-from relguide.planning.situation import wind_from as wind_from
-from relguide.planning.trajectory import LEFT as LEFT
-from relguide.planning.trajectory import RIGHT as RIGHT
-from relguide.planning.trajectory import Arc as Arc
-from relguide.planning.trajectory import BoundaryArc as BoundaryArc
-from relguide.planning.trajectory import Pose as Pose
-from relguide.planning.trajectory import Straight as Straight
-from relguide.planning.trajectory import Trajectory as Trajectory
-from relguide.planning.words import Candidate as Candidate
-from relguide.planning.words import candidates as candidates
 
 if typing.TYPE_CHECKING:
     from relguide.contract.recorder import record as record
@@ -74,17 +45,45 @@ if typing.TYPE_CHECKING:
     from relguide.maps.isochrones import isochrones as isochrones
     from relguide.planning.alternatives import Alternative as Alternative
     from relguide.planning.alternatives import alternatives as alternatives
+    from relguide.planning.arrival import Arrival as Arrival
     from relguide.planning.batch import Situations as Situations
     from relguide.planning.batch import TimeRow as TimeRow
     from relguide.planning.batch import Times as Times
     from relguide.planning.batch import plan_arrays as plan_arrays
+    from relguide.planning.certificate import Certificate as Certificate
+    from relguide.planning.certificate import certify as certify
     from relguide.planning.optimality import OptimalityReport as OptimalityReport
     from relguide.planning.optimality import check as check
+    from relguide.planning.plan import NoPlan as NoPlan
+    from relguide.planning.plan import Optimality as Optimality
+    from relguide.planning.plan import Plan as Plan
+    from relguide.planning.plan import Planner as Planner
+    from relguide.planning.plan import Reason as Reason
+    from relguide.planning.plan import plan as plan
+    from relguide.planning.progress import progress_bar as progress_bar
     from relguide.planning.prove import prove as prove
+    from relguide.planning.sampling import Samples as Samples
+    from relguide.planning.situation import CALM as CALM
+    from relguide.planning.situation import FlyStraight as FlyStraight
+    from relguide.planning.situation import Leader as Leader
+    from relguide.planning.situation import Pursuer as Pursuer
+    from relguide.planning.situation import Situation as Situation
+    from relguide.planning.situation import TurnTo as TurnTo
+    from relguide.planning.situation import Wind as Wind
+    from relguide.planning.situation import wind_from as wind_from
+    from relguide.planning.trajectory import LEFT as LEFT
+    from relguide.planning.trajectory import RIGHT as RIGHT
+    from relguide.planning.trajectory import Arc as Arc
+    from relguide.planning.trajectory import BoundaryArc as BoundaryArc
+    from relguide.planning.trajectory import Pose as Pose
+    from relguide.planning.trajectory import Straight as Straight
+    from relguide.planning.trajectory import Trajectory as Trajectory
+    from relguide.planning.words import Candidate as Candidate
+    from relguide.planning.words import candidates as candidates
 
 __version__ = "0.1.0"
 
-_ON_DEMAND = {
+_HOMES = {
     "record": "relguide.contract.recorder",
     "replay": "relguide.contract.recorder",
     "Document": "relguide.flying.documents",
@@ -101,8 +100,8 @@ _ON_DEMAND = {
     "Scenario": "relguide.flying.flight",
     "fly": "relguide.flying.flight",
     "own_scenario": "relguide.flying.scenarios",
-    "scenario_behind": "relguide.flying.scenarios",
     "scenario": "relguide.flying.scenarios",
+    "scenario_behind": "relguide.flying.scenarios",
     "RecordedTrack": "relguide.flying.tracks",
     "load_track": "relguide.flying.tracks",
     "Grid": "relguide.maps.isochrones",
@@ -110,15 +109,43 @@ _ON_DEMAND = {
     "isochrones": "relguide.maps.isochrones",
     "Alternative": "relguide.planning.alternatives",
     "alternatives": "relguide.planning.alternatives",
+    "Arrival": "relguide.planning.arrival",
     "Situations": "relguide.planning.batch",
     "TimeRow": "relguide.planning.batch",
     "Times": "relguide.planning.batch",
     "plan_arrays": "relguide.planning.batch",
+    "Certificate": "relguide.planning.certificate",
+    "certify": "relguide.planning.certificate",
     "OptimalityReport": "relguide.planning.optimality",
     "check": "relguide.planning.optimality",
+    "NoPlan": "relguide.planning.plan",
+    "Optimality": "relguide.planning.plan",
+    "Plan": "relguide.planning.plan",
+    "Planner": "relguide.planning.plan",
+    "Reason": "relguide.planning.plan",
+    "plan": "relguide.planning.plan",
+    "progress_bar": "relguide.planning.progress",
     "prove": "relguide.planning.prove",
+    "Samples": "relguide.planning.sampling",
+    "CALM": "relguide.planning.situation",
+    "FlyStraight": "relguide.planning.situation",
+    "Leader": "relguide.planning.situation",
+    "Pursuer": "relguide.planning.situation",
+    "Situation": "relguide.planning.situation",
+    "TurnTo": "relguide.planning.situation",
+    "Wind": "relguide.planning.situation",
+    "wind_from": "relguide.planning.situation",
+    "Arc": "relguide.planning.trajectory",
+    "BoundaryArc": "relguide.planning.trajectory",
+    "LEFT": "relguide.planning.trajectory",
+    "Pose": "relguide.planning.trajectory",
+    "RIGHT": "relguide.planning.trajectory",
+    "Straight": "relguide.planning.trajectory",
+    "Trajectory": "relguide.planning.trajectory",
+    "Candidate": "relguide.planning.words",
+    "candidates": "relguide.planning.words",
 }
-"""Names, and the modules of theirs that are loaded when first asked for: a plan needs none."""
+"""Public names and their modules, loaded when first asked for: numba alone takes 0.3 s."""
 
 __all__ = [
     "CALM",
@@ -185,11 +212,11 @@ __all__ = [
 
 
 def __getattr__(name: str) -> typing.Any:
-    """Load what is used beside `plan` when it is."""
-    if name not in _ON_DEMAND:
+    """Load what a public name stands for, once."""
+    if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     try:
-        module = importlib.import_module(_ON_DEMAND[name])
+        module = importlib.import_module(_HOMES[name])
     except ModuleNotFoundError as error:
         raise _with_command(error) from None
     value = getattr(module, name)
@@ -199,7 +226,4 @@ def __getattr__(name: str) -> typing.Any:
 
 def __dir__() -> list[str]:
     """All public names, loaded or not."""
-    return sorted({*globals(), *_ON_DEMAND})
-
-
-cache.adopt()
+    return sorted({*globals(), *_HOMES})

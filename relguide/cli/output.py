@@ -3,7 +3,6 @@
 import sys
 from collections.abc import Mapping
 from datetime import UTC, datetime
-from importlib.metadata import version
 from typing import Any
 
 from relguide import __version__
@@ -41,6 +40,8 @@ def provenance(method: str, **more: str) -> dict[str, str]:
         method: of `relguide dataset`.
         more: what else to record, for example the command.
     """
+    from importlib.metadata import version  # half of the time that `--help` would take
+
     return {
         "program": PROGRAM,
         "method": method,

@@ -2,3 +2,5 @@
 
 from relguide.kernels import cache as cache
 from relguide.kernels import compiling as compiling
+
+cache.adopt()
