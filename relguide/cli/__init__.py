@@ -4,8 +4,8 @@ Each has PURPOSE and EXAMPLES for the help, `add_options`, and `run`, which retu
 What a command needs beyond numpy and numba is loaded when it runs, so that `--help` answers at once
 and works whatever is installed.
 
-Shared: `options` are options of more than one command, `situation_file` reads what is to be
+Shared: `shared_options` are options of more than one command, `situation_file` reads what is to be
 planned, `output` writes; `plan_tables`, `flight_tables`, `branch_tables` and `template_tables` are
-tables for people, made by `tables`; `tree_growth` grows the paper's tree under a bar; `workers`
+tables for people, made by `shared_tables`; `tree_growth` grows the paper's tree under a bar; `workers`
 are the threads, or the `cluster`, that make parts.
 """

@@ -6,8 +6,8 @@ from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from relguide.cli.options import add_tree, tree_parameters
 from relguide.cli.output import DONE, write
+from relguide.cli.shared_options import add_tree, tree_parameters
 
 if TYPE_CHECKING:
     from relguide.figures.area_figure import Column

@@ -4,8 +4,8 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from relguide.cli.options import add_workers, count
 from relguide.cli.output import DONE, write_json
+from relguide.cli.shared_options import add_workers, count
 from relguide.planning.extras import need
 
 if TYPE_CHECKING:

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from math import hypot, inf
 
 from relguide.cli.output import write
-from relguide.cli.tables import percent, print_table, short, table, with_interval
+from relguide.cli.shared_tables import percent, print_table, short, table, with_interval
 from relguide.learn.audits.branch_audit import Audit, Group, Miss
 from relguide.learn.audits.side_by_side import Ground, Method, two
 from relguide.units import DEG

@@ -5,8 +5,8 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from relguide.cli.options import add_tree, add_workers, count, tree_parameters
 from relguide.cli.output import DONE, provenance, write, write_json
+from relguide.cli.shared_options import add_tree, add_workers, count, tree_parameters
 from relguide.planning.extras import need
 
 if TYPE_CHECKING:

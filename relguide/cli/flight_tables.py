@@ -8,7 +8,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from relguide.cli.tables import clock, miles
+from relguide.cli.shared_tables import clock, miles
 from relguide.contract.story import Event, Story
 from relguide.flying.documents import (
     LeaderChanged,

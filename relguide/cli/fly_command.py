@@ -7,8 +7,8 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from relguide.cli.options import add_planner, make_planner
 from relguide.cli.output import DONE, FAILED, say, write_json
+from relguide.cli.shared_options import add_planner, make_planner
 from relguide.cli.situation_file import read_situation
 from relguide.planning.extras import need
 

@@ -7,7 +7,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from relguide.cli.tables import clock, miles
+from relguide.cli.shared_tables import clock, miles
 from relguide.flying.documents import (
     AlternativeCard,
     AnyAlternativeCard,

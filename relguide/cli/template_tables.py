@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from relguide.cli.output import write
-from relguide.cli.tables import percent, print_table, short, table, with_interval
+from relguide.cli.shared_tables import percent, print_table, short, table, with_interval
 from relguide.learn.audits.both_networks import UNIT
 from relguide.learn.audits.template_audit import (
     WORTH,

@@ -2,7 +2,7 @@
 
 import argparse
 
-from relguide.cli.options import count
+from relguide.cli.shared_options import count
 
 PURPOSE = "compile ahead of the first use"
 EXAMPLES = """
