@@ -319,10 +319,9 @@ def _bulk() -> None:
 
 
 def _networks() -> None:
-    from relguide.learn.network_planner import network_planner
-    from relguide.learn.words.branch_network import load_network
+    from relguide.learn.planners import make_planner
 
-    planner = network_planner(load_network())
+    planner = make_planner("network")
     for situation in (_situation(-40e3, 40e3, 90.0), *LIMITED):
         planner(situation)
 

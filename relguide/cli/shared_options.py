@@ -3,12 +3,10 @@
 import argparse
 from typing import TYPE_CHECKING
 
+from relguide.learn.planners import PLANNERS
+
 if TYPE_CHECKING:
     from relguide.learn.tree.tree import TreeParameters
-    from relguide.planning.plan import Planner
-
-PLANNERS = ("exact", "network", "regular_dp")
-"""Planners of the contract."""
 
 
 def count(text: str) -> int:
@@ -24,25 +22,9 @@ def add_planner(parser: argparse.ArgumentParser) -> None:
         "--planner",
         choices=PLANNERS,
         default="exact",
-        help="exact: all words are solved; network: a network picks those to solve; regular_dp: "
-        "the paper's tree picks them; default: exact",
+        help="; ".join(f"{name}: {known.description}" for name, known in PLANNERS.items())
+        + "; default: exact",
     )
-
-
-def make_planner(name: str) -> "Planner":
-    """The planner of that name."""
-    if name == "exact":
-        from relguide.planning.plan import plan
-
-        return plan
-    if name == "regular_dp":
-        from relguide.learn.tree.regular_planner import regular_planner
-
-        return regular_planner
-    from relguide.learn.network_planner import network_planner
-    from relguide.learn.words.branch_network import load_network
-
-    return network_planner(load_network())
 
 
 def add_workers(parser: argparse.ArgumentParser) -> None:

@@ -9,7 +9,8 @@ from fastapi import APIRouter, FastAPI, Request
 from starlette.responses import PlainTextResponse, Response
 
 from relguide import __version__
-from relguide.planning.plan import Planner, plan
+from relguide.learn.planners import make_planner
+from relguide.planning.plan import Planner
 from relguide_server import areas, flights, pages, plans, scene_relay
 from relguide_server.departures import Departures, library_departures
 from relguide_server.drift import DriftCheck
@@ -50,7 +51,7 @@ def create_app(
     metrics = Metrics()
     drift = DriftCheck(metrics, every=settings.drift_check)
     preparation = preparation or Preparation()
-    planner = drift.watch(planner or _planner(settings.planner))
+    planner = drift.watch(planner or make_planner(settings.planner))
     patient = preparation.guard(planner, settings, waiting=True)
     departures = departures or library_departures(patient)
     fleet = Fleet(settings, metrics)
@@ -93,16 +94,6 @@ def create_app(
     app.add_middleware(BodyLimit, max_body=settings.max_body)
     app.add_middleware(StrictHeaders)
     return app
-
-
-def _planner(name: str) -> Planner:
-    """A planner by its name in the settings."""
-    if name == "exact":
-        return plan
-    from relguide.learn.network_planner import network_planner
-    from relguide.learn.words.branch_network import load_network
-
-    return network_planner(load_network())
 
 
 @router.get("/healthz", summary="Is it alive?")

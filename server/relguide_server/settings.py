@@ -5,8 +5,7 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import Any
 
-PLANNERS = ("exact", "network")
-"""Planners that are fast enough to fly and to serve with."""
+from relguide.learn.planners import SERVING
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -24,15 +23,15 @@ class Settings:
     stream_rate: float = 20.0
     """Ticks a wall-clock second [1/s]."""
     planner: str = "exact"
-    """Who plans, for REST and for flights: one of `PLANNERS`."""
+    """Who plans, for REST and for flights: one of `SERVING`."""
     drift_check: int = 100
     """One in so many plans by network is planned again exactly, for `/metrics`; 0: none. Where the
     limit binds that takes tens of milliseconds, on a thread of its own."""
 
     def __post_init__(self) -> None:
         """Refuse settings with which nothing could run."""
-        if self.planner not in PLANNERS:
-            raise ValueError(f"planner must be {' or '.join(PLANNERS)}, not {self.planner}.")
+        if self.planner not in SERVING:
+            raise ValueError(f"planner must be {' or '.join(SERVING)}, not {self.planner}.")
         if self.drift_check < 0:
             raise ValueError(f"drift_check must be 0 or more, not {self.drift_check}.")
         for name in ("max_flights", "max_body"):
