@@ -24,6 +24,5 @@ situations = rg.Situations(
 times = rg.plan_arrays(situations)
 print(times)
 table = np.column_stack((distances.ravel(), ratios.ravel(), times.time_to_converge))
-np.savetxt(
-    "study.csv", table, "%.3f", ",", header="slot_distance_m,speed_ratio,time_s", comments=""
-)
+header = "slot_distance_m,speed_ratio,time_to_converge_s"
+np.savetxt("study.csv", table, "%.3f", ",", header=header, comments="")
