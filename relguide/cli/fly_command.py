@@ -8,7 +8,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from relguide.cli.output import DONE, FAILED, say, write_json
-from relguide.cli.shared_options import add_planner, make_planner
+from relguide.cli.shared_options import add_planner
 from relguide.cli.situation_file import read_situation
 from relguide.learn.planners import make_planner
 from relguide.planning.extras import need

@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterator
 from typing import TYPE_CHECKING
 
 from relguide.cli.output import DONE, FAILED, say, write_json
-from relguide.cli.shared_options import add_planner, make_planner
+from relguide.cli.shared_options import add_planner
 from relguide.cli.situation_file import open_input, read_situation
 from relguide.learn.planners import make_planner
 from relguide.planning.extras import need
