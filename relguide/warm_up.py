@@ -349,24 +349,28 @@ def _tree() -> None:
 def _learning() -> None:
     from numpy.random import default_rng
 
-    from relguide.learn.audits.branch_judging import audit_request, judge_chunk, latencies
-    from relguide.learn.audits.template_bound import template_latencies
-    from relguide.learn.audits.template_judging import judge_template_chunk, template_request
-    from relguide.learn.boundary.template_labels import LimitRequest, later, limit_chunk
+    from relguide.learn.audits.branch_judging import branch_audit_request, judge_chunk, latencies
+    from relguide.learn.audits.constrained_judging import template_latencies
+    from relguide.learn.audits.template_judging import judge_template_chunk, template_audit_request
+    from relguide.learn.boundary.template_labels import (
+        TemplateLabelRequest,
+        advance_paths,
+        template_label_chunk,
+    )
     from relguide.learn.boundary.template_network import load_template_network, template_features_of
-    from relguide.learn.boundary.train_templates import taught
+    from relguide.learn.boundary.train_templates import targets_of
     from relguide.learn.words.branch_labels import LabelRequest, label_chunk
     from relguide.learn.words.branch_network import features_of, load_network
 
     network = load_network()
-    limited = limit_chunk(LimitRequest(count=10), 0)
+    limited = template_label_chunk(TemplateLabelRequest(count=10), 0)
     template_features_of(limited.situations)
-    taught(later(limited.ways, default_rng(0)))
+    targets_of(advance_paths(limited.paths, default_rng(0)))
     features_of(label_chunk(LabelRequest(count=10), 0).situations)
-    judge_chunk(network, audit_request(network, 10, 1), 0)
-    latencies(network, audit_request(network, 10, 1))
+    judge_chunk(network, branch_audit_request(network, 10, 1), 0)
+    latencies(network, branch_audit_request(network, 10, 1))
     ways = load_template_network()
-    judge_template_chunk(ways, network, template_request(ways, 10, 1), 0)
+    judge_template_chunk(ways, network, template_audit_request(ways, 10, 1), 0)
     template_latencies(ways, limited.situations)
 
 

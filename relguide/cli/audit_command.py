@@ -93,7 +93,7 @@ def _audit_branches(chosen: argparse.Namespace) -> None:
     from relguide.cli.branch_tables import print_audit
     from relguide.cli.workers import collect, start_workers
     from relguide.learn.audits.branch_audit import audit_as_json, audit_of
-    from relguide.learn.audits.branch_judging import audit_request, judged, latencies
+    from relguide.learn.audits.branch_judging import branch_audit_request, judge_chunks, latencies
     from relguide.learn.audits.side_by_side import method_as_json
     from relguide.learn.words.branch_network import load_network
     from relguide.planning.progress import progress_bar
@@ -101,9 +101,9 @@ def _audit_branches(chosen: argparse.Namespace) -> None:
     network = load_network() if chosen.weights is None else load_network(chosen.weights)
     size = BRANCHES if chosen.count is None else chosen.count
     beside = BESIDE if chosen.beside is None else chosen.beside
-    request = audit_request(network, size, chosen.seed)
+    request = branch_audit_request(network, size, chosen.seed)
     with start_workers(chosen.threads, chosen.dask) as pool:
-        chunks = collect(judged(network, request, pool), "auditing", request.chunks)
+        chunks = collect(judge_chunks(network, request, pool), "auditing", request.chunks)
     with progress_bar("explaining gaps", total=0.0) as advance:
         audit = audit_of(chunks, advance)
     asked = latencies(network, request)
@@ -134,15 +134,15 @@ def _audit_branches(chosen: argparse.Namespace) -> None:
 def _put_beside(network: "BranchNetwork", size: int, seed: int) -> "tuple[Ground, list[Method]]":
     """Draw common situations, grow the paper's tree, and judge all methods there."""
     from relguide.cli.tree_growth import grow_tree
-    from relguide.learn.audits.side_by_side import drawn_ground, side_by_side
+    from relguide.learn.audits.side_by_side import draw_ground, side_by_side
     from relguide.learn.tree.nearest import lookup_in
-    from relguide.learn.tree.regular_network import load_regular, shipped
+    from relguide.learn.tree.regular_network import load_regular, shipped_weights
     from relguide.planning.progress import progress_bar, watched
 
-    regressions = [load_regular(shipped(method)) for method in ("paper", "direct")]
+    regressions = [load_regular(shipped_weights(method)) for method in ("paper", "direct")]
     parameters = regressions[0].parameters
     with progress_bar("drawing situations", total=size) as advance:
-        ground = drawn_ground(parameters, size, seed, advance)
+        ground = draw_ground(parameters, size, seed, advance)
     lookup = lookup_in(grow_tree(parameters))
     found = watched(
         enumerate(side_by_side(ground, network, lookup, regressions), start=1),
@@ -156,13 +156,13 @@ def _put_beside(network: "BranchNetwork", size: int, seed: int) -> "tuple[Ground
 def _audit_templates(chosen: argparse.Namespace) -> None:
     from relguide.cli.template_tables import print_template_audit
     from relguide.cli.workers import collect, start_workers
-    from relguide.learn.audits.both_networks import UNIT
+    from relguide.learn.audits.constrained_judging import template_latencies
+    from relguide.learn.audits.planner_judging import UNIT
     from relguide.learn.audits.template_audit import template_audit_as_json, template_audit_of
-    from relguide.learn.audits.template_bound import template_latencies
     from relguide.learn.audits.template_judging import (
-        joined_templates,
-        judged_templates,
-        template_request,
+        join_template_verdicts,
+        judge_template_chunks,
+        template_audit_request,
     )
     from relguide.learn.boundary.template_network import load_template_network
     from relguide.learn.words.branch_network import load_network
@@ -171,12 +171,12 @@ def _audit_templates(chosen: argparse.Namespace) -> None:
     templates = load_template_network() if weights is None else load_template_network(weights)
     branches = load_network()
     size = TEMPLATES if chosen.count is None else chosen.count
-    request = template_request(templates, size, chosen.seed)
+    request = template_audit_request(templates, size, chosen.seed)
     with start_workers(chosen.threads, chosen.dask) as pool:
-        judging = judged_templates(templates, branches, request, pool)
+        judging = judge_template_chunks(templates, branches, request, pool)
         chunks = collect(judging, "auditing", request.chunks)
     audit = template_audit_of(chunks)
-    asked = template_latencies(templates, joined_templates(chunks).bound.situations)
+    asked = template_latencies(templates, join_template_verdicts(chunks).bound.situations)
     if chosen.figures is not None:
         from relguide.figures.template_figure import draw_template_audit
 

@@ -1,4 +1,4 @@
-"""Tables of `relguide audit`: the network of branches, alone and beside the paper's methods."""
+"""Tables of `relguide audit`: the branch network, alone and beside the paper's methods."""
 
 from collections.abc import Mapping, Sequence
 from math import hypot, inf

@@ -101,7 +101,7 @@ def _make_tree(chosen: argparse.Namespace) -> None:
 
     from relguide.cli.tree_growth import compare_states, grow_on, load_kernels, load_part
     from relguide.learn.training.files import expect_part
-    from relguide.learn.tree.reverse_dp import planted, tree_from
+    from relguide.learn.tree.reverse_dp import plant, tree_from
     from relguide.learn.tree.tree import parameters_as_json
     from relguide.learn.tree.tree_file import save_growth, save_tree
 
@@ -112,7 +112,7 @@ def _make_tree(chosen: argparse.Namespace) -> None:
     parameters, file, threads = tree_parameters(chosen), chosen.out, chosen.threads or None
     part = file.with_name(f"{file.name}.part")
     expect_part(part, resume=chosen.resume)
-    growth = load_part(parameters, part) if chosen.resume else planted(parameters)
+    growth = load_part(parameters, part) if chosen.resume else plant(parameters)
     save_growth(growth, part)  # also shows at once if the file cannot be written
     load_kernels(parameters)
     laid_before, started = growth.laid, perf_counter()
@@ -181,7 +181,7 @@ def _make_labels(chosen: argparse.Namespace) -> None:
         SOURCES,
         LabelRequest,
         held_out,
-        joined,
+        join_labels,
         make_labels,
         save_labels,
     )
@@ -198,7 +198,7 @@ def _make_labels(chosen: argparse.Namespace) -> None:
     file.parent.stat()  # nothing is made that could not be written
     started = perf_counter()
     with start_workers(chosen.threads, chosen.dask) as pool:
-        labels = joined(collect(make_labels(request, pool), "labelling", request.chunks))
+        labels = join_labels(collect(make_labels(request, pool), "labelling", request.chunks))
     seconds = perf_counter() - started
     save_labels(labels, request, provenance("exact", command=command), file)
     counts = np.bincount(labels.best, minlength=len(BRANCHES)).tolist()
@@ -233,12 +233,15 @@ def _make_path_labels(chosen: argparse.Namespace) -> None:
 
     from relguide.cli.workers import collect, start_workers
     from relguide.kernels.networks.templates import NONE, TEMPLATES
-    from relguide.learn.boundary.template_label_file import grown_labels, save_limit_labels
-    from relguide.learn.boundary.template_labels import SOURCES, LimitRequest, joined
-    from relguide.learn.boundary.train_templates import taught
+    from relguide.learn.boundary.template_label_file import (
+        grow_template_labels,
+        save_template_labels,
+    )
+    from relguide.learn.boundary.template_labels import SOURCES, TemplateLabelRequest, join_labels
+    from relguide.learn.boundary.train_templates import targets_of
 
     size, file = PATH_LABELS if chosen.count is None else chosen.count, chosen.out
-    request = LimitRequest(count=size, seed=chosen.seed)
+    request = TemplateLabelRequest(count=size, seed=chosen.seed)
     command = (
         f"relguide dataset --method templates --count {size} --seed {chosen.seed} --out {file.name}"
     )
@@ -246,12 +249,12 @@ def _make_path_labels(chosen: argparse.Namespace) -> None:
     part = file.with_name(f"{file.name}.part")
     started = perf_counter()
     with start_workers(chosen.threads, chosen.dask) as pool:
-        chunks = grown_labels(request, part, pool, resume=chosen.resume)
-        labels = joined(collect(chunks, "labelling", request.chunks))
+        chunks = grow_template_labels(request, part, pool, resume=chosen.resume)
+        labels = join_labels(collect(chunks, "labelling", request.chunks))
     seconds = perf_counter() - started
-    save_limit_labels(labels, request, provenance("templates", command=command), file)
+    save_template_labels(labels, request, provenance("templates", command=command), file)
     part.unlink()
-    templates, _ = taught(labels.ways)
+    templates, _ = targets_of(labels.paths)
     counts = np.bincount(templates, minlength=len(TEMPLATES)).tolist()
     sources = np.bincount(labels.sources, minlength=len(SOURCES)).tolist()
     if chosen.json:

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 from relguide.cli.output import write
 from relguide.cli.shared_tables import percent, print_table, short, table, with_interval
-from relguide.learn.audits.both_networks import UNIT
+from relguide.learn.audits.planner_judging import UNIT
 from relguide.learn.audits.template_audit import (
     WORTH,
     Late,
@@ -25,7 +25,7 @@ _SHORT = ("99.9 %", "largest", "> 0.1 s", "no path")
 _SAID: dict[Reason, str] = {
     "left out": "the right template is left out of the set",
     "not solved": "in the set, but not solved next to its guess",
-    "of no kind": "the path is of no template",
+    "of no template": "the path is of no template",
 }
 
 
@@ -79,7 +79,7 @@ def _print_groups(
     audit: TemplateAudit, shown: "Table", cells: Callable[[TemplateGroup], tuple[str, ...]]
 ) -> None:
     """A row for each source, and below one for each template."""
-    for groups in (audit.groups, audit.kinds):
+    for groups in (audit.groups, audit.templates):
         for group in groups:
             shown.add_row(group.name, *cells(group))
         shown.add_section()

@@ -1,4 +1,4 @@
-"""`relguide train`: the network of branches or of templates, or the paper's own."""
+"""`relguide train`: the branch network or of templates, or the paper's own."""
 
 import argparse
 from collections import deque
@@ -77,12 +77,16 @@ def _train(
     chosen: argparse.Namespace, epochs: "Iterator[Epoch[Any]]", right: Callable[[float], str]
 ) -> None:
     """Train to the end, with a bar, and print what came of it."""
-    from relguide.learn.training.fitting import told
+    from relguide.learn.training.fitting import summary_of
     from relguide.planning.progress import watched
 
     started = perf_counter()
     shown = watched(
-        epochs, title="training", total=chosen.epochs, done=lambda epoch: epoch.number, state=told
+        epochs,
+        title="training",
+        total=chosen.epochs,
+        done=lambda epoch: epoch.number,
+        state=summary_of,
     )
     last = deque(shown, maxlen=1)
     if not last:  # resumed after its last epoch

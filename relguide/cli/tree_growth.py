@@ -6,7 +6,7 @@ from time import perf_counter
 
 import numpy as np
 
-from relguide.learn.tree.reverse_dp import Growth, grow_order, planted, reverse_tree, tree_from
+from relguide.learn.tree.reverse_dp import Growth, grow_order, plant, reverse_tree, tree_from
 from relguide.learn.tree.tree import (
     LEAST_HORIZON,
     Losses,
@@ -25,7 +25,7 @@ SAVE_EVERY = 5.0
 
 def grow_tree(parameters: TreeParameters) -> Tree:
     """Grow a tree from its root; it is not saved on the way."""
-    return tree_from(grow_on(planted(parameters)), {})
+    return tree_from(grow_on(plant(parameters)), {})
 
 
 def grow_on(growth: Growth, *, threads: int | None = None, part: Path | None = None) -> Growth:

@@ -1,7 +1,7 @@
 """The convergence area as the paper's Fig. 4 shows it: from the tree, and exactly, side by side.
 
 A column for each heading of the pursuer; above, the time-to-converge of the tree, below it the
-exact one on the same axes, and then what the tree's ways lose at the very states they begin from.
+exact one on the same axes, and then what the tree's paths lose at the very states they begin from.
 """
 
 from collections.abc import Sequence
@@ -37,7 +37,7 @@ class Column:
     tree: Area
     exact: Area
     loss: Area
-    """Of each cell's way, over the exact plan from the very state it begins at [s]."""
+    """Of each cell's path, over the exact plan from the very state it begins at [s]."""
 
 
 def check_figure(file: Path) -> None:

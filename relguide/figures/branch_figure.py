@@ -16,7 +16,7 @@ from relguide.figures.panels import (
     rates_over,
     shares_across,
     two_panels,
-    written,
+    write_figures,
 )
 from relguide.kernels.words.branches import BRANCHES
 from relguide.learn.audits.branch_audit import Audit, Group
@@ -46,7 +46,7 @@ def draw_audit(
     drawn = {"network_accuracy.svg": _accuracy, "network_calibration.svg": _calibration}
     if methods:
         drawn["network_gaps.svg"] = _gaps
-    return written(
+    return write_figures(
         {name: partial(draw, audit, methods, least_share) for name, draw in drawn.items()}, folder
     )
 

@@ -20,7 +20,7 @@ MARKS = ("o", "s", "^", "D")
 PERCENT = 100.0
 
 
-def written(draw: Mapping[str, "Callable[[], Figure]"], folder: Path) -> list[Path]:
+def write_figures(draw: Mapping[str, "Callable[[], Figure]"], folder: Path) -> list[Path]:
     """Draw figures into files, and give these.
 
     Args:

@@ -12,14 +12,14 @@ from relguide.figures.panels import (
     rates_over,
     shares_across,
     two_panels,
-    written,
+    write_figures,
 )
 from relguide.learn.audits.template_audit import TemplateAudit
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-FILE = "network_ways.svg"
+FILE = "network_templates.svg"
 """Its name."""
 RAREST, SUREST = 1e-3, 100.0
 """Ends of the axes of the calibration [%]."""
@@ -35,16 +35,16 @@ def draw_template_audit(audit: TemplateAudit, folder: Path) -> list[Path]:
     Returns:
         the file written.
     """
-    return written({FILE: partial(_named, audit)}, folder)
+    return write_figures({FILE: partial(_named, audit)}, folder)
 
 
 def _named(audit: TemplateAudit) -> "Figure":
     """How often the first choice is right, and whether it is as often wrong as it says."""
-    figure, (left, right) = two_panels("Where the limit binds: the network of ways")
+    figure, (left, right) = two_panels("Where the limit binds: the template network")
     groups = [
         *((group.name, group.named) for group in audit.everywhere),
         *((group.name, group.named) for group in audit.groups),
-        *((group.name, group.named) for group in audit.kinds),
+        *((group.name, group.named) for group in audit.templates),
     ]
     breaks = len(audit.everywhere), len(audit.everywhere) + len(audit.groups)
     at = [-float(i + sum(i >= line for line in breaks)) for i in range(len(groups))]
@@ -52,7 +52,7 @@ def _named(audit: TemplateAudit) -> "Figure":
     left.set_yticks(at, [name for name, _ in groups], fontsize=8)
     for k, line in enumerate(breaks):
         left.axhline(-float(line + k), color=FAINT, lw=0.6)
-    left.set_title("all situations; where the limit binds; by kind", color=INK, fontsize=10)
+    left.set_title("all situations; where the limit binds; by template", color=INK, fontsize=10)
     left.set_xlabel("first choice right [%], with 95 % interval", color=INK)
     left.set_xlim(None, 100.3)
     said = [max(PERCENT * doubt.said, RAREST) for doubt in audit.doubts]

@@ -1,15 +1,14 @@
-"""Learning the optimal convergence: the paper's method as it writes it, and what became of it.
+"""Learning to converge: the paper's method as it writes it, and what became of it.
 
-The paper's: `tree` is what reverse dynamic programming makes, a tree of regular trajectories that
-all end in the slot; `reverse_dp` grows it (Fig. 3); `nearest` looks a situation up in it, which is
-the paper's method without its network; `paper` is that network, trained on it (Fig. 5);
-`area_figure` draws the convergence area from it, with the exact one beside it (Fig. 4). What both
-give is read as words by `regular_words`, and `regular_planner` flies what the tree says, certified.
+    tree       reverse dynamic programming and the regular network: the paper's method
+    words      the branch network: which words may be the fastest, where the limit does not bind
+    boundary   the template network: which constrained paths to solve, where it binds
+    training   what all trainings share: the loop, checkpoints, files
+    audits     how good the networks are, against exact answers
 
-Ours: `labels` are situations with their exact answers; `train` makes a `network` of them that says
-which words may be the fastest; `planner` solves those exactly and certifies what is found; `audit`
-says how good all that is, `side_by_side` how good beside the paper's, `gaps` what explains its
-misses.
+`network_planner` solves exactly what the branch and template networks name, and certifies what it
+finds; `tree.regular_planner` flies what the tree says, certified.
 
-Only this package may load torch or matplotlib, and it does so when they are used.
+Training and inference in bulk import torch when they begin. Planning by networks and by the tree
+needs numpy and numba alone.
 """

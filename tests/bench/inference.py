@@ -18,7 +18,7 @@ import torch
 from rich.console import Console
 from rich.table import Table
 
-from relguide.kernels.networks.branch_scores import judge_rows
+from relguide.kernels.networks.branch_scores import judge_branches
 from relguide.kernels.words.branches import SIZE
 from relguide.learn.words import inference
 from relguide.learn.words.branch_network import BranchNetwork, features_of, load_network
@@ -97,8 +97,8 @@ def _bound(device: str, threads: int) -> float:
 def _kernel(network: BranchNetwork, situations: np.ndarray) -> Callable[[], object]:
     n = len(situations)
     scores, decoded = np.empty((n, 3, SIZE)), np.empty((n, 3))
-    return lambda: judge_rows(
-        situations, network.layers, network.least_share, network.most, 0, n, scores, decoded
+    return lambda: judge_branches(
+        situations, network.layers, network.least_share, network.most, scores, decoded
     )
 
 

@@ -18,7 +18,7 @@ from relguide.kernels.contact.passage import word_clears
 from relguide.kernels.contact.path_pieces import pieces_of
 from relguide.kernels.contact.time_rows import plan_rows
 from relguide.kernels.networks.branch_scores import Layers, choose
-from relguide.kernels.networks.template_scores import LEGS, choose_template
+from relguide.kernels.networks.template_scores import LEGS, Decision, choose_template
 from relguide.kernels.separation.approach import least_on_paths
 from relguide.kernels.separation.clearance import SLACK
 from relguide.kernels.words.branches import needs_mirror
@@ -80,7 +80,7 @@ def _answer_rows(
             time = inf
         elif word_clears(Pose(x, y, h), 0.0, free, Scene(leader, alpha, limit - SLACK, 0.0)):
             if np.hypot(x, y) <= box[0] and box[1] <= alpha <= box[2]:
-                _, count = choose(x, y, h, alpha, words, sure[0], sure[1], rows)
+                _, count = choose(Pose(x, y, h), alpha, words, sure[0], sure[1], rows)
                 if count > 0:
                     time = rows[0, 0]
                     pieces = np.zeros((3, 3))
@@ -94,7 +94,7 @@ def _answer_rows(
             and limit <= away <= limit + around[5]
         ):
             _, _, time, count = choose_template(
-                x, y, h, slot, alpha, limit, free, ways, surer[0], surer[1], surer[2], legs
+                Pose(x, y, h), Scene(leader, alpha, limit, 0.0), free, ways, Decision(*surer), legs
             )
             if count > 0:
                 pieces = pieces_of(

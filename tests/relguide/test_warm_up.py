@@ -20,7 +20,7 @@ from numba.core.dispatcher import Dispatcher
 from relguide import Plan, Situations, alternatives, check, kernels, plan, plan_arrays, prove
 from relguide.flying.flight import fly
 from relguide.flying.scenarios import scenario
-from relguide.learn.audits.branch_judging import audit_request, judge_chunk, latencies
+from relguide.learn.audits.branch_judging import branch_audit_request, judge_chunk, latencies
 from relguide.learn.words.branch_labels import LabelRequest, label_chunk
 from relguide.learn.words.branch_network import features_of, load_network
 from relguide.learn.network_planner import network_planner
@@ -54,8 +54,8 @@ network = load_network()
 for situation, _ in golden("reference")[::7]:
     network_planner(network)(situation)
     regular_planner(situation)
-latencies(network, audit_request(network, 100, 1))
-judge_chunk(network, audit_request(network, 100, 1), 0)
+latencies(network, branch_audit_request(network, 100, 1))
+judge_chunk(network, branch_audit_request(network, 100, 1), 0)
 features_of(label_chunk(LabelRequest(count=100), 0).situations)
 sys.exit(", ".join(called() - compiled) or 0)
 """

@@ -1,9 +1,9 @@
 """A feed-forward network of branches, evaluated for one situation, and decoded.
 
-Layers of one width with SiLU between them; three numbers come out of each branch: the score it
-is chosen by, the logit of its existence, log(1 + τ). Weights are float32, as they were trained.
-Left and right are exchanged before and after if the situation is on the right of the route, so
-mirror images get mirrored answers, to the last bit.
+Layers of one width with SiLU between them; three numbers come out for each branch: the score by
+which it is chosen, the logit of its existence, log(1 + τ). Weights are float32, as they were
+trained. Left and right are exchanged before and after if the situation is on the right of the
+route, so mirror images get mirrored answers, to the last bit.
 """
 
 from math import exp
@@ -12,11 +12,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numba import njit
 
-from relguide.kernels.base.angles import mirror_heading
 from relguide.kernels.base.records import Pose, Velocity
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.networks.margins import INPUTS, inputs
-from relguide.kernels.words.branches import MIRROR_OF, SIZE, WORD_OF, branch_of, needs_mirror
+from relguide.kernels.networks.network_view import on_left
+from relguide.kernels.words.branches import MIRROR_OF, SIZE, WORD_OF, branch_of
 from relguide.kernels.words.extremals import MAX_ROWS, solve_word
 
 
@@ -38,48 +38,41 @@ class Layers(NamedTuple):
 
 
 @njit(cache=True, nogil=True)
-def evaluate(
-    x: float, y: float, h: float, alpha: float, layers: Layers, scores: FloatArray
-) -> None:
+def evaluate(pose: Pose, alpha: float, layers: Layers, scores: FloatArray) -> None:
     """What the network says of a situation.
 
     Args:
-        x: pursuer ahead of the slot [R].
-        y: and left of it [R].
-        h: its heading [rad], in [0, 2π).
+        pose: the pursuer's, seen from the slot; its heading in [0, 2π).
         alpha: V_L/V_P, below 1.
         layers: the weights.
         scores: takes score, logit and log(1 + τ) of each branch. shape (3, SIZE)
     """
-    mirrored = needs_mirror(y, h)
-    told = np.empty(INPUTS)
-    if mirrored:
-        inputs(x, -y, mirror_heading(h), alpha, told)
-    else:
-        inputs(x, y, h, alpha, told)
-    a = last_hidden(told, layers)
+    left, mirrored = on_left(pose)
+    numbers = np.empty(INPUTS)
+    inputs(left, alpha, numbers)
+    a = last_hidden(numbers, layers)
     out = layers.last_bias.copy()
     for i in range(len(a)):
         value = a[i]
         for j in range(3 * SIZE):
             out[j] += value * layers.last[i, j]
-    for kind in range(3):
+    for which in range(3):
         for s in range(SIZE):
-            scores[kind, MIRROR_OF[s] if mirrored else s] = out[kind * SIZE + s]
+            scores[which, MIRROR_OF[s] if mirrored else s] = out[which * SIZE + s]
 
 
 @njit(cache=True, nogil=True)
-def last_hidden(told: FloatArray, layers: Layers) -> FloatArray:
+def last_hidden(numbers: FloatArray, layers: Layers) -> FloatArray:
     """The layer before the outputs, float32.
 
     Args:
-        told: inputs, as they are. shape (inputs,)
+        numbers: the inputs, not scaled. shape (inputs,)
         layers: the weights.
     """
     width = len(layers.first_bias)
     a: FloatArray = layers.first_bias.copy()
-    for i in range(len(told)):
-        value = np.float32(told[i])
+    for i in range(len(numbers)):
+        value = np.float32(numbers[i])
         for j in range(width):
             a[j] += value * layers.first[i, j]
     _silu(a)
@@ -116,15 +109,12 @@ def shares(scores: FloatArray, out: FloatArray) -> None:
 
 @njit(cache=True, nogil=True)
 def choose(
-    x: float, y: float, h: float, alpha: float, layers: Layers, least_share: float, most: int,
-    rows: FloatArray,
-) -> tuple[int, int]:  # fmt: skip
+    pose: Pose, alpha: float, layers: Layers, least_share: float, most: int, rows: FloatArray
+) -> tuple[int, int]:
     """Solve the words that the network holds possible, exactly, and no others.
 
     Args:
-        x: as in `evaluate`.
-        y: as there.
-        h: as there.
+        pose: as in `evaluate`.
         alpha: as there.
         layers: the weights.
         least_share: branches with a smaller share than this are left out.
@@ -135,30 +125,15 @@ def choose(
         how many branches are held possible, and how many rows there are.
     """
     scores = np.empty((3, SIZE))
-    evaluate(x, y, h, alpha, layers, scores)
-    return decode(x, y, h, alpha, scores, least_share, most, rows)
+    evaluate(pose, alpha, layers, scores)
+    return decode(pose, alpha, scores, least_share, most, rows)
 
 
 @njit(cache=True, nogil=True)
 def decode(
-    x: float, y: float, h: float, alpha: float, scores: FloatArray, least_share: float, most: int,
-    rows: FloatArray,
-) -> tuple[int, int]:  # fmt: skip
-    """`choose`, from what the network has said.
-
-    Args:
-        x: as in `evaluate`.
-        y: as there.
-        h: as there.
-        alpha: as there.
-        scores: of `evaluate`. shape (3, SIZE)
-        least_share: as in `choose`.
-        most: as in `choose`.
-        rows: as in `choose`.
-
-    Returns:
-        what `choose` does.
-    """
+    pose: Pose, alpha: float, scores: FloatArray, least_share: float, most: int, rows: FloatArray
+) -> tuple[int, int]:
+    """`choose`, from the scores of `evaluate`, shape (3, SIZE)."""
     share = np.empty(SIZE)
     shares(scores, share)
     held = 0
@@ -172,33 +147,32 @@ def decode(
         # both branches of a word come from one solution of it
         if share[s] >= least_share and WORD_OF[s] != before:
             before = WORD_OF[s]
-            n = solve_word(Pose(x, y, h), Velocity(alpha, 0.0), 0.0, before, found, rows, n)
+            n = solve_word(pose, Velocity(alpha, 0.0), 0.0, before, found, rows, n)
     return held, n
 
 
 @njit(cache=True, nogil=True)
-def judge_rows(
-    situations: FloatArray, layers: Layers, least_share: float, most: int, first: int, last: int,
-    scores: FloatArray, decoded: FloatArray,
+def judge_branches(
+    situations: FloatArray, layers: Layers, least_share: float, most: int, scores: FloatArray,
+    verdicts: FloatArray,
 ) -> None:  # fmt: skip
-    """`evaluate` and `choose` for situations first … last − 1.
+    """`evaluate` and `choose` for many situations.
 
     Args:
         situations: x, y, h in [0, 2π), α. shape (n, 4)
         layers: the weights.
         least_share: as in `choose`.
         most: as in `choose`.
-        first: from this row on.
-        last: up to this row.
         scores: takes what the network says. shape (n, 3, SIZE)
-        decoded: takes how many branches are held possible, the least time of what `choose`
-            finds [R/V_P] (infinite if nothing), and its branch (−1). shape (n, 3)
+        verdicts: takes how many branches are held possible, the least time that `choose` finds
+            [R/V_P] (infinite if there is none), and its branch (−1 if there is none). shape (n, 3)
     """
     rows = np.empty((MAX_ROWS, 5))
-    for n in range(first, last):
+    for n in range(len(situations)):
         x, y, h, alpha = situations[n]
-        evaluate(x, y, h, alpha, layers, scores[n])
-        held, found = decode(x, y, h, alpha, scores[n], least_share, most, rows)
-        decoded[n, 0] = held
-        decoded[n, 1] = rows[0, 0] if found > 0 else np.inf
-        decoded[n, 2] = branch_of(rows[0]) if found > 0 else -1
+        pose = Pose(x, y, h)
+        evaluate(pose, alpha, layers, scores[n])
+        held, found = decode(pose, alpha, scores[n], least_share, most, rows)
+        verdicts[n, 0] = held
+        verdicts[n, 1] = rows[0, 0] if found > 0 else np.inf
+        verdicts[n, 2] = branch_of(rows[0]) if found > 0 else -1

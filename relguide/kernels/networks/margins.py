@@ -1,9 +1,9 @@
 """How far a situation lies from where branches begin, end, or turn into one another.
 
 Most of these switching surfaces are known in closed form, though the times of the branches on
-either side are not: on them one piece of a path vanishes or is a half circle, and what is left is
-met by a single equation. A margin is how much that equation is missed by [R], with a sign, zero on
-the surface. It is told at two scales, R and `NEAR`, since there a network has to switch at once.
+either side are not: on them one piece of a path vanishes or is a half circle, and the rest meets a
+single equation. A margin is by how much that equation is missed [R], with a sign, zero on the
+surface. It is given at two scales, R and `NEAR`, since there a network has to switch at once.
 
 Slot frame as in `extremals`; c₁ is the centre of the first turn, w = 2πk − h what two left turns
 turn in all (mod 2π). Written for left turns; the right ones are those of the mirror image.
@@ -26,32 +26,33 @@ from math import acos, asin, atan2, cos, hypot, log1p, sin, sqrt
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, wrap
+from relguide.kernels.base.records import Pose
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.words.branches import FEATURES, direct_time, features
 
 NEAR = 0.03
 """The smaller scale of a margin [R]: 400 m for an airliner."""
 SIDE = 26
-"""How many numbers tell of the turns of one side."""
+"""How many numbers there are of the turns of one side."""
 INPUTS = FEATURES + 2 * SIDE + 2
 """How many numbers `inputs` gives."""
 
 
 @njit(cache=True, nogil=True)
-def inputs(x: float, y: float, h: float, alpha: float, out: FloatArray) -> None:
-    """What the network of branches is told: `features`, and the margins.
+def inputs(pose: Pose, alpha: float, out: FloatArray) -> None:
+    """What the branch network is given: `features`, and the margins.
 
     Args:
-        x: pursuer ahead of the slot [R].
-        y: and left of it [R]; not `needs_mirror`.
-        h: its heading [rad], in [0, 2π).
+        pose: the pursuer's, seen from the slot, not `needs_mirror`; its heading in [0, 2π).
         alpha: V_L/V_P, below 1.
         out: takes them. shape (INPUTS,)
     """
+    x, y, h = pose
     features(x, y, h, alpha, out)
     direct = direct_time(x, y, alpha)
-    left = _side(x, y, h, alpha, direct, out[FEATURES : FEATURES + SIDE])
-    right = _side(x, -y, wrap(TWO_PI - h), alpha, direct, out[FEATURES + SIDE : INPUTS - 2])
+    left = _side(pose, alpha, direct, out[FEATURES : FEATURES + SIDE])
+    mirrored = Pose(x, -y, wrap(TWO_PI - h))
+    right = _side(mirrored, alpha, direct, out[FEATURES + SIDE : INPUTS - 2])
     # LSL and RSR are as fast
     _margin(right - left, out, INPUTS - 2)
 
@@ -63,17 +64,16 @@ def _margin(by: float, out: FloatArray, at: int) -> None:
 
 
 @njit(cache=True, nogil=True)
-def _side(x: float, y: float, h: float, alpha: float, direct: float, out: FloatArray) -> float:
+def _side(pose: Pose, alpha: float, direct: float, out: FloatArray) -> float:
     """The margins of the words that begin with a left turn; τ of LSL, once round [R/V_P].
 
     Args:
-        x: as in `inputs`.
-        y: left of the slot, of either sign.
-        h: as in `inputs`.
+        pose: as in `inputs`, on either side of the route.
         alpha: as in `inputs`.
         direct: `direct_time`.
         out: takes them. shape (SIDE,)
     """
+    x, y, h = pose
     sine, cosine = sin(h), cos(h)
     cx, cy = x - sine, y + cosine
     e = 1.0 - cy
@@ -134,11 +134,12 @@ def _side(x: float, y: float, h: float, alpha: float, direct: float, out: FloatA
 
 @njit(cache=True, nogil=True)
 def input_rows(situations: FloatArray, out: FloatArray) -> None:
-    """`inputs` of many situations, none of which `needs_mirror`.
+    """`inputs` of many situations that do not need a mirror (`needs_mirror`).
 
     Args:
         situations: x, y, h, α. shape (n, 4)
         out: takes them. shape (n, INPUTS)
     """
     for n in range(len(situations)):
-        inputs(situations[n, 0], situations[n, 1], situations[n, 2], situations[n, 3], out[n])
+        x, y, h, alpha = situations[n]
+        inputs(Pose(x, y, h), alpha, out[n])

@@ -1,7 +1,7 @@
 """A situation behind a leader that keeps straight, as networks see it, and whether the limit binds.
 
 One call from the world frame: a call into compiled code with the conversions around it takes as
-long as what is found out here (see `straight_leader`).
+long as the work done here (see `straight_leader`).
 """
 
 from math import inf
@@ -25,12 +25,20 @@ Where = tuple[float, float, float, float, float, float]
 
 
 @njit(cache=True, nogil=True)
-def seen(
+def on_left(pose: Pose) -> tuple[Pose, bool]:
+    """The pose on the left of the route that networks look at, and whether that is mirrored."""
+    if needs_mirror(pose.y, pose.h):
+        return Pose(pose.x, -pose.y, mirror_heading(pose.h)), True
+    return pose, False
+
+
+@njit(cache=True, nogil=True)
+def view(
     x: float, y: float, heading: float, tas: float, radius: float, leader_x: float,
     leader_y: float, leader_heading: float, leader_tas: float, slot_distance: float,
     min_separation: float, wind_east: float, wind_north: float, free: FloatArray,
 ) -> tuple[bool, float, Where]:  # fmt: skip
-    """Where pursuer, slot and leader are, and what the fastest way without the limit says.
+    """Where pursuer, slot and leader are, and whether the fastest path without the limit breaks it.
 
     Args:
         x: the pursuer at t = 0, east [m].
@@ -50,21 +58,17 @@ def seen(
             situation `needs_mirror`. shape (5,)
 
     Returns:
-        whether the limit binds: no where the slot lies aside of the leader's route, as it does in
-        a cross wind, which is no case for networks; when a pursuer that need not turn would be at
-        the slot [R/V_P]; and where all are.
+        whether the limit binds: never where the slot lies aside of the leader's route, as it does
+        in a cross wind, which is no case for networks; when a pursuer that need not turn would be
+        at the slot [R/V_P]; and where all are.
     """
     east, north, _ = slot_offset(leader_heading, leader_tas, wind_east, wind_north, slot_distance)
     along, left = to_slot(x - leader_x - east, y - leader_y - north, leader_heading, radius)
     slot, aside = to_slot(-east, -north, leader_heading, radius)
-    h, alpha, limit = wrap(leader_heading - heading), leader_tas / tas, min_separation / radius
+    h, alpha, d_min = wrap(leader_heading - heading), leader_tas / tas, min_separation / radius
     soonest = direct_time(along, left, alpha) if alpha < 1.0 else inf
     binds = False
     if abs(aside) <= _ASIDE:
-        away, turned = left, h
-        if needs_mirror(left, h):
-            away, turned = -left, mirror_heading(h)
-        binds = breaks_limit(
-            Pose(along, away, turned), straight_scene(alpha, slot, limit - SLACK), free
-        )
-    return binds, soonest, (along, left, h, slot, alpha, limit)
+        pose, _ = on_left(Pose(along, left, h))
+        binds = breaks_limit(pose, straight_scene(alpha, slot, d_min - SLACK), free)
+    return binds, soonest, (along, left, h, slot, alpha, d_min)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from relguide.kernels.words.branches import BRANCHES
-from relguide.learn.audits.branch_judging import LEAST_SHARES, WORTH, Judged
+from relguide.learn.audits.branch_judging import LEAST_SHARES, WORTH, BranchVerdicts
 from relguide.learn.audits.gaps import surfaces
 from relguide.learn.training.shares import Share, share_as_json
 from relguide.learn.words.branch_labels import SOURCES, Floats, held_out
@@ -118,7 +118,7 @@ class Audit:
 
 
 def audit_of(
-    chunks: Mapping[int, Judged], progress: Callable[[float], object] = lambda _: None
+    chunks: Mapping[int, BranchVerdicts], progress: Callable[[float], object] = lambda _: None
 ) -> Audit:
     """Sum up an audit's chunks.
 
@@ -127,10 +127,10 @@ def audit_of(
         progress: called with 1 for each gap that is explained.
     """
     parts = [chunks[number] for number in sorted(chunks)]
-    whole = Judged(
+    whole = BranchVerdicts(
         **{
             name: np.concatenate([getattr(part, name) for part in parts])
-            for name in Judged.__slots__
+            for name in BranchVerdicts.__slots__
         }
     )
     seen = ~whole.regions.any(axis=1)
@@ -188,7 +188,7 @@ def _set_sizes(sums: Floats) -> tuple[SetSize, ...]:
     )
 
 
-def _misses(whole: Judged, progress: Callable[[float], object]) -> tuple[Miss, ...]:
+def _misses(whole: BranchVerdicts, progress: Callable[[float], object]) -> tuple[Miss, ...]:
     rows = np.flatnonzero((whole.gap > WORTH) & (whole.gap < inf))
     largest = np.argsort(-whole.gap[rows], kind="stable")[:EXPLAINED]
     near = surfaces(whole.missed[largest], progress)
@@ -206,7 +206,7 @@ def _misses(whole: Judged, progress: Callable[[float], object]) -> tuple[Miss, .
     )
 
 
-def _group(name: str, whole: Judged, chosen: NDArray[np.bool_]) -> Group:
+def _group(name: str, whole: BranchVerdicts, chosen: NDArray[np.bool_]) -> Group:
     size = int(chosen.sum())
     ranks, held, gap = whole.ranks[chosen], whole.held[chosen], whole.gap[chosen]
     given = gap[gap < inf]

@@ -1,4 +1,4 @@
-"""judge_chunk(network, request, number) → Judged: a network held against exact answers.
+"""judge_chunk(network, request, number) → BranchVerdicts: a network held against exact answers.
 
 Fresh situations are drawn as for training, with another seed: evenly in the box, starts of rare
 branches, places next to a switching surface. The gap is what a plan loses once the set of the
@@ -16,10 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from relguide.kernels.base.records import Pose
-from relguide.kernels.networks.branch_scores import choose, judge_rows
+from relguide.kernels.networks.branch_scores import choose, judge_branches
 from relguide.kernels.words.branches import SIZE, WORD_OF
 from relguide.kernels.words.extremals import MAX_ROWS, solve
-from relguide.learn.training.chunks import gathered
+from relguide.learn.training.chunks import gather
 from relguide.learn.words.branch_labels import SOURCES, Floats, LabelRequest, held_out, label_chunk
 from relguide.learn.words.branch_network import BranchNetwork
 from relguide.learn.words.train_branches import NEAR
@@ -31,7 +31,7 @@ LOOPS = 0.005
 ROUNDING = 1e-9
 """A gap below this is none."""
 WORTH = 1e-4
-"""A gap above this is told of and explained: 0.01 %."""
+"""A gap above this is reported and explained: 0.01 %."""
 LEAST_SHARES = np.geomspace(1e-7, 0.1, 13)
 """Least shares that the size of the set is drawn for."""
 SAMPLES = 2000
@@ -39,7 +39,7 @@ SAMPLES = 2000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Judged:
+class BranchVerdicts:
     """What is found of each situation of an audit, as columns; and of some of them, more."""
 
     groups: NDArray[np.int8]
@@ -69,7 +69,7 @@ class Judged:
         return len(self.best)
 
 
-def audit_request(network: BranchNetwork, count: int, seed: int) -> LabelRequest:
+def branch_audit_request(network: BranchNetwork, count: int, seed: int) -> LabelRequest:
     """What situations to audit with.
 
     Raises:
@@ -80,20 +80,20 @@ def audit_request(network: BranchNetwork, count: int, seed: int) -> LabelRequest
     return LabelRequest(count=count, seed=seed, box=network.box, shares=SHARES, loops=LOOPS)
 
 
-def judged(
+def judge_chunks(
     network: BranchNetwork, request: LabelRequest, executor: Executor
-) -> Iterator[tuple[int, Judged]]:
-    """Judge chunk by chunk, as they are ready; see `chunks.gathered`."""
-    return gathered(partial(judge_chunk, network, request), request.chunks, executor)
+) -> Iterator[tuple[int, BranchVerdicts]]:
+    """Judge chunk by chunk, as they are ready; see `chunks.gather`."""
+    return gather(partial(judge_chunk, network, request), request.chunks, executor)
 
 
-def judge_chunk(network: BranchNetwork, request: LabelRequest, number: int) -> Judged:
+def judge_chunk(network: BranchNetwork, request: LabelRequest, number: int) -> BranchVerdicts:
     """Label a chunk exactly and hold the network against it."""
     labels = label_chunk(request, number)
     n = len(labels)
     scores, decoded = np.empty((n, 3, SIZE)), np.empty((n, 3))
-    judge_rows(
-        labels.situations, network.layers, network.least_share, network.most, 0, n, scores, decoded
+    judge_branches(
+        labels.situations, network.layers, network.least_share, network.most, scores, decoded
     )
     least = labels.times.min(axis=1, keepdims=True)
     # branches as fast as the fastest are as right: their best place counts
@@ -107,7 +107,7 @@ def judge_chunk(network: BranchNetwork, request: LabelRequest, number: int) -> J
     share = np.exp(scores[:, 0] - scores[:, 0].max(axis=1, keepdims=True))
     share /= share.sum(axis=1, keepdims=True)
     drawn = labels.sources == SOURCES.index("box")
-    return Judged(
+    return BranchVerdicts(
         groups=labels.sources,
         best=labels.best.astype(np.int8),
         ranks=np.where(right, places, SIZE).min(axis=1).astype(np.int8),
@@ -122,7 +122,7 @@ def judge_chunk(network: BranchNetwork, request: LabelRequest, number: int) -> J
 
 
 def _sets(share: Floats, times: Floats) -> Floats:
-    """Sums over situations for each of `LEAST_SHARES`, as in `Judged.sets`."""
+    """Sums over situations for each of `LEAST_SHARES`, as in `BranchVerdicts.sets`."""
     least = times.min(axis=1)
     sums = np.empty((4, len(LEAST_SHARES)))
     for k, least_share in enumerate(LEAST_SHARES):
@@ -141,7 +141,7 @@ def latencies(network: BranchNetwork, request: LabelRequest) -> dict[str, tuple[
     layers, least, most = network.layers, network.least_share, network.most
 
     def by_network(x: float, y: float, h: float, alpha: float) -> object:
-        return choose(x, y, h, alpha, layers, least, most, rows)
+        return choose(Pose(x, y, h), alpha, layers, least, most, rows)
 
     def by_all_words(x: float, y: float, h: float, alpha: float) -> object:
         return solve(Pose(x, y, h), alpha, 0.0, rows)

@@ -1,4 +1,4 @@
-"""explained(situations): how near a missed answer is to where its fastest branch begins to exist.
+"""surfaces(situations): how near a missed answer is to where its fastest branch begins to exist.
 
 The time of each branch is smooth, but branches are born at surfaces in the space of situations.
 Where the fastest one is just born, something much slower is best on the other side: the least time
@@ -74,25 +74,25 @@ def _beaten(branch: int, times: Floats) -> NDArray[np.bool_]:
 
 def _distance(situation: Floats, beyond: Callable[[Floats], NDArray[np.bool_]]) -> float:
     """To the nearest place found where something holds of the branches' times."""
-    ways = _directions()
+    directions = _directions()
     steps = LADDER[None, :] * np.ones((DIRECTIONS, 1))
-    holds = beyond(times_of(_moved(situation, ways, steps))).reshape(steps.shape)
+    holds = beyond(times_of(_move(situation, directions, steps))).reshape(steps.shape)
     there = holds.any(axis=1)
     if not there.any():
         return float("inf")
-    ways, first = ways[there], holds[there].argmax(axis=1)
+    directions, first = directions[there], holds[there].argmax(axis=1)
     far = LADDER[first]
     near = np.where(first > 0, LADDER[np.maximum(first - 1, 0)], 0.0)
     for _ in range(BISECTIONS):
         middle = 0.5 * (near + far)
-        out = beyond(times_of(_moved(situation, ways, middle[:, None])))
+        out = beyond(times_of(_move(situation, directions, middle[:, None])))
         near, far = np.where(out, near, middle), np.where(out, middle, far)
     return float(far.min())
 
 
-def _moved(situation: Floats, ways: Floats, steps: Floats) -> Floats:
-    """A situation moved along each way by each of its steps, shape (ways · steps, 4)."""
-    moved = situation[:3] + steps[:, :, None] * ways[:, None, :]
+def _move(situation: Floats, directions: Floats, steps: Floats) -> Floats:
+    """A situation moved along each direction by its steps, shape (directions · steps, 4)."""
+    moved = situation[:3] + steps[:, :, None] * directions[:, None, :]
     ratio = np.full((*steps.shape, 1), situation[3])
     return np.concatenate((moved, ratio), axis=2).reshape(-1, 4)
 

@@ -20,13 +20,13 @@ from numpy.typing import NDArray
 
 from relguide.kernels.base.angles import wrap_each
 from relguide.kernels.base.records import Pose, Velocity
-from relguide.kernels.networks.branch_scores import choose, judge_rows
+from relguide.kernels.networks.branch_scores import choose, judge_branches
 from relguide.kernels.words.branches import BRANCHES, SIZE, WORD_OF
 from relguide.kernels.words.extremals import MAX_ROWS, WORDS, solve_word
 from relguide.learn.audits.branch_judging import ROUNDING
 from relguide.learn.training.shares import Share, share_as_json
 from relguide.learn.tree.nearest import Lookup, neighbours
-from relguide.learn.tree.regular_network import RegularNetwork, pairs_given
+from relguide.learn.tree.regular_network import RegularNetwork, regress_pairs
 from relguide.learn.tree.regular_words import Piece, pieces_of, words_like
 from relguide.learn.tree.tree import TreeParameters, pairs_of
 from relguide.learn.words.branch_labels import Floats, times_of
@@ -113,7 +113,7 @@ class Method:
         return tuple(found)
 
 
-def drawn_ground(
+def draw_ground(
     parameters: TreeParameters, count: int, seed: int, progress: Callable[[float], object]
 ) -> Ground:
     """Draw situations.
@@ -157,7 +157,7 @@ def side_by_side(
     lookup: Lookup,
     regressions: Sequence[RegularNetwork],
 ) -> Iterator[Method]:
-    """Judge our network, the nearest way of the tree, and networks that regress.
+    """Judge our network, the nearest path of the tree, and networks that regress.
 
     Args:
         ground: the situations.
@@ -169,21 +169,21 @@ def side_by_side(
     rows = np.empty((MAX_ROWS, 5))
 
     def ours(x: float, y: float, h: float) -> object:
-        return choose(x, y, h, alpha, network.layers, network.least_share, network.most, rows)
+        return choose(Pose(x, y, h), alpha, network.layers, network.least_share, network.most, rows)
 
     yield _method("ours", ground, _of_network(ground, network), ours)
     asked: list[tuple[str, Callable[[Floats, Floats, Floats], Floats]]] = [
-        ("nearest in tree", lambda x, y, h: nearest_given(lookup, x, y, h))
+        ("nearest in tree", lambda x, y, h: look_up_pairs(lookup, x, y, h))
     ]
     for regression in regressions:
         name = "paper's network" if regression.method == "paper" else "direct regression"
-        asked.append((name, lambda x, y, h, r=regression: pairs_given(r, x, y, h)))  # type: ignore[misc]
+        asked.append((name, lambda x, y, h, r=regression: regress_pairs(r, x, y, h)))  # type: ignore[misc]
     for name, give in asked:
 
         def one(x: float, y: float, h: float) -> object:
             pairs = give(*(np.array([value]) for value in (x, y, h)))  # noqa: B023
             room, n = np.empty((MAX_ROWS, 4)), 0
-            for word in words_like(shown(pairs, ground.parameters)[0]):
+            for word in words_like(clear_pieces(pairs, ground.parameters)[0]):
                 n = solve_word(Pose(x, y, h), Velocity(alpha, 0.0), 0.0, word, room, rows, n)
             return n
 
@@ -191,8 +191,8 @@ def side_by_side(
         yield _method(name, ground, _of_pairs(ground, give(x, y, h)), one)
 
 
-def nearest_given(lookup: Lookup, x: Floats, y: Floats, h: Floats) -> Floats:
-    """What the nearest states of a tree give, in the form of `pairs_given`."""
+def look_up_pairs(lookup: Lookup, x: Floats, y: Floats, h: Floats) -> Floats:
+    """What the nearest states of a tree give, in the form of `regress_pairs`."""
     radius = lookup.tree.parameters.encounter.turn_radius
     near = neighbours(lookup, x * radius, y * radius, h)
     pairs = pairs_of(lookup.tree, near.nodes)
@@ -201,7 +201,7 @@ def nearest_given(lookup: Lookup, x: Floats, y: Floats, h: Floats) -> Floats:
     return pairs
 
 
-def shown(pairs: Floats, parameters: TreeParameters) -> list[list[Piece]]:
+def clear_pieces(pairs: Floats, parameters: TreeParameters) -> list[list[Piece]]:
     """The pieces of each row of pairs; what is less than half a step of the tree's is none."""
     steps = parameters.delta_theta, parameters.delta_l / parameters.encounter.turn_radius
     clear = np.where(pairs[:, :, 1:] >= 0.5 * np.array(steps), pairs[:, :, 1:], 0.0)
@@ -233,8 +233,8 @@ def ends_of(pairs: Floats, situations: Floats) -> Floats:
 def _of_network(ground: Ground, network: BranchNetwork) -> Given:
     n = len(ground)
     scores, decoded = np.empty((n, 3, SIZE)), np.empty((n, 3))
-    judge_rows(
-        ground.situations, network.layers, network.least_share, network.most, 0, n, scores, decoded
+    judge_branches(
+        ground.situations, network.layers, network.least_share, network.most, scores, decoded
     )
     share = np.exp(scores[:, 0] - scores[:, 0].max(axis=1, keepdims=True))
     share /= share.sum(axis=1, keepdims=True)
@@ -249,7 +249,7 @@ def _of_network(ground: Ground, network: BranchNetwork) -> Given:
 
 
 def _of_pairs(ground: Ground, pairs: Floats) -> Given:
-    named = np.array([branches_like(pieces) for pieces in shown(pairs, ground.parameters)])
+    named = np.array([branches_like(pieces) for pieces in clear_pieces(pairs, ground.parameters)])
     radius = ground.parameters.encounter.turn_radius
     return Given(
         named=named,

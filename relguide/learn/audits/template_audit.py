@@ -12,11 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from relguide.kernels.networks.templates import NONE, SEVERAL, TEMPLATES
-from relguide.learn.audits.both_networks import UNIT, Everywhere
 from relguide.learn.audits.branch_audit import PERCENTILES, Doubt, doubts_of
 from relguide.learn.audits.branch_judging import ROUNDING
-from relguide.learn.audits.template_bound import Bound
-from relguide.learn.audits.template_judging import TemplateJudged, joined_templates
+from relguide.learn.audits.constrained_judging import ConstrainedVerdicts
+from relguide.learn.audits.planner_judging import UNIT, PlannerVerdicts
+from relguide.learn.audits.template_judging import TemplateVerdicts, join_template_verdicts
 from relguide.learn.boundary.template_labels import SOURCES
 from relguide.learn.boundary.train_templates import WITHIN
 from relguide.learn.training.shares import Share, share_as_json
@@ -24,17 +24,17 @@ from relguide.learn.words.branch_labels import Floats
 from relguide.units import Second
 
 LATE: Second = 0.1
-"""A delay above this is told of."""
+"""A delay above this is reported."""
 WORTH = 1e-3
 """A gap above this is looked into."""
 LISTED = 100
 """Of those gaps, so many are kept at most, the largest."""
 COMMONEST = 12
-"""Kinds with a line of their own."""
-Reason = Literal["left out", "not solved", "of no kind"]
-REASONS: tuple[Reason, ...] = ("left out", "not solved", "of no kind")
-"""Why an answer is slow: the right kind is left out of the set; it is held, but not solved next to
-its guess; the fastest way is of no kind."""
+"""Templates with a line of their own."""
+Reason = Literal["left out", "not solved", "of no template"]
+REASONS: tuple[Reason, ...] = ("left out", "not solved", "of no template")
+"""Why an answer is slow: the right template is left out of the set; it is held, but not solved next
+to its guess; the fastest path is of no template."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,9 +42,9 @@ class Late:
     """How much is lost by what networks answer."""
 
     answered: Share
-    """How often they do, of situations in which there is a way."""
+    """How often they do, of situations in which there is a path."""
     gaps: tuple[float, ...]
-    """The `PERCENTILES` of how much longer an answer takes than the fastest way, relative."""
+    """The `PERCENTILES` of how much longer an answer takes than the fastest path, relative."""
     late: Share
     """How many answers are more than `LATE` later, where R/V_P is `UNIT`."""
     sooner: int
@@ -55,16 +55,16 @@ class Late:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TemplateGroup:
-    """How good the network of ways is on some situations in which the limit binds."""
+    """How good the template network is on some situations in which the limit binds."""
 
     name: str
     size: int
     named: Share
-    """How often its first choice is right; see `template_bound.Bound`."""
+    """How often its first choice is right; see `constrained_judging.ConstrainedVerdicts`."""
     covered: Share
-    """How often the right kind is in its set, of those with a way of some kind."""
+    """How often the right template is in its set, of those whose path has a template."""
     mean_set: float
-    """Kinds in a set on average."""
+    """Templates in a set on average."""
     late: Late
 
 
@@ -89,11 +89,11 @@ class TemplateMiss:
     situation: tuple[float, ...]
     """x, y [R], h [rad], α, D/R, d_min/R."""
     fastest: str
-    """The kind missed."""
+    """The template missed."""
     share: float
     """That the network gives it."""
     answered: str
-    """The kind given."""
+    """The template given."""
     reason: Reason
 
 
@@ -103,8 +103,8 @@ class TemplateAudit:
 
     groups: tuple[TemplateGroup, ...]
     """By source, and all of them."""
-    kinds: tuple[TemplateGroup, ...]
-    """By the kind of the fastest way: the commonest, and the rest."""
+    templates: tuple[TemplateGroup, ...]
+    """By the template of the fastest path: the commonest, and the rest."""
     everywhere: tuple[PlannerGroup, ...]
     """Where the limit does not bind, where it does, and both."""
     doubts: tuple[Doubt, ...]
@@ -117,27 +117,29 @@ class TemplateAudit:
     """How many answers have such a gap."""
 
 
-def template_audit_of(chunks: Mapping[int, TemplateJudged]) -> TemplateAudit:
+def template_audit_of(chunks: Mapping[int, TemplateVerdicts]) -> TemplateAudit:
     """Sum up an audit's chunks, by their number."""
-    whole = joined_templates(chunks)
+    whole = join_template_verdicts(chunks)
     bound, everywhere = whole.bound, whole.everywhere
     every = np.ones(len(bound), dtype=bool)
     groups = [_group(name, bound, bound.sources == n) for n, name in enumerate(SOURCES)]
-    counts = np.bincount(bound.kinds, minlength=len(TEMPLATES))
+    counts = np.bincount(bound.templates, minlength=len(TEMPLATES))
     order = np.argsort(-counts, kind="stable")
-    common = [int(kind) for kind in order[:COMMONEST] if counts[kind] > 0]
-    rest = ~np.isin(bound.kinds, common)
-    kinds = [_group(TEMPLATES[kind], bound, bound.kinds == kind) for kind in common]
+    common = [int(template) for template in order[:COMMONEST] if counts[template] > 0]
+    rest = ~np.isin(bound.templates, common)
+    templates = [
+        _group(TEMPLATES[template], bound, bound.templates == template) for template in common
+    ]
     if rest.any():
-        others = len(np.unique(bound.kinds[rest]))
-        kinds.append(_group(f"{others} others", bound, rest))
-    # an answer where there is no way has no gap, and is counted by itself
+        others = len(np.unique(bound.templates[rest]))
+        templates.append(_group(f"{others} others", bound, rest))
+    # an answer where there is no path has no gap, and is counted by itself
     gap = _gaps(bound.exact, bound.given)
     slow = np.flatnonzero((gap > WORTH) & (gap < inf))
     reasons = _reasons(bound, slow)
     return TemplateAudit(
         groups=(*groups, _group("all", bound, every)),
-        kinds=tuple(kinds),
+        templates=tuple(templates),
         everywhere=tuple(
             _planner_group(name, everywhere, chosen)
             for name, chosen in (
@@ -154,7 +156,7 @@ def template_audit_of(chunks: Mapping[int, TemplateJudged]) -> TemplateAudit:
 
 
 def _gaps(exact: Floats, given: Floats) -> Floats:
-    """How much longer answers take, relative; infinite where there is none, or no way at all."""
+    """How much longer answers take, relative; infinite where there is none, or no path at all."""
     both = (exact < inf) & (given < inf)
     gap = np.full(len(exact), inf)
     gap[both] = np.maximum(given[both] / exact[both] - 1.0, 0.0)
@@ -179,9 +181,9 @@ def _late(exact: Floats, given: Floats) -> Late:
     )
 
 
-def _group(name: str, bound: Bound, chosen: NDArray[np.bool_]) -> TemplateGroup:
-    kinds = bound.kinds[chosen]
-    of_a_kind = (kinds != SEVERAL) & (kinds != NONE)
+def _group(name: str, bound: ConstrainedVerdicts, chosen: NDArray[np.bool_]) -> TemplateGroup:
+    templates = bound.templates[chosen]
+    of_a_kind = (templates != SEVERAL) & (templates != NONE)
     size = int(chosen.sum())
     return TemplateGroup(
         name=name,
@@ -193,7 +195,9 @@ def _group(name: str, bound: Bound, chosen: NDArray[np.bool_]) -> TemplateGroup:
     )
 
 
-def _planner_group(name: str, everywhere: Everywhere, chosen: NDArray[np.bool_]) -> PlannerGroup:
+def _planner_group(
+    name: str, everywhere: PlannerVerdicts, chosen: NDArray[np.bool_]
+) -> PlannerGroup:
     size = int(chosen.sum())
     return PlannerGroup(
         name=name,
@@ -203,15 +207,15 @@ def _planner_group(name: str, everywhere: Everywhere, chosen: NDArray[np.bool_])
     )
 
 
-def _reasons(bound: Bound, slow: NDArray[np.intp]) -> NDArray[np.int8]:
+def _reasons(bound: ConstrainedVerdicts, slow: NDArray[np.intp]) -> NDArray[np.int8]:
     """Why, of each of some rows: numbers of `REASONS`."""
-    kinds, inside = bound.kinds[slow], bound.inside[slow]
-    none = (kinds == SEVERAL) | (kinds == NONE)
+    templates, inside = bound.templates[slow], bound.inside[slow]
+    none = (templates == SEVERAL) | (templates == NONE)
     return np.where(none, 2, np.where(inside, 1, 0)).astype(np.int8)
 
 
 def _misses(
-    bound: Bound, gap: Floats, slow: NDArray[np.intp], reasons: NDArray[np.int8]
+    bound: ConstrainedVerdicts, gap: Floats, slow: NDArray[np.intp], reasons: NDArray[np.int8]
 ) -> tuple[TemplateMiss, ...]:
     largest = np.argsort(-gap[slow], kind="stable")[:LISTED]
     return tuple(
@@ -219,7 +223,7 @@ def _misses(
             gap=float(gap[row]),
             late=float(bound.given[row] - bound.exact[row]),
             situation=tuple(bound.situations[row].tolist()),
-            fastest=TEMPLATES[bound.kinds[row]],
+            fastest=TEMPLATES[bound.templates[row]],
             share=float(bound.own[row]),
             answered=TEMPLATES[bound.answered[row]],
             reason=REASONS[reasons[at]],
@@ -232,7 +236,7 @@ def template_audit_as_json(audit: TemplateAudit) -> dict[str, Any]:
     """An audit as it is printed."""
     return {
         "groups": {group.name: _group_as_json(group) for group in audit.groups},
-        "kinds": {group.name: _group_as_json(group) for group in audit.kinds},
+        "templates": {group.name: _group_as_json(group) for group in audit.templates},
         "everywhere": {
             group.name: {
                 "situations": group.size,
@@ -254,7 +258,7 @@ def _group_as_json(group: TemplateGroup) -> dict[str, Any]:
     return {
         "situations": group.size,
         "named": share_as_json(group.named),
-        "kind_in_set": share_as_json(group.covered),
+        "template_in_set": share_as_json(group.covered),
         "mean_set": group.mean_set,
         **_late_as_json(group.late),
     }
@@ -269,7 +273,7 @@ def _late_as_json(late: Late) -> dict[str, Any]:
         },
         "later_than_0.1_s": share_as_json(late.late),
         "sooner_than_the_search": late.sooner,
-        "answered_without_a_way": share_as_json(late.invented),
+        "answered_without_a_path": share_as_json(late.invented),
     }
 
 

@@ -15,10 +15,10 @@ import numpy as np
 
 from relguide.learn.boundary.template_labels import (
     SOURCES,
-    LimitLabels,
-    LimitRequest,
+    TemplateLabelRequest,
+    TemplateLabels,
     from_columns,
-    make_limit_labels,
+    make_template_labels,
 )
 from relguide.learn.training.files import expect_part, load_columns, save_columns
 
@@ -29,8 +29,8 @@ NONE = "holds no labels of relguide dataset --method templates, or is cut short.
 """What is said of a file that is not one."""
 
 
-def save_limit_labels(
-    labels: LimitLabels, request: LimitRequest, provenance: dict[str, str], file: Path
+def save_template_labels(
+    labels: TemplateLabels, request: TemplateLabelRequest, provenance: dict[str, str], file: Path
 ) -> None:
     """Write labels, and how they were made."""
     about = {
@@ -42,7 +42,7 @@ def save_limit_labels(
     save_columns(file, about, dict(zip(COLUMNS, labels.columns(), strict=True)))
 
 
-def load_limit_labels(file: Path) -> tuple[LimitLabels, dict[str, Any]]:
+def load_template_labels(file: Path) -> tuple[TemplateLabels, dict[str, Any]]:
     """Read labels, and what the file says of itself.
 
     Raises:
@@ -57,9 +57,9 @@ def load_limit_labels(file: Path) -> tuple[LimitLabels, dict[str, Any]]:
     return labels, about
 
 
-def grown_labels(
-    request: LimitRequest, part: Path, executor: Executor, *, resume: bool
-) -> Iterator[tuple[int, LimitLabels]]:
+def grow_template_labels(
+    request: TemplateLabelRequest, part: Path, executor: Executor, *, resume: bool
+) -> Iterator[tuple[int, TemplateLabels]]:
     """Make labels, and write every chunk down as it is ready.
 
     Args:
@@ -80,7 +80,7 @@ def grown_labels(
         if not resume:
             np.save(stream, np.array(json.dumps(asdict(request))))
         yield from begun.items()
-        for number, labels in make_limit_labels(request, executor, made=frozenset(begun)):
+        for number, labels in make_template_labels(request, executor, made=frozenset(begun)):
             np.save(stream, np.array(number))
             for column in labels.columns():
                 np.save(stream, column)
@@ -88,9 +88,11 @@ def grown_labels(
             yield number, labels
 
 
-def _whole_chunks(stream: IO[bytes], request: LimitRequest, part: Path) -> dict[int, LimitLabels]:
+def _whole_chunks(
+    stream: IO[bytes], request: TemplateLabelRequest, part: Path
+) -> dict[int, TemplateLabels]:
     """The chunks a stopped run left; the stream then stands behind the last whole one."""
-    chunks: dict[int, LimitLabels] = {}
+    chunks: dict[int, TemplateLabels] = {}
     end = 0
     asked = None
     while True:

@@ -3,9 +3,9 @@
 The leader keeps straight and the air is calm, or the wind along its heading; what remains of a
 situation in the slot frame are six numbers, x, y, h, α, D/R, d_min/R. Four sources, as the box
 alone hardly ever meets what is hard: `tight`, within some widths of a disc larger than R; `near`,
-round a disc smaller than R; `far`, anywhere; `along`, somewhere on the way of another one's answer
+round a disc smaller than R; `far`, anywhere; `along`, somewhere on the path of another one's answer
 or a little off it, which is what a closed loop asks. Of each, those are kept in which the fastest
-way without the limit breaks it.
+path without the limit breaks it.
 
 An answer takes the search some milliseconds. So labels are made in small chunks, each a function of
 the request and its number, and every chunk is written down as it is ready: a run that was stopped
@@ -24,25 +24,25 @@ from numpy.typing import NDArray
 
 from relguide.kernels.contact.constrained_rows import exact_constrained, limit_binds_rows
 from relguide.kernels.contact.constrained_search import MAX_LEGS
-from relguide.kernels.networks.along_path import along_rows, later_rows
-from relguide.learn.training.chunks import gathered
+from relguide.kernels.networks.along_path import advance_rows, along_rows
+from relguide.learn.training.chunks import gather
 from relguide.planning.constrained_path import BEARINGS
 
 Floats = NDArray[np.float64]
 SOURCES = ("tight", "near", "far", "along")
 """Where a situation comes from, by number."""
 LONGEST = 2000.0
-"""Ways that take longer count as none [R/V_P]: 12 hours at R/V_P = 21 s."""
+"""Paths that take longer count as none [R/V_P]: 12 hours at R/V_P = 21 s."""
 DRAWN = 1024
 """Situations drawn at a time, to see where the limit binds."""
 LEAST_TURN = 0.05
 """First turns shorter than this are not looked at again [rad]."""
 OFF = (1e-3, 0.3)
-"""How far off a way `along` puts a pursuer, by a normal law: its scale between these [R, rad]."""
+"""How far off a path `along` puts a pursuer, by a normal law: its scale between these [R, rad]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class LimitBox:
+class TemplateBox:
     """The situations that are learnt; beyond them nothing is claimed."""
 
     min_ratio: float = 0.5
@@ -78,12 +78,12 @@ class LimitBox:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class LimitRequest:
+class TemplateLabelRequest:
     """What labels to make. The same request gives the same labels."""
 
     count: int
     seed: int = 0
-    box: LimitBox = field(default_factory=LimitBox)
+    box: TemplateBox = field(default_factory=TemplateBox)
     shares: tuple[float, float, float, float] = (0.35, 0.25, 0.25, 0.15)
     """Of `SOURCES`."""
     chunk: int = 250
@@ -105,27 +105,27 @@ class LimitRequest:
         return -(-self.count // self.chunk)
 
 
-class Ways(NamedTuple):
-    """Situations and their fastest ways, as columns of `LimitLabels`."""
+class ConstrainedPaths(NamedTuple):
+    """Situations and their fastest paths, as columns of `TemplateLabels`."""
 
     situations: Floats
     times: Floats
-    """Of the ways. shape (n,)"""
+    """Of the paths. shape (n,)"""
     counts: NDArray[np.int8]
     legs: Floats
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class LimitLabels:
+class TemplateLabels:
     """Situations in which the limit binds and their exact answers, as columns."""
 
     situations: Floats
     """x, y ≥ 0 [R], h in [0, 2π) [rad], α, D/R, d_min/R, in the slot frame. shape (n, 6)"""
     times: Floats
-    """Without the limit, by the fastest extremal that keeps it, and by the fastest way [R/V_P];
+    """Without the limit, by the fastest extremal that keeps it, and by the fastest path [R/V_P];
     infinite where there is none. shape (n, 3)"""
     counts: NDArray[np.int8]
-    """Legs of the way; 0 where there is none. shape (n,)"""
+    """Legs of the path; 0 where there is none. shape (n,)"""
     legs: Floats
     """As of `kernels.chain.fly_links`. shape (n, MAX_LEGS, 6)"""
     sources: NDArray[np.int8]
@@ -135,121 +135,121 @@ class LimitLabels:
         return len(self.situations)
 
     @property
-    def ways(self) -> Ways:
-        """What they say of the fastest ways."""
+    def paths(self) -> ConstrainedPaths:
+        """What they say of the fastest paths."""
         times = np.ascontiguousarray(self.times[:, 2])
-        return Ways(self.situations, times, self.counts, self.legs)
+        return ConstrainedPaths(self.situations, times, self.counts, self.legs)
 
     def columns(self) -> tuple[NDArray[Any], ...]:
         """All of them, in this order."""
         return self.situations, self.times, self.counts, self.legs, self.sources
 
 
-def make_limit_labels(
-    request: LimitRequest, executor: Executor, *, made: frozenset[int] = frozenset()
-) -> Iterator[tuple[int, LimitLabels]]:
+def make_template_labels(
+    request: TemplateLabelRequest, executor: Executor, *, made: frozenset[int] = frozenset()
+) -> Iterator[tuple[int, TemplateLabels]]:
     """Make labels, chunk by chunk, as they are ready.
 
     Args:
         request: what to make.
-        executor: where; see `chunks.gathered`.
+        executor: where; see `chunks.gather`.
         made: numbers of chunks that are there already.
 
     Yields:
-        number and labels of each other chunk; `joined` puts them in order.
+        number and labels of each other chunk; `join_labels` puts them in order.
     """
     missing = tuple(n for n in range(request.chunks) if n not in made)
     task = partial(_missing_chunk, request, missing)
-    for n, labels in gathered(task, len(missing), executor):
+    for n, labels in gather(task, len(missing), executor):
         yield missing[n], labels
 
 
 def from_columns(
     situations: Floats, times: Floats, counts: NDArray[np.int8], legs: Floats,
     sources: NDArray[np.int8],
-) -> LimitLabels:  # fmt: skip
-    """Labels of `LimitLabels.columns`."""
-    return LimitLabels(
+) -> TemplateLabels:  # fmt: skip
+    """Labels of `TemplateLabels.columns`."""
+    return TemplateLabels(
         situations=situations, times=times, counts=counts, legs=legs, sources=sources
     )
 
 
-def picked(ways: Ways, rows: NDArray[Any]) -> Ways:
+def pick_paths(paths: ConstrainedPaths, rows: NDArray[Any]) -> ConstrainedPaths:
     """Some of them: by their places, or by whether they are wanted."""
-    return Ways(*(column[rows] for column in ways))
+    return ConstrainedPaths(*(column[rows] for column in paths))
 
 
-def later(ways: Ways, rng: np.random.Generator) -> Ways:
-    """What is left of each way at some moment of its first turn: as exact, and costs no search.
+def advance_paths(paths: ConstrainedPaths, rng: np.random.Generator) -> ConstrainedPaths:
+    """The rest of each path from some moment of its first turn on: as exact, and costs no search.
 
-    Those without a way round, and without a first turn worth the name, have none.
+    Paths without a contact, or without a first turn worth the name, are left out.
     """
-    turning = (ways.counts > 1) & (ways.legs[:, 0, 3] > LEAST_TURN)
-    before = picked(ways, turning)
-    n = len(before.times)
-    after = Ways(np.empty((n, 6)), np.empty(n), before.counts, np.empty_like(before.legs))
-    later_rows(
-        before.situations, before.times, before.counts.astype(float), before.legs, rng.random(n),
-        after.situations, after.times, after.legs,
+    turning = (paths.counts > 1) & (paths.legs[:, 0, 3] > LEAST_TURN)
+    rest = pick_paths(paths, turning)  # a copy, which is put forward in place
+    advance_rows(
+        rest.situations, rest.times, rest.counts.astype(float), rest.legs,
+        rng.random(len(rest.times)),
     )  # fmt: skip
-    return after
+    return rest
 
 
-def _missing_chunk(request: LimitRequest, missing: tuple[int, ...], n: int) -> LimitLabels:
-    return limit_chunk(request, missing[n])
+def _missing_chunk(
+    request: TemplateLabelRequest, missing: tuple[int, ...], n: int
+) -> TemplateLabels:
+    return template_label_chunk(request, missing[n])
 
 
-def joined(chunks: dict[int, LimitLabels]) -> LimitLabels:
+def join_labels(chunks: dict[int, TemplateLabels]) -> TemplateLabels:
     """Chunks in order of their numbers."""
     parts = zip(*(chunks[number].columns() for number in sorted(chunks)), strict=True)
     return from_columns(*(np.concatenate(part) for part in parts))
 
 
-def limit_chunk(request: LimitRequest, number: int) -> LimitLabels:
+def template_label_chunk(request: TemplateLabelRequest, number: int) -> TemplateLabels:
     """Make one chunk; a function of its arguments alone."""
     rng = np.random.default_rng(np.random.SeedSequence(request.seed, spawn_key=(number,)))
     size = min(request.chunk, request.count - number * request.chunk)
     rest = [round(size * share) for share in request.shares[1:]]
     sizes = (size - sum(rest), *rest)
-    drawn = [_drawn(rng, request.box, source, n) for source, n in enumerate(sizes[:3])]
-    first = _answered(np.concatenate(drawn), np.repeat(np.arange(3, dtype=np.int8), sizes[:3]))
+    drawn = [_draw(rng, request.box, source, n) for source, n in enumerate(sizes[:3])]
+    first = _answer(np.concatenate(drawn), np.repeat(np.arange(3, dtype=np.int8), sizes[:3]))
     if sizes[3] == 0:
         return first
     second = _along(rng, request.box, first, sizes[3])
-    return joined({0: first, 1: _answered(second, np.full(sizes[3], 3, dtype=np.int8))})
+    return join_labels({0: first, 1: _answer(second, np.full(sizes[3], 3, dtype=np.int8))})
 
 
-def _answered(situations: Floats, sources: NDArray[np.int8]) -> LimitLabels:
+def _answer(situations: Floats, sources: NDArray[np.int8]) -> TemplateLabels:
     times, counts, legs = answers_of(situations)
-    return LimitLabels(
+    return TemplateLabels(
         situations=situations, times=times, counts=counts, legs=legs, sources=sources
     )
 
 
 def answers_of(situations: Floats) -> tuple[Floats, NDArray[np.int8], Floats]:
-    """Times, numbers of legs and legs of the fastest ways, as in `LimitLabels`."""
+    """Times, numbers of legs and legs of the fastest paths, as in `TemplateLabels`."""
     n = len(situations)
     times, counts, legs = np.empty((n, 3)), np.empty(n), np.zeros((n, MAX_LEGS, 6))
     exact_constrained(situations, BEARINGS, LONGEST, times, counts, legs)
     return times, counts.astype(np.int8), legs
 
 
-def _drawn(rng: np.random.Generator, box: LimitBox, source: int, size: int) -> Floats:
+def _draw(rng: np.random.Generator, box: TemplateBox, source: int, size: int) -> Floats:
     """Situations of one source in which the limit binds."""
     found = np.empty((0, 6))
     while len(found) < size:
-        drawn = anywhere(rng, box, source, DRAWN)
+        drawn = draw_situations(rng, box, source, DRAWN)
         binds = np.empty(DRAWN)
         limit_binds_rows(drawn, binds)
         found = np.concatenate((found, drawn[binds == 1.0]))
     return found[:size]
 
 
-def _along(rng: np.random.Generator, box: LimitBox, labels: LimitLabels, size: int) -> Floats:
-    """Situations on the ways of others, or a little off them, in which the limit binds."""
+def _along(rng: np.random.Generator, box: TemplateBox, labels: TemplateLabels, size: int) -> Floats:
+    """Situations on the paths of others, or a little off them, in which the limit binds."""
     parents = np.flatnonzero(labels.counts > 1)
     if len(parents) == 0:
-        return _drawn(rng, box, 0, size)
+        return _draw(rng, box, 0, size)
     found = np.empty((0, 6))
     while len(found) < size:
         chosen = rng.choice(parents, DRAWN)
@@ -269,7 +269,7 @@ def _along(rng: np.random.Generator, box: LimitBox, labels: LimitLabels, size: i
     return found[:size]
 
 
-def anywhere(rng: np.random.Generator, box: LimitBox, source: int, size: int) -> Floats:
+def draw_situations(rng: np.random.Generator, box: TemplateBox, source: int, size: int) -> Floats:
     """Situations of one source, the pursuer on the left of the route."""
     alpha = rng.uniform(box.min_ratio, box.max_ratio, size)
     if source == 0:

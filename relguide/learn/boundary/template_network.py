@@ -1,9 +1,9 @@
-"""The network of ways round the limit: which kind may be the fastest, and a guess that leads to it.
+"""The template network: which template may be the fastest, and a guess that leads to its path.
 
-    situation → features → layers → score and guess of each kind
+    situation → features → layers → score and guess of each template
 
-What flies is never the network's guess: it is where the kind is solved exactly. Torch is needed to
-train and to compare; who only asks evaluates the weights with `kernels/networks/template_scores`.
+What is flown is never the network's guess: it is what solving the template exactly gives. Torch is
+needed to train and to compare; to ask, `kernels/networks/template_scores` evaluates the weights.
 The file is in safetensors, as that of the branches (`branch_network`).
 """
 
@@ -19,9 +19,9 @@ from numpy.typing import NDArray
 
 from relguide.kernels.networks.branch_scores import Layers
 from relguide.kernels.networks.template_features import FEATURES, template_feature_rows
-from relguide.kernels.networks.template_scores import OUTPUTS
+from relguide.kernels.networks.template_scores import OUTPUTS, Decision
 from relguide.kernels.networks.templates import TEMPLATES
-from relguide.learn.boundary.template_labels import Floats, LimitBox
+from relguide.learn.boundary.template_labels import Floats, TemplateBox
 from relguide.learn.training.files import load_weights, save_weights
 from relguide.learn.training.options import NetworkShape
 from relguide.learn.words.branch_network import Singles, as_layers
@@ -38,14 +38,14 @@ class TemplateNetwork:
 
     layers: Layers
     """Its weights, with the scale of its inputs worked into the first."""
-    box: LimitBox
+    box: TemplateBox
     """Where it was trained."""
     least_share: float
-    """Kinds with a smaller share are left out."""
+    """Templates with a smaller share are left out."""
     most: int
-    """With more kinds than this the network is not sure enough to be asked."""
+    """With more templates than this the network is not sure enough to be asked."""
     doubt: float
-    """Nor with a larger share of ways of no such kind, or of no way at all."""
+    """Nor with a larger share of paths of no such template, or of no path at all."""
     about: Mapping[str, Any]
     """Who made it, from what, with what and when."""
 
@@ -55,6 +55,11 @@ class TemplateNetwork:
         return NetworkShape(
             width=len(self.layers.first_bias), depth=len(self.layers.hidden_bias) + 1
         )
+
+    @property
+    def decision(self) -> Decision:
+        """What of its answer is solved, and when nothing is."""
+        return Decision(self.least_share, self.most, self.doubt)
 
     def holds(self, x: float, y: float, alpha: float, slot: float, limit: float) -> bool:
         """Whether a situation lies where it was trained: x, y, D and d_min in R."""
@@ -70,9 +75,9 @@ class TemplateNetwork:
 
 def template_features_of(situations: Floats) -> Singles:
     """What the network is told of situations on the left of the route, shape (n, FEATURES)."""
-    told = np.empty((len(situations), FEATURES))
-    template_feature_rows(np.ascontiguousarray(situations), told)
-    return told.astype(np.float32)
+    numbers = np.empty((len(situations), FEATURES))
+    template_feature_rows(np.ascontiguousarray(situations), numbers)
+    return numbers.astype(np.float32)
 
 
 def save_template_network(network: TemplateNetwork, file: Path) -> None:
@@ -101,7 +106,7 @@ def load_template_network(file: Path = SHIPPED_TEMPLATES) -> TemplateNetwork:
             raise KeyError(about["file"])
         return TemplateNetwork(
             layers=as_layers(FEATURES, OUTPUTS, **arrays),
-            box=LimitBox(**about["box"]),
+            box=TemplateBox(**about["box"]),
             least_share=float(about["least_share"]),
             most=int(about["most"]),
             doubt=float(about["doubt"]),

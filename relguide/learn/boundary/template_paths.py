@@ -1,12 +1,12 @@
-"""solved(ways, …): a way round the limit, of a kind that a network holds possible.
+"""solve_constrained(templates, …): a constrained path that the template network leads to.
 
-    situation → kinds held possible → solved next to their guesses → the fastest that keeps d_min
+    situation → templates held possible, solved next to guesses → the fastest that keeps d_min
 
-The network sees a leader who keeps straight, and a slot straight behind it. Whatever else is in the
-way is a `None`, and the exact planner's: a leader who turns (met on its final leg as if it had been
-on it all along, one answer in eleven was late, for a better way led through where that leader never
-was), a cross wind, which puts the slot aside of the leader's heading, a situation outside the box,
-and ways that the network does not know or is not sure of.
+The network sees a leader who keeps straight, and a slot straight behind it. In every other case the
+answer is `None`, and the exact planner's to find: a leader who turns (met on its final leg as if it
+had been on it all along, one answer in eleven was late, for a better path led through where that
+leader never was), a cross wind, which puts the slot aside of the leader's heading, a situation
+outside the box, and paths that the network does not know or is not sure of.
 """
 
 from math import hypot
@@ -14,16 +14,16 @@ from math import hypot
 import numpy as np
 
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.networks import network_view as kernel
-from relguide.kernels.networks import template_scores as template_network
+from relguide.kernels.networks import network_view
 from relguide.kernels.networks.network_view import Where
+from relguide.kernels.networks.template_scores import constrained_pieces
 from relguide.learn.boundary.template_network import TemplateNetwork
 from relguide.planning.situation import Situation
 from relguide.planning.words import HORIZON, Candidate, candidate_of, segments_flown
 from relguide.units import Metre
 
 
-def seen(situation: Situation, radius: Metre) -> tuple[bool, float, Where, FloatArray]:
+def view(situation: Situation, radius: Metre) -> tuple[bool, float, Where, FloatArray]:
     """A situation as networks see it, behind a leader that keeps straight.
 
     Args:
@@ -32,11 +32,11 @@ def seen(situation: Situation, radius: Metre) -> tuple[bool, float, Where, Float
 
     Returns:
         whether the limit binds, when nobody can be at the slot yet [R/V_P], where all are, and the
-        fastest way without the limit: see `kernels.seen`.
+        fastest path without the limit: see `network_view.view`.
     """
     pursuer, leader, wind = situation.pursuer, situation.leader, situation.wind
     free = np.empty(5)
-    binds, soonest, where = kernel.seen(
+    binds, soonest, where = network_view.view(
         pursuer.x, pursuer.y, pursuer.heading, pursuer.tas, radius,
         leader.x, leader.y, leader.heading, leader.tas,
         situation.slot_distance, situation.min_separation, wind.east, wind.north, free,
@@ -44,26 +44,26 @@ def seen(situation: Situation, radius: Metre) -> tuple[bool, float, Where, Float
     return binds, soonest, where, free
 
 
-def solved(
-    ways: TemplateNetwork, situation: Situation, radius: Metre, where: Where, free: FloatArray
+def solve_constrained(
+    templates: TemplateNetwork, situation: Situation, radius: Metre, where: Where, free: FloatArray
 ) -> Candidate | None:
-    """The fastest way round the limit that the network leads to, not certified yet.
+    """The fastest constrained path that the network leads to, not certified yet.
 
     Args:
-        ways: the network.
+        templates: the network.
         situation: in which the limit binds, and the leader keeps straight.
         radius: R [m].
-        where: of `seen`.
-        free: of `seen`.
+        where: of `view`.
+        free: of `view`.
     """
     x, y, _, slot, alpha, limit = where
     pursuer = situation.pursuer
-    if not ways.holds(x, y, alpha, slot, limit) or hypot(x - slot, y) < limit:
+    if not templates.holds(x, y, alpha, slot, limit) or hypot(x - slot, y) < limit:
         return None
-    pieces = template_network.way_round(
-        *where, free, radius, HORIZON * pursuer.tas / radius,
-        tuple(ways.layers), ways.least_share, ways.most, ways.doubt,
-    )  # fmt: skip
+    longest = HORIZON * pursuer.tas / radius
+    weights = tuple(templates.layers)
+    decision = templates.least_share, templates.most, templates.doubt
+    pieces = constrained_pieces(where, free, radius, longest, weights, decision)
     if pieces.shape[1] == 0:
         return None
     return candidate_of(pursuer, segments_flown(radius, pieces))

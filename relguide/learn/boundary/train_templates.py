@@ -2,9 +2,8 @@
 
     python -m relguide.learn.boundary.train_templates labels.npz weights.safetensors
 
-The loss has two parts: cross-entropy of the kind, and how far its guess is off, whose kind's two
-numbers alone count. The same labels, options and number of threads give the same weights on the
-same CPU.
+The loss has two parts: cross-entropy of the template, and how far its own guess is off. The same
+labels, options and number of threads give the same weights on the same CPU.
 """
 
 import argparse
@@ -16,10 +15,16 @@ import numpy as np
 
 from relguide.kernels.networks.template_features import FEATURES
 from relguide.kernels.networks.template_scores import OUTPUTS
-from relguide.kernels.networks.template_solutions import taught_templates
+from relguide.kernels.networks.template_solutions import label_templates
 from relguide.kernels.networks.templates import NONE, SEVERAL, SIZE
-from relguide.learn.boundary.template_label_file import load_limit_labels
-from relguide.learn.boundary.template_labels import LimitBox, LimitLabels, Ways, later, picked
+from relguide.learn.boundary.template_label_file import load_template_labels
+from relguide.learn.boundary.template_labels import (
+    ConstrainedPaths,
+    TemplateBox,
+    TemplateLabels,
+    advance_paths,
+    pick_paths,
+)
 from relguide.learn.boundary.template_network import (
     TemplateNetwork,
     save_template_network,
@@ -35,10 +40,10 @@ from relguide.learn.training.fitting import (
     in_chunks,
     part_of,
     reached_by,
-    scaled,
+    scale,
     script,
     split,
-    written,
+    write_better,
 )
 from relguide.learn.training.options import TrainingOptions, command_of, options_of
 from relguide.learn.words.branch_network import layers_of, torch_model
@@ -47,31 +52,31 @@ if TYPE_CHECKING:
     import torch
 
 WITHIN = 1e-3
-"""A kind that is solved so much later is not that of the answer [R/V_P]: 40 ms for an airliner."""
+"""A template whose path is so much later is not the answer's [R/V_P]: 40 ms for an airliner."""
 GUESSED = 2.0
 """Weight of the guesses; that of the cross-entropy is 1."""
 BEND = 0.05
 """Guesses farther off than this count by how far they are, and no more by its square."""
 LATER = 2
-"""So often each way is learnt from once more, at some moment of its first turn."""
+"""So often each path is learnt from once more, at some moment of its first turn."""
 DECAY = 1e-3
 """Of the weights, each step, over the learning rate."""
 COVERAGE = 0.999
-"""How often the fastest kind shall be among those solved, in labels not learnt from."""
+"""How often the fastest template shall be among those solved, in labels not learnt from."""
 LEAST_SHARE = 0.001
-"""Kinds with a smaller share are left out; with one still smaller if calibration asks for it."""
+"""Templates with a smaller share are left out; with one smaller still if calibration asks so."""
 MOST = 8
-"""With more kinds than this, all solved, the search would hardly take longer."""
+"""With more templates than this, all solved, the search would hardly take longer."""
 DOUBT = 0.4
-"""Ways of no kind, none, and kinds without a way next to their guess may together be this likely.
-With 0.8 instead 0.6 % more are answered, and a third of those late."""
+"""Paths of no template, no path, and templates without a path next to their guess may together be
+this likely. With 0.8 instead 0.6 % more are answered, and a third of those late."""
 
 
 def train_templates(
-    labels: LimitLabels,
+    labels: TemplateLabels,
     options: TrainingOptions,
     *,
-    box: LimitBox,
+    box: TemplateBox,
     about: Mapping[str, Any],
     checkpoint: Path | None = None,
     resume: bool = False,
@@ -82,7 +87,7 @@ def train_templates(
         labels: exact answers.
         options: how.
         box: of the labels.
-        about: what shall be told of the weights' origin.
+        about: what is to be said of the weights' origin.
         checkpoint: a file written after every epoch, to go on from.
         resume: go on from it; the result is the same.
     """
@@ -93,23 +98,25 @@ def train_templates(
 
     # What is learnt from, and what is kept to stop by.
     rows, kept = split(np.arange(len(labels)), options, of="labels")
-    ways = [picked(labels.ways, rows)]
+    paths = [pick_paths(labels.paths, rows)]
     rng = np.random.default_rng(options.seed)
-    ways += [later(picked(labels.ways, rows[kept:]), rng) for _ in range(LATER)]
-    kinds, guesses = (np.concatenate(column) for column in zip(*map(taught, ways), strict=True))
-    situations = np.concatenate([part.situations for part in ways])
-    inputs, mean, deviation = scaled(template_features_of(situations), kept)
-    told = torch.from_numpy(inputs).to(device)
-    right = torch.from_numpy(kinds).to(device)
+    paths += [advance_paths(pick_paths(labels.paths, rows[kept:]), rng) for _ in range(LATER)]
+    templates, guesses = (
+        np.concatenate(column) for column in zip(*map(targets_of, paths), strict=True)
+    )
+    situations = np.concatenate([part.situations for part in paths])
+    inputs, mean, deviation = scale(template_features_of(situations), kept)
+    given = torch.from_numpy(inputs).to(device)
+    right = torch.from_numpy(templates).to(device)
     guess = torch.from_numpy(guesses.astype(np.float32)).to(device)
     guessed = (guess != 0.0).any(dim=1).float()
-    there = (kinds[:kept] != NONE) & (kinds[:kept] != SEVERAL)
+    there = (templates[:kept] != NONE) & (templates[:kept] != SEVERAL)
 
     model = torch_model(options.shape, features=FEATURES, outputs=OUTPUTS).to(device)
 
     def loss(chosen: "torch.Tensor") -> "torch.Tensor":
-        """What the kind is off, and its guess, of some rows."""
-        score, pairs = model(told[chosen]).split((SIZE, 2 * SIZE), dim=1)
+        """What the template is off, and its guess, of some rows."""
+        score, pairs = model(given[chosen]).split((SIZE, 2 * SIZE), dim=1)
         own = pairs.view(-1, SIZE, 2)[torch.arange(len(chosen)), right[chosen]]
         off = functional.smooth_l1_loss(own, guess[chosen], reduction="none", beta=BEND)
         summed: torch.Tensor = GUESSED * (
@@ -118,18 +125,18 @@ def train_templates(
         return summed
 
     def shares() -> np.ndarray:
-        """Of the kinds, in the rows kept."""
-        found: np.ndarray = in_chunks(model, told[:kept])[:, :SIZE].softmax(dim=1).numpy()
+        """Of the templates, in the rows kept."""
+        found: np.ndarray = in_chunks(model, given[:kept])[:, :SIZE].softmax(dim=1).numpy()
         return found
 
     def accuracy() -> float:
-        """How often the right kind has the highest share, where there is a way of some kind."""
+        """How often the right template has the highest share, where a template is right."""
         first = shares().argmax(axis=1)
-        return float((first == kinds[:kept])[there].mean()) if there.any() else 0.0
+        return float((first == templates[:kept])[there].mean()) if there.any() else 0.0
 
     def network(origin: Mapping[str, Any]) -> TemplateNetwork:
         """What the weights become, with its set calibrated."""
-        right = shares()[np.arange(kept), kinds[:kept]][there]
+        right = shares()[np.arange(kept), templates[:kept]][there]
         return TemplateNetwork(
             layers=layers_of(arrays_of(model), mean, deviation),
             box=box,
@@ -140,21 +147,27 @@ def train_templates(
         )
 
     yield from fit(
-        model, options, rows=Split(np.arange(len(kinds)), kept), loss=loss, accuracy=accuracy,
+        model, options, rows=Split(np.arange(len(templates)), kept), loss=loss, accuracy=accuracy,
         network=network, decay=DECAY,
         digest=digest_of(options, labels.situations, labels.times, labels.legs),
         checkpoint=checkpoint, resume=resume,
     )  # fmt: skip
 
 
-def taught(ways: Ways) -> tuple[np.ndarray, np.ndarray]:
-    """What is to be learnt: kinds, shape (n,), and guesses, shape (n, 2)."""
-    n = len(ways.times)
-    kinds, guesses = np.empty(n), np.empty((n, 2))
-    taught_templates(
-        ways.situations, ways.times, ways.counts.astype(float), ways.legs, WITHIN, kinds, guesses
+def targets_of(paths: ConstrainedPaths) -> tuple[np.ndarray, np.ndarray]:
+    """What is to be learnt: templates, shape (n,), and guesses, shape (n, 2)."""
+    n = len(paths.times)
+    templates, guesses = np.empty(n), np.empty((n, 2))
+    label_templates(
+        paths.situations,
+        paths.times,
+        paths.counts.astype(float),
+        paths.legs,
+        WITHIN,
+        templates,
+        guesses,
     )
-    return kinds.astype(np.int64), guesses
+    return templates.astype(np.int64), guesses
 
 
 def run(chosen: argparse.Namespace, program: str) -> Iterator[Epoch[TemplateNetwork]]:
@@ -164,12 +177,12 @@ def run(chosen: argparse.Namespace, program: str) -> Iterator[Epoch[TemplateNetw
         chosen: the options of `options.add_options`.
         program: what trains, for the weights' provenance.
     """
-    labels, made = load_limit_labels(chosen.labels)
+    labels, made = load_template_labels(chosen.labels)
     part = part_of(chosen)
     epochs = train_templates(
         labels,
         options_of(chosen),
-        box=LimitBox(**made["request"]["box"]),
+        box=TemplateBox(**made["request"]["box"]),
         about={
             "program": program,
             "command": f"{command_of(chosen)} --method templates",
@@ -178,7 +191,7 @@ def run(chosen: argparse.Namespace, program: str) -> Iterator[Epoch[TemplateNetw
         checkpoint=part,
         resume=chosen.resume,
     )
-    yield from written(epochs, save_template_network, chosen.weights, part)
+    yield from write_better(epochs, save_template_network, chosen.weights, part)
 
 
 if __name__ == "__main__":

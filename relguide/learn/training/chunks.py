@@ -1,4 +1,4 @@
-"""gathered(task, count, executor): the parts of a large work, made anywhere, each given once.
+"""gather(task, count, executor): the parts of a large work, made anywhere, each given once.
 
 A part is a function of its number alone, so any executor may make it, as often as need be: this
 process's threads, its machine's cores, a cluster of machines.
@@ -38,7 +38,7 @@ class Cluster(Protocol):
         """Raise an OSError that says why, once it is in vain to wait for more."""
 
 
-def gathered(task: Callable[[int], T], count: int, executor: Executor) -> Iterator[tuple[int, T]]:
+def gather(task: Callable[[int], T], count: int, executor: Executor) -> Iterator[tuple[int, T]]:
     """Do a work in parts, and give them as they are ready.
 
     A part whose worker is lost is made again, up to `ATTEMPTS` times in all.

@@ -57,7 +57,7 @@ class Split(NamedTuple):
     """How many they are."""
 
     @property
-    def taught(self) -> int:
+    def learnt(self) -> int:
         """How many are learnt from."""
         return len(self.rows) - self.kept
 
@@ -101,7 +101,7 @@ def split(rows: NDArray[Any], options: TrainingOptions, *, of: str) -> Split:
     return Split(np.random.default_rng(options.seed).permutation(rows), kept)
 
 
-def scaled(columns: Singles, kept: int) -> Scaled:
+def scale(columns: Singles, kept: int) -> Scaled:
     """Scale columns, whose first rows are kept."""
     mean = columns[kept:].mean(axis=0)
     deviation = columns[kept:].std(axis=0) + np.float32(1e-6)
@@ -139,18 +139,18 @@ def fit(
 
     optimiser = torch.optim.AdamW(model.parameters(), lr=options.learning_rate, weight_decay=decay)
     done, best, best_accuracy = 0, 0, -1.0
-    best_state = _copied(model)
+    best_state = _copy(model)
     if resume:
         done, best, best_accuracy = load_checkpoint(
             checkpoint, digest, model, optimiser, best_state
         )
     device = device_of(options.device)
-    batches = -(-rows.taught // options.batch)
+    batches = -(-rows.learnt // options.batch)
     for epoch in range(done, options.epochs):
         if epoch - best >= options.patience:
             return
         shuffle = torch.Generator().manual_seed(options.seed * 1_000_003 + epoch)
-        order = torch.randperm(rows.taught, generator=shuffle).to(device) + rows.kept
+        order = torch.randperm(rows.learnt, generator=shuffle).to(device) + rows.kept
         total = 0.0
         model.train()
         for number in range(batches):
@@ -169,18 +169,18 @@ def fit(
         with torch.no_grad():
             reached = accuracy()
         if reached > best_accuracy:
-            best, best_accuracy, best_state = epoch + 1, reached, _copied(model)
+            best, best_accuracy, best_state = epoch + 1, reached, _copy(model)
         if checkpoint is not None:
             save_checkpoint(
                 checkpoint, digest, model, optimiser, best_state, epoch + 1, best, best_accuracy
             )
-        current = _copied(model)
+        current = _copy(model)
         model.load_state_dict(best_state)
         with torch.no_grad():
             made = network(
                 origin_of(options)
                 | {
-                    "trained_on": rows.taught,
+                    "trained_on": rows.learnt,
                     "epochs": best,
                     "validation_accuracy": best_accuracy,
                 }
@@ -250,7 +250,7 @@ def part_of(chosen: argparse.Namespace) -> Path:
     return part
 
 
-def written(
+def write_better(
     epochs: Iterable[Epoch[N]], save: Callable[[N, Path], None], weights: Path, part: Path
 ) -> Iterator[Epoch[N]]:
     """Pass epochs on; the weights are written at each better one.
@@ -268,7 +268,7 @@ def written(
     part.unlink(missing_ok=True)
 
 
-def told(epoch: Epoch[Any]) -> str:
+def summary_of(epoch: Epoch[Any]) -> str:
     """An epoch in a few words."""
     return f"loss {epoch.loss:.4f}, accuracy {100.0 * epoch.accuracy:.3f} %"
 
@@ -285,10 +285,10 @@ def script(name: str, run: Callable[[argparse.Namespace, str], Iterator[Epoch[An
     chosen = parser.parse_args()
     try:
         for epoch in run(chosen, parser.prog):
-            sys.stderr.write(f"epoch {epoch.number} of {chosen.epochs}: {told(epoch)}\n")
+            sys.stderr.write(f"epoch {epoch.number} of {chosen.epochs}: {summary_of(epoch)}\n")
     except (OSError, ValueError) as error:
         raise SystemExit(f"{error}") from None
 
 
-def _copied(model: "torch.nn.Module") -> dict[str, "torch.Tensor"]:
+def _copy(model: "torch.nn.Module") -> dict[str, "torch.Tensor"]:
     return {name: value.clone() for name, value in model.state_dict().items()}

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from relguide.kernels.tree.point_grid import PointGrid, nearest_points, point_grid
+from relguide.kernels.tree.point_grid import IntArray, PointGrid, nearest_points, point_grid
 from relguide.learn.tree.tree import Floats, Ints, Tree, pairs_of, regular_from_pairs
 from relguide.planning.regular import RegularTrajectory
 from relguide.planning.situation import Situation
@@ -84,7 +84,7 @@ def nearest(lookup: Lookup, situation: Situation) -> RegularTrajectory:
     return regular_from_pairs(pairs, mirrored=bool(near.mirrored[0]))
 
 
-def _nearest(lookup: Lookup, x: Floats, y: Floats, heading: Floats) -> tuple[Floats, Ints]:
+def _nearest(lookup: Lookup, x: Floats, y: Floats, heading: Floats) -> tuple[Floats, IntArray]:
     """How far the nearest state is, and its place in `minima`."""
     distances, numbers = np.empty(len(x)), np.empty(len(x), np.int64)
     nearest_points(lookup.grid, _points(lookup.tree, x, y, heading), distances, numbers)

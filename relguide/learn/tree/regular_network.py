@@ -53,12 +53,12 @@ class RegularNetwork:
     """Who made it, from what, with what and when."""
 
 
-def shipped(method: Method) -> Path:
+def shipped_weights(method: Method) -> Path:
     """The weights that come with the program."""
     return Path(str(files("relguide.learn.tree") / f"{method}.safetensors"))
 
 
-def pairs_given(network: RegularNetwork, x: Floats, y: Floats, h: Floats) -> Floats:
+def regress_pairs(network: RegularNetwork, x: Floats, y: Floats, h: Floats) -> Floats:
     """What a network gives for many states: (ε, θ [rad], l [R]) of each pair, forward.
 
     Args:
@@ -71,11 +71,11 @@ def pairs_given(network: RegularNetwork, x: Floats, y: Floats, h: Floats) -> Flo
         ε = ±1, or 0 where neither turn nor straight is left. shape (n, order − 1, 3)
     """
     right = y < 0.0
-    told = inputs_of(x, np.abs(y), np.where(right, -h, h))
+    numbers = inputs_of(x, np.abs(y), np.where(right, -h, h))
     layers = zip(network.weights[:-1], network.biases[:-1], strict=True)
     for weights, bias in layers:
-        told = np.tanh(told @ weights + bias)
-    given = told @ network.weights[-1] + network.biases[-1]
+        numbers = np.tanh(numbers @ weights + bias)
+    given = numbers @ network.weights[-1] + network.biases[-1]
     pairs = given.astype(float).reshape(len(x), -1, 3)
     pairs[:, :, 1:] = np.maximum(pairs[:, :, 1:], 0.0)
     pairs[:, :, 0] = np.where(pairs[:, :, 0] < 0.0, -1.0, 1.0)

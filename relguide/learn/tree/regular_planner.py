@@ -74,7 +74,7 @@ def regular_planner(situation: Situation) -> Plan | NoPlan:
     expect("situation", situation, Situation)
     started = perf_counter_ns()
     frame = slot_frame(situation, situation.leader.trajectory)
-    for candidate in _proposals(situation, frame):
+    for candidate in _propose(situation, frame):
         certificate = certify(candidate.trajectory, situation)
         if certificate.holds:
             return _plan(situation, frame, candidate, certificate, started)
@@ -105,7 +105,7 @@ def _plan(
     )
 
 
-def _proposals(situation: Situation, frame: SlotFrame) -> Iterator[Candidate]:
+def _propose(situation: Situation, frame: SlotFrame) -> Iterator[Candidate]:
     """The word of the nearest way; then that way's first pair, and the word of the rest."""
     if not LEAST_RATIO <= frame.alpha <= MOST_RATIO:
         return
@@ -113,12 +113,12 @@ def _proposals(situation: Situation, frame: SlotFrame) -> Iterator[Candidate]:
     if pairs is None:
         return
     for kept in (0, 1):
-        found = _closed(situation, frame, pieces_of(pairs[:kept]), pieces_of(pairs[kept:]))
+        found = _close(situation, frame, pieces_of(pairs[:kept]), pieces_of(pairs[kept:]))
         if found is not None:
             yield found
 
 
-def _closed(
+def _close(
     situation: Situation, frame: SlotFrame, flown: list[Piece], rest: list[Piece]
 ) -> Candidate | None:
     """Pieces flown as they are, and from their end the fastest path of the words of the rest."""
@@ -164,15 +164,15 @@ def ratios_of(situation: Situation, frame: SlotFrame) -> Ratios:
     """
     leader = situation.slot_distance / frame.radius
     gap = leader - situation.min_separation / frame.radius
-    slot = _rounded(min(leader, FARTHEST_LEADER), LENGTH_STEP)
+    slot = _round(min(leader, FARTHEST_LEADER), LENGTH_STEP)
     return Ratios(
-        speed=min(_rounded(frame.alpha, RATIO_STEP), MOST_RATIO),
+        speed=min(_round(frame.alpha, RATIO_STEP), MOST_RATIO),
         slot=slot,
-        limit=max(0.0, slot - _rounded(gap, LENGTH_STEP)),
+        limit=max(0.0, slot - _round(gap, LENGTH_STEP)),
     )
 
 
-def _rounded(value: float, step: float) -> float:
+def _round(value: float, step: float) -> float:
     return round(value / step) * step
 
 

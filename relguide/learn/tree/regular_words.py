@@ -34,10 +34,10 @@ def pieces_of(pairs: Sequence[Sequence[float]]) -> list[Piece]:
             pieces.append(Piece("L" if turn > 0.0 else "R", angle))
         if length > 0.0:
             pieces.append(Piece("S", length))
-    return merged(pieces)
+    return merge(pieces)
 
 
-def merged(pieces: Sequence[Piece]) -> list[Piece]:
+def merge(pieces: Sequence[Piece]) -> list[Piece]:
     """Like after like as one."""
     found: list[Piece] = []
     for piece in pieces:
@@ -52,15 +52,15 @@ def words_like(pieces: Sequence[Piece]) -> tuple[int, ...]:
 
     Pieces that are like no word lose their shortest ones until they are.
     """
-    left = merged(pieces)
-    while not (words := fitting("".join(piece.letter for piece in left))):
+    left = merge(pieces)
+    while not (words := words_within("".join(piece.letter for piece in left))):
         shortest = min(range(len(left)), key=lambda i: left[i].amount)
-        left = merged(left[:shortest] + left[shortest + 1 :])
+        left = merge(left[:shortest] + left[shortest + 1 :])
     return words
 
 
 @cache
-def fitting(letters: str) -> tuple[int, ...]:
+def words_within(letters: str) -> tuple[int, ...]:
     """Numbers of the words that letters fit into, in their order: of none, all."""
     return tuple(number for number, word in enumerate(WORDS) if _within(letters, word))
 

@@ -74,7 +74,7 @@ class Growth:
         return self.order >= self.parameters.order
 
 
-def planted(parameters: TreeParameters) -> Growth:
+def plant(parameters: TreeParameters) -> Growth:
     """The tree of order 1: the slot alone."""
     shape = parameters.shape
     best_time, best = np.full(shape, np.inf), np.full(shape, NONE, np.int32)
@@ -145,10 +145,10 @@ def grow_order(growth: Growth, *, threads: int | None = None) -> Iterator[Growth
             )
             if growth.next < len(growth.latest):
                 yield growth
-    yield _settled(growth, nodes)
+    yield _settle(growth, nodes)
 
 
-def _settled(growth: Growth, nodes: Nodes) -> Growth:
+def _settle(growth: Growth, nodes: Nodes) -> Growth:
     """What has improved a cell becomes a node, in the order of the cells."""
     parameters = growth.parameters
     improved = np.flatnonzero(growth.origin.ravel() != NONE)
@@ -208,7 +208,7 @@ def tree_from(growth: Growth, provenance: dict[str, str]) -> Tree:
 
 def reverse_tree(parameters: TreeParameters, *, threads: int | None = None) -> Tree:
     """Grow a tree at one go, for programs; the command shows its progress and may be resumed."""
-    growth = planted(parameters)
+    growth = plant(parameters)
     while not growth.finished:
         *_, growth = grow_order(growth, threads=threads)
     return tree_from(growth, {})

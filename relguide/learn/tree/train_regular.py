@@ -12,7 +12,7 @@ import numpy as np
 from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.records import Pose
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, solve
-from relguide.learn.training.fitting import Scaled, arrays_of, begin, origin_of, scaled, split
+from relguide.learn.training.fitting import Scaled, arrays_of, begin, origin_of, scale, split
 from relguide.learn.training.options import TrainingOptions
 from relguide.learn.tree.regular_network import INPUTS, Method, RegularNetwork, Singles, inputs_of
 from relguide.learn.tree.tree import Floats, Tree, TreeParameters, pairs_of
@@ -41,7 +41,7 @@ def train_regular(
         tree: gives the states, one a cell.
         options: how; it ends with its last epoch, whatever the patience.
         method: what is taught.
-        about: what shall be told of the weights' origin.
+        about: what shall be numbers of the weights' origin.
     """
     import torch
 
@@ -58,8 +58,10 @@ def train_regular(
     else:
         pairs = exact_pairs(*place, tree.parameters)
     targets = pairs.reshape(len(nodes), -1).astype(np.float32)
-    given, asked = scaled(inputs, kept), scaled(targets, kept)
-    told, wanted = (torch.from_numpy(part.values).to(device) for part in (given, asked))
+    from_inputs, from_targets = scale(inputs, kept), scale(targets, kept)
+    numbers, wanted = (
+        torch.from_numpy(part.values).to(device) for part in (from_inputs, from_targets)
+    )
 
     model = _model(options, targets.shape[1]).to(device)
     optimiser = torch.optim.AdamW(model.parameters(), lr=options.learning_rate, weight_decay=1e-4)
@@ -70,14 +72,14 @@ def train_regular(
     for epoch in range(options.epochs):
         order = torch.randperm(len(nodes) - kept).to(device) + kept
         for chosen in torch.split(order, options.batch):
-            loss = (model(told[chosen]) - wanted[chosen]).square().mean()
+            loss = (model(numbers[chosen]) - wanted[chosen]).square().mean()
             optimiser.zero_grad(set_to_none=True)
             loss.backward()
             optimiser.step()
             pace.step()
         with torch.no_grad():
-            missed = float((model(told[:kept]) - wanted[:kept]).square().mean())
-        weights, biases = _layers(arrays_of(model), given, asked)
+            missed = float((model(numbers[:kept]) - wanted[:kept]).square().mean())
+        weights, biases = _layers(arrays_of(model), from_inputs, from_targets)
         yield Epoch(
             number=epoch + 1,
             loss=missed,
@@ -97,7 +99,7 @@ def train_regular(
 
 
 def exact_pairs(x: Floats, y: Floats, h: Floats, parameters: TreeParameters) -> Floats:
-    """The fastest paths without the limit in the form of `pairs_given`, C S C as (C, S) and C."""
+    """The fastest paths without the limit in the form of `regress_pairs`, C S C as (C, S) and C."""
     alpha = parameters.encounter.speed_ratio
     pairs, rows = np.zeros((len(x), parameters.order - 1, 3)), np.empty((MAX_ROWS, 5))
     for i, (ahead, left, heading) in enumerate(

@@ -1,1 +1,1 @@
-"""The network of branches: which words to solve where the limit does not bind."""
+"""The branch network: which words to solve where the limit does not bind."""

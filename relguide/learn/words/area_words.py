@@ -1,4 +1,4 @@
-"""area_words(network): where on a map one word alone need be solved, by the network of branches.
+"""area_words(network): where on a map one word alone need be solved, by the branch network.
 
 The network is asked at every few nodes of the map's grid. Between four of them that hold one and
 the same word possible, and nothing else, that word alone is solved. Where they differ, where one of
@@ -66,7 +66,7 @@ def _at_nodes(network: BranchNetwork, situation: Situation, x: Floats, y: Floats
     if box.min_ratio <= frame.alpha <= box.max_ratio:
         inside = np.hypot(situations[:, 0], situations[:, 1]) <= box.max_range
         asked = np.empty(int(inside.sum()), np.int8)
-        only_words(situations[inside], network.layers, network.least_share, 0, len(asked), asked)
+        only_words(situations[inside], network.layers, network.least_share, asked)
         found[inside] = asked
     return found.reshape(len(y), len(x))
 

@@ -25,9 +25,9 @@ from numpy.typing import NDArray
 from relguide.kernels.base.angles import wrap_each
 from relguide.kernels.words.branches import BRANCHES, SIZE, WORD_OF, branch_times
 from relguide.kernels.words.extremals import SIGNS
-from relguide.learn.training.chunks import gathered
+from relguide.learn.training.chunks import gather
 from relguide.learn.training.files import load_columns, save_columns
-from relguide.learn.words.visited import visited
+from relguide.learn.words.visited import draw_visited
 
 Floats = NDArray[np.float64]
 SOURCES = ("box", "reverse", "edge", "loop")
@@ -136,15 +136,15 @@ def make_labels(request: LabelRequest, executor: Executor) -> Iterator[tuple[int
 
     Args:
         request: what to make.
-        executor: where; see `chunks.gathered`.
+        executor: where; see `chunks.gather`.
 
     Yields:
-        number and labels of each chunk; `joined` puts them in order.
+        number and labels of each chunk; `join_labels` puts them in order.
     """
-    return gathered(partial(label_chunk, request), request.chunks, executor)
+    return gather(partial(label_chunk, request), request.chunks, executor)
 
 
-def joined(chunks: dict[int, Labels]) -> Labels:
+def join_labels(chunks: dict[int, Labels]) -> Labels:
     """Chunks in order of their numbers."""
     parts = [chunks[number] for number in sorted(chunks)]
     return Labels(
@@ -237,7 +237,7 @@ def _at_edges(rng: np.random.Generator, box: Box, size: int) -> Floats:
         return np.empty((0, 4))
     begun = max(size, FEWEST)
     here = np.concatenate((_in_box(rng, box, begun), _reversed(rng, box, begun)))
-    there = _moved(rng, box, here, np.ones(len(here)))
+    there = _move(rng, box, here, np.ones(len(here)))
     at_here = times_of(here).argmin(axis=1)
     between = at_here != times_of(there).argmin(axis=1)
     here, there, at_here = here[between], there[between], at_here[between]
@@ -246,12 +246,12 @@ def _at_edges(rng: np.random.Generator, box: Box, size: int) -> Floats:
         same = times_of(middle).argmin(axis=1) == at_here
         here, there = np.where(same[:, None], middle, here), np.where(same[:, None], there, middle)
     chosen = here[rng.integers(len(here), size=size)]
-    return _moved(rng, box, chosen, 0.3 * 10.0 ** (-3.0 * rng.random(size)))
+    return _move(rng, box, chosen, 0.3 * 10.0 ** (-3.0 * rng.random(size)))
 
 
 def _in_flight(rng: np.random.Generator, box: Box, size: int) -> Floats:
     """What the exact planner was asked in flights."""
-    met = visited(
+    met = draw_visited(
         rng,
         size,
         max_range=box.max_range,
@@ -261,7 +261,7 @@ def _in_flight(rng: np.random.Generator, box: Box, size: int) -> Floats:
     return canonical(met[:, :4])
 
 
-def _moved(rng: np.random.Generator, box: Box, situations: Floats, by: Floats) -> Floats:
+def _move(rng: np.random.Generator, box: Box, situations: Floats, by: Floats) -> Floats:
     """Situations moved at random, by a share of their size, and kept in the box."""
     x, y, h, alpha = situations.T
     step = by[:, None] * rng.normal(size=(len(situations), 4))

@@ -1,4 +1,4 @@
-"""The network of branches: which words may be the fastest. Its torch model, its file, its set.
+"""The branch network: which words may be the fastest. Its torch model, its file, its set.
 
     situation → features → layers → score, existence and log(1 + τ) of each branch
 
@@ -63,9 +63,9 @@ class BranchNetwork:
 
 def features_of(situations: Floats) -> Singles:
     """What the network is told of situations on the left of the route, shape (n, INPUTS)."""
-    told = np.empty((len(situations), INPUTS))
-    input_rows(np.ascontiguousarray(situations), told)
-    return told.astype(np.float32)
+    numbers = np.empty((len(situations), INPUTS))
+    input_rows(np.ascontiguousarray(situations), numbers)
+    return numbers.astype(np.float32)
 
 
 def torch_model(

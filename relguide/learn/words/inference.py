@@ -1,4 +1,4 @@
-"""branch_shares(network, situations): what the network of branches says of very many at once.
+"""branch_shares(network, situations): what the branch network says of very many at once.
 
 One question is answered fastest by the fused kernel (`kernels/networks/branch_scores`). Dense maps
 ask a million: then matrices in torch are faster, in chunks that stay in the cache, or on a GPU
@@ -65,8 +65,8 @@ def branch_shares(
     with torch.inference_mode(), _threads(threads):
         for start in range(0, len(asked), chunk):
             rows = asked[start : start + chunk]
-            told = torch.from_numpy(features_of(canonical(rows))).to(place)
-            a = silu(told @ first + first_bias)
+            numbers = torch.from_numpy(features_of(canonical(rows))).to(place)
+            a = silu(numbers @ first + first_bias)
             for weights, bias in zip(hidden, hidden_bias, strict=True):
                 a = silu(a @ weights + bias)
             scores = a @ last[:, :SIZE] + last_bias[:SIZE]

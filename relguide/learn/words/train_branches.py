@@ -25,10 +25,10 @@ from relguide.learn.training.fitting import (
     in_chunks,
     part_of,
     reached_by,
-    scaled,
+    scale,
     script,
     split,
-    written,
+    write_better,
 )
 from relguide.learn.training.options import TrainingOptions, command_of, options_of
 from relguide.learn.words.branch_labels import Box, Labels, held_out, load_labels
@@ -72,7 +72,7 @@ def train(
         labels: exact answers. Those in the regions of `held_out` are left out.
         options: how.
         box: of the labels.
-        about: what shall be told of the weights' origin.
+        about: what is to be said of the weights' origin.
         checkpoint: a file written after every epoch, to go on from.
         resume: go on from it; the result is the same.
     """
@@ -85,8 +85,8 @@ def train(
     regions = held_out(labels.situations)
     outside = np.flatnonzero(~np.logical_or.reduce(list(regions.values())))
     rows, kept = parted = split(outside, options, of="labels outside the regions held out")
-    inputs, mean, deviation = scaled(features_of(labels.situations[rows]), kept)
-    told = torch.from_numpy(inputs).to(device)
+    inputs, mean, deviation = scale(features_of(labels.situations[rows]), kept)
+    given = torch.from_numpy(inputs).to(device)
     times = labels.times[rows]
     targets = {
         name: torch.from_numpy(value.astype(np.float32)).to(device)
@@ -98,7 +98,7 @@ def train(
 
     def loss(chosen: "torch.Tensor") -> "torch.Tensor":
         """What the branches chosen, existence and time are off, of some rows."""
-        score, exists, time = model(told[chosen]).split(SIZE, dim=1)
+        score, exists, time = model(given[chosen]).split(SIZE, dim=1)
         target = {name: value[chosen] for name, value in targets.items()}
         summed: torch.Tensor = (
             functional.cross_entropy(score, target["soft"])
@@ -112,7 +112,7 @@ def train(
 
     def shares() -> np.ndarray:
         """Of the branches, in the rows kept."""
-        found: np.ndarray = in_chunks(model, told[:kept])[:, :SIZE].softmax(dim=1).numpy()
+        found: np.ndarray = in_chunks(model, given[:kept])[:, :SIZE].softmax(dim=1).numpy()
         return found
 
     def accuracy() -> float:
@@ -171,7 +171,7 @@ def run(chosen: argparse.Namespace, program: str) -> Iterator[Epoch[BranchNetwor
         checkpoint=part,
         resume=chosen.resume,
     )
-    yield from written(epochs, save_network, chosen.weights, part)
+    yield from write_better(epochs, save_network, chosen.weights, part)
 
 
 if __name__ == "__main__":

@@ -1,8 +1,8 @@
-"""visited(rng, size, …): situations that closed loops meet, as rows in the slot frame.
+"""draw_visited(rng, size, …): situations that closed loops meet, as rows in the slot frame.
 
 What is drawn at random is not what is asked in flight. There the planner sees one situation a
-second, each a little further along the last one's plan; a leader who turns without a word sweeps
-the slot round; and where two ways are as fast as each other the loop may stay for a minute. So
+second, each a little further along the last one's plan; a leader who turns unannounced sweeps
+the slot round; and where two paths are as fast as each other the loop may stay for a minute. So
 flights are flown, with everything a flight has (rolling, commitment, capture), and what the planner
 was asked is kept.
 """
@@ -39,7 +39,7 @@ FLIGHTS = 50
 """Flights without a situation to keep, one after the other, before it is said."""
 
 
-def visited(
+def draw_visited(
     rng: np.random.Generator,
     size: int,
     *,
@@ -138,12 +138,12 @@ def draw_flight(rng: np.random.Generator, *, ratios: tuple[float, float] = (0.6,
 def situations_asked(scenario: Scenario, planner: Planner) -> list[Situation]:
     """Fly a scenario, and give what its planner was asked, in order."""
     asked: list[Situation] = []
-    for _ in fly(scenario, listened(planner, asked.append), step=STEP, sample_period=1.0):
+    for _ in fly(scenario, listen_to(planner, asked.append), step=STEP, sample_period=1.0):
         pass
     return asked
 
 
-def listened(planner: Planner, tell: Callable[[Situation], None]) -> Planner:
+def listen_to(planner: Planner, tell: Callable[[Situation], None]) -> Planner:
     """The same planner, that tells what it is asked."""
 
     def asked(situation: Situation) -> Plan | NoPlan:

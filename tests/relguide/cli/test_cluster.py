@@ -17,11 +17,11 @@ import pytest
 from relguide.cli import cluster as clusters
 from relguide.cli.cluster import cluster, make_alike, program
 from relguide.learn.training import chunks
-from relguide.learn.training.chunks import Cluster, gathered
+from relguide.learn.training.chunks import Cluster, gather
 from relguide.learn.words.branch_labels import (
     LabelRequest,
     Labels,
-    joined,
+    join_labels,
     label_chunk,
     load_labels,
 )
@@ -63,7 +63,7 @@ def test_a_worker_killed_half_way_loses_nothing_and_doubles_nothing(
     with cluster(machines.address, told_nothing) as workers:
         assert isinstance(workers, Cluster)
         assert workers.cores == 2
-        for number, (maker, labels) in gathered(partial(signed, REQUEST), REQUEST.chunks, workers):
+        for number, (maker, labels) in gather(partial(signed, REQUEST), REQUEST.chunks, workers):
             found.append((number, labels))
             makers.add(maker)
             if len(found) == REQUEST.chunks // 2:
@@ -73,7 +73,7 @@ def test_a_worker_killed_half_way_loses_nothing_and_doubles_nothing(
     assert os.getpid() not in makers
     assert sorted(number for number, _ in found) == list(range(REQUEST.chunks))
     here = {number: label_chunk(REQUEST, number) for number in range(REQUEST.chunks)}
-    made, local = joined(dict(found)), joined(here)
+    made, local = join_labels(dict(found)), join_labels(here)
     for name in Labels.__slots__:
         assert getattr(made, name).tobytes() == getattr(local, name).tobytes()
 
@@ -111,7 +111,7 @@ def test_a_part_that_kills_its_workers_is_given_up(
             cluster(machines.address, told_nothing) as workers,
             pytest.raises(OSError, match="Part 0 was lost 2 times, at last by: Attempted to run"),
         ):
-            list(gathered(deadly, 1, workers))
+            list(gather(deadly, 1, workers))
 
 
 def test_a_cluster_without_workers_is_waited_for_and_told_of(
@@ -128,10 +128,10 @@ def test_a_cluster_without_workers_is_waited_for_and_told_of(
         with monkeypatch.context() as patch, cluster(machines.address, said.append) as workers:
             patch.setattr(clusters, "NO_WORKERS", 0.5)
             with pytest.raises(TimeoutError, match=r"had no workers for 0\.5 s"):
-                list(gathered(partial(signed, REQUEST), 2, workers))
+                list(gather(partial(signed, REQUEST), 2, workers))
         said.clear()
         with cluster(machines.address, add_one) as workers:
-            parts = dict(gathered(partial(signed, REQUEST), 2, workers))
+            parts = dict(gather(partial(signed, REQUEST), 2, workers))
     assert sorted(parts) == [0, 1]
     assert said == [f"{machines.address} has no workers: waiting up to 120 s for one."]
 
@@ -146,7 +146,7 @@ def test_a_scheduler_that_is_gone_is_told_in_a_sentence(
         address = machines.address
 
         with cluster(address, told_nothing) as workers:
-            stream = gathered(partial(signed, REQUEST), REQUEST.chunks, workers)
+            stream = gather(partial(signed, REQUEST), REQUEST.chunks, workers)
             next(stream)
             machines.scheduler.kill()
             with pytest.raises(ConnectionError, match="scheduler is gone, and did not come back"):
@@ -164,7 +164,7 @@ def test_another_program_is_refused(
     with cluster(machines.address, told_nothing) as workers:
         monkeypatch.setattr(clusters, "program", lambda: tuple(asked.items()))
         with pytest.raises(ValueError, match=r"worker tcp\S+ has its code \w+, and here is anoth"):
-            list(gathered(partial(signed, REQUEST), 3, workers))
+            list(gather(partial(signed, REQUEST), 3, workers))
 
 
 class OtherPackages:

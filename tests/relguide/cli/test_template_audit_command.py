@@ -24,7 +24,7 @@ def test_people_get_tables_and_a_figure(run: Run) -> None:
     assert "All situations, whether d_min binds or not: " in out
     assert "Of the answers: how much longer they take than the fastest path" in out
     (drawn,) = Path("docs/figures").iterdir()
-    assert drawn.name == "network_ways.svg"
+    assert drawn.name == "network_templates.svg"
     picture = drawn.read_text("utf-8")
     assert "first choice right [%]" in picture
     assert ElementTree.fromstring(picture).tag.endswith("svg")
@@ -36,7 +36,7 @@ def test_programs_get_json(run: Run) -> None:
     told = json.loads(out)
     assert (told["situations"], told["seed"]) == (60, 1)
     assert told["groups"]["all"]["situations"] == 60
-    assert told["groups"]["all"]["answered_without_a_way"]["hits"] == 0
+    assert told["groups"]["all"]["answered_without_a_path"]["hits"] == 0
     assert told["network"]["labels"] == load_template_network().about["labels"]
     assert told["latency"]["network"]["p50_us"] < told["latency"]["search"]["p50_us"]
 

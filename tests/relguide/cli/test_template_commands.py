@@ -5,8 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
-from relguide.learn.boundary.template_label_file import grown_labels, load_limit_labels
-from relguide.learn.boundary.template_labels import LimitRequest, limit_chunk
+from relguide.learn.boundary.template_label_file import grow_template_labels, load_template_labels
+from relguide.learn.boundary.template_labels import TemplateLabelRequest, template_label_chunk
 from relguide.learn.boundary.template_network import load_template_network
 from tests.command_line import Run
 from tests.relguide.learn.boundary.test_template_labels import Here
@@ -18,9 +18,9 @@ def test_labels_train_weights(run: Run) -> None:
     code, out, err = run(*LIMIT, "--json", "--threads", "1")
     assert (code, err) == (0, "")
     told = json.loads(out)
-    read, about = load_limit_labels(Path("templates.npz"))
+    read, about = load_template_labels(Path("templates.npz"))
     assert told["labels"] == len(read) == sum(told["fastest"].values()) == 500
-    first = limit_chunk(LimitRequest(count=500, seed=7), 0)
+    first = template_label_chunk(TemplateLabelRequest(count=500, seed=7), 0)
     assert np.array_equal(read.times[:250], first.times)
     assert about["provenance"]["command"] == (
         "relguide dataset --method templates --count 500 --seed 7 --out templates.npz"
@@ -34,8 +34,8 @@ def test_labels_train_weights(run: Run) -> None:
 
 
 def test_labelling_goes_on_after_a_stop(run: Run) -> None:
-    begun = grown_labels(
-        LimitRequest(count=500, seed=7), Path("templates.npz.part"), Here(), resume=False
+    begun = grow_template_labels(
+        TemplateLabelRequest(count=500, seed=7), Path("templates.npz.part"), Here(), resume=False
     )
     next(begun)
     begun.close()

@@ -12,7 +12,7 @@ import pytest
 from relguide.cli import area_command, tree_growth
 from relguide.figures.area_figure import Column, draw_areas
 from relguide.learn.tree import reverse_dp
-from relguide.learn.tree.reverse_dp import Growth, grow_order, planted
+from relguide.learn.tree.reverse_dp import Growth, grow_order, plant
 from relguide.learn.tree.tree_file import load_growth, load_tree, save_growth
 from relguide.maps.area import Area
 from tests.command_line import Run
@@ -54,7 +54,7 @@ def test_dataset_tells_people_in_sentences(run: Run) -> None:
 
 
 def test_a_stopped_run_is_resumed_to_the_same_tree(run: Run) -> None:
-    *_, growth = grow_order(planted(parameters()))
+    *_, growth = grow_order(plant(parameters()))
     part = Path("tree.npz.part")
     assert run(*DATASET, *SMALL, "--resume")[1:] == (
         "", "relguide: There is nothing to resume: tree.npz.part does not exist.\n",

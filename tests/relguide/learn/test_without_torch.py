@@ -1,4 +1,4 @@
-"""Networks and the tree plan, fly and serve where torch, scipy and safetensors are not installed."""
+"""Networks and the tree plan, fly and serve without torch, scipy and safetensors."""
 
 import json
 import subprocess

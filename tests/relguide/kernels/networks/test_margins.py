@@ -19,7 +19,7 @@ DRAWN = 200
 
 def told(x: float, y: float, h: float, alpha: float) -> np.ndarray:
     out = np.full(INPUTS, np.nan)
-    inputs(x, y, h, alpha, out)
+    inputs(Pose(x, y, h), alpha, out)
     return out
 
 

@@ -8,7 +8,7 @@ from hypothesis import given
 
 from relguide import Situation
 from relguide.kernels.contact.constrained_rows import limit_binds
-from relguide.kernels.networks.network_view import Where, seen
+from relguide.kernels.networks.network_view import Where, view
 from relguide.kernels.separation.clearance import SLACK
 from relguide.kernels.words.branches import direct_time, needs_mirror
 from relguide.planning.slot import slot_frame
@@ -18,7 +18,7 @@ from tests.situations import situations
 
 def told(situation: Situation, free: np.ndarray) -> tuple[bool, float, Where]:
     pursuer, leader, wind = situation.pursuer, situation.leader, situation.wind
-    return seen(
+    return view(
         pursuer.x, pursuer.y, pursuer.heading, pursuer.tas, pursuer.turn_radius,
         leader.x, leader.y, leader.heading, leader.tas,
         situation.slot_distance, situation.min_separation, wind.east, wind.north, free,
@@ -49,7 +49,7 @@ def test_it_is_the_slot_frame_and_the_limit_binds_where_it_does(situation: Situa
 
 def test_mirror_images_are_looked_at_from_one_side() -> None:
     rng = np.random.default_rng(2)
-    seen_to_bind = 0
+    bound = 0
     for k in range(60):
         situation = draws.near(rng, tight=bool(k % 2))
         pursuer, leader = situation.pursuer, situation.leader
@@ -64,5 +64,5 @@ def test_mirror_images_are_looked_at_from_one_side() -> None:
         assert (there, then) == (binds, pytest.approx(soonest, abs=1e-9))
         assert (along, left) == pytest.approx((x, -y), abs=1e-9)
         assert other == pytest.approx(free, rel=1e-6, abs=1e-6)
-        seen_to_bind += binds
-    assert 5 < seen_to_bind < 60
+        bound += binds
+    assert 5 < bound < 60

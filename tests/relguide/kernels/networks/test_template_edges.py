@@ -1,13 +1,15 @@
-"""Ways that are fastest where they begin to keep the limit: found from a guess beside."""
+"""Paths that are fastest where they begin to keep the limit: found from a guess beside."""
 
 import numpy as np
 import pytest
 
+from relguide.kernels.base.records import Pose, straight_scene, with_limit
 from relguide.kernels.contact.constrained_rows import exact_constrained
-from relguide.kernels.contact.contact import contact_distance
-from relguide.kernels.networks.near_guess import descend
+from relguide.kernels.contact.contact import GRAZE, disc_on
+from relguide.kernels.networks.near_guess import Task, descend, empty_room
+from relguide.kernels.networks.template_recognition import template_of
 from relguide.kernels.networks.template_solutions import solve_template
-from relguide.kernels.networks.templates import PARTS, TEMPLATES, template_of
+from relguide.kernels.networks.templates import PARTS, TEMPLATES
 from relguide.planning.constrained_path import BEARINGS
 
 AT_EDGES = [
@@ -20,24 +22,24 @@ AT_EDGES = [
 
 
 @pytest.mark.parametrize(("situation", "name"), AT_EDGES)
-def test_a_way_at_an_edge_is_found_from_a_guess_beside(
+def test_a_path_at_an_edge_is_found_from_a_guess_beside(
     situation: tuple[float, ...], name: str
 ) -> None:
     x, y, h, alpha, slot, limit = situation
     times, counts, legs = np.empty((1, 3)), np.empty(1), np.zeros((1, 9, 6))
     exact_constrained(np.array([situation]), BEARINGS, 2000.0, times, counts, legs)
     guess, found = np.empty(2), np.zeros((9, 6))
-    kind = template_of(x, y, h, slot, alpha, int(counts[0]), legs[0], guess)
-    assert TEMPLATES[kind] == name
+    start, scene = Pose(x, y, h), straight_scene(alpha, slot, limit)
+    template = template_of(start, scene, legs[0, : int(counts[0])], guess)
+    assert TEMPLATES[template] == name
     for off in (0.0, 0.02, -0.02):
-        time, count = solve_template(x, y, h, slot, alpha, limit, kind, guess + off, np.inf, found)
+        time, count = solve_template(start, scene, template, guess + off, np.inf, found)
         assert count == 2
         assert time == pytest.approx(times[0, 2], abs=1e-5)
     # it is no valley: downhill leads to where the limit is broken, or to the end of a word
-    entry, side, on = (int(part) for part in PARTS[kind])
-    room = np.empty((16, 4)), np.empty((16, 5)), np.zeros((2, 5)), np.zeros(5)
-    bearing = np.arctan2(guess[1], guess[0])
-    valley, _ = descend(
-        x, y, h, slot, alpha, contact_distance(limit), bearing, side, entry, on, np.zeros(2), *room
-    )
+    entry, side, on = (int(part) for part in PARTS[template])
+    eased = with_limit(scene, limit - GRAZE)
+    task = Task(start, eased, disc_on(scene, 0, float(side)), entry, on)
+    bearing = float(np.arctan2(guess[1], guess[0]))
+    valley, _ = descend(bearing, task, np.zeros(2), empty_room())
     assert abs(valley - times[0, 2]) > 1e-6

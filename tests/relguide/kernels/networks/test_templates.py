@@ -1,4 +1,4 @@
-"""Kinds of ways: told of exact answers, and solved again from a guess."""
+"""Templates: recognised in exact answers, and solved again from a guess."""
 
 from collections import Counter
 from math import cos, hypot, sin
@@ -6,12 +6,13 @@ from math import cos, hypot, sin
 import numpy as np
 import pytest
 
-from relguide.kernels.base.records import Disc, Pose
+from relguide.kernels.base.records import Disc, Pose, straight_scene
 from relguide.kernels.contact.chain import BOUNDARY_ARC
 from relguide.kernels.contact.constrained_rows import exact_constrained
 from relguide.kernels.contact.contact import contact_heading, slide_within
+from relguide.kernels.networks.template_recognition import template_of
 from relguide.kernels.networks.template_solutions import solve_template
-from relguide.kernels.networks.templates import NONE, SEVERAL, TEMPLATES, template_of
+from relguide.kernels.networks.templates import NONE, SEVERAL, TEMPLATES
 from relguide.kernels.words.extremals import SIGNS, fly_piece
 from relguide.planning.constrained_path import BEARINGS
 from tests.relguide.learn.boundary.template_networks import labels
@@ -24,26 +25,27 @@ def solved(n: int, off: float = 0.0) -> tuple[int, float, np.ndarray]:
     """Kind, time and legs of answer n, solved again from its guess, which is put off by so much."""
     x, y, h, alpha, slot, limit = FOUND.situations[n].tolist()
     guess, legs = np.zeros(2), np.zeros((9, 6))
-    kind = template_of(x, y, h, slot, alpha, int(FOUND.counts[n]), FOUND.legs[n], guess)
-    if kind in (SEVERAL, NONE):
-        return kind, np.inf, legs[:0]
-    time, count = solve_template(x, y, h, slot, alpha, limit, kind, guess + off, np.inf, legs)
-    return kind, time, legs[:count]
+    start, scene = Pose(x, y, h), straight_scene(alpha, slot, limit)
+    template = template_of(start, scene, FOUND.legs[n, : int(FOUND.counts[n])], guess)
+    if template in (SEVERAL, NONE):
+        return template, np.inf, legs[:0]
+    time, count = solve_template(start, scene, template, guess + off, np.inf, legs)
+    return template, time, legs[:count]
 
 
 def test_exact_answers_lead_back_to_themselves() -> None:
-    kinds: Counter[str] = Counter()
+    templates: Counter[str] = Counter()
     missed, late = 0, []
     for n in range(len(FOUND)):
-        kind, time, legs = solved(n)
-        kinds[TEMPLATES[kind]] += 1
-        if kind in (SEVERAL, NONE):
+        template, time, legs = solved(n)
+        templates[TEMPLATES[template]] += 1
+        if template in (SEVERAL, NONE):
             continue
         missed += len(legs) == 0
         if len(legs) > 0:
             late.append(time - FOUND.times[n, 2])
-    there = len(FOUND) - kinds["none"]
-    assert kinds["several"] < 0.02 * there
+    there = len(FOUND) - templates["none"]
+    assert templates["several"] < 0.02 * there
     assert missed < 0.005 * there
     # a few µs, where the search ends beside the bearings that touch by themselves
     assert np.mean(np.array(late) < 1e-5) > 0.995
@@ -54,7 +56,7 @@ def test_exact_answers_lead_back_to_themselves() -> None:
         "LSL left LSL",
         "RL left LSR",
     ):
-        assert kinds[commonest] > 0.03 * there
+        assert templates[commonest] > 0.03 * there
 
 
 def test_a_guess_that_is_off_leads_to_the_same_way() -> None:
@@ -85,13 +87,14 @@ def test_a_straight_way_bent_a_little_is_found_from_a_guess_beside(
     times, counts, legs = np.empty((1, 3)), np.empty(1), np.zeros((1, 9, 6))
     exact_constrained(np.array([situation]), BEARINGS, 2000.0, times, counts, legs)
     guess, found = np.empty(2), np.zeros((9, 6))
-    kind = template_of(x, y, h, slot, alpha, int(counts[0]), legs[0], guess)
+    start, scene = Pose(x, y, h), straight_scene(alpha, slot, limit)
+    template = template_of(start, scene, legs[0, : int(counts[0])], guess)
     assert legs[0, 0, 5] < 0.02  # before the contact it turns no more than this, and behind it
     assert legs[0, 1, 3] < 0.02
     for off in (0.0, 0.04, -0.04):
         bearing = np.arctan2(guess[1], guess[0]) + off
         beside = np.array((cos(bearing), sin(bearing)))
-        time, _ = solve_template(x, y, h, slot, alpha, limit, kind, beside, np.inf, found)
+        time, _ = solve_template(start, scene, template, beside, np.inf, found)
         assert time == pytest.approx(times[0, 2], abs=1e-6)
 
 

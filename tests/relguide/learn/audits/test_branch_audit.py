@@ -11,10 +11,10 @@ from relguide.kernels.words.branches import BRANCHES
 from relguide.learn.audits.branch_audit import Audit, audit_as_json, audit_of
 from relguide.learn.audits.branch_judging import (
     WORTH,
-    Judged,
-    audit_request,
+    BranchVerdicts,
+    branch_audit_request,
     judge_chunk,
-    judged,
+    judge_chunks,
     latencies,
 )
 from relguide.learn.audits.gaps import SMALL
@@ -26,9 +26,9 @@ from tests.relguide.learn.words.networks import REQUEST, network
 
 def audited(count: int, seed: int = 1, *, least_share: float | None = None) -> Audit:
     asked = network() if least_share is None else replace(network(), least_share=least_share)
-    request = replace(audit_request(asked, count, seed), chunk=1000)
+    request = replace(branch_audit_request(asked, count, seed), chunk=1000)
     with ThreadPoolExecutor(1) as executor:
-        return audit_of(dict(judged(asked, request, executor)))
+        return audit_of(dict(judge_chunks(asked, request, executor)))
 
 
 def test_shares_come_with_wilsons_interval() -> None:
@@ -73,9 +73,9 @@ def test_it_is_the_same_each_time_and_sees_other_situations_than_the_training() 
 def test_a_network_that_knows_nothing_is_found_out() -> None:
     layers = network().layers
     blind = replace(network(), layers=layers._replace(last=0.0 * layers.last), most=8)
-    request = audit_request(blind, 500, 1)
+    request = branch_audit_request(blind, 500, 1)
     found = judge_chunk(blind, request, 0)
-    assert isinstance(found, Judged)
+    assert isinstance(found, BranchVerdicts)
     assert np.mean(found.ranks == 0) < 0.7
     none = judge_chunk(replace(blind, most=0), request, 0)
     assert (none.held == 0).all()
@@ -84,7 +84,7 @@ def test_a_network_that_knows_nothing_is_found_out() -> None:
 
 
 def test_the_gap_is_that_of_what_would_be_flown() -> None:
-    request = audit_request(network(), 500, 1)
+    request = branch_audit_request(network(), 500, 1)
     found, labels = judge_chunk(network(), request, 0), label_chunk(request, 0)
     assert np.array_equal(found.best, labels.best)
     finite = found.gap[found.gap < inf]
@@ -123,13 +123,13 @@ def test_every_gap_is_told_with_what_explains_it() -> None:
 
 def test_the_weights_that_come_along_are_good() -> None:
     shipped = load_network()
-    request = replace(audit_request(shipped, 4000, 11), chunk=4000)
+    request = replace(branch_audit_request(shipped, 4000, 11), chunk=4000)
     groups = audit_of({0: judge_chunk(shipped, request, 0)}).groups
     assert groups[0].tops[0].hits > 0.99 * groups[0].size
     assert groups[0].covered.hits > 0.995 * groups[0].size
 
 
 def test_one_query_is_timed() -> None:
-    found = latencies(network(), audit_request(network(), 300, 1))
+    found = latencies(network(), branch_audit_request(network(), 300, 1))
     assert set(found) == {"network", "all words"}
     assert all(0.0 < low <= high for low, high in found.values())

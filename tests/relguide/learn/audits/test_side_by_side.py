@@ -11,10 +11,10 @@ from relguide.learn.audits.side_by_side import (
     Ground,
     Method,
     branches_like,
-    drawn_ground,
+    draw_ground,
     ends_of,
+    look_up_pairs,
     method_as_json,
-    nearest_given,
     side_by_side,
 )
 from relguide.learn.training.options import NetworkShape, TrainingOptions
@@ -36,7 +36,7 @@ TINY = TrainingOptions(
 
 @cache
 def ground() -> Ground:
-    return drawn_ground(parameters(3), 1000, 1, lambda _: None)
+    return draw_ground(parameters(3), 1000, 1, lambda _: None)
 
 
 @cache
@@ -59,7 +59,7 @@ def test_the_ground_is_the_area_of_the_tree() -> None:
     assert exact.proved.all()
     assert exact.time_to_converge.max() <= 400.0
     assert exact.time_to_converge == pytest.approx(found.times.min(axis=1) * RADIUS / 240.0)
-    again = drawn_ground(parameters(3), 1000, 1, lambda _: None)
+    again = draw_ground(parameters(3), 1000, 1, lambda _: None)
     assert np.array_equal(again.situations, found.situations)
 
 
@@ -67,7 +67,7 @@ def test_ends_are_those_of_what_is_flown() -> None:
     rng = np.random.default_rng(2)
     rows = ground().situations[:40]
     x, y, h, _ = rows.T
-    pairs = nearest_given(lookup_in(tree()), x, y, h)
+    pairs = look_up_pairs(lookup_in(tree()), x, y, h)
     pairs[:, :, 1:] *= rng.uniform(0.9, 1.1, pairs[:, :, 1:].shape)
     for row, given, (missed, off) in zip(rows, pairs, ends_of(pairs, rows), strict=True):
         situation = A300.situation(row[0] * RADIUS, row[1] * RADIUS, row[2])
@@ -90,7 +90,7 @@ def test_pieces_name_strategies() -> None:
     assert named(("R", 1.0), ("L", 4.0)) == ["RSL", "LRL", "LRL long", "RLR", "RLR long"]
 
 
-def test_all_four_are_judged() -> None:
+def test_all_four_are_with_certificate() -> None:
     ours, nearest, paper, direct = methods()
     names = [method.name for method in methods()]
     assert names == ["ours", "nearest in tree", "paper's network", "direct regression"]

@@ -12,27 +12,27 @@ import pytest
 from relguide import Leader, NoPlan, Plan, Pursuer, Situation, plan
 from relguide.kernels.words.branches import needs_mirror
 from relguide.learn.boundary.template_label_file import (
-    grown_labels,
-    load_limit_labels,
-    save_limit_labels,
+    grow_template_labels,
+    load_template_labels,
+    save_template_labels,
 )
 from relguide.learn.boundary.template_labels import (
-    LimitBox,
-    LimitLabels,
-    LimitRequest,
+    TemplateBox,
+    TemplateLabelRequest,
+    TemplateLabels,
+    advance_paths,
     answers_of,
-    joined,
-    later,
-    limit_chunk,
-    make_limit_labels,
+    join_labels,
+    make_template_labels,
+    template_label_chunk,
 )
 from relguide.units import DEG
 from tests.relguide.learn.boundary.template_networks import labels
 
-SMALL = LimitRequest(count=70, seed=3, chunk=20)
+SMALL = TemplateLabelRequest(count=70, seed=3, chunk=20)
 
 
-def same(a: LimitLabels, b: LimitLabels) -> bool:
+def same(a: TemplateLabels, b: TemplateLabels) -> bool:
     return all(np.array_equal(x, y) for x, y in zip(a.columns(), b.columns(), strict=True))
 
 
@@ -71,7 +71,7 @@ def test_the_answers_are_the_exact_planners() -> None:
 
 
 def test_every_situation_lies_in_the_box_and_binds() -> None:
-    found, box = labels(), LimitBox()
+    found, box = labels(), TemplateBox()
     x, y, h, alpha, slot, limit = found.situations.T
     assert (y >= 0.0).all()
     assert ((h >= 0.0) & (h < 2.0 * np.pi)).all()
@@ -85,17 +85,17 @@ def test_every_situation_lies_in_the_box_and_binds() -> None:
 
 
 def test_some_situations_lie_along_the_ways_of_others() -> None:
-    found = limit_chunk(replace(SMALL, count=300, chunk=300), 0)
+    found = template_label_chunk(replace(SMALL, count=300, chunk=300), 0)
     drawn = {tuple(row) for row in found.situations[found.sources < 3, 3:].tolist()}
     along = found.situations[found.sources == 3]
     assert len(along) == 45
     assert {tuple(row) for row in along[:, 3:].tolist()} <= drawn
-    only = limit_chunk(replace(SMALL, shares=(0.0, 0.0, 0.0, 1.0)), 0)
+    only = template_label_chunk(replace(SMALL, shares=(0.0, 0.0, 0.0, 1.0)), 0)
     assert len(only) == 20  # none to lie along: drawn as the others are
 
 
 def test_what_is_left_of_a_way_is_the_fastest_from_there() -> None:
-    left = later(labels().ways, np.random.default_rng(1))
+    left = advance_paths(labels().paths, np.random.default_rng(1))
     turning = (labels().counts > 1) & (labels().legs[:, 0, 3] > 0.05)
     assert len(left.times) == turning.sum() > 300
     assert (left.times < labels().times[turning, 2]).all()
@@ -118,19 +118,19 @@ class Here(Executor):
 
 def test_the_same_request_gives_the_same_labels_anywhere() -> None:
     with ThreadPoolExecutor(2) as pool:
-        threads = joined(dict(make_limit_labels(SMALL, pool)))
-    here = joined(dict(make_limit_labels(SMALL, Here())))
+        threads = join_labels(dict(make_template_labels(SMALL, pool)))
+    here = join_labels(dict(make_template_labels(SMALL, Here())))
     assert same(threads, here)
     assert len(here) == 70
-    assert same(joined({0: limit_chunk(SMALL, 0)}), limit_chunk(SMALL, 0))
-    other = limit_chunk(replace(SMALL, seed=4), 0)
+    assert same(join_labels({0: template_label_chunk(SMALL, 0)}), template_label_chunk(SMALL, 0))
+    other = template_label_chunk(replace(SMALL, seed=4), 0)
     assert not np.array_equal(other.situations, here.situations[:20])
 
 
 def test_a_run_that_was_stopped_goes_on_to_the_same_end(tmp_path: Path) -> None:
-    whole = dict(grown_labels(SMALL, tmp_path / "whole", Here(), resume=False))
+    whole = dict(grow_template_labels(SMALL, tmp_path / "whole", Here(), resume=False))
     part = tmp_path / "part"
-    run = grown_labels(SMALL, part, Here(), resume=False)
+    run = grow_template_labels(SMALL, part, Here(), resume=False)
     next(run), next(run)
     run.close()
     part.write_bytes(part.read_bytes()[:-100])  # stopped while it wrote
@@ -141,42 +141,45 @@ def test_a_run_that_was_stopped_goes_on_to_the_same_end(tmp_path: Path) -> None:
             made.append(1)
             return super().submit(task, *args, **kwargs)
 
-    again = dict(grown_labels(SMALL, part, Counting(), resume=True))
-    assert same(joined(again), joined(whole))
+    again = dict(grow_template_labels(SMALL, part, Counting(), resume=True))
+    assert same(join_labels(again), join_labels(whole))
     assert len(made) == 3  # of four chunks one was whole
-    assert same(joined(dict(grown_labels(SMALL, part, Counting(), resume=True))), joined(whole))
+    assert same(
+        join_labels(dict(grow_template_labels(SMALL, part, Counting(), resume=True))),
+        join_labels(whole),
+    )
     assert len(made) == 3
     with pytest.raises(ValueError, match="begun with another request"):
-        list(grown_labels(replace(SMALL, seed=9), part, Here(), resume=True))
+        list(grow_template_labels(replace(SMALL, seed=9), part, Here(), resume=True))
     with pytest.raises(ValueError, match="--resume goes on with it"):
-        list(grown_labels(SMALL, part, Here(), resume=False))
+        list(grow_template_labels(SMALL, part, Here(), resume=False))
     with pytest.raises(ValueError, match="nothing to resume"):
-        list(grown_labels(SMALL, tmp_path / "none", Here(), resume=True))
+        list(grow_template_labels(SMALL, tmp_path / "none", Here(), resume=True))
 
 
 def test_a_file_keeps_all_and_others_are_refused(tmp_path: Path) -> None:
-    found, file = limit_chunk(SMALL, 0), tmp_path / "labels.npz"
-    save_limit_labels(found, SMALL, {"command": "it"}, file)
-    read, about = load_limit_labels(file)
+    found, file = template_label_chunk(SMALL, 0), tmp_path / "labels.npz"
+    save_template_labels(found, SMALL, {"command": "it"}, file)
+    read, about = load_template_labels(file)
     assert same(read, found)
     assert about["provenance"] == {"command": "it"}
     assert about["request"]["seed"] == 3
     file.write_bytes(file.read_bytes()[:1000])
     with pytest.raises(ValueError, match="holds no labels of relguide dataset --method templates"):
-        load_limit_labels(file)
-    save_limit_labels(replace(found, counts=found.counts[:5]), SMALL, {}, file)
+        load_template_labels(file)
+    save_template_labels(replace(found, counts=found.counts[:5]), SMALL, {}, file)
     with pytest.raises(ValueError, match="do not fit together"):
-        load_limit_labels(file)
+        load_template_labels(file)
 
 
 @pytest.mark.parametrize(
     ("make", "reason"),
     [
-        (lambda: LimitRequest(count=0), "whole numbers"),
-        (lambda: LimitRequest(count=5, shares=(0.5, 0.5, 0.5, 0.5)), "sum up to 1"),
-        (lambda: LimitBox(max_ratio=1.0), "Speed ratios"),
-        (lambda: LimitBox(min_limit=0.0), "d_min must reach"),
-        (lambda: LimitBox(max_slot=1.0), "max_slot and max_range"),
+        (lambda: TemplateLabelRequest(count=0), "whole numbers"),
+        (lambda: TemplateLabelRequest(count=5, shares=(0.5, 0.5, 0.5, 0.5)), "sum up to 1"),
+        (lambda: TemplateBox(max_ratio=1.0), "Speed ratios"),
+        (lambda: TemplateBox(min_limit=0.0), "d_min must reach"),
+        (lambda: TemplateBox(max_slot=1.0), "max_slot and max_range"),
     ],
 )
 def test_what_is_no_request_is_refused(make: Any, reason: str) -> None:

@@ -18,9 +18,9 @@ from relguide import (
     plan,
     wind_from,
 )
-from relguide.learn.boundary.template_labels import LimitRequest, limit_chunk
+from relguide.learn.boundary.template_labels import TemplateLabelRequest, template_label_chunk
 from relguide.learn.boundary.template_network import TemplateNetwork, load_template_network
-from relguide.learn.boundary.template_paths import seen, solved
+from relguide.learn.boundary.template_paths import solve_constrained, view
 from relguide.learn.network_planner import network_planner
 from relguide.learn.words.branch_network import load_network
 from relguide.planning.words import Candidate
@@ -29,14 +29,17 @@ from tests.relguide.learn.boundary.template_networks import ways
 from tests.relguide.learn.boundary.test_template_labels import situation_of
 
 SHIPPED = load_template_network()
-UNSEEN = [situation_of(row) for row in limit_chunk(LimitRequest(count=240, seed=999), 0).situations]
+UNSEEN = [
+    situation_of(row)
+    for row in template_label_chunk(TemplateLabelRequest(count=240, seed=999), 0).situations
+]
 
 
 def way_round(network: TemplateNetwork, situation: Situation) -> Candidate | None:
     """What the network leads to where the limit is seen to bind."""
     radius = situation.pursuer.turn_radius
-    binds, _, where, free = seen(situation, radius)
-    return solved(network, situation, radius, where, free) if binds else None
+    binds, _, where, free = view(situation, radius)
+    return solve_constrained(network, situation, radius, where, free) if binds else None
 
 
 def asked(situation: Situation, network: TemplateNetwork = SHIPPED) -> Plan | NoPlan:

@@ -1,4 +1,4 @@
-"""The network of ways: the kernel says what torch says, trainings go on, files keep all."""
+"""The template network: the kernel says what torch says, trainings go on, files keep all."""
 
 import argparse
 import json
@@ -10,14 +10,14 @@ import pytest
 import torch
 from safetensors.numpy import load_file, save_file
 
-from relguide.kernels.base.records import Pose
+from relguide.kernels.base.records import Pose, straight_scene
 from relguide.kernels.networks.template_features import FEATURES
 from relguide.kernels.networks.template_scores import OUTPUTS, guess_of, template_shares
 from relguide.kernels.networks.templates import SIZE
 from relguide.kernels.words.extremals import MAX_ROWS, solve
 from relguide.learn.boundary import train_templates as training
-from relguide.learn.boundary.template_label_file import save_limit_labels
-from relguide.learn.boundary.template_labels import LimitBox
+from relguide.learn.boundary.template_label_file import save_template_labels
+from relguide.learn.boundary.template_labels import TemplateBox
 from relguide.learn.boundary.template_network import (
     load_template_network,
     save_template_network,
@@ -46,12 +46,13 @@ def test_the_kernel_says_what_torch_says(shape: NetworkShape) -> None:
     rows, share, guess = np.empty((MAX_ROWS, 5)), np.empty(SIZE), np.empty(2)
     expected = torch.from_numpy(out[:, :SIZE]).softmax(dim=1).numpy()
     for n, (x, y, h, alpha, slot, limit) in enumerate(situations.tolist()):
-        solve(Pose(x, y, h), alpha, 0.0, rows)
-        hidden = template_shares(x, y, h, slot, alpha, limit, rows[0], layers, share)
+        pose = Pose(x, y, h)
+        solve(pose, alpha, 0.0, rows)
+        hidden = template_shares(pose, straight_scene(alpha, slot, limit), rows[0], layers, share)
         assert np.abs(share - expected[n]).max() < 1e-5
-        for kind in (0, 3, SIZE - 1):
-            guess_of(hidden, layers, kind, guess)
-            at = SIZE + 2 * kind
+        for template in (0, 3, SIZE - 1):
+            guess_of(hidden, layers, template, guess)
+            at = SIZE + 2 * template
             assert np.abs(guess - out[n, at : at + 2]).max() < 1e-5
 
 
@@ -62,12 +63,14 @@ def test_the_trained_network_has_learnt() -> None:
 
 def test_a_training_that_was_stopped_goes_on_to_the_same_end(tmp_path: Path) -> None:
     part, options = tmp_path / "part", QUICK
-    whole = list(train_templates(labels(), options, box=LimitBox(), about={}))
-    run = train_templates(labels(), options, box=LimitBox(), about={}, checkpoint=part)
+    whole = list(train_templates(labels(), options, box=TemplateBox(), about={}))
+    run = train_templates(labels(), options, box=TemplateBox(), about={}, checkpoint=part)
     next(run)
     run.close()
     rest = list(
-        train_templates(labels(), options, box=LimitBox(), about={}, checkpoint=part, resume=True)
+        train_templates(
+            labels(), options, box=TemplateBox(), about={}, checkpoint=part, resume=True
+        )
     )
     assert [epoch.number for epoch in rest] == [2, 3]
     for name, array in whole[-1].network.layers._asdict().items():
@@ -75,17 +78,19 @@ def test_a_training_that_was_stopped_goes_on_to_the_same_end(tmp_path: Path) -> 
     other = replace(options, seed=8)
     with pytest.raises(ValueError, match="other labels or options"):
         list(
-            train_templates(labels(), other, box=LimitBox(), about={}, checkpoint=part, resume=True)
+            train_templates(
+                labels(), other, box=TemplateBox(), about={}, checkpoint=part, resume=True
+            )
         )
     with pytest.raises(ValueError, match="nothing to resume"):
-        list(train_templates(labels(), options, box=LimitBox(), about={}, resume=True))
+        list(train_templates(labels(), options, box=TemplateBox(), about={}, resume=True))
 
 
 def test_too_few_labels_are_refused() -> None:
     few = {name: getattr(labels(), name)[:1] for name in ("situations", "times", "counts")}
     one = replace(labels(), **few, legs=labels().legs[:1], sources=labels().sources[:1])
     with pytest.raises(ValueError, match="too few"):
-        next(train_templates(one, QUICK, box=LimitBox(), about={}))
+        next(train_templates(one, QUICK, box=TemplateBox(), about={}))
 
 
 def test_a_file_keeps_all_and_others_are_refused(tmp_path: Path) -> None:
@@ -98,7 +103,7 @@ def test_a_file_keeps_all_and_others_are_refused(tmp_path: Path) -> None:
         ways().doubt,
     )
     assert all(np.array_equal(a, b) for a, b in zip(read.layers, ways().layers, strict=True))
-    about = {"file": "relguide way network 1", "kinds": ["free"]}
+    about = {"file": "relguide way network 1", "templates": ["free"]}
     save_file(load_file(file), file, metadata={"about": json.dumps(about)})
     for damaged in (file.read_bytes(), file.read_bytes()[:500], b""):
         file.write_bytes(damaged)
@@ -110,7 +115,7 @@ def test_a_file_keeps_all_and_others_are_refused(tmp_path: Path) -> None:
 
 def test_the_script_trains_from_a_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    save_limit_labels(labels(), REQUEST, {"command": "it"}, Path("limit.npz"))
+    save_template_labels(labels(), REQUEST, {"command": "it"}, Path("limit.npz"))
     parser = argparse.ArgumentParser()
     add_options(parser)
     chosen = parser.parse_args(

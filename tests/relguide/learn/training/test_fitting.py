@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from relguide.learn.training.fitting import reached_by, scaled, split
+from relguide.learn.training.fitting import reached_by, scale, split
 from relguide.learn.training.options import TrainingOptions
 from relguide.learn.words.branch_labels import Box
 from relguide.learn.words.branch_network import BranchNetwork
@@ -23,13 +23,13 @@ def test_a_share_is_kept_and_the_rest_is_scaled() -> None:
     options = TrainingOptions(validation=0.25)
     numbers = np.arange(100, 140)
     rows, kept = parted = split(numbers, options, of="rows")
-    assert (kept, parted.taught) == (10, 30)
+    assert (kept, parted.learnt) == (10, 30)
     assert sorted(rows.tolist()) == numbers.tolist()
     assert rows.tolist() != numbers.tolist()
     assert np.array_equal(rows, split(numbers, options, of="rows").rows)
     assert not np.array_equal(rows, split(numbers, replace(options, seed=1), of="rows").rows)
     columns = np.stack([rows, np.full(40, 3.0)], axis=1).astype(np.float32)
-    values, mean, deviation = scaled(columns, kept)
+    values, mean, deviation = scale(columns, kept)
     assert np.abs(values[kept:].mean(axis=0)).max() < 1e-5
     assert abs(values[kept:, 0].std() - 1.0) < 1e-5
     assert np.isfinite(values).all()  # a column that is always the same has no deviation

@@ -15,9 +15,9 @@ from relguide.learn.tree.regular_network import (
     Method,
     RegularNetwork,
     load_regular,
-    pairs_given,
+    regress_pairs,
     save_regular,
-    shipped,
+    shipped_weights,
 )
 from relguide.learn.tree.train_regular import exact_pairs, train_regular
 from relguide.learn.tree.tree import regular_from_pairs
@@ -63,7 +63,7 @@ def test_what_it_gives_flies_nearly_to_the_slot() -> None:
     rng = np.random.default_rng(3)
     nodes = rng.permutation(tree().minima)[:200]
     x, y, h = tree().x[nodes] / RADIUS, tree().y[nodes] / RADIUS, tree().heading[nodes]
-    pairs = pairs_given(trained(), x, y, h)
+    pairs = regress_pairs(trained(), x, y, h)
     pairs[:, :, 2] *= RADIUS
     missed = []
     for i, node in enumerate(nodes.tolist()):
@@ -78,7 +78,7 @@ def test_what_it_gives_flies_nearly_to_the_slot() -> None:
 def test_mirror_situations_get_mirror_ways() -> None:
     rng = np.random.default_rng(4)
     x, y, h = rng.uniform(-5.0, 10.0, 50), rng.uniform(0.1, 8.0, 50), rng.uniform(0.1, 6.0, 50)
-    here, there = pairs_given(trained(), x, y, h), pairs_given(trained(), x, -y, -h)
+    here, there = regress_pairs(trained(), x, y, h), regress_pairs(trained(), x, -y, -h)
     assert np.array_equal(here[:, :, 1:], there[:, :, 1:])
     assert np.array_equal(here[:, :, 0], -there[:, :, 0])
 
@@ -102,7 +102,7 @@ def test_it_is_read_as_it_was_written(tmp_path: Path) -> None:
     read = load_regular(file)
     assert (read.method, read.parameters) == ("paper", tree().parameters)
     x = np.array([3.0])
-    assert np.array_equal(pairs_given(read, x, x, x), pairs_given(trained(), x, x, x))
+    assert np.array_equal(regress_pairs(read, x, x, x), regress_pairs(trained(), x, x, x))
     for content in (b"PK", file.read_bytes()[:-100]):
         file.write_bytes(content)
         with pytest.raises(ValueError, match="holds no network of relguide train --method paper"):
@@ -111,13 +111,15 @@ def test_it_is_read_as_it_was_written(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("method", ["paper", "direct"])
 def test_the_weights_that_come_along_say_how_they_were_made(method: Method) -> None:
-    network = load_regular(shipped(method))
+    network = load_regular(shipped_weights(method))
     assert network.method == method
     assert f"--method {method}" in network.about["command"]
     assert network.parameters.encounter == A300
-    assert shipped(method).stat().st_size < 300e3
+    assert shipped_weights(method).stat().st_size < 300e3
     # straight ahead of the slot's mirror line there is a way of some length
-    length = pairs_given(network, *(np.array([value]) for value in (4.0, 2.0, pi)))[0, :, 1:].sum()
+    length = regress_pairs(network, *(np.array([value]) for value in (4.0, 2.0, pi)))[
+        0, :, 1:
+    ].sum()
     assert 2.0 < length < 30.0
 
 

@@ -14,7 +14,7 @@ from relguide.flying.scenarios import scenario
 from relguide.kernels.words.extremals import WORDS
 from relguide.learn.tree import regular_planner as module
 from relguide.learn.tree.regular_planner import ratios_of, regular_planner, tree_for
-from relguide.learn.tree.regular_words import Piece, merged, pieces_of, words_like
+from relguide.learn.tree.regular_words import Piece, merge, pieces_of, words_like
 from relguide.planning.slot import slot_frame
 from relguide.units import DEG
 from tests.situations import situations
@@ -56,7 +56,7 @@ def test_what_is_like_no_word_loses_its_shortest_pieces() -> None:
     pieces = [Piece("L", 1.0), Piece("S", 3.0), Piece("R", 0.2), Piece("S", 0.5), Piece("R", 0.3)]
     # L S R S R: without the short turn the straights are one
     assert [WORDS[number] for number in words_like(pieces)] == ["LSR"]
-    assert merged([Piece("S", 1.0), Piece("S", 2.0)]) == [Piece("S", 3.0)]
+    assert merge([Piece("S", 1.0), Piece("S", 2.0)]) == [Piece("S", 3.0)]
     assert pieces_of([[1.0, 0.5, 0.0], [-1.0, 0.0, 2.0], [1.0, 0.1, 3.0], [0.0, 0.0, 0.0]]) == [
         Piece("L", 0.5), Piece("S", 2.0), Piece("L", 0.1), Piece("S", 3.0),
     ]  # fmt: skip

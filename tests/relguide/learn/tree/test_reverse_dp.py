@@ -11,7 +11,7 @@ from relguide import LEFT, Arc, Plan, Straight, certify, plan
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.tree.reverse import compass
 from relguide.learn.tree import reverse_dp
-from relguide.learn.tree.reverse_dp import Growth, grow_order, planted, reverse_tree, tree_from
+from relguide.learn.tree.reverse_dp import Growth, grow_order, plant, reverse_tree, tree_from
 from relguide.learn.tree.tree import (
     Tree,
     TreeParameters,
@@ -82,7 +82,7 @@ def test_every_way_flown_forward_reaches_the_slot_and_keeps_d_min(
 
 
 def test_the_separation_matters() -> None:
-    free = grown(planted(parameters(encounter=replace(A300, min_separation=0.0))))
+    free = grown(plant(parameters(encounter=replace(A300, min_separation=0.0))))
     assert free.close == 0
     assert tree().close > 50
     broken = sum(
@@ -214,12 +214,12 @@ def test_the_compass_is_symmetric_to_the_last_digit() -> None:
 
 
 def test_threads_change_nothing() -> None:
-    assert same(grown(planted(parameters()), threads=1), grown(planted(parameters()), threads=2))
+    assert same(grown(plant(parameters()), threads=1), grown(plant(parameters()), threads=2))
 
 
 def test_blocks_change_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(reverse_dp, "BLOCK", 13)
-    assert same(grown(planted(parameters())), tree())
+    assert same(grown(plant(parameters())), tree())
 
 
 @pytest.mark.parametrize("stop_after", [1, 3, 9])
@@ -227,7 +227,7 @@ def test_growing_on_from_a_stop_gives_the_same_tree(
     stop_after: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(reverse_dp, "BLOCK", 3)
-    *_, growth = grow_order(planted(parameters()))
+    *_, growth = grow_order(plant(parameters()))
     *_, growth = islice(grow_order(growth), stop_after)
     assert 0 < growth.next < len(growth.latest)
     assert same(grown(growth), tree())
@@ -257,7 +257,7 @@ def test_what_cannot_be_grown_is_refused(changes: dict[str, float], sentence: st
 
 
 def test_the_memory_bound_holds() -> None:
-    *_, growth = grow_order(planted(parameters(2)))
+    *_, growth = grow_order(plant(parameters(2)))
     arrays = (
         growth.states, growth.headings, growth.parents, growth.pairs, growth.best_time,
         growth.best, growth.origin, growth.pair,

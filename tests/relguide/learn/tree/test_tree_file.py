@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from relguide.learn.tree.reverse_dp import grow_order, planted
+from relguide.learn.tree.reverse_dp import grow_order, plant
 from relguide.learn.tree.tree import parameters_as_json, parameters_from_json
 from relguide.learn.tree.tree_file import (
     TREE_COLUMNS,
@@ -41,7 +41,7 @@ def test_the_file_is_plain_arrays(tmp_path: Path) -> None:
 
 
 def test_a_growing_tree_comes_back_as_it_was(tmp_path: Path) -> None:
-    *_, growth = grow_order(planted(parameters()))
+    *_, growth = grow_order(plant(parameters()))
     save_growth(growth, tmp_path / "tree.npz.part")
     read = load_growth(tmp_path / "tree.npz.part")
     for field in growth.__slots__:
@@ -72,7 +72,7 @@ def test_what_is_no_tree_is_refused(tmp_path: Path) -> None:
     np.savez(file, about=np.array({"file": "relguide"}, dtype=object))
     with pytest.raises(ValueError, match=r"tree\.npz"):
         load_tree(file)
-    save_growth(planted(parameters()), file)
+    save_growth(plant(parameters()), file)
     with pytest.raises(ValueError, match="another kind: relguide reverse-dp growth 1"):
         load_tree(file)
 

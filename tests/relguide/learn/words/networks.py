@@ -4,7 +4,7 @@ import argparse
 from functools import cache
 
 from relguide.learn.training.options import TrainingOptions, add_options
-from relguide.learn.words.branch_labels import Box, LabelRequest, Labels, joined, label_chunk
+from relguide.learn.words.branch_labels import Box, LabelRequest, Labels, join_labels, label_chunk
 from relguide.learn.words.branch_network import BranchNetwork, NetworkShape
 from relguide.learn.words.train_branches import train
 
@@ -16,7 +16,7 @@ OPTIONS = TrainingOptions(
 
 @cache
 def labels() -> Labels:
-    return joined({number: label_chunk(REQUEST, number) for number in range(REQUEST.chunks)})
+    return join_labels({number: label_chunk(REQUEST, number) for number in range(REQUEST.chunks)})
 
 
 @cache

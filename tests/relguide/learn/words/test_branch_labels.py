@@ -18,7 +18,7 @@ from relguide.learn.words.branch_labels import (
     Labels,
     canonical,
     held_out,
-    joined,
+    join_labels,
     label_chunk,
     load_labels,
     make_labels,
@@ -137,8 +137,8 @@ def test_lost_workers_lose_nothing_and_double_nothing() -> None:
     assert sorted(number for number, _ in chunks) == list(range(SMALL.chunks))
     assert set(executor.begun.values()) == {3}
     whole = {number: label_chunk(SMALL, number) for number in range(SMALL.chunks)}
-    assert same(joined(dict(chunks)), joined(whole))
-    assert len(np.unique(joined(whole).situations, axis=0)) == SMALL.count
+    assert same(join_labels(dict(chunks)), join_labels(whole))
+    assert len(np.unique(join_labels(whole).situations, axis=0)) == SMALL.count
 
 
 def test_a_chunk_lost_for_good_is_said() -> None:
@@ -149,12 +149,12 @@ def test_a_chunk_lost_for_good_is_said() -> None:
 @pytest.mark.slow
 def test_any_executor_makes_the_same_labels() -> None:
     with ThreadPoolExecutor(3) as threads:
-        by_threads = joined(dict(make_labels(SMALL, threads)))
+        by_threads = join_labels(dict(make_labels(SMALL, threads)))
     with ProcessPoolExecutor(1) as processes:
-        by_processes = joined(dict(make_labels(replace(SMALL), processes)))
+        by_processes = join_labels(dict(make_labels(replace(SMALL), processes)))
     assert len(by_threads) == SMALL.count
     assert same(by_threads, by_processes)
-    assert not same(by_threads, joined({0: label_chunk(replace(SMALL, seed=4), 0)}))
+    assert not same(by_threads, join_labels({0: label_chunk(replace(SMALL, seed=4), 0)}))
 
 
 def test_files_come_back_and_damaged_ones_are_refused(tmp_path: Path) -> None:

@@ -10,7 +10,8 @@ import torch
 from hypothesis import given
 from hypothesis import strategies as st
 
-from relguide.kernels.networks.branch_scores import Layers, choose, evaluate, judge_rows
+from relguide.kernels.base.records import Pose
+from relguide.kernels.networks.branch_scores import Layers, choose, evaluate, judge_branches
 from relguide.kernels.words.branches import MIRROR_OF, SIZE, branch_of
 from relguide.kernels.words.extremals import MAX_ROWS
 from relguide.learn.words.branch_network import (
@@ -27,9 +28,7 @@ from tests.relguide.learn.words.networks import labels, network
 
 def scores_of(found: BranchNetwork, situations: np.ndarray) -> np.ndarray:
     scores, decoded = np.empty((len(situations), 3, SIZE)), np.empty((len(situations), 3))
-    judge_rows(
-        situations, found.layers, found.least_share, found.most, 0, len(scores), scores, decoded
-    )
+    judge_branches(situations, found.layers, found.least_share, found.most, scores, decoded)
     return scores
 
 
@@ -56,10 +55,11 @@ def test_the_trained_network_has_learnt() -> None:
 def test_situations_judged_together_are_judged_as_one_by_one() -> None:
     found, situations = network(), labels().situations[:200]
     scores, decoded = np.empty((200, 3, SIZE)), np.empty((200, 3))
-    judge_rows(situations, found.layers, found.least_share, 4, 0, 200, scores, decoded)
+    judge_branches(situations, found.layers, found.least_share, 4, scores, decoded)
     rows = np.empty((MAX_ROWS, 5))
     for situation, told in zip(situations, decoded, strict=True):
-        held, n = choose(*situation, found.layers, found.least_share, 4, rows)
+        x, y, h, alpha = situation
+        held, n = choose(Pose(x, y, h), alpha, found.layers, found.least_share, 4, rows)
         assert told.tolist() == [held, *((rows[0, 0], branch_of(rows[0])) if n else (inf, -1))]
     assert len(set(decoded[:, 0])) > 2
 
@@ -84,8 +84,8 @@ def test_the_weights_that_come_along_know_existence_and_time_too() -> None:
 def test_mirror_images_get_mirrored_answers(x: float, y: float, h: float, alpha: float) -> None:
     # 2π − h is exact for h ≥ π, so the two situations are mirror images to the last bit
     here, there = np.empty((3, SIZE)), np.empty((3, SIZE))
-    evaluate(x, y, h, alpha, network().layers, here)
-    evaluate(x, -y, 2.0 * pi - h, alpha, network().layers, there)
+    evaluate(Pose(x, y, h), alpha, network().layers, here)
+    evaluate(Pose(x, -y, 2.0 * pi - h), alpha, network().layers, there)
     assert np.isfinite(here).all()
     assert np.array_equal(here, there[:, MIRROR_OF])
 
@@ -93,13 +93,13 @@ def test_mirror_images_get_mirrored_answers(x: float, y: float, h: float, alpha:
 def test_on_the_route_both_sides_are_one() -> None:
     for h in (0.0, pi):
         scores = np.empty((3, SIZE))
-        evaluate(-3.0, 0.0, h, 0.8, network().layers, scores)
+        evaluate(Pose(-3.0, 0.0, h), 0.8, network().layers, scores)
         assert np.isfinite(scores).all()
 
 
 def test_the_slot_itself_is_no_trap() -> None:
     scores = np.empty((3, SIZE))
-    evaluate(0.0, 0.0, 0.0, 0.8, network().layers, scores)
+    evaluate(Pose(0.0, 0.0, 0.0), 0.8, network().layers, scores)
     assert np.isfinite(scores).all()
 
 

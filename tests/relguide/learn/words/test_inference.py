@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import torch
 
+from relguide.kernels.base.records import Pose
 from relguide.kernels.networks.branch_scores import evaluate, shares
 from relguide.kernels.words.branches import MIRROR_OF, SIZE
 from relguide.learn.words import inference
@@ -33,7 +34,7 @@ def test_torch_says_what_the_kernel_says(monkeypatch: pytest.MonkeyPatch) -> Non
     counted: list[int] = []
     found = branch_shares(network(), situations, device="cpu", progress=counted.append)
     for situation, row in zip(situations, found, strict=True):
-        evaluate(*situation, network().layers, scores)
+        evaluate(Pose(*situation[:3]), situation[3], network().layers, scores)
         shares(scores, one)
         assert np.abs(row - one).max() < 1e-5
     assert sum(counted) == 1000

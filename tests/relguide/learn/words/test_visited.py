@@ -15,10 +15,10 @@ from relguide.learn.words.visited import (
     STEP,
     Floats,
     draw_flight,
-    listened,
+    draw_visited,
+    listen_to,
     row_of,
     situations_asked,
-    visited,
 )
 from tests.relguide.learn.words.networks import network
 
@@ -26,7 +26,7 @@ BOX = {"max_range": 40.0, "min_ratio": 0.6, "max_ratio": 0.97}
 
 
 def some(size: int, seed: int = 3) -> Floats:
-    return visited(np.random.default_rng(seed), size, **BOX)
+    return draw_visited(np.random.default_rng(seed), size, **BOX)
 
 
 @pytest.mark.slow
@@ -85,8 +85,8 @@ def test_flights_are_of_every_kind_and_arrive() -> None:
 @pytest.mark.slow
 def test_who_flies_decides_what_is_met() -> None:
     asked: list[Situation] = []
-    planner = listened(network_planner(network()), asked.append)
-    rows = visited(np.random.default_rng(3), 20, **BOX, planner=planner)
+    planner = listen_to(network_planner(network()), asked.append)
+    rows = draw_visited(np.random.default_rng(3), 20, **BOX, planner=planner)
     assert len(rows) == 20
     assert set(map(tuple, rows)) <= {row_of(situation) for situation in asked}
 
@@ -95,4 +95,4 @@ def test_who_flies_decides_what_is_met() -> None:
 def test_flights_that_never_come_there_are_told_of(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("relguide.learn.words.visited.FLIGHTS", 2)
     with pytest.raises(ValueError, match=r"2 flights met nothing within 1e-06 R and speed ratios"):
-        visited(np.random.default_rng(0), 1, max_range=1e-6, min_ratio=0.6, max_ratio=0.7)
+        draw_visited(np.random.default_rng(0), 1, max_range=1e-6, min_ratio=0.6, max_ratio=0.7)

@@ -1,4 +1,4 @@
-"""judge_bound(ways, exact answers, sources) → Bound: the network of ways where the limit binds.
+"""judge_constrained(…) → ConstrainedVerdicts: the template network where the limit binds.
 
 What it names, what it holds possible, and what it leads to, beside what the search found.
 """
@@ -10,16 +10,16 @@ from time import thread_time_ns
 import numpy as np
 from numpy.typing import NDArray
 
-from relguide.kernels.base.records import Pose
+from relguide.kernels.base.records import Pose, straight_scene
 from relguide.kernels.contact.constrained_rows import exact_constrained
 from relguide.kernels.networks.template_rows import VERDICTS, judge_templates
 from relguide.kernels.networks.template_scores import LEGS, choose_template
 from relguide.kernels.networks.templates import NONE, SEVERAL
 from relguide.kernels.words.fastest import fastest
 from relguide.kernels.words.sooner import make_scratch
-from relguide.learn.boundary.template_labels import LONGEST, Floats, Ways
+from relguide.learn.boundary.template_labels import LONGEST, ConstrainedPaths, Floats
 from relguide.learn.boundary.template_network import TemplateNetwork
-from relguide.learn.boundary.train_templates import WITHIN, taught
+from relguide.learn.boundary.train_templates import WITHIN, targets_of
 from relguide.planning.constrained_path import BEARINGS
 
 QUERIES, SEARCHES = 2000, 200
@@ -27,65 +27,66 @@ QUERIES, SEARCHES = 2000, 200
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Bound:
+class ConstrainedVerdicts:
     """What is found of situations in which the limit binds, as columns."""
 
     situations: Floats
     """x, y ≥ 0 [R], h in [0, 2π) [rad], α, D/R, d_min/R. shape (n, 6)"""
     sources: NDArray[np.int8]
     """Numbers of `template_labels.SOURCES`."""
-    kinds: NDArray[np.int8]
-    """Of the fastest ways."""
+    templates: NDArray[np.int8]
+    """Of the fastest paths."""
     named: NDArray[np.bool_]
-    """Whether the kind that the network finds likeliest, solved next to its guess, is the fastest
-    way; where that is of no kind, or there is none, whether the likeliest says either."""
+    """Whether the template that the network finds likeliest, solved next to its guess, is the
+    fastest path; where that is of no template, or there is none, whether the likeliest says so."""
     doubt: Floats
     """1 less the highest share."""
     own: Floats
-    """Share of the fastest way's kind."""
+    """Share of the fastest path's template."""
     inside: NDArray[np.bool_]
     """Whether that is in the network's set."""
     held: NDArray[np.int8]
-    """How many kinds are in the set."""
+    """How many templates are in the set."""
     exact: Floats
-    """When the fastest way arrives [R/V_P]; infinite where there is none."""
+    """When the fastest path arrives [R/V_P]; infinite where there is none."""
     answered: NDArray[np.int8]
-    """The kind of the way that the network leads to."""
+    """The template of the path that the network leads to."""
     given: Floats
     """When that arrives [R/V_P]; infinite if it is passed on."""
 
     def __len__(self) -> int:
-        return len(self.kinds)
+        return len(self.templates)
 
 
-def judge_bound(ways: TemplateNetwork, exact: Ways, sources: NDArray[np.int8]) -> Bound:
+def judge_constrained(
+    network: TemplateNetwork, exact: ConstrainedPaths, sources: NDArray[np.int8]
+) -> ConstrainedVerdicts:
     """Hold a network against exact answers.
 
     Args:
-        ways: the network.
+        network: the network.
         exact: situations in which the limit binds, and their answers.
         sources: of the situations.
     """
-    kinds, _ = taught(exact)
-    verdicts = np.empty((len(kinds), VERDICTS))
+    templates, _ = targets_of(exact)
+    verdicts = np.empty((len(templates), VERDICTS))
     judge_templates(
-        exact.situations, kinds.astype(float), ways.layers, ways.least_share, ways.most, ways.doubt,
-        verdicts,
-    )  # fmt: skip
+        exact.situations, templates.astype(float), network.layers, network.decision, verdicts
+    )
     first, highest, time, own, held, answered, given = verdicts.T
     there = np.isfinite(exact.times)
-    # of no kind, or none: then it is right to say so, in either word
-    silent = np.isin(kinds, (NONE, SEVERAL)) & np.isin(first, (NONE, SEVERAL))
-    # the planner gives no way either that takes longer than any it would look for
+    # of no template, or none: then it is right to say so, in either word
+    silent = np.isin(templates, (NONE, SEVERAL)) & np.isin(first, (NONE, SEVERAL))
+    # the planner gives no path either that takes longer than any it would look for
     given = np.where(given > LONGEST, inf, given)
-    return Bound(
+    return ConstrainedVerdicts(
         situations=exact.situations,
         sources=sources,
-        kinds=kinds.astype(np.int8),
+        templates=templates.astype(np.int8),
         named=silent | (there & (time <= exact.times + WITHIN)),
         doubt=1.0 - highest,
         own=own.copy(),
-        inside=own >= ways.least_share,
+        inside=own >= network.least_share,
         held=held.astype(np.int8),
         exact=exact.times,
         answered=answered.astype(np.int8),
@@ -93,21 +94,24 @@ def judge_bound(ways: TemplateNetwork, exact: Ways, sources: NDArray[np.int8]) -
     )
 
 
-def template_latencies(ways: TemplateNetwork, situations: Floats) -> dict[str, tuple[float, float]]:
+def template_latencies(
+    network: TemplateNetwork, situations: Floats
+) -> dict[str, tuple[float, float]]:
     """One query, median and 99th percentile [µs of CPU time]: the network's, and the search's.
 
     Args:
-        ways: the network.
+        network: the network.
         situations: in which the limit binds. shape (n, 6)
     """
     legs, free = np.zeros((LEGS, 6)), np.empty(5)
-    layers, least, most, doubt = ways.layers, ways.least_share, ways.most, ways.doubt
+    layers, decision = network.layers, network.decision
 
     def by_network(row: Floats) -> int:
         x, y, h, alpha, slot, limit = row.tolist()
-        fastest(Pose(x, y, h), alpha, 0.0, 0, make_scratch(), free)
+        pose, scene = Pose(x, y, h), straight_scene(alpha, slot, limit)
+        fastest(pose, alpha, 0.0, 0, make_scratch(), free)
         begun = thread_time_ns()
-        choose_template(x, y, h, slot, alpha, limit, free, layers, least, most, doubt, legs)
+        choose_template(pose, scene, free, layers, decision, legs)
         return thread_time_ns() - begun
 
     def by_search(row: Floats) -> int:

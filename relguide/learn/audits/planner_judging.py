@@ -1,8 +1,8 @@
-"""judge_everywhere(ways, network, …) → Everywhere: both networks, whether the limit binds or not.
+"""judge_planner(…) → PlannerVerdicts: both networks, whether the limit binds or not.
 
 Situations are drawn as the source `far` of the labels is, of speeds and places that both networks
-are for; in most the limit does not bind. There the network of branches names what is fastest,
-and where it does, that of ways. And the planner by networks is asked as in flight, with the
+are for; in most the limit does not bind. There the branch network names what is fastest, and where
+it binds, the template network does. And the planner by networks is asked as in flight, with the
 certificate.
 """
 
@@ -14,17 +14,17 @@ from numpy.typing import NDArray
 
 from relguide.kernels.base.turn import bank_for_turn_radius
 from relguide.kernels.contact.constrained_rows import limit_binds_rows
-from relguide.kernels.networks.branch_scores import judge_rows
+from relguide.kernels.networks.branch_scores import judge_branches
 from relguide.kernels.words.branches import SIZE
-from relguide.learn.audits.template_bound import judge_bound
+from relguide.learn.audits.constrained_judging import judge_constrained
 from relguide.learn.boundary.template_labels import (
     DRAWN,
+    ConstrainedPaths,
     Floats,
-    LimitBox,
-    LimitRequest,
-    Ways,
+    TemplateBox,
+    TemplateLabelRequest,
     answers_of,
-    anywhere,
+    draw_situations,
 )
 from relguide.learn.boundary.template_network import TemplateNetwork
 from relguide.learn.network_planner import propose
@@ -44,15 +44,15 @@ FAR = 2
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Everywhere:
+class PlannerVerdicts:
     """What is found of situations whether the limit binds or not, as columns."""
 
     binds: NDArray[np.bool_]
     """Whether it does."""
     named: NDArray[np.bool_]
-    """Whether the first choice of the network that is for it, solved, is the fastest way."""
+    """Whether the first choice of the network that is for it, solved, is the fastest path."""
     exact: Floats
-    """When the fastest way arrives [R/V_P]; infinite if none does within `HORIZON`."""
+    """When the fastest path arrives [R/V_P]; infinite if none does within `HORIZON`."""
     given: Floats
     """When the planner by networks does [R/V_P]; infinite if it asks the exact planner."""
 
@@ -60,17 +60,17 @@ class Everywhere:
         return len(self.binds)
 
 
-def judge_everywhere(
-    ways: TemplateNetwork,
+def judge_planner(
+    templates: TemplateNetwork,
     network: BranchNetwork,
-    request: LimitRequest,
+    request: TemplateLabelRequest,
     rng: np.random.Generator,
     size: int,
-) -> Everywhere:
+) -> PlannerVerdicts:
     """Draw situations that both networks are for, answer them exactly, and ask.
 
     Args:
-        ways: where the limit binds.
+        templates: where the limit binds.
         network: where it does not.
         request: gives the box.
         rng: the source of chance.
@@ -79,7 +79,7 @@ def judge_everywhere(
     box = _both(request.box, network)
     situations = np.empty((0, 6))
     while len(situations) < size:
-        drawn = anywhere(rng, box, FAR, DRAWN)
+        drawn = draw_situations(rng, box, FAR, DRAWN)
         near = np.hypot(drawn[:, 0], drawn[:, 1]) <= network.box.max_range
         situations = np.concatenate((situations, drawn[near]))
     situations = situations[:size]
@@ -90,13 +90,15 @@ def judge_everywhere(
     named[~binds], exact[~binds] = _without_limit(network, situations[~binds, :4])
     times, counts, legs = answers_of(situations[binds])
     there = np.ascontiguousarray(times[:, 2])
-    found = judge_bound(
-        ways, Ways(situations[binds], there, counts, legs), np.full(len(there), FAR, dtype=np.int8)
+    found = judge_constrained(
+        templates,
+        ConstrainedPaths(situations[binds], there, counts, legs),
+        np.full(len(there), FAR, dtype=np.int8),
     )
     named[binds], exact[binds] = found.named, found.exact
     exact[exact * UNIT > HORIZON] = inf
-    given = np.array([_planned(ways, network, row) for row in situations])
-    return Everywhere(binds=binds, named=named, exact=exact, given=given)
+    given = np.array([_planned(templates, network, row) for row in situations])
+    return PlannerVerdicts(binds=binds, named=named, exact=exact, given=given)
 
 
 def _without_limit(network: BranchNetwork, situations: Floats) -> tuple[NDArray[np.bool_], Floats]:
@@ -104,15 +106,15 @@ def _without_limit(network: BranchNetwork, situations: Floats) -> tuple[NDArray[
     n = len(situations)
     rows = np.ascontiguousarray(situations)
     scores, decoded = np.empty((n, 3, SIZE)), np.empty((n, 3))
-    judge_rows(rows, network.layers, network.least_share, network.most, 0, n, scores, decoded)
+    judge_branches(rows, network.layers, network.least_share, network.most, scores, decoded)
     times = times_of(rows)
     first = np.take_along_axis(times, scores[:, 0].argmax(axis=1)[:, None], axis=1)[:, 0]
     return first <= times.min(axis=1) * (1.0 + NEAR), times.min(axis=1)
 
 
-def _planned(ways: TemplateNetwork, network: BranchNetwork, row: Floats) -> float:
+def _planned(templates: TemplateNetwork, network: BranchNetwork, row: Floats) -> float:
     """When the path arrives that the networks lead to, if it is certified [R/V_P]."""
-    proposal = propose(network, situation_of(row), ways)
+    proposal = propose(network, situation_of(row), templates)
     if proposal is None or not proposal.certificate.holds:
         return inf
     return proposal.candidate.trajectory.duration / UNIT
@@ -133,7 +135,7 @@ def situation_of(row: Floats) -> Situation:
     )  # fmt: skip
 
 
-def _both(box: LimitBox, network: BranchNetwork) -> LimitBox:
+def _both(box: TemplateBox, network: BranchNetwork) -> TemplateBox:
     """Speeds that both networks know."""
     return replace(
         box,
