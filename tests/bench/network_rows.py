@@ -43,7 +43,7 @@ def answer_rows(
     Args:
         situations: x, y, h of the pursuer; α; x, y of the leader; d_min. shape (n, 7)
         words: names the words to the slot.
-        ways: names the kinds of ways round the limit.
+        ways: names the templates where the limit binds.
         bearings: how finely the disc is scanned for constrained paths, where `plan_rows` is asked.
         first: from this row on.
         last: up to this row.

@@ -35,7 +35,7 @@ UNSEEN = [
 ]
 
 
-def way_round(network: TemplateNetwork, situation: Situation) -> Candidate | None:
+def constrained_path(network: TemplateNetwork, situation: Situation) -> Candidate | None:
     """What the network leads to where the limit is seen to bind."""
     radius = situation.pursuer.turn_radius
     binds, _, where, free = view(situation, radius)
@@ -109,7 +109,7 @@ def fell_back(situation: Situation) -> bool:
 
 def test_out_of_the_box_the_exact_planner_answers() -> None:
     situation, _ = answered()[0]
-    assert way_round(SHIPPED, situation) is not None
+    assert constrained_path(SHIPPED, situation) is not None
     box = SHIPPED.box
     for outside in (
         replace(box, max_ratio=box.min_ratio + 1e-3),
@@ -120,13 +120,13 @@ def test_out_of_the_box_the_exact_planner_answers() -> None:
         found = [
             situation
             for situation in UNSEEN
-            if way_round(replace(SHIPPED, box=outside), situation) is None
+            if constrained_path(replace(SHIPPED, box=outside), situation) is None
         ]
         assert len(found) > 100
     unsure = replace(SHIPPED, most=0)
-    assert way_round(unsure, situation) is None
+    assert constrained_path(unsure, situation) is None
     doubtful = replace(SHIPPED, doubt=-1.0)
-    assert way_round(doubtful, situation) is None
+    assert constrained_path(doubtful, situation) is None
 
 
 def test_in_a_cross_wind_the_exact_planner_answers() -> None:
@@ -134,7 +134,7 @@ def test_in_a_cross_wind_the_exact_planner_answers() -> None:
     assert fell_back(replace(situation, wind=wind_from(90 * DEG, 20.0)))
     for other in UNSEEN[:60]:
         across = replace(other, wind=wind_from(90 * DEG, 20.0))
-        assert way_round(SHIPPED, across) is None
+        assert constrained_path(SHIPPED, across) is None
     along = replace(situation, wind=wind_from(180 * DEG, 20.0))
     planned = asked(along)
     assert isinstance(planned, Plan)
