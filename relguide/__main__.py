@@ -23,8 +23,7 @@ from relguide.cli import (
     train_command,
     warm_up_command,
 )
-from relguide.cli.output import FAILED, MISUSE, STOPPED, say
-from relguide.planning.extras import MissingExtra, with_command
+from relguide.cli.output import FAILED, MISUSE, STOPPED, command_for, say
 
 
 class Command(Protocol):
@@ -76,10 +75,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except ValueError as error:  # every refusal of the library is one, with a sentence
         return _refuse(str(error))
     except ModuleNotFoundError as error:
-        missing = with_command(error)
-        if not isinstance(missing, MissingExtra):
+        sentence = command_for(error)
+        if sentence is None:
             raise
-        return _refuse(str(missing))
+        return _refuse(sentence)
     except KeyboardInterrupt:
         sys.stderr.write("\nrelguide: stopped.\n")
         return STOPPED

@@ -17,7 +17,6 @@ from pathlib import Path
 from time import monotonic
 from typing import Any, TypeVar
 
-from relguide import __version__
 from relguide.planning.extras import need
 from relguide.units import Second
 
@@ -142,12 +141,8 @@ def program() -> tuple[tuple[str, str], ...]:
     for folder in PARTS_OF_IT:
         for file in sorted((here / folder).rglob("*.py")):
             found.update(file.relative_to(here).as_posix().encode() + file.read_bytes())
-    versions = {name: version(name) for name in PACKAGES if name != "relguide"}
-    return (
-        ("relguide", __version__),
-        ("its code", found.hexdigest()[:12]),
-        *versions.items(),
-    )
+    versions = {name: version(name) for name in PACKAGES}
+    return (*versions.items(), ("its code", found.hexdigest()[:12]))
 
 
 def make_alike(

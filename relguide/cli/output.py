@@ -5,10 +5,8 @@ from collections.abc import Mapping
 from datetime import UTC, datetime
 from typing import Any
 
-from relguide import __version__
+from relguide.planning.extras import MissingExtra, with_command
 
-PROGRAM = f"relguide {__version__}"
-"""What has made a file."""
 DONE, FAILED, MISUSE, STOPPED = 0, 1, 2, 130
 """Exit statuses: done; no plan or a failed check; misuse; stopped by Ctrl-C, as shells number it.
 """
@@ -33,6 +31,19 @@ def say(sentence: str) -> None:
     sys.stderr.flush()
 
 
+def command_for(error: ModuleNotFoundError) -> str | None:
+    """The sentence with the command that brings a missing package, if an extra of ours does."""
+    missing = with_command(error)
+    return str(missing) if isinstance(missing, MissingExtra) else None
+
+
+def program_name() -> str:
+    """What makes a file: our name and version."""
+    from importlib.metadata import version  # half of the time that `--help` would take
+
+    return f"relguide {version('relguide')}"
+
+
 def provenance(method: str, **more: str) -> dict[str, str]:
     """Who makes a data set, how and when.
 
@@ -43,7 +54,7 @@ def provenance(method: str, **more: str) -> dict[str, str]:
     from importlib.metadata import version  # half of the time that `--help` would take
 
     return {
-        "program": PROGRAM,
+        "program": program_name(),
         "method": method,
         **more,
         "made": datetime.now(UTC).isoformat(timespec="seconds"),

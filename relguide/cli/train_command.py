@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
-from relguide.cli.output import DONE, PROGRAM, write
+from relguide.cli.output import DONE, program_name, write
 from relguide.learn.training.options import add_options as add_training
 from relguide.planning.extras import need
 
@@ -55,7 +55,7 @@ def _train_branches(chosen: argparse.Namespace) -> None:
 
     _train(
         chosen,
-        run(chosen, PROGRAM),
+        run(chosen, program_name()),
         lambda right: (
             f"{100.0 * right:.3f} % of the fastest branches right in labels not trained "
             "on,\nmost of them rare or next to a switching surface"
@@ -68,7 +68,7 @@ def _train_templates(chosen: argparse.Namespace) -> None:
 
     _train(
         chosen,
-        run(chosen, PROGRAM),
+        run(chosen, program_name()),
         lambda right: f"{100.0 * right:.2f} % of the templates right in labels not trained on",
     )
 
@@ -115,7 +115,7 @@ def _train_regular(chosen: argparse.Namespace) -> None:
     chosen.weights.parent.stat()  # nothing is trained that could not be written
     started = perf_counter()
     about = {
-        "program": PROGRAM,
+        "program": program_name(),
         "command": f"{command_of(chosen)} --method {chosen.method}",
         "tree": dict(tree.provenance),
     }

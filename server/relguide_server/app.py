@@ -4,11 +4,11 @@ import asyncio
 import os
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
+from importlib.metadata import version
 
 from fastapi import APIRouter, FastAPI, Request
 from starlette.responses import PlainTextResponse, Response
 
-from relguide import __version__
 from relguide.learn.planners import make_planner
 from relguide.planning.plan import Planner
 from relguide_server import areas, flights, pages, plans, scene_relay
@@ -68,7 +68,7 @@ def create_app(
 
     app = FastAPI(
         title="relguide",
-        version=__version__,
+        version=version("relguide"),
         summary="Minimum-time relative guidance of aircraft",
         description=DESCRIPTION,
         lifespan=lifespan,
