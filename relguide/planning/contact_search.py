@@ -23,14 +23,11 @@ from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.bounds.contact_bound import (
     Cell,
     Goal,
-    between_bound,
-    cell_bound,
-    leaving_bound,
-    round_bound,
     round_time,
     times_round,
     untouched_bound,
 )
+from relguide.kernels.bounds.proof_bounds import join_cells, leave_cell, question_row, reach_cell
 
 MAX_BUNDLES = 400_000
 """Most bundles of paths kept, some 100 MB; the search ends there."""
@@ -93,14 +90,14 @@ class Question:
 
     def warm_up(self) -> None:
         """Load the kernels."""
-        cell = next(self.first_contacts())
+        cell = next(self.first_contacts())[:]
         untouched_bound(self.start, self.scene, self.goal)
-        cell_bound(self.start, self.scene, self.goal, cell, 0.0)
-        leaving_bound(self.scene, cell, 0.0)
+        asked, leader = question_row(self.start, self.scene, self.goal), self.scene.leader
+        reach_cell(asked, leader, cell, 0.0)
+        leave_cell(asked, leader, cell, 0.0)
         table = times_round(self.scene.alpha, self.scene.d_min)
         round_time(table, 0, 0.0)
-        round_bound(table, 0, cell, cell)
-        between_bound(self.scene, cell, cell, 0.0)
+        join_cells(asked, leader, table, cell, cell, 0.0)
 
     def bounds(self, beat: float) -> Iterator[float]:
         """Ever better bounds of the time of all paths, up to `beat`, where they end."""
@@ -116,21 +113,23 @@ class _Search:
         scene = question.scene
         self.beat = beat
         self.question = question
+        self.scene = scene
         self.final = len(scene.leader) - 1
         self.table = times_round(scene.alpha, scene.d_min)
         self.last_contacts = question.last_contacts()
         self.bundles: list[_Bundle] = []
         self.numbers = count()
         late = scene if question.never_at_release else scene._replace(t_release=0.0)
-        start, goal = question.start, question.goal
+        self.asked = asked = question_row(question.start, late, question.goal)
+        leader = scene.leader
 
         @lru_cache(_REMEMBERED)
         def reach(cell: Cell) -> tuple[float, float]:
-            return cell_bound(start, late, goal, cell, beat)
+            return reach_cell(asked, leader, cell[:], beat)
 
         @lru_cache(_REMEMBERED)
         def leave(cell: Cell) -> float:
-            return leaving_bound(scene, cell, beat)
+            return leave_cell(asked, leader, cell[:], beat)
 
         self.reach = reach
         """How soon a first contact can be in the cell, and the goal from there."""
@@ -165,17 +164,12 @@ class _Search:
             bound = soon + onward
         else:
             leaving = self.leave(last)
-            bound = soon + leaving + self.between(first, last, self.beat - soon - leaving)
-        bound = max(bound, least, self.question.scene.t_release)
+            asked, leader, left = self.asked, self.scene.leader, self.beat - soon - leaving
+            between = join_cells(asked, leader, self.table, first[:], last[:], left)
+            bound = soon + leaving + between
+        bound = max(bound, least, self.scene.t_release)
         if bound < self.beat:
             heappush(self.bundles, _Bundle(bound, next(self.numbers), first, last, eased=False))
-
-    def between(self, first: Cell, last: Cell, beat: float) -> float:
-        """How soon one contact can follow the other, on the final leg."""
-        round_disc = min(round_bound(self.table, way, first, last) for way in (0, 1))
-        if round_disc >= beat:
-            return inf
-        return max(round_disc, between_bound(self.question.scene, first, last, beat))
 
     def needs_last_contact(self, bundle: _Bundle) -> bool:
         """Whether the way on breaks the limit, and so is none: then there is a last contact too."""
@@ -198,7 +192,7 @@ class _Search:
 
     def halve(self, bundle: _Bundle) -> None:
         """Keep both halves of the wider cell."""
-        first, last, d_min = bundle.first, bundle.last, self.question.scene.d_min
+        first, last, d_min = bundle.first, bundle.last, self.scene.d_min
         if last is not None and last.half >= first.half:
             for half in halves(last, d_min):
                 self.add(first, half, bundle.bound)
@@ -240,7 +234,7 @@ class _Search:
         for _ in range(_CLOSELY):
             if parts[0][0] == inf or parts[0][2].half < _NARROW:
                 break
-            for half in halves(heappop(parts)[2], self.question.scene.d_min):
+            for half in halves(heappop(parts)[2], self.scene.d_min):
                 heappush(parts, (bound(half), next(numbers), half))
         return parts[0][0]
 

@@ -227,8 +227,20 @@ def leaving_bound(scene: Scene, cell: Cell, beat: float) -> float:
 
 
 @njit(cache=True, nogil=True)
-def between_bound(scene: Scene, cell: Cell, other: Cell, beat: float) -> float:
+def between_bound(scene: Scene, table: FloatArray, cell: Cell, other: Cell, beat: float) -> float:
     """How soon a path can be at a contact of the other cell from one of this, on the final leg.
+
+    Arguments as `cell_bound` and `round_bound`; infinite from `beat` on.
+    """
+    round_disc = min(round_bound(table, 0, cell, other), round_bound(table, 1, cell, other))
+    if round_disc >= beat:
+        return inf
+    return max(round_disc, word_between(scene, cell, other, beat))
+
+
+@njit(cache=True, nogil=True)
+def word_between(scene: Scene, cell: Cell, other: Cell, beat: float) -> float:
+    """No word leads sooner to a contact of the other cell from one of this, on the final leg.
 
     Arguments as `cell_bound`; infinite from `beat` on.
     """

@@ -263,7 +263,7 @@ def _bound_by_halves(three_turns: bool, side: _Side, window: Window, sieve: Siev
     return best
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, inline="always")  # 8 % of a proof
 def _three_turns_within(
     mid: float, half: float, around: float, side: _Side, window: Window
 ) -> _Interval:
@@ -286,7 +286,7 @@ def _three_turns_within(
     return _Interval(time, spread <= side.radius, turned, first, astray, mid, half)
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, inline="always")  # 8 % of a proof
 def _opposite_turns_within(
     mid: float, half: float, around: float, side: _Side, window: Window
 ) -> _Interval:

@@ -14,7 +14,6 @@ from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.contact_bound import (
     Cell,
     Goal,
-    between_bound,
     cell_bound,
     contacts_within,
     leaving_bound,
@@ -22,6 +21,7 @@ from relguide.kernels.bounds.contact_bound import (
     times_round,
     turning_blur,
     untouched_bound,
+    word_between,
 )
 from relguide.kernels.contact.contact import contact_exists, contact_heading, seen_from
 from relguide.kernels.separation.clearance import leader_at, piece_at
@@ -128,7 +128,7 @@ def test_no_contact_of_a_cell_is_reached_or_left_sooner(
 def test_no_contact_follows_another_sooner(
     first: Cell, last: Cell, alpha: float, d_min: float, shares: tuple[float, float]
 ) -> None:
-    lowest = between_bound(straight(alpha, d_min, 0.0), first, last, FAR)
+    lowest = word_between(straight(alpha, d_min, 0.0), first, last, FAR)
     poses = []
     for cell, share in zip((first, last), shares, strict=True):
         b = cell.bearing + share * cell.half
