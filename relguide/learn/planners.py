@@ -5,8 +5,10 @@ A planner of one's own needs no entry: it is passed to `fly`, and its plans carr
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from relguide.planning.plan import Planner, plan
+if TYPE_CHECKING:
+    from relguide.planning.plan import Planner
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -19,11 +21,11 @@ class NamedPlanner:
     """Which words it solves, in the order of the table."""
     serves: bool
     """Whether it is fast enough to serve with from its first plan on."""
-    make: Callable[[], Planner]
+    make: Callable[[], "Planner"]
     """Loads what it needs."""
 
 
-def make_planner(name: str) -> Planner:
+def make_planner(name: str) -> "Planner":
     """The planner of that name.
 
     Raises:
@@ -34,18 +36,20 @@ def make_planner(name: str) -> Planner:
     return PLANNERS[name].make()
 
 
-def _exact() -> Planner:
+def _exact() -> "Planner":
+    from relguide.planning.plan import plan
+
     return plan
 
 
-def _network() -> Planner:
+def _network() -> "Planner":
     from relguide.learn.network_planner import network_planner
     from relguide.learn.words.branch_network import load_network
 
     return network_planner(load_network())
 
 
-def _regular() -> Planner:
+def _regular() -> "Planner":
     from relguide.learn.tree.regular_planner import regular_planner
 
     return regular_planner
