@@ -1,5 +1,6 @@
 """Plans as outsiders read them: over the ground, piece by piece."""
 
+from itertools import pairwise
 from math import hypot, pi
 
 import pytest
@@ -144,3 +145,17 @@ def test_a_boundary_arc_is_sent_with_a_point_every_five_seconds(
         there = over_ground(flown.pose_at(5.0 + time), 5.0 + time, wind)
         expected = pytest.approx((there.x, there.y, there.heading), abs=1e-9)
         assert (point.x, point.y, point.heading) == expected
+
+
+@pytest.mark.parametrize(("duration", "points"), [(4.9, 0), (5.1, 1), (12.0, 2), (100.0, 19)])
+def test_a_boundary_arc_has_a_point_every_five_seconds_between_its_ends(
+    duration: float, points: int
+) -> None:
+    arc = BoundaryArc(side=LEFT, bends=((200.0 * duration, -1e-5),))
+    path = Trajectory(x=0.0, y=0.0, heading=0.0, tas=200.0, segments=(arc,))
+    (segment,) = path_segments(path, wind=CALM, start_time=7.0)
+    assert isinstance(segment, BoundarySegment)
+    times = [segment.start.t, *(point.t for point in segment.via), segment.end.t]
+    assert len(segment.via) == points
+    steps = [after - before for before, after in pairwise(times)]
+    assert steps == pytest.approx([duration / (points + 1)] * (points + 1))

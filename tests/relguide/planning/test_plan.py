@@ -22,9 +22,10 @@ from relguide import (
     certify,
     plan,
 )
-from relguide.planning.plan import Optimality
+from relguide.planning.plan import AS_FAST, Optimality
 from relguide.planning.situation import IntentPiece
 from relguide.units import DEG
+from tests.flights import random_start
 from tests.oracle import arrival_error
 from tests.plans import planned, straight_behind
 from tests.situations import headings, numbers, situations
@@ -261,3 +262,29 @@ def test_from_a_trajectory_of_ones_own_comes_a_plan_with_its_certificate() -> No
     assert own.optimality == Optimality(proof="bound", lower_bound=700.0)
     nothing_known = Plan.from_trajectory(exact.trajectory, exact.situation, planner="own")
     assert nothing_known.optimality == Optimality(proof="none", lower_bound=0.0)
+
+
+def test_of_paths_that_arrive_together_the_one_of_fewest_turns_keeps_most_clear() -> None:
+    """To a metre: separations that near count as equal, and the one that turns less is flown."""
+    ties = 0
+    for situation in map(random_start, range(60)):
+        answer = plan(situation)
+        paths = [candidate.trajectory for candidate in candidates(situation).at_release]
+        if not isinstance(answer, Plan) or answer.trajectory not in paths:
+            continue
+        certified = [(path, certify(path, situation)) for path in paths]
+        keeping = [(path, found) for path, found in certified if found.holds]
+        fewest = min(path.turns for path, _ in keeping)
+        alike = [found.least_separation for path, found in keeping if path.turns == fewest]
+        assert answer.trajectory.turns == fewest
+        assert answer.certificate.least_separation >= max(alike) - 1.0
+        first = next(i for i, (path, _) in enumerate(keeping) if path == answer.trajectory)
+        earlier = [found.least_separation for _, found in keeping[:first]]
+        assert all(answer.certificate.least_separation > least + 1.0 for least in earlier)
+        ties += len(alike) > 1
+    assert ties >= 5
+
+
+def test_times_that_differ_by_rounding_alone_are_one() -> None:
+    """A microsecond: paths found twice differ by 1e-9 s, and no display shows less than 0.1 s."""
+    assert AS_FAST == 1e-6
