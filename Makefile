@@ -101,14 +101,14 @@ test: .make/dev page .make/kernels .make/browser .make/traffic
 	$(call stage,browser,$(BIN)/python -m pytest tests/browser)
 	@echo; echo "make test: all passed in $$(($$(date +%s) - $$(cat .make/started))) s."
 
-.make/dev: .make/torch pyproject.toml hatch_build.py
+.make/dev: .make/torch pyproject.toml hatch_build.py web/build_page.py
 	@echo "== Installing relguide with what its tests need (the first time: a minute or two)"
 	@$(PIP) install --editable '.[dev]'
 	@touch .make/installed $@
 
 .PHONY: page
 page: .make/dev
-	@$(BIN)/python hatch_build.py --tools
+	@$(BIN)/python web/build_page.py --tools
 
 .make/browser: .make/dev
 	@echo "== Looking for Chromium"

@@ -16,7 +16,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from importlib.util import find_spec
 from itertools import islice
-from math import pi
+from math import pi, radians
 from queue import Empty, Queue
 from threading import Thread
 from typing import NamedTuple, TextIO
@@ -34,7 +34,6 @@ from relguide.planning.situation import (
     Wind,
 )
 from relguide.planning.trajectory import LEFT, RIGHT
-from relguide.units import DEG
 
 SAMPLES = 400
 """Documents of a flight after which its every kernel has been called."""
@@ -312,7 +311,7 @@ def _bulk() -> None:
     plan_arrays(
         Situations(
             pursuer_x=-20e3, pursuer_y=9e3, pursuer_heading=0.0, pursuer_tas=240.0,
-            max_bank=25 * DEG, leader_tas=200.0, slot_distance=12e3, min_separation=9e3,
+            max_bank=radians(25), leader_tas=200.0, slot_distance=12e3, min_separation=9e3,
         )
     )  # fmt: skip
     isochrones(LIMITED[0], Grid(x=0.0, y=0.0, columns=3, rows=3), exact=True)
@@ -334,7 +333,7 @@ def _tree() -> None:
 
     encounter = Encounter(
         pursuer_tas=240.0,
-        max_bank=25 * DEG,
+        max_bank=radians(25),
         leader_tas=200.0,
         slot_distance=12e3,
         min_separation=9e3,
@@ -384,7 +383,9 @@ def _situation(
     intent: tuple[IntentPiece, ...] = (),
 ) -> Situation:
     return Situation(
-        pursuer=Pursuer(x=x, y=y, heading=heading_deg * DEG, tas=tas, max_bank=bank_deg * DEG),
+        pursuer=Pursuer(
+            x=x, y=y, heading=radians(heading_deg), tas=tas, max_bank=radians(bank_deg)
+        ),
         leader=Leader(x=0.0, y=0.0, heading=0.0, tas=200.0, intent=intent),
         slot_distance=12e3,
         min_separation=9260.0,
@@ -393,8 +394,8 @@ def _situation(
 
 TURNING: tuple[IntentPiece, ...] = (
     FlyStraight(duration=60.0),
-    TurnTo(heading=0.5 * pi, turn=RIGHT, bank=20 * DEG),
-    TurnTo(heading=0.25 * pi, turn=LEFT, bank=20 * DEG),
+    TurnTo(heading=0.5 * pi, turn=RIGHT, bank=radians(20)),
+    TurnTo(heading=0.25 * pi, turn=LEFT, bank=radians(20)),
 )
 """An intent with all there is in one."""
 LIMITED = (

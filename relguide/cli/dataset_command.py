@@ -176,8 +176,8 @@ def _make_labels(chosen: argparse.Namespace) -> None:
     import numpy as np
 
     from relguide.cli.workers import collect, start_workers
-    from relguide.kernels.words.branches import BRANCHES
     from relguide.learn.words.branch_labels import (
+        BRANCHES,
         SOURCES,
         LabelRequest,
         held_out,
@@ -232,12 +232,12 @@ def _make_path_labels(chosen: argparse.Namespace) -> None:
     import numpy as np
 
     from relguide.cli.workers import collect, start_workers
-    from relguide.kernels.networks.templates import NONE, TEMPLATES
     from relguide.learn.boundary.template_label_file import (
         grow_template_labels,
         save_template_labels,
     )
     from relguide.learn.boundary.template_labels import SOURCES, TemplateLabelRequest, join_labels
+    from relguide.learn.boundary.template_network import NONE, TEMPLATES
     from relguide.learn.boundary.train_templates import targets_of
 
     size, file = PATH_LABELS if chosen.count is None else chosen.count, chosen.out

@@ -18,10 +18,10 @@ from relguide.figures.panels import (
     two_panels,
     write_figures,
 )
-from relguide.kernels.words.branches import BRANCHES
 from relguide.learn.audits.branch_audit import Audit, Group
 from relguide.learn.audits.side_by_side import Method
 from relguide.learn.training.shares import Share
+from relguide.learn.words.branch_labels import BRANCHES
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

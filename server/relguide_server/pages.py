@@ -31,7 +31,7 @@ NOT_BUILT = """<!doctype html><html lang="en"><title>relguide</title>
 <h1>The cockpit has not been built</h1>
 <p>The service itself is running: its API is described at
 <a style="color:#17e9f2" href="/docs">/docs</a>.
-<p>To build the page, run <code>python hatch_build.py</code> in the source tree, then reload
+<p>To build the page, run <code>python web/build_page.py</code> in the source tree, then reload
 this page.
 <p style="color:#888">Looked in: {folders}"""
 

@@ -20,7 +20,8 @@ from numpy.typing import NDArray
 from relguide.kernels.networks.branch_scores import Layers
 from relguide.kernels.networks.template_features import FEATURES, template_feature_rows
 from relguide.kernels.networks.template_scores import OUTPUTS, Decision
-from relguide.kernels.networks.templates import TEMPLATES
+from relguide.kernels.networks.templates import NONE as NONE
+from relguide.kernels.networks.templates import TEMPLATES as TEMPLATES
 from relguide.learn.boundary.template_labels import Floats, TemplateBox
 from relguide.learn.training.files import load_weights, save_weights
 from relguide.learn.training.options import NetworkShape

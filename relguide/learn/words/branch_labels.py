@@ -23,7 +23,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from relguide.kernels.base.angles import wrap_each
-from relguide.kernels.words.branches import BRANCHES, SIZE, WORD_OF, branch_times
+from relguide.kernels.words.branches import BRANCHES as BRANCHES
+from relguide.kernels.words.branches import SIZE, WORD_OF, branch_times
 from relguide.kernels.words.extremals import SIGNS
 from relguide.learn.training.chunks import gather
 from relguide.learn.training.files import load_columns, save_columns
