@@ -47,9 +47,9 @@ def test_one_request() -> None:
 
 
 def test_commands_are_there(capsys: pytest.CaptureFixture[str]) -> None:
-    listed = re.findall(r"^relguide (\w+)", "".join(blocks("sh")), re.MULTILINE)
+    listed = re.findall(r"^relguide ([\w-]+)", "".join(blocks("sh")), re.MULTILINE)
     planning, learning = {"plan", "check"}, {"dataset", "area", "train", "audit"}
-    assert set(listed) == {"fly", "replay", "serve"} | planning | learning
+    assert set(listed) == {"fly", "replay", "serve", "warm-up"} | planning | learning
     for command in set(listed):
         with pytest.raises(SystemExit) as end:
             main([command, "--help"])
