@@ -7,8 +7,9 @@ Everything else that flies a plan, live or not, iterates over these documents.
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
+from itertools import count
 from math import hypot
-from typing import Literal, assert_never
+from typing import Literal, NamedTuple, assert_never
 
 from relguide.flying.aircraft import A300, AircraftModel, AircraftState
 from relguide.flying.aircraft import step as fly_step
@@ -18,16 +19,23 @@ from relguide.flying.cards import wind_card
 from relguide.flying.documents import (
     AircraftCard,
     Document,
-    FlightEnded,
     FlightStarted,
     LeaderChanged,
-    ModeChanged,
-    PlanChanged,
+    LeaderRoute,
 )
 from relguide.flying.guidance import advise
 from relguide.flying.leader import FlyingLeader, LeaderFlight, advance_leader, leader_on_track
-from relguide.flying.logbook import Tally, counted, event_document, leader_route, sample
-from relguide.flying.memory import begin
+from relguide.flying.logbook import (
+    Milestones,
+    Tally,
+    count_event,
+    count_step,
+    event_document,
+    flight_ended,
+    leader_route,
+    sample,
+)
+from relguide.flying.memory import Advice, begin
 from relguide.flying.orders import Command, obey
 from relguide.flying.orders import IntentKnown as IntentKnown
 from relguide.flying.orders import LeaderHeading as LeaderHeading
@@ -39,14 +47,12 @@ from relguide.kernels.base.turn import turn_rate
 from relguide.planning.inputs import expect, expect_function, number, text, truth, whole, within
 from relguide.planning.limits import MAX_TAS, MIN_TAS
 from relguide.planning.plan import Plan, Planner
-from relguide.planning.situation import Situation, TurnTo
+from relguide.planning.situation import Situation, TurnTo, Wind
 from relguide.units import DEG, KT, Metre, MetrePerSecond, Radian, RadianPerSecond, Second
 
 ROUTE_TURNED: Radian = 1.0 * DEG  # a route drawn a degree off is 2 % of its length beside the truth
 ROUTE_SPEED: MetrePerSecond = 2.0 * KT  # what the display rounds to
 TURN_OVER: RadianPerSecond = 0.1 * DEG
-
-
 TEXTS = ("name", "title", "description", "pursuer_ident", "leader_ident", "leader_type")
 """Fields of a scenario for people."""
 ALTITUDES: tuple[Metre, Metre] = (-500.0, 30_000.0)
@@ -137,93 +143,59 @@ def _fly(
     a_sample: int,
     seed: int,
 ) -> Iterator[Document]:
-    situation, wind = scenario.situation, scenario.situation.wind
-    model = _model(scenario)
-    leader = _leader(scenario)
-    pursuer = AircraftState(
-        situation.pursuer.x,
-        situation.pursuer.y,
-        wrap(situation.pursuer.heading),
-        0.0,
-        0.0,
-        situation.pursuer.tas,
-        scenario.altitude,
-    )
-    assignment = Assignment(
-        model=model,
-        tas=situation.pursuer.tas,
-        max_bank=situation.pursuer.max_bank,
-        slot_distance=situation.slot_distance,
-        min_separation=situation.min_separation,
-        wind=wind,
-    )
-    pilot, leader_pilot = Autopilot(model=model), Autopilot(model=_leader_model(scenario))
+    wind, assignment = scenario.situation.wind, _assignment(scenario)
+    pursuer, leader = _pursuer(scenario), _leader(scenario)
+    pilot = Autopilot(model=assignment.model)
+    leader_pilot = Autopilot(model=_leader_model(scenario))
     known = scenario.intent_known and isinstance(leader, FlyingLeader)
     yield _started(scenario, planner, step, seed)
-    seen = _seen(0.0, pursuer, leader, known)
+    seen = _observe(0.0, pursuer, leader, known)
     memory = begin(seen, assignment)
-    yield leader_route(0.0, seen.leader, seen.intent, intent_known=known, wind=wind)
-    shown, turning, told = seen, False, False
-    tally = Tally(hypot(pursuer.x - leader.state.x, pursuer.y - leader.state.y), 0.0, 0.0, 0, 0)
-    planned_time, replans = 0.0, 0
-    join_time, following_since, joined = scenario.duration_limit, 0.0, False
-    n = 0
-    while True:
+    yield _route(seen, wind)
+    view = _LeaderView(shown=seen, turning=False, commanded=False)
+    separation = hypot(pursuer.x - leader.state.x, pursuer.y - leader.state.y)
+    tally, milestones = Tally(separation, 0.0, 0.0, 0, 0), Milestones()
+    for n in count():
         t = n * step
         for command in commands(t):
-            leader, known, said = obey(command, leader, known, t, model.max_bank)
-            told = told or isinstance(command, LeaderHeading | LeaderSpeed)
-            yield from said
+            leader, known, answers = obey(command, leader, known, t, assignment.model.max_bank)
+            if isinstance(command, LeaderHeading | LeaderSpeed):
+                view = view._replace(commanded=True)
+            yield from answers
         if n % a_second == 0:
-            seen = _seen(t, pursuer, leader, known)
-            changes, turning = _observed(shown, seen, turning, told)
-            yield from changes
-            if told or _route_is_news(shown, seen):
-                yield leader_route(t, seen.leader, seen.intent, intent_known=known, wind=wind)
-                shown, told = seen, False
+            seen = _observe(t, pursuer, leader, known)
+            view, news = _look_at_leader(view, seen, wind)
+            yield from news
             memory, advice = advise(memory, seen, assignment, planner)
             for event in advice.events:
                 document = event_document(t, event)
-                match document:
-                    case PlanChanged(reason="engaged", plan=card):
-                        planned_time = card.time_to_converge if n == 0 else 0.0
-                    case PlanChanged():
-                        replans += 1
-                    case ModeChanged(mode="follow"):
-                        following_since = t
-                        join_time = join_time if joined else t
-                        joined = True
+                milestones = count_event(milestones, document)
                 yield document
         if n % a_sample == 0:
             since = (n % a_second) * step
             yield sample(t, pursuer, leader.state, advice, since, tally, wind)
-        rested = advice.mode == "follow" and t - following_since >= scenario.after_joining
-        if rested or t >= _limit(scenario, leader) - 0.5 * step:
+        rested = t - milestones.following_since >= scenario.after_joining
+        if (rested and advice.mode == "follow") or t >= _limit(scenario, leader) - 0.5 * step:
             break
         before = pursuer
-        pursuer = fly_step(
-            model,
-            pursuer,
-            aileron=pilot.aileron(advice.reference, pursuer, step),
-            commanded_tas=advice.commanded_tas,
-            wind_east=wind.east,
-            wind_north=wind.north,
-            duration=step,
-        )
+        pursuer = _fly_step(pursuer, pilot, advice, assignment, step)
         leader = advance_leader(leader, leader_pilot, t, wind=wind, duration=step)
-        tally = counted(tally, before, pursuer, leader.state, joined)
-        n += 1
-    yield FlightEnded(
-        t=t,
-        joined=joined,
-        join_time=join_time if joined else t,
-        planned_time=planned_time,
-        least_separation=tally.least_separation,
-        heading_swing=tally.heading_swing,
-        bank_reversals=tally.bank_reversals,
-        replans=replans,
-        fallbacks=memory.fallbacks,
-        track=tally.track,
+        tally = count_step(tally, before, pursuer, leader.state, milestones.joined)
+    yield flight_ended(t, milestones, tally, memory.fallbacks)
+
+
+def _fly_step(
+    pursuer: AircraftState, pilot: Autopilot, advice: Advice, assignment: Assignment, step: Second
+) -> AircraftState:
+    """The pursuer a step later, flown by its autopilot as advised."""
+    return fly_step(
+        assignment.model,
+        pursuer,
+        aileron=pilot.aileron(advice.reference, pursuer, step),
+        commanded_tas=advice.commanded_tas,
+        wind_east=assignment.wind.east,
+        wind_north=assignment.wind.north,
+        duration=step,
     )
 
 
@@ -250,6 +222,26 @@ def _started(scenario: Scenario, planner: Planner, step: Second, seed: int) -> F
         wind=wind_card(situation.wind),
         step=step,
         seed=seed,
+    )
+
+
+def _pursuer(scenario: Scenario) -> AircraftState:
+    """The pursuer at t = 0, wings level."""
+    pursuer = scenario.situation.pursuer
+    return AircraftState(
+        pursuer.x, pursuer.y, wrap(pursuer.heading), 0.0, 0.0, pursuer.tas, scenario.altitude
+    )
+
+
+def _assignment(scenario: Scenario) -> Assignment:
+    situation = scenario.situation
+    return Assignment(
+        model=_model(scenario),
+        tas=situation.pursuer.tas,
+        max_bank=situation.pursuer.max_bank,
+        slot_distance=situation.slot_distance,
+        min_separation=situation.min_separation,
+        wind=situation.wind,
     )
 
 
@@ -301,7 +293,7 @@ def _limit(scenario: Scenario, leader: LeaderFlight) -> Second:
     return min(scenario.duration_limit, leader.track.duration)
 
 
-def _seen(t: Second, pursuer: AircraftState, leader: LeaderFlight, known: bool) -> Observation:
+def _observe(t: Second, pursuer: AircraftState, leader: LeaderFlight, known: bool) -> Observation:
     state = leader.state
     return Observation(
         t=t,
@@ -313,18 +305,40 @@ def _seen(t: Second, pursuer: AircraftState, leader: LeaderFlight, known: bool) 
     )
 
 
-def _observed(
-    shown: Observation, seen: Observation, turning: bool, told: bool
-) -> tuple[tuple[LeaderChanged, ...], bool]:
-    """A turn that the leader begins without having announced it."""
+class _LeaderView(NamedTuple):
+    """What the display was last shown of the leader."""
+
+    shown: Observation
+    """From which its route was drawn."""
+    turning: bool
+    """Whether it turns, and that was announced."""
+    commanded: bool
+    """Whether a command changed its flight since its route was drawn."""
+
+
+def _look_at_leader(
+    view: _LeaderView, seen: Observation, wind: Wind
+) -> tuple[_LeaderView, tuple[LeaderChanged | LeaderRoute, ...]]:
+    """Announce a turn that was not to be expected, and draw the route anew if it changed."""
+    turning, news = _notice_turn(view, seen)
+    if view.commanded or _route_is_news(view.shown, seen):
+        return _LeaderView(seen, turning, commanded=False), (*news, _route(seen, wind))
+    return view._replace(turning=turning), news
+
+
+def _notice_turn(view: _LeaderView, seen: Observation) -> tuple[bool, tuple[LeaderChanged, ...]]:
+    """Whether the leader turns, and the news if it begins to without having announced it."""
     rate = seen.leader_turn_rate
-    if turning or abs(rate) < TURN_SEEN:
-        return (), turning and abs(rate) > TURN_OVER
-    if seen.intent_known or told:
-        return (), True
+    if view.turning or abs(rate) < TURN_SEEN:
+        return view.turning and abs(rate) > TURN_OVER, ()
+    if seen.intent_known or view.commanded:
+        return True, ()
     side = "right" if rate > 0.0 else "left"
-    change = LeaderChanged(t=seen.t, change="heading", message=f"The leader turns {side}.")
-    return (change,), True
+    return True, (LeaderChanged(t=seen.t, change="heading", message=f"The leader turns {side}."),)
+
+
+def _route(seen: Observation, wind: Wind) -> LeaderRoute:
+    return leader_route(seen.t, seen.leader, seen.intent, intent_known=seen.intent_known, wind=wind)
 
 
 def _route_is_news(shown: Observation, seen: Observation) -> bool:

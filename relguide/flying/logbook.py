@@ -10,6 +10,7 @@ from relguide.flying.cards import no_plan_card, path_point, path_segments, plan_
 from relguide.flying.documents import (
     AircraftSample,
     Document,
+    FlightEnded,
     HeadingReference,
     LeaderRoute,
     ModeChanged,
@@ -47,7 +48,34 @@ class Tally(NamedTuple):
     """From one side to the other, until joined."""
 
 
-def counted(
+class Milestones(NamedTuple):
+    """What guidance has reached so far."""
+
+    planned_time: Second = 0.0
+    """Time to converge of the plan at engagement; 0 if there was none [s]."""
+    replans: int = 0
+    joined: bool = False
+    join_time: Second = 0.0
+    """When it first joined, if it has [s]."""
+    following_since: Second = 0.0
+    """When it last began to follow, if it has [s]."""
+
+
+def count_event(milestones: Milestones, document: Document) -> Milestones:
+    """The milestones after what guidance announced."""
+    match document:
+        case PlanChanged(t=t, reason="engaged", plan=card):
+            return milestones._replace(planned_time=card.time_to_converge if t == 0.0 else 0.0)
+        case PlanChanged():
+            return milestones._replace(replans=milestones.replans + 1)
+        case ModeChanged(t=t, mode="follow"):
+            first = milestones.join_time if milestones.joined else t
+            return milestones._replace(joined=True, join_time=first, following_since=t)
+        case _:
+            return milestones
+
+
+def count_step(
     tally: Tally, before: AircraftState, now: AircraftState, leader: AircraftState, joined: bool
 ) -> Tally:
     """The figures a step later."""
@@ -120,6 +148,29 @@ def sample(
         cross_track=(dx * slot_north - dy * slot_east) / slot_speed,
         time_to_go=max(advice.time_to_go - since, 0.0),
         joined=advice.mode == "follow",
+    )
+
+
+def flight_ended(t: Second, milestones: Milestones, tally: Tally, fallbacks: int) -> FlightEnded:
+    """How the flight went.
+
+    Args:
+        t: flight time at its end [s].
+        milestones: what it reached.
+        tally: its figures.
+        fallbacks: how often the exact plan took the place of a planner's.
+    """
+    return FlightEnded(
+        t=t,
+        joined=milestones.joined,
+        join_time=milestones.join_time if milestones.joined else t,
+        planned_time=milestones.planned_time,
+        least_separation=tally.least_separation,
+        heading_swing=tally.heading_swing,
+        bank_reversals=tally.bank_reversals,
+        replans=milestones.replans,
+        fallbacks=fallbacks,
+        track=tally.track,
     )
 
 

@@ -6,7 +6,7 @@ from math import inf
 import pytest
 
 from relguide.flying.aircraft import AircraftState
-from relguide.flying.logbook import Tally, counted
+from relguide.flying.logbook import Tally, count_step
 from relguide.units import DEG
 
 NOTHING = Tally(inf, 0.0, 0.0, 0, 0)
@@ -21,7 +21,7 @@ def tally(*banks: float, joined: bool = False) -> Tally:
     ]
     total = NOTHING
     for before, now in pairwise(states):
-        total = counted(total, before, now, LEADER, joined)
+        total = count_step(total, before, now, LEADER, joined)
     return total
 
 
