@@ -13,6 +13,7 @@ from relguide import (
     LEFT,
     RIGHT,
     Alternative,
+    Arc,
     Leader,
     Plan,
     Pursuer,
@@ -35,12 +36,15 @@ from relguide.planning.passing import passing, surroundings
 from relguide.planning.plan import AS_FAST
 from relguide.planning.slot import slot_frame
 from relguide.units import DEG
+from tests.flights import random_start
 from tests.plans import golden_plan, planned, straight_behind, unlimited
 from tests.relguide.planning.test_plan import mirrored
 from tests.situations import situations
 
 Listed = Sequence[Alternative | TooEarly | NoRoot]
 MIRROR = str.maketrans("LR", "RL")
+ROUNDING = 1e-6
+"""Seconds by which the same path differs as two solvers find it."""
 
 
 def told(listed: Listed) -> list[tuple[str, str]]:
@@ -178,6 +182,59 @@ def test_a_golden_case_with_intent_whose_slot_opens_later() -> None:
     for other in listed[:2]:
         assert isinstance(other, TooEarly)
         assert other.release_time == pytest.approx(answer.time_to_converge, abs=1e-6)
+
+
+def test_of_a_word_with_two_paths_both_are_listed_if_both_are_faster() -> None:
+    """Both RLR pass on the same side with as small a middle arc; what keeps either from being
+    flown is its own separation."""
+    situation = Situation(
+        pursuer=Pursuer(
+            x=17_000.0, y=17_000.0, heading=197.0 * DEG, tas=167.0, max_bank=20.0 * DEG
+        ),
+        leader=Leader(x=0.0, y=0.0, heading=0.0, tas=155.0),
+        slot_distance=12_000.0,
+        min_separation=12_000.0,
+    )
+    answer = planned(situation)
+    assert answer.word == "LSR"
+    listed = alternatives(answer)
+    assert told(listed) == [
+        ("Alternative", "RSR: comes within 6.20 NM at 93 s"),
+        ("Alternative", "RLR: comes within 6.20 NM at 94 s"),
+        ("Alternative", "RLR: comes within 1.17 NM at 136 s"),
+        ("Alternative", "RSL: 2,714 s slower, and comes within 0.89 NM at 252 s"),
+        ("Alternative", "LSL: 3,551 s slower, and comes within 6.20 NM at 4100 s"),
+        ("NoRoot", "LRL: no such path to the slot"),
+    ]
+    first, second = (o for o in listed if isinstance(o, Alternative) and o.word == "RLR")
+    assert first.passing == second.passing
+    assert second.time_to_converge == pytest.approx(401.25, abs=0.01)
+
+
+def test_of_each_way_only_the_fastest_is_listed_of_what_is_slower_than_the_plan() -> None:
+    """A way is a word, which middle arc it has, and how it passes the leader."""
+    left_out = 0
+    for situation in map(random_start, range(60)):
+        answer, found = plan(situation), candidates(situation)
+        if not isinstance(answer, Plan) or found.reachable_at_release:
+            continue
+        around = surroundings(situation)
+        times: dict[tuple[str, bool, int], list[float]] = {}
+        for path in found.later:
+            middle = path.trajectory.segments[1:2]
+            long = any(isinstance(arc, Arc) and arc.turn_angle > pi for arc in middle)
+            way = (path.word, long, passing(path.trajectory, around).laps)
+            times.setdefault(way, []).append(path.time_to_converge)
+        expected = [
+            (time, way[0])
+            for way, (fastest, *more) in times.items()
+            for time in (fastest, *(time for time in more if time < answer.time_to_converge))
+            if way[0] != answer.word or abs(time - answer.time_to_converge) > ROUNDING
+        ]
+        others = [other for other in alternatives(answer) if isinstance(other, Alternative)]
+        assert [(other.time_to_converge, other.word) for other in others] == sorted(expected)
+        left_out += any(more for _, *more in times.values())
+    assert left_out >= 5
 
 
 def test_straight_behind_four_words_are_one_path() -> None:

@@ -266,8 +266,8 @@ def test_from_a_trajectory_of_ones_own_comes_a_plan_with_its_certificate() -> No
 
 def test_of_paths_that_arrive_together_the_one_of_fewest_turns_keeps_most_clear() -> None:
     """To a metre: separations that near count as equal, and the one that turns less is flown."""
-    ties = 0
-    for situation in map(random_start, range(60)):
+    ties = more_turns_keep_farther = 0
+    for situation in map(random_start, [*range(60), 231, 396, 608]):
         answer = plan(situation)
         paths = [candidate.trajectory for candidate in candidates(situation).at_release]
         if not isinstance(answer, Plan) or answer.trajectory not in paths:
@@ -282,4 +282,21 @@ def test_of_paths_that_arrive_together_the_one_of_fewest_turns_keeps_most_clear(
         earlier = [found.least_separation for _, found in keeping[:first]]
         assert all(answer.certificate.least_separation > least + 1.0 for least in earlier)
         ties += len(alike) > 1
+        farthest = max(found.least_separation for _, found in keeping)
+        more_turns_keep_farther += farthest > max(alike) + 1.0
     assert ties >= 5
+    assert more_turns_keep_farther >= 3
+
+
+def test_a_plan_most_of_a_second_slower_than_the_bound_is_not_proved_the_fastest() -> None:
+    """A bend round d_min costs it 0.86 s: times are the same to rounding only."""
+    situation = Situation(
+        pursuer=Pursuer(x=-356.0, y=20_965.0, heading=pi, tas=153.0, max_bank=25.0 * DEG),
+        leader=Leader(x=0.0, y=0.0, heading=0.0, tas=119.0),
+        slot_distance=9_000.0,
+        min_separation=6_000.0,
+    )
+    answer = planned(situation)
+    assert answer.time_to_converge - answer.optimality.lower_bound == pytest.approx(0.86, abs=0.01)
+    assert answer.optimality.lower_bound == candidates(situation).bound
+    assert answer.optimality.proof == "bound"
