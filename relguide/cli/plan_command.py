@@ -72,7 +72,7 @@ def _plan_one(
     *,
     table: bool,
 ) -> int:
-    from relguide.contract.answers import answer, checked
+    from relguide.contract.answers import answer, check_optimality
     from relguide.flying.cards import no_plan_card, plan_card
     from relguide.planning.plan import NoPlan, Plan
 
@@ -93,7 +93,7 @@ def _plan_one(
                 others = alternatives(planned) if "alternatives" in include else ()
                 print_plan(plan_card(planned, others), min_separation=situation.min_separation)
                 if "optimality" in include:
-                    print_optimality(checked(planned))
+                    print_optimality(check_optimality(planned))
         return DONE if isinstance(planned, Plan) else FAILED
     reply = answer(situation, anchor, proving, include=include)
     name = {"id": body.id} if "id" in body.model_fields_set else {}

@@ -22,7 +22,7 @@ from relguide.planning.plan import NoPlan, Plan, Planner
 from relguide.planning.situation import Situation
 
 Include = Literal["alternatives", "optimality"]
-"""What an answer holds only if asked for: the other ways to the slot, and how the plan meets
+"""What an answer contains only if asked for: the other paths to the slot, and how the plan meets
 Pontryagin's conditions. They take longer than the plan."""
 
 
@@ -30,7 +30,7 @@ def read_include(text: str) -> tuple[Include, ...]:
     """What to include, as the command line and REST name it: words with commas between.
 
     Raises:
-        ValueError: for a word that says nothing here.
+        ValueError: for an unknown word.
     """
     chosen: list[Include] = []
     for word in text.split(","):
@@ -54,8 +54,8 @@ def answer(
     Args:
         situation: what to plan.
         anchor: how its world frame lies on the earth.
-        planner: who plans; what it gives is judged as in flight, and if it may not be flown the
-            exact plan stands in.
+        planner: who plans; its plan is checked as in flight, and if it may not be flown the exact
+            plan takes its place.
         include: what to add to the plan.
     """
     match planned := ask(planner, situation).plan:
@@ -65,13 +65,13 @@ def answer(
             if "alternatives" not in include:
                 del reply["alternatives"]
             if "optimality" in include:
-                reply["optimality"] |= to_wire(checked(planned))
+                reply["optimality"] |= to_wire(check_optimality(planned))
             return reply
         case NoPlan():
             return to_wire(no_plan_card(planned))
 
 
-def checked(plan: Plan) -> OptimalityCheck:
+def check_optimality(plan: Plan) -> OptimalityCheck:
     """How a plan meets Pontryagin's conditions. Takes some milliseconds."""
     return optimality_check(check(plan, plan.situation))
 
@@ -81,7 +81,7 @@ def answer_line(
 ) -> dict[str, Any]:
     """The answer to a line of a batch, with the situation's `id` if it has one.
 
-    What is no situation gives `{"status": "invalid", "message": …}` in its place.
+    A line that is not a situation gets `{"status": "invalid", "message": …}`.
 
     Args:
         line: a situation in JSON.

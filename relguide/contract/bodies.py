@@ -32,7 +32,7 @@ from relguide.planning.situation import (
 from relguide.planning.trajectory import LEFT, RIGHT
 from relguide.units import DEG
 
-# 9 decimals: a bound such as 60° comes back from radians with its last digit changed
+# 9 decimals: a bound like 60° comes back from radians with its last digit changed
 _BANK = Field(ge=round(limits.MIN_BANK / DEG, 9), le=round(limits.MAX_BANK / DEG, 9))
 _POSITION = Field(ge=-limits.MAX_POSITION, le=limits.MAX_POSITION)
 
@@ -206,7 +206,7 @@ def situation_from_body(body: SituationBody) -> tuple[Situation, Anchor]:
     """A situation whose shape is right, in library units.
 
     Raises:
-        ContractError: for what the shape cannot tell, such as D < d_min.
+        ContractError: for what a shape cannot rule out, like D < d_min.
     """
     pursuer, leader, anchor = _aircraft(body)
     if body.slot_distance_m < body.min_separation_m:

@@ -1,4 +1,4 @@
-"""The contract as the browser gets it: its types, and a name that changes whenever they do."""
+"""The contract as the browser gets it: its types, and a name that changes when they do."""
 
 from hashlib import sha256
 from typing import Any, Literal

@@ -1,4 +1,4 @@
-"""Documents ↔ file: one JSON document a line below a line that says what the file is."""
+"""Documents ↔ file: a line that says what the file is, then one JSON document a line."""
 
 import gzip
 import zlib
@@ -16,20 +16,20 @@ from relguide.flying.documents import Document
 FORMAT = "relguide-flight"
 """What the first line calls the file."""
 VERSION = 2
-"""Of the form of its lines."""
+"""Version of the form of its lines."""
 MAX_LINE = 16 * 1024 * 1024
-"""Longest line that is read [bytes]: the longest document has some 10 kB."""
+"""Longest line that is read [bytes]; the longest document has some 10 kB."""
 
 
 class RecordingError(ValueError):
-    """A file is no recording, or is damaged from some line on."""
+    """A file is not a recording, or is damaged from some line on."""
 
 
 def record(documents: Iterable[Document], file: Path | str) -> Iterator[Document]:
     """Pass documents through while writing them to a file.
 
-    The file is opened when the first document is asked for, and complete when the last one was
-    taken; a `.gz` at the end of its name compresses it.
+    The file is opened when the first document is asked for, and complete once the last one has
+    been taken; a name that ends in `.gz` compresses it.
 
     Raises:
         RecordingError: if the name does not end in .jsonl or .jsonl.gz.
@@ -42,10 +42,10 @@ def record(documents: Iterable[Document], file: Path | str) -> Iterator[Document
 def replay(file: Path | str) -> Iterator[Document]:
     """The documents of a recording, in order, as a flight would give them.
 
-    What can be read of a damaged file comes first, then the error.
+    From a damaged file the readable documents come first, then the error.
 
     Raises:
-        RecordingError: naming the first line that is no document.
+        RecordingError: naming the first line that is not a document.
         OSError: if the file cannot be opened.
     """
     path = Path(file)
@@ -57,7 +57,7 @@ def replay(file: Path | str) -> Iterator[Document]:
 
 
 def check_name(file: Path | str) -> None:
-    """Refuse a name that no recording has.
+    """Refuse a name that a recording cannot have.
 
     Raises:
         RecordingError: if it does not end in .jsonl or .jsonl.gz.
@@ -112,7 +112,7 @@ def _document(line: bytes, where: str) -> Document:
     if not line.endswith(b"\n"):
         raise RecordingError(f"{where}: the file is cut short here; what comes before is good.")
     try:
-        # orjson is five times as fast as the careful reader; what it refuses, that one explains
+        # orjson is five times as fast as the careful reader, which explains what orjson refuses
         content = orjson.loads(line)
     except orjson.JSONDecodeError:
         content = line

@@ -170,14 +170,14 @@ def _sentence(error: Any) -> str:
         return "is too large a number to be read."
     sentence = _SENTENCES.get(kind)
     if sentence is None:
-        return f"{error['msg']} (given: {_quoted(value)})."
+        return f"{error['msg']} (given: {_quote(value)})."
     context = dict(error.get("ctx", {}))
     if "tag" in context:
-        context["tag"] = _quoted(context["tag"])
-    return sentence.format(**context, given=_quoted(value))
+        context["tag"] = _quote(context["tag"])
+    return sentence.format(**context, given=_quote(value))
 
 
-def _quoted(value: object) -> str:
+def _quote(value: object) -> str:
     match value:
         case None:
             return "null"

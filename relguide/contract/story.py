@@ -39,7 +39,7 @@ class Story:
 
 
 def story_of(documents: Iterable[Document]) -> Story:
-    """The story of a flight's documents; if a `ValueError` ends them, of those before it."""
+    """The story of a flight's documents, up to the `ValueError` if one ends them."""
     started: list[FlightStarted] = []
     events: list[Event] = []
     ended: list[FlightEnded] = []

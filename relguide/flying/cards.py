@@ -56,8 +56,7 @@ from relguide.planning.trajectory import (
 from relguide.units import Second
 
 VIA: Second = 5.0
-"""Time between the points that draw a boundary arc along d_min [s]: chords stray from it by metres.
-"""
+"""Time between the points that draw a boundary arc [s]: their chords stray from it by metres."""
 
 
 def plan_card(plan: Plan, others: Sequence[AnyAlternative] = ()) -> PlanCard:

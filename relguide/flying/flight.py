@@ -1,4 +1,4 @@
-"""fly(scenario, planner): the one closed loop in the house.
+"""fly(scenario, planner): the one closed loop of the library.
 
     leader → what the pursuer knows → guidance (once a second) → autopilot → aircraft (each step)
 
@@ -50,18 +50,18 @@ from relguide.planning.plan import Plan, Planner
 from relguide.planning.situation import Situation, TurnTo, Wind
 from relguide.units import DEG, KT, Metre, MetrePerSecond, Radian, RadianPerSecond, Second
 
-ROUTE_TURNED: Radian = 1.0 * DEG  # a route drawn a degree off is 2 % of its length beside the truth
+ROUTE_TURNED: Radian = 1.0 * DEG  # a route drawn a degree off ends 2 % of its length aside
 ROUTE_SPEED: MetrePerSecond = 2.0 * KT  # what the display rounds to
 TURN_OVER: RadianPerSecond = 0.1 * DEG
 TEXTS = ("name", "title", "description", "pursuer_ident", "leader_ident", "leader_type")
-"""Fields of a scenario for people."""
+"""Fields of a scenario that people read."""
 ALTITUDES: tuple[Metre, Metre] = (-500.0, 30_000.0)
 """Where aircraft fly [m]: from below the Dead Sea's shore to above any of them."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DeclaredLeader:
-    """The leader flies the intent of the scenario's situation."""
+    """A leader that flies the intent of the scenario's situation."""
 
     kind: Literal["declared"] = "declared"
 
@@ -78,7 +78,7 @@ class Scenario:
     intent_known: bool = True
     """Whether the pursuer knows it."""
     leader_source: DeclaredLeader | RecordedTrack = DeclaredLeader()
-    """A recorded leader overrules the situation's; its intent is not known."""
+    """A recorded leader takes the place of the situation's; its intent is not known."""
     pursuer_ident: str = "PURSUER"
     leader_ident: str = "LEADER"
     leader_type: str = A300.aircraft_type
@@ -116,15 +116,15 @@ def fly(
 
     Args:
         scenario: what to fly.
-        planner: asked once a second, but not in the last turn, nor while what is flown arrives as
-            the slot opens: then nothing it could answer would be better.
-        commands: polled at each step with the flight time; what it gives takes effect at once.
+        planner: asked once a second, but not in the last turn, nor while the plan flown arrives as
+            the slot opens: then no answer could be better.
+        commands: polled at each step with the flight time; its commands take effect at once.
         step: integration step [s]; a whole number of steps makes a second.
         sample_period: between samples [s]; a whole number of steps.
         seed: written into the first document; nothing is random yet.
 
     Yields:
-        `FlightStarted` first, `FlightEnded` last. What the planner raises comes out as it is.
+        `FlightStarted` first, `FlightEnded` last. What the planner raises is passed on as it is.
     """
     expect("scenario", scenario, Scenario)
     expect_function("planner", planner)
@@ -148,7 +148,7 @@ def _fly(
     pilot = Autopilot(model=assignment.model)
     leader_pilot = Autopilot(model=_leader_model(scenario))
     known = scenario.intent_known and isinstance(leader, FlyingLeader)
-    yield _started(scenario, planner, step, seed)
+    yield _announce_start(scenario, planner, step, seed)
     seen = _observe(0.0, pursuer, leader, known)
     memory = begin(seen, assignment)
     yield _route(seen, wind)
@@ -199,7 +199,7 @@ def _fly_step(
     )
 
 
-def _started(scenario: Scenario, planner: Planner, step: Second, seed: int) -> FlightStarted:
+def _announce_start(scenario: Scenario, planner: Planner, step: Second, seed: int) -> FlightStarted:
     situation = scenario.situation
     answer = planner(situation)
     return FlightStarted(
@@ -263,7 +263,7 @@ def _leader(scenario: Scenario) -> LeaderFlight:
 
 
 def _model(scenario: Scenario) -> AircraftModel:
-    """The pursuer's: an A300 that can fly what the situation asks for."""
+    """The pursuer: an A300 that can fly what the situation asks for."""
     pursuer = scenario.situation.pursuer
     return replace(
         A300,
@@ -274,7 +274,7 @@ def _model(scenario: Scenario) -> AircraftModel:
 
 
 def _leader_model(scenario: Scenario) -> AircraftModel:
-    """The leader's: an A300 that can bank as its intent says, and slows down without brakes."""
+    """The leader: an A300 that can bank as its intent asks, and slows down without brakes."""
     leader = scenario.situation.leader
     banks = [piece.bank for piece in leader.intent if isinstance(piece, TurnTo)]
     return replace(

@@ -1,4 +1,4 @@
-"""From what happens in flight to the documents that say so, and the figures of its summary."""
+"""The documents that report what happens in flight, and the figures of its summary."""
 
 from math import cos, hypot, sin
 from typing import NamedTuple, assert_never
@@ -30,7 +30,7 @@ from relguide.planning.situation import IntentPiece, Leader, Wind
 from relguide.units import DEG, Metre, Radian, Second
 
 FINAL_LEG: Second = 1200.0
-"""How much of the leader's endless final leg is shown: what a pursuer 100 km away needs [s]."""
+"""How much of the leader's endless final leg is shown [s]: as much as a pursuer needs at 100 km."""
 BANKED: Radian = 3.0 * DEG  # less is a correction, not a turn
 
 
@@ -43,7 +43,7 @@ class Tally(NamedTuple):
     track: Metre
     """Flown over the ground until joined."""
     banked: int
-    """The last side banked to: +1 right, −1 left, 0 none yet."""
+    """The last side banked to: +1 right, −1 left, 0 before the first."""
     bank_reversals: int
     """From one side to the other, until joined."""
 
@@ -112,9 +112,9 @@ def sample(
         pursuer: now.
         leader: now.
         advice: the last that guidance gave.
-        since: how long ago [s]; the slot has moved since.
+        since: how long ago it did [s]; the slot has moved since.
         tally: gives the least separation.
-        wind: moves all three.
+        wind: moves both aircraft and the slot.
     """
     east, north = leader.x - pursuer.x, leader.y - pursuer.y
     separation = hypot(east, north)
@@ -195,7 +195,7 @@ def leader_route(
 
 
 def event_document(t: Second, event: Event) -> Document:
-    """What guidance has to say, as a document."""
+    """What guidance announces, as a document."""
     match event:
         case NewPlan(commitment=commitment):
             plan = commitment.plan

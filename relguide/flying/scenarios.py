@@ -1,14 +1,14 @@
 """The flights that have a name: the paper's by figure number, and a recorded leader.
 
 The paper does not say when the leader of Fig. 6 turns. Both figures were flown for turns at 60 …
-850 s. In 6b the pursuer turns right only, 45° in all, whenever that is. In 6a, turns
+850 s. In 6b the pursuer only turns right, 45° in all, whenever that is. In 6a, if the leader turns
 
-- before 730 s find it far out: it turns right only as well, and follows 2 … 23 % later than in 6b,
-  but nothing sways (45.4° against 44.7° of heading swing at 360 s);
-- at 760 … 790 s find it about to join: it is there when the slot opens, as early as in 6b;
-- at 795 … 850 s find it in its last turn onto the old route. After its first right turn it has
-  converged, it changes its heading as the leader's goes round, is too close for the new slot, and
-  comes back by a wide turn right: swing 170 … 185° against 45°, following 11 % later.
+- before 730 s, the pursuer is far out: it only turns right as well, and follows 2 … 23 % later than
+  in 6b, but nothing sways (45.4° against 44.7° of heading swing at 360 s);
+- at 760 … 790 s, it is about to join: it is there when the slot opens, as early as in 6b;
+- at 795 … 850 s, it is in its last turn onto the old route. It has converged after its first right
+  turn, changes its heading as the leader's goes round, is too close for the new slot, and comes
+  back by a wide turn right: swing 170 … 185° against 45°, following 11 % later.
 
 Only the last is section 5's "very swaying trajectory", so `LEADER_TURNS_AT` is in its middle:
 820 s, 6a joins at 1,018 s with a swing of 181°, 6b at 916 s (planned: 904 s) with 45°.
@@ -44,7 +44,7 @@ class NamedScenario:
     build: Callable[[], Scenario]
     """Raises `ValueError` with a sentence if its data is not there."""
     missing: Callable[[], str]
-    """What to install before it can be built; empty if nothing."""
+    """What to install before it can be built; empty if it can be built."""
 
 
 def fig_6(*, intent_known: bool, leader_turns_at: Second = LEADER_TURNS_AT) -> Scenario:
@@ -125,7 +125,7 @@ def scenario(name: str) -> Scenario:
     """The scenario of that name.
 
     Raises:
-        ValueError: if there is none, or its data is not installed, in a sentence.
+        ValueError: if there is no such scenario, or its data is not installed, in a sentence.
     """
     expect("name", name, str)
     if name not in SCENARIOS:

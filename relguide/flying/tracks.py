@@ -1,7 +1,7 @@
 """Recorded ADS-B tracks as leaders: from the samples of the `traffic` package, or from a CSV file.
 
-The samples are read as data from the installed package, which itself is never imported; without its
-dependencies it installs with `pip install --no-deps traffic==2.13`.
+The samples are read as data from the installed package, which is never imported itself; it can be
+installed without its dependencies by `pip install --no-deps traffic==2.13`.
 """
 
 import csv
@@ -25,7 +25,7 @@ from relguide.planning.frames import LocalPlane
 from relguide.units import DEG, FT, KT, Metre, MetrePerSecond, Radian, Second
 
 INSTALL = "pip install --no-deps traffic==2.13"
-"""What brings the samples."""
+"""How to install the samples."""
 QUICKSTART = "collections/quickstart"
 """Arrivals and departures around Paris, one position a second."""
 DEFAULT_LEADER = "TVF22LK"
@@ -39,9 +39,9 @@ NEEDED = ("timestamp", "latitude", "longitude", "altitude")
 ROW = (*NEEDED, "groundspeed", "track")
 """What a track is made of."""
 NUMBERS = (*ROW[1:], "vertical_rate")
-"""Columns that hold numbers, or nothing."""
+"""Columns of numbers; cells may be empty."""
 RANGES = {"latitude": (-90.0, 90.0), "longitude": (-180.0, 360.0), "groundspeed": (0.0, 1e4)}
-"""What these can be [°, °, kt]."""
+"""Accepted ranges [°, °, kt]."""
 
 
 class TrackState(NamedTuple):
@@ -82,7 +82,7 @@ class RecordedTrack:
     _knots: list[tuple[float, float, float, float, float]] = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        """Refuse arrays that are no track."""
+        """Refuse arrays that do not make a track."""
         columns = (self.t, self.x, self.y, self.track, self.ground_speed, self.altitude)
         if len(self.t) < 2 or any(column.shape != self.t.shape for column in columns):
             raise ValueError("A track needs two points or more, and all arrays of one length.")
@@ -106,17 +106,17 @@ class RecordedTrack:
         Cubic Hermite between the points: position and velocity are continuous.
         """
         knots, step = self._knots, float(self.t[1])
-        held = min(max(t, 0.0), self.duration)
-        i = min(int(held / step), len(knots) - 2)
+        inside = min(max(t, 0.0), self.duration)
+        i = min(int(inside / step), len(knots) - 2)
         x0, y0, east0, north0, altitude0 = knots[i]
         x1, y1, east1, north1, altitude1 = knots[i + 1]
-        u = held / step - i
+        u = inside / step - i
         # values of the Hermite basis at u, then their slopes
         a, b, c = (1.0 - u) ** 2 * (1.0 + 2.0 * u), u * (1.0 - u) ** 2, u * u * (u - 1.0)
         da, db, dc = 6.0 * u * (u - 1.0), (3.0 * u - 1.0) * (u - 1.0), u * (3.0 * u - 2.0)
         east = da * (x0 - x1) / step + db * east0 + dc * east1
         north = da * (y0 - y1) / step + db * north0 + dc * north1
-        beyond = t - held
+        beyond = t - inside
         return TrackState(
             x=a * x0 + (1.0 - a) * x1 + step * (b * east0 + c * east1) + east * beyond,
             y=a * y0 + (1.0 - a) * y1 + step * (b * north0 + c * north1) + north * beyond,
@@ -142,7 +142,7 @@ def load_sample(callsign: str, collection: str = QUICKSTART) -> RecordedTrack:
         known = sorted({str(row["callsign"]) for row in everything if row.get("callsign")})
         raise ValueError(
             f"{collection} has no flight {callsign!r}. It has {len(known)}, "
-            f"such as {', '.join(known[:8])}."
+            f"for example {', '.join(known[:8])}."
         )
     # as floats, a missing value (None) becomes NaN
     numbers = np.array([[row.get(name) for name in ROW] for row in rows], dtype=np.float64)
@@ -152,7 +152,7 @@ def load_sample(callsign: str, collection: str = QUICKSTART) -> RecordedTrack:
 
 
 def load_track(path: Path | str, callsign: str = "") -> RecordedTrack:
-    """A track from a CSV file as OpenSky and traffic write them.
+    """A track from a CSV file as OpenSky and traffic write it.
 
     Columns: timestamp (UTC: ISO 8601, or seconds since 1970), icao24, callsign, latitude, longitude
     [°], altitude [ft], groundspeed [kt], track [°], vertical_rate [ft/min]; others are not read.
@@ -177,7 +177,7 @@ def load_track(path: Path | str, callsign: str = "") -> RecordedTrack:
     if callsign not in flights:
         names = ", ".join(sorted(flights)[:8])
         wanted = f"has no flight {callsign!r}" if callsign else "has several flights: choose one"
-        raise ValueError(f"{path} {wanted}. It has {len(flights)}, such as {names}.")
+        raise ValueError(f"{path} {wanted}. It has {len(flights)}, for example {names}.")
     return _track(callsign, types[callsign], np.array(flights[callsign]), str(path))
 
 
@@ -250,7 +250,7 @@ def _timestamp(cell: str, where: str) -> float:
             moment = datetime.fromisoformat(text)
         except ValueError:
             raise ValueError(
-                f"{where}, column timestamp: {text[:40]!r} is neither a time such as "
+                f"{where}, column timestamp: {text[:40]!r} is neither a time like "
                 "2021-10-07T12:00:00Z nor seconds since 1970."
             ) from None
         # times without a zone are UTC, as in all of aviation

@@ -1,4 +1,4 @@
-"""Learning to converge: the paper's method as it writes it, and what became of it.
+"""Learning to converge: the paper's method as it describes it, and what became of it.
 
     tree       reverse dynamic programming and the regular network: the paper's method
     words      the branch network: which words may be the fastest, where the limit does not bind
@@ -6,9 +6,9 @@
     training   what all trainings share: the loop, checkpoints, files
     audits     how good the networks are, against exact answers
 
-`network_planner` solves exactly what the branch and template networks name, and certifies what it
-finds; `tree.regular_planner` flies what the tree says, certified.
+`network_planner` solves exactly the words and paths that the branch and template networks name, and
+certifies the result; `tree.regular_planner` certifies what the tree proposes.
 
 Training and inference in bulk import torch when they begin. Planning by networks and by the tree
-needs numpy and numba alone.
+needs only numpy and numba.
 """

@@ -2,7 +2,7 @@
 
 A leader that keeps straight, in calm air. Places are relative to the slot: x ahead of it along the
 leader's heading, y to the left [m], headings counter-clockwise from the leader's [rad]. In this
-frame the leader stands at (D, 0) and the disc of d_min round it does not move.
+frame the leader and the disc of d_min round it do not move: it is at (D, 0).
 """
 
 from collections.abc import Callable
@@ -20,13 +20,13 @@ from relguide.units import Metre, MetrePerSecond, Radian, Second
 
 Floats = NDArray[np.float64]
 SAME = 1e-6
-"""Ratios that differ by less than this part of themselves belong to one encounter: people round
-the numbers they type."""
+"""Ratios whose relative difference is less than this belong to one encounter: people round the
+numbers they type."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Encounter:
-    """Two aircraft, D and d_min, but not where the pursuer is: one convergence area for each."""
+    """Two aircraft, D and d_min, but not where the pursuer is: each has one convergence area."""
 
     pursuer_tas: MetrePerSecond
     """V_P [m/s]."""
@@ -80,11 +80,10 @@ class Encounter:
                 and d_min/R count, as geometry scales.
         """
         if situation.wind.speed > 0.0:
-            raise ValueError("A convergence area is one of calm air; this situation has wind.")
+            raise ValueError("A convergence area is for calm air; this situation has wind.")
         if situation.leader.intent:
             raise ValueError(
-                "A convergence area is that of a leader that keeps straight; this one has an "
-                "intent."
+                "A convergence area is for a leader that keeps straight; this one has an intent."
             )
         frame = slot_frame(situation, situation.leader.trajectory)
         radius = self.turn_radius
@@ -152,7 +151,7 @@ class Area:
 
 
 def reach(encounter: Encounter, horizon: Second) -> tuple[Metre, Metre, Metre]:
-    """The least region that holds every place from where the slot can be joined in time.
+    """The smallest region that contains every place from which the slot can be joined in time.
 
     In t seconds the pursuer joins from places at most V_P t away from where the slot will be.
 

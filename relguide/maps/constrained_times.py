@@ -2,8 +2,8 @@
 
 It takes some ten ms a node, or up to a second if the leader turns: too long for each vertex of a
 line, so between nodes its times are interpolated. The times are still given with their bound:
-constrained paths are not proved to be optimal. At each node the work is bounded as that of `plan`
-is; the caller chooses how many nodes are searched, and a server limits them.
+constrained paths are not proved to be optimal. At each node the work is bounded as in `plan`; the
+caller chooses how many nodes are searched, and a server limits them.
 """
 
 from collections.abc import Callable

@@ -1,8 +1,8 @@
 """Lines and regions of a field on a grid, as a display draws them: exact where they are drawn.
 
 Between nodes a field of times-to-converge is smooth, has a kink (another word becomes as fast) or
-jumps (a word ceases to exist). Contour lines and outlines come from contourpy, which sees nodes
-only; then the field itself is asked again:
+jumps (a word ceases to exist). Contour lines and outlines come from contourpy, which sees only
+the nodes; then the field itself is evaluated again:
 
 - each vertex of a line lies on an edge of the grid, and is moved along it until the time there is
   that of the level; where the field jumps over the level there is no such point, and the line is
@@ -28,15 +28,16 @@ Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
 TOLERANCE: Second = 0.1
-"""A vertex of a line is on its level to this [s]; the eye sees 1 s at most."""
+"""A vertex of a line is on its level to within this [s]; the eye sees 1 s at best."""
 JUMP: Second = 5.0
 """Between two vertices a line may be off its level by this [s]."""
 SMOOTH: Second = 0.5
 """A piece whose middle is off by less is not tried at its quarters."""
 HALVINGS, SECANTS = 3, 6
-"""Most steps toward a level: one by the grid, halvings to an eighth of an edge, then by secants."""
+"""Steps toward a level after that of the grid: halvings to an eighth of an edge, then secants."""
 SAME_RISE = 0.9
-"""If an eighth of an edge rises by this part of the whole, and by more than `JUMP`, it jumps."""
+"""If the time rises by this part of the whole within an eighth of an edge, and by more than `JUMP`,
+it jumps."""
 OUTLINE_ROUNDS = 2
 """Halvings toward a change of word: to an eighth of an edge."""
 
@@ -50,9 +51,9 @@ class Field:
     lower_bound: Floats
     """No plan is faster [s]; infinite where there is none. (n,)"""
     words: NDArray[np.int8]
-    """How the plan goes: a number each, of a list of names. (n,)"""
+    """Which word the plan is: the number of its name in a list. (n,)"""
     limited: Bools
-    """Whether the limit binds: the fastest way without it comes too close. (n,)"""
+    """Whether the limit binds: the fastest path without it comes too close. (n,)"""
 
     @property
     def proved(self) -> Bools:
@@ -144,7 +145,7 @@ def contours(
 def _settle(
     vertices: Floats, wanted: Floats, time: Floats, axes: _Axes, evaluate: Evaluate
 ) -> tuple[Floats, Bools]:
-    """Move each vertex along its edge to its level; whether there is such a point."""
+    """Move each vertex along its edge to its level; and whether there is such a point."""
     low, high = np.floor(vertices + 1e-9), np.ceil(vertices - 1e-9)  # to contourpy's rounding
     along = high - low  # (n, 2): one of the two is 1
     part = ((vertices - low) * along).sum(axis=1)
@@ -156,7 +157,7 @@ def _settle(
     settled = np.zeros(len(part), np.bool_)
     active = np.arange(len(part))
     for step in range(1 + HALVINGS + SECANTS):
-        # where several levels jump together they halve together: each place is asked once
+        # where several levels jump together they halve together: each place is evaluated once
         at = low[active] + part[active, None] * along[active]
         off = _each_once(axes.world(at), evaluate) - wanted[active]
         good = np.abs(off) <= TOLERANCE
@@ -182,15 +183,15 @@ def _settle(
 
 
 def _each_once(places: Floats, evaluate: Evaluate) -> Floats:
-    """Times of places, some of which are the same."""
+    """Times of places, of which some are equal: each is evaluated once."""
     first, which = _distinct(places.view(np.complex128).ravel())
     return evaluate(places[first, 0], places[first, 1]).time[which]
 
 
 def _distinct(values: NDArray[Any]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Where each value stands first, in their order; and which of these each one is.
+    """Where each value occurs first, in that order; and which of these each value equals.
 
-    Neighbours along a line remain neighbours: the answer to one hints at that to the next.
+    Neighbours along a line remain neighbours: the answer to one is a hint for the next.
     """
     _, first, which = np.unique(values, return_index=True, return_inverse=True)
     order = np.argsort(first)
@@ -200,7 +201,7 @@ def _distinct(values: NDArray[Any]) -> tuple[NDArray[np.intp], NDArray[np.intp]]
 
 
 def _cut(joined: Bools, vertices: Floats, wanted: Floats, axes: _Axes, evaluate: Evaluate) -> None:
-    """Part neighbours between which the time is off."""
+    """Separate neighbours between which the time is off."""
     pieces = np.flatnonzero(joined)
     for share in (0.5, 0.25, 0.75):
         places = axes.world(vertices[pieces] * (1.0 - share) + vertices[pieces + 1] * share)
@@ -248,8 +249,8 @@ def _outlines(inside: Bools, column: Floats, row: Floats) -> list[list[Floats]]:
     need("contourpy")
     from contourpy import FillType, contour_generator
 
-    # contourpy looks at what it is given whole: most labels hold in a small part of the grid
-    across, along = (_around(np.any(inside, axis=axis)) for axis in (0, 1))
+    # contourpy looks at the whole of its input, and most labels fill a small part of the grid
+    across, along = (_extent_of(np.any(inside, axis=axis)) for axis in (0, 1))
     part = along, across
     generator = contour_generator(
         column[part], row[part], inside[part].astype(np.float64), fill_type=FillType.OuterOffset
@@ -261,16 +262,16 @@ def _outlines(inside: Bools, column: Floats, row: Floats) -> list[list[Floats]]:
     ]
 
 
-def _around(held: NDArray[np.bool_]) -> slice:
-    """From one before the first to one past the last, as far as there are any; at least two."""
-    where = np.flatnonzero(held)
+def _extent_of(inside: NDArray[np.bool_]) -> slice:
+    """From one before the first that is inside to one past the last; at least two."""
+    where = np.flatnonzero(inside)
     return slice(max(int(where[0]) - 1, 0), int(where[-1]) + 2)
 
 
 def _to_change(
     vertices: Floats, labels: NDArray[np.int64], axes: _Axes, evaluate: Evaluate
 ) -> Floats:
-    """Move vertices along their edges to where the label changes; all on one edge alike."""
+    """Move vertices along their edges to where the label changes; those on one edge together."""
     doubled = np.rint(2.0 * vertices).astype(np.int64)
     wide = 2 * labels.shape[1]
     first, which = _distinct(doubled[:, 1] * wide + doubled[:, 0])

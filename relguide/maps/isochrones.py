@@ -1,20 +1,20 @@
 """isochrones(situation): the time-to-converge round the leader, as lines and as regions of words.
 
-A pursuer on its present heading is put on every node of a grid round the leader, everything else
-stays as it is: speeds, bank, D, d_min, wind, the leader with its intent. Each node gets
+A pursuer on its present heading is put on every node of a grid round the leader; speeds, bank, D,
+d_min, wind and the leader with its intent stay as they are. Each node gets
 
 - a time: that of the fastest extremal that keeps d_min, certified against the leader as it really
   flies, its turns included;
 - a bound: the time of the fastest extremal without the limit. No plan is faster. Where both agree
-  the time is the optimum, proved; where they do not, the limit binds, and paths that touch d_min or
-  slide along it may be faster than the time given. They are searched only with `exact`.
+  the time is proved to be the optimum; where they do not, the limit binds, and paths that touch
+  d_min or slide along it may be faster than the time given. They are searched only with `exact`.
 
 An intent is planned for as in `plan`: toward a leader that was on its final leg all along, whose
-slot opens when the real one gets there. Where the slot can be reached before, T is that instant;
-if of the paths of that length two simple families do not keep d_min, the time given is that of the
+slot opens when the real leader gets there. Where the slot can be reached before, T is that instant;
+if two simple families of paths of that length do not keep d_min, the time given is that of the
 first extremal after it, again with its bound.
 
-What gives the times is an argument (`Evaluate`): lines and regions are drawn from any.
+The source of the times is an argument (`Evaluate`): lines and regions can be drawn from any.
 """
 
 from collections.abc import Callable, Sequence
@@ -182,7 +182,7 @@ def _draw(
     field: Field, x: Floats, y: Floats, levels: Sequence[Second], evaluate: Evaluate, *,
     beside: bool,
 ) -> tuple[tuple[Contour, ...], tuple[Region, ...]]:  # fmt: skip
-    """Lines and regions; side by side if wanted, as Python draws while the kernels work."""
+    """Lines and regions; in two threads if wanted, since Python draws while the kernels work."""
     if not beside:
         return (
             contours(field, x, y, levels, evaluate),
@@ -213,7 +213,7 @@ def check_levels(levels: Sequence[Second]) -> tuple[Second, ...]:
 
 
 def round_levels(field: Field) -> tuple[Second, ...]:
-    """Round levels that most of the field lies between."""
+    """Round levels that span most of the field."""
     times = field.time[field.time < inf]
     if times.size == 0:
         return ()
@@ -232,7 +232,7 @@ def times_around(
     Args:
         situation: all but the pursuer's place counts.
         threads: how many; all cores if left out.
-        words: says where one word alone need be solved; all of them everywhere if left out.
+        words: says where only one word need be solved; all of them everywhere if left out.
     """
     frame = slot_frame(situation, situation.leader.trajectory)
     scene = scene_of(situation, frame)

@@ -1,7 +1,7 @@
-"""alternatives(plan): each other way to the slot, with its time and why it is not flown.
+"""alternatives(plan): each other path to the slot, with its time and why it is not flown.
 
-Ways are told apart by their word, by the middle arc of a three-turn word (more or less than half a
-turn), and by how they pass the leader. The last is a matter of topology, see `passing`.
+Two paths differ if their words do, or the middle arcs of a three-turn word (more or less than half
+a turn), or how they pass the leader. The last is a matter of topology, see `passing`.
 """
 
 from collections.abc import Iterator
@@ -26,8 +26,8 @@ from relguide.units import Metre, Second
 SAME_LENGTH: Metre = 0.01
 """Paths of the same letters whose pieces differ by less are the same path [m]."""
 AT_RELEASE = 32
-"""Of the ways that arrive as the slot opens so many are looked at, fewest turns first: there may be
-a thousand, all equally fast."""
+"""How many of the paths that arrive as the slot opens are considered, fewest turns first: there may
+be a thousand, all equally fast."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -40,14 +40,14 @@ class Slower:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AsFast:
-    """It arrives with the plan: its mirror image, the same path, or another to an opening slot."""
+    """It arrives with the plan: its mirror image, the same path, or another as the slot opens."""
 
     kind: Literal["as_fast"] = "as_fast"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Faster:
-    """It is faster and keeps d_min: only a planner that is not exact leaves such a way."""
+    """It is faster and keeps d_min: only a planner that is not exact misses such a path."""
 
     by: Second
     kind: Literal["faster"] = "faster"
@@ -64,7 +64,7 @@ class LosesSeparation:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Alternative:
-    """A way to the slot that is not the plan, and why."""
+    """A path to the slot that is not flown, and why."""
 
     candidate: Candidate
     """Its word and its trajectory."""
@@ -90,7 +90,7 @@ class TooEarly:
 
     word: str
     time_to_converge: Second
-    """When it would be there, of several times the first [s]."""
+    """When it would be there first [s]."""
     release_time: Second
     """When the slot opens [s]."""
     why: str
@@ -109,11 +109,11 @@ AnyAlternative = Alternative | TooEarly | NoRoot
 
 
 def alternatives(plan: Plan) -> tuple[AnyAlternative, ...]:
-    """Every other way to the slot and why it is not flown, by time; words without any come last.
+    """Every other path to the slot and why it is not flown, by time; words without any come last.
 
-    All that is faster, and of each word, middle arc and passing of the leader the fastest. Where
-    the slot opens later, also the words that would be there before, and of the many ways that
-    arrive with its opening one for each passing.
+    These are all faster paths, and the fastest for each word, middle arc and passing of the leader.
+    Where the slot opens later, also the words that would be there before, and one path for each
+    passing of the many that arrive just as it opens.
     """
     expect("plan", plan, Plan)
     situation = plan.situation
@@ -134,15 +134,15 @@ def alternatives(plan: Plan) -> tuple[AnyAlternative, ...]:
             listed.append(
                 TooEarly(word=word, time_to_converge=time, release_time=release_time, why=why)
             )
-    none = [word for word in WORDS if word not in late and word not in early]
+    rootless = [word for word in WORDS if word not in late and word not in early]
     return (
         *sorted(listed, key=lambda other: other.time_to_converge),
-        *(NoRoot(word=word, why="no such path to the slot") for word in none),
+        *(NoRoot(word=word, why="no such path to the slot") for word in rootless),
     )
 
 
 def _first_times(frame: SlotFrame) -> dict[str, float]:
-    """When each word is first at the slot, open or not [R/V_P]; it need not ever be."""
+    """When each word that reaches the slot is first there, open or not [R/V_P]."""
     rows = np.empty((MAX_ROWS, 5))
     n = solve(frame.pose, frame.alpha, 0.0, rows)
     times: dict[str, float] = {}
@@ -158,33 +158,33 @@ def _later(plan: Plan, found: Candidates, around: Surroundings) -> Iterator[Alte
     for row, candidate in zip(found.rows.tolist(), found.later, strict=True):
         word, time = candidate.word, candidate.time_to_converge
         ours = passing(candidate.trajectory, around)
-        way = (word, word[1] != "S" and row[3] > pi, ours.laps)
+        branch = (word, word[1] != "S" and row[3] > pi, ours.laps)
         faster = time < plan.time_to_converge - AS_FAST
         twice = time - last.get(word, -1.0) <= AS_FAST
         last[word] = time
-        if twice or (way in seen and not faster):
+        if twice or (branch in seen and not faster):
             continue
-        seen.add(way)
+        seen.add(branch)
         if word != plan.word or not _same_time(candidate, plan):
-            yield _judged(candidate, ours, plan)
+            yield _compare(candidate, ours, plan)
 
 
 def _at_release(plan: Plan, found: Candidates, around: Surroundings) -> Iterator[Alternative]:
-    """Of the ways that arrive as the slot opens the one of fewest turns for each passing."""
+    """For each passing, the path of fewest turns that arrives as the slot opens."""
     seen: set[int] = set()
     for candidate in islice(found.at_release, AT_RELEASE):
         ours = passing(candidate.trajectory, around)
         if ours.laps not in seen:
             seen.add(ours.laps)
             if candidate.trajectory != plan.trajectory:
-                yield _judged(candidate, ours, plan)
+                yield _compare(candidate, ours, plan)
 
 
 def _same_time(candidate: Candidate, plan: Plan) -> bool:
     return abs(candidate.time_to_converge - plan.time_to_converge) <= AS_FAST
 
 
-def _judged(candidate: Candidate, ours: Passing, plan: Plan) -> Alternative:
+def _compare(candidate: Candidate, ours: Passing, plan: Plan) -> Alternative:
     certificate = certify(candidate.trajectory, plan.situation)
     near = too_close(certificate.least_separation, plan.situation.min_separation)
     near = f"comes {near} at {certificate.at_time:.0f} s"

@@ -3,12 +3,12 @@
 Between two touches of d = d_min a part has three constants (see `kernels.costate`): λ_x, λ_y, and
 λ_ψ at one place. They obey linear equations. Some are met exactly:
 
-    H(t_f) = 0;    H goes on unbroken where d_min is touched;    at a contact so does λ_ψ.
+    H(t_f) = 0;    H is continuous where d_min is touched;    at a contact so is λ_ψ.
 
-The others are met in least squares: λ_ψ = 0 at each switch, on each straight and
-at both ends of a boundary arc. An extremal without the limit has as many equations as unknowns; a
-constrained path may have one more for each contact: it is met only if the contact lies best. A
-piece of no length leaves fewer equations than unknowns; then eq. (16) and ν ≥ 0 choose.
+The others are met in least squares: λ_ψ = 0 at each switch, on each straight and at both ends of a
+boundary arc. An extremal without the limit has as many equations as unknowns; a constrained path
+may have one more for each contact, which is met only if the contact is in the best place. A piece
+of no length leaves fewer equations than unknowns; then eq. (16) and ν ≥ 0 choose.
 
 Sliding, λ_ψ ≡ 0 and λ_p is along the course: λ_p = κ û / (1 − û·v̂_L), κ = λ_p · (û − v̂_L) being
 what H keeps while the leader flies straight. All in R and R/V_P, as in `legs`.
@@ -23,7 +23,7 @@ from relguide.planning.extras import need
 from relguide.planning.legs import ROUNDING, Cut, Encounter, Leg, Touch, Vector
 
 RANK = 1e-8
-"""Equations with a singular value below this are no equations."""
+"""Equations with a singular value below this are left out."""
 PROBES = 16
 """Points of an arc at which eq. (16) is checked where it has to choose."""
 FARTHEST = 1e3
@@ -193,7 +193,7 @@ def _sign_rows(legs: tuple[Leg, ...], n: int) -> tuple[FloatArray, FloatArray]:
 def _solve(
     rows: FloatArray, due: FloatArray, z: FloatArray, free: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Move z within the span of `free` so that rows·z = due, in least squares; what stays free."""
+    """Move z within `free` so that rows·z = due, in least squares; and return what stays free."""
     u, s, vt = np.linalg.svd(rows @ free)
     rank = int((s > RANK).sum())
     step = vt[:rank].T @ (u[:, :rank].T @ (due - rows @ z) / s[:rank])
@@ -203,9 +203,9 @@ def _solve(
 def _choose(
     z: FloatArray, free: FloatArray, largest: FloatArray, positive: FloatArray
 ) -> FloatArray:
-    """Move z within the span of `free`: the least of largest·z as large as can be, positive·z ≥ 0.
+    """Move z within the span of `free` to maximise the least of largest·z, with positive·z ≥ 0.
 
-    If there is no such z it stays as it is: the conditions cannot be met.
+    If there is no such place z stays as it is: the conditions cannot be met.
     """
     need("scipy")
     # 0.3 s to import, and few trajectories leave a choice

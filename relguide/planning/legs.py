@@ -19,15 +19,15 @@ from relguide.planning.tables import motion_of
 from relguide.planning.trajectory import Trajectory
 
 TOUCHES = 1e-5
-"""Separations this near to d_min touch it [R]: 12 cm for an airliner; plans stay 3e-7 outside."""
+"""Separations this close to d_min touch it [R]: 12 cm for an airliner; plans stay 3e-7 outside."""
 STRIDE = 0.01
 """Contacts closer together than this may count as one: half a second for an airliner."""
 EDGE = 1e-4
-"""A contact this near to a boundary arc belongs to it: where the arc begins it is found twice."""
+"""A contact this close to a boundary arc belongs to it: the arc's beginning is found twice."""
 MAX_CONTACTS = 4096
-"""Room for contacts, those between the many arcs of a boundary arc included."""
+"""Room for contacts, including those between the many arcs of a boundary arc."""
 ROUNDING = 1e-9
-"""Pieces shorter than this are rounding; turn rates nearer than this are the same."""
+"""Pieces shorter than this are rounding; turn rates closer than this are equal."""
 
 Vector = tuple[float, float]
 """East, north."""
@@ -51,7 +51,7 @@ class Leg:
     part: int
     """How many contacts and boundary arcs come before it."""
     sliding: bool
-    """Whether it is a piece of a boundary arc; then that of the touch number `part`."""
+    """Whether it is a piece of a boundary arc: that of touch number `part`."""
 
     def at(self, t: float) -> tuple[float, float, float]:
         """Place and heading after flying it for t."""
@@ -112,7 +112,7 @@ class Cut:
     """A trajectory in legs."""
 
     legs: tuple[Leg, ...]
-    """In the order flown; none shorter than `ROUNDING`; empty if it has no length."""
+    """In the order flown, each longer than `ROUNDING`; empty if the trajectory has no length."""
     touches: tuple[Touch, ...]
     """In the order flown, without contacts at the trajectory's two ends: they add no condition."""
     end: Encounter
@@ -161,7 +161,7 @@ def cut(trajectory: Trajectory, situation: Situation) -> Cut:
 
 
 def _pieces(trajectory: Trajectory, scale: float) -> Iterator[tuple[float, float]]:
-    """Duration and turn rate of each piece; neighbours with one rate are one."""
+    """Duration and turn rate of each piece; neighbours of equal rate are joined."""
     duration, last = 0.0, 0.0
     for seconds, rate in trajectory.bends():
         if seconds <= ROUNDING * scale:
@@ -175,7 +175,7 @@ def _pieces(trajectory: Trajectory, scale: float) -> Iterator[tuple[float, float
 
 
 def is_partial(rate: float) -> bool:
-    """Whether a turn is flown at another bank than the nominal."""
+    """Whether a turn is flown at a bank other than nominal."""
     return rate != 0.0 and abs(abs(rate) - 1.0) > ROUNDING
 
 
@@ -209,7 +209,7 @@ def _contacts(trajectory: Trajectory, situation: Situation) -> list[float]:
 def _legs(
     pieces: list[tuple[float, float]], heading: float, spans: list[tuple[float, float]]
 ) -> Iterator[Leg]:
-    """The pieces, cut at contacts; places are left to `join_legs`."""
+    """The pieces, cut at contacts; `join_legs` gives them their places."""
     t, end, part = 0.0, 0.0, 0
     for duration, rate in pieces:
         end += duration

@@ -2,7 +2,7 @@
 
 The costates are found from the conditions (`costates`); what they leave unmet is reported, with H,
 λ and the switching function over time. The conditions are necessary, and local: a trajectory
-that fails them can be made faster by a small change, one that meets them may yet be beaten by
+that fails them can be made faster by a small change; one that meets them may still be slower than
 another word.
 """
 
@@ -28,20 +28,20 @@ from relguide.units import DEG, Radian, Second
 FixedBy = Literal["free", "release", "at_once"]
 """What fixes t_f: the trajectory alone, the slot's release time, or being there from the start."""
 ARRIVES = 1e-5
-"""A trajectory reaches the slot if it ends this near to it [R; rad]: 12 cm for an airliner."""
+"""A trajectory reaches the slot if it ends this close to it [R; rad]: 12 cm for an airliner."""
 MAX_ARRIVES = 10.0
-"""Most that may be asked for instead [R; rad]: what ends farther off does not arrive."""
+"""Largest tolerance a caller may choose [R; rad]: a path that ends farther off does not arrive."""
 AT_RELEASE = 1e-6
-"""An arrival this near to the release time is at it [R/V_P]: 60 µs for an airliner."""
+"""An arrival this close to the release time is at it [R/V_P]: 60 µs for an airliner."""
 SLIVER = 2e-3
 """Pieces shorter than this may be left out of the conditions [R]: 0.1 s for an airliner."""
 MET = 1e-3
-"""To how much conditions are met, in R and R/V_P: what is left to gain goes with its square, some
-tens of microseconds for an airliner."""
+"""Tolerance of the conditions, in R and R/V_P: the time that could still be gained goes with its
+square, some tens of microseconds for an airliner."""
 MAX_SAMPLES = 100_000
-"""Most times that H and λ are reported at."""
+"""The most times at which H and λ are reported."""
 TOGETHER = 0.05
-"""Contacts nearer together than this share their jumps [R/V_P]: some three seconds for an airliner.
+"""Contacts closer together than this share their jumps [R/V_P]: some three seconds for an airliner.
 A boundary arc is flown a millimetre outside, and a path may touch d_min just before it or after."""
 
 
@@ -53,8 +53,8 @@ class Contact:
     bearing: Radian
     """θ, from pursuer to leader, clockwise from north [rad], in [−π, π]."""
     jump: float
-    """ν = λ_d after − λ_d before [s/m]; by (10) and (11) a minimum asks that ν ≥ 0. Of contacts
-    nearer together than `TOGETHER` only the sum means much."""
+    """ν = λ_d after − λ_d before [s/m]; by (10) and (11) a minimum asks that ν ≥ 0. For contacts
+    closer together than `TOGETHER` only the sum means much."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -71,23 +71,23 @@ class SlideReport:
 class OptimalityReport:
     """What Pontryagin's conditions say of a trajectory.
 
-    Whether it keeps d_min is for the certificate to say: where it comes closer, nothing is asked.
+    The certificate says whether it keeps d_min: where it comes closer, nothing is asked here.
     """
 
     arrival: FixedBy
     """`release`: H(t_f) ≥ 0 takes the place of H(t_f) = 0. Then λ = 0, H = 1 meets every condition
-    on whatever path, and is what is reported: the conditions tell no path from another.
+    on any path, and is what is reported: the conditions cannot distinguish paths.
     `at_once`: a trajectory of no length, of which nothing is asked."""
     holds: bool
     """All conditions are met: both residuals, eq. (16), ν ≥ 0 and μ ≥ 0, to `MET`."""
     hamiltonian_residual: float
-    """Largest |H − H due| [1]; due is 0, and while the leader has still to turn what that adds."""
+    """Largest |H − H due| [1]; H due is 0, but for what the leader's turns to come add."""
     switching_residual: float
     """Largest |λ_ψ| at a switch or on a straight [s/rad]."""
     switching_ok: bool
-    """Each arc turns at nominal bank the way that eq. (16) asks; λ_ψ vanishes where it should."""
+    """Each arc turns at nominal bank to the side eq. (16) asks; λ_ψ vanishes where it should."""
     neglected: Second
-    """Time in pieces too short to matter, on which nothing was asked; 0 if all is met with them."""
+    """Time in pieces too short to matter that were left out; 0 if the conditions hold on all."""
     contacts: tuple[Contact, ...]
     boundary_arcs: tuple[SlideReport, ...]
     history: AdjointHistory
@@ -121,7 +121,7 @@ def check(
     *,
     arrives: float = ARRIVES,
 ) -> OptimalityReport:
-    """Whether Pontryagin's conditions hold along a trajectory.
+    """Check whether Pontryagin's conditions hold along a trajectory.
 
     Args:
         flown: a plan, or any trajectory that reaches the slot.
@@ -145,21 +145,21 @@ def check(
         )
     arrival = _arrival(trajectory, situation, arrives)
     whole = cut(trajectory, situation)
-    judged = _judge(arrival, whole, whole.legs)
+    judgement = _judge(arrival, whole, whole.legs)
     longer = tuple(leg for leg in whole.legs if leg.duration > SLIVER or leg.sliding)
-    if not judged.holds and 0 < len(longer) < len(whole.legs):
+    if not judgement.holds and 0 < len(longer) < len(whole.legs):
         # a search that ends on an edge leaves pieces of hardly any length, which should not be
         without = _judge(arrival, whole, join_legs(longer))
-        judged = without if without.holds else judged
+        judgement = without if without.holds else judgement
     scale = situation.pursuer.turn_radius / trajectory.tas
-    found, touches = judged.costates, whole.touches
+    found, touches = judgement.costates, whole.touches
     return OptimalityReport(
         arrival=arrival,
-        holds=judged.holds,
-        hamiltonian_residual=judged.hamiltonian_residual,
+        holds=judgement.holds,
+        hamiltonian_residual=judgement.hamiltonian_residual,
         switching_residual=found.residual * scale,
-        switching_ok=judged.switching_ok,
-        neglected=(whole.end.time - sum(leg.duration for leg in judged.legs)) * scale,
+        switching_ok=judgement.switching_ok,
+        neglected=(whole.end.time - sum(leg.duration for leg in judgement.legs)) * scale,
         contacts=tuple(
             Contact(time=at.time * scale, bearing=atan2(*at.toward), jump=jump / trajectory.tas)
             for touch, jumps in zip(touches, found.jumps.tolist(), strict=True)
@@ -171,7 +171,7 @@ def check(
                 end=touch.exit.time * scale,
                 least_multiplier=least / situation.pursuer.turn_radius,
             )
-            for touch, least in zip(touches, judged.multipliers, strict=True)
+            for touch, least in zip(touches, judgement.multipliers, strict=True)
             if touch.slides
         ),
         history=adjoint_history(found, whole, trajectory, situation, samples),
@@ -209,7 +209,7 @@ def _judge(arrival: FixedBy, whole: Cut, legs: tuple[Leg, ...]) -> _Judgement:
             least_jump=0.0, multipliers=(0.0,) * n,
         )  # fmt: skip
     found = find_costates(whole, legs)
-    # what the leader's turns still add: H due(t) = level − λ_p·v_L(t), unbroken at touches
+    # what the leader's turns still add: H due(t) = level − λ_p·v_L(t), continuous at touches
     levels = [dot(found.position(n), whole.end.leader_velocity)]
     for i, touch in reversed(tuple(enumerate(whole.touches))):
         due = levels[0] - dot(found.position(i + 1), touch.exit.leader_velocity)
@@ -220,8 +220,8 @@ def _judge(arrival: FixedBy, whole: Cut, legs: tuple[Leg, ...]) -> _Judgement:
             signs_ok &= abs(leg.rate) <= 1.0 + MET
             continue
         (lam_x, lam_y), sigma = found.position(leg.part), found.switching(leg.part, leg.x, leg.y)
-        held = 1.0 + lam_x * sin(leg.heading) + lam_y * cos(leg.heading) + sigma * leg.rate
-        residual = max(residual, abs(held - levels[leg.part]))
+        hamiltonian = 1.0 + lam_x * sin(leg.heading) + lam_y * cos(leg.heading) + sigma * leg.rate
+        residual = max(residual, abs(hamiltonian - levels[leg.part]))
         if leg.rate != 0.0:
             least = least_switching(leg.heading, leg.rate, leg.duration, 1.0, lam_x, lam_y, sigma)
             signs_ok &= least >= -MET and not is_partial(leg.rate)

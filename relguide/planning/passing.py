@@ -20,7 +20,7 @@ from relguide.planning.trajectory import LEFT, RIGHT, Trajectory, Turn
 from relguide.units import Metre, Radian
 
 NEAREST = 1e-2
-"""Below this separation it is not said how the leader is passed [R]."""
+"""Below this separation the side on which the leader is passed is not resolved [R]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -28,8 +28,8 @@ class Passing:
     """How a path passes the leader."""
 
     side: Turn
-    """`LEFT`: the line of sight turns counter-clockwise on balance, the pursuer goes round the
-    leader that way and has it on its left hand. `RIGHT`: clockwise. As for slides along d_min."""
+    """`LEFT`: the line of sight turns counter-clockwise on balance; the pursuer goes round the
+    leader in that sense and has it on its left hand. `RIGHT`: clockwise. As for boundary arcs."""
     laps: int
     """How often it crosses the line ahead of the leader on its final leg, clockwise round it
     positive, counter-clockwise negative: 0 for a path that passes behind."""

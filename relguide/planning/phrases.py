@@ -11,14 +11,14 @@ def distance(length: Metre) -> str:
 
 
 def too_close(least: Metre, limit: Metre) -> str:
-    """How close a path comes; what reads like the limit is told by what it lacks."""
+    """How close a path comes; by how much it is too close, if both distances read alike."""
     if distance(least) == distance(limit):
         return f"{limit - least:.1f} m too close"
     return f"within {distance(least)}"
 
 
 def duration(time: Second) -> str:
-    """A time to a tenth of a second, to a second from ten on."""
+    """A time to a tenth of a second; from ten seconds on, to a second."""
     if time < 0.05:
         return "less than 0.1 s"
     return f"{time:.1f} s" if time < 9.95 else f"{time:,.0f} s"

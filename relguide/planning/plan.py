@@ -32,9 +32,9 @@ from relguide.planning.words import HORIZON, Candidate, Candidates, candidates
 from relguide.units import KT, Metre, Millisecond, Second
 
 Proof = Literal["relaxation", "bound", "none"]
-"""Why a plan is optimal: the best plan without the limit keeps it; a lower bound; not shown."""
+"""What proves a plan: the best plan without the limit keeps it; a lower bound; nothing."""
 LONGEST_NAME = 40
-"""Of a planner [characters]: what a line of the cockpit holds."""
+"""Longest name of a planner [characters]: what fits on a line of the cockpit."""
 
 
 class Reason(StrEnum):
@@ -75,7 +75,7 @@ class Plan:
     status: Literal["planned"] = "planned"
 
     def __post_init__(self) -> None:
-        """Refuse a name that no line could show."""
+        """Refuse a name that does not fit on a line."""
         name = self.planner
         if name != "exact" and not (
             isinstance(name, str) and name.isprintable() and 0 < len(name.strip()) <= LONGEST_NAME
@@ -98,16 +98,16 @@ class Plan:
         planner: str,
         lower_bound: Second = 0.0,
     ) -> "Plan":
-        """What a planner of one's own answers: its trajectory, with a certificate made for it.
+        """A plan from the trajectory of a planner of one's own, with its certificate.
 
-        Whether it may be flown is judged where it is: `certificate.holds` and `arrival.holds` say
-        what will be found.
+        Whether it may be flown is decided where it is used: `certificate.holds` and
+        `arrival.holds` must both be true.
 
         Args:
             trajectory: in the air mass, from the pursuer's present state to the slot.
             situation: what was asked about.
             planner: its name, 1 to 40 printable characters.
-            lower_bound: no plan that keeps d_min is faster, if anything is known of that [s].
+            lower_bound: no plan that keeps d_min is faster than this [s]; 0 if nothing is known.
         """
         certificate, bound = certify(trajectory, situation), number("lower_bound", lower_bound)
         return cls(
@@ -128,7 +128,7 @@ class Plan:
         return self.trajectory.over_ground(self.situation.wind, t)
 
     def __repr__(self) -> str:
-        """Three lines: the way, the separation, the proof."""
+        """Three lines: the path, the separation, the proof."""
         found, proof = self.certificate, self.optimality
         return (
             f"Plan({self.word} by {self.planner}: joins in {self.time_to_converge:.1f} s, "
@@ -140,7 +140,7 @@ class Plan:
 
     @property
     def arrival(self) -> Arrival:
-        """How its end meets eq. (7); worked out anew each time, from the trajectory alone."""
+        """How its end meets eq. (7); computed anew each time, from the trajectory alone."""
         return arrival(self.trajectory, self.situation)
 
 
@@ -155,7 +155,7 @@ class NoPlan:
 
 
 AS_FAST: Second = 1e-6
-"""Times nearer than this are one: the same path found twice differs by rounding [s]."""
+"""Times closer than this count as equal: the same path found twice differs by rounding [s]."""
 Planner = Callable[[Situation], Plan | NoPlan]
 """The one protocol of all planners."""
 _Chosen = tuple[Candidate, Certificate, Optimality]
@@ -165,14 +165,14 @@ def plan(situation: Situation) -> Plan | NoPlan:
     """The fastest candidate that keeps d_min, with what is proved of it.
 
     Without the limit the candidates are all the extremals there are, so if the fastest of them
-    keeps the limit it is the global optimum (`proof="relaxation"`). If it does not, ways that
-    touch d_min or slide along it are searched too, and the fastest of all that certify is given
-    with the time of the fastest candidate as the bound it is proved to within (`proof="bound"`).
+    keeps the limit it is the global optimum (`proof="relaxation"`). If it does not, paths that
+    touch d_min or slide along it are searched too. The plan is then the fastest path that
+    certifies, and the time of the fastest candidate is its lower bound (`proof="bound"`).
 
-    The work is bounded whatever the situation: a contact is looked for at a fixed number of
-    bearings for each piece of the leader's intent, a word has at most 96 roots, a certificate looks
-    at 131,072 windows at most, and nothing beyond 12 hours is looked at. The longest found takes
-    some seconds: twenty turns, some of them at 1° of bank, with no way to the slot.
+    The work is bounded whatever the situation: contacts are searched at a fixed number of bearings
+    for each piece of the leader's intent, a word has at most 96 roots, a certificate takes at most
+    131,072 windows, and nothing beyond 12 hours is considered. The slowest case found takes some
+    seconds: twenty turns, some of them at 1° of bank, and no path to the slot.
     """
     expect("situation", situation, Situation)
     started = perf_counter_ns()
@@ -186,12 +186,12 @@ def plan(situation: Situation) -> Plan | NoPlan:
             f"than the minimum of {situation.min_separation:,.0f} m. "
             f"{restore_sentence(restore(situation))}",
         )
-    chosen = _at_once(situation, radius) or _searched(situation, radius)
+    chosen = _at_once(situation, radius) or _search(situation, radius)
     return chosen if isinstance(chosen, NoPlan) else _plan_of(chosen, situation, started)
 
 
 def plan_at_once(situation: Situation) -> Plan | None:
-    """The plan where the limit costs nothing, as `plan` gives it; None if a search is needed.
+    """The plan where the limit costs nothing, as `plan` gives it; `None` if a search is needed.
 
     It runs a small part of the planner's machine code.
     """
@@ -202,7 +202,7 @@ def plan_at_once(situation: Situation) -> Plan | None:
     if chosen is None:
         found = candidates(situation)
         if len(found) > 0 and found.bound <= HORIZON:
-            chosen = _relaxed(found, situation, radius, bends_of(found.leader))
+            chosen = _fastest_extremal(found, situation, radius, bends_of(found.leader))
     return None if chosen is None else _plan_of(chosen, situation, started)
 
 
@@ -231,8 +231,8 @@ def _at_once(situation: Situation, radius: Metre) -> _Chosen | None:
     return candidate, certificate, Optimality(proof="relaxation", lower_bound=time)
 
 
-def _searched(situation: Situation, radius: Metre) -> _Chosen | NoPlan:
-    """The fastest of all extremals and of all ways that touch d_min, or why there is none."""
+def _search(situation: Situation, radius: Metre) -> _Chosen | NoPlan:
+    """The fastest of all extremals and of all paths that touch d_min, or why there is none."""
     found = candidates(situation)
     if len(found) == 0:
         return NoPlan(reason=Reason.SLOT_UNREACHABLE, message=_unreachable(situation))
@@ -242,19 +242,19 @@ def _searched(situation: Situation, radius: Metre) -> _Chosen | NoPlan:
             message=f"The slot is reached only after {found.bound / 3600.0:,.0f} h, beyond the "
             f"horizon of {HORIZON / 3600.0:.0f} h: a larger speed difference helps.",
         )
-    return _first_that_holds(found, situation, radius) or NoPlan(
+    return _first_certified(found, situation, radius) or NoPlan(
         reason=Reason.SEPARATION_UNAVOIDABLE,
         message=f"Each of the {len(found)} direct trajectories to the slot comes closer "
-        f"than {distance(situation.min_separation)} to the leader, and no way round it was found. "
+        f"than {distance(situation.min_separation)} to the leader, and no path round it was found. "
         f"{least_bad_sentence(least_bad(situation))}",
     )
 
 
-def _first_that_holds(found: Candidates, situation: Situation, radius: Metre) -> _Chosen | None:
+def _first_certified(found: Candidates, situation: Situation, radius: Metre) -> _Chosen | None:
     bound, leading = found.bound, bends_of(found.leader)
-    relaxed = _relaxed(found, situation, radius, leading)
-    if relaxed is not None:
-        return relaxed
+    fastest = _fastest_extremal(found, situation, radius, leading)
+    if fastest is not None:
+        return fastest
     chosen: tuple[Candidate, Certificate] | None = None
     refused = 0 if found.reachable_at_release else 1
     for candidate in islice(found.later, refused, None):
@@ -270,12 +270,12 @@ def _first_that_holds(found: Candidates, situation: Situation, radius: Metre) ->
     if chosen is None:
         return None
     time = chosen[0].time_to_converge
-    # a way that touches d_min and arrives as the slot opens is as fast as any without the limit
+    # a path that touches d_min and arrives as the slot opens is as fast as any without the limit
     proof: Proof = "relaxation" if time <= bound + AS_FAST else "bound"
     return *chosen, Optimality(proof=proof, lower_bound=min(bound, time))
 
 
-def _relaxed(
+def _fastest_extremal(
     found: Candidates, situation: Situation, radius: Metre, leading: FloatArray
 ) -> _Chosen | None:
     """The fastest of all extremals, if it keeps d_min."""
@@ -292,7 +292,7 @@ def _canonical(
     radius: Metre,
     leading: FloatArray,
 ) -> tuple[Candidate, Certificate] | None:
-    """Of candidates that arrive together: fewest turns, then separation, then least turning."""
+    """The best of equally fast candidates: fewest turns, then separation, then least turning."""
     best: tuple[Candidate, Certificate] | None = None
     for candidate in equally_fast:
         if best is not None and candidate.trajectory.turns > best[0].trajectory.turns:

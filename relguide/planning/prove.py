@@ -1,9 +1,9 @@
 """prove(plan, seconds=…): a better lower bound of the time, for a plan that d_min made longer.
 
-The bound is that of `contact_search`, the better the longer it goes on. If the slot could be
-reached before it opens, arriving the moment it opens is a case of its own, in which no path need be
-an extremal: it is ruled out, if it can be, by the shortest way to the slot's place then, which is a
-search of the same kind.
+The bound is that of `contact_search`; it rises the longer the search runs. If the slot could be
+reached before it opens, arriving just as it opens is a case of its own, in which no path need be an
+extremal: it is ruled out, where it can be, by the shortest path to where the slot is then, which is
+a search of the same kind.
 """
 
 from collections.abc import Callable, Iterable, Iterator
@@ -24,7 +24,7 @@ MAX_SECONDS: Second = 3_600.0
 TOLERANCE: Second = 1e-3
 """A gap this small ends the proof [s]: aircraft take a thousand times as long to roll."""
 _REPORT: Second = 0.05  # from one report to the next
-_LATER = 1e-9  # a path this much longer than t_release does not arrive just then
+_LATER = 1e-9  # a path longer than t_release by this part of it arrives after the slot opens
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,18 +45,18 @@ def prove(
     seconds: Second,
     progress: Callable[[Iterator[Bound]], Iterable[Bound]] = iter,
 ) -> Plan:
-    """The plan with a better lower bound of the time: the more time, the better.
+    """The plan with a better lower bound of its time; the longer it may take, the better.
 
-    A plan that is proved optimal already comes back as it is. One whose bound comes within
-    `TOLERANCE` of its time does so as soon as that is known.
+    A plan already proved optimal is returned as it is. The search ends early once the bound is
+    within `TOLERANCE` of the plan's time.
 
     Args:
         plan: made by any planner.
-        seconds: how long to go on at most, 0 to `MAX_SECONDS` [s]; loading the kernels not counted.
+        seconds: how long to search at most, 0 to `MAX_SECONDS` [s], without loading the kernels.
         progress: passes the reports through, to show them.
 
     Raises:
-        ValueError: if `seconds` is not such a time, or `plan` is no plan.
+        ValueError: if `seconds` is out of range, or `plan` is not a plan.
     """
     expect("plan", plan, Plan)
     seconds = check_seconds(seconds)
@@ -73,13 +73,13 @@ def check_seconds(seconds: object) -> Second:
     """The time that a proof may take [s].
 
     Raises:
-        ValueError: if it may take no such time, saying which ones it may.
+        ValueError: if it is out of range, naming the range.
     """
     return within("The time for a proof", seconds, 0.0, MAX_SECONDS, "s")
 
 
 def bounds(plan: Plan, *, seconds: Second) -> Iterator[Bound]:
-    """Reports of ever better bounds, some twenty a second, none worse than the last."""
+    """Reports of rising bounds, some twenty a second."""
     pursuer = plan.situation.pursuer
     scale = pursuer.turn_radius / pursuer.tas
     time = plan.time_to_converge
@@ -102,7 +102,7 @@ def bounds(plan: Plan, *, seconds: Second) -> Iterator[Bound]:
 
 
 def _steps(plan: Plan, time: float) -> Iterator[float]:
-    """Bounds of the plan's time [R/V_P], in ever new rounds until there are no better ones."""
+    """Bounds of the plan's time [R/V_P], round after round until there is no better one."""
     found = candidates(plan.situation)
     frame, slot = found.frame, question_of(found)
     slot.warm_up()

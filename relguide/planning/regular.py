@@ -6,8 +6,8 @@ and pair i leads from node i + 1 to node i. The turn of a pair is flown before i
 order of the triplet: (21) counts T* back from the end of the pair and compares it with l/V_P, which
 is the straight's own time only if the straight comes last.
 
-Any trajectory of turns at nominal bank and straights is a regular one if a pair may be a half: a
-straight that follows no turn has θ = 0 and ε = +1, a turn that no straight follows has l = 0. So
+Any trajectory of turns at nominal bank and straights is a regular one if half a pair may be
+missing: a straight after no turn has θ = 0 and ε = +1, a turn before no straight has l = 0. So
 CSC is of order 3, with l₁ = 0; CCC of order 4, with l₁ = l₂ = l₃ = 0; SCSC of order 4, with θ₃ = 0.
 """
 
@@ -20,7 +20,7 @@ from relguide.planning.trajectory import LEFT, Arc, BoundaryArc, Segment, Straig
 from relguide.units import Metre, Radian
 
 SAME_RADIUS = 1e-9
-"""Radii that differ by less than this part of themselves are one."""
+"""Radii whose relative difference is less than this are equal."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -54,7 +54,7 @@ class RegularTrajectory:
     """Numbered backward from the slot: the first is i = 1, flown last."""
 
     def __post_init__(self) -> None:
-        """Refuse what is no list of triplets."""
+        """Refuse anything but triplets."""
         expect("triplets", self.triplets, tuple)
         for i, triplet in enumerate(self.triplets, start=1):
             expect(f"triplet {i}", triplet, Triplet)
@@ -110,7 +110,7 @@ def regular_from_trajectory(trajectory: Trajectory, *, turn_radius: Metre) -> Re
 
 
 def trajectory_from_regular(regular: RegularTrajectory, situation: Situation) -> Trajectory:
-    """What the pursuer flies from its present state (18); what has no length is left out.
+    """What the pursuer flies from its present state (18), without pieces of no length.
 
     Args:
         regular: the parameters.

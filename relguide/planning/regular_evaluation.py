@@ -1,8 +1,8 @@
 """evaluate(regular, situation): what the paper asks of a regular trajectory, (17)–(24) corrected.
 
-The leader keeps straight. Nodes are laid forward from the pursuer's state (18); what is then left
-at the slot is the error of (19). Laid backward from the slot, as the paper numbers them, the error
-is that of (18). The separation (20) is tested pair by pair: the straight in closed form, the turn
+The leader keeps straight. Nodes are laid forward from the pursuer's state (18); their error at the
+slot is that of (19). Laid backward from the slot, as the paper numbers them, the error is that of
+(18). The separation (20) is tested pair by pair: the straight in closed form, the turn
 as the arc it is, which (21)–(24) lay out as a straight.
 """
 
@@ -43,7 +43,7 @@ class PairSeparation:
     turn_least: Metre
     """Least separation during the turn, flown as the arc it is [m]."""
     turn_bound: Metre
-    """What is proved of it: nowhere on the arc is it below this [m]."""
+    """A proved lower bound of it [m]."""
     t_star: Second
     """T_i* of (21), counted back from node i: where two endless straights would be closest [s]."""
     straight_least: Metre

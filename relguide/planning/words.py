@@ -24,7 +24,7 @@ from relguide.units import Metre, Second
 
 HORIZON: Second = 43_200.0
 """Plans longer than this are not given: 12 hours, longer than any aircraft's fuel lasts [s]. At
-speeds that hardly differ paths have up to 10¹⁸ s, where rounding is all there is."""
+nearly equal speeds paths last up to 10¹⁸ s, and their lengths are nothing but rounding."""
 SIGN_ROWS: list[list[float]] = SIGNS.tolist()
 """`SIGNS` as lists."""
 
@@ -54,7 +54,7 @@ class Candidates:
     frame: SlotFrame
     rows: np.ndarray
     """The extremals that arrive after the slot opens, fastest first, as `solve` gives them: those
-    within the horizon; the first in any case, if no other path is known."""
+    within the horizon; if no other path is known, the first even if it is beyond."""
     at_release: tuple[Candidate, ...]
     """Paths that arrive exactly when the slot opens, all equally fast; fewest turns first."""
     reachable_at_release: bool
@@ -138,7 +138,7 @@ def assemble(
 
 
 def candidate_of(pursuer: Pursuer, segments: tuple[Segment, ...], word: str = "") -> Candidate:
-    """Segments that lead the pursuer to the slot; their letters are the word if none is given."""
+    """A candidate from segments that lead to the slot; without a word, their letters are it."""
     trajectory = pursuer.flying(segments)
     return Candidate(word=word or trajectory.letters, trajectory=trajectory)
 
@@ -146,7 +146,7 @@ def candidate_of(pursuer: Pursuer, segments: tuple[Segment, ...], word: str = ""
 def segments_of(
     radius: Metre, signs: Sequence[float], amounts: Sequence[float]
 ) -> tuple[Segment, ...]:
-    """Pieces of the slot frame as segments; what is only rounding is left out, like meets like.
+    """Pieces of the slot frame as segments; rounding is left out, equal neighbours are joined.
 
     Args:
         radius: R [m].

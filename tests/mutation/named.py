@@ -50,8 +50,8 @@ NAMED = (
     Named(
         name="a second path of a word, faster than the plan",
         file="relguide/planning/alternatives.py",
-        before="if twice or (way in seen and not faster):",
-        after="if twice or way in seen:",
+        before="if twice or (branch in seen and not faster):",
+        after="if twice or branch in seen:",
     ),
     Named(
         name="how much faster another plan must be",

@@ -272,7 +272,7 @@ def test_a_parked_aircraft_is_no_leader(file: Path) -> None:
 def test_of_several_flights_one_must_be_chosen(file: Path) -> None:
     other = [{**r, "callsign": "OTHER"} for r in rows(100)]
     written(file, rows(200) + other)
-    with pytest.raises(ValueError, match=r"choose one\. It has 2, such as OTHER, TEST12\."):
+    with pytest.raises(ValueError, match=r"choose one\. It has 2, for example OTHER, TEST12\."):
         load_track(file)
     with pytest.raises(ValueError, match="has no flight 'NONE'"):
         load_track(file, "NONE")
@@ -338,7 +338,7 @@ def test_a_sample_agrees_with_what_was_broadcast() -> None:
 
 @pytest.mark.slow
 def test_an_unknown_callsign_is_told_others() -> None:
-    with pytest.raises(ValueError, match=r"no flight 'NONE'\. It has \d+, such as ABR471, "):
+    with pytest.raises(ValueError, match=r"no flight 'NONE'\. It has \d+, for example ABR471, "):
         load_sample("NONE")
 
 
