@@ -112,7 +112,7 @@ class OptimalityCard:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AlternativeCard:
-    """Another way to the slot that lost because it is no faster.
+    """Another path to the slot that lost because it is no faster.
 
     `as_fast`: it arrives with the plan. `faster`: it keeps the limit and was not found, which only
     a planner that is not exact lets happen.
@@ -133,7 +133,7 @@ class AlternativeCard:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class UnsafeAlternativeCard:
-    """Another way to the slot that lost because it comes too close."""
+    """Another path to the slot that lost because it comes too close."""
 
     word: str
     time_to_converge: Second
@@ -310,7 +310,7 @@ class PlanUnavailable:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlanRefused:
-    """The planner's own plan may not be flown; the exact plan stands in, if there is one.
+    """The planner's own plan may not be flown; the exact plan, if there is one, takes its place.
 
     Said once while the fault stays the same.
     """

@@ -114,7 +114,7 @@ export interface AircraftSample {
 }
 
 /**
- * Another way to the slot that lost because it is no faster.
+ * Another path to the slot that lost because it is no faster.
  *
  * `as_fast`: it arrives with the plan. `faster`: it keeps the limit and was not found, which only
  * a planner that is not exact lets happen.
@@ -542,7 +542,7 @@ export interface PlanChanged {
 }
 
 /**
- * The planner's own plan may not be flown; the exact plan stands in, if there is one.
+ * The planner's own plan may not be flown; the exact plan, if there is one, takes its place.
  *
  * Said once while the fault stays the same.
  */
@@ -720,7 +720,7 @@ export interface TurnSegment {
   end: PathPoint;
 }
 
-/** Another way to the slot that lost because it comes too close. */
+/** Another path to the slot that lost because it comes too close. */
 export interface UnsafeAlternativeCard {
   word: string;
   time_to_converge_s: number;

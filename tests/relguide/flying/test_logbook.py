@@ -42,7 +42,7 @@ def test_a_reversal_is_a_turn_to_the_other_side(
     assert (total.bank_reversals, total.banked) == (reversals, side)
 
 
-def test_way_and_swing_are_counted_until_joined_and_separation_always() -> None:
+def test_track_and_swing_are_counted_until_joined_and_separation_always() -> None:
     total = tally(0.0, 25.0, -25.0)
     assert total.track == pytest.approx(400.0)
     assert total.heading_swing == pytest.approx(0.2)

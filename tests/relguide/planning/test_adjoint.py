@@ -128,7 +128,7 @@ def test_h_changes_only_while_the_leader_turns_and_is_0_after(situation: Situati
             assert h[1] - h[0] == pytest.approx(0.0, abs=1e-7)
 
 
-def test_a_ride_along_the_limit_has_a_multiplier_above_0() -> None:
+def test_a_boundary_arc_has_a_multiplier_above_0() -> None:
     """λ_ψ ≡ 0 and H = 0 on it, and what (11) is short of without μ is that μ, above 0."""
     answer = planned(RIDING)
     assert "B" in answer.word

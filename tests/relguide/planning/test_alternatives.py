@@ -211,7 +211,7 @@ def test_of_a_word_with_two_paths_both_are_listed_if_both_are_faster() -> None:
     assert second.time_to_converge == pytest.approx(401.25, abs=0.01)
 
 
-def test_of_each_way_only_the_fastest_is_listed_of_what_is_slower_than_the_plan() -> None:
+def test_of_slower_paths_only_the_fastest_of_each_branch_is_listed() -> None:
     """A way is a word, which middle arc it has, and how it passes the leader."""
     left_out = 0
     for situation in map(random_start, range(60)):
@@ -243,7 +243,7 @@ def test_straight_behind_four_words_are_one_path() -> None:
     assert sorted(same) == ["LSR", "RSL", "RSR"]
 
 
-def test_ways_round_the_leader_are_told_apart() -> None:
+def test_paths_round_the_leader_are_distinguished() -> None:
     """From the left of a leader flying north: behind it goes counter-clockwise, ahead clockwise."""
     situation = Situation(
         pursuer=Pursuer(x=-15_000.0, y=0.0, heading=0.0, tas=220.0, max_bank=25.0 * DEG),
@@ -266,7 +266,7 @@ def test_ways_round_the_leader_are_told_apart() -> None:
     assert (other_side.where, other_side.side) == ("behind", RIGHT)
 
 
-def test_a_plan_that_is_not_the_fastest_is_told_so() -> None:
+def test_of_a_plan_that_is_not_the_fastest_it_is_said() -> None:
     """As a planner that is not exact may give: never hidden."""
     situation = straight_behind()
     answer = planned(replace(situation, pursuer=replace(situation.pursuer, heading=1.0)))

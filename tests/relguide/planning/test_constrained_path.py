@@ -76,7 +76,7 @@ RIDING = Situation(
 )
 
 
-def test_a_ride_keeps_to_the_limit() -> None:
+def test_a_boundary_arc_keeps_to_the_limit() -> None:
     answer = plan(RIDING)
     assert isinstance(answer, Plan)
     (boundary_arc,) = [s for s in answer.trajectory.segments if isinstance(s, BoundaryArc)]
@@ -128,7 +128,7 @@ def test_a_ride_keeps_to_the_limit() -> None:
         ),
     ],
 )  # fmt: skip
-def test_two_contacts_without_a_ride_between_beat_one(
+def test_two_contacts_without_a_boundary_arc_between_beat_one(
     situation: Situation, touching_once: float
 ) -> None:
     """Direct transcription found these, 1.9 s and 2.95 s faster than any way that touches once."""
@@ -161,7 +161,7 @@ WAITING_BEHIND = Situation(
 """The slot could be reached before it opens, but no path of the right length keeps d_min alone."""
 
 
-def test_a_way_that_touches_the_limit_may_wait_for_the_slot() -> None:
+def test_a_path_that_touches_the_limit_may_be_a_delay() -> None:
     found = candidates(WAITING_BEHIND)
     assert not any(certify(c.trajectory, WAITING_BEHIND).holds for c in found.at_release)
     answer = plan(WAITING_BEHIND)
@@ -194,7 +194,7 @@ LEAVING_STRAIGHT = Situation(
 
 
 @pytest.mark.parametrize("off", [0.0, 1e-7, -1e-7, 1e-5])
-def test_a_ride_is_closed_by_the_word_it_was_searched_with(off: float) -> None:
+def test_a_boundary_arc_is_closed_by_the_word_it_was_searched_with(off: float) -> None:
     """Rounding of the boundary arc's last node once cost the right word, and 1,553 s."""
     situation = Situation(
         pursuer=Pursuer(

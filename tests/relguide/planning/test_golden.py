@@ -72,7 +72,9 @@ def test_with_the_limit_active_the_best_known_time_is_met_or_beaten(name: str, i
 @pytest.mark.parametrize(
     ("name", "i"), [p for p in cases("reference", "best_known") if p.values[1] % 3 == 0]
 )
-def test_a_detour_flown_by_scipy_arrives_and_keeps_its_distance(name: str, i: int) -> None:
+def test_a_constrained_path_flown_by_scipy_arrives_and_keeps_its_distance(
+    name: str, i: int
+) -> None:
     situation, _ = golden(name)[i]
     answer = flown(situation)
     distance, heading_error, least = arrival_error(situation, answer.trajectory)

@@ -20,7 +20,7 @@ from relguide.units import NM
         (0.0, "0 m"),
     ],
 )
-def test_short_distances_are_told_in_metres(length: float, said: str) -> None:
+def test_short_distances_are_given_in_metres(length: float, said: str) -> None:
     assert distance(length) == said
 
 
@@ -31,7 +31,7 @@ def test_nobody_comes_within_what_reads_like_the_limit(least: float, limit: floa
     assert "0.00 NM" not in said
 
 
-def test_what_reads_like_the_limit_is_told_by_what_it_lacks() -> None:
+def test_a_distance_that_reads_like_the_limit_is_given_by_its_difference() -> None:
     assert too_close(9259.0, 9260.0) == "1.0 m too close"
     assert too_close(1852.0, 9260.0) == "within 1.00 NM"
     assert too_close(3.0, 9260.0) == "within 3 m"

@@ -75,7 +75,7 @@ def test_pairs_count_backward_from_the_slot_and_may_be_halves(
     assert trajectory_from_regular(regular, straight_behind()).segments == word
 
 
-def test_other_radii_and_rides_are_not_regular() -> None:
+def test_other_radii_and_boundary_arcs_are_not_regular() -> None:
     with pytest.raises(ValueError, match="turns at one radius"):
         regular_from_trajectory(flown(straight_behind(), L), turn_radius=2.0 * RADIUS)
     boundary_arc = BoundaryArc(side=LEFT, bends=((100.0, -1e-5),))

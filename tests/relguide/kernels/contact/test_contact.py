@@ -44,7 +44,7 @@ def test_a_contact_is_tangent(bearing: float, side: float, alpha: float) -> None
 
 
 @given(bearing=headings, side=sides, alpha=numbers(0.3, 1.3), turning=turn_rates)
-def test_a_ride_turns_as_fast_as_the_contact_heading_does(
+def test_a_boundary_arc_turns_as_fast_as_the_contact_heading_does(
     bearing: float, side: float, alpha: float, turning: float
 ) -> None:
     assume(abs(alpha * cos(bearing)) < 0.99)
@@ -56,7 +56,7 @@ def test_a_ride_turns_as_fast_as_the_contact_heading_does(
 
 
 @given(bearing=headings, side=sides, alpha=numbers(0.3, 0.95), turning=turn_rates)
-def test_a_ride_takes_as_long_as_its_rate_says(
+def test_a_boundary_arc_takes_as_long_as_its_rate_says(
     bearing: float, side: float, alpha: float, turning: float
 ) -> None:
     disc = Disc(alpha, 3.0, side, turning)
@@ -91,7 +91,7 @@ def flown_leader(alpha: float) -> np.ndarray:
 
 
 @given(bearing=headings, side=sides, alpha=numbers(0.4, 1.2), length=numbers(0.2, 2.5))
-def test_the_arcs_of_a_ride_keep_their_distance(
+def test_the_arcs_of_a_boundary_arc_keep_their_distance(
     bearing: float, side: float, alpha: float, length: float
 ) -> None:
     scene, begin = Scene(flown_leader(alpha), alpha, 3.0, 0.0), 1.0
