@@ -1,4 +1,4 @@
-"""Hypothesis branches for documents, made from their types."""
+"""Hypothesis strategies for documents, made from their types."""
 
 from dataclasses import is_dataclass
 from enum import Enum

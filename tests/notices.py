@@ -101,12 +101,16 @@ def _notice(about: Distribution) -> Notice:
     fields = about.metadata
     classes = [line.rpartition(" :: ")[2] for line in fields.get_all("Classifier", [])
                if line.startswith("License ::")]  # fmt: skip
-    said = [fields["License-Expression"], *classes, (fields["License"] or "").partition("\n")[0]]
+    said = [
+        fields.get("License-Expression", ""),
+        *classes,
+        fields.get("License", "").partition("\n")[0],
+    ]
     licence = next(name for name in said if name and name != "OSI Approved")
     links = dict(line.split(", ", 1) for line in fields.get_all("Project-URL", []))
     home = next(
         (links[key] for key in links if key.lower() in ("homepage", "repository", "source")),
-        fields["Home-page"] or f"https://pypi.org/project/{fields['Name']}/",
+        fields.get("Home-page") or f"https://pypi.org/project/{fields['Name']}/",
     )
     return Notice(fields["Name"], LICENCES.get(licence, licence), home)
 

@@ -29,6 +29,8 @@ def pieces_of_intent(situation: Situation) -> list[Piece]:
             case TurnTo():
                 rate = -piece.turn * G0 * tan(piece.bank) / leader.tas
                 change = (piece.heading - heading) % (2.0 * pi)
+                if 2.0 * pi - change < 1e-9:  # a full turn that only rounding makes is none
+                    change = 0.0
                 if rate < 0.0:
                     change = (2.0 * pi - change) % (2.0 * pi)
                 pieces.append((change / abs(rate), rate))

@@ -1,4 +1,4 @@
-"""Hypothesis branches for situations, near-degenerate ones on purpose, and the golden cases."""
+"""Hypothesis strategies for situations, near-degenerate ones on purpose, and the golden cases."""
 
 import json
 from functools import cache

@@ -1,6 +1,6 @@
 """A bound for a set of poses never lies above the exact time from any pose of it."""
 
-from math import cos, inf, pi, sin
+from math import cos, hypot, inf, pi, sin
 
 import numpy as np
 from hypothesis import given
@@ -126,7 +126,8 @@ def test_an_interception_lies_within_its_span(
     least, greatest = intercept_span(*e, Velocity(ax, ay), blur)
     ex, ey = e[0] + far * blur * cos(way), e[1] + far * blur * sin(way)
     for l in np.roots([1.0 - ratio * ratio, -2.0 * (ax * ex + ay * ey), -(ex * ex + ey * ey)]):
-        if abs(l.imag) < 1e-12 and l.real >= 0.0 and l.real < 1e6:
+        is_real = abs(l.imag) < 1e-12 * max(hypot(ex, ey), abs(l.real))
+        if is_real and 0.0 <= l.real < 1e6:
             slack = 1e-6 * (1.0 + l.real)
             assert least - slack <= l.real <= greatest + slack
 
