@@ -8,7 +8,7 @@ from rich.table import Table
 from rich.text import Text
 
 from relguide.cli.shared_tables import clock, miles
-from relguide.flying.documents import (
+from relguide.flying.plan_documents import (
     AlternativeCard,
     AnyAlternativeCard,
     BoundarySegment,

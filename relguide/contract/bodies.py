@@ -15,7 +15,7 @@ from pydantic import Discriminator, Field, Tag
 
 from relguide.contract.refusal import ContractError, Strict, parse
 from relguide.contract.wire import to_wire
-from relguide.flying.documents import Direction, PlanCard
+from relguide.flying.plan_documents import Direction, PlanCard
 from relguide.planning import limits
 from relguide.planning.frames import LocalPlane
 from relguide.planning.situation import (

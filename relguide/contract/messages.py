@@ -25,17 +25,15 @@ from pydantic import (
 from relguide.contract.bodies import SituationBody, Tas
 from relguide.contract.refusal import Strict, loads, refusal
 from relguide.contract.wire import WireField, wire_fields
-from relguide.flying.documents import (
+from relguide.flying.documents import Document, Mode, ReferenceCard
+from relguide.flying.plan_documents import (
     AnyAlternativeCard,
     Direction,
-    Document,
-    Mode,
     NoPlanCard,
     OptimalityCard,
     PathPoint,
     PathSegment,
     PlanCard,
-    ReferenceCard,
 )
 from relguide.flying.verdicts import OptimalityCheck
 

@@ -18,7 +18,13 @@ from relguide.contract.messages import (
     Tick,
 )
 from relguide.contract.typescript import typescript
-from relguide.flying.documents import Direction, Fault, LeaderChange, Mode, PlanReason
+from relguide.flying.documents import (
+    Fault,
+    LeaderChange,
+    Mode,
+    PlanReason,
+)
+from relguide.flying.plan_documents import Direction
 from relguide.planning.plan import Proof, Reason
 
 _ALIASES: dict[str, tuple[Any, str]] = {

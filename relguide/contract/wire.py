@@ -16,11 +16,9 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_typ
 
 import orjson
 
-from relguide.flying.documents import (
-    AircraftCard,
-    AircraftSample,
+from relguide.flying.documents import AircraftCard, AircraftSample, Document
+from relguide.flying.plan_documents import (
     AnyAlternativeCard,
-    Document,
     NoPlanCard,
     PathPoint,
     PlanCard,

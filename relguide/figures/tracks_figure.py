@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from html import escape
 from math import ceil, floor, log10
 
-from relguide.flying.documents import PathPoint
+from relguide.flying.plan_documents import PathPoint
 from relguide.planning.situation import Situation
 from relguide.planning.slot import over_ground
 from relguide.planning.trajectory import Trajectory

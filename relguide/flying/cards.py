@@ -5,7 +5,8 @@ from dataclasses import replace
 from math import atan2, ceil, pi
 from typing import assert_never
 
-from relguide.flying.documents import (
+from relguide.flying.documents import WindCard
+from relguide.flying.plan_documents import (
     AlternativeCard,
     AnyAlternativeCard,
     ArrivalCard,
@@ -22,7 +23,6 @@ from relguide.flying.documents import (
     StraightSegment,
     TurnSegment,
     UnsafeAlternativeCard,
-    WindCard,
 )
 from relguide.flying.verdicts import BoundaryArcCard, ContactCard, CostatesCard, OptimalityCheck
 from relguide.kernels.base.angles import wrap

@@ -14,7 +14,6 @@ from relguide.flying.documents import (
     HeadingReference,
     LeaderRoute,
     ModeChanged,
-    PathPoint,
     PlanChanged,
     PlanRefused,
     PlanUnavailable,
@@ -23,6 +22,7 @@ from relguide.flying.documents import (
     TurnRateReference,
 )
 from relguide.flying.memory import Advice
+from relguide.flying.plan_documents import PathPoint
 from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.base.turn import turn_rate
 from relguide.planning.alternatives import alternatives

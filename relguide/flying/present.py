@@ -2,13 +2,8 @@
 
 from collections.abc import Sequence
 
-from relguide.flying.documents import (
-    FlightStarted,
-    LeaderRoute,
-    Sample,
-    StraightSegment,
-    TurnSegment,
-)
+from relguide.flying.documents import FlightStarted, LeaderRoute, Sample
+from relguide.flying.plan_documents import StraightSegment, TurnSegment
 from relguide.kernels.base.angles import wrap
 from relguide.planning.situation import (
     FlyStraight,

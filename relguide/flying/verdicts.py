@@ -5,7 +5,7 @@ As in `documents`, `contract/wire.py` gives each its JSON form.
 
 from dataclasses import dataclass
 
-from relguide.flying.documents import PathPoint, PathSegment, Separation
+from relguide.flying.plan_documents import PathPoint, PathSegment, Separation
 from relguide.planning.optimality import FixedBy
 from relguide.units import Metre, PerMetre, Radian, Second, SecondPerMetre, SecondPerRadian
 

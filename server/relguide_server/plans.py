@@ -12,7 +12,7 @@ from relguide.contract.answers import Include, answer, read_include
 from relguide.contract.bodies import Anchor, NamedSituationBody, SituationBody, situation_from_body
 from relguide.contract.messages import PlanAnswer, model_of
 from relguide.contract.refusal import ContractError, parse
-from relguide.flying.documents import NoPlanCard, PlanCard
+from relguide.flying.plan_documents import NoPlanCard, PlanCard
 from relguide.planning.plan import Planner
 from relguide.planning.situation import Situation
 from relguide_server.errors import Refusal

@@ -9,7 +9,12 @@ from math import cos, hypot, pi, sin
 import numpy as np
 from numpy.typing import NDArray
 
-from relguide.flying.documents import BoundarySegment, PathSegment, StraightSegment, TurnSegment
+from relguide.flying.plan_documents import (
+    BoundarySegment,
+    PathSegment,
+    StraightSegment,
+    TurnSegment,
+)
 
 Points = NDArray[np.float64]
 """(n, 3) or, as line segments, (n, 2, 3)."""

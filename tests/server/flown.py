@@ -14,10 +14,10 @@ from relguide.flying.documents import (
     LeaderChanged,
     LeaderRoute,
     ModeChanged,
-    PathPoint,
     PlanChanged,
     Sample,
 )
+from relguide.flying.plan_documents import PathPoint
 from relguide.planning.alternatives import alternatives
 from relguide.planning.plan import Plan, plan
 from relguide.planning.situation import (

@@ -10,12 +10,8 @@ from relguide_server.scene import Scene
 from relguide_server.scene_shapes import ALTITUDE_SCALE
 from viser import ViserServer
 
-from relguide.flying.documents import (
-    Document,
-    NoPlanCard,
-    PlanUnavailable,
-    Sample,
-)
+from relguide.flying.documents import Document, PlanUnavailable, Sample
+from relguide.flying.plan_documents import NoPlanCard
 from relguide.planning.plan import Reason
 from tests.server.flown import ideal_flight
 

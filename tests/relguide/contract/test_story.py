@@ -5,7 +5,12 @@ from dataclasses import replace
 import pytest
 
 from relguide.contract.story import failures, figures, story_of
-from relguide.flying.documents import AircraftCard, FlightEnded, FlightStarted, WindCard
+from relguide.flying.documents import (
+    AircraftCard,
+    FlightEnded,
+    FlightStarted,
+    WindCard,
+)
 from relguide.units import DEG, NM
 from tests.relguide.contract.test_wire import SAMPLE
 

@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 from relguide.contract.messages import Tick, from_wire
 from relguide.contract.refusal import ContractError, parse
 from relguide.contract.wire import dumps, tick, to_wire
-from relguide.flying.documents import AircraftSample, HeadingReference, PathPoint, Sample
+from relguide.flying.documents import AircraftSample, HeadingReference, Sample
+from relguide.flying.plan_documents import PathPoint
 from tests.documents import documents
 
 AIRCRAFT = AircraftSample(

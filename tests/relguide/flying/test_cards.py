@@ -22,7 +22,7 @@ from relguide import (
     wind_from,
 )
 from relguide.flying.cards import no_plan_card, path_segments, plan_card, wind_card
-from relguide.flying.documents import (
+from relguide.flying.plan_documents import (
     AlternativeCard,
     BoundarySegment,
     EarlyAlternativeCard,

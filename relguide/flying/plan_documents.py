@@ -1,0 +1,191 @@
+"""Plans and their paths as outsiders read them: what documents and answers are made of.
+
+Units, frames and times as in `documents`.
+"""
+
+from dataclasses import dataclass
+from typing import Literal
+
+from relguide.planning.plan import Proof, Reason
+from relguide.units import Metre, Millisecond, Radian, Second
+
+Direction = Literal["left", "right"]
+Passes = Literal["behind", "ahead"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PathPoint:
+    """A place and a heading along a path, over the ground."""
+
+    t: Second
+    x: Metre
+    y: Metre
+    heading: Radian
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TurnSegment:
+    """A turn at constant bank. In wind its ground path is a trochoid: air-mass arc + wind × t."""
+
+    direction: Direction
+    angle: Radian
+    bank: Radian
+    """|φ| [rad]."""
+    radius: Metre
+    duration: Second
+    start: PathPoint
+    end: PathPoint
+    kind: Literal["turn"] = "turn"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StraightSegment:
+    """A piece at constant heading."""
+
+    length: Metre
+    """In the air mass [m]."""
+    duration: Second
+    start: PathPoint
+    end: PathPoint
+    kind: Literal["straight"] = "straight"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BoundarySegment:
+    """A boundary arc along d = d_min with less than full bank."""
+
+    side: Direction
+    """The side it turns to: left boundary arcs counter-clockwise round the leader."""
+    duration: Second
+    start: PathPoint
+    end: PathPoint
+    via: tuple[PathPoint, ...]
+    """Points between, close enough to draw straight lines."""
+    kind: Literal["boundary"] = "boundary"
+
+
+PathSegment = TurnSegment | StraightSegment | BoundarySegment
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Separation:
+    """Least separation along a plan, and what is proved of it."""
+
+    least: Metre
+    at: Second
+    proved_above: Metre
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ArrivalCard:
+    """How a plan's end meets eq. (7): the pursuer at the slot, on the leader's heading, it open."""
+
+    slot_error: Metre
+    """Distance from the slot when the plan ends."""
+    heading_error: Radian
+    """Between its last heading and the leader's final one."""
+    early: Second
+    """How long before the slot opens it ends; 0 if the slot is open then."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OptimalityCard:
+    """What is proved of a plan's time; and, if asked for, how it meets Pontryagin's conditions."""
+
+    proof: Proof
+    lower_bound: Second
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AlternativeCard:
+    """Another path to the slot that lost because it is no faster.
+
+    `as_fast`: it arrives with the plan. `faster`: it keeps the limit and was not found, which only
+    a planner that is not exact lets happen.
+    """
+
+    word: str
+    time_to_converge: Second
+    turning: Radian
+    """How much it turns in all, left and right added."""
+    passes: Passes
+    """Whether it crosses the line ahead of the leader on its final leg."""
+    side: Direction
+    """How it goes round the leader: left is counter-clockwise, with the leader on its left hand."""
+    why: str
+    """Why it is not flown, e.g. `38 s slower`."""
+    rejected: Literal["slower", "as_fast", "faster"] = "slower"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class UnsafeAlternativeCard:
+    """Another path to the slot that lost because it comes too close."""
+
+    word: str
+    time_to_converge: Second
+    turning: Radian
+    """How much it turns in all, left and right added."""
+    passes: Passes
+    """Whether it crosses the line ahead of the leader on its final leg."""
+    side: Direction
+    """How it goes round the leader: left is counter-clockwise, with the leader on its left hand."""
+    least_separation: Metre
+    at: Second
+    why: str
+    """Why it is not flown, e.g. `comes within 4.22 NM at 212 s`."""
+    rejected: Literal["separation"] = "separation"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EarlyAlternativeCard:
+    """A word that reaches the place of the slot before it opens."""
+
+    word: str
+    time_to_converge: Second
+    release_time: Second
+    """When the slot opens."""
+    why: str
+    rejected: Literal["not_open"] = "not_open"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MissingAlternativeCard:
+    """A word of which no path reaches the slot."""
+
+    word: str
+    why: str
+    rejected: Literal["no_root"] = "no_root"
+
+
+AnyAlternativeCard = (
+    AlternativeCard | UnsafeAlternativeCard | EarlyAlternativeCard | MissingAlternativeCard
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlanCard:
+    """A plan as outsiders read it: the answer of REST, of the command line, and of the display."""
+
+    planner: str
+    """Who made it: `exact`, `network`, `regular_dp`, or the name of a planner of one's own."""
+    word: str
+    time_to_converge: Second
+    length: Metre
+    """Path length in the air mass [m]."""
+    segments: tuple[PathSegment, ...]
+    separation: Separation
+    arrival: ArrivalCard
+    optimality: OptimalityCard
+    alternatives: tuple[AnyAlternativeCard, ...] = ()
+    """By time; words without any path last. In an answer only if asked for."""
+    compute: Millisecond
+    status: Literal["planned"] = "planned"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NoPlanCard:
+    """No plan, why, and what would help."""
+
+    reason: Reason
+    message: str
+    status: Literal["no_plan"] = "no_plan"
