@@ -1,0 +1,7 @@
+"""`python -m relguide.warm_up`."""
+
+import sys
+
+from relguide.warm_up import main
+
+sys.exit(main())
