@@ -9,14 +9,11 @@ min Σ (xᵢ − ∫v − f(tᵢ))² + λ ∫ f″², which passes what takes lo
 """
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from relguide.planning.extras import need
-
-Array = NDArray[np.float64]
+from relguide.flying.spline import Array, smoothing_spline
 
 MAX_GAP = 30.0
 """Longest silence that is bridged [s]: surveillance drops a track after as long."""
@@ -92,12 +89,16 @@ def smooth_motion(
         flown, smoothing = np.zeros((len(grid), 2)), BARE_SMOOTHING
     base = np.vstack([np.zeros(2), np.cumsum((flown[1:] + flown[:-1]) * (step / 2.0), axis=0)])
     left = heard - np.column_stack([np.interp(at, grid, base[:, k]) for k in (0, 1)])
-    correction = _spline(at, left, smoothing)
+    correction = smoothing_spline(at, left, smoothing**4)
     # what is still far off is no noise: fit once more without it
-    near = np.hypot(*(correction(at) - left).T) < POSITION_SLACK
-    correction = _spline(at[near], left[near], smoothing)
-    x, y = (base + correction(grid)).T
-    east, north = (flown + correction(grid, 1)).T
+    near = np.hypot(*(correction.at(at) - left).T) < POSITION_SLACK
+    if near.sum() < MIN_POINTS:
+        raise ValueError(
+            f"has only {near.sum()} positions near a smooth path; {MIN_POINTS} are needed."
+        )
+    correction = smoothing_spline(at[near], left[near], smoothing**4)
+    x, y = (base + correction.at(grid)).T
+    east, north = (flown + correction.slope_at(grid)).T
     level = _altitude_on(grid, t, altitude)
     return SmoothMotion(t=grid, x=x, y=y, east=east, north=north, altitude=level)
 
@@ -107,8 +108,8 @@ def _velocity_on(grid: Array, t: Array, velocity: Array) -> Array | None:
     at, heard = _chain(t, velocity, MAX_ACCELERATION, VELOCITY_SLACK)
     if len(at) < MIN_POINTS or at[0] > grid[0] + MAX_GAP or at[-1] < grid[-1] - MAX_GAP:
         return None
-    smooth: Array = _spline(at, heard, VELOCITY_SMOOTHING)(np.clip(grid, at[0], at[-1]))
-    return smooth
+    smooth = smoothing_spline(at, heard, VELOCITY_SMOOTHING**4)
+    return smooth.at(np.clip(grid, at[0], at[-1]))
 
 
 def _altitude_on(grid: Array, t: Array, altitude: Array) -> Array:
@@ -117,8 +118,8 @@ def _altitude_on(grid: Array, t: Array, altitude: Array) -> Array:
     if len(at) < MIN_POINTS:
         raise ValueError(f"has only {len(at)} believable altitudes; {MIN_POINTS} are needed.")
     # constant beyond the altitudes that were heard: a cubic would run away
-    smooth: Array = _spline(at, heard[:, 0], ALTITUDE_SMOOTHING)(np.clip(grid, at[0], at[-1]))
-    return smooth
+    smooth = smoothing_spline(at, heard, ALTITUDE_SMOOTHING**4)
+    return smooth.at(np.clip(grid, at[0], at[-1]))[:, 0]
 
 
 def _chain(t: Array, values: Array, max_rate: float, slack: float) -> tuple[Array, Array]:
@@ -166,11 +167,3 @@ def longest_chain(t: Array, values: Array, max_rate: float, slack: float) -> NDA
         chain.append(i)
         i = int(before[i])
     return np.array(chain[::-1], dtype=np.intp)
-
-
-def _spline(t: Array, values: Array, seconds: float) -> Any:
-    need("scipy")
-    # 0.2 s to import, and only recorded tracks need it
-    from scipy.interpolate import make_smoothing_spline  # type: ignore[import-untyped]
-
-    return make_smoothing_spline(t, values, lam=seconds**4)

@@ -19,7 +19,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from relguide.flying.smoothing import MIN_POINTS, Array, smooth_motion
+from relguide.flying.smoothing import MIN_POINTS, smooth_motion
+from relguide.flying.spline import Array
 from relguide.kernels.base.angles import wrap
 from relguide.planning.frames import LocalPlane
 from relguide.units import DEG, FT, KT, Metre, MetrePerSecond, Radian, Second

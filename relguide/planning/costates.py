@@ -19,8 +19,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from relguide.kernels.base.roots import FloatArray
-from relguide.planning.extras import need
 from relguide.planning.legs import ROUNDING, Cut, Encounter, Leg, Touch, Vector
+from relguide.planning.linear_program import highest_corner
 
 RANK = 1e-8
 """Equations with a singular value below this are left out."""
@@ -207,18 +207,15 @@ def _choose(
 
     If there is no such place z stays as it is: the conditions cannot be met.
     """
-    need("scipy")
-    # 0.3 s to import, and few trajectories leave a choice
-    from scipy.optimize import linprog  # type: ignore[import-untyped]
-
     m = free.shape[1]
     wanted = np.vstack((largest, positive))
-    # maximise s ≤ 1 with largest·(z + free·y) ≥ s
+    # maximise s ≤ 1 with largest·(z + free·y) ≥ s, each of y within ±FARTHEST
     margin = np.concatenate((np.ones(len(largest)), np.zeros(len(positive))))
-    answer = linprog(
-        np.array([0.0] * m + [-1.0]),
-        A_ub=np.column_stack((-wanted @ free, margin)),
-        b_ub=wanted @ z,
-        bounds=[(-FARTHEST, FARTHEST)] * m + [(None, 1.0)],
+    bounds = np.vstack((np.eye(m + 1), -np.eye(m, m + 1)))
+    farthest = np.concatenate((np.full(m, FARTHEST), [1.0], np.full(m, FARTHEST)))
+    best = highest_corner(
+        np.vstack((bounds, np.column_stack((-wanted @ free, margin)))),
+        np.concatenate((farthest, wanted @ z)),
+        np.arange(m + 1),
     )
-    return z + free @ answer.x[:m] if answer.success else z
+    return z if best is None else z + free @ best[:m]

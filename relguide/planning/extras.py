@@ -18,7 +18,6 @@ EXTRAS = {
     "uvicorn": "serve",
     "viser": "serve",
     "websockets": "serve",
-    "scipy": "serve",
     "torch": "learn",
     "matplotlib": "figures",
     "distributed": "cluster",

@@ -168,6 +168,16 @@ def test_a_gap_of_more_than_30_s_cuts(file: Path) -> None:
     assert load_track(written(file, long_gap)).duration == 599.0 - 131.0
 
 
+def test_what_sways_faster_than_any_aircraft_is_refused(file: Path) -> None:
+    swaying = rows()
+    for n, r in enumerate(swaying):
+        x, y, _ = flown(float(n))
+        r["latitude"], r["longitude"] = PLANE.to_geodetic(x + 4000.0 * math.sin(n / 12.0), y)
+    sentence = r"has only \d+ positions near a smooth path; 30 are needed\.$"
+    with pytest.raises(ValueError, match=sentence):
+        load_track(written(file, swaying[:120]))
+
+
 def test_what_is_not_airborne_is_left_out(file: Path) -> None:
     landed = rows(500)
     x, y, _ = flown(499.0)
