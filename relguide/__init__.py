@@ -50,6 +50,7 @@ if typing.TYPE_CHECKING:
     from relguide.planning.batch import TimeRow as TimeRow
     from relguide.planning.batch import Times as Times
     from relguide.planning.batch import plan_arrays as plan_arrays
+    from relguide.planning.candidate import Candidate as Candidate
     from relguide.planning.certificate import Certificate as Certificate
     from relguide.planning.certificate import certify as certify
     from relguide.planning.optimality import OptimalityReport as OptimalityReport
@@ -78,7 +79,6 @@ if typing.TYPE_CHECKING:
     from relguide.planning.trajectory import Pose as Pose
     from relguide.planning.trajectory import Straight as Straight
     from relguide.planning.trajectory import Trajectory as Trajectory
-    from relguide.planning.words import Candidate as Candidate
     from relguide.planning.words import candidates as candidates
 
 __version__ = "0.1.0"
@@ -142,7 +142,7 @@ _HOMES = {
     "RIGHT": "relguide.planning.trajectory",
     "Straight": "relguide.planning.trajectory",
     "Trajectory": "relguide.planning.trajectory",
-    "Candidate": "relguide.planning.words",
+    "Candidate": "relguide.planning.candidate",
     "candidates": "relguide.planning.words",
 }
 """Public names and their modules, loaded when first asked for: numba alone takes 0.3 s."""

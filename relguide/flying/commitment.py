@@ -14,12 +14,13 @@ from relguide.flying.path_distance import SAME_PATH_SHARE, distance_between, is_
 from relguide.flying.steering import remaining, steer
 from relguide.planning.acceptance import Answer, Refusal, ask
 from relguide.planning.arrival import arrival
+from relguide.planning.candidate import Candidate
 from relguide.planning.certificate import certify
 from relguide.planning.plan import AS_FAST, NoPlan, Optimality, Plan, Planner
 from relguide.planning.situation import Situation
 from relguide.planning.slot import over_ground, slot_frame
 from relguide.planning.trajectory import Arc, Pose, Trajectory
-from relguide.planning.words import Candidate, candidates
+from relguide.planning.words import candidates
 from relguide.units import Metre, Second
 
 Cause = Literal["continued", "better_plan", "deviation", "separation"]

@@ -25,13 +25,14 @@ from relguide.kernels.words.extremals import MAX_ROWS, WORDS
 from relguide.learn.boundary.template_network import TemplateNetwork, load_template_network
 from relguide.learn.boundary.template_paths import solve_constrained, view
 from relguide.learn.words.branch_network import BranchNetwork
+from relguide.planning.candidate import SIGN_ROWS, Candidate, candidate_of, segments_of
 from relguide.planning.certificate import Certificate, judge
 from relguide.planning.inputs import expect
 from relguide.planning.plan import NoPlan, Optimality, Plan, Planner, plan
 from relguide.planning.situation import Situation
 from relguide.planning.slot import slot_frame
 from relguide.planning.tables import leader_bends
-from relguide.planning.words import HORIZON, SIGN_ROWS, Candidate, candidate_of, segments_of
+from relguide.planning.words import HORIZON
 from relguide.units import Metre, Second
 
 

@@ -13,6 +13,7 @@ from typing import Literal
 import numpy as np
 
 from relguide.kernels.words.extremals import MAX_ROWS, WORDS, solve
+from relguide.planning.candidate import Candidate
 from relguide.planning.certificate import certify
 from relguide.planning.inputs import expect
 from relguide.planning.passing import Passing, Surroundings, passing, surroundings
@@ -20,7 +21,7 @@ from relguide.planning.phrases import duration, too_close
 from relguide.planning.plan import AS_FAST, Plan
 from relguide.planning.slot import SlotFrame
 from relguide.planning.trajectory import Trajectory
-from relguide.planning.words import Candidate, Candidates, candidates
+from relguide.planning.words import Candidates, candidates
 from relguide.units import Metre, Second
 
 SAME_LENGTH: Metre = 0.01

@@ -2,19 +2,20 @@
 
 import numpy as np
 
-from relguide.kernels.contact.constrained_search import MAX_LEGS, any_path, best_constrained_path
+from relguide.kernels.contact.any_path import any_path
+from relguide.kernels.contact.chain import MAX_LEGS
+from relguide.kernels.contact.constrained_search import best_constrained_path
 from relguide.kernels.contact.path_pieces import pieces_of
 from relguide.kernels.contact.tangent import tangents
-from relguide.planning.tables import scene_of
-from relguide.planning.words import (
-    HORIZON,
+from relguide.planning.candidate import (
     SIGN_ROWS,
     Candidate,
-    Candidates,
     assemble,
     candidate_of,
     segments_flown,
 )
+from relguide.planning.tables import scene_of
+from relguide.planning.words import HORIZON, Candidates
 from relguide.units import Second
 
 BEARINGS = 60

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.separation.clearance import SLACK
 from relguide.planning.arrival import Arrival, arrival
+from relguide.planning.candidate import Candidate
 from relguide.planning.certificate import Certificate, certify, judge
 from relguide.planning.constrained_path import constrained_path
 from relguide.planning.inputs import expect, number
@@ -28,7 +29,7 @@ from relguide.planning.situation import Situation
 from relguide.planning.straight_ahead import first_candidate
 from relguide.planning.tables import bends_of, leader_bends
 from relguide.planning.trajectory import Trajectory, pieces_text
-from relguide.planning.words import HORIZON, Candidate, Candidates, candidates
+from relguide.planning.words import HORIZON, Candidates, candidates
 from relguide.units import KT, Metre, Millisecond, Second
 
 Proof = Literal["relaxation", "bound", "none"]

@@ -6,8 +6,9 @@ keeps d_min, as it does in nine situations of ten. So it is tried alone; `candid
 
 from relguide.kernels.words import straight_leader as kernel
 from relguide.kernels.words.extremals import WORDS
+from relguide.planning.candidate import SIGN_ROWS, Candidate, candidate_of, segments_of
 from relguide.planning.situation import Situation
-from relguide.planning.words import HORIZON, SIGN_ROWS, Candidate, candidate_of, segments_of
+from relguide.planning.words import HORIZON
 from relguide.units import Metre
 
 

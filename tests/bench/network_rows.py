@@ -14,7 +14,7 @@ from numba import njit
 from relguide.kernels.base.angles import TWO_PI
 from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.contact.passage import word_clears
+from relguide.kernels.contact.clear_words import word_clears
 from relguide.kernels.contact.path_pieces import pieces_of
 from relguide.kernels.contact.time_rows import plan_rows
 from relguide.kernels.networks.branch_scores import Layers, choose

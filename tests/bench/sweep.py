@@ -14,8 +14,8 @@ from relguide import Plan, Situation, Trajectory, candidates, certify, plan
 from relguide.kernels.base.records import Pose, Velocity
 from relguide.kernels.contact.contact import contact_heading
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, fly_piece, solve, solve_toward
+from relguide.planning.candidate import assemble
 from relguide.planning.certificate import SLACK
-from relguide.planning.words import assemble
 from tests.bench.cases import Case
 
 GRAZE = 0.3 * SLACK

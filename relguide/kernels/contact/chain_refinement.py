@@ -1,4 +1,4 @@
-"""Chains of contacts refined: their bearings are moved until the arrival falls no more.
+"""Chains of contacts: how they are flown, and how their bearings are moved until nothing is gained.
 
 The arrival is smooth but for edges, where a word between two contacts ceases to exist or a piece
 begins to break the limit. Bearings are moved one after another, by parabolas where the arrival is
@@ -14,14 +14,26 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from relguide.kernels.base.records import Pose, Scene
+from relguide.kernels.base.records import Contact, Pose, Scene
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.contact.chain import WORD, Chain, fly_links, with_contacts
+from relguide.kernels.contact.boundary_arc import boundary_arc_arrival
+from relguide.kernels.contact.chain import (
+    BOUNDARY_ARC,
+    MAX_LEGS,
+    WORD,
+    Chain,
+    chain_of,
+    earliest_contact,
+    with_contacts,
+)
+from relguide.kernels.contact.clear_words import best_word
+from relguide.kernels.contact.contact import contact_at, contact_exists
 
 FINEST = 1e-7
 """Bearing steps end here: 1 mm at R = 12 km, 10 µs where the time has an edge."""
 GAIN = 1e-8
 """Or where a parabola promises less than this [R/V_P]: 1 µs."""
+_AT_EDGE = 0.02  # chains this near to the best are followed along edges [R/V_P]
 _SWEEPS = 16  # over all bearings of a chain
 _FURTHEST = 64.0  # times as far as a sweep
 _NEAR = 0.3  # values farther above the least say nothing about a minimum [R/V_P]
@@ -42,6 +54,93 @@ class _Move(NamedTuple):
     """First step [rad]."""
     finest: float
     """Least step [rad]."""
+
+
+@njit(cache=True, nogil=True)
+def refine_chains(
+    start: Pose, scene: Scene, chains: FloatArray, stride: float, best: float, legs: FloatArray
+) -> tuple[float, int]:
+    """Refine the best chains of a graph.
+
+    Args:
+        start: where the path begins, at t = 0.
+        scene: what it has to reckon with.
+        chains: of `contact_graph.best_chains`; their bearings are moved. shape (·, ·, 4)
+        stride: how far is looked at first [rad].
+        best: an arrival already known [R/V_P].
+        legs: takes those of the best chain. shape (MAX_LEGS, 6)
+
+    Returns:
+        the least arrival [R/V_P] and the number of its legs; `best` and 0 if none is earlier.
+    """
+    tried = np.empty((MAX_LEGS, 6))
+    won = -1
+    for k in range(len(chains)):
+        chain = chain_of(chains[k, 1 : int(chains[k, 0, 1]) + 1], tried)
+        here = refine_chain(start, scene, chain, chains[k, 0, 0], stride, best)
+        if here < best + _AT_EDGE:
+            along = follow_edges(start, scene, chain, here, stride)
+            if along < here - GAIN:
+                here = refine_chain(start, scene, chain, along, 0.1 * stride, best)
+        if here < best - GAIN:
+            best, won = here, k
+    if won < 0:
+        return best, 0
+    contacts = int(chains[won, 0, 1])
+    chain = chain_of(chains[won, 1 : contacts + 1], tried)
+    if contacts > 2:
+        best, contacts = simplify_chain(start, scene, chain, best, stride)
+    shortest = with_contacts(chain_of(chain.contacts, legs), chain.contacts[:contacts])
+    _, best = fly_links(start, 0.0, scene, shortest, 0, contacts, inf)
+    return best, contacts + 1
+
+
+@njit(cache=True, nogil=True)
+def fly_links(
+    pose: Pose, t: float, scene: Scene, chain: Chain, first: int, last: int, beat: float
+) -> tuple[Pose, float]:
+    """Fly some links of a chain: link k leads to contact k, and one more to the slot.
+
+    Args:
+        pose: where link `first` begins.
+        t: when [R/V_P].
+        scene: what the path has to reckon with.
+        chain: its contacts; takes the legs.
+        first: link to begin with.
+        last: link to end with, at most n.
+        beat: arrivals from here on do not matter [R/V_P].
+
+    Returns:
+        where the last link ends, and when; the time is infinite if it cannot be flown before
+        `beat`.
+    """
+    contacts, legs, rows = chain
+    for k in range(first, min(last + 1, len(contacts))):
+        side, bearing = contacts[k, 1], contacts[k, 2]
+        legs[k, 0] = contacts[k, 3]
+        if not contact_exists(bearing, scene.alpha):
+            return pose, inf
+        if contacts[k, 3] == BOUNDARY_ARC:
+            begun = contacts[k - 1, 2]
+            t = boundary_arc_arrival(scene, t, begun, bearing, side)
+            legs[k, 1], legs[k, 2], legs[k, 3] = side, begun, bearing
+            if t >= beat:
+                return pose, inf
+        else:
+            t_start = t
+            contact = Contact(int(contacts[k, 0]), bearing, side)
+            t, at = earliest_contact(pose, t, scene, contact, beat, rows)
+            if at < 0:
+                return pose, inf
+            legs[k, 1:6] = rows[at]
+            legs[k, 1] = t - t_start
+        pose = contact_at(scene, t, bearing, side)
+    if last == len(contacts):
+        legs[last, 0] = WORD
+        t, at = best_word(pose, t, scene, beat, rows)
+        if at >= 0:
+            legs[last, 1:6] = rows[at]
+    return pose, t
 
 
 @njit(cache=True, nogil=True)

@@ -11,10 +11,10 @@ from numba import njit
 
 from relguide.kernels.base.records import Pose, Scene, straight_scene, with_limit
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.contact.chain import WORD
-from relguide.kernels.contact.constrained_search import MAX_LEGS, best_constrained_path
+from relguide.kernels.contact.chain import MAX_LEGS, WORD
+from relguide.kernels.contact.clear_words import word_clears
+from relguide.kernels.contact.constrained_search import best_constrained_path
 from relguide.kernels.contact.contact import GRAZE
-from relguide.kernels.contact.passage import word_clears
 from relguide.kernels.contact.tangent import tangents
 from relguide.kernels.words.extremals import MAX_ROWS, solve
 from relguide.kernels.words.fastest import fastest

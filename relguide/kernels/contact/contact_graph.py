@@ -18,6 +18,7 @@ from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.base.records import Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain import BOUNDARY_ARC, MAX_CONTACTS, WORD, earliest_contact
+from relguide.kernels.contact.clear_words import first_clear, seen_from_slot
 from relguide.kernels.contact.contact import (
     boundary_arc_sense,
     contact_at,
@@ -27,7 +28,6 @@ from relguide.kernels.contact.contact import (
 )
 from relguide.kernels.contact.delay_after_contact import delay_until_release
 from relguide.kernels.contact.nodes import Nodes, contact_of
-from relguide.kernels.contact.passage import first_clear, seen_from_slot
 from relguide.kernels.contact.paths_to_contact import not_before, not_before_slot
 from relguide.kernels.separation.clearance import piece_at
 from relguide.kernels.words.delay import DELAY_PIECES

@@ -8,7 +8,7 @@ from numba import njit
 
 from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.contact.passage import pieces_clear
+from relguide.kernels.contact.clear_words import pieces_clear
 from relguide.kernels.words.delay import DELAY_PIECES, MAX_DELAYS, delay_paths
 
 

@@ -1,13 +1,15 @@
 """Paths through one contact with d = d_min: the disc is scanned, and its best bearings refined.
 
-A path that the limit bends touches the forbidden disc, and the state at a contact is fixed by its
-bearing, for each piece of the leader's intent and each side: the arrival is a function of that
-bearing (see `passage`), searched on a grid first and then downward.
+A path that the limit bends touches the forbidden disc. Up to a contact and from it on it is an
+extremal without the limit, and the state at the contact is fixed by its bearing, for each piece of
+the leader's intent and each side. So the arrival is a function of that bearing, searched on a grid
+first and then downward.
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
 from math import inf
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit
@@ -15,14 +17,41 @@ from numba import njit
 from relguide.kernels.base.records import Contact, Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain_refinement import FINEST, GAIN, vertex
-from relguide.kernels.contact.contact import contact_at, contact_exists
+from relguide.kernels.contact.clear_words import first_clear, seen_from_slot, word_clears
+from relguide.kernels.contact.contact import contact_at, contact_exists, contact_on
 from relguide.kernels.contact.nodes import Nodes, contact_of
-from relguide.kernels.contact.passage import Workspace, through_contact, workspace
-from relguide.kernels.contact.paths_to_contact import not_before, not_before_slot
+from relguide.kernels.contact.paths_to_contact import (
+    not_before,
+    not_before_slot,
+    paths_to_contact,
+)
+from relguide.kernels.words.extremals import MAX_ROWS, solve
 
 _BASINS = 8  # refined: the best of them wins in every reference case; the rest is insurance
 _HIDDEN = 0.14  # how much a basin may fall below what the scan sees of it [R/V_P]
 _PARTS = 4  # into which the bearings beside a basin without a neighbour are cut
+
+
+class Workspace(NamedTuple):
+    """Room for `through_contact`, and what it finds."""
+
+    rows: FloatArray
+    """Words to the contact. shape (MAX_ROWS, 5)"""
+    onward: FloatArray
+    """Words from there to the slot. shape (MAX_ROWS, 5)"""
+    path: FloatArray
+    """Takes the two rows of the path found. shape (2, 5)"""
+    reached: FloatArray
+    """Takes the earliest time at which the contact is reached with the limit kept, and a lower
+    bound of the arrival from there; infinite if that is too late. shape (2,)"""
+
+
+@njit(cache=True, nogil=True)
+def workspace() -> Workspace:
+    """Room, empty."""
+    return Workspace(
+        np.empty((MAX_ROWS, 5)), np.empty((MAX_ROWS, 5)), np.empty((2, 5)), np.empty(2)
+    )
 
 
 @njit(cache=True, nogil=True)
@@ -205,3 +234,51 @@ def _descend(
             break
         stride *= 0.1 if smooth else 0.4
     return here
+
+
+@njit(cache=True, nogil=True)
+def through_contact(
+    start: Pose, scene: Scene, contact: Contact, beat: float, room: Workspace
+) -> float:
+    """Arrival by the fastest path through one contact that keeps d_min, if it is before `beat`.
+
+    Args:
+        start: where the path begins, at t = 0.
+        scene: what it has to reckon with.
+        contact: that it goes through.
+        beat: arrivals from here on do not matter [R/V_P].
+        room: to work in; takes the path, and when it is at the contact.
+
+    Returns:
+        arrival time; infinite if there is no contact, `beat` if no path arrives before.
+    """
+    reached, onward = room.reached, room.onward
+    reached[:] = inf
+    if not contact_exists(contact.bearing, scene.alpha):
+        return inf
+    n = paths_to_contact(start, 0.0, scene, contact, room.rows)
+    m = -1
+    for k in range(n):
+        t = room.rows[k, 0]
+        if t >= beat:
+            continue
+        there = contact_on(scene, contact, t)
+        if not_before_slot(there, t, scene) >= beat:
+            continue
+        if m < 0 or contact.piece + 1 < len(scene.leader):
+            # on the final leg the paths on are the same at any time
+            m = solve(seen_from_slot(there, t, scene.alpha), scene.alpha, 0.0, onward)
+        if m == 0:
+            continue
+        # the cheap test first: could it be in time at all? What is too early may be delayed
+        lower = max(t + onward[0, 0], scene.t_release)
+        if lower >= beat or not word_clears(start, 0.0, room.rows[k], scene):
+            continue
+        if t < reached[0]:
+            reached[0], reached[1] = t, lower
+        arrival, j = first_clear(there, t, onward[:m], scene, beat)
+        if j >= 0:
+            beat = arrival
+            room.path[0] = room.rows[k]
+            room.path[1] = onward[j]
+    return beat

@@ -3,8 +3,6 @@
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise. What comes out is in metres.
 """
 
-from math import inf
-
 import numpy as np
 from numba import njit
 
@@ -12,13 +10,11 @@ from relguide.kernels.base.records import Pose, Scene, with_limit
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.boundary_arc import MAX_NODES, boundary_arc_pieces
 from relguide.kernels.contact.chain import BOUNDARY_ARC, DELAY
+from relguide.kernels.contact.clear_words import best_word_near
 from relguide.kernels.contact.contact import GRAZE
 from relguide.kernels.contact.delay_after_contact import delay_until_release
-from relguide.kernels.contact.passage import best_word, seen_from_slot, word_clears
 from relguide.kernels.words.delay import DELAY_PIECES
-from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, fly_piece
-from relguide.kernels.words.fastest import fastest
-from relguide.kernels.words.sooner import make_scratch
+from relguide.kernels.words.extremals import SIGNS, fly_piece
 
 NO_TURN = 1e-9
 """A turn below this is rounding [rad]; likewise a straight, in R."""
@@ -42,7 +38,7 @@ def pieces_of(
         radius: R [m].
         mirror: +1, or −1 for the mirror image of what is flown here.
         time: when the path arrives as it was found [R/V_P].
-        legs: as `chain.fly_links` gives them. shape (n, 6)
+        legs: as `chain_refinement.fly_links` gives them. shape (n, 6)
 
     Returns:
         a column for each piece: 0 for a turn or a straight; for an arc of a boundary arc the number
@@ -80,7 +76,7 @@ def pieces_of(
             row[:] = legs[k, 1:6]
             # a boundary arc's last node lies within rounding of the limit: it must not cost the
             # best word
-            if boundary_arcs > 0 and k + 1 == len(legs) and not _go_on(pose, t, eased, row):
+            if boundary_arcs > 0 and k + 1 == len(legs) and not best_word_near(pose, t, eased, row):
                 return pieces[:, :0]
             signs, amounts = SIGNS[int(row[1])], row[2:5]
         for i in range(len(signs)):
@@ -97,31 +93,3 @@ def pieces_of(
             n += 1
             last = sign
     return pieces[:, :n] if t <= time + SAME else pieces[:, :0]
-
-
-@njit(cache=True, nogil=True)
-def _go_on(pose: Pose, t: float, scene: Scene, row: FloatArray) -> bool:
-    """The fastest extremal to the slot, from time t on, that keeps d_min.
-
-    Args:
-        pose: from here on.
-        t: when [R/V_P].
-        scene: what the path has to reckon with.
-        row: one that leads on from nearby, with the word that is likely; takes it. shape (5,)
-
-    Returns:
-        whether there is one.
-    """
-    seen = seen_from_slot(pose, t, scene.alpha)
-    left = max(scene.t_release - t, 0.0)
-    # the fastest alone is found in a third of the time, and mostly keeps d_min
-    if fastest(seen, scene.alpha, left, int(row[1]), make_scratch(), row) and word_clears(
-        pose, t, row, scene
-    ):
-        return True
-    rows = np.empty((MAX_ROWS, 5))
-    _, i = best_word(pose, t, scene, inf, rows)
-    if i < 0:
-        return False
-    row[:] = rows[i]
-    return True

@@ -13,8 +13,9 @@ from numba import njit
 from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.records import Pose, Scene, with_limit
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.contact.constrained_search import MAX_LEGS, best_constrained_path
-from relguide.kernels.contact.passage import word_clears
+from relguide.kernels.contact.chain import MAX_LEGS
+from relguide.kernels.contact.clear_words import word_clears
+from relguide.kernels.contact.constrained_search import best_constrained_path
 from relguide.kernels.contact.tangent import tangents
 from relguide.kernels.separation.clearance import SLACK
 from relguide.kernels.words.extremals import MAX_ROWS, solve

@@ -29,7 +29,7 @@ def pose_along(start: Pose, slot: float, disc: Disc, legs: FloatArray, time: flo
         start: where the path begins, at t = 0.
         slot: D [R].
         disc: its α, and the distance of boundary arcs; each leg has its side.
-        legs: the path, as `chain.fly_links`. shape (n, 6)
+        legs: the path, as `chain.Chain`. shape (n, 6)
         time: since the start [R/V_P]; on a boundary arc, at an even rate of bearings.
 
     Returns:
@@ -72,7 +72,7 @@ def along_rows(
         situations: x, y, h in [0, 2π), α, D/R, d_min/R. shape (n, 6)
         times: how long each path has been flown [R/V_P]. shape (n,)
         counts: legs of each. shape (n,)
-        legs: as `chain.fly_links`. shape (n, ·, 6)
+        legs: as `chain.Chain`. shape (n, ·, 6)
         off: what is added to x, y [R] and h [rad]. shape (n, 3)
         out: takes the situations. shape (n, 6)
     """
@@ -97,7 +97,7 @@ def advance_rows(
             of the route. shape (n, 6)
         times: of the paths [R/V_P]; replaced by those of the rest. shape (n,)
         counts: legs of each. shape (n,)
-        legs: as `chain.fly_links`; replaced by those of the rest. shape (n, ·, 6)
+        legs: as `chain.Chain`; replaced by those of the rest. shape (n, ·, 6)
         shares: how much of the first turn has been flown. shape (n,)
     """
     for n in range(len(situations)):

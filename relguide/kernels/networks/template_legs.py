@@ -11,8 +11,8 @@ from numba import njit
 from relguide.kernels.base.records import Pose
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain import BOUNDARY_ARC, WORD
+from relguide.kernels.contact.clear_words import word_clears
 from relguide.kernels.contact.contact import contact_heading
-from relguide.kernels.contact.passage import word_clears
 from relguide.kernels.contact.touch_points import slide_between
 from relguide.kernels.networks.near_guess import (
     ON_B,
@@ -33,7 +33,7 @@ def write_legs(task: Task, bearing: float, room: Room, legs: FloatArray) -> int:
         task: its template.
         bearing: of the contact, where a boundary arc begins there [rad].
         room: holds the path.
-        legs: takes them, as `chain.fly_links`. shape (≥ 3, 6)
+        legs: takes them, as `chain.Chain`. shape (≥ 3, 6)
 
     Returns:
         how many.

@@ -40,7 +40,7 @@ def template_of(start: Pose, scene: Scene, legs: FloatArray, guess: FloatArray) 
     Args:
         start: where the path begins.
         scene: a leader that keeps straight.
-        legs: the path, as `chain.fly_links`; no rows if there is none. shape (n, 6)
+        legs: the path, as `chain.Chain`; no rows if there is none. shape (n, 6)
         guess: takes two numbers; 0 where the template needs none. shape (2,)
 
     Returns:

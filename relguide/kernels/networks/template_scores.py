@@ -113,7 +113,7 @@ def choose_template(
         free: as there; it breaks the limit: where that does not bind is not what was learnt.
         layers: the weights.
         decision: what is solved.
-        legs: takes the legs of the fastest path, as `chain.fly_links`. shape (LEGS, 6)
+        legs: takes the legs of the fastest path, as `chain.Chain`. shape (LEGS, 6)
     """
     share = np.empty(SIZE)
     hidden = template_shares(pose, scene, free, layers, share)

@@ -13,8 +13,8 @@ from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.base.records import Pose, Scene, straight_scene, with_limit
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain import WORD
+from relguide.kernels.contact.clear_words import word_clears
 from relguide.kernels.contact.contact import GRAZE, disc_on
-from relguide.kernels.contact.passage import word_clears
 from relguide.kernels.contact.touch_points import (
     boundary_arc_end,
     opposite,
@@ -68,7 +68,7 @@ def solve_template(
         template: number of `TEMPLATES`; neither `SEVERAL` nor `NONE`.
         guess: of its two numbers. shape (2,)
         beat: arrivals from here on do not matter [R/V_P].
-        legs: takes the legs, as `chain.fly_links`. shape (≥ 3, 6)
+        legs: takes the legs, as `chain.Chain`. shape (≥ 3, 6)
 
     Returns:
         arrival time [R/V_P] and the number of legs; infinite and 0 if there is none.
@@ -285,7 +285,7 @@ def label_templates(
         situations: x, y, h in [0, 2π), α, D/R, d_min/R. shape (n, 6)
         times: of the answers [R/V_P]. shape (n,)
         counts: legs of each. shape (n,)
-        legs: as `chain.fly_links`. shape (n, ·, 6)
+        legs: as `chain.Chain`. shape (n, ·, 6)
         within: a template whose path is this much later is not that of the answer [R/V_P].
         templates: takes their numbers. shape (n,)
         guesses: takes their guesses. shape (n, 2)

@@ -93,13 +93,10 @@ def _total(
     pose: Pose, end_x: float, branch: int, family: _Family, amount: float, piece: FloatArray
 ) -> float:
     """Length of a path with this free amount; negative if there is none."""
-    if family.last:
-        on = fly_piece(pose, 0.0, family.lead)
-        length = word_to_point(on, end_x - amount, branch, piece)
-        return length if length < 0.0 else length + amount + family.lead
-    on = fly_piece(pose, family.sign, amount)
-    length = word_to_point(on, end_x, branch, piece)
-    return length if length < 0.0 else length + amount
+    before, after = (family.lead, amount) if family.last else (amount, 0.0)
+    on = fly_piece(pose, family.sign, before)
+    length = word_to_point(on, end_x - after, branch, piece)
+    return length if length < 0.0 else length + after + before
 
 
 @njit(cache=True, nogil=True)

@@ -22,8 +22,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from relguide.kernels.contact.chain import MAX_LEGS
 from relguide.kernels.contact.constrained_rows import exact_constrained, limit_binds_rows
-from relguide.kernels.contact.constrained_search import MAX_LEGS
 from relguide.kernels.networks.along_path import advance_rows, along_rows
 from relguide.learn.training.chunks import gather
 from relguide.planning.constrained_path import BEARINGS
@@ -127,7 +127,7 @@ class TemplateLabels:
     counts: NDArray[np.int8]
     """Legs of the path; 0 where there is none. shape (n,)"""
     legs: Floats
-    """As of `kernels.chain.fly_links`. shape (n, MAX_LEGS, 6)"""
+    """As in `kernels.contact.chain.Chain`. shape (n, MAX_LEGS, 6)"""
     sources: NDArray[np.int8]
     """Numbers of `SOURCES`. shape (n,)"""
 

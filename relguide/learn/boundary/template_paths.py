@@ -18,8 +18,9 @@ from relguide.kernels.networks import network_view
 from relguide.kernels.networks.network_view import Where
 from relguide.kernels.networks.template_scores import constrained_pieces
 from relguide.learn.boundary.template_network import TemplateNetwork
+from relguide.planning.candidate import Candidate, candidate_of, segments_flown
 from relguide.planning.situation import Situation
-from relguide.planning.words import HORIZON, Candidate, candidate_of, segments_flown
+from relguide.planning.words import HORIZON
 from relguide.units import Metre
 
 

@@ -30,12 +30,13 @@ from relguide.learn.tree.regular_words import SIGN, Piece, pieces_of, words_like
 from relguide.learn.tree.reverse_dp import reverse_tree
 from relguide.learn.tree.tree import TreeParameters, pairs_of
 from relguide.maps.area import Encounter
+from relguide.planning.candidate import SIGN_ROWS, Candidate, assemble
 from relguide.planning.certificate import Certificate, certify
 from relguide.planning.inputs import expect
 from relguide.planning.plan import NoPlan, Optimality, Plan, plan
 from relguide.planning.situation import Situation
 from relguide.planning.slot import SlotFrame, slot_frame
-from relguide.planning.words import HORIZON, SIGN_ROWS, Candidate, assemble
+from relguide.planning.words import HORIZON
 from relguide.units import DEG
 
 RATIO_STEP, LENGTH_STEP = 0.025, 0.25

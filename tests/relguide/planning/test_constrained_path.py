@@ -23,7 +23,8 @@ from relguide import (
     plan,
 )
 from relguide.kernels.base.turn import turn_radius
-from relguide.kernels.contact.constrained_search import MAX_LEGS, best_constrained_path
+from relguide.kernels.contact.chain import MAX_LEGS
+from relguide.kernels.contact.constrained_search import best_constrained_path
 from relguide.kernels.contact.tangent import tangents
 from relguide.planning import constrained_path as module
 from relguide.planning.constrained_path import BEARINGS, TURNING_BEARINGS

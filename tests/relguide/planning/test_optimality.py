@@ -20,12 +20,12 @@ from relguide import (
     candidates,
 )
 from relguide.kernels.base.records import Contact
-from relguide.kernels.contact.passage import through_contact, workspace
+from relguide.kernels.contact.one_contact import through_contact, workspace
 from relguide.kernels.words.extremals import MAX_ROWS, solve
 from relguide.planning import constrained_path as module
+from relguide.planning.candidate import SIGN_ROWS, assemble
 from relguide.planning.optimality import check
 from relguide.planning.tables import scene_of
-from relguide.planning.words import SIGN_ROWS, assemble
 from relguide.units import DEG
 from tests.plans import assert_exact, flown, golden_plan, planned, straight_behind, unlimited
 from tests.situations import golden, situations

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from relguide.kernels.base.records import Pose, Scene, start_at
-from relguide.kernels.contact.passage import word_clears
+from relguide.kernels.contact.clear_words import word_clears
 from relguide.kernels.maps.final_leg import last_turns
 from relguide.kernels.maps.next_clear import next_clear
 from relguide.kernels.words.extremals import MAX_ROWS, solve

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from relguide.kernels.base.records import Pose, Scene, start_at
-from relguide.kernels.contact.passage import pieces_clear
+from relguide.kernels.contact.clear_words import pieces_clear
 from relguide.kernels.maps.final_leg import keeps_clear
 from relguide.kernels.maps.release import reaches, release_clears
 from relguide.kernels.words.branches import TO_POINT

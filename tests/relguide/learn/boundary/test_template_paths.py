@@ -23,7 +23,7 @@ from relguide.learn.boundary.template_network import TemplateNetwork, load_templ
 from relguide.learn.boundary.template_paths import solve_constrained, view
 from relguide.learn.network_planner import network_planner
 from relguide.learn.words.branch_network import load_network
-from relguide.planning.words import Candidate
+from relguide.planning.candidate import Candidate
 from relguide.units import DEG
 from tests.relguide.learn.boundary.template_networks import ways
 from tests.relguide.learn.boundary.test_template_labels import situation_of
