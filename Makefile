@@ -28,6 +28,7 @@ help:
 	@echo 'make test     everything: checks, tests, browser'
 	@echo 'make check    the fast part: lint, types, page, quick tests'
 	@echo 'make bench    the planner beside its peers, in one table'
+	@echo 'make campaign  fly a hundred flights of each family, and print what became of them'
 	@echo 'make picture  take docs/cockpit.png anew'
 	@echo 'make planner-figures  measure as bench does, and draw and write docs/planner.md anew'
 	@echo 'make wheel    build a wheel with the page and compiled kernels, which serves at once, into dist/'
@@ -131,6 +132,11 @@ bench: .make/dev .make/kernels .make/bench/ready
 .PHONY: planner-figures
 planner-figures: .make/dev .make/kernels .make/bench/ready
 	@$(BIN)/python -m tests.bench.figures
+
+# More flights, or some families only: .venv/bin/python -m tests.campaign fly --help
+.PHONY: campaign
+campaign: .make/dev .make/kernels .make/traffic
+	@$(BIN)/python -m tests.campaign fly
 
 .make/bench/ready: .make/dev pyproject.toml
 	@mkdir -p .make/bench

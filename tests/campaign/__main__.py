@@ -1,0 +1,138 @@
+"""Fly the campaign, print its flights, and make its tables: `python -m tests.campaign --help`.
+
+    python -m tests.campaign fly --families told follow --flights 100 --out told.jsonl
+    python -m tests.campaign show follow 17
+    python -m tests.campaign table told.jsonl --markdown
+
+A flight is drawn from its family and number alone. Flights that a file has already are not flown
+again, so a run that was stopped goes on where it was.
+"""
+
+import argparse
+import sys
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from os import cpu_count
+from pathlib import Path
+from signal import SIG_IGN, SIGINT, signal
+
+from relguide.planning.progress import watched
+from tests.bench.options import positive
+from tests.campaign import tables
+from tests.campaign.families import FAMILIES, draw
+from tests.campaign.flights import failed, fly_case
+from tests.campaign.row import Row, append_row, read_rows
+
+FLIGHTS = 100
+OUT = Path("build/campaign.jsonl")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run a command; 1 if a flight ended with an exception."""
+    given = _parser().parse_args(arguments)
+    command = {"fly": _fly, "show": _show, "table": _table}[given.command]
+    try:
+        return command(given)
+    except (ValueError, OSError) as refusal:
+        print(refusal, file=sys.stderr)  # noqa: T201
+        return 2
+
+
+def _fly(given: argparse.Namespace) -> int:
+    rows = read_rows(given.out)
+    known = {(row.family, row.number) for row in rows}
+    numbers = range(given.first, given.first + given.flights)
+    missing = [
+        (family, number)
+        for number in numbers
+        for family in given.families
+        if (family, number) not in known
+    ]
+    given.out.parent.mkdir(parents=True, exist_ok=True)
+    stopped = False
+    try:
+        for row in flown(missing, given.processes):
+            append_row(given.out, row)
+    except KeyboardInterrupt:
+        stopped = True
+    asked = [
+        row
+        for row in read_rows(given.out)
+        if row.family in given.families and row.number in numbers
+    ]
+    asked.sort(key=lambda row: (given.families.index(row.family), row.number))
+    if not asked:
+        return 130
+    _print(tables.page(asked))
+    errors = [row for row in asked if row.error]
+    for row in errors:
+        _print(f"{row.name}: {row.error}")
+    return 130 if stopped else 1 if errors else 0
+
+
+def flown(wanted: Sequence[tuple[str, int]], processes: int) -> Iterator[Row]:
+    """Rows of flights, as they are finished; an exception is a row that says so."""
+    # Ctrl-C is ours to handle: the workers are told when they have finished a flight
+    pool = ProcessPoolExecutor(processes, initializer=signal, initargs=(SIGINT, SIG_IGN))
+    try:
+        flights = {pool.submit(flown_by_name, *one): one for one in wanted}
+        finished = enumerate(as_completed(flights), 1)
+        for _, future in watched(
+            finished, title="Flying", total=len(wanted), done=lambda pair: pair[0]
+        ):
+            error = future.exception()
+            yield failed(draw(*flights[future]), error) if error else future.result()
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def flown_by_name(family: str, number: int) -> Row:
+    """One flight, drawn where it is flown."""
+    return fly_case(draw(family, number))
+
+
+def _show(given: argparse.Namespace) -> int:
+    _print(draw(given.family, given.number).as_code())
+    return 0
+
+
+def _table(given: argparse.Namespace) -> int:
+    rows = [row for file in given.files for row in read_rows(file)]
+    if not rows:
+        raise ValueError(f"There are no flights in {', '.join(map(str, given.files))}.")
+    rows.sort(key=lambda row: (list(FAMILIES).index(row.family), row.number))
+    _print(tables.page(rows, table=tables.markdown if given.markdown else tables.text))
+    return 0
+
+
+def _print(text: str) -> None:
+    print(text, flush=True)  # noqa: T201
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="python -m tests.campaign",
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    commands = parser.add_subparsers(dest="command", required=True)
+    fly = commands.add_parser("fly", help="fly, and print the tables")
+    fly.add_argument(
+        "--families", nargs="+", choices=FAMILIES, default=list(FAMILIES), metavar="FAMILY",
+        help=f"of {', '.join(FAMILIES)} (all)",
+    )  # fmt: skip
+    fly.add_argument("--flights", type=positive, default=FLIGHTS, help="of each family")
+    fly.add_argument("--first", type=int, default=0, metavar="N", help="number of the first")
+    fly.add_argument("--processes", type=positive, default=cpu_count() or 1)
+    fly.add_argument("--out", type=Path, default=OUT, metavar="FILE", help=f"lines ({OUT})")
+    show = commands.add_parser("show", help="print a flight as code")
+    show.add_argument("family", choices=FAMILIES)
+    show.add_argument("number", type=int)
+    table = commands.add_parser("table", help="the tables of files flown")
+    table.add_argument("files", type=Path, nargs="+", metavar="FILE")
+    table.add_argument("--markdown", action="store_true", help="for a page")
+    return parser
+
+
+if __name__ == "__main__":
+    sys.exit(main())

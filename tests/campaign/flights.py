@@ -1,0 +1,234 @@
+"""Flying a case, and its documents as one row of figures: all that the campaign knows of flying."""
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import replace
+from math import hypot
+from time import thread_time
+
+from relguide import plan
+from relguide.flying import flight
+from relguide.flying.aircraft import AircraftState
+from relguide.flying.assignment import Assignment
+from relguide.flying.autopilot import Autopilot
+from relguide.flying.documents import (
+    Document,
+    FlightEnded,
+    HeadingReference,
+    LeaderRoute,
+    PlanChanged,
+    PlanUnavailable,
+    Sample,
+)
+from relguide.flying.memory import Advice
+from relguide.flying.orders import Command
+from relguide.kernels.base.angles import wrap_signed
+from relguide.planning.situation import Situation, Wind
+from relguide.units import DEG, Metre, Second
+from tests.campaign.case import Case
+from tests.campaign.paths import (
+    Floats,
+    circles_flown,
+    circles_of,
+    distance_from,
+    path_in_air,
+    reversals_of,
+)
+from tests.campaign.row import Loss, Row
+
+EVERY: Second = 1.0
+"""Between samples: guidance acts as often."""
+ROUNDING: Metre = 1.0
+"""d_min less this is kept: a slot may lie on d_min itself."""
+WARNED: Second = 180.0
+"""An announcement longer ago does not announce a loss."""
+
+
+def fly_case(case: Case) -> Row:
+    """Fly it. What guidance or the planner raises is passed on."""
+    begun = thread_time()
+    with _aircraft_is(case.factors):
+        documents = tuple(
+            flight.fly(
+                case.scenario,
+                plan,
+                commands=_orders(case.orders),
+                sample_period=EVERY,
+                seed=case.number,
+            )
+        )
+    return row_of(case, documents, thread_time() - begun)
+
+
+def failed(case: Case, error: BaseException) -> Row:
+    """The row of a flight that ended with an exception."""
+    return Row(
+        family=case.family, number=case.number, planned=False,
+        intent_known=case.scenario.intent_known, joined=False, flown_s=0.0, join_s=None,
+        planned_s=None, promised_s=None, join_over_plan=None, join_over_promise=None,
+        least_share=_start_share(case.scenario.situation),
+        start_share=_start_share(case.scenario.situation), below_s=0.0, losses=(),
+        shown_replans=0, all_replans=0, reversals=0, extra_reversals=0, loops=0,
+        heading_jump_deg=0.0, cross_track_m=0.0, fastest_mps=0.0, alerts=0, cpu_s=0.0,
+        error=f"{type(error).__name__}: {error}",
+    )  # fmt: skip
+
+
+def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
+    """The figures of a flight."""
+    end = documents[-1]
+    assert isinstance(end, FlightEnded)
+    situation = case.scenario.situation
+    samples = [document for document in documents if isinstance(document, Sample)]
+    changed = [document for document in documents if isinstance(document, PlanChanged)]
+    engaged = changed[0] if end.planned_time > 0.0 else None
+    planned = end.planned_time if engaged else None
+    joined = end.join_time if end.joined else None
+    losses = tuple(_losses(situation.min_separation, samples, end, list(_warnings(documents))))
+    loops = circles_flown((s.pursuer.turn_rate for s in samples), EVERY) - max(
+        [circles_flown((s.leader.turn_rate for s in samples), EVERY)]
+        + [circles_of(document.plan.segments) for document in changed]
+    )
+    return Row(
+        family=case.family,
+        number=case.number,
+        planned=engaged is not None,
+        intent_known=case.scenario.intent_known,
+        joined=end.joined,
+        flown_s=end.t,
+        join_s=joined,
+        planned_s=planned,
+        promised_s=None,
+        join_over_plan=joined / planned if joined and planned else None,
+        join_over_promise=None,
+        least_share=end.least_separation / situation.min_separation,
+        start_share=_start_share(situation),
+        below_s=sum(loss.seconds for loss in losses),
+        losses=losses,
+        shown_replans=max(len(changed) - 1, 0),
+        all_replans=end.replans,
+        reversals=end.bank_reversals,
+        extra_reversals=end.bank_reversals
+        - (reversals_of(engaged.plan.segments) if engaged else 0),
+        loops=max(loops, 0),
+        heading_jump_deg=_heading_jump(documents) / DEG,
+        cross_track_m=_cross_track(documents, situation.wind),
+        fastest_mps=max(s.pursuer.tas for s in samples),
+        alerts=sum(1 for _ in _warnings(documents)),
+        cpu_s=cpu,
+    )
+
+
+def _warnings(documents: Iterable[Document]) -> Iterator[Second]:
+    """When something was announced that a loss of d_min may follow from."""
+    for document in documents:
+        if isinstance(document, PlanUnavailable):
+            yield document.t
+
+
+def _losses(
+    min_separation: Metre, samples: list[Sample], end: FlightEnded, warned: list[Second]
+) -> Iterator[Loss]:
+    """Each time below d_min."""
+    limit = min_separation - ROUNDING
+    runs: list[list[Sample]] = []
+    inside = False
+    for sample in samples:
+        below = sample.separation < limit
+        if below and not inside:
+            runs.append([])
+        if below:
+            runs[-1].append(sample)
+        inside = below
+    if not runs and end.least_separation < limit:  # between two samples
+        runs.append([min(samples, key=lambda s: s.separation)])
+    for run in runs:
+        begun = run[0].t
+        before = [begun - t for t in warned if 0.0 <= begun - t <= WARNED]
+        yield Loss(
+            t_s=begun,
+            separation_m=min(sample.separation for sample in run),
+            seconds=len(run) * EVERY,
+            mode=run[0].mode,
+            cause="",
+            announced_s=min(before) if before else None,
+        )
+
+
+def _heading_jump(documents: Iterable[Document]) -> float:
+    """Largest change of the held heading between two samples with nothing said between [rad]."""
+    largest, held, said = 0.0, None, False
+    for document in documents:
+        match document:
+            case Sample(reference=HeadingReference(heading=heading)):
+                if held is not None and not said:
+                    largest = max(largest, abs(wrap_signed(heading - held)))
+                held, said = heading, False
+            case Sample():
+                held, said = None, False
+            case LeaderRoute():
+                pass
+            case _:
+                said = True
+    return largest
+
+
+def _cross_track(documents: Iterable[Document], wind: Wind) -> Metre:
+    """Largest distance from the path last announced, until it ends or is no longer flown."""
+    largest, made, ends = 0.0, 0.0, 0.0
+    flown: Floats | None = None
+    for document in documents:
+        match document:
+            case PlanChanged(t=t, plan=card):
+                flown, made, ends = path_in_air(card.segments, wind), t, t + card.time_to_converge
+            case Sample(t=t, mode="converge" | "capture", pursuer=here) if flown is not None:
+                if t <= ends:
+                    since = t - made
+                    x, y = here.x - wind.east * since, here.y - wind.north * since
+                    largest = max(largest, distance_from(flown, x, y))
+    return largest
+
+
+def _orders(
+    orders: tuple[tuple[Second, Command], ...],
+) -> Callable[[Second], Iterable[Command]]:
+    """Commands, each at its time."""
+    left = list(orders)
+
+    def due(t: Second) -> Iterable[Command]:
+        now = []
+        while left and left[0][0] <= t + 1e-9:
+            now.append(left.pop(0)[1])
+        return now
+
+    return due
+
+
+@contextmanager
+def _aircraft_is(factors: Mapping[str, float]) -> Iterator[None]:
+    """Let the pursuer be another aircraft than guidance believes, until the end of the block."""
+    believed = flight._fly_step
+
+    def fly_step(
+        pursuer: AircraftState,
+        pilot: Autopilot,
+        advice: Advice,
+        assignment: Assignment,
+        step: Second,
+    ) -> AircraftState:
+        if pilot.model is assignment.model:
+            constants = {name: f * getattr(pilot.model, name) for name, f in factors.items()}
+            pilot.model = replace(pilot.model, **constants)
+        return believed(pursuer, pilot, advice, replace(assignment, model=pilot.model), step)
+
+    if factors:
+        flight._fly_step = fly_step
+    try:
+        yield
+    finally:
+        flight._fly_step = believed
+
+
+def _start_share(situation: Situation) -> float:
+    pursuer, leader = situation.pursuer, situation.leader
+    return hypot(pursuer.x - leader.x, pursuer.y - leader.y) / situation.min_separation

@@ -1,0 +1,119 @@
+"""Paths of announced plans in the air mass, how far off one flies, and full circles."""
+
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+from math import cos, pi, sin
+from typing import assert_never
+
+import numpy as np
+from numpy.typing import NDArray
+
+from relguide.flying.plan_documents import (
+    BoundarySegment,
+    PathSegment,
+    StraightSegment,
+    TurnSegment,
+)
+from relguide.planning.situation import Wind
+from relguide.units import DEG, Metre, Radian, Second
+
+Floats = NDArray[np.float64]
+CIRCLE: Radian = 345.0 * DEG
+"""So much in one direction is a full circle: a roll-out before the last degrees makes it none."""
+PAUSE: Second = 30.0
+"""A turn that goes on after so long a straight is the same circle: a racetrack."""
+TURNING = 0.2 * DEG
+"""Less is a correction, not a turn [rad/s]."""
+EVERY: Second = 1.0
+"""Between two points of a path: at 240 m/s the chord of a turn is 0.6 m inside."""
+
+
+def path_in_air(segments: Sequence[PathSegment], wind: Wind) -> Floats:
+    """Points of a plan's path in the air mass of its start: x, y. shape (n, 2)"""
+    points = [point for segment in segments for point in _points(segment, wind)]
+    end = segments[-1].end
+    points.append((end.x - wind.east * end.t, end.y - wind.north * end.t))
+    return np.array(points)
+
+
+def _points(segment: PathSegment, wind: Wind) -> Iterable[tuple[float, float]]:
+    start = segment.start
+    x, y = start.x - wind.east * start.t, start.y - wind.north * start.t
+    times = np.arange(0.0, max(segment.duration, EVERY), EVERY)
+    match segment:
+        case StraightSegment():
+            speed = segment.length / segment.duration if segment.duration > 0.0 else 0.0
+            for t in times:
+                yield x + speed * t * sin(start.heading), y + speed * t * cos(start.heading)
+        case TurnSegment():
+            side = 1.0 if segment.direction == "right" else -1.0
+            rate = side * segment.angle / segment.duration if segment.duration > 0.0 else 0.0
+            radius = side * segment.radius
+            for t in times:
+                heading = start.heading + rate * t
+                yield (
+                    x + radius * (cos(start.heading) - cos(heading)),
+                    y + radius * (sin(heading) - sin(start.heading)),
+                )
+        case BoundarySegment():
+            for point in (start, *segment.via):
+                yield point.x - wind.east * point.t, point.y - wind.north * point.t
+        case _:
+            assert_never(segment)
+
+
+def distance_from(path: Floats, x: Metre, y: Metre) -> Metre:
+    """Of a place from a path."""
+    begin, step = path[:-1], np.diff(path, axis=0)
+    lengths = np.maximum(np.einsum("ij,ij->i", step, step), 1e-9)
+    away = np.array([x, y]) - begin
+    share = np.clip(np.einsum("ij,ij->i", away, step) / lengths, 0.0, 1.0)
+    return float(np.min(np.hypot(*(away - share[:, None] * step).T)))
+
+
+def circles_of(segments: Sequence[PathSegment]) -> int:
+    """Full circles of a plan."""
+    return circles((_turned(segment), segment.duration) for segment in segments)
+
+
+def circles_flown(rates: Iterable[float], every: Second) -> int:
+    """Full circles in a series of turn rates [rad/s]."""
+    return circles((rate * every if abs(rate) > TURNING else 0.0, every) for rate in rates)
+
+
+def circles(turns: Iterable[tuple[Radian, Second]]) -> int:
+    """Full circles in successive heading changes, each with the time it took."""
+    found, run, idle = 0, 0.0, 0.0
+    for angle, duration in turns:
+        if angle == 0.0:
+            idle += duration
+            continue
+        if idle > PAUSE or angle * run < 0.0:
+            found, run = found + _whole(run), 0.0
+        run, idle = run + angle, 0.0
+    return found + _whole(run)
+
+
+def reversals_of(segments: Sequence[PathSegment]) -> int:
+    """How often a plan changes from one side to the other."""
+    sides = [angle > 0.0 for angle in map(_turned, segments) if abs(angle) > 1.0 * DEG]
+    return sum(a != b for a, b in pairwise(sides))
+
+
+def _whole(run: Radian) -> int:
+    return int((abs(run) + 2.0 * pi - CIRCLE) / (2.0 * pi))
+
+
+def _turned(segment: PathSegment) -> Radian:
+    """Heading change, positive to the right [rad]."""
+    match segment:
+        case StraightSegment():
+            return 0.0
+        case TurnSegment():
+            return segment.angle if segment.direction == "right" else -segment.angle
+        case BoundarySegment():
+            headings = [segment.start.heading, *(p.heading for p in segment.via)]
+            turned = np.unwrap([*headings, segment.end.heading])
+            return float(turned[-1] - turned[0])
+        case _:
+            assert_never(segment)

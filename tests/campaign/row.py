@@ -1,0 +1,162 @@
+"""The figures of one flight, a line of JSON each, and the files that keep them."""
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, field
+from json import JSONDecodeError, dumps, loads
+from pathlib import Path
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Loss:
+    """A time below d_min."""
+
+    t_s: float
+    separation_m: float
+    """The least."""
+    seconds: float
+    mode: str
+    """Of guidance, as it began."""
+    cause: str
+    """As a document gives it; empty if none does."""
+    announced_s: float | None
+    """How long before it something was announced; `None` if nothing was."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Row:
+    """One flight."""
+
+    family: str
+    number: int
+    planned: bool
+    """Whether a plan stood at engagement."""
+    intent_known: bool
+    joined: bool
+    flown_s: float
+    join_s: float | None
+    planned_s: float | None
+    """The plan's time at engagement."""
+    promised_s: float | None
+    """The same with braking, where a document gives it."""
+    join_over_plan: float | None
+    join_over_promise: float | None
+    least_share: float
+    """Least separation [d_min]."""
+    start_share: float
+    """Separation at the start [d_min]."""
+    below_s: float
+    """Seconds below d_min."""
+    losses: tuple[Loss, ...]
+    shown_replans: int
+    all_replans: int
+    reversals: int
+    """Of bank, until joined."""
+    extra_reversals: int
+    """Beyond those of the plan at engagement."""
+    loops: int
+    """Full circles that neither a plan nor the leader had."""
+    heading_jump_deg: float
+    """Largest between held headings of two seconds without an announcement."""
+    cross_track_m: float
+    """Largest distance from the path last announced, while it is flown."""
+    fastest_mps: float
+    alerts: int
+    cpu_s: float
+    error: str = ""
+    """What it ended with, if not with its last document."""
+
+    @property
+    def name(self) -> str:
+        """As the command line takes it."""
+        return f"{self.family} {self.number}"
+
+    @property
+    def silent_losses(self) -> int:
+        """Losses that nothing announced."""
+        return sum(loss.announced_s is None for loss in self.losses)
+
+
+def row_from(line: str) -> Row:
+    """A row from its line.
+
+    Raises:
+        ValueError: if it is none.
+    """
+    try:
+        content = loads(line)
+        losses = tuple(Loss(**loss) for loss in content.pop("losses"))
+        return Row(**content, losses=losses)
+    except (JSONDecodeError, KeyError, TypeError) as broken:
+        raise ValueError(f"This is no line of a campaign: {line[:60]}") from broken
+
+
+def read_rows(file: Path) -> list[Row]:
+    """The rows of a file, those of a flight flown twice once; none if there is no file.
+
+    A last line that was cut short, when the run was stopped, is taken off the file.
+
+    Raises:
+        ValueError: if it is a file of something else.
+    """
+    if not file.exists():
+        return []
+    text = file.read_text()
+    whole = text[: text.rfind("\n") + 1]
+    if whole != text:
+        file.write_text(whole)
+    rows = {(row.family, row.number): row for row in map(row_from, whole.splitlines())}
+    return list(rows.values())
+
+
+def append_row(file: Path, row: Row) -> None:
+    """Keep a row."""
+    with file.open("a") as lines:
+        lines.write(dumps(asdict(row)) + "\n")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Figure:
+    """A figure of rows that tables show."""
+
+    name: str
+    """Of the field or property of `Row`."""
+    heading: str
+    decimals: int = 0
+    low_is_worse: bool = False
+    scale: float = field(default=1.0)
+    offset: float = field(default=0.0)
+
+    def values(self, rows: Sequence[Row]) -> list[tuple[float, Row]]:
+        """What rows have of it, with the row; what has none is left out."""
+        found = [(getattr(row, self.name), row) for row in rows if not row.error]
+        return [
+            ((float(value) + self.offset) * self.scale, row)
+            for value, row in found
+            if value is not None
+        ]
+
+
+FIGURES = (
+    Figure(
+        name="join_over_plan", heading="join over plan, %", decimals=1, scale=100.0, offset=-1.0
+    ),
+    Figure(
+        name="join_over_promise",
+        heading="join over promise, %",
+        decimals=1,
+        scale=100.0,
+        offset=-1.0,
+    ),
+    Figure(name="least_share", heading="least separation, d_min", decimals=4, low_is_worse=True),
+    Figure(name="below_s", heading="below d_min, s"),
+    Figure(name="silent_losses", heading="losses without a word"),
+    Figure(name="shown_replans", heading="replans shown"),
+    Figure(name="all_replans", heading="replans in all"),
+    Figure(name="extra_reversals", heading="bank reversals beyond the plan's"),
+    Figure(name="loops", heading="circles not planned"),
+    Figure(name="heading_jump_deg", heading="jump of the held heading, °", decimals=1),
+    Figure(name="cross_track_m", heading="off the announced path, m"),
+    Figure(name="fastest_mps", heading="fastest, m/s", decimals=1),
+    Figure(name="cpu_s", heading="CPU, s", decimals=2),
+)
+"""In the order of the tables."""

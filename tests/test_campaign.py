@@ -1,0 +1,160 @@
+"""The campaign: flights that can be drawn again, figures that are right, runs that go on."""
+
+from dataclasses import replace
+from itertools import pairwise
+from math import hypot, pi
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from relguide.flying.cards import plan_card
+from relguide.flying.documents import FlightEnded, Sample
+from relguide.flying.flight import fly
+from relguide.planning import situation as situation_words
+from relguide.planning.plan import plan
+from relguide.units import DEG
+from tests.bench.draws import active
+from tests.campaign import recordings
+from tests.campaign.__main__ import main
+from tests.campaign.families import FAMILIES, REACH, draw
+from tests.campaign.flights import failed, row_of
+from tests.campaign.paths import circles, circles_of, distance_from, path_in_air, reversals_of
+from tests.campaign.row import FIGURES, read_rows, row_from
+from tests.campaign.tables import distributions, ranking
+from tests.plans import golden_plan, planned
+
+DRAWN = [family for family in FAMILIES if family != "recorded"]
+
+
+@pytest.mark.parametrize("family", DRAWN)
+@pytest.mark.parametrize("number", [0, 1, 2])
+def test_a_flight_is_drawn_from_its_name_alone(family: str, number: int) -> None:
+    case = draw(family, number)
+    assert case == draw(family, number)
+    assert case.scenario.situation != draw(family, number + 3).scenario.situation
+    times = [t for t, _ in case.orders]
+    assert times == sorted(times)
+    situation = case.scenario.situation
+    away = hypot(situation.pursuer.x, situation.pursuer.y)
+    assert situation.min_separation <= away <= REACH
+    # what is printed makes the same situation again
+    (printed,) = (line for line in case.as_code().splitlines() if line.startswith("situation"))
+    assert eval(printed.removeprefix("situation = "), vars(situation_words)) == situation
+
+
+@pytest.mark.slow
+def test_all_recorded_flights_of_the_collection_lead() -> None:
+    assert recordings.count() == 235
+    assert draw("recorded", 1).scenario.leader_source is recordings.track(1)
+    assert recordings.track(235) is recordings.track(0)
+
+
+@pytest.mark.slow
+def test_a_run_goes_on_where_it_stopped(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "flown.jsonl"
+    options = ["fly", "--processes", "1", "--flights", "1", "--out", str(file)]
+    assert main([*options, "--families", "told", "follow"]) == 0
+    begun = file.read_text()
+    with file.open("a") as cut_short:
+        cut_short.write('{"family": "told"')
+    assert main([*options, "--families", "told"]) == 0
+    assert file.read_text() == begun
+    told, follow = sorted(read_rows(file), key=lambda row: row.family, reverse=True)
+    assert told.planned
+    assert told.joined
+    assert told.join_over_plan is not None
+    assert 0.95 < told.join_over_plan < 1.5
+    assert told.least_share >= 1.0
+    assert (told.losses, told.below_s, told.loops) == ((), 0.0, 0)
+    assert follow.joined
+    assert row_from(begun.splitlines()[0]) in (told, follow)
+    capsys.readouterr()
+    assert main(["table", str(file), "--markdown"]) == 0
+    shown = capsys.readouterr().out
+    assert all(figure.heading in shown for figure in FIGURES if figure.values([told, follow]))
+    assert main(["show", "told", "0"]) == 0
+    assert repr(draw("told", 0).scenario.situation) in capsys.readouterr().out
+
+
+def test_a_file_of_something_else_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "else.jsonl"
+    file.write_text('{"kind": "sample"}\n')
+    with pytest.raises(ValueError, match="no line of a campaign"):
+        read_rows(file)
+    assert main(["table", str(file)]) == 2
+    assert "no line of a campaign" in capsys.readouterr().err
+
+
+def test_a_flight_that_fails_is_listed_and_not_counted() -> None:
+    row = failed(draw("told", 0), ZeroDivisionError("by zero"))
+    assert row.error == "ZeroDivisionError: by zero"
+    assert distributions([row]) == []
+
+
+def test_the_worst_comes_first_whichever_way_is_worse() -> None:
+    row = replace(failed(draw("told", 0), ValueError()), error="")
+    rows = [replace(row, number=i, least_share=share) for i, share in enumerate((1.2, 0.9, 1.1))]
+    (least,) = (figure for figure in FIGURES if figure.name == "least_share")
+    assert [one.number for _, one in ranking(least, rows)] == [1, 2, 0]
+    (circle,) = (figure for figure in FIGURES if figure.name == "loops")
+    assert [one.number for _, one in ranking(circle, rows)] == [0, 1, 2]
+
+
+@pytest.mark.slow
+def test_a_loss_of_d_min_is_found_with_its_time_and_its_depth() -> None:
+    case = draw("follow", 0)
+    scenario = replace(case.scenario, duration_limit=60.0)
+    case = replace(case, scenario=scenario, orders=())
+    documents = tuple(fly(scenario, plan, sample_period=1.0))
+    d_min = scenario.situation.min_separation
+    near = {20.0: 0.9 * d_min, 21.0: 0.8 * d_min, 40.0: 0.95 * d_min}
+    told = tuple(
+        replace(document, separation=near[document.t])
+        if isinstance(document, Sample) and document.t in near
+        else replace(document, least_separation=0.79 * d_min)
+        if isinstance(document, FlightEnded)
+        else document
+        for document in documents
+    )
+    row = row_of(case, told, 1.0)
+    assert [(loss.t_s, loss.seconds) for loss in row.losses] == [(20.0, 2.0), (40.0, 1.0)]
+    assert row.losses[0].separation_m == 0.8 * d_min
+    assert (row.below_s, row.silent_losses, row.least_share) == (3.0, 2, 0.79)
+    # between two samples, too
+    end = replace(documents[-1], least_separation=0.9 * d_min)
+    (loss,) = row_of(case, (*documents[:-1], end), 1.0).losses
+    assert loss.seconds == 1.0
+    assert row_of(case, documents, 1.0).losses == ()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [0, 1, 9])
+def test_the_path_of_a_card_is_the_path_of_its_plan(seed: int) -> None:
+    found = planned(active(np.random.default_rng(seed), tight=True, intent=seed > 0))
+    assert "B" in found.word
+    path = path_in_air(plan_card(found).segments, found.situation.wind)
+    flown = found.sample(np.linspace(0.0, found.time_to_converge, 200))
+    off = [distance_from(path, x, y) for x, y in zip(flown.x, flown.y, strict=True)]
+    assert max(off) < 20.0  # chords of a boundary arc, 5 s long, where it turns most
+    assert distance_from(path, float(flown.x[-1]) + 3e5, float(flown.y[-1])) > 1e5
+
+
+def test_circles_are_counted_across_short_straights() -> None:
+    right = [(3.0 * DEG, 1.0)] * 120
+    assert circles(right) == 1
+    assert circles(right[:110]) == 0
+    assert circles([*right[:60], (0.0, 20.0), *right[:60]]) == 1
+    assert circles([*right[:60], (0.0, 60.0), *right[:60]]) == 0
+    assert circles([*right[:60], (-1.0 * DEG, 1.0), *right[:60]]) == 0
+    assert circles(right * 2) == 2
+    assert circles([(-2.0 * pi, 100.0), (2.0 * pi, 100.0)]) == 2
+
+
+def test_a_plan_has_the_circles_and_reversals_of_its_turns() -> None:
+    segments = plan_card(golden_plan("R061")).segments
+    sides = [segment.direction for segment in segments if segment.kind == "turn"]
+    assert reversals_of(segments) == sum(a != b for a, b in pairwise(sides))
+    assert circles_of(segments) == 0
