@@ -13,12 +13,11 @@ it; a network can only make an answer slower than the best, never unsafe.
 """
 
 from dataclasses import dataclass, replace
-from math import hypot
+from math import hypot, inf
 from time import perf_counter_ns
 
 import numpy as np
 
-from relguide.kernels.base.records import Pose
 from relguide.kernels.networks.branch_scores import choose
 from relguide.kernels.words.branches import direct_time
 from relguide.kernels.words.extremals import MAX_ROWS, WORDS
@@ -31,7 +30,7 @@ from relguide.planning.inputs import expect
 from relguide.planning.plan import NoPlan, Optimality, Plan, Planner, plan
 from relguide.planning.situation import Situation
 from relguide.planning.slot import slot_frame
-from relguide.planning.tables import leader_bends
+from relguide.planning.tables import leader_path
 from relguide.planning.words import HORIZON
 from relguide.units import Metre, Second
 
@@ -101,28 +100,27 @@ def propose(
     radius = situation.pursuer.turn_radius
     if situation.leader.intent:
         frame = slot_frame(situation, situation.leader.trajectory)
-        pose, alpha, t_release = Pose(frame.x, frame.y, frame.h), frame.alpha, frame.t_release
+        x, y, h, alpha, t_release = frame.x, frame.y, frame.h, frame.alpha, frame.t_release
+        soonest = direct_time(x, y, alpha) if alpha < 1.0 else inf
     else:
         binds, soonest, place, free = view(situation, radius)
         if templates is not None and binds:
             around = solve_constrained(templates, situation, radius, place, free)
             return None if around is None else _with_certificate(around, situation, radius, soonest)
         x, y, h, _, alpha, _ = place
-        pose, t_release = Pose(x, y, h), 0.0
+        t_release = 0.0
     box = network.box
-    if not (hypot(pose.x, pose.y) <= box.max_range and box.min_ratio <= alpha <= box.max_ratio):
+    if not (hypot(x, y) <= box.max_range and box.min_ratio <= alpha <= box.max_ratio):
         return None
     rows = np.empty((MAX_ROWS, 5))
-    _, found = choose(pose, alpha, network.layers, network.least_share, network.most, rows)
+    _, found = choose(x, y, h, alpha, network.layers, network.least_share, network.most, rows)
     time, word, *amounts = rows[0].tolist()
     # had another word been open before, it would be the exact planner's to find how to wait for it
     if found == 0 or time < t_release or time * radius / situation.pursuer.tas > HORIZON:
         return None
     segments = segments_of(radius, SIGN_ROWS[int(word)], amounts)
     candidate = candidate_of(situation.pursuer, segments, WORDS[int(word)])
-    return _with_certificate(
-        candidate, situation, radius, max(direct_time(pose.x, pose.y, alpha), t_release)
-    )
+    return _with_certificate(candidate, situation, radius, max(soonest, t_release))
 
 
 def _with_certificate(
@@ -131,6 +129,6 @@ def _with_certificate(
     """With its certificate; no path arrives before `least` [R/V_P]."""
     return Proposal(
         candidate=candidate,
-        certificate=judge(candidate.trajectory, situation, radius, leader_bends(situation)),
+        certificate=judge(candidate.trajectory, situation, radius, leader_path(situation)),
         lower_bound=least * radius / situation.pursuer.tas,
     )

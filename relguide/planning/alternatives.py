@@ -123,7 +123,7 @@ def alternatives(plan: Plan) -> tuple[AnyAlternative, ...]:
     scale = found.frame.radius / situation.pursuer.tas
     release_time = found.frame.t_release * scale
     late = {WORDS[int(word)] for word in found.rows[:, 1]}
-    around = surroundings(situation)
+    around = surroundings(found)
     listed: list[Alternative | TooEarly] = [
         *_at_release(plan, found, around),
         *_later(plan, found, around),

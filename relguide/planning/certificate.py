@@ -10,7 +10,7 @@ from relguide.kernels.separation.approach import least_on_paths
 from relguide.kernels.separation.clearance import SLACK
 from relguide.planning.inputs import expect
 from relguide.planning.situation import Situation
-from relguide.planning.tables import bends_of, leader_bends
+from relguide.planning.tables import leader_path, path_of
 from relguide.planning.trajectory import Trajectory
 from relguide.units import Metre, Second
 
@@ -41,7 +41,7 @@ def certify(trajectory: Trajectory, situation: Situation) -> Certificate:
     """
     expect("trajectory", trajectory, Trajectory)
     expect("situation", situation, Situation)
-    return judge(trajectory, situation, situation.pursuer.turn_radius, leader_bends(situation))
+    return judge(trajectory, situation, situation.pursuer.turn_radius, leader_path(situation))
 
 
 def judge(
@@ -53,13 +53,9 @@ def judge(
         trajectory: the pursuer's.
         situation: gives the leader and d_min.
         radius: R, which callers have at hand [m].
-        leading: the situation's `leader_bends`, or `bends_of` what its leader flies.
+        leading: the situation's `leader_path`, or `path_of` what its leader flies.
     """
-    leader = situation.leader
-    least, at, bound = least_on_paths(
-        trajectory.x, trajectory.y, trajectory.heading, trajectory.tas, bends_of(trajectory),
-        leader.x, leader.y, leader.heading, leader.tas, leading, TOLERANCE * radius,
-    )  # fmt: skip
+    least, at, bound = least_on_paths(path_of(trajectory), leading, TOLERANCE * radius)
     return Certificate(
         least_separation=least,
         at_time=at,

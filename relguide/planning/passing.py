@@ -11,12 +11,12 @@ from math import atan2, hypot, pi
 from typing import Literal
 
 from relguide.kernels.base.angles import wrap_signed
-from relguide.kernels.base.motion import Motion
+from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.separation.winding import sight_turn
-from relguide.planning.situation import Situation
-from relguide.planning.slot import slot_frame, slot_offset
-from relguide.planning.tables import motion_of
+from relguide.planning.slot import slot_offset
+from relguide.planning.tables import path_of
 from relguide.planning.trajectory import LEFT, RIGHT, Trajectory, Turn
+from relguide.planning.words import Candidates
 from relguide.units import Metre, Radian
 
 NEAREST = 1e-2
@@ -47,8 +47,8 @@ class Surroundings:
     Angles are those of the pursuer, clockwise from straight behind the leader on its final leg.
     """
 
-    leader: Motion
-    """How the leader moves."""
+    leader: FloatArray
+    """What the leader flies, as kernels take it."""
     nearest: Metre
     """The separation below which steps grow no shorter."""
     begins: Radian
@@ -57,12 +57,11 @@ class Surroundings:
     """Where the slot is: 0 but for wind."""
 
 
-def surroundings(situation: Situation) -> Surroundings:
+def surroundings(found: Candidates) -> Surroundings:
     """What the paths of a situation have in common."""
-    pursuer, leader = situation.pursuer, situation.leader.trajectory
-    frame = slot_frame(situation, leader)
+    pursuer, leader, frame = found.situation.pursuer, found.leader, found.frame
     nearest = NEAREST * frame.radius
-    slot_x, slot_y, _ = slot_offset(frame.heading, leader.tas, situation)
+    slot_x, slot_y, _ = slot_offset(frame.heading, leader.tas, found.situation)
 
     def from_behind(dx: Metre, dy: Metre) -> Radian:
         if hypot(dx, dy) < nearest:  # a slot at the leader's own place
@@ -70,7 +69,7 @@ def surroundings(situation: Situation) -> Surroundings:
         return wrap_signed(atan2(dx, dy) - frame.heading - pi)
 
     return Surroundings(
-        leader=motion_of(leader),
+        leader=path_of(leader),
         nearest=nearest,
         begins=from_behind(pursuer.x - leader.x, pursuer.y - leader.y),
         ends=from_behind(slot_x, slot_y),
@@ -79,6 +78,6 @@ def surroundings(situation: Situation) -> Surroundings:
 
 def passing(trajectory: Trajectory, around: Surroundings) -> Passing:
     """How a trajectory that ends in the slot passes the leader."""
-    turned = sight_turn(motion_of(trajectory), around.leader, trajectory.duration, around.nearest)
+    turned = sight_turn(path_of(trajectory), around.leader, trajectory.duration, around.nearest)
     laps = round((around.begins + turned - around.ends) / (2.0 * pi))
     return Passing(side=RIGHT if turned > 0.0 else LEFT, laps=laps)

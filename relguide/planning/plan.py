@@ -27,7 +27,7 @@ from relguide.planning.phrases import distance
 from relguide.planning.sampling import Samples
 from relguide.planning.situation import Situation
 from relguide.planning.straight_ahead import first_candidate
-from relguide.planning.tables import bends_of, leader_bends
+from relguide.planning.tables import leader_path, path_of
 from relguide.planning.trajectory import Trajectory, pieces_text
 from relguide.planning.words import HORIZON, Candidates, candidates
 from relguide.units import KT, Metre, Millisecond, Second
@@ -203,7 +203,7 @@ def plan_at_once(situation: Situation) -> Plan | None:
     if chosen is None:
         found = candidates(situation)
         if len(found) > 0 and found.bound <= HORIZON:
-            chosen = _fastest_extremal(found, situation, radius, bends_of(found.leader))
+            chosen = _fastest_extremal(found, situation, radius, path_of(found.leader))
     return None if chosen is None else _plan_of(chosen, situation, started)
 
 
@@ -226,7 +226,7 @@ def _at_once(situation: Situation, radius: Metre) -> _Chosen | None:
     if first is None:
         return None
     candidate, time = first
-    certificate = judge(candidate.trajectory, situation, radius, leader_bends(situation))
+    certificate = judge(candidate.trajectory, situation, radius, leader_path(situation))
     if not certificate.holds:
         return None
     return candidate, certificate, Optimality(proof="relaxation", lower_bound=time)
@@ -252,7 +252,7 @@ def _search(situation: Situation, radius: Metre) -> _Chosen | NoPlan:
 
 
 def _first_certified(found: Candidates, situation: Situation, radius: Metre) -> _Chosen | None:
-    bound, leading = found.bound, bends_of(found.leader)
+    bound, leading = found.bound, path_of(found.leader)
     fastest = _fastest_extremal(found, situation, radius, leading)
     if fastest is not None:
         return fastest

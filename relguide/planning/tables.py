@@ -2,8 +2,9 @@
 
 Three forms, for three uses:
 
-- `bends_of`: lengths and curvatures, for the certificate. Every plan needs it, so it is a flat
-  array of what the segments contain already, and `least_on_paths` makes times of it.
+- `path_of`: lengths and curvatures after the start, for the certificate and for how the leader is
+  passed. Every plan needs it, so it is a flat array of what the segments contain already, and the
+  kernels make times of it (`motion_along`).
 - `motion_of`: durations and turn rates with the start, in the world frame, for all other kernels
   that fly both aircraft there.
 - `scene_of`: the leader's pieces as a table in the slot frame, with d_min and the release time, for
@@ -23,23 +24,24 @@ from relguide.planning.situation import Situation
 from relguide.planning.slot import SlotFrame
 from relguide.planning.trajectory import Trajectory
 
-_STRAIGHT = np.empty(0)
+
+def leader_path(situation: Situation) -> FloatArray:
+    """`path_of` what the leader flies before its final leg."""
+    leader = situation.leader
+    if leader.intent:
+        return path_of(leader.trajectory)
+    return np.array((leader.x, leader.y, leader.heading, leader.tas))
 
 
-def leader_bends(situation: Situation) -> FloatArray:
-    """`bends_of` what the leader flies before its final leg."""
-    return bends_of(situation.leader.trajectory) if situation.leader.intent else _STRAIGHT
+def path_of(trajectory: Trajectory) -> FloatArray:
+    """Its start, then length [m] and curvature [rad/m, right positive] of each piece in turn.
 
-
-def bends_of(trajectory: Trajectory) -> FloatArray:
-    """Length [m] and curvature [rad/m, right positive] of each piece in turn.
-
-    shape (2·pieces,)
+    x, y [m], heading [rad] and speed [m/s] come first. shape (4 + 2·pieces,)
     """
-    bends: list[float] = []
+    path = [trajectory.x, trajectory.y, trajectory.heading, trajectory.tas]
     for segment in trajectory.segments:
-        bends.extend(chain.from_iterable(segment.bends))
-    return np.array(bends)
+        path.extend(chain.from_iterable(segment.bends))
+    return np.array(path)
 
 
 def motion_of(trajectory: Trajectory) -> Motion:

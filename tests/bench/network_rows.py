@@ -80,7 +80,7 @@ def _answer_rows(
             time = inf
         elif word_clears(Pose(x, y, h), 0.0, free, Scene(leader, alpha, limit - SLACK, 0.0)):
             if np.hypot(x, y) <= box[0] and box[1] <= alpha <= box[2]:
-                _, count = choose(Pose(x, y, h), alpha, words, sure[0], sure[1], rows)
+                _, count = choose(x, y, h, alpha, words, sure[0], sure[1], rows)
                 if count > 0:
                     time = rows[0, 0]
                     pieces = np.zeros((3, 3))
@@ -112,16 +112,15 @@ def _keeps(
     x: float, y: float, h: float, slot: float, alpha: float, limit: float, pieces: FloatArray
 ) -> bool:
     """The certificate. The slot frame is a world with its x axis north: left is right there."""
-    bends = np.empty(2 * pieces.shape[1])
+    path = np.empty(4 + 2 * pieces.shape[1])
+    path[0], path[1], path[2], path[3] = y * _RADIUS, x * _RADIUS, h, _TAS
     for k in range(pieces.shape[1]):
         boundary_arc, bend, amount = pieces[0, k], pieces[1, k], pieces[2, k]
         if boundary_arc == 0.0:
-            bends[2 * k] = amount if bend == 0.0 else amount * _RADIUS
-            bends[2 * k + 1] = bend / _RADIUS
+            path[4 + 2 * k] = amount if bend == 0.0 else amount * _RADIUS
+            path[5 + 2 * k] = bend / _RADIUS
         else:
-            bends[2 * k], bends[2 * k + 1] = amount, -bend
-    _, _, bound = least_on_paths(
-        y * _RADIUS, x * _RADIUS, h, _TAS, bends, 0.0, slot * _RADIUS, 0.0, alpha * _TAS,
-        np.empty(0), TOLERANCE * _RADIUS,
-    )  # fmt: skip
+            path[4 + 2 * k], path[5 + 2 * k] = amount, -bend
+    leader = np.array((0.0, slot * _RADIUS, 0.0, alpha * _TAS))
+    _, _, bound = least_on_paths(path, leader, TOLERANCE * _RADIUS)
     return bool(bound >= (limit - SLACK) * _RADIUS)

@@ -3,6 +3,7 @@
 from math import cos, sin
 from typing import NamedTuple
 
+import numpy as np
 from numba import njit
 
 from relguide.kernels.base.roots import FloatArray
@@ -56,3 +57,18 @@ def advance(
 def with_pieces(motion: Motion, pieces: FloatArray) -> Motion:
     """The same start, and other pieces."""
     return Motion(motion.x, motion.y, motion.heading, motion.tas, pieces)
+
+
+@njit(cache=True, nogil=True)
+def motion_along(path: FloatArray) -> Motion:
+    """A motion from one array: a record handed over from Python costs a microsecond.
+
+    Args:
+        path: x, y, heading and V, as in `Motion`; then length [m] and curvature [rad/m, right
+            positive] of each piece in turn. shape (4 + 2·n,)
+    """
+    tas = path[3]
+    pieces = np.empty((len(path) // 2 - 2, 2))
+    for i in range(len(pieces)):
+        pieces[i, 0], pieces[i, 1] = path[4 + 2 * i] / tas, path[5 + 2 * i] * tas
+    return Motion(path[0], path[1], path[2], tas, pieces)

@@ -109,13 +109,18 @@ def shares(scores: FloatArray, out: FloatArray) -> None:
 
 @njit(cache=True, nogil=True)
 def choose(
-    pose: Pose, alpha: float, layers: Layers, least_share: float, most: int, rows: FloatArray
-) -> tuple[int, int]:
+    x: float, y: float, h: float, alpha: float, layers: Layers, least_share: float, most: int,
+    rows: FloatArray,
+) -> tuple[int, int]:  # fmt: skip
     """Solve the words that the network holds possible, exactly, and no others.
 
+    Its numbers are loose for one call from Python a plan.
+
     Args:
-        pose: as in `evaluate`.
-        alpha: as there.
+        x: the pursuer ahead of the slot [R].
+        y: and left of it [R].
+        h: its heading [rad], in [0, 2π).
+        alpha: V_L/V_P.
         layers: the weights.
         least_share: branches with a smaller share than this are left out.
         most: with more branches than this, nothing is solved.
@@ -124,7 +129,7 @@ def choose(
     Returns:
         how many branches are held possible, and how many rows there are.
     """
-    scores = np.empty((3, SIZE))
+    pose, scores = Pose(x, y, h), np.empty((3, SIZE))
     evaluate(pose, alpha, layers, scores)
     return decode(pose, alpha, scores, least_share, most, rows)
 

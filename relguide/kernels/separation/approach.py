@@ -27,7 +27,7 @@ from math import cos, hypot, inf, sin, sqrt
 import numpy as np
 from numba import njit
 
-from relguide.kernels.base.motion import Motion
+from relguide.kernels.base.motion import Motion, motion_along
 from relguide.kernels.base.roots import FloatArray
 
 ROUNDING = 1e-6
@@ -213,37 +213,16 @@ def least_separation(
 
 @njit(cache=True, nogil=True)
 def least_on_paths(
-    x: float, y: float, heading: float, tas: float, bends: FloatArray, leader_x: float,
-    leader_y: float, leader_heading: float, leader_tas: float, leader_bends: FloatArray,
-    tolerance: float,
-) -> tuple[float, float, float]:  # fmt: skip
-    """`least_separation` until the end of the pursuer's path; loose numbers, called once a plan.
+    path: FloatArray, leader_path: FloatArray, tolerance: float
+) -> tuple[float, float, float]:
+    """`least_separation` until the end of the pursuer's path.
 
     Args:
-        x: the pursuer at t = 0, east [m].
-        y: the same, north [m].
-        heading: ψ there [rad].
-        tas: V [m/s].
-        bends: length [m] and curvature [rad/m, right positive] of each of its pieces in turn.
-            shape (2·n,)
-        leader_x: as `x`.
-        leader_y: as `y`.
-        leader_heading: as `heading`.
-        leader_tas: as `tas`.
-        leader_bends: as `bends`; past the last of them it goes on straight.
+        path: the pursuer's, as `motion_along` takes it.
+        leader_path: the leader's; past its end it goes on straight.
         tolerance: as in `least_separation` [m].
     """
-    pursuer = Motion(x, y, heading, tas, _in_time(bends, tas))
-    leader = Motion(
-        leader_x, leader_y, leader_heading, leader_tas, _in_time(leader_bends, leader_tas)
+    pursuer = motion_along(path)
+    return least_separation(
+        pursuer, motion_along(leader_path), pursuer.pieces[:, 0].sum(), tolerance
     )
-    return least_separation(pursuer, leader, pursuer.pieces[:, 0].sum(), tolerance)
-
-
-@njit(cache=True, nogil=True)
-def _in_time(bends: FloatArray, tas: float) -> FloatArray:
-    """Duration and turn rate of pieces with these lengths and curvatures."""
-    pieces = np.empty((len(bends) // 2, 2))
-    for i in range(len(pieces)):
-        pieces[i, 0], pieces[i, 1] = bends[2 * i] / tas, bends[2 * i + 1] * tas
-    return pieces

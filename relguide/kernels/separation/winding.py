@@ -8,24 +8,25 @@ from math import atan2, hypot
 
 from numba import njit
 
-from relguide.kernels.base.motion import Motion, advance
+from relguide.kernels.base.motion import advance, motion_along
+from relguide.kernels.base.roots import FloatArray
 
 _STRIDE = 0.9
 
 
 @njit(cache=True, nogil=True)
-def sight_turn(pursuer: Motion, leader: Motion, duration: float, nearest: float) -> float:
+def sight_turn(path: FloatArray, leader_path: FloatArray, duration: float, nearest: float) -> float:
     """By how much the bearing θ from pursuer to leader changes, clockwise positive [rad].
 
     Args:
-        pursuer: how the pursuer moves.
-        leader: and the leader.
+        path: the pursuer's, as `motion_along` takes it.
+        leader_path: the leader's.
         duration: until when [s].
         nearest: where they are nearer than this, steps are as if they were not [m], > 0: it bounds
             the work, and the turn of aircraft that meet is not known.
     """
-    px, py, ppsi, pv, pursuer_pieces = pursuer
-    lx, ly, lpsi, lv, leader_pieces = leader
+    px, py, ppsi, pv, pursuer_pieces = motion_along(path)
+    lx, ly, lpsi, lv, leader_pieces = motion_along(leader_path)
     i, j = 0, 0
     p_left = pursuer_pieces[0, 0] if len(pursuer_pieces) > 0 else duration
     l_left = leader_pieces[0, 0] if len(leader_pieces) > 0 else duration

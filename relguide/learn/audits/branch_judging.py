@@ -141,7 +141,7 @@ def latencies(network: BranchNetwork, request: LabelRequest) -> dict[str, tuple[
     layers, least, most = network.layers, network.least_share, network.most
 
     def by_network(x: float, y: float, h: float, alpha: float) -> object:
-        return choose(Pose(x, y, h), alpha, layers, least, most, rows)
+        return choose(x, y, h, alpha, layers, least, most, rows)
 
     def by_all_words(x: float, y: float, h: float, alpha: float) -> object:
         return solve(Pose(x, y, h), alpha, 0.0, rows)

@@ -169,7 +169,7 @@ def side_by_side(
     rows = np.empty((MAX_ROWS, 5))
 
     def ours(x: float, y: float, h: float) -> object:
-        return choose(Pose(x, y, h), alpha, network.layers, network.least_share, network.most, rows)
+        return choose(x, y, h, alpha, network.layers, network.least_share, network.most, rows)
 
     yield _method("ours", ground, _of_network(ground, network), ours)
     asked: list[tuple[str, Callable[[Floats, Floats, Floats], Floats]]] = [

@@ -145,7 +145,7 @@ def test_how_the_leader_is_passed_is_what_small_steps_show(situation: Situation)
     places -= np.array([(o.x, o.y) for o in map(theirs.pose_at, times)])
     bearing = np.arctan2(places[:, 0], places[:, 1])  # of the pursuer from the leader: turns alike
     turned = float((np.remainder(np.diff(bearing) + pi, 2.0 * pi) - pi).sum())
-    found = passing(ours, surroundings(situation))
+    found = passing(ours, surroundings(candidates(situation)))
     if abs(turned) > 1e-3:
         assert found.side == (RIGHT if turned > 0.0 else LEFT)
     off_ahead = np.remainder(bearing - slot_frame(situation, theirs).heading + pi, 2.0 * pi) - pi
@@ -218,7 +218,7 @@ def test_of_slower_paths_only_the_fastest_of_each_branch_is_listed() -> None:
         answer, found = plan(situation), candidates(situation)
         if not isinstance(answer, Plan) or found.reachable_at_release:
             continue
-        around = surroundings(situation)
+        around = surroundings(candidates(situation))
         times: dict[tuple[str, bool, int], list[float]] = {}
         for path in found.later:
             middle = path.trajectory.segments[1:2]
@@ -252,7 +252,7 @@ def test_paths_round_the_leader_are_distinguished() -> None:
         min_separation=2_000.0,
     )
     answer = planned(situation)
-    behind = passing(answer.trajectory, surroundings(situation))
+    behind = passing(answer.trajectory, surroundings(candidates(situation)))
     assert (behind.where, behind.side, behind.laps) == ("behind", LEFT, 0)
     ahead = [
         other.passing
@@ -262,7 +262,7 @@ def test_paths_round_the_leader_are_distinguished() -> None:
     assert ahead
     assert {(way.side, way.laps) for way in ahead} == {(RIGHT, 1)}
     image = mirrored(situation)
-    other_side = passing(planned(image).trajectory, surroundings(image))
+    other_side = passing(planned(image).trajectory, surroundings(candidates(image)))
     assert (other_side.where, other_side.side) == ("behind", RIGHT)
 
 

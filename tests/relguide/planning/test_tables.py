@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from relguide import RIGHT, FlyStraight, Leader, Pursuer, Situation, TurnTo
-from relguide.kernels.base.motion import advance
+from relguide.kernels.base.motion import advance, motion_along
 from relguide.kernels.separation.clearance import leader_at, piece_at
 from relguide.planning.slot import slot_frame
-from relguide.planning.tables import bends_of, leader_bends, motion_of, scene_of
+from relguide.planning.tables import leader_path, motion_of, path_of, scene_of
 
 SITUATION = Situation(
     pursuer=Pursuer(x=-30e3, y=12e3, heading=1.0, tas=240.0, max_bank=0.4),
@@ -25,12 +25,11 @@ LEADER = SITUATION.leader.trajectory
 
 
 def test_lengths_and_curvatures_are_durations_and_rates() -> None:
-    bends = bends_of(LEADER).reshape(-1, 2)
-    pieces = motion_of(LEADER).pieces
-    assert pieces[:, 0] == pytest.approx(bends[:, 0] / LEADER.tas)
-    assert pieces[:, 1] == pytest.approx(bends[:, 1] * LEADER.tas)
-    assert np.count_nonzero(pieces[:, 1] > 0.0) == 1  # it turns right
-    assert np.array_equal(leader_bends(SITUATION), bends_of(LEADER))
+    along, motion = motion_along(path_of(LEADER)), motion_of(LEADER)
+    assert along[:4] == motion[:4]
+    assert along.pieces == pytest.approx(motion.pieces)
+    assert np.count_nonzero(along.pieces[:, 1] > 0.0) == 1  # it turns right
+    assert np.array_equal(leader_path(SITUATION), path_of(LEADER))
 
 
 @pytest.mark.parametrize("t", [0.0, 30.0, 70.0, 500.0])
@@ -58,7 +57,7 @@ def test_a_leader_that_keeps_straight_has_no_pieces() -> None:
         min_separation=9e3,
     )
     scene = scene_of(straight, slot_frame(straight, straight.leader.trajectory))
-    assert leader_bends(straight).size == 0
+    assert np.array_equal(leader_path(straight), path_of(straight.leader.trajectory))
     assert motion_of(straight.leader.trajectory).pieces.shape == (0, 2)
     assert scene.leader.shape == (1, 5)
     assert scene.t_release == 0.0

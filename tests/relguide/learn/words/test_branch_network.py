@@ -59,7 +59,7 @@ def test_situations_judged_together_are_judged_as_one_by_one() -> None:
     rows = np.empty((MAX_ROWS, 5))
     for situation, told in zip(situations, decoded, strict=True):
         x, y, h, alpha = situation
-        held, n = choose(Pose(x, y, h), alpha, found.layers, found.least_share, 4, rows)
+        held, n = choose(x, y, h, alpha, found.layers, found.least_share, 4, rows)
         assert told.tolist() == [held, *((rows[0, 0], branch_of(rows[0])) if n else (inf, -1))]
     assert len(set(decoded[:, 0])) > 2
 
