@@ -2,8 +2,7 @@
 
 The arrival is smooth but for edges, where a word between two contacts ceases to exist or a piece
 begins to break the limit. Bearings are moved one after another, by parabolas where the arrival is
-smooth and by smaller steps at edges; then together, in the direction of the whole sweep; then along
-edges.
+smooth and by smaller steps at edges; then two together, along an edge.
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; a chain is as in `chain`.
 """
@@ -35,7 +34,6 @@ GAIN = 1e-8
 """Or where a parabola promises less than this [R/V_P]: 1 µs."""
 _AT_EDGE = 0.02  # chains this near to the best are followed along edges [R/V_P]
 _SWEEPS = 16  # over all bearings of a chain
-_FURTHEST = 64.0  # times as far as a sweep
 _NEAR = 0.3  # values farther above the least say nothing about a minimum [R/V_P]
 _BESIDE = 5e-3  # an edge is looked for this near to a contact [rad] …
 _CLIFF = 2e-3  # … where to both sides together the arrival rises by more than this [R/V_P]
@@ -160,27 +158,12 @@ def refine_chain(
     contacts = chain.contacts
     strides = np.full(len(contacts), stride)
     finest = 0.1 * stride
-    further = np.empty_like(contacts)
     for _ in range(_SWEEPS):
-        before, begun = here, contacts.copy()
+        before = here
         for k in range(len(contacts)):
             at, t = fly_links(start, 0.0, scene, chain, 0, k - 1, inf)
             move = _Move(k, _last_moved(scene, t, contacts, k, 1), strides[k], finest)
             here, strides[k] = _move_bearing(at, t, scene, chain, move, here)
-        gain = before - here
-        # a valley that no single bearing goes down: on in the direction of the whole sweep
-        reach = 1.0
-        while gain > GAIN and len(contacts) > 1 and reach <= _FURTHEST:
-            further[:] = contacts
-            further[:, 2] += reach * (contacts[:, 2] - begun[:, 2])
-            trial = with_contacts(chain, further)
-            _, there = fly_links(start, 0.0, scene, trial, 0, len(contacts), here)
-            if there >= here:
-                break
-            here = there
-            begun[:] = contacts
-            contacts[:] = further
-            reach *= 2.0
         gain = before - here
         if here - 2.0 * gain > beat or (gain < GAIN and finest == FINEST):
             break
