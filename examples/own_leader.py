@@ -23,4 +23,5 @@ for document in rg.fly(scenario, rg.plan, sample_period=1.0):
     if isinstance(document, rg.PlanChanged | rg.ModeChanged | rg.LeaderChanged):
         print(f"{document.t:4.0f} s: {document.message}")
     if isinstance(document, rg.FlightEnded):
-        print(f"joined: {document.joined}, never closer than {document.least_separation:,.0f} m")
+        result = document.results[0]
+        print(f"joined: {result.joined}, never closer than {result.least_separation:,.0f} m")

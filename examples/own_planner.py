@@ -21,7 +21,8 @@ def careful(situation: rg.Situation) -> rg.Plan | rg.NoPlan:
 
 for document in rg.record(rg.fly(rg.scenario("fig_6b"), careful), "careful.jsonl"):
     if isinstance(document, rg.FlightEnded):
-        print(f"joined after {document.join_time:.0f} s, {document.fallbacks} fallbacks")
+        result = document.results[0]
+        print(f"joined after {result.join_time:.0f} s, {result.fallbacks} fallbacks")
 
 for document in rg.replay("careful.jsonl"):
     if isinstance(document, rg.PlanChanged):

@@ -22,9 +22,11 @@ from relguide.planning.extras import with_command as _with_command
 if typing.TYPE_CHECKING:
     from relguide.contract.recorder import record as record
     from relguide.contract.recorder import replay as replay
+    from relguide.flying.documents import Alert as Alert
     from relguide.flying.documents import Document as Document
     from relguide.flying.documents import FlightEnded as FlightEnded
     from relguide.flying.documents import FlightStarted as FlightStarted
+    from relguide.flying.documents import ForecastChanged as ForecastChanged
     from relguide.flying.documents import LeaderChanged as LeaderChanged
     from relguide.flying.documents import LeaderRoute as LeaderRoute
     from relguide.flying.documents import ModeChanged as ModeChanged
@@ -32,6 +34,8 @@ if typing.TYPE_CHECKING:
     from relguide.flying.documents import PlanRefused as PlanRefused
     from relguide.flying.documents import PlanUnavailable as PlanUnavailable
     from relguide.flying.documents import Sample as Sample
+    from relguide.flying.documents import SeparationLost as SeparationLost
+    from relguide.flying.documents import Unable as Unable
     from relguide.flying.flight import DeclaredLeader as DeclaredLeader
     from relguide.flying.flight import Scenario as Scenario
     from relguide.flying.flight import fly as fly
@@ -86,9 +90,11 @@ __version__ = "0.1.0"
 _HOMES = {
     "record": "relguide.contract.recorder",
     "replay": "relguide.contract.recorder",
+    "Alert": "relguide.flying.documents",
     "Document": "relguide.flying.documents",
     "FlightEnded": "relguide.flying.documents",
     "FlightStarted": "relguide.flying.documents",
+    "ForecastChanged": "relguide.flying.documents",
     "LeaderChanged": "relguide.flying.documents",
     "LeaderRoute": "relguide.flying.documents",
     "ModeChanged": "relguide.flying.documents",
@@ -96,6 +102,8 @@ _HOMES = {
     "PlanRefused": "relguide.flying.documents",
     "PlanUnavailable": "relguide.flying.documents",
     "Sample": "relguide.flying.documents",
+    "SeparationLost": "relguide.flying.documents",
+    "Unable": "relguide.flying.documents",
     "DeclaredLeader": "relguide.flying.flight",
     "Scenario": "relguide.flying.flight",
     "fly": "relguide.flying.flight",
@@ -151,6 +159,7 @@ __all__ = [
     "CALM",
     "LEFT",
     "RIGHT",
+    "Alert",
     "Alternative",
     "Arc",
     "Arrival",
@@ -162,6 +171,7 @@ __all__ = [
     "FlightEnded",
     "FlightStarted",
     "FlyStraight",
+    "ForecastChanged",
     "Grid",
     "Isochrones",
     "Leader",
@@ -183,6 +193,7 @@ __all__ = [
     "Sample",
     "Samples",
     "Scenario",
+    "SeparationLost",
     "Situation",
     "Situations",
     "Straight",
@@ -190,6 +201,7 @@ __all__ = [
     "Times",
     "Trajectory",
     "TurnTo",
+    "Unable",
     "Wind",
     "alternatives",
     "candidates",

@@ -10,7 +10,7 @@ from typing import Any, Literal, get_args, get_origin
 from hypothesis import strategies as st
 
 from relguide.contract.wire import COMPASS, wire_fields
-from relguide.flying.documents import Document
+from relguide.flying.documents import Alert, Document, ForecastChanged, SeparationLost, Unable
 
 DOCUMENT_TYPES: tuple[type[Any], ...] = get_args(Document)
 
@@ -38,10 +38,42 @@ def _values(name: str, annotation: Any) -> st.SearchStrategy[Any]:
     if get_origin(annotation) is Literal:
         return st.sampled_from(get_args(annotation))
     if get_origin(annotation) is tuple:
-        return st.lists(_values("", get_args(annotation)[0]), max_size=3).map(tuple)
+        return st.lists(_values(name, get_args(annotation)[0]), max_size=3).map(tuple)
     if get_origin(annotation) is UnionType:
         return reduce(or_, map(document_of, get_args(annotation)))
     if isinstance(annotation, type) and issubclass(annotation, Enum):
         return st.sampled_from(list(annotation))
     assert is_dataclass(annotation)
     return document_of(annotation)  # type: ignore[arg-type]
+
+
+def rare_documents(t: float, ident: str, other: str) -> tuple[Document, ...]:
+    """What a good flight has no reason to say."""
+    alert = Alert(
+        t=t,
+        ident=ident,
+        other=other,
+        level="caution",
+        subject="separation",
+        message="The leader slows down: 4.8 NM in 45 s.",
+        predicted_least=8_900.0,
+        predicted_at=t + 45.0,
+        cleared=False,
+    )
+    return (
+        alert,
+        Unable(t=t, ident=ident, reason="speed", message="The leader is too slow to follow."),
+        SeparationLost(
+            t=t,
+            ident=ident,
+            other=other,
+            separation=9_259.0,
+            x=0.0,
+            y=0.0,
+            cause="The leader slowed down.",
+            announced=(t - 30.0,),
+        ),
+        ForecastChanged(
+            t=t, ident=ident, times=(t, t + 5.0), x=(0.0, 1e3), y=(0.0, 0.0), heading=(1.5, 1.5)
+        ),
+    )

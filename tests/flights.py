@@ -6,6 +6,7 @@ from math import hypot, pi
 from random import Random
 from typing import TypeVar
 
+from relguide.flying.aircraft_documents import AircraftSample, GuidanceSample, LinkResult
 from relguide.flying.documents import Document, FlightEnded, Sample
 from relguide.flying.flight import Command, Scenario, fly
 from relguide.planning.plan import Planner, plan
@@ -14,6 +15,22 @@ from relguide.planning.trajectory import LEFT, RIGHT
 from relguide.units import DEG, NM
 
 T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Instant:
+    """A sample of a flight of two."""
+
+    t: float
+    pursuer: AircraftSample
+    leader: AircraftSample
+    guidance: GuidanceSample
+
+
+def instant(sample: Sample) -> Instant:
+    (pursuer, leader), (guidance,) = sample.aircraft, sample.guidance
+    assert (guidance.ident, guidance.leader) == (pursuer.ident, leader.ident)
+    return Instant(sample.t, pursuer, leader, guidance)
 
 
 @dataclass(frozen=True)
@@ -29,8 +46,13 @@ class Flown:
         return last
 
     @property
-    def samples(self) -> list[Sample]:
-        return self.of(Sample)
+    def result(self) -> LinkResult:
+        (result,) = self.end.results
+        return result
+
+    @property
+    def samples(self) -> list[Instant]:
+        return [instant(sample) for sample in self.of(Sample)]
 
     def of(self, kind: type[T]) -> list[T]:
         return [document for document in self.documents if isinstance(document, kind)]

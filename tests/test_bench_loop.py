@@ -36,19 +36,19 @@ def test_a_planner_loses_nothing_to_itself_and_a_bad_one_is_told_of() -> None:
     def by_network(**changes: object) -> dict[str, list[object]]:
         return {"exact": [one], "network": [replace(one, **changes)]}  # type: ignore[arg-type]
 
-    late = by_network(end=replace(one.end, join_time=2.0 * one.end.join_time))
+    late = by_network(result=replace(one.result, join_time=2.0 * one.result.join_time))
     assert rows(losses_table(late))[0][2] == "100.0000"
     close = failures(by_network(kept=BREACH - 0.1))
     assert close[0] == "Flight 1 comes within 0.890 d_min by network, told what the leader will do."
     assert close[1].endswith(f"by network, {one.kept:.3f} by the exact planner.")
-    lost = by_network(end=replace(one.end, joined=False))
+    lost = by_network(result=replace(one.result, joined=False))
     assert failures(lost) == ["Flight 1 joins by the exact planner only."]
     assert rows(losses_table(lost)) == []
 
 
 def test_what_nobody_could_keep_is_no_failure() -> None:
     one = flown(1, plan, longest=3.0)
-    head_on = replace(one, kept=0.7, end=replace(one.end, planned_time=0.0))
+    head_on = replace(one, kept=0.7, result=replace(one.result, planned_time=0.0))
     assert failures({"exact": [head_on]}) == []
     assert rows(flights_table({"exact": [head_on]}))[0][-2:] == ("1", "1")
     untold = replace(one, kept=0.7, told=False)

@@ -112,9 +112,14 @@ def test_a_loss_of_d_min_is_found_with_its_time_and_its_depth() -> None:
     d_min = scenario.situation.min_separation
     near = {20.0: 0.9 * d_min, 21.0: 0.8 * d_min, 40.0: 0.95 * d_min}
     told = tuple(
-        replace(document, separation=near[document.t])
+        replace(
+            document,
+            guidance=(replace(document.guidance[0], separation=near[document.t]),),
+        )
         if isinstance(document, Sample) and document.t in near
-        else replace(document, least_separation=0.79 * d_min)
+        else replace(
+            document, results=(replace(document.results[0], least_separation=0.79 * d_min),)
+        )
         if isinstance(document, FlightEnded)
         else document
         for document in documents
@@ -124,7 +129,9 @@ def test_a_loss_of_d_min_is_found_with_its_time_and_its_depth() -> None:
     assert row.losses[0].separation_m == 0.8 * d_min
     assert (row.below_s, row.silent_losses, row.least_share) == (3.0, 2, 0.79)
     # between two samples, too
-    end = replace(documents[-1], least_separation=0.9 * d_min)
+    last = documents[-1]
+    assert isinstance(last, FlightEnded)
+    end = replace(last, results=(replace(last.results[0], least_separation=0.9 * d_min),))
     (loss,) = row_of(case, (*documents[:-1], end), 1.0).losses
     assert loss.seconds == 1.0
     assert row_of(case, documents, 1.0).losses == ()

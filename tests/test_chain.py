@@ -82,7 +82,7 @@ def test_from_a_scenario_to_a_replay(tmp_path: Path) -> None:
     changed = [d for d in flown if isinstance(d, PlanChanged)]
     assert [d.reason for d in changed[:2]] == ["engaged", "leader_turned"]
     assert changed[1].t <= 101.0
-    end = flown[-1]
+    (end,) = flown[-1].results
     assert end.joined
     assert end.least_separation >= 9_260.0
 

@@ -11,11 +11,14 @@ from rich.text import Text
 from relguide.cli.shared_tables import clock, miles
 from relguide.contract.story import Event, Story
 from relguide.flying.documents import (
+    Alert,
     LeaderChanged,
     ModeChanged,
     PlanChanged,
     PlanRefused,
     PlanUnavailable,
+    SeparationLost,
+    Unable,
 )
 
 
@@ -23,9 +26,10 @@ def print_flight(flight: Story, figures: Mapping[str, Any]) -> None:
     """Print what happened in a flight, then its figures as `fly --json` names them."""
     console = Console(highlight=False)
     for started in flight.started:
-        limits = f"D {miles(started.slot_distance)}, d_min {miles(started.min_separation)}"
-        who = f"{started.pursuer.ident} behind {started.leader.ident}, {limits}"
-        console.print(Text.assemble((started.title or started.scenario, "bold"), f"\n{who}"))
+        console.print(Text(started.title or started.scenario, style="bold"))
+        for link in started.links:
+            limits = f"D {miles(link.slot_distance)}, d_min {miles(link.min_separation)}"
+            console.print(Text(f"{link.pursuer} behind {link.leader}, {limits}"))
     table = Table(box=SIMPLE_HEAD, pad_edge=False)
     table.add_column("at", justify="right")
     table.add_column("what")
@@ -53,6 +57,12 @@ def _event(event: Event) -> tuple[str, str, str]:
             what = mode
         case LeaderChanged(change=change):
             what = f"leader: {change.replace('_', ' ')}"
+        case Alert(level=level, subject=subject, cleared=cleared):
+            what = f"{subject}: " + ("alert over" if cleared else level)
+        case Unable(reason=reason):
+            what = f"unable: {reason}"
+        case SeparationLost(separation=separation, cause=cause):
+            return clock(event.t), f"separation lost: {miles(separation)}", cause
         case _:
             assert_never(event)
     return clock(event.t), what, event.message

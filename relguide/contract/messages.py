@@ -25,7 +25,8 @@ from pydantic import (
 from relguide.contract.bodies import SituationBody, Tas
 from relguide.contract.refusal import Strict, loads, refusal
 from relguide.contract.wire import WireField, wire_fields
-from relguide.flying.documents import Document, Mode, ReferenceCard
+from relguide.flying.aircraft_documents import ReferenceCard
+from relguide.flying.documents import Document, Mode
 from relguide.flying.plan_documents import (
     AnyAlternativeCard,
     Direction,

@@ -18,11 +18,14 @@ from relguide.contract.messages import (
     Tick,
 )
 from relguide.contract.typescript import typescript
+from relguide.flying.aircraft_documents import AlertLevel, AlertState, Spacing
 from relguide.flying.documents import (
+    AlertSubject,
     Fault,
     LeaderChange,
     Mode,
     PlanReason,
+    UnableReason,
 )
 from relguide.flying.plan_documents import Direction
 from relguide.planning.plan import Proof, Reason
@@ -33,11 +36,19 @@ _ALIASES: dict[str, tuple[Any, str]] = {
         Mode,
         "heading: no plan, a heading is held; converge: the plan is flown; capture: closes onto\n"
         "the leader's route under speed control; follow: on the route D behind the leader, at\n"
-        "its speed.",
+        "its speed; escape: turns away, as the separation would be lost on what was flown.",
     ),
     "Proof": (Proof, "Why a plan is optimal."),
     "PlanReason": (PlanReason, "Why a new plan was made."),
     "LeaderChange": (LeaderChange, "What is new about the leader."),
+    "Spacing": (Spacing, "What a link keeps once joined: a distance, or a time."),
+    "AlertLevel": (
+        AlertLevel,
+        "advisory: to be known; caution: to be seen to at once; warning: to be acted upon at once.",
+    ),
+    "AlertState": (AlertState, "The highest level among the alerts that stand."),
+    "AlertSubject": (AlertSubject, "What an alert is about."),
+    "UnableReason": (UnableReason, "Why guidance cannot do what it is to do."),
     "Fault": (Fault, "What is wrong with a planner's plan."),
     "Reason": (Literal[tuple(r.value for r in Reason)], "Why there is no plan."),
     "PathSegment": (PathSegmentModel, "A piece of a path over the ground."),

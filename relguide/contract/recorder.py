@@ -15,7 +15,7 @@ from relguide.flying.documents import Document
 
 FORMAT = "relguide-flight"
 """What the first line calls the file."""
-VERSION = 2
+VERSION = 3
 """Version of the form of its lines."""
 MAX_LINE = 16 * 1024 * 1024
 """Longest line that is read [bytes]; the longest document has some 10 kB."""

@@ -3,22 +3,38 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 from math import degrees
-from typing import Any
+from typing import Any, assert_never
 
+from relguide.flying.aircraft_documents import LinkResult
 from relguide.flying.documents import (
+    Alert,
     Document,
     FlightEnded,
     FlightStarted,
+    ForecastChanged,
     LeaderChanged,
+    LeaderRoute,
     ModeChanged,
     PlanChanged,
     PlanRefused,
     PlanUnavailable,
+    Sample,
+    SeparationLost,
+    Unable,
 )
 from relguide.planning.phrases import distance, too_close
-from relguide.units import NM
+from relguide.units import NM, Metre
 
-Event = LeaderChanged | PlanChanged | PlanUnavailable | PlanRefused | ModeChanged
+Event = (
+    LeaderChanged
+    | PlanChanged
+    | PlanUnavailable
+    | PlanRefused
+    | ModeChanged
+    | Alert
+    | Unable
+    | SeparationLost
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -50,16 +66,23 @@ def story_of(documents: Iterable[Document]) -> Story:
             match document:
                 case FlightStarted():
                     started.append(document)
+                case PlanChanged(announced=False) | LeaderRoute() | ForecastChanged() | Sample():
+                    pass  # nothing that is said to anybody
                 case (
                     LeaderChanged()
                     | PlanChanged()
                     | PlanUnavailable()
                     | PlanRefused()
                     | ModeChanged()
+                    | Alert()
+                    | Unable()
+                    | SeparationLost()
                 ):
                     events.append(document)
                 case FlightEnded():
                     ended.append(document)
+                case _:
+                    assert_never(document)
     except ValueError as error:
         if not count:
             raise
@@ -75,17 +98,18 @@ def story_of(documents: Iterable[Document]) -> Story:
 
 
 def figures(ended: FlightEnded) -> dict[str, Any]:
-    """How a flight went, under the names of the contract."""
+    """How the flight of the first link went, under the names of the contract."""
+    result = ended.results[0]
     return {
-        "joined": ended.joined,
-        "join_time_s": ended.join_time,
-        "planned_time_s": ended.planned_time,
-        "least_separation_m": ended.least_separation,
-        "heading_swing_deg": degrees(ended.heading_swing),
-        "bank_reversals": ended.bank_reversals,
-        "replans": ended.replans,
-        "fallbacks": ended.fallbacks,
-        "track_nm": ended.track / NM,
+        "joined": result.joined,
+        "join_time_s": result.join_time,
+        "planned_time_s": result.planned_time,
+        "least_separation_m": result.least_separation,
+        "heading_swing_deg": degrees(result.heading_swing),
+        "bank_reversals": result.bank_reversals,
+        "replans": result.replans,
+        "fallbacks": result.fallbacks,
+        "track_nm": result.track / NM,
         "simulated_s": ended.t,
     }
 
@@ -94,12 +118,24 @@ def failures(flight: Story) -> tuple[str, ...]:
     """What went wrong in a flight that ended, a sentence each."""
     sentences = []
     for ended in flight.ended:
-        if not ended.joined:
-            sentences.append(f"It did not join within {ended.t:.0f} s.")
-        for started in flight.started:
-            if ended.least_separation < started.min_separation:
-                sentences.append(
-                    f"The separation fell below {distance(started.min_separation)}: they came "
-                    f"{too_close(ended.least_separation, started.min_separation)}."
-                )
+        for result in ended.results:
+            who = result.ident if len(ended.results) > 1 else "It"
+            if not result.joined:
+                sentences.append(f"{who} did not join within {ended.t:.0f} s.")
+            for limit in _limits(flight, result):
+                if result.least_separation < limit:
+                    sentences.append(
+                        f"The separation fell below {distance(limit)}: they came "
+                        f"{too_close(result.least_separation, limit)}."
+                    )
     return tuple(sentences)
+
+
+def _limits(flight: Story, result: LinkResult) -> tuple[Metre, ...]:
+    """d_min of a link; empty if its beginning is not known."""
+    links = (link for started in flight.started for link in started.links)
+    return tuple(
+        link.min_separation
+        for link in links
+        if (link.pursuer, link.leader) == (result.ident, result.leader)
+    )

@@ -16,7 +16,15 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_typ
 
 import orjson
 
-from relguide.flying.documents import AircraftCard, AircraftSample, Document
+from relguide.flying.aircraft_documents import (
+    AircraftCard,
+    AircraftSample,
+    GuidanceSample,
+    LinkCard,
+    LinkResult,
+    Loss,
+)
+from relguide.flying.documents import Document
 from relguide.flying.plan_documents import (
     AnyAlternativeCard,
     NoPlanCard,
@@ -34,6 +42,10 @@ Card = (
     | RegularCheck
     | AircraftCard
     | AircraftSample
+    | LinkCard
+    | GuidanceSample
+    | LinkResult
+    | Loss
 )
 """Parts of documents that also travel alone."""
 

@@ -10,9 +10,10 @@ from relguide.planning.acceptance import Refusal
 from relguide.planning.plan import NoPlan, Plan
 from relguide.units import DEG, KT, NM, MetrePerSecond, Radian
 
-Mode = Literal["heading", "converge", "capture", "follow"]
+Mode = Literal["heading", "converge", "capture", "follow", "escape"]
 """heading: no plan, a heading is held; converge: the plan is flown; capture: closes onto the
-leader's route under speed control; follow: on the route D behind the leader, at its speed."""
+leader's route under speed control; follow: on the route D behind the leader, at its speed; escape:
+turns away, as the separation would be lost on what was flown."""
 PlanReason = Literal[
     "engaged",
     "better_plan",

@@ -5,7 +5,7 @@ from dataclasses import replace
 from math import atan2, ceil, pi
 from typing import assert_never
 
-from relguide.flying.documents import WindCard
+from relguide.flying.aircraft_documents import WindCard
 from relguide.flying.plan_documents import (
     AlternativeCard,
     AnyAlternativeCard,

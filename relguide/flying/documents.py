@@ -4,60 +4,36 @@ Library units inside (SI, radians); `contract/wire.py` gives each its JSON form,
 field's name ends in the unit that its type names here. Positions are over the ground, headings
 clockwise from north. `t` is the flight's own time [s] from its start; times inside a `PlanCard`
 count from the instant the plan was made, as they do in the REST answer.
+
+A flight has any number of aircraft, known by their idents, and of links, each a pursuer behind a
+leader. What is new in a flight is a new kind of document, or one more member of a list in it.
 """
 
 from dataclasses import dataclass
 from typing import Literal
 
+from relguide.flying.aircraft_documents import (
+    AircraftCard,
+    AircraftSample,
+    AlertLevel,
+    GuidanceSample,
+    LinkCard,
+    LinkResult,
+    WindCard,
+)
 from relguide.flying.announcements import Mode as Mode
 from relguide.flying.announcements import PlanReason as PlanReason
 from relguide.flying.plan_documents import NoPlanCard, PathPoint, PathSegment, PlanCard
 from relguide.planning.acceptance import Fault as Fault
-from relguide.units import (
-    Metre,
-    MetrePerSecond,
-    Radian,
-    RadianPerSecond,
-    Second,
-)
+from relguide.units import Metre, Radian, Second
 
 LeaderChange = Literal["heading", "speed", "intent_received", "intent_withdrawn"]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class WindCard:
-    """Uniform wind as reports give it."""
-
-    from_: Radian
-    """Where it comes from, clockwise from north [rad]. JSON name: from_deg."""
-    speed: MetrePerSecond
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class AircraftCard:
-    """Who an aircraft is."""
-
-    ident: str
-    aircraft_type: str
-    max_bank: Radian
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class AircraftSample:
-    """One aircraft at one instant, as it flies (roll dynamics included)."""
-
-    x: Metre
-    y: Metre
-    heading: Radian
-    track: Radian
-    """Direction of the ground velocity."""
-    bank: Radian
-    """Positive right wing down."""
-    turn_rate: RadianPerSecond
-    """Positive to the right."""
-    tas: MetrePerSecond
-    ground_speed: MetrePerSecond
-    altitude: Metre
+AlertSubject = Literal["separation", "speed", "data", "geometry"]
+"""separation: d_min will be lost; speed: the leader flies at a speed that cannot be matched; data:
+what is known of the leader is old or contradicts itself; geometry: it flies where it cannot be
+followed, as when it turns back."""
+UnableReason = Literal["separation", "speed", "geometry", "envelope", "data"]
+"""As the subjects of alerts; envelope: the aircraft cannot do what its task asks of it."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -69,10 +45,10 @@ class FlightStarted:
     title: str
     planner: str
     """Who makes the plans, as in `PlanCard`."""
-    pursuer: AircraftCard
-    leader: AircraftCard
-    slot_distance: Metre
-    min_separation: Metre
+    aircraft: tuple[AircraftCard, ...]
+    """All that fly, each with an ident of its own."""
+    links: tuple[LinkCard, ...]
+    """Who is to join whom. Displays for one pair show the first."""
     wind: WindCard
     step: Second
     """Integration step [s]."""
@@ -82,12 +58,16 @@ class FlightStarted:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LeaderRoute:
-    """What guidance expects the leader to fly from now on: its declared intent, or straight ahead.
+    """What a pursuer expects its leader to fly from now on: its declared intent, or straight ahead.
 
     Times in the segments are flight times. The last segment is the final leg, cut short.
     """
 
     t: Second
+    ident: str
+    """The leader's."""
+    expected_by: str
+    """The pursuer's ident."""
     intent_known: bool
     segments: tuple[PathSegment, ...]
     kind: Literal["leader_route"] = "leader_route"
@@ -98,6 +78,8 @@ class LeaderChanged:
     """The leader does something new, or its intent was received or withdrawn."""
 
     t: Second
+    ident: str
+    """The leader's."""
     change: LeaderChange
     message: str
     kind: Literal["leader_changed"] = "leader_changed"
@@ -108,6 +90,8 @@ class PlanChanged:
     """A new plan is flown."""
 
     t: Second
+    ident: str
+    """The pursuer's."""
     reason: PlanReason
     message: str
     plan: PlanCard
@@ -115,6 +99,14 @@ class PlanChanged:
     """Where the leader is when the separation is least; its t counts from the plan's start."""
     pursuer_at_closest: PathPoint
     """Where the pursuer is then."""
+    announced: bool
+    """Whether it is news for the crew; if not, its path is drawn and nothing is said."""
+    promised: Second
+    """How long until joined, braking included: as forecast by flying the closed loop ahead."""
+    tube: Metre
+    """Largest distance of that forecast from the plan's ideal path."""
+    flown_least: Metre
+    """Least separation of that forecast, which is what must keep d_min."""
     kind: Literal["plan_changed"] = "plan_changed"
 
 
@@ -123,6 +115,8 @@ class PlanUnavailable:
     """Guidance asked for a plan and there is none."""
 
     t: Second
+    ident: str
+    """The pursuer's."""
     answer: NoPlanCard
     kind: Literal["plan_unavailable"] = "plan_unavailable"
 
@@ -135,6 +129,8 @@ class PlanRefused:
     """
 
     t: Second
+    ident: str
+    """The pursuer's."""
     planner: str
     """Who made it; empty if the answer was no plan."""
     fault: Fault
@@ -147,6 +143,8 @@ class ModeChanged:
     """Guidance went from one mode to another."""
 
     t: Second
+    ident: str
+    """The pursuer's."""
     mode: Mode
     previous: Mode
     message: str
@@ -154,22 +152,79 @@ class ModeChanged:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class HeadingReference:
-    """Guidance asks the autopilot to hold a heading."""
+class Alert:
+    """Something a crew has to know of, or that it need no longer know of.
 
-    heading: Radian
-    kind: Literal["hold_heading"] = "hold_heading"
+    One is given when its subject's level rises or falls, not each second that it stands.
+    """
+
+    t: Second
+    ident: str
+    """The aircraft whose crew is alerted."""
+    other: str
+    """The aircraft that it is about, which need not be the leader."""
+    level: AlertLevel
+    """Of the alert that begins or, when cleared, ends."""
+    subject: AlertSubject
+    message: str
+    predicted_least: Metre
+    """Least separation from the other ahead, flying on as now."""
+    predicted_at: Second
+    """Flight time of it."""
+    cleared: bool
+    """Whether the alert ends: nothing stands on this subject any more."""
+    kind: Literal["alert"] = "alert"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class TurnRateReference:
-    """Guidance asks the autopilot for a turn rate."""
+class Unable:
+    """Guidance cannot do what it is to do, and the crew is informed. Holds until the next plan."""
 
-    turn_rate: RadianPerSecond
-    kind: Literal["turn_rate"] = "turn_rate"
+    t: Second
+    ident: str
+    """The pursuer's."""
+    reason: UnableReason
+    message: str
+    kind: Literal["unable"] = "unable"
 
 
-ReferenceCard = HeadingReference | TurnRateReference
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SeparationLost:
+    """The separation fell below d_min: once for each time it does."""
+
+    t: Second
+    ident: str
+    """The pursuer's."""
+    other: str
+    """The aircraft that it came too close to."""
+    separation: Metre
+    """At this instant."""
+    x: Metre
+    """Where the pursuer is, east."""
+    y: Metre
+    """… and north."""
+    cause: str
+    """Why, in a sentence."""
+    announced: tuple[Second, ...]
+    """When the first alert or `Unable` that came before it was given; empty if there was none."""
+    kind: Literal["separation_lost"] = "separation_lost"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ForecastChanged:
+    """The path that an aircraft will really fly: the closed loop flown ahead, without planning.
+
+    Columns of equal length; points close enough to draw straight lines between.
+    """
+
+    t: Second
+    ident: str
+    times: tuple[Second, ...]
+    """Flight times, ascending."""
+    x: tuple[Metre, ...]
+    y: tuple[Metre, ...]
+    heading: tuple[Radian, ...]
+    kind: Literal["forecast_changed"] = "forecast_changed"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -177,27 +232,10 @@ class Sample:
     """The flight at one instant."""
 
     t: Second
-    pursuer: AircraftSample
-    leader: AircraftSample
-    mode: Mode
-    reference: ReferenceCard
-    commanded_tas: MetrePerSecond
-    """What guidance asks of the autothrust."""
-    separation: Metre
-    closure: MetrePerSecond
-    """Rate at which the separation shrinks, positive when closing."""
-    least_separation: Metre
-    """Least separation so far."""
-    slot: PathPoint
-    """The slot now (with turns to come: on the backward extension of the leader's final leg)."""
-    slot_open: bool
-    spacing_error: Metre
-    """Distance still to close along the leader's route to be at D: positive when too far behind."""
-    cross_track: Metre
-    """Offset from the leader's final route, positive to its right."""
-    time_to_go: Second
-    """Until the slot is reached by the plan flown; 0 when there is none or it is joined."""
-    joined: bool
+    aircraft: tuple[AircraftSample, ...]
+    """In the order of `FlightStarted.aircraft`."""
+    guidance: tuple[GuidanceSample, ...]
+    """In the order of `FlightStarted.links`."""
     kind: Literal["sample"] = "sample"
 
 
@@ -206,19 +244,8 @@ class FlightEnded:
     """How the flight went: the last document."""
 
     t: Second
-    joined: bool
-    join_time: Second
-    """When eq. (7) first held within tolerance; the flight's duration if it never did."""
-    planned_time: Second
-    """Time to converge of the plan at engagement; 0 if there was none."""
-    least_separation: Metre
-    heading_swing: Radian
-    """Total variation of the pursuer's heading until joined."""
-    bank_reversals: int
-    replans: int
-    fallbacks: int
-    track: Metre
-    """Distance flown over the ground until joined."""
+    results: tuple[LinkResult, ...]
+    """In the order of `FlightStarted.links`."""
     kind: Literal["flight_ended"] = "flight_ended"
 
 
@@ -230,6 +257,10 @@ Document = (
     | PlanUnavailable
     | PlanRefused
     | ModeChanged
+    | Alert
+    | Unable
+    | SeparationLost
+    | ForecastChanged
     | Sample
     | FlightEnded
 )

@@ -13,11 +13,11 @@ from typing import Literal, NamedTuple, assert_never
 
 from relguide.flying.aircraft import A300, AircraftModel, AircraftState
 from relguide.flying.aircraft import step as fly_step
+from relguide.flying.aircraft_documents import AircraftCard, LinkCard
 from relguide.flying.assignment import TURN_SEEN, Assignment, Observation
 from relguide.flying.autopilot import Autopilot
 from relguide.flying.cards import wind_card
 from relguide.flying.documents import (
-    AircraftCard,
     Document,
     FlightStarted,
     LeaderChanged,
@@ -27,6 +27,7 @@ from relguide.flying.guidance import advise
 from relguide.flying.leader import FlyingLeader, LeaderFlight, advance_leader, leader_on_track
 from relguide.flying.logbook import (
     Milestones,
+    Names,
     Tally,
     count_event,
     count_step,
@@ -96,6 +97,10 @@ class Scenario:
         expect("situation", self.situation, Situation)
         expect("leader_source", self.leader_source, DeclaredLeader, RecordedTrack)
         truth("intent_known", self.intent_known)
+        if self.pursuer_ident == self.leader_ident:
+            raise ValueError(
+                f"pursuer_ident and leader_ident must differ, not both be {self.leader_ident!r}."
+            )
         within("altitude", self.altitude, *ALTITUDES, "m")
         if number("duration_limit", self.duration_limit) <= 0.0:
             raise ValueError(f"duration_limit must be above 0 s, not {self.duration_limit}.")
@@ -143,7 +148,7 @@ def _fly(
     a_sample: int,
     seed: int,
 ) -> Iterator[Document]:
-    wind, assignment = scenario.situation.wind, _assignment(scenario)
+    wind, assignment, names = scenario.situation.wind, _assignment(scenario), _names(scenario)
     pursuer, leader = _pursuer(scenario), _leader(scenario)
     pilot = Autopilot(model=assignment.model)
     leader_pilot = Autopilot(model=_leader_model(scenario))
@@ -151,29 +156,31 @@ def _fly(
     yield _announce_start(scenario, planner, step, seed)
     seen = _observe(0.0, pursuer, leader, known)
     memory = begin(seen, assignment)
-    yield _route(seen, wind)
+    yield _route(seen, names, wind)
     view = _LeaderView(shown=seen, turning=False, commanded=False)
     separation = hypot(pursuer.x - leader.state.x, pursuer.y - leader.state.y)
     tally, milestones = Tally(separation, 0.0, 0.0, 0, 0), Milestones()
     for n in count():
         t = n * step
         for command in commands(t):
-            leader, known, answers = obey(command, leader, known, t, assignment.model.max_bank)
+            leader, known, answers = obey(
+                command, leader, names.leader, known, t, assignment.model.max_bank
+            )
             if isinstance(command, LeaderHeading | LeaderSpeed):
                 view = view._replace(commanded=True)
             yield from answers
         if n % a_second == 0:
             seen = _observe(t, pursuer, leader, known)
-            view, news = _look_at_leader(view, seen, wind)
+            view, news = _look_at_leader(view, seen, names, wind)
             yield from news
             memory, advice = advise(memory, seen, assignment, planner)
             for event in advice.events:
-                document = event_document(t, event)
+                document = event_document(t, names.pursuer, event)
                 milestones = count_event(milestones, document)
                 yield document
         if n % a_sample == 0:
             since = (n % a_second) * step
-            yield sample(t, pursuer, leader.state, advice, since, tally, wind)
+            yield sample(t, names, pursuer, leader.state, advice, since, tally, wind)
         rested = t - milestones.following_since >= scenario.after_joining
         if (rested and advice.mode == "follow") or t >= _limit(scenario, leader) - 0.5 * step:
             break
@@ -181,7 +188,7 @@ def _fly(
         pursuer = _fly_step(pursuer, pilot, advice, assignment, step)
         leader = advance_leader(leader, leader_pilot, t, wind=wind, duration=step)
         tally = count_step(tally, before, pursuer, leader.state, milestones.joined)
-    yield flight_ended(t, milestones, tally, memory.fallbacks)
+    yield flight_ended(t, names, milestones, tally, memory.fallbacks)
 
 
 def _fly_step(
@@ -207,22 +214,35 @@ def _announce_start(scenario: Scenario, planner: Planner, step: Second, seed: in
         scenario=scenario.name,
         title=scenario.title,
         planner=answer.planner if isinstance(answer, Plan) else "exact",
-        pursuer=AircraftCard(
-            ident=scenario.pursuer_ident,
-            aircraft_type=A300.aircraft_type,
-            max_bank=situation.pursuer.max_bank,
+        aircraft=(
+            AircraftCard(
+                ident=scenario.pursuer_ident,
+                aircraft_type=A300.aircraft_type,
+                max_bank=situation.pursuer.max_bank,
+            ),
+            AircraftCard(
+                ident=scenario.leader_ident,
+                aircraft_type=scenario.leader_type,
+                max_bank=_leader_model(scenario).max_bank,
+            ),
         ),
-        leader=AircraftCard(
-            ident=scenario.leader_ident,
-            aircraft_type=scenario.leader_type,
-            max_bank=_leader_model(scenario).max_bank,
+        links=(
+            LinkCard(
+                pursuer=scenario.pursuer_ident,
+                leader=scenario.leader_ident,
+                slot_distance=situation.slot_distance,
+                min_separation=situation.min_separation,
+                spacing="distance",
+            ),
         ),
-        slot_distance=situation.slot_distance,
-        min_separation=situation.min_separation,
         wind=wind_card(situation.wind),
         step=step,
         seed=seed,
     )
+
+
+def _names(scenario: Scenario) -> Names:
+    return Names(scenario.pursuer_ident, scenario.leader_ident)
 
 
 def _pursuer(scenario: Scenario) -> AircraftState:
@@ -317,16 +337,18 @@ class _LeaderView(NamedTuple):
 
 
 def _look_at_leader(
-    view: _LeaderView, seen: Observation, wind: Wind
+    view: _LeaderView, seen: Observation, names: Names, wind: Wind
 ) -> tuple[_LeaderView, tuple[LeaderChanged | LeaderRoute, ...]]:
     """Announce a turn that was not to be expected, and draw the route anew if it changed."""
-    turning, news = _notice_turn(view, seen)
+    turning, news = _notice_turn(view, seen, names)
     if view.commanded or _route_is_news(view.shown, seen):
-        return _LeaderView(seen, turning, commanded=False), (*news, _route(seen, wind))
+        return _LeaderView(seen, turning, commanded=False), (*news, _route(seen, names, wind))
     return view._replace(turning=turning), news
 
 
-def _notice_turn(view: _LeaderView, seen: Observation) -> tuple[bool, tuple[LeaderChanged, ...]]:
+def _notice_turn(
+    view: _LeaderView, seen: Observation, names: Names
+) -> tuple[bool, tuple[LeaderChanged, ...]]:
     """Whether the leader turns, and the news if it begins to without having announced it."""
     rate = seen.leader_turn_rate
     if view.turning or abs(rate) < TURN_SEEN:
@@ -334,11 +356,14 @@ def _notice_turn(view: _LeaderView, seen: Observation) -> tuple[bool, tuple[Lead
     if seen.intent_known or view.commanded:
         return True, ()
     side = "right" if rate > 0.0 else "left"
-    return True, (LeaderChanged(t=seen.t, change="heading", message=f"The leader turns {side}."),)
+    message = f"The leader turns {side}."
+    return True, (LeaderChanged(t=seen.t, ident=names.leader, change="heading", message=message),)
 
 
-def _route(seen: Observation, wind: Wind) -> LeaderRoute:
-    return leader_route(seen.t, seen.leader, seen.intent, intent_known=seen.intent_known, wind=wind)
+def _route(seen: Observation, names: Names, wind: Wind) -> LeaderRoute:
+    return leader_route(
+        seen.t, names, seen.leader, seen.intent, intent_known=seen.intent_known, wind=wind
+    )
 
 
 def _route_is_news(shown: Observation, seen: Observation) -> bool:

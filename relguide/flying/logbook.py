@@ -4,22 +4,26 @@ from math import cos, hypot, sin
 from typing import NamedTuple, assert_never
 
 from relguide.flying.aircraft import AircraftState, ground_velocity
+from relguide.flying.aircraft_documents import (
+    AircraftSample,
+    GuidanceSample,
+    HeadingReference,
+    LinkResult,
+    ReferenceCard,
+    TurnRateReference,
+)
 from relguide.flying.announcements import Event, ModeChange, NewPlan, PlanMissing, Refused
 from relguide.flying.autopilot import HoldHeading, Reference, TurnRate
 from relguide.flying.cards import no_plan_card, path_point, path_segments, plan_card
 from relguide.flying.documents import (
-    AircraftSample,
     Document,
     FlightEnded,
-    HeadingReference,
     LeaderRoute,
     ModeChanged,
     PlanChanged,
     PlanRefused,
     PlanUnavailable,
-    ReferenceCard,
     Sample,
-    TurnRateReference,
 )
 from relguide.flying.memory import Advice
 from relguide.flying.plan_documents import PathPoint
@@ -32,6 +36,13 @@ from relguide.units import DEG, Metre, Radian, Second
 FINAL_LEG: Second = 1200.0
 """How much of the leader's endless final leg is shown [s]: as much as a pursuer needs at 100 km."""
 BANKED: Radian = 3.0 * DEG  # less is a correction, not a turn
+
+
+class Names(NamedTuple):
+    """Who flies, by ident."""
+
+    pursuer: str
+    leader: str
 
 
 class Tally(NamedTuple):
@@ -53,7 +64,10 @@ class Milestones(NamedTuple):
 
     planned_time: Second = 0.0
     """Time to converge of the plan at engagement; 0 if there was none [s]."""
+    promised: Second = 0.0
+    """Time until joined that it promised; 0 if there was none [s]."""
     replans: int = 0
+    replans_announced: int = 0
     joined: bool = False
     join_time: Second = 0.0
     """When it first joined, if it has [s]."""
@@ -64,10 +78,15 @@ class Milestones(NamedTuple):
 def count_event(milestones: Milestones, document: Document) -> Milestones:
     """The milestones after what guidance announced."""
     match document:
-        case PlanChanged(t=t, reason="engaged", plan=card):
-            return milestones._replace(planned_time=card.time_to_converge if t == 0.0 else 0.0)
-        case PlanChanged():
-            return milestones._replace(replans=milestones.replans + 1)
+        case PlanChanged(t=0.0, reason="engaged", plan=card, promised=promised):
+            return milestones._replace(planned_time=card.time_to_converge, promised=promised)
+        case PlanChanged(reason="engaged"):
+            return milestones
+        case PlanChanged(announced=announced):
+            return milestones._replace(
+                replans=milestones.replans + 1,
+                replans_announced=milestones.replans_announced + announced,
+            )
         case ModeChanged(t=t, mode="follow"):
             first = milestones.join_time if milestones.joined else t
             return milestones._replace(joined=True, join_time=first, following_since=t)
@@ -98,6 +117,7 @@ def count_step(
 
 def sample(
     t: Second,
+    names: Names,
     pursuer: AircraftState,
     leader: AircraftState,
     advice: Advice,
@@ -109,6 +129,7 @@ def sample(
 
     Args:
         t: flight time [s].
+        names: of both.
         pursuer: now.
         leader: now.
         advice: the last that guidance gave.
@@ -118,8 +139,8 @@ def sample(
     """
     east, north = leader.x - pursuer.x, leader.y - pursuer.y
     separation = hypot(east, north)
-    own = _aircraft_sample(pursuer, wind)
-    other = _aircraft_sample(leader, wind)
+    own = _aircraft_sample(names.pursuer, pursuer, wind)
+    other = _aircraft_sample(names.leader, leader, wind)
     closure = 0.0
     if separation > 0.0:
         relative_east = own.ground_speed * sin(own.track) - other.ground_speed * sin(other.track)
@@ -132,10 +153,9 @@ def sample(
     slot_x, slot_y = slot.x + slot_east * since, slot.y + slot_north * since
     slot_speed = hypot(slot_east, slot_north)
     dx, dy = pursuer.x - slot_x, pursuer.y - slot_y
-    return Sample(
-        t=t,
-        pursuer=own,
-        leader=other,
+    guidance = GuidanceSample(
+        ident=names.pursuer,
+        leader=names.leader,
         mode=advice.mode,
         reference=_reference_card(advice.reference),
         commanded_tas=advice.commanded_tas,
@@ -148,45 +168,58 @@ def sample(
         cross_track=(dx * slot_north - dy * slot_east) / slot_speed,
         time_to_go=max(advice.time_to_go - since, 0.0),
         joined=advice.mode == "follow",
+        alert="none",
     )
+    return Sample(t=t, aircraft=(own, other), guidance=(guidance,))
 
 
-def flight_ended(t: Second, milestones: Milestones, tally: Tally, fallbacks: int) -> FlightEnded:
+def flight_ended(
+    t: Second, names: Names, milestones: Milestones, tally: Tally, fallbacks: int
+) -> FlightEnded:
     """How the flight went.
 
     Args:
         t: flight time at its end [s].
+        names: of both.
         milestones: what it reached.
         tally: its figures.
         fallbacks: how often the exact plan took the place of a planner's.
     """
-    return FlightEnded(
-        t=t,
+    result = LinkResult(
+        ident=names.pursuer,
+        leader=names.leader,
         joined=milestones.joined,
         join_time=milestones.join_time if milestones.joined else t,
         planned_time=milestones.planned_time,
+        promised=milestones.promised,
         least_separation=tally.least_separation,
         heading_swing=tally.heading_swing,
         bank_reversals=tally.bank_reversals,
         replans=milestones.replans,
+        replans_announced=milestones.replans_announced,
         fallbacks=fallbacks,
         track=tally.track,
+        losses=(),
     )
+    return FlightEnded(t=t, results=(result,))
 
 
 def leader_route(
     t: Second,
+    names: Names,
     leader: AircraftState,
     intent: tuple[IntentPiece, ...],
     *,
     intent_known: bool,
     wind: Wind,
 ) -> LeaderRoute:
-    """What guidance expects the leader to fly."""
+    """What the pursuer expects the leader to fly."""
     expected = Leader(x=leader.x, y=leader.y, heading=leader.heading, tas=leader.tas, intent=intent)
     trajectory = expected.trajectory
     return LeaderRoute(
         t=t,
+        ident=names.leader,
+        expected_by=names.pursuer,
         intent_known=intent_known,
         segments=path_segments(
             trajectory, wind=wind, start_time=t, horizon=trajectory.duration + FINAL_LEG
@@ -194,8 +227,8 @@ def leader_route(
     )
 
 
-def event_document(t: Second, event: Event) -> Document:
-    """What guidance announces, as a document."""
+def event_document(t: Second, ident: str, event: Event) -> Document:
+    """What the guidance of the aircraft `ident` announces, as a document."""
     match event:
         case NewPlan(commitment=commitment):
             plan = commitment.plan
@@ -203,27 +236,43 @@ def event_document(t: Second, event: Event) -> Document:
             leader = plan.situation.leader.trajectory
             return PlanChanged(
                 t=t,
+                ident=ident,
                 reason=event.reason,
                 message=event.message,
                 plan=plan_card(plan, alternatives(plan)),
                 leader_at_closest=path_point(leader.pose_at(at), at, wind),
                 pursuer_at_closest=path_point(plan.trajectory.pose_at(at), at, wind),
+                announced=True,
+                promised=plan.time_to_converge,
+                tube=0.0,
+                flown_least=plan.certificate.least_separation,
             )
         case PlanMissing(answer=answer):
-            return PlanUnavailable(t=t, answer=no_plan_card(answer))
+            return PlanUnavailable(t=t, ident=ident, answer=no_plan_card(answer))
         case Refused(refusal=refusal):
             return PlanRefused(
-                t=t, planner=refusal.planner, fault=refusal.fault, message=refusal.message
+                t=t,
+                ident=ident,
+                planner=refusal.planner,
+                fault=refusal.fault,
+                message=refusal.message,
             )
         case ModeChange():
-            return ModeChanged(t=t, mode=event.mode, previous=event.previous, message=event.message)
+            return ModeChanged(
+                t=t,
+                ident=ident,
+                mode=event.mode,
+                previous=event.previous,
+                message=event.message,
+            )
         case _:
             assert_never(event)
 
 
-def _aircraft_sample(state: AircraftState, wind: Wind) -> AircraftSample:
+def _aircraft_sample(ident: str, state: AircraftState, wind: Wind) -> AircraftSample:
     velocity = ground_velocity(state, wind.east, wind.north)
     return AircraftSample(
+        ident=ident,
         x=state.x,
         y=state.y,
         heading=state.heading,

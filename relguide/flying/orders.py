@@ -59,13 +59,14 @@ def no_commands(t: Second) -> Iterable[Command]:
 
 
 def obey(
-    command: Command, leader: LeaderFlight, known: bool, t: Second, bank: Radian
+    command: Command, leader: LeaderFlight, ident: str, known: bool, t: Second, bank: Radian
 ) -> tuple[LeaderFlight, bool, tuple[LeaderChanged, ...]]:
     """Carry out a command: the leader, whether its intent is known, and the documents that say so.
 
     Args:
         command: what is asked.
         leader: before.
+        ident: the leader's.
         known: whether its intent was known before.
         t: flight time [s].
         bank: of the turns it makes on command [rad].
@@ -74,7 +75,7 @@ def obey(
         case LeaderHeading(heading=heading, direction=direction):
             degrees = round(heading / DEG) % 360
             message = f"The leader is instructed to turn to {degrees:03d}°."
-            said = LeaderChanged(t=t, change="heading", message=message)
+            said = LeaderChanged(t=t, ident=ident, change="heading", message=message)
             return (
                 turn_leader(leader, t, wrap(heading), direction, bank),
                 known,
@@ -82,15 +83,17 @@ def obey(
             )
         case LeaderSpeed(tas=tas):
             message = f"The leader is instructed to fly {tas / KT:.0f} kt."
-            said = LeaderChanged(t=t, change="speed", message=message)
+            said = LeaderChanged(t=t, ident=ident, change="speed", message=message)
             return set_leader_speed(leader, t, tas), known, (said,)
         case IntentKnown(known=now) if now == known:
             return leader, known, ()
         case IntentKnown(known=True):
             message = "The leader's intent is received."
-            return leader, True, (LeaderChanged(t=t, change="intent_received", message=message),)
+            said = LeaderChanged(t=t, ident=ident, change="intent_received", message=message)
+            return leader, True, (said,)
         case IntentKnown():
             message = "The leader's intent is withdrawn."
-            return leader, False, (LeaderChanged(t=t, change="intent_withdrawn", message=message),)
+            said = LeaderChanged(t=t, ident=ident, change="intent_withdrawn", message=message)
+            return leader, False, (said,)
         case _:
             assert_never(command)

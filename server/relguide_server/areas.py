@@ -147,7 +147,8 @@ def _situation_asked(
     if flight is not None and situation is None:
         past = fleet.find(flight).history
         try:
-            return situation_now(past.started[0], past.route[-1:], past.newest[0]), Unanchored()
+            started, newest = past.started[0], past.newest[0]
+            return situation_now(started, started.links[0], past.routes(), newest), Unanchored()
         except ValueError as error:  # e.g. slower than what is planned for
             raise Refusal(409, f"This flight cannot be planned for now: {error}") from None
     if situation is not None and flight is None:

@@ -181,7 +181,7 @@ async def stream(websocket: WebSocket, flight_id: str, fleet: FleetOf) -> None:
 
 def status_of(flight: LiveFlight) -> FlightStatus:
     """Where a flight stands."""
-    sample = flight.history.newest[0]
+    guidance = flight.history.newest[0].guidance[0]
     label, pace = flight.label, flight.pace
     return FlightStatus(
         id=label.id,
@@ -191,9 +191,9 @@ def status_of(flight: LiveFlight) -> FlightStatus:
         rate=pace.rate,
         paused=pace.paused,
         ended=flight.over,
-        mode=sample.mode,
-        joined=sample.joined,
-        separation_m=sample.separation,
+        mode=guidance.mode,
+        joined=guidance.joined,
+        separation_m=guidance.separation,
         stream_url=f"/api/v1/flights/{label.id}/stream",
         scene_url=f"/scene/{label.id}/",
     )

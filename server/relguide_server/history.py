@@ -2,12 +2,15 @@
 
 from collections import deque
 from dataclasses import dataclass, field
+from operator import itemgetter
 from typing import assert_never
 
 from relguide.flying.documents import (
+    Alert,
     Document,
     FlightEnded,
     FlightStarted,
+    ForecastChanged,
     LeaderChanged,
     LeaderRoute,
     ModeChanged,
@@ -15,65 +18,70 @@ from relguide.flying.documents import (
     PlanRefused,
     PlanUnavailable,
     Sample,
+    SeparationLost,
+    Unable,
 )
 
 TRAIL_PERIOD = 10.0
 """Flight time between two samples that are kept [s]."""
 TRAIL_SAMPLES = 720
 """Most samples kept: two hours."""
-LEADER_CHANGES = 100
-"""Most changes of the leader kept."""
+HAPPENINGS = 200
+"""Most changes of leaders and losses of separation kept."""
+
+Happening = LeaderChanged | SeparationLost
 
 
 @dataclass(slots=True)
 class History:
-    """The past of one flight, thinned. Each slot holds the last document of its kind."""
+    """The past of one flight, thinned, each document with its number in the flight."""
 
     started: tuple[FlightStarted, ...] = ()
-    route: tuple[LeaderRoute, ...] = ()
-    changes: deque[LeaderChanged] = field(default_factory=lambda: deque(maxlen=LEADER_CHANGES))
-    plan: tuple[PlanChanged | PlanUnavailable, ...] = ()
-    refused: tuple[PlanRefused, ...] = ()
-    mode: tuple[ModeChanged, ...] = ()
-    trail: deque[Sample] = field(default_factory=lambda: deque(maxlen=TRAIL_SAMPLES))
     newest: tuple[Sample, ...] = ()
     ended: tuple[FlightEnded, ...] = ()
+    _states: dict[tuple[str, ...], tuple[int, Document]] = field(default_factory=dict)
+    """The last document of each kind and aircraft."""
+    _happenings: deque[tuple[int, Happening]] = field(
+        default_factory=lambda: deque(maxlen=HAPPENINGS)
+    )
+    _trail: deque[tuple[int, Sample]] = field(default_factory=lambda: deque(maxlen=TRAIL_SAMPLES))
+    _count: int = 0
 
     def add(self, document: Document) -> None:
         """Remember a document, which is newer than all before."""
+        self._count += 1
         match document:
             case FlightStarted():
                 self.started = (document,)
+            case LeaderChanged() | SeparationLost():
+                self._happenings.append((self._count, document))
             case LeaderRoute():
-                self.route = (document,)
-            case LeaderChanged():
-                self.changes.append(document)
+                self._hold(document, "route", document.expected_by, document.ident)
             case PlanChanged() | PlanUnavailable():
-                self.plan = (document,)
-            case PlanRefused():
-                self.refused = (document,)
-            case ModeChanged():
-                self.mode = (document,)
+                self._hold(document, "plan", document.ident)
+            case PlanRefused() | ModeChanged() | Unable() | ForecastChanged():
+                self._hold(document, document.kind, document.ident)
+            case Alert():
+                self._hold(document, "alert", document.ident, document.other, document.subject)
             case Sample():
                 self.newest = (document,)
-                if not self.trail or document.t >= self.trail[-1].t + TRAIL_PERIOD:
-                    self.trail.append(document)
+                if not self._trail or document.t >= self._trail[-1][1].t + TRAIL_PERIOD:
+                    self._trail.append((self._count, document))
             case FlightEnded():
                 self.ended = (document,)
             case _:
                 assert_never(document)
 
+    def routes(self) -> list[LeaderRoute]:
+        """What each pursuer expects of its leader now."""
+        return [d for _, d in self._states.values() if isinstance(d, LeaderRoute)]
+
     def documents(self) -> list[Document]:
-        """The snapshot: what the flight is, what holds now, the trail, this instant."""
-        past = [s for s in self.trail if not any(s is newest for newest in self.newest)]
-        return [
-            *self.started,
-            *self.route,
-            *self.changes,
-            *self.plan,
-            *self.refused,
-            *self.mode,
-            *past,
-            *self.newest,
-            *self.ended,
-        ]
+        """The snapshot, in the order of the flight: what holds now, the trail, this instant."""
+        past = [s for s in self._trail if not any(s[1] is newest for newest in self.newest)]
+        numbered = [*self._states.values(), *self._happenings, *past]
+        in_order = sorted(numbered, key=itemgetter(0))
+        return [*self.started, *(d for _, d in in_order), *self.newest, *self.ended]
+
+    def _hold(self, document: Document, *place: str) -> None:
+        self._states[place] = (self._count, document)

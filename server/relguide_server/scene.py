@@ -1,4 +1,4 @@
-"""A sink of documents: the flight in 3D, drawn on a viser server.
+"""A sink of documents: the first link of a flight in 3D, drawn on a viser server.
 
 Scene frame: x east, y north, z up; 1 unit = 1 km, heights ×`ALTITUDE_SCALE`. Everything hangs under
 `/world`, which is moved so that the middle between the two aircraft stays at the origin: the
@@ -7,20 +7,33 @@ camera, which belongs to the viewer, then follows the flight without being moved
 
 from collections.abc import Sequence
 from math import cos, sin
+from typing import NamedTuple, assert_never
 
 import numpy as np
 from viser import ViserServer
 
+from relguide.flying.aircraft_documents import (
+    AircraftCard,
+    AircraftSample,
+    GuidanceSample,
+    LinkCard,
+    by_ident,
+)
 from relguide.flying.documents import (
+    Alert,
     Document,
     FlightEnded,
     FlightStarted,
+    ForecastChanged,
     LeaderChanged,
     LeaderRoute,
     ModeChanged,
     PlanChanged,
+    PlanRefused,
     PlanUnavailable,
     Sample,
+    SeparationLost,
+    Unable,
 )
 from relguide.units import NM
 from relguide_server import scene_paint as paint
@@ -36,6 +49,22 @@ WALL = 0.8
 """Half the height of the cylinder of radius d_min [scene units]; separation is horizontal."""
 
 
+class _Cast(NamedTuple):
+    """Who is drawn."""
+
+    link: LinkCard
+    pursuer: AircraftCard
+    leader: AircraftCard
+
+
+class _Pair(NamedTuple):
+    """Both of them at one instant."""
+
+    pursuer: AircraftSample
+    leader: AircraftSample
+    guidance: GuidanceSample
+
+
 class Scene:
     """Draws one flight, from one thread."""
 
@@ -44,7 +73,7 @@ class Scene:
         self._scene = server.scene
         self._wind = (0.0, 0.0)
         self._height = 0.0
-        self._started: FlightStarted | None = None
+        self._cast: _Cast | None = None
         self._figures: dict[str, AircraftFigure] = {}
         self._separation_lost = False
         self._slot_colour = paint.SLOT
@@ -59,31 +88,46 @@ class Scene:
 
     def draw(self, documents: Sequence[Document]) -> None:
         """Bring the picture up to date with documents in the order of the flight."""
+        for document in documents:
+            if isinstance(document, FlightStarted):
+                self._cast = _cast(document)
+        if self._cast is None:
+            return
         # Plan and route are drawn at the leader's height, which a sample behind them may bring.
-        heights = [height_of(d.leader) for d in documents if isinstance(d, Sample)]
-        self._height = heights[-1] if heights else self._height
+        leader = self._cast.link.leader
+        samples = [d for d in documents if isinstance(d, Sample)]
+        if samples:
+            self._height = height_of(by_ident(samples[-1].aircraft, leader))
         with self._server.atomic():
             for document in documents:
-                self._draw_one(document)
+                self._draw_one(document, self._cast)
 
-    def _draw_one(self, document: Document) -> None:
+    def _draw_one(self, document: Document, cast: _Cast) -> None:
+        link = cast.link
         match document:
             case FlightStarted():
                 self._start(document)
             case LeaderRoute():
-                self._draw_route(document)
+                if (document.expected_by, document.ident) == (link.pursuer, link.leader):
+                    self._draw_route(document)
             case PlanChanged():
-                self._draw_plan(document)
+                if document.ident == link.pursuer:
+                    self._draw_plan(document)
             case PlanUnavailable():
+                if document.ident != link.pursuer:
+                    return
                 for name in ("/world/plan", "/world/plan_shadow"):
                     self._scene.remove_by_name(name)
             case Sample():
-                self._sample(document)
-            case LeaderChanged() | ModeChanged() | FlightEnded():
+                self._sample(document.t, _pair(document, link), cast)
+            case LeaderChanged() | ModeChanged() | SeparationLost() | FlightEnded():
                 pass  # what they change is seen in the samples
+            case PlanRefused() | Alert() | Unable() | ForecastChanged():
+                pass  # for the navigation display
+            case _:
+                assert_never(document)
 
     def _start(self, started: FlightStarted) -> None:
-        self._started = started
         wind = started.wind
         self._wind = (-wind.speed * sin(wind.from_), -wind.speed * cos(wind.from_))
         self._draw_ground()
@@ -133,43 +177,40 @@ class Scene:
         segments = shapes.dashes(points, dash=dash, gap=gap)
         lines(self._scene, "/world/route", segments, paint.LEADER, 2.0)
 
-    def _sample(self, sample: Sample) -> None:
-        if self._started is None:
-            return
+    def _sample(self, t: float, pair: _Pair, cast: _Cast) -> None:
+        guidance, min_separation = pair.guidance, cast.link.min_separation
         if not self._figures:
-            self._first(sample, self._started)
-        self._figures["pursuer"].move(sample.pursuer, sample.t)
-        self._figures["leader"].move(sample.leader, sample.t)
-        self._centre(sample)
-        self._cameras.frame(sample.separation / KM, self._height)
-        slot = sample.slot
+            self._first(pair, cast)
+        self._figures["pursuer"].move(pair.pursuer, t)
+        self._figures["leader"].move(pair.leader, t)
+        self._centre(pair)
+        self._cameras.frame(guidance.separation / KM, self._height)
+        slot = guidance.slot
         self._slot.position = (slot.x / KM, slot.y / KM, self._height)
         self._slot.wxyz = shapes.attitude(slot.heading, 0.0)
-        if sample.joined and self._slot_colour != paint.PLAN:
+        if guidance.joined and self._slot_colour != paint.PLAN:
             self._draw_gate(paint.PLAN, "SLOT · joined")
-        elif not sample.joined and self._slot_colour != paint.SLOT:
+        elif not guidance.joined and self._slot_colour != paint.SLOT:
             self._draw_gate(paint.SLOT, "SLOT")
-        lost = sample.separation < self._started.min_separation
+        lost = guidance.separation < min_separation
         if lost != self._separation_lost:
-            self._draw_min_separation(self._started.min_separation, lost=lost)
+            self._draw_min_separation(min_separation, lost=lost)
 
-    def _first(self, sample: Sample, started: FlightStarted) -> None:
+    def _first(self, pair: _Pair, cast: _Cast) -> None:
         scene = self._scene
         self._figures = {
-            "pursuer": AircraftFigure(
-                scene, "pursuer", paint.PURSUER, started.pursuer, sample.pursuer
-            ),
-            "leader": AircraftFigure(scene, "leader", paint.LEADER, started.leader, sample.leader),
+            "pursuer": AircraftFigure(scene, "pursuer", paint.PURSUER, cast.pursuer, pair.pursuer),
+            "leader": AircraftFigure(scene, "leader", paint.LEADER, cast.leader, pair.leader),
         }
-        self._draw_min_separation(started.min_separation, lost=False)
+        self._draw_min_separation(cast.link.min_separation, lost=False)
         self._draw_gate(paint.SLOT, "SLOT")
 
-    def _centre(self, sample: Sample) -> None:
-        x = (sample.pursuer.x + sample.leader.x) / 2.0 / KM
-        y = (sample.pursuer.y + sample.leader.y) / 2.0 / KM
+    def _centre(self, pair: _Pair) -> None:
+        x = (pair.pursuer.x + pair.leader.x) / 2.0 / KM
+        y = (pair.pursuer.y + pair.leader.y) / 2.0 / KM
         self._world.position = (-x, -y, 0.0)
         # The scale moves in whole cells, so that it stays on the lines of the grid.
-        south = y - max(0.35 * sample.separation / KM, CELL)
+        south = y - max(0.35 * pair.guidance.separation / KM, CELL)
         self._scale.position = (CELL * round(x / CELL - 1.5), CELL * round(south / CELL), 0.0)
 
     def _draw_gate(self, colour: paint.Colour, text: str) -> None:
@@ -206,3 +247,18 @@ class Scene:
             (0.8 * radius, -0.6 * radius, -WALL),
             "top-left",
         )
+
+
+def _cast(started: FlightStarted) -> _Cast:
+    link = started.links[0]
+    return _Cast(
+        link, by_ident(started.aircraft, link.pursuer), by_ident(started.aircraft, link.leader)
+    )
+
+
+def _pair(sample: Sample, link: LinkCard) -> _Pair:
+    return _Pair(
+        by_ident(sample.aircraft, link.pursuer),
+        by_ident(sample.aircraft, link.leader),
+        by_ident(sample.guidance, link.pursuer),
+    )

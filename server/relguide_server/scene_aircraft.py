@@ -3,7 +3,7 @@
 import numpy as np
 from viser import SceneApi
 
-from relguide.flying.documents import AircraftCard, AircraftSample
+from relguide.flying.aircraft_documents import AircraftCard, AircraftSample
 from relguide.units import FT, KT
 from relguide_server import scene_shapes as shapes
 from relguide_server.scene_paint import Colour, dim, label, lines

@@ -19,6 +19,7 @@ from rich.console import Console
 from rich.table import Table
 
 from relguide import Plan, Planner, Situation, plan
+from relguide.flying.aircraft_documents import LinkResult
 from relguide.flying.documents import FlightEnded
 from relguide.flying.flight import Scenario, fly
 from relguide.learn.network_planner import network_planner
@@ -44,7 +45,7 @@ class Flown:
     number: int
     told: bool
     """Whether the leader's intent was known."""
-    end: FlightEnded
+    result: LinkResult
     kept: float
     """Least separation [d_min]."""
     spent: tuple[float, ...]
@@ -59,7 +60,7 @@ class Flown:
     @property
     def way(self) -> bool:
         """Whether there was a plan when guidance was engaged."""
-        return self.end.planned_time > 0.0
+        return self.result.planned_time > 0.0
 
 
 Flights = Mapping[str, Sequence[Flown]]
@@ -132,11 +133,12 @@ def flown(number: int, planner: Planner, longest: float = LONGEST) -> Flown:
     begun = thread_time()
     *_, end = fly(scenario, measured, step=STEP, sample_period=1.0)
     assert isinstance(end, FlightEnded)
+    (result,) = end.results
     return Flown(
         number=number,
         told=scenario.intent_known,
-        end=end,
-        kept=end.least_separation / scenario.situation.min_separation,
+        result=result,
+        kept=result.least_separation / scenario.situation.min_separation,
         spent=tuple(spent),
         handed_over=handed_over,
         none=none,
@@ -162,7 +164,7 @@ def flights_table(flights: Flights) -> Table:
         lost = [one for one in by_one if not one.way]
         table.add_row(
             name,
-            f"{sum(one.end.joined for one in by_one):,}",
+            f"{sum(one.result.joined for one in by_one):,}",
             *(
                 cell
                 for group in (told, not_told)
@@ -203,10 +205,10 @@ def losses_table(flights: Flights) -> Table:
         "flights", "same", "mean loss, %", "median, %", "worst, %", "worst, s", "best, s",
     ):  # fmt: skip
         table.add_column(heading, justify="right")
-    joined = [(a, b) for a, b in _pairs(flights) if a.end.joined and b.end.joined]
+    joined = [(a, b) for a, b in _pairs(flights) if a.result.joined and b.result.joined]
     if joined:
         exact, network = (
-            np.array([by_one.end.join_time for by_one in column])
+            np.array([by_one.result.join_time for by_one in column])
             for column in zip(*joined, strict=True)
         )
         later, losses = network - exact, 100.0 * (network / exact - 1.0)
@@ -235,7 +237,7 @@ def failures(flights: Flights) -> list[str]:
         if one.told and one.way and one.kept < BREACH
     ]
     for exact, network in _pairs(flights):
-        if exact.end.joined and not network.end.joined:
+        if exact.result.joined and not network.result.joined:
             found.append(f"Flight {exact.number} joins by the exact planner only.")
         if network.kept < BREACH <= exact.kept:
             found.append(

@@ -9,12 +9,12 @@ from time import thread_time
 from relguide import plan
 from relguide.flying import flight
 from relguide.flying.aircraft import AircraftState
+from relguide.flying.aircraft_documents import GuidanceSample, HeadingReference, LinkResult
 from relguide.flying.assignment import Assignment
 from relguide.flying.autopilot import Autopilot
 from relguide.flying.documents import (
     Document,
     FlightEnded,
-    HeadingReference,
     LeaderRoute,
     PlanChanged,
     PlanUnavailable,
@@ -35,6 +35,7 @@ from tests.campaign.paths import (
     reversals_of,
 )
 from tests.campaign.row import Loss, Row
+from tests.flights import Instant, instant
 
 EVERY: Second = 1.0
 """Between samples: guidance acts as often."""
@@ -76,10 +77,11 @@ def failed(case: Case, error: BaseException) -> Row:
 
 def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
     """The figures of a flight."""
-    end = documents[-1]
-    assert isinstance(end, FlightEnded)
+    last = documents[-1]
+    assert isinstance(last, FlightEnded)
+    (end,) = last.results
     situation = case.scenario.situation
-    samples = [document for document in documents if isinstance(document, Sample)]
+    samples = [instant(document) for document in documents if isinstance(document, Sample)]
     changed = [document for document in documents if isinstance(document, PlanChanged)]
     engaged = changed[0] if end.planned_time > 0.0 else None
     planned = end.planned_time if engaged else None
@@ -95,7 +97,7 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
         planned=engaged is not None,
         intent_known=case.scenario.intent_known,
         joined=end.joined,
-        flown_s=end.t,
+        flown_s=last.t,
         join_s=joined,
         planned_s=planned,
         promised_s=None,
@@ -127,29 +129,29 @@ def _warnings(documents: Iterable[Document]) -> Iterator[Second]:
 
 
 def _losses(
-    min_separation: Metre, samples: list[Sample], end: FlightEnded, warned: list[Second]
+    min_separation: Metre, samples: list[Instant], end: LinkResult, warned: list[Second]
 ) -> Iterator[Loss]:
     """Each time below d_min."""
     limit = min_separation - ROUNDING
-    runs: list[list[Sample]] = []
+    runs: list[list[Instant]] = []
     inside = False
     for sample in samples:
-        below = sample.separation < limit
+        below = sample.guidance.separation < limit
         if below and not inside:
             runs.append([])
         if below:
             runs[-1].append(sample)
         inside = below
     if not runs and end.least_separation < limit:  # between two samples
-        runs.append([min(samples, key=lambda s: s.separation)])
+        runs.append([min(samples, key=lambda s: s.guidance.separation)])
     for run in runs:
         begun = run[0].t
         before = [begun - t for t in warned if 0.0 <= begun - t <= WARNED]
         yield Loss(
             t_s=begun,
-            separation_m=min(sample.separation for sample in run),
+            separation_m=min(sample.guidance.separation for sample in run),
             seconds=len(run) * EVERY,
-            mode=run[0].mode,
+            mode=run[0].guidance.mode,
             cause="",
             announced_s=min(before) if before else None,
         )
@@ -160,7 +162,7 @@ def _heading_jump(documents: Iterable[Document]) -> float:
     largest, held, said = 0.0, None, False
     for document in documents:
         match document:
-            case Sample(reference=HeadingReference(heading=heading)):
+            case Sample(guidance=(GuidanceSample(reference=HeadingReference(heading=heading)),)):
                 if held is not None and not said:
                     largest = max(largest, abs(wrap_signed(heading - held)))
                 held, said = heading, False
@@ -181,7 +183,9 @@ def _cross_track(documents: Iterable[Document], wind: Wind) -> Metre:
         match document:
             case PlanChanged(t=t, plan=card):
                 flown, made, ends = path_in_air(card.segments, wind), t, t + card.time_to_converge
-            case Sample(t=t, mode="converge" | "capture", pursuer=here) if flown is not None:
+            case Sample(
+                t=t, aircraft=(here, _), guidance=(GuidanceSample(mode="converge" | "capture"),)
+            ) if flown is not None:
                 if t <= ends:
                     since = t - made
                     x, y = here.x - wind.east * since, here.y - wind.north * since

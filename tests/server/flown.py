@@ -3,14 +3,19 @@
 from collections.abc import Callable, Iterable, Iterator
 from math import hypot
 
-from relguide.flying.cards import path_point, path_segments, plan_card, wind_card
-from relguide.flying.documents import (
+from relguide.flying.aircraft_documents import (
     AircraftCard,
     AircraftSample,
+    GuidanceSample,
+    HeadingReference,
+    LinkCard,
+    LinkResult,
+)
+from relguide.flying.cards import path_point, path_segments, plan_card, wind_card
+from relguide.flying.documents import (
     Document,
     FlightEnded,
     FlightStarted,
-    HeadingReference,
     LeaderChanged,
     LeaderRoute,
     ModeChanged,
@@ -50,6 +55,9 @@ SITUATION = Situation(
 )
 
 
+OWN, LEADER = "RG 06", "LDR 01"
+
+
 def ideal_flight(
     commands: Callable[[float], Iterable[object]] = lambda t: (),
     *,
@@ -65,56 +73,79 @@ def ideal_flight(
         scenario="ideal",
         title="Two aircraft on their exact trajectories",
         planner="exact",
-        pursuer=AircraftCard(ident="RG 06", aircraft_type="A300", max_bank=25 * DEG),
-        leader=AircraftCard(ident="LDR 01", aircraft_type="A300", max_bank=20 * DEG),
-        slot_distance=situation.slot_distance,
-        min_separation=situation.min_separation,
+        aircraft=(
+            AircraftCard(ident=OWN, aircraft_type="A300", max_bank=25 * DEG),
+            AircraftCard(ident=LEADER, aircraft_type="A300", max_bank=20 * DEG),
+        ),
+        links=(
+            LinkCard(
+                pursuer=OWN,
+                leader=LEADER,
+                slot_distance=situation.slot_distance,
+                min_separation=situation.min_separation,
+                spacing="distance",
+            ),
+        ),
         wind=wind_card(situation.wind),
         step=step,
         seed=0,
     )
     wind, route = situation.wind, situation.leader.trajectory
     yield LeaderRoute(
-        t=0.0, intent_known=True, segments=path_segments(route, wind=wind, horizon=900.0)
+        t=0.0,
+        ident=LEADER,
+        expected_by=OWN,
+        intent_known=True,
+        segments=path_segments(route, wind=wind, horizon=900.0),
     )
     at = answer.certificate.at_time
     yield PlanChanged(
         t=0.0,
+        ident=OWN,
         reason="engaged",
         message="Engaged.",
         plan=plan_card(answer, alternatives(answer)),
         leader_at_closest=path_point(route.pose_at(at), at, wind),
         pursuer_at_closest=path_point(answer.trajectory.pose_at(at), at, wind),
+        announced=True,
+        promised=answer.time_to_converge,
+        tube=0.0,
+        flown_least=answer.certificate.least_separation,
     )
-    yield ModeChanged(t=0.0, mode="converge", previous="heading", message="Converging.")
+    yield ModeChanged(t=0.0, ident=OWN, mode="converge", previous="heading", message="Converging.")
     for k in range(round(duration / step) + 1):
         t = k * step
         for command in commands(t):
-            yield LeaderChanged(t=t, change="heading", message=f"Told {command!r}.")
+            yield LeaderChanged(t=t, ident=LEADER, change="heading", message=f"Told {command!r}.")
         yield _sample(t, answer, route, wind)
-    yield FlightEnded(
-        t=duration,
+    result = LinkResult(
+        ident=OWN,
+        leader=LEADER,
         joined=False,
         join_time=duration,
         planned_time=answer.time_to_converge,
+        promised=answer.time_to_converge,
         least_separation=40_000.0,
         heading_swing=0.0,
         bank_reversals=0,
         replans=1,
+        replans_announced=1,
         fallbacks=0,
         track=240.0 * duration,
+        losses=(),
     )
+    yield FlightEnded(t=duration, results=(result,))
 
 
 def _sample(t: float, answer: Plan, route: Trajectory, wind: Wind) -> Sample:
-    pursuer, leader = _aircraft(answer.trajectory, t, wind), _aircraft(route, t, wind)
+    pursuer = _aircraft(OWN, answer.trajectory, t, wind)
+    leader = _aircraft(LEADER, route, t, wind)
     separation = hypot(pursuer.x - leader.x, pursuer.y - leader.y)
     slot = route.pose_at(max(t - answer.situation.slot_distance / route.tas, 0.0))
     ground = path_point(slot, t, wind)
-    return Sample(
-        t=t,
-        pursuer=pursuer,
-        leader=leader,
+    guidance = GuidanceSample(
+        ident=OWN,
+        leader=LEADER,
         mode="converge",
         reference=HeadingReference(heading=pursuer.heading),
         commanded_tas=pursuer.tas,
@@ -127,14 +158,17 @@ def _sample(t: float, answer: Plan, route: Trajectory, wind: Wind) -> Sample:
         cross_track=0.0,
         time_to_go=max(answer.time_to_converge - t, 0.0),
         joined=t > answer.time_to_converge,
+        alert="none",
     )
+    return Sample(t=t, aircraft=(pursuer, leader), guidance=(guidance,))
 
 
-def _aircraft(trajectory: Trajectory, t: float, wind: Wind) -> AircraftSample:
+def _aircraft(ident: str, trajectory: Trajectory, t: float, wind: Wind) -> AircraftSample:
     pose, after = trajectory.pose_at(t), trajectory.pose_at(t + 0.1)
     here, there = path_point(pose, t, wind), path_point(after, t + 0.1, wind)
     turning = pose.heading != after.heading
     return AircraftSample(
+        ident=ident,
         x=here.x,
         y=here.y,
         heading=pose.heading,

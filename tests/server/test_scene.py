@@ -13,7 +13,8 @@ from viser import ViserServer
 from relguide.flying.documents import Document, PlanUnavailable, Sample
 from relguide.flying.plan_documents import NoPlanCard
 from relguide.planning.plan import Reason
-from tests.server.flown import ideal_flight
+from tests.documents import rare_documents
+from tests.server.flown import LEADER, OWN, ideal_flight
 
 
 @pytest.fixture
@@ -45,8 +46,9 @@ def test_a_flight_is_drawn_whole(viser_server: ViserServer, documents: list[Docu
         assert f"/world/{name}" in nodes(viser_server)
     sample = next(d for d in reversed(documents) if isinstance(d, Sample))
     place = nodes(viser_server)["/world/leader"].position
-    altitude = sample.leader.altitude / 1000.0 * ALTITUDE_SCALE
-    assert place == pytest.approx([sample.leader.x / 1000, sample.leader.y / 1000, altitude])
+    _, leader = sample.aircraft
+    altitude = leader.altitude / 1000.0 * ALTITUDE_SCALE
+    assert place == pytest.approx([leader.x / 1000, leader.y / 1000, altitude])
 
 
 def test_the_middle_of_the_two_stays_at_the_origin(
@@ -60,11 +62,24 @@ def test_the_middle_of_the_two_stays_at_the_origin(
     assert known["/world"].position[:2] == pytest.approx(-both[:2] / 2.0)
 
 
+def test_what_is_about_others_or_only_for_the_crew_changes_nothing(
+    viser_server: ViserServer, documents: list[Document]
+) -> None:
+    scene = Scene(viser_server)
+    scene.draw(documents)
+    before = set(nodes(viser_server))
+    answer = NoPlanCard(reason=Reason.SLOT_UNREACHABLE, message="Too fast a leader.")
+    scene.draw(
+        [*rare_documents(20.0, OWN, LEADER), PlanUnavailable(t=20.0, ident="OTHER", answer=answer)]
+    )
+    assert set(nodes(viser_server)) == before
+
+
 def test_without_a_plan_none_is_shown(viser_server: ViserServer, documents: list[Document]) -> None:
     scene = Scene(viser_server)
     scene.draw(documents)
     answer = NoPlanCard(reason=Reason.SLOT_UNREACHABLE, message="Too fast a leader.")
-    scene.draw([PlanUnavailable(t=20.0, answer=answer)])
+    scene.draw([PlanUnavailable(t=20.0, ident=OWN, answer=answer)])
     assert not [name for name in nodes(viser_server) if name.startswith("/world/plan")]
 
 
@@ -75,7 +90,8 @@ def test_a_lost_limit_and_a_joined_slot_change_colour(
     scene.draw(documents)
     sample = next(d for d in reversed(documents) if isinstance(d, Sample))
     assert tuple(nodes(viser_server)["/world/leader/min_separation"].color) == paint.LEADER
-    scene.draw([replace(sample, separation=1000.0, joined=True)])
+    close = replace(sample.guidance[0], separation=1000.0, joined=True)
+    scene.draw([replace(sample, guidance=(close,))])
     assert tuple(nodes(viser_server)["/world/leader/min_separation"].color) == paint.ALERT
     gate = np.asarray(nodes(viser_server)["/world/slot/gate"].colors)
     assert tuple(gate.reshape(-1, 3)[0]) == paint.PLAN
@@ -87,4 +103,4 @@ def test_the_first_picture_has_both_aircraft_in_it(
     Scene(viser_server).draw(documents)
     sample = next(d for d in reversed(documents) if isinstance(d, Sample))
     away = np.linalg.norm(viser_server.initial_camera.position)
-    assert away > sample.separation / 1000.0
+    assert away > sample.guidance[0].separation / 1000.0

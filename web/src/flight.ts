@@ -7,18 +7,19 @@
 import { batch, type Signal, signal } from "@preact/signals";
 import { type FlightClock, readClock, setClock } from "./clock";
 import { blend, type Gap, gap, moveSample, NO_GAP } from "./motion";
-import { appendTrail, type TrailPoint } from "./trail";
-import { formatClock } from "./units";
+import type { PairCard, PairSample } from "./pair";
+import { take } from "./take";
+import type { TrailPoint } from "./trail";
 import type {
-  Document,
-  FlightEnded,
-  FlightStarted,
+  Alert,
   LeaderRoute,
+  LinkResult,
   ModeChanged,
   PlanChanged,
   PlanUnavailable,
-  Sample,
+  SeparationLost,
   Tick,
+  Unable,
 } from "./wire";
 
 export type { TrailPoint } from "./trail";
@@ -31,14 +32,26 @@ export type Link = "connecting" | "open" | "closed";
 /** One line of the log: what happened, and the flight time [s] it happened at. */
 export interface Message {
   readonly t: number;
-  readonly kind: "plan" | "no_plan" | "refused" | "leader" | "mode" | "end";
+  readonly kind:
+    | "plan"
+    | "no_plan"
+    | "refused"
+    | "leader"
+    | "mode"
+    | "advisory"
+    | "caution"
+    | "warning"
+    | "clear"
+    | "unable"
+    | "lost"
+    | "end";
   readonly text: string;
 }
 
 /** What the display knows. Wall-clock instants are performance.now() [ms]. */
 export interface Flight {
   readonly id: Signal<string | null>;
-  readonly started: Signal<FlightStarted | null>;
+  readonly started: Signal<PairCard | null>;
   readonly route: Signal<LeaderRoute | null>;
   /** The plan flown now. */
   readonly plan: Signal<PlanChanged | null>;
@@ -46,13 +59,19 @@ export interface Flight {
   readonly superseded: Signal<{ plan: PlanChanged; until: number } | null>;
   /** Set while the last answer was "no plan". */
   readonly unavailable: Signal<PlanUnavailable | null>;
+  /** The alerts that stand: of each subject and other aircraft the newest. */
+  readonly alerts: Signal<readonly Alert[]>;
+  /** Set from "unable" to the next plan. */
+  readonly unable: Signal<Unable | null>;
+  /** The last loss of separation. */
+  readonly lost: Signal<SeparationLost | null>;
   readonly mode: Signal<ModeChanged | null>;
   /** When the mode last changed [ms]: the new mode is boxed for 10 s. */
   readonly modeSince: Signal<number>;
   /** The newest sample, as it came. */
-  readonly sample: Signal<Sample | null>;
+  readonly sample: Signal<PairSample | null>;
   /** The newest sample carried on to this animation frame, at most 2 s of wall time ahead. */
-  readonly now: Signal<Sample | null>;
+  readonly now: Signal<PairSample | null>;
   /** Flight time at this animation frame [s]. */
   readonly simTime: Signal<number>;
   /** Wall time since the newest sample arrived [s]; while paused, since the newest tick. */
@@ -61,7 +80,7 @@ export interface Flight {
     readonly pursuer: Signal<readonly TrailPoint[]>;
     readonly leader: Signal<readonly TrailPoint[]>;
   };
-  readonly ended: Signal<FlightEnded | null>;
+  readonly ended: Signal<LinkResult | null>;
   readonly clock: Signal<{ rate: number; paused: boolean; ended: boolean }>;
   readonly connection: Signal<Connection>;
   /** Newest first. */
@@ -79,15 +98,12 @@ export interface FlightStore {
   link(state: Link): void;
 }
 
-/** The previous plan stays visible this long [ms]. */
-const SUPERSEDED_SHOWN = 3000;
 /** The picture runs at most this far ahead of the newest sample [wall s]. */
 const AHEAD_LIMIT = 2;
 /** Data older than this is flagged [s]. */
 export const STALE_AGE = 2;
 /** Data older than this counts as lost [s]. */
 export const LOST_AGE = 5;
-const MESSAGES_KEPT = 200;
 
 export function createFlightStore(): FlightStore {
   const flight = emptyFlight();
@@ -157,6 +173,9 @@ function emptyFlight(): Flight {
     plan: signal(null),
     superseded: signal(null),
     unavailable: signal(null),
+    alerts: signal([]),
+    unable: signal(null),
+    lost: signal(null),
     mode: signal(null),
     modeSince: signal(-Infinity),
     sample: signal(null),
@@ -178,6 +197,9 @@ function clear(flight: Flight): void {
   flight.plan.value = null;
   flight.superseded.value = null;
   flight.unavailable.value = null;
+  flight.alerts.value = [];
+  flight.unable.value = null;
+  flight.lost.value = null;
   flight.mode.value = null;
   flight.modeSince.value = -Infinity;
   flight.sample.value = null;
@@ -195,79 +217,4 @@ function connection(flight: Flight, linked: Link): Connection {
   if (linked === "closed" || age > LOST_AGE) return "lost";
   if (flight.sample.value === null || linked === "connecting") return "connecting";
   return age > STALE_AGE ? "stale" : "live";
-}
-
-/** Reduces one document. `since` [ms]: the wall time at which it happened, going by the tick's rate. */
-function take(
-  flight: Flight,
-  document: Document,
-  { joining, wall, since }: { joining: boolean; wall: number; since: number },
-): void {
-  switch (document.kind) {
-    case "flight_started":
-      // Also the first document for a late joiner or a reconnected page: the trails come again.
-      flight.started.value = document;
-      flight.trail.pursuer.value = [];
-      flight.trail.leader.value = [];
-      flight.ended.value = null;
-      return;
-    case "leader_route":
-      flight.route.value = document;
-      return;
-    case "leader_changed":
-      log(flight, { t: document.t_s, kind: "leader", text: document.message });
-      return;
-    case "plan_changed": {
-      const previous = flight.plan.value;
-      if (previous !== null && !joining && flight.unavailable.value === null) {
-        flight.superseded.value = { plan: previous, until: wall + SUPERSEDED_SHOWN };
-      }
-      flight.plan.value = document;
-      flight.unavailable.value = null;
-      log(flight, { t: document.t_s, kind: "plan", text: document.message });
-      return;
-    }
-    case "plan_unavailable":
-      flight.unavailable.value = document;
-      log(flight, { t: document.t_s, kind: "no_plan", text: document.answer.message });
-      return;
-    case "plan_refused":
-      log(flight, { t: document.t_s, kind: "refused", text: document.message });
-      return;
-    case "mode_changed":
-      flight.mode.value = document;
-      flight.modeSince.value = since;
-      log(flight, { t: document.t_s, kind: "mode", text: document.message });
-      return;
-    case "sample":
-      flight.sample.value = document;
-      flight.trail.pursuer.value = appendTrail(
-        flight.trail.pursuer.value,
-        document.t_s,
-        document.pursuer,
-      );
-      flight.trail.leader.value = appendTrail(
-        flight.trail.leader.value,
-        document.t_s,
-        document.leader,
-      );
-      return;
-    case "flight_ended":
-      flight.ended.value = document;
-      log(flight, { t: document.t_s, kind: "end", text: endSentence(document) });
-      return;
-  }
-}
-
-function endSentence(ended: FlightEnded): string {
-  return ended.joined
-    ? `Flight ended: joined at ${formatClock(ended.join_time_s)}.`
-    : "Flight ended without joining.";
-}
-
-function log(flight: Flight, message: Message): void {
-  const known = flight.messages.value;
-  // A reconnected page gets the last documents again.
-  if (known.some((each) => each.t === message.t && each.text === message.text)) return;
-  flight.messages.value = [message, ...known].slice(0, MESSAGES_KEPT);
 }

@@ -1,8 +1,9 @@
 /** Where two aircraft are a little later (or earlier) than a sample says: constant turn rate, constant wind. */
 
 import { CALM, type Vector, velocity } from "./geometry";
+import type { PairSample } from "./pair";
 import { DEG, wrap180, wrap360 } from "./units";
-import type { AircraftSample, PathPoint, Sample } from "./wire";
+import type { AircraftSample, PathPoint } from "./wire";
 
 /** The wind an aircraft flies in [m/s]: its velocity over the ground less that through the air. */
 export function windOf(aircraft: AircraftSample): Vector {
@@ -45,7 +46,7 @@ function moveSlot(slot: PathPoint, leader: AircraftSample, dt: number): PathPoin
 }
 
 /** The whole sample `dt` [s] later: what moves is moved, what is decided stays as it was. */
-export function moveSample(sample: Sample, dt: number): Sample {
+export function moveSample(sample: PairSample, dt: number): PairSample {
   if (dt === 0) return sample;
   const pursuer = moveAircraft(sample.pursuer, dt);
   const leader = moveAircraft(sample.leader, dt);
@@ -81,7 +82,7 @@ const CLOSING = 150;
 const WIDEST = 2000;
 
 /** The gap between what is shown and what is true, both at the same flight time. */
-export function gap(shown: Sample, truth: Sample): Gap {
+export function gap(shown: PairSample, truth: PairSample): Gap {
   return {
     pursuer: aircraftGap(shown.pursuer, truth.pursuer),
     leader: aircraftGap(shown.leader, truth.leader),
@@ -96,7 +97,7 @@ function aircraftGap(shown: AircraftSample, truth: AircraftSample): AircraftGap 
 }
 
 /** A sample with what is left of a gap `age` [ms] after it was found. */
-export function blend(sample: Sample, found: Gap, age: number): Sample {
+export function blend(sample: PairSample, found: Gap, age: number): PairSample {
   const left = Math.exp(-Math.max(0, age) / CLOSING);
   if (found === NO_GAP || left < 1e-3) return sample;
   return {

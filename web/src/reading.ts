@@ -44,6 +44,7 @@ export const MODE_NAMES: Record<Mode, string> = {
   converge: "Converge",
   capture: "Capture",
   follow: "Follow",
+  escape: "Escape",
 };
 
 const PLANNER_NAMES: Readonly<Record<string, string>> = {

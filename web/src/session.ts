@@ -3,7 +3,8 @@
 import { type Signal, signal } from "@preact/signals";
 import type { Readiness } from "./api";
 import { type Flight, LOST_AGE } from "./flight";
-import type { Direction, FlightStatus, Sample, ScenarioInfo } from "./wire";
+import type { PairSample } from "./pair";
+import type { Direction, FlightStatus, ScenarioInfo } from "./wire";
 
 export type NdMode = "ROSE" | "ARC";
 export const ND_RANGES = [10, 20, 40, 80, 160, 320] as const;
@@ -32,7 +33,7 @@ export interface Session {
    * The newest sample for numbers to be read: changes 5 times a second, unlike `flight.now`.
    * Null when data are lost: an old number is blanked, never left standing.
    */
-  readonly reading: Signal<Sample | null>;
+  readonly reading: Signal<PairSample | null>;
   readonly scenarios: Signal<readonly ScenarioInfo[]>;
   readonly status: Signal<FlightStatus | null>;
   readonly feedback: Signal<Feedback>;

@@ -1,7 +1,7 @@
 // Made by `python -m relguide_server.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-8e2be64aef76";
+export const PROTOCOL = "relguide-5a1251ca2103";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -9,9 +9,9 @@ export type Direction = "left" | "right";
 /**
  * heading: no plan, a heading is held; converge: the plan is flown; capture: closes onto
  * the leader's route under speed control; follow: on the route D behind the leader, at
- * its speed.
+ * its speed; escape: turns away, as the separation would be lost on what was flown.
  */
-export type Mode = "heading" | "converge" | "capture" | "follow";
+export type Mode = "heading" | "converge" | "capture" | "follow" | "escape";
 
 /** Why a plan is optimal. */
 export type Proof = "relaxation" | "bound" | "none";
@@ -29,6 +29,21 @@ export type PlanReason =
 
 /** What is new about the leader. */
 export type LeaderChange = "heading" | "speed" | "intent_received" | "intent_withdrawn";
+
+/** What a link keeps once joined: a distance, or a time. */
+export type Spacing = "distance" | "time";
+
+/** advisory: to be known; caution: to be seen to at once; warning: to be acted upon at once. */
+export type AlertLevel = "advisory" | "caution" | "warning";
+
+/** The highest level among the alerts that stand. */
+export type AlertState = "none" | "advisory" | "caution" | "warning";
+
+/** What an alert is about. */
+export type AlertSubject = "separation" | "speed" | "data" | "geometry";
+
+/** Why guidance cannot do what it is to do. */
+export type UnableReason = "separation" | "speed" | "geometry" | "envelope" | "data";
 
 /** What is wrong with a planner's plan. */
 export type Fault =
@@ -69,6 +84,10 @@ export type Document =
   | PlanUnavailable
   | PlanRefused
   | ModeChanged
+  | Alert
+  | Unable
+  | SeparationLost
+  | ForecastChanged
   | Sample
   | FlightEnded;
 
@@ -92,6 +111,7 @@ export type Command =
 
 /** Who an aircraft is. */
 export interface AircraftCard {
+  /** Its name in all documents of the flight. */
   ident: string;
   aircraft_type: string;
   max_bank_deg: number;
@@ -99,6 +119,7 @@ export interface AircraftCard {
 
 /** One aircraft at one instant, as it flies (roll dynamics included). */
 export interface AircraftSample {
+  ident: string;
   x_m: number;
   y_m: number;
   heading_deg: number;
@@ -111,6 +132,30 @@ export interface AircraftSample {
   tas_mps: number;
   ground_speed_mps: number;
   altitude_m: number;
+}
+
+/**
+ * Something a crew has to know of, or that it need no longer know of.
+ *
+ * One is given when its subject's level rises or falls, not each second that it stands.
+ */
+export interface Alert {
+  kind: "alert";
+  t_s: number;
+  /** The aircraft whose crew is alerted. */
+  ident: string;
+  /** The aircraft that it is about, which need not be the leader. */
+  other: string;
+  /** Of the alert that begins or, when cleared, ends. */
+  level: AlertLevel;
+  subject: AlertSubject;
+  message: string;
+  /** Least separation from the other ahead, flying on as now. */
+  predicted_least_m: number;
+  /** Flight time of it. */
+  predicted_at_s: number;
+  /** Whether the alert ends: nothing stands on this subject any more. */
+  cleared: boolean;
 }
 
 /**
@@ -277,19 +322,8 @@ export interface EarlyAlternativeCard {
 export interface FlightEnded {
   kind: "flight_ended";
   t_s: number;
-  joined: boolean;
-  /** When eq. (7) first held within tolerance; the flight's duration if it never did. */
-  join_time_s: number;
-  /** Time to converge of the plan at engagement; 0 if there was none. */
-  planned_time_s: number;
-  least_separation_m: number;
-  /** Total variation of the pursuer's heading until joined. */
-  heading_swing_deg: number;
-  bank_reversals: number;
-  replans: number;
-  fallbacks: number;
-  /** Distance flown over the ground until joined. */
-  track_m: number;
+  /** In the order of `FlightStarted.links`. */
+  results: LinkResult[];
 }
 
 /** All flights. */
@@ -305,10 +339,10 @@ export interface FlightStarted {
   title: string;
   /** Who makes the plans, as in `PlanCard`. */
   planner: string;
-  pursuer: AircraftCard;
-  leader: AircraftCard;
-  slot_distance_m: number;
-  min_separation_m: number;
+  /** All that fly, each with an ident of its own. */
+  aircraft: AircraftCard[];
+  /** Who is to join whom. Displays for one pair show the first. */
+  links: LinkCard[];
   wind: WindCard;
   /** Integration step [s]. */
   step_s: number;
@@ -336,6 +370,22 @@ export interface FlightStatus {
   scene_url: string;
 }
 
+/**
+ * The path that an aircraft will really fly: the closed loop flown ahead, without planning.
+ *
+ * Columns of equal length; points close enough to draw straight lines between.
+ */
+export interface ForecastChanged {
+  kind: "forecast_changed";
+  t_s: number;
+  ident: string;
+  /** Flight times, ascending. */
+  times_s: number[];
+  x_m: number[];
+  y_m: number[];
+  heading_deg: number[];
+}
+
 /** The aircraft to be joined, at t = 0, placed on the earth (WGS84). */
 export interface GeodeticLeader {
   lat_deg: number;
@@ -360,6 +410,34 @@ export interface GeodeticPursuer {
   max_bank_deg: number;
 }
 
+/** What the guidance of one pursuer does at one instant, and how it stands to its leader. */
+export interface GuidanceSample {
+  /** The pursuer's. */
+  ident: string;
+  /** Its leader's ident. */
+  leader: string;
+  mode: Mode;
+  reference: ReferenceCard;
+  /** What guidance asks of the autothrust. */
+  commanded_tas_mps: number;
+  separation_m: number;
+  /** Rate at which the separation shrinks, positive when closing. */
+  closure_mps: number;
+  /** Least separation so far. */
+  least_separation_m: number;
+  /** The slot now (with turns to come: on the backward extension of the leader's final leg). */
+  slot: PathPoint;
+  slot_open: boolean;
+  /** Distance still to close along the leader's route to be at D: positive when too far behind. */
+  spacing_error_m: number;
+  /** Offset from the leader's final route, positive to its right. */
+  cross_track_m: number;
+  /** Until the slot is reached by the plan flown; 0 when there is none or it is joined. */
+  time_to_go_s: number;
+  joined: boolean;
+  alert: AlertState;
+}
+
 /** Guidance asks the autopilot to hold a heading. */
 export interface HeadingReference {
   kind: "hold_heading";
@@ -376,6 +454,8 @@ export interface IntentKnownCommand {
 export interface LeaderChanged {
   kind: "leader_changed";
   t_s: number;
+  /** The leader's. */
+  ident: string;
   change: LeaderChange;
   message: string;
 }
@@ -390,13 +470,17 @@ export interface LeaderHeadingCommand {
 }
 
 /**
- * What guidance expects the leader to fly from now on: its declared intent, or straight ahead.
+ * What a pursuer expects its leader to fly from now on: its declared intent, or straight ahead.
  *
  * Times in the segments are flight times. The last segment is the final leg, cut short.
  */
 export interface LeaderRoute {
   kind: "leader_route";
   t_s: number;
+  /** The leader's. */
+  ident: string;
+  /** The pursuer's ident. */
+  expected_by: string;
   intent_known: boolean;
   segments: PathSegment[];
 }
@@ -406,6 +490,47 @@ export interface LeaderSpeedCommand {
   command: "leader_speed";
   /** True airspeed. */
   tas_mps: number;
+}
+
+/** What a pursuer is to do: join its leader, and stay behind it. */
+export interface LinkCard {
+  /** Its ident. */
+  pursuer: string;
+  /** Its ident. */
+  leader: string;
+  /** D, along the leader's route behind it; with spacing by time, as it is at the start. */
+  slot_distance_m: number;
+  /** d_min, to be kept at all times. */
+  min_separation_m: number;
+  spacing: Spacing;
+}
+
+/** How the flight of one pursuer behind its leader went. */
+export interface LinkResult {
+  /** The pursuer's. */
+  ident: string;
+  /** Its leader's ident. */
+  leader: string;
+  joined: boolean;
+  /** When eq. (7) first held within tolerance; the flight's duration if it never did. */
+  join_time_s: number;
+  /** Time to converge of the plan at engagement; 0 if there was none. */
+  planned_time_s: number;
+  /** Time until joined that the plan at engagement promised, braking included; 0 as above. */
+  promised_s: number;
+  least_separation_m: number;
+  /** Total variation of the pursuer's heading until joined. */
+  heading_swing_deg: number;
+  bank_reversals: number;
+  /** Plans after the one at engagement, announced or not. */
+  replans: number;
+  /** Those of them that the crew was shown. */
+  replans_announced: number;
+  /** How often the exact plan took the place of a planner's. */
+  fallbacks: number;
+  /** Distance flown over the ground until joined. */
+  track_m: number;
+  losses: Loss[];
 }
 
 /** The aircraft to be joined, at t = 0, with what it has declared it will do. */
@@ -436,6 +561,18 @@ export interface LocalPursuer {
   max_bank_deg: number;
 }
 
+/** A loss of separation: from when the separation fell below d_min until it was d_min again. */
+export interface Loss {
+  /** When it fell below. */
+  t_s: number;
+  /** The least while it was lost. */
+  separation_m: number;
+  /** Why, in a sentence. */
+  cause: string;
+  /** When the first alert or `Unable` that came before it was given; empty if there was none. */
+  announced_s: number[];
+}
+
 /** A word of which no path reaches the slot. */
 export interface MissingAlternativeCard {
   word: string;
@@ -447,6 +584,8 @@ export interface MissingAlternativeCard {
 export interface ModeChanged {
   kind: "mode_changed";
   t_s: number;
+  /** The pursuer's. */
+  ident: string;
   mode: Mode;
   previous: Mode;
   message: string;
@@ -532,6 +671,8 @@ export interface PlanCard {
 export interface PlanChanged {
   kind: "plan_changed";
   t_s: number;
+  /** The pursuer's. */
+  ident: string;
   reason: PlanReason;
   message: string;
   plan: PlanCard;
@@ -539,6 +680,14 @@ export interface PlanChanged {
   leader_at_closest: PathPoint;
   /** Where the pursuer is then. */
   pursuer_at_closest: PathPoint;
+  /** Whether it is news for the crew; if not, its path is drawn and nothing is said. */
+  announced: boolean;
+  /** How long until joined, braking included: as forecast by flying the closed loop ahead. */
+  promised_s: number;
+  /** Largest distance of that forecast from the plan's ideal path. */
+  tube_m: number;
+  /** Least separation of that forecast, which is what must keep d_min. */
+  flown_least_m: number;
 }
 
 /**
@@ -549,6 +698,8 @@ export interface PlanChanged {
 export interface PlanRefused {
   kind: "plan_refused";
   t_s: number;
+  /** The pursuer's. */
+  ident: string;
   /** Who made it; empty if the answer was no plan. */
   planner: string;
   fault: Fault;
@@ -559,6 +710,8 @@ export interface PlanRefused {
 export interface PlanUnavailable {
   kind: "plan_unavailable";
   t_s: number;
+  /** The pursuer's. */
+  ident: string;
   answer: NoPlanCard;
 }
 
@@ -571,27 +724,10 @@ export interface PlayCommand {
 export interface Sample {
   kind: "sample";
   t_s: number;
-  pursuer: AircraftSample;
-  leader: AircraftSample;
-  mode: Mode;
-  reference: ReferenceCard;
-  /** What guidance asks of the autothrust. */
-  commanded_tas_mps: number;
-  separation_m: number;
-  /** Rate at which the separation shrinks, positive when closing. */
-  closure_mps: number;
-  /** Least separation so far. */
-  least_separation_m: number;
-  /** The slot now (with turns to come: on the backward extension of the leader's final leg). */
-  slot: PathPoint;
-  slot_open: boolean;
-  /** Distance still to close along the leader's route to be at D: positive when too far behind. */
-  spacing_error_m: number;
-  /** Offset from the leader's final route, positive to its right. */
-  cross_track_m: number;
-  /** Until the slot is reached by the plan flown; 0 when there is none or it is joined. */
-  time_to_go_s: number;
-  joined: boolean;
+  /** In the order of `FlightStarted.aircraft`. */
+  aircraft: AircraftSample[];
+  /** In the order of `FlightStarted.links`. */
+  guidance: GuidanceSample[];
 }
 
 /** Start a flight of a scenario. */
@@ -628,6 +764,26 @@ export interface Separation {
   least_m: number;
   at_s: number;
   proved_above_m: number;
+}
+
+/** The separation fell below d_min: once for each time it does. */
+export interface SeparationLost {
+  kind: "separation_lost";
+  t_s: number;
+  /** The pursuer's. */
+  ident: string;
+  /** The aircraft that it came too close to. */
+  other: string;
+  /** At this instant. */
+  separation_m: number;
+  /** Where the pursuer is, east. */
+  x_m: number;
+  /** … and north. */
+  y_m: number;
+  /** Why, in a sentence. */
+  cause: string;
+  /** When the first alert or `Unable` that came before it was given; empty if there was none. */
+  announced_s: number[];
 }
 
 /** Change how fast simulated time runs. */
@@ -718,6 +874,16 @@ export interface TurnSegment {
   duration_s: number;
   start: PathPoint;
   end: PathPoint;
+}
+
+/** Guidance cannot do what it is to do, and the crew is informed. Holds until the next plan. */
+export interface Unable {
+  kind: "unable";
+  t_s: number;
+  /** The pursuer's. */
+  ident: string;
+  reason: UnableReason;
+  message: string;
 }
 
 /** Another path to the slot that lost because it comes too close. */

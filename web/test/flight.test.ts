@@ -1,6 +1,18 @@
 import { describe, expect, test } from "vitest";
 import { createFlightStore } from "../src/flight";
-import { aircraft, modeChanged, noPlan, planChanged, STARTED, sample, tick } from "./samples";
+import {
+  aircraft,
+  alert,
+  LEADER,
+  modeChanged,
+  noPlan,
+  OWN,
+  planChanged,
+  STARTED,
+  sample,
+  tick,
+  unable,
+} from "./samples";
 
 /** A store that has joined a flight at time `t`, at wall time 1000 ms. */
 function joined(t = 0, rate = 1) {
@@ -59,6 +71,74 @@ describe("what the ticks say", () => {
     store.receive(tick(9, [STARTED, modeChanged(0), planChanged(0), sample(0), sample(9)]), 9000);
     expect(store.flight.messages.value).toEqual(before);
     expect(store.flight.superseded.value).toBeNull();
+  });
+
+  test("a plan that is no news is flown and not logged, and the old one is not shown", () => {
+    const store = joined();
+    const before = store.flight.messages.value;
+    store.receive(tick(1, [{ ...planChanged(1), announced: false }, sample(1)]), 2000);
+    expect(store.flight.plan.value?.t_s).toBe(1);
+    expect(store.flight.superseded.value).toBeNull();
+    expect(store.flight.messages.value).toEqual(before);
+  });
+
+  test("an alert stands until it is cleared, and a newer one on the subject takes its place", () => {
+    const store = joined();
+    const { alerts, messages } = store.flight;
+    const [first, second] = [alert(1), alert(2, { level: "warning" })];
+    store.receive(tick(2, [first, alert(1, { subject: "speed" }), second, sample(2)]), 2000);
+    expect(alerts.value.map((each) => [each.subject, each.level])).toEqual([
+      ["speed", "caution"],
+      ["separation", "warning"],
+    ]);
+    store.receive(tick(3, [{ ...second, t_s: 3, cleared: true }, sample(3)]), 3000);
+    expect(alerts.value.map((each) => each.subject)).toEqual(["speed"]);
+    expect(messages.value[0]?.kind).toBe("clear");
+  });
+
+  test("unable holds until the next plan", () => {
+    const store = joined();
+    store.receive(tick(1, [unable(1), sample(1)]), 2000);
+    expect(store.flight.unable.value?.reason).toBe("geometry");
+    store.receive(tick(2, [planChanged(2), sample(2)]), 3000);
+    expect(store.flight.unable.value).toBeNull();
+  });
+
+  test("of several links the first is shown, and nothing of the others", () => {
+    const store = createFlightStore();
+    const [own, leader] = STARTED.aircraft;
+    const [link] = STARTED.links;
+    if (own === undefined || leader === undefined || link === undefined) throw new Error("No link");
+    const third = { ...own, ident: "THIRD" };
+    const started = {
+      ...STARTED,
+      aircraft: [third, own, leader],
+      links: [link, { ...link, pursuer: "THIRD", slot_distance_m: 1 }],
+    };
+    const both = sample(1);
+    const [guidance] = both.guidance;
+    if (guidance === undefined) throw new Error("No guidance");
+    both.aircraft.unshift({ ...aircraft({ x_m: 9 }), ident: "THIRD" });
+    both.guidance.unshift({ ...guidance, ident: "THIRD", mode: "heading" });
+    const foreign = [
+      { ...planChanged(1), ident: "THIRD" },
+      { ...modeChanged(1), ident: "THIRD" },
+      { ...noPlan(1), ident: "THIRD" },
+      alert(1, { ident: "THIRD" }),
+      { ...unable(1), ident: "THIRD" },
+    ];
+    store.receive(tick(1, [started, ...foreign, both]), 1000);
+    const { flight } = store;
+    expect(flight.started.value?.slot_distance_m).toBe(10000);
+    expect(flight.sample.value?.pursuer.ident).toBe(OWN);
+    expect(flight.sample.value?.leader.ident).toBe(LEADER);
+    expect(flight.sample.value?.mode).toBe("converge");
+    expect([flight.plan.value, flight.mode.value, flight.unavailable.value]).toEqual([
+      null,
+      null,
+      null,
+    ]);
+    expect(flight.messages.value).toEqual([]);
   });
 
   test("another flight begins with nothing of the first", () => {

@@ -1,7 +1,7 @@
 import { describe, expect, test } from "vitest";
 import { readClock, setClock } from "../src/clock";
 import { blend, gap, moveAircraft, moveSample, windOf } from "../src/motion";
-import { aircraft, sample } from "./samples";
+import { aircraft, pairAt } from "./samples";
 
 describe("motion from a sample", () => {
   test("straight ahead", () => {
@@ -39,22 +39,22 @@ describe("motion from a sample", () => {
   });
 
   test("separation, slot and time to go move along", () => {
-    const later = moveSample(sample(0), 10);
+    const later = moveSample(pairAt(0), 10);
     expect(later.separation_m).toBeCloseTo(19600, 6);
     expect(later.slot.x_m).toBeCloseTo(12000, 6);
     expect(later.time_to_go_s).toBe(240);
-    expect(moveSample(sample(0), 1000).time_to_go_s).toBe(0);
+    expect(moveSample(pairAt(0), 1000).time_to_go_s).toBe(0);
   });
 
   test("a gap to a new sample closes gently, a leap at once", () => {
-    const truth = sample(1);
-    const off = sample(1, { pursuer: aircraft({ x_m: 340, heading_deg: 350 }) });
+    const truth = pairAt(1);
+    const off = pairAt(1, { pursuer: aircraft({ x_m: 340, heading_deg: 350 }) });
     const found = gap(off, truth);
     expect(blend(truth, found, 0).pursuer.x_m).toBeCloseTo(340, 9);
     expect(blend(truth, found, 0).pursuer).toMatchObject({ heading_deg: 350, track_deg: 350 });
     expect(blend(truth, found, 150).pursuer.x_m).toBeCloseTo(240 + 100 / Math.E, 9);
     expect(blend(truth, found, 5000)).toBe(truth);
-    const far = gap(sample(1, { pursuer: aircraft({ x_m: 90000 }) }), truth);
+    const far = gap(pairAt(1, { pursuer: aircraft({ x_m: 90000 }) }), truth);
     expect(blend(truth, far, 0).pursuer.x_m).toBeCloseTo(240, 9);
   });
 });

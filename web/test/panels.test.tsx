@@ -14,7 +14,18 @@ import { ScenarioPicker } from "../src/panels/scenario-picker";
 import { Scene } from "../src/panels/scene";
 import { createSession, takeReading } from "../src/session";
 import { NM } from "../src/units";
-import { modeChanged, noPlan, planChanged, STARTED, sample, tick } from "./samples";
+import {
+  alert,
+  modeChanged,
+  noPlan,
+  pairAt,
+  planChanged,
+  STARTED,
+  sample,
+  separationLost,
+  tick,
+  unable,
+} from "./samples";
 import { silentActions } from "./silence";
 
 const place = document.body.appendChild(document.createElement("div"));
@@ -91,7 +102,7 @@ describe("panels", () => {
 
   test("lost separation is told in words, not only in red", () => {
     const { session } = flying();
-    session.reading.value = sample(0, { least_separation_m: 4 * NM });
+    session.reading.value = pairAt(0, { least_separation_m: 4 * NM });
     render(<PlanNumbers session={session} />, place);
     expect(place.querySelector(".figure.alert")?.textContent).toBe("4.0");
     expect(place.textContent).toContain("LOST");
@@ -109,6 +120,33 @@ describe("panels", () => {
     );
     expect(place.querySelector(".headline")?.textContent).toContain("The leader is faster.");
     expect(place.querySelector("[role=status]")?.textContent).toContain("The leader is faster.");
+  });
+
+  test("alerts, unable and a lost separation are listed by level, and spoken", () => {
+    const { store, session } = flying();
+    const caution = alert(1);
+    store.receive(tick(1, [caution, sample(1)]), 1000);
+    store.receive(tick(2, [unable(2), separationLost(2), sample(2)]), 2000);
+    render(
+      <>
+        <Events session={session} />
+        <Announcer session={session} />
+      </>,
+      place,
+    );
+    const spoken = () => place.querySelector("[aria-live=assertive]")?.textContent ?? "";
+    for (const [kind, name, text] of [
+      ["caution", "CAUTION", caution.message],
+      ["unable", "UNABLE", "The leader turns back."],
+      ["lost", "LOST", "The leader turned towards own ship."],
+    ] as const) {
+      expect(place.querySelector(`.log .${kind}`)?.textContent).toContain(`${name}${text}`);
+      expect(spoken()).toContain(text);
+    }
+    const over = { ...caution, t_s: 3, cleared: true, message: "The leader is fast enough." };
+    act(() => store.receive(tick(3, [over, sample(3)]), 3000));
+    expect(place.querySelector(".log .clear")?.textContent).toContain(over.message);
+    expect(spoken()).not.toContain(caution.message);
   });
 
   test("numbers are blanked when the data are lost, not left standing", () => {

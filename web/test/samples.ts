@@ -1,7 +1,9 @@
 /** Documents and ticks for tests: a plain flight at 35,000 ft, own aircraft east-bound from the origin. */
 
+import type { PairSample } from "../src/pair";
 import type {
   AircraftSample,
+  Alert,
   Document,
   FlightStarted,
   ModeChanged,
@@ -10,10 +12,15 @@ import type {
   PlanChanged,
   PlanUnavailable,
   Sample,
+  SeparationLost,
   StraightSegment,
   Tick,
   TurnSegment,
+  Unable,
 } from "../src/wire";
+
+export const OWN = "RG001";
+export const LEADER = "AF123";
 
 export function point(t: number, x: number, y: number, heading: number): PathPoint {
   return { t_s: t, x_m: x, y_m: y, heading_deg: heading };
@@ -21,6 +28,7 @@ export function point(t: number, x: number, y: number, heading: number): PathPoi
 
 export function aircraft(changes: Partial<AircraftSample> = {}): AircraftSample {
   return {
+    ident: OWN,
     x_m: 0,
     y_m: 0,
     heading_deg: 90,
@@ -34,12 +42,17 @@ export function aircraft(changes: Partial<AircraftSample> = {}): AircraftSample 
   };
 }
 
-export function sample(t: number, changes: Partial<Sample> = {}): Sample {
+/** What the page makes of `sample`. */
+export function pairAt(t: number, changes: Partial<PairSample> = {}): PairSample {
   return {
-    kind: "sample",
     t_s: t,
     pursuer: aircraft({ x_m: 240 * t }),
-    leader: aircraft({ x_m: 20000 + 200 * t, tas_mps: 200, ground_speed_mps: 200 }),
+    leader: aircraft({
+      ident: LEADER,
+      x_m: 20000 + 200 * t,
+      tas_mps: 200,
+      ground_speed_mps: 200,
+    }),
     mode: "converge",
     reference: { kind: "hold_heading", heading_deg: 90 },
     commanded_tas_mps: 240,
@@ -52,7 +65,18 @@ export function sample(t: number, changes: Partial<Sample> = {}): Sample {
     cross_track_m: 0,
     time_to_go_s: Math.max(0, 250 - t),
     joined: false,
+    alert: "none",
     ...changes,
+  };
+}
+
+export function sample(t: number, changes: Partial<PairSample> = {}): Sample {
+  const { t_s, pursuer, leader, ...guidance } = pairAt(t, changes);
+  return {
+    kind: "sample",
+    t_s,
+    aircraft: [pursuer, leader],
+    guidance: [{ ident: pursuer.ident, leader: leader.ident, ...guidance }],
   };
 }
 
@@ -111,11 +135,16 @@ export function planChanged(t: number, plan: Partial<PlanCard> = {}): PlanChange
   return {
     kind: "plan_changed",
     t_s: t,
+    ident: OWN,
     reason: "engaged",
     message: `Plan made at ${t}.`,
     plan: planCard(plan),
     leader_at_closest: point(250, 0, 0, 90),
     pursuer_at_closest: point(250, 0, 0, 90),
+    announced: true,
+    promised_s: 260,
+    tube_m: 0,
+    flown_least_m: 10000,
   };
 }
 
@@ -123,12 +152,60 @@ export function noPlan(t: number): PlanUnavailable {
   return {
     kind: "plan_unavailable",
     t_s: t,
+    ident: OWN,
     answer: { status: "no_plan", reason: "slot_unreachable", message: "The leader is faster." },
   };
 }
 
 export function modeChanged(t: number, mode: ModeChanged["mode"] = "converge"): ModeChanged {
-  return { kind: "mode_changed", t_s: t, mode, previous: "heading", message: "Engaged." };
+  return {
+    kind: "mode_changed",
+    t_s: t,
+    ident: OWN,
+    mode,
+    previous: "heading",
+    message: "Engaged.",
+  };
+}
+
+export function alert(t: number, changes: Partial<Alert> = {}): Alert {
+  return {
+    kind: "alert",
+    t_s: t,
+    ident: OWN,
+    other: LEADER,
+    level: "caution",
+    subject: "separation",
+    message: "The leader slows down.",
+    predicted_least_m: 9000,
+    predicted_at_s: t + 45,
+    cleared: false,
+    ...changes,
+  };
+}
+
+export function unable(t: number): Unable {
+  return {
+    kind: "unable",
+    t_s: t,
+    ident: OWN,
+    reason: "geometry",
+    message: "The leader turns back.",
+  };
+}
+
+export function separationLost(t: number): SeparationLost {
+  return {
+    kind: "separation_lost",
+    t_s: t,
+    ident: OWN,
+    other: LEADER,
+    separation_m: 9259,
+    x_m: 0,
+    y_m: 0,
+    cause: "The leader turned towards own ship.",
+    announced_s: [t - 10],
+  };
 }
 
 export const STARTED: FlightStarted = {
@@ -137,10 +214,19 @@ export const STARTED: FlightStarted = {
   scenario: "fig_6b",
   title: "Fig. 6b",
   planner: "exact",
-  pursuer: { ident: "RG001", aircraft_type: "A300", max_bank_deg: 25 },
-  leader: { ident: "AF123", aircraft_type: "A300", max_bank_deg: 25 },
-  slot_distance_m: 10000,
-  min_separation_m: 9260,
+  aircraft: [
+    { ident: OWN, aircraft_type: "A300", max_bank_deg: 25 },
+    { ident: LEADER, aircraft_type: "A300", max_bank_deg: 25 },
+  ],
+  links: [
+    {
+      pursuer: OWN,
+      leader: LEADER,
+      slot_distance_m: 10000,
+      min_separation_m: 9260,
+      spacing: "distance",
+    },
+  ],
   wind: { from_deg: 0, speed_mps: 0 },
   step_s: 0.05,
   seed: 0,

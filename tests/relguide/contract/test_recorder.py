@@ -14,7 +14,9 @@ from relguide.flying.documents import Document, LeaderChanged
 from tests.documents import documents
 from tests.relguide.contract.test_wire import SAMPLE, assert_equal
 
-SAID = LeaderChanged(t=3.0, change="heading", message="The leader turns right.\nÜber λ")
+SAID = LeaderChanged(
+    t=3.0, ident="LDR 01", change="heading", message="The leader turns right.\nÜber λ"
+)
 
 
 @pytest.fixture
@@ -49,7 +51,7 @@ def test_a_replay_gives_what_was_recorded(
 
 def test_the_first_line_says_what_the_file_is(recording: Path) -> None:
     lines = recording.read_text().splitlines()
-    assert json.loads(lines[0]) == {"format": "relguide-flight", "version": 2}
+    assert json.loads(lines[0]) == {"format": "relguide-flight", "version": 3}
     assert [json.loads(line)["kind"] for line in lines[1:]] == [
         "sample",
         "leader_changed",
@@ -135,11 +137,12 @@ def test_a_file_that_is_not_compressed_though_named_so(tmp_path: Path) -> None:
         next(replay(file))
 
 
-def test_a_later_version_is_refused(recording: Path) -> None:
+@pytest.mark.parametrize("version", [2, 4])
+def test_another_version_is_refused(recording: Path, version: int) -> None:
     lines = recording.read_bytes().splitlines(keepends=True)
-    lines[0] = b'{"format":"relguide-flight","version":3}\n'
+    lines[0] = b'{"format":"relguide-flight","version":%d}\n' % version
     recording.write_bytes(b"".join(lines))
-    with pytest.raises(RecordingError, match="of version 3; this program reads 2"):
+    with pytest.raises(RecordingError, match=f"of version {version}; this program reads 3"):
         next(replay(recording))
 
 

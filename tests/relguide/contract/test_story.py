@@ -5,41 +5,56 @@ from dataclasses import replace
 import pytest
 
 from relguide.contract.story import failures, figures, story_of
-from relguide.flying.documents import (
+from relguide.flying.aircraft_documents import (
     AircraftCard,
-    FlightEnded,
-    FlightStarted,
+    LinkCard,
+    LinkResult,
     WindCard,
 )
+from relguide.flying.documents import FlightEnded, FlightStarted, PlanChanged
 from relguide.units import DEG, NM
+from tests.documents import rare_documents
 from tests.relguide.contract.test_wire import SAMPLE
+from tests.server.flown import ideal_flight
 
-CARD = AircraftCard(ident="A", aircraft_type="A300", max_bank=0.4)
+CARDS = tuple(
+    AircraftCard(ident=ident, aircraft_type="A300", max_bank=0.4) for ident in ("A", "B", "C")
+)
+LINK = LinkCard(
+    pursuer="A", leader="B", slot_distance=10_000.0, min_separation=5.0 * NM, spacing="distance"
+)
 STARTED = FlightStarted(
     t=0.0,
     scenario="s",
     title="t",
     planner="exact",
-    pursuer=CARD,
-    leader=CARD,
-    slot_distance=10_000.0,
-    min_separation=5.0 * NM,
+    aircraft=CARDS,
+    links=(LINK,),
     wind=WindCard(from_=0.0, speed=0.0),
     step=0.05,
     seed=0,
 )
-ENDED = FlightEnded(
-    t=720.0,
+RESULT = LinkResult(
+    ident="A",
+    leader="B",
     joined=True,
     join_time=600.0,
     planned_time=590.0,
+    promised=595.0,
     least_separation=5.0 * NM,
     heading_swing=400.0 * DEG,
     bank_reversals=1,
     replans=2,
+    replans_announced=1,
     fallbacks=3,
     track=10.0 * NM,
+    losses=(),
 )
+ENDED = FlightEnded(t=720.0, results=(RESULT,))
+
+
+def ended(*results: LinkResult) -> FlightEnded:
+    return replace(ENDED, results=results)
 
 
 def test_a_good_flight_has_no_failures() -> None:
@@ -51,10 +66,32 @@ def test_a_good_flight_has_no_failures() -> None:
 
 
 def test_a_lost_separation_is_a_failure() -> None:
-    lost = story_of([STARTED, replace(ENDED, least_separation=4.0 * NM)])
+    lost = story_of([STARTED, ended(replace(RESULT, least_separation=4.0 * NM))])
     assert failures(lost) == ("The separation fell below 5.00 NM: they came within 4.00 NM.",)
 
 
 def test_not_joining_is_a_failure() -> None:
-    missed = story_of([STARTED, replace(ENDED, joined=False)])
+    missed = story_of([STARTED, ended(replace(RESULT, joined=False))])
     assert failures(missed) == ("It did not join within 720 s.",)
+
+
+def test_of_several_links_each_is_judged_by_its_own_limit() -> None:
+    wide = replace(LINK, pursuer="C", leader="A", min_separation=6.0 * NM)
+    started = replace(STARTED, links=(LINK, wide))
+    close = replace(RESULT, least_separation=5.5 * NM)
+    second = replace(close, ident="C", leader="A", joined=False)
+    assert failures(story_of([started, ended(close, second)])) == (
+        "C did not join within 720 s.",
+        "The separation fell below 6.00 NM: they came within 5.50 NM.",
+    )
+
+
+def test_a_plan_that_is_no_news_is_not_in_the_story() -> None:
+    plan = next(d for d in ideal_flight() if isinstance(d, PlanChanged))
+    flight = story_of([STARTED, plan, replace(plan, announced=False), ENDED])
+    assert (flight.events, flight.documents) == ((plan,), 4)
+
+
+def test_alerts_and_losses_are_in_the_story_and_forecasts_are_not() -> None:
+    rare = rare_documents(5.0, "A", "B")
+    assert story_of([STARTED, *rare, ENDED]).events == rare[:-1]

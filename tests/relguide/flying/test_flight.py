@@ -27,7 +27,7 @@ from relguide.planning.frames import LocalPlane
 from relguide.planning.plan import NoPlan, Plan, Reason, plan
 from relguide.planning.situation import Situation, wind_from
 from relguide.units import DEG, NM
-from tests.flights import Flown, flown, random_start
+from tests.flights import Flown, Instant, flown, instant, random_start
 from tests.liars import LIARS, LIED_ABOUT, Liar, ends_beside
 
 FIG_6B = fig_6(intent_known=True)
@@ -56,7 +56,7 @@ def signed(angle: float) -> float:
 
 
 def test_fig_6b_joins_on_time_and_keeps_d_min(fig_6b: Flown) -> None:
-    end = fig_6b.end
+    end = fig_6b.result
     assert end.joined
     assert end.join_time == pytest.approx(end.planned_time, rel=0.03)
     assert end.least_separation >= 5.0 * NM
@@ -66,11 +66,11 @@ def test_fig_6b_joins_on_time_and_keeps_d_min(fig_6b: Flown) -> None:
 
 
 def test_fig_6a_takes_longer_and_swings_more(fig_6b: Flown) -> None:
-    end = flown(fig_6(intent_known=False)).end
+    end = flown(fig_6(intent_known=False)).result
     assert end.joined
     assert end.least_separation >= 5.0 * NM
-    assert end.join_time > 1.05 * fig_6b.end.join_time
-    assert end.heading_swing > 2.0 * fig_6b.end.heading_swing
+    assert end.join_time > 1.05 * fig_6b.result.join_time
+    assert end.heading_swing > 2.0 * fig_6b.result.heading_swing
 
 
 def test_documents_come_in_order(fig_6b: Flown) -> None:
@@ -86,32 +86,35 @@ def test_documents_come_in_order(fig_6b: Flown) -> None:
 
 
 def test_joined_is_eq_7_within_tolerance(fig_6b: Flown) -> None:
-    at = next(s for s in fig_6b.samples if s.joined)
-    assert at.t == fig_6b.end.join_time
-    assert abs(at.spacing_error) <= JOINED_ALONG
-    assert abs(at.cross_track) <= JOINED_ACROSS
+    at = next(s for s in fig_6b.samples if s.guidance.joined)
+    assert at.t == fig_6b.result.join_time
+    assert abs(at.guidance.spacing_error) <= JOINED_ALONG
+    assert abs(at.guidance.cross_track) <= JOINED_ACROSS
     assert abs(signed(at.pursuer.heading - at.leader.heading)) <= JOINED_HEADING
-    assert at.slot_open
+    assert at.guidance.slot_open
 
 
 def test_after_joining_d_is_held_and_speeds_match(fig_6b: Flown) -> None:
     last = fig_6b.samples[-1]
-    assert last.mode == "follow"
-    assert last.separation == pytest.approx(10_000.0, abs=30.0)
+    assert last.guidance.mode == "follow"
+    assert last.guidance.separation == pytest.approx(10_000.0, abs=30.0)
     assert last.pursuer.tas == pytest.approx(last.leader.tas, abs=0.5)
-    assert min(s.spacing_error for s in fig_6b.samples if s.joined) > -10.0  # no overshoot
+    assert (
+        min(s.guidance.spacing_error for s in fig_6b.samples if s.guidance.joined) > -10.0
+    )  # no overshoot
 
 
 def test_bank_and_roll_stay_within_the_limits() -> None:
-    previous: list[Sample] = []
+    previous: list[Instant] = []
     for document in fly(FIG_6B, plan):
         if isinstance(document, Sample):
-            assert abs(document.pursuer.bank) <= 25.0 * DEG * (1.0 + 1e-9)
+            now = instant(document)
+            assert abs(now.pursuer.bank) <= 25.0 * DEG * (1.0 + 1e-9)
             for before in previous:
-                rolled = abs(document.pursuer.bank - before.pursuer.bank)
-                assert rolled <= 3.75 * DEG * (document.t - before.t) * (1.0 + 1e-6)
-            previous = [document]
-            if document.t > 60.0:
+                rolled = abs(now.pursuer.bank - before.pursuer.bank)
+                assert rolled <= 3.75 * DEG * (now.t - before.t) * (1.0 + 1e-6)
+            previous = [now]
+            if now.t > 60.0:
                 return
 
 
@@ -120,19 +123,19 @@ def test_samples_glide_between_guidance_ticks() -> None:
     samples = []
     for document in fly(FIG_6B, plan):
         if isinstance(document, Sample):
-            samples.append(document)
+            samples.append(instant(document))
             if document.t > 40.0:
                 break
-    steps = np.diff([s.slot.x for s in samples if s.t > 1.0])
+    steps = np.diff([s.guidance.slot.x for s in samples if s.t > 1.0])
     assert np.ptp(steps) < 0.1
-    to_go = np.diff([s.time_to_go for s in samples if s.t > 30.0])
+    to_go = np.diff([s.guidance.time_to_go for s in samples if s.t > 30.0])
     assert np.abs(to_go + 0.05).max() < 0.5
 
 
 @pytest.mark.parametrize("wind", [(300.0, 25.0), (45.0, 15.0)])
 def test_wind_changes_nothing_that_matters(wind: tuple[float, float]) -> None:
     situation = replace(FIG_6B.situation, wind=wind_from(wind[0] * DEG, wind[1]))
-    end = flown(replace(FIG_6B, situation=situation)).end
+    end = flown(replace(FIG_6B, situation=situation)).result
     assert end.joined
     assert end.join_time == pytest.approx(end.planned_time, rel=0.03)
     assert end.least_separation >= 5.0 * NM
@@ -146,8 +149,8 @@ def test_leader_heading_makes_a_new_plan_within_a_second() -> None:
     assert new.t <= 301.0
     assert new.reason == "leader_turned"
     assert "060°" in new.message
-    assert flight.end.joined
-    assert flight.end.least_separation >= KEPT
+    assert flight.result.joined
+    assert flight.result.least_separation >= KEPT
     assert signed(flight.samples[-1].pursuer.heading - 60.0 * DEG) == pytest.approx(0.0, abs=0.01)
 
 
@@ -161,8 +164,8 @@ def test_leader_speed_makes_a_new_plan() -> None:
     flight = flown(FIG_6B, (300.0, LeaderSpeed(tas=180.0)))
     reasons = {p.reason for p in flight.of(PlanChanged) if 300.0 < p.t < 310.0}
     assert "leader_changed_speed" in reasons
-    assert flight.end.joined
-    assert flight.end.join_time < FIG_6B.duration_limit
+    assert flight.result.joined
+    assert flight.result.join_time < FIG_6B.duration_limit
     assert flight.samples[-1].leader.tas == pytest.approx(180.0, abs=0.5)
 
 
@@ -184,23 +187,23 @@ def test_intent_withdrawn_and_received() -> None:
     assert (200.0, "intent_received") in reasons
     routes = {r.t: r.intent_known for r in flight.of(LeaderRoute)}
     assert (routes[0.0], routes[100.0], routes[200.0]) == (True, False, True)
-    assert flight.end.joined
+    assert flight.result.joined
 
 
 def test_leader_that_turns_in_follow_is_followed_where_it_turned() -> None:
     longer = replace(FIG_6B, after_joining=400.0)
     flight = flown(longer, (950.0, LeaderHeading(heading=45.0 * DEG)))
     assert flight.of(ModeChanged)[-1].mode == "follow"
-    assert flight.end.least_separation >= KEPT
-    assert max(abs(s.cross_track) for s in flight.samples if s.t > 950.0) < 150.0
+    assert flight.result.least_separation >= KEPT
+    assert max(abs(s.guidance.cross_track) for s in flight.samples if s.t > 950.0) < 150.0
     assert signed(flight.samples[-1].pursuer.heading - 45.0 * DEG) == pytest.approx(0.0, abs=0.01)
 
 
 def test_leader_that_brakes_hard_while_being_captured_is_not_run_into(fig_6b: Flown) -> None:
     start = next(d.t for d in fig_6b.of(ModeChanged) if d.mode == "capture")
     flight = flown(FIG_6B, (start + 10.0, LeaderSpeed(tas=165.0)))
-    assert flight.end.joined
-    assert flight.end.least_separation >= KEPT
+    assert flight.result.joined
+    assert flight.result.least_separation >= KEPT
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -220,7 +223,7 @@ def _check_random(seed: int, *, wind: float) -> None:
     if isinstance(plan(situation), NoPlan):
         assert flight.of(PlanUnavailable)
         return
-    end = flight.end
+    end = flight.result
     assert end.joined
     assert end.least_separation >= KEPT
     turns = sum(s.kind == "turn" and s.angle > DEG for s in flight.of(PlanChanged)[0].plan.segments)
@@ -232,7 +235,7 @@ def _check_random(seed: int, *, wind: float) -> None:
 
 def test_unannounced_turns_do_not_stop_it() -> None:
     flight = flown(scenario(random_start(4, wind=15.0), intent_known=False))
-    assert flight.end.joined
+    assert flight.result.joined
 
 
 @pytest.fixture(scope="module")
@@ -244,7 +247,7 @@ def honest() -> Flown:
 def test_a_lie_is_said_counted_and_not_flown(liar: Liar, honest: Flown) -> None:
     flight = flown(replace(scenario(LIED_ABOUT), duration_limit=20.0), planner=liar)
     assert flight.samples == honest.samples
-    assert flight.end.fallbacks == 21
+    assert flight.result.fallbacks == 21
     refused = flight.of(PlanRefused)
     assert [d.fault for d in refused] == [LIARS[liar]]
     assert refused[0].t == 0.0
@@ -260,7 +263,7 @@ def test_a_lie_told_for_a_while_is_said_again() -> None:
 
     flight = flown(replace(scenario(LIED_ABOUT), duration_limit=20.0), planner=sometimes)
     assert len(flight.of(PlanRefused)) == 2
-    assert flight.end.fallbacks == 10
+    assert flight.result.fallbacks == 10
 
 
 def test_what_a_planner_raises_ends_the_flight_there() -> None:
@@ -291,10 +294,10 @@ def test_no_plan_is_said_and_a_safe_heading_held() -> None:
     )
     flight = flown(replace(FIG_6B, situation=head_on, duration_limit=200.0), planner=helpless)
     assert [d.answer.message for d in flight.of(PlanUnavailable)] == ["Nothing found."]
-    assert {s.mode for s in flight.samples} == {"heading"}
-    assert flight.end.least_separation >= KEPT
-    assert not flight.end.joined
-    assert flight.end.planned_time == 0.0
+    assert {s.guidance.mode for s in flight.samples} == {"heading"}
+    assert flight.result.least_separation >= KEPT
+    assert not flight.result.joined
+    assert flight.result.planned_time == 0.0
 
 
 def track(duration: int) -> RecordedTrack:
@@ -328,8 +331,8 @@ def recorded(duration: int) -> Scenario:
 def test_recorded_leader_is_followed_its_intent_unknown() -> None:
     flight = flown(recorded(1500))
     assert not flight.of(LeaderRoute)[0].intent_known
-    assert flight.end.joined
-    assert flight.end.least_separation >= KEPT
+    assert flight.result.joined
+    assert flight.result.least_separation >= KEPT
     assert any(d.change == "heading" for d in flight.of(LeaderChanged))
     assert "leader_turned" in {p.reason for p in flight.of(PlanChanged)}
 
@@ -340,7 +343,7 @@ def test_recording_ends_the_flight_and_a_command_takes_over_from_it() -> None:
         replace(recorded(100), duration_limit=150.0), (90.0, LeaderHeading(heading=0.0))
     )
     assert taken_over.end.t == pytest.approx(150.0)
-    assert taken_over.of(Sample)[120].leader.bank < -20.0 * DEG
+    assert taken_over.samples[120].leader.bank < -20.0 * DEG
 
 
 def test_steps_and_periods_must_fit() -> None:
@@ -353,7 +356,7 @@ def test_steps_and_periods_must_fit() -> None:
 def test_coarser_steps_fly_the_same(fig_6b: Flown) -> None:
     end = [*fly(FIG_6B, plan, step=0.1, sample_period=1.0)][-1]
     assert isinstance(end, FlightEnded)
-    assert end.join_time == pytest.approx(fig_6b.end.join_time, abs=2.0)
+    assert end.results[0].join_time == pytest.approx(fig_6b.result.join_time, abs=2.0)
 
 
 @pytest.mark.parametrize(
@@ -362,6 +365,7 @@ def test_coarser_steps_fly_the_same(fig_6b: Flown) -> None:
         (lambda: LeaderSpeed(tas=5.0), "tas must lie in 30 … 400 m/s"),
         (lambda: LeaderHeading(heading=float("nan")), "heading must be a finite number"),
         (lambda: replace(FIG_6B, duration_limit=0.0), "duration_limit must be above 0 s"),
+        (lambda: replace(FIG_6B, leader_ident="PURSUER"), "must differ, not both be 'PURSUER'"),
     ],
 )
 def test_what_cannot_be_is_refused(make: object, sentence: str) -> None:

@@ -18,12 +18,12 @@ def test_it_is_the_one_it_began_with() -> None:
     (started,) = (d for d in documents if isinstance(d, FlightStarted))
     routes = [d for d in documents if isinstance(d, LeaderRoute)]
     first = next(d for d in documents if isinstance(d, Sample))
-    now = situation_now(started, routes, first)
+    now = situation_now(started, started.links[0], routes, first)
     planned, expected = plan(now), plan(SITUATION)
     assert isinstance(planned, Plan)
     assert isinstance(expected, Plan)
     assert planned.time_to_converge == pytest.approx(expected.time_to_converge, abs=1e-3)
-    assert situation_now(started, [], first).leader.intent == ()
+    assert situation_now(started, started.links[0], [], first).leader.intent == ()
 
 
 def test_what_remains_of_the_intent_shrinks() -> None:
@@ -31,7 +31,9 @@ def test_what_remains_of_the_intent_shrinks() -> None:
     (started,) = (d for d in documents if isinstance(d, FlightStarted))
     routes = [d for d in documents if isinstance(d, LeaderRoute)]
     samples = [d for d in documents if isinstance(d, Sample)]
-    leaders = [situation_now(started, routes, sample).leader for sample in samples]
+    leaders = [
+        situation_now(started, started.links[0], routes, sample).leader for sample in samples
+    ]
     kinds = [tuple(type(piece) for piece in leader.intent) for leader in leaders]
     changes = [kind for kind, after in pairwise(kinds) if kind != after]
     assert changes == [(FlyStraight, TurnTo), (TurnTo,)]
@@ -54,14 +56,16 @@ def test_a_turn_that_rolls_out_late_is_not_begun_anew() -> None:
         (over + 11.0, -12.0, 0),
     ):
         heading = SITUATION.leader.final_heading + degrees * DEG
-        late = replace(last, t=t, leader=replace(last.leader, heading=heading))
-        assert len(situation_now(started, [route], late).leader.intent) == pieces
+        pursuer, leader = last.aircraft
+        late = replace(last, t=t, aircraft=(pursuer, replace(leader, heading=heading)))
+        assert len(situation_now(started, started.links[0], [route], late).leader.intent) == pieces
 
 
 def test_what_cannot_be_planned_for_is_a_sentence() -> None:
     documents = list(ideal_flight(duration=0.1))
     started = next(d for d in documents if isinstance(d, FlightStarted))
     first = next(d for d in documents if isinstance(d, Sample))
-    slow = replace(first, pursuer=replace(first.pursuer, tas=20.0))
+    pursuer, leader = first.aircraft
+    slow = replace(first, aircraft=(replace(pursuer, tas=20.0), leader))
     with pytest.raises(ValueError, match=r"pursuer\.tas must lie in"):
-        situation_now(started, [], slow)
+        situation_now(started, started.links[0], [], slow)

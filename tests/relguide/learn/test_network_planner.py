@@ -167,15 +167,17 @@ def test_it_flies_and_counts_where_it_fell_back() -> None:
     started, ended = documents[0], documents[-1]
     assert isinstance(started, FlightStarted)
     assert isinstance(ended, FlightEnded)
-    assert ended.joined
-    assert ended.least_separation >= scenario("fig_6a").situation.min_separation
+    (kept,) = ended.results
+    assert kept.joined
+    assert kept.least_separation >= scenario("fig_6a").situation.min_separation
     outside = replace(network().box, max_range=1e-3)
     lost = list(
         fly(scenario("fig_6a"), network_planner(replace(network(), box=outside)), sample_period=1.0)
     )[-1]
     assert isinstance(lost, FlightEnded)
-    assert lost.fallbacks > ended.fallbacks
-    assert lost.joined
+    (result,) = lost.results
+    assert result.fallbacks > kept.fallbacks
+    assert result.joined
 
 
 IMPORTS = """

@@ -184,10 +184,11 @@ CALLS: dict[str, tuple[Callable[..., object], dict[str, Any]]] = {
 }
 """What may be called, with arguments that are right."""
 ANSWERS = {
-    "Alternative", "Arrival", "Candidate", "Certificate", "Document", "FlightEnded",
-    "FlightStarted", "Isochrones", "LeaderChanged", "LeaderRoute", "ModeChanged", "NoPlan",
-    "Optimality", "OptimalityReport", "Plan", "PlanChanged", "PlanRefused", "PlanUnavailable",
-    "Planner", "Pose", "Reason", "Sample", "Samples", "TimeRow", "Times",
+    "Alert", "Alternative", "Arrival", "Candidate", "Certificate", "Document", "FlightEnded",
+    "FlightStarted", "ForecastChanged", "Isochrones", "LeaderChanged", "LeaderRoute",
+    "ModeChanged", "NoPlan", "Optimality", "OptimalityReport", "Plan", "PlanChanged",
+    "PlanRefused", "PlanUnavailable", "Planner", "Pose", "Reason", "Sample", "Samples",
+    "SeparationLost", "TimeRow", "Times", "Unable",
 }  # fmt: skip
 """What calls give back, and is not asked for."""
 PARTS = {"Arc", "BoundaryArc", "DeclaredLeader", "RecordedTrack", "Straight"}

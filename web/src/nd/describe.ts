@@ -11,6 +11,7 @@ const MODE_WORDS = {
   converge: "converging",
   capture: "capturing the leader's route",
   follow: "following the leader",
+  escape: "turning away to keep the separation",
 } as const;
 
 export function describe({ flight, view }: LayerProps): string {

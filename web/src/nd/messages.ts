@@ -3,7 +3,7 @@
 import { computed, type ReadonlySignal } from "@preact/signals";
 import type { Flight } from "../flight";
 import { formatMiles } from "../units";
-import type { Mode, PlanReason, Reason } from "../wire";
+import type { Alert, AlertSubject, Mode, PlanReason, Reason, UnableReason } from "../wire";
 import { shownGuidance, shownNow } from "./picture";
 import { age, separation, wallNow } from "./states";
 import type { Colour } from "./style";
@@ -27,6 +27,31 @@ export const UNABLE: Record<Reason, string> = {
   beyond_horizon: "TIME",
 };
 
+/** … and in those of `Unable`. */
+export const UNABLE_TO: Record<UnableReason, string> = {
+  separation: "SEP",
+  speed: "SPEED",
+  geometry: "PATH",
+  envelope: "ENVELOPE",
+  data: "DATA",
+};
+
+/** What an alert is about; a loss of separation also says when. */
+export const ALERTED: Record<AlertSubject, string> = {
+  separation: "SEP",
+  speed: "LDR SPEED",
+  data: "LDR DATA",
+  geometry: "LDR PATH",
+};
+
+const ALERT_NOTICE: Record<Alert["level"], Notice["level"]> = {
+  advisory: "advice",
+  caution: "caution",
+  warning: "warning",
+};
+/** The most urgent first. */
+const URGENCY: readonly Notice["level"][] = ["warning", "caution", "advice"];
+
 export const REPLANNED: Record<PlanReason, string> = {
   engaged: "CONV ACTIVE",
   better_plan: "SHORTER PATH",
@@ -43,6 +68,7 @@ export const ENTERED: Record<Mode, string> = {
   converge: "CONV ACTIVE",
   capture: "CAPTURE",
   follow: "FOLLOWING",
+  escape: "RG ESCAPE",
 };
 
 /** Advice stands this long [ms]. */
@@ -52,8 +78,9 @@ const HELD = 3_000;
 
 /** All notices of this moment, the most urgent first. */
 export function createNotices(flight: Flight): ReadonlySignal<readonly Notice[]> {
-  // When the plan and the end of the join were first seen, by the wall clock; documents have flight time.
+  // When the plan, a loss and the end of the join were first seen, by the wall clock; documents have flight time.
   const planned = computed(() => ({ plan: flight.plan.value, wall: performance.now() }));
+  const lastLoss = computed(() => ({ loss: flight.lost.value, wall: performance.now() }));
   const joined = computed(() => ({
     joined: flight.sample.value?.joined ?? false,
     wall: performance.now(),
@@ -66,14 +93,22 @@ export function createNotices(flight: Flight): ReadonlySignal<readonly Notice[]>
     const now = shownNow(flight);
     if (outlook.state === "lost") lost = wall;
     if (now !== null && wall - lost < HELD) notices.push({ level: "warning", text: "SEPARATION" });
-    if (outlook.state === "predicted" && now !== null)
+    const { loss, wall: noted } = lastLoss.value;
+    const isNews = loss !== null && isRecent(flight, loss.t_s, wall - noted);
+    if (isNews && notices.length === 0) notices.push({ level: "warning", text: "SEPARATION" });
+    const isAlerted = flight.alerts.value.some((alert) => alert.subject === "separation");
+    if (outlook.state === "predicted" && now !== null && !isAlerted)
       notices.push({ level: "caution", text: `SEP IN ${outlook.within} S` });
     const old = age(flight);
     if (old === "old" || old === "dropped")
       notices.push({ level: "caution", text: `LDR DATA ${Math.floor(flight.dataAge.value)} S` });
     if (shownGuidance(flight) === null) return notices;
-    const unavailable = flight.unavailable.value;
-    if (unavailable !== null)
+    for (const alert of flight.alerts.value)
+      notices.push({ level: ALERT_NOTICE[alert.level], text: alertText(flight, alert) });
+    const [unavailable, unable] = [flight.unavailable.value, flight.unable.value];
+    if (unable !== null)
+      notices.push({ level: "caution", text: `RG UNABLE: ${UNABLE_TO[unable.reason]}` });
+    else if (unavailable !== null)
       notices.push({ level: "caution", text: `RG UNABLE: ${UNABLE[unavailable.answer.reason]}` });
     if (flight.sample.value?.joined === true) {
       const spacing = formatMiles(flight.started.value?.slot_distance_m ?? 0);
@@ -81,14 +116,20 @@ export function createNotices(flight: Flight): ReadonlySignal<readonly Notice[]>
       notices.push({ level: "advice", text });
     }
     const { plan, wall: seen } = planned.value;
-    if (plan !== null && unavailable === null && isRecent(flight, plan.t_s, wall - seen))
+    if (plan?.announced === true && unavailable === null && isRecent(flight, plan.t_s, wall - seen))
       notices.push({ level: "advice", text: REPLANNED[plan.reason] });
     const mode = flight.mode.value;
     const since = wall - flight.modeSince.value;
     if (mode !== null && since < SHOWN && !(mode.mode === "converge" && notices.length > 0))
       notices.push({ level: "advice", text: ENTERED[mode.mode] });
-    return notices;
+    return notices.sort((a, b) => URGENCY.indexOf(a.level) - URGENCY.indexOf(b.level));
   });
+}
+
+function alertText(flight: Flight, alert: Alert): string {
+  if (alert.subject !== "separation") return ALERTED[alert.subject];
+  const within = Math.max(0, Math.round(alert.predicted_at_s - flight.simTime.value));
+  return `${ALERTED.separation} IN ${within} S`;
 }
 
 /** Seen a short while ago, and not yet old when it was seen (a late joiner also gets old plans). */

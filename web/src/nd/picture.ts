@@ -2,7 +2,8 @@
 
 import type { Flight } from "../flight";
 import { CALM, type Vector, velocity, windVector } from "../geometry";
-import type { PathSegment, PlanChanged, Sample, TurnSegment } from "../wire";
+import type { PairSample } from "../pair";
+import type { PathSegment, PlanChanged, TurnSegment } from "../wire";
 import { age, guidance } from "./states";
 import { AGE, GUIDANCE, type GuidanceLook } from "./style";
 import type { View } from "./view";
@@ -20,12 +21,12 @@ export interface TimedPath {
 }
 
 /** The flight now, while its map may be shown. */
-export function shownNow(flight: Flight): Sample | null {
+export function shownNow(flight: Flight): PairSample | null {
   return AGE[age(flight)].map ? flight.now.value : null;
 }
 
 /** The flight now, while what guidance says may be shown. */
-export function shownGuidance(flight: Flight): { now: Sample; look: GuidanceLook } | null {
+export function shownGuidance(flight: Flight): { now: PairSample; look: GuidanceLook } | null {
   const now = AGE[age(flight)].guidance ? flight.now.value : null;
   return now === null ? null : { now, look: GUIDANCE[guidance(flight)] };
 }

@@ -6,7 +6,7 @@ import { moveAircraft } from "../motion";
 import { distance } from "./view";
 
 /** off: holds its heading; unable: there is no plan; the others are the modes of guidance. */
-export const GUIDANCES = ["off", "converge", "capture", "follow", "unable"] as const;
+export const GUIDANCES = ["off", "converge", "capture", "follow", "escape", "unable"] as const;
 export type Guidance = (typeof GUIDANCES)[number];
 
 /** fresh ≤ 2 s < coasting ≤ 5 s < old ≤ 10 s < dropped ≤ 24 s < gone; none: never any data. */
@@ -19,7 +19,7 @@ export type Separation = (typeof SEPARATIONS)[number];
 
 export function guidance(flight: Flight): Guidance {
   const mode = flight.sample.value?.mode ?? "heading";
-  if (mode === "capture" || mode === "follow") return mode;
+  if (mode === "capture" || mode === "follow" || mode === "escape") return mode;
   if (flight.unavailable.value !== null) return "unable";
   return mode === "converge" ? "converge" : "off";
 }

@@ -106,6 +106,16 @@ export const GUIDANCE: Record<Guidance, GuidanceLook> = {
     lateral: { now: "RG TRK", next: "" },
     speed: { now: "RG SPD", next: "" },
   },
+  escape: {
+    path: "none",
+    points: false,
+    trackLine: true,
+    slot: "crossed",
+    slotColour: "caution",
+    crossTrack: false,
+    lateral: { now: "RG ESC", next: "" },
+    speed: { now: "SPD", next: "" },
+  },
   unable: {
     path: "old_plan",
     points: false,

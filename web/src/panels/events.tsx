@@ -12,6 +12,12 @@ const KIND_NAMES: Record<Message["kind"], string> = {
   refused: "REFUSED",
   leader: "LEADER",
   mode: "MODE",
+  advisory: "ADVICE",
+  caution: "CAUTION",
+  warning: "WARNING",
+  clear: "CLEAR",
+  unable: "UNABLE",
+  lost: "LOST",
   end: "END",
 };
 
@@ -32,15 +38,25 @@ export function Events(props: { session: Session }) {
   );
 }
 
-/** Mode changes and the loss of a plan, spoken without taking the focus. */
+/** Mode changes, alerts and the loss of a plan, spoken without taking the focus. */
 export function Announcer(props: { session: Session }) {
-  const { mode, unavailable } = props.session.flight;
-  const changed = mode.value;
-  const none = unavailable.value;
+  const { mode, unavailable, unable, alerts, lost } = props.session.flight;
+  const polite: string[] = [];
+  const urgent: string[] = [];
+  if (mode.value !== null)
+    polite.push(`Mode ${MODE_NAMES[mode.value.mode]}. ${mode.value.message}`);
+  if (unavailable.value !== null) polite.push(`No plan. ${unavailable.value.answer.message}`);
+  for (const alert of alerts.value)
+    (alert.level === "advisory" ? polite : urgent).push(alert.message);
+  if (unable.value !== null) urgent.push(`Unable. ${unable.value.message}`);
+  if (lost.value !== null)
+    urgent.push(`Separation lost at ${formatClock(lost.value.t_s)}. ${lost.value.cause}`);
   return (
-    <p class="visually-hidden" role="status" data-testid="announcer">
-      {changed === null ? "" : `Mode ${MODE_NAMES[changed.mode]}. ${changed.message}`}
-      {none === null ? "" : ` No plan. ${none.answer.message}`}
-    </p>
+    <div class="visually-hidden">
+      <p role="status" data-testid="announcer">
+        {polite.join(" ")}
+      </p>
+      <p aria-live="assertive">{urgent.join(" ")}</p>
+    </div>
   );
 }

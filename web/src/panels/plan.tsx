@@ -1,6 +1,7 @@
 /** The plan in numbers: when, how far, which turns, how close, and what is proved of it. */
 
 import type { Flight } from "../flight";
+import type { PairSample } from "../pair";
 import { Panel, Reading } from "../parts";
 import {
   closureText,
@@ -14,7 +15,7 @@ import {
 } from "../reading";
 import type { Session } from "../session";
 import { formatClock, formatMiles } from "../units";
-import type { FlightEnded, PlanChanged, PlanUnavailable, Sample } from "../wire";
+import type { LinkResult, PlanChanged, PlanUnavailable } from "../wire";
 
 export function PlanNumbers(props: { session: Session }) {
   const { flight, reading } = props.session;
@@ -60,7 +61,7 @@ export function PlanNumbers(props: { session: Session }) {
 
 /** The one number that matters now. */
 function Headline(props: {
-  sample: Sample;
+  sample: PairSample;
   plan: PlanChanged | null;
   engaged: boolean;
   unavailable: PlanUnavailable | null;
@@ -93,7 +94,7 @@ function Headline(props: {
   );
 }
 
-function Outcome(props: { ended: FlightEnded }) {
+function Outcome(props: { ended: LinkResult }) {
   const { ended } = props;
   return (
     <div class="headline">
@@ -130,7 +131,7 @@ function PathReadings(props: { plan: PlanChanged; t: number }) {
   );
 }
 
-function SpacingReadings(props: { flight: Flight; sample: Sample; engaged: boolean }) {
+function SpacingReadings(props: { flight: Flight; sample: PairSample; engaged: boolean }) {
   const { flight, sample, engaged } = props;
   const required = flight.started.value?.slot_distance_m;
   return (
@@ -152,7 +153,7 @@ function SpacingReadings(props: { flight: Flight; sample: Sample; engaged: boole
   );
 }
 
-function SafetyReadings(props: { flight: Flight; plan: PlanChanged; sample: Sample }) {
+function SafetyReadings(props: { flight: Flight; plan: PlanChanged; sample: PairSample }) {
   const { flight, plan, sample } = props;
   const { separation } = plan.plan;
   const minSeparation = flight.started.value?.min_separation_m ?? 0;

@@ -3,6 +3,7 @@
 import { signal } from "@preact/signals";
 import type { Flight } from "../../src/flight";
 import { cutPath, pathPointAt, velocity, windVector } from "../../src/geometry";
+import { type PairCard, type PairSample, pairCard } from "../../src/pair";
 import { wrap360 } from "../../src/units";
 import type {
   AircraftSample,
@@ -12,7 +13,6 @@ import type {
   PathPoint,
   PathSegment,
   PlanChanged,
-  Sample,
 } from "../../src/wire";
 import crossing from "./flights/crossing.json" with { type: "json" };
 import fig6a from "./flights/fig_6a.json" with { type: "json" };
@@ -24,17 +24,19 @@ const FLIGHTS = { crossing, fig_6a: fig6a, fig_6b: fig6b, fig_6b_wind: fig6bWind
 export type FlightName = keyof typeof FLIGHTS;
 
 interface Documents {
-  readonly started: FlightStarted;
+  readonly started: PairCard;
   readonly route: LeaderRoute;
   readonly plan: PlanChanged;
 }
 
 export function documentsOf(name: FlightName): Documents {
-  const [started, route, plan] = FLIGHTS[name] as unknown as [
+  const [first, route, plan] = FLIGHTS[name] as unknown as [
     FlightStarted,
     LeaderRoute,
     PlanChanged,
   ];
+  const started = pairCard(first);
+  if (started === null) throw new Error("A flight without a link.");
   return { started, route, plan };
 }
 
@@ -47,6 +49,9 @@ export function emptyFlight(): Flight {
     plan: signal(null),
     superseded: signal(null),
     unavailable: signal(null),
+    alerts: signal([]),
+    unable: signal(null),
+    lost: signal(null),
     mode: signal(null),
     modeSince: signal(-Infinity),
     sample: signal(null),
@@ -69,7 +74,15 @@ export function flightAt(name: FlightName, t: number, mode: Mode = "converge"): 
   flight.started.value = documents.started;
   flight.route.value = documents.route;
   flight.plan.value = documents.plan;
-  flight.mode.value = { kind: "mode_changed", t_s: 0, mode, previous: "heading", message: "" };
+  const ident = documents.started.pursuer.ident;
+  flight.mode.value = {
+    kind: "mode_changed",
+    t_s: 0,
+    ident,
+    mode,
+    previous: "heading",
+    message: "",
+  };
   flight.connection.value = "live";
   setTime(flight, t, mode);
   return flight;
@@ -90,12 +103,12 @@ export function setTime(flight: Flight, t: number, mode: Mode): void {
   });
 }
 
-function sampleAt({ started, route, plan }: Documents, t: number, mode: Mode): Sample {
+function sampleAt({ started, route, plan }: Documents, t: number, mode: Mode): PairSample {
   const wind = windVector(started.wind);
   const end = plan.plan.time_to_converge_s;
   const final = route.segments.at(-1);
   if (final === undefined) throw new Error("A route without segments.");
-  const leader = aircraft(route.segments, t, wind, 10_668);
+  const leader = aircraft(started.leader.ident, route.segments, t, wind, 10_668);
   const along = velocity(
     1,
     Math.atan2(leaderVelocity(final).x, leaderVelocity(final).y) / (Math.PI / 180),
@@ -109,8 +122,8 @@ function sampleAt({ started, route, plan }: Documents, t: number, mode: Mode): S
   };
   const pursuer =
     t <= end
-      ? aircraft(plan.plan.segments, t, wind, 10_668)
-      : { ...leader, x_m: slot.x_m, y_m: slot.y_m };
+      ? aircraft(started.pursuer.ident, plan.plan.segments, t, wind, 10_668)
+      : { ...leader, ident: started.pursuer.ident, x_m: slot.x_m, y_m: slot.y_m };
   const dx = leader.x_m - pursuer.x_m;
   const dy = leader.y_m - pursuer.y_m;
   const separation = Math.hypot(dx, dy);
@@ -118,7 +131,6 @@ function sampleAt({ started, route, plan }: Documents, t: number, mode: Mode): S
   const closure =
     (((v?.x ?? 0) - (w?.x ?? 0)) * dx + ((v?.y ?? 0) - (w?.y ?? 0)) * dy) / separation;
   return {
-    kind: "sample",
     t_s: t,
     pursuer,
     leader,
@@ -139,6 +151,7 @@ function sampleAt({ started, route, plan }: Documents, t: number, mode: Mode): S
     cross_track_m: (pursuer.x_m - slot.x_m) * along.y - (pursuer.y_m - slot.y_m) * along.x,
     time_to_go_s: Math.max(0, end - t),
     joined: t >= end,
+    alert: "none",
   };
 }
 
@@ -151,6 +164,7 @@ function leaderVelocity(leg: PathSegment): { x: number; y: number } {
 }
 
 function aircraft(
+  ident: string,
   segments: readonly PathSegment[],
   t: number,
   wind: { x: number; y: number },
@@ -167,6 +181,7 @@ function aircraft(
   const side = segment.kind === "turn" && segment.direction === "left" ? -1 : 1;
   const turning = segment.kind === "turn" ? segment.angle_deg / segment.duration_s : 0;
   return {
+    ident,
     x_m: point.x_m,
     y_m: point.y_m,
     heading_deg: point.heading_deg,

@@ -2,7 +2,8 @@ import { signal } from "@preact/signals";
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import type { Flight } from "../../src/flight";
 import { NavigationDisplay } from "../../src/nd/nd";
-import type { Sample } from "../../src/wire";
+import type { PairSample } from "../../src/pair";
+import { alert, separationLost, unable } from "../samples";
 import { mount } from "./draw";
 import { documentsOf, emptyFlight, flightAt, setTime } from "./fixture";
 
@@ -30,7 +31,7 @@ function words(root: Element): string {
   return [...root.querySelectorAll("text")].map((each) => each.textContent).join(" ");
 }
 
-function change(flight: Flight, sample: Partial<Sample>): void {
+function change(flight: Flight, sample: Partial<PairSample>): void {
   if (flight.sample.value === null) throw new Error("An empty flight.");
   const changed = { ...flight.sample.value, ...sample };
   flight.sample.value = changed;
@@ -175,11 +176,55 @@ test("a loss that is coming is amber and says when", () => {
   expect(words(root)).toMatch(/SEP IN \d+ S/);
 });
 
+test("an alert is in the message line with its level's colour, before lesser news", () => {
+  const flight = flightAt("fig_6b", 300);
+  flight.alerts.value = [
+    alert(290, { level: "advisory", subject: "speed" }),
+    alert(295, { predicted_at_s: 340 }),
+  ];
+  const line = show(flight, "ARC", 40).querySelector(".nd-message");
+  expect(line?.querySelector("text")?.textContent).toBe("SEP IN 40 S");
+  expect(line?.querySelector("text")?.getAttribute("fill")).toBe("var(--caution)");
+  flight.alerts.value = flight.alerts.value.slice(0, 1);
+  const lesser = show(flight, "ARC", 40).querySelector(".nd-message text");
+  expect(lesser?.textContent).toBe("LDR SPEED");
+  expect(lesser?.getAttribute("fill")).toBe("var(--label)");
+});
+
+test("a loss of separation that was just given is a warning", () => {
+  const flight = flightAt("fig_6b", 300);
+  flight.lost.value = separationLost(300);
+  const text = show(flight, "ARC", 40).querySelector(".nd-message text");
+  expect(text?.textContent).toBe("SEPARATION");
+  expect(text?.getAttribute("fill")).toBe("var(--alert)");
+});
+
+test("unable says why; escape is a mode of its own", () => {
+  const flight = flightAt("fig_6b", 300, "escape");
+  flight.unable.value = unable(299);
+  const root = show(flight, "ARC", 80);
+  expect(words(root)).toContain("RG UNABLE: PATH");
+  expect(words(root)).toContain("RG ESC");
+  expect(root.querySelector("svg")?.getAttribute("aria-label")).toContain("turning away");
+});
+
+test("a plan that is no news is drawn and not announced", () => {
+  const flight = flightAt("fig_6b", 0.5);
+  const plan = flight.plan.value;
+  if (plan === null) throw new Error("A flight without a plan.");
+  expect(words(show(flight, "ARC", 80))).toContain("CONV ACTIVE");
+  flight.plan.value = { ...plan, reason: "deviation", announced: false };
+  const root = show(flight, "ARC", 80);
+  expect(words(root)).not.toContain("REPLAN");
+  expect(has(root, "capture")).toBe(true);
+});
+
 test("no plan: the slot is crossed, the reason is in the message line", () => {
   const flight = flightAt("fig_6b", 300, "heading");
   flight.unavailable.value = {
     kind: "plan_unavailable",
     t_s: 300,
+    ident: "RG456",
     answer: { status: "no_plan", reason: "slot_unreachable", message: "" },
   };
   const root = show(flight, "ARC", 80);

@@ -51,8 +51,9 @@ test("the display knows nothing of streams, requests and panels", () => {
     const text = readFileSync(join(SOURCE, "nd", file), "utf8");
     const imports = [...text.matchAll(/from "(\.\.\/[^"]+)"/g)].map(([, path]) => path);
     for (const path of imports)
-      expect(["../flight", "../geometry", "../motion", "../units", "../wire"], file).toContain(
-        path,
-      );
+      expect(
+        ["../flight", "../geometry", "../motion", "../pair", "../units", "../wire"],
+        file,
+      ).toContain(path);
   }
 });

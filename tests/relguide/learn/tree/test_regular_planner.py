@@ -136,6 +136,7 @@ def test_one_tree_serves_what_is_alike() -> None:
 def test_it_flies() -> None:
     *_, ended = fly(scenario("fig_6b"), regular_planner, sample_period=1.0)
     assert isinstance(ended, FlightEnded)
-    assert ended.joined
-    assert ended.least_separation >= 9_260.0
-    assert ended.join_time < 930.0
+    (result,) = ended.results
+    assert result.joined
+    assert result.least_separation >= 9_260.0
+    assert result.join_time < 930.0

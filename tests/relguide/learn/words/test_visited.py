@@ -72,7 +72,7 @@ def test_flights_are_of_every_kind_and_arrive() -> None:
         assert isinstance(end, FlightEnded)
         # a leader that turns without a word may turn towards the pursuer
         if flight.intent_known:
-            assert end.least_separation > 0.99 * flight.situation.min_separation
+            assert end.results[0].least_separation > 0.99 * flight.situation.min_separation
         known.add(flight.intent_known)
         joined += end.joined
         headings = [s.leader.heading for s in situations_asked(flight, plan)]

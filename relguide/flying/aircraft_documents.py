@@ -1,0 +1,189 @@
+"""Aircraft and the links between them as outsiders read them: what documents are made of.
+
+Units, frames and times as in `documents`. Every aircraft has an ident, which is its alone in a
+flight. A link is what one aircraft is to do behind another: one pursuer has one link; a leader may
+have several pursuers, and may be a pursuer itself.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Literal, Protocol, TypeVar
+
+from relguide.flying.announcements import Mode as Mode
+from relguide.flying.plan_documents import PathPoint
+from relguide.units import Metre, MetrePerSecond, Radian, RadianPerSecond, Second
+
+Spacing = Literal["distance", "time"]
+"""What a link keeps once joined: the distance D, or the time that the leader takes to fly it."""
+AlertLevel = Literal["advisory", "caution", "warning"]
+"""advisory: to be known; caution: to be seen to at once; warning: to be acted upon at once."""
+AlertState = Literal["none", "advisory", "caution", "warning"]
+"""The highest level among the alerts that stand."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WindCard:
+    """Uniform wind as reports give it."""
+
+    from_: Radian
+    """Where it comes from, clockwise from north [rad]. JSON name: from_deg."""
+    speed: MetrePerSecond
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AircraftCard:
+    """Who an aircraft is."""
+
+    ident: str
+    """Its name in all documents of the flight."""
+    aircraft_type: str
+    max_bank: Radian
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LinkCard:
+    """What a pursuer is to do: join its leader, and stay behind it."""
+
+    pursuer: str
+    """Its ident."""
+    leader: str
+    """Its ident."""
+    slot_distance: Metre
+    """D, along the leader's route behind it; with spacing by time, as it is at the start."""
+    min_separation: Metre
+    """d_min, to be kept at all times."""
+    spacing: Spacing
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AircraftSample:
+    """One aircraft at one instant, as it flies (roll dynamics included)."""
+
+    ident: str
+    x: Metre
+    y: Metre
+    heading: Radian
+    track: Radian
+    """Direction of the ground velocity."""
+    bank: Radian
+    """Positive right wing down."""
+    turn_rate: RadianPerSecond
+    """Positive to the right."""
+    tas: MetrePerSecond
+    ground_speed: MetrePerSecond
+    altitude: Metre
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HeadingReference:
+    """Guidance asks the autopilot to hold a heading."""
+
+    heading: Radian
+    kind: Literal["hold_heading"] = "hold_heading"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TurnRateReference:
+    """Guidance asks the autopilot for a turn rate."""
+
+    turn_rate: RadianPerSecond
+    kind: Literal["turn_rate"] = "turn_rate"
+
+
+ReferenceCard = HeadingReference | TurnRateReference
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GuidanceSample:
+    """What the guidance of one pursuer does at one instant, and how it stands to its leader."""
+
+    ident: str
+    """The pursuer's."""
+    leader: str
+    """Its leader's ident."""
+    mode: Mode
+    reference: ReferenceCard
+    commanded_tas: MetrePerSecond
+    """What guidance asks of the autothrust."""
+    separation: Metre
+    closure: MetrePerSecond
+    """Rate at which the separation shrinks, positive when closing."""
+    least_separation: Metre
+    """Least separation so far."""
+    slot: PathPoint
+    """The slot now (with turns to come: on the backward extension of the leader's final leg)."""
+    slot_open: bool
+    spacing_error: Metre
+    """Distance still to close along the leader's route to be at D: positive when too far behind."""
+    cross_track: Metre
+    """Offset from the leader's final route, positive to its right."""
+    time_to_go: Second
+    """Until the slot is reached by the plan flown; 0 when there is none or it is joined."""
+    joined: bool
+    alert: AlertState
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Loss:
+    """A loss of separation: from when the separation fell below d_min until it was d_min again."""
+
+    t: Second
+    """When it fell below."""
+    separation: Metre
+    """The least while it was lost."""
+    cause: str
+    """Why, in a sentence."""
+    announced: tuple[Second, ...]
+    """When the first alert or `Unable` that came before it was given; empty if there was none."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LinkResult:
+    """How the flight of one pursuer behind its leader went."""
+
+    ident: str
+    """The pursuer's."""
+    leader: str
+    """Its leader's ident."""
+    joined: bool
+    join_time: Second
+    """When eq. (7) first held within tolerance; the flight's duration if it never did."""
+    planned_time: Second
+    """Time to converge of the plan at engagement; 0 if there was none."""
+    promised: Second
+    """Time until joined that the plan at engagement promised, braking included; 0 as above."""
+    least_separation: Metre
+    heading_swing: Radian
+    """Total variation of the pursuer's heading until joined."""
+    bank_reversals: int
+    replans: int
+    """Plans after the one at engagement, announced or not."""
+    replans_announced: int
+    """Those of them that the crew was shown."""
+    fallbacks: int
+    """How often the exact plan took the place of a planner's."""
+    track: Metre
+    """Distance flown over the ground until joined."""
+    losses: tuple[Loss, ...]
+
+
+class _HasIdent(Protocol):
+    @property
+    def ident(self) -> str: ...
+
+
+Member = TypeVar("Member", bound=_HasIdent)
+
+
+def by_ident(members: Iterable[Member], ident: str) -> Member:
+    """The aircraft, guidance or result of that ident.
+
+    Raises:
+        ValueError: if there is none.
+    """
+    known = []
+    for member in members:
+        if member.ident == ident:
+            return member
+        known.append(member.ident)
+    raise ValueError(f"There is no aircraft {ident!r} here; there are {', '.join(known)}.")

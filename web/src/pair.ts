@@ -1,0 +1,88 @@
+/**
+ * What the page shows of a flight: its first link, one pursuer behind one leader.
+ *
+ * A flight has any number of aircraft, known by their idents; here they become the two of the page.
+ */
+
+import type {
+  AircraftCard,
+  AircraftSample,
+  Document,
+  FlightEnded,
+  FlightStarted,
+  GuidanceSample,
+  LinkCard,
+  LinkResult,
+  Sample,
+} from "./wire";
+
+/** What is known of the two before the flight. */
+export interface PairCard
+  extends Omit<FlightStarted, "kind" | "aircraft" | "links">,
+    Omit<LinkCard, "pursuer" | "leader"> {
+  readonly pursuer: AircraftCard;
+  readonly leader: AircraftCard;
+}
+
+/** The two at one instant. */
+export interface PairSample extends Omit<GuidanceSample, "ident" | "leader"> {
+  readonly t_s: number;
+  readonly pursuer: AircraftSample;
+  readonly leader: AircraftSample;
+}
+
+/** The two of the first link; null if the flight has none. */
+export function pairCard(started: FlightStarted): PairCard | null {
+  const { kind: _, aircraft, links, ...flight } = started;
+  const link = links[0];
+  if (link === undefined) return null;
+  const pursuer = withIdent(aircraft, link.pursuer);
+  const leader = withIdent(aircraft, link.leader);
+  if (pursuer === null || leader === null) return null;
+  return { ...flight, ...link, pursuer, leader };
+}
+
+/** The two in a sample; null if it lacks one of them. */
+export function pairSample(sample: Sample, pair: PairCard): PairSample | null {
+  const pursuer = withIdent(sample.aircraft, pair.pursuer.ident);
+  const leader = withIdent(sample.aircraft, pair.leader.ident);
+  const guidance = withIdent(sample.guidance, pair.pursuer.ident);
+  if (pursuer === null || leader === null || guidance === null) return null;
+  const { ident: _, ...seen } = guidance;
+  return { ...seen, t_s: sample.t_s, pursuer, leader };
+}
+
+/** How it went for the two; null if that is not said. */
+export function pairResult(ended: FlightEnded, pair: PairCard): LinkResult | null {
+  return withIdent(ended.results, pair.pursuer.ident);
+}
+
+/** Whether a document is about the two. */
+export function isAbout(document: Document, pair: PairCard): boolean {
+  switch (document.kind) {
+    case "flight_started":
+    case "sample":
+    case "flight_ended":
+      return true;
+    case "leader_route":
+      return document.ident === pair.leader.ident && document.expected_by === pair.pursuer.ident;
+    case "leader_changed":
+      return document.ident === pair.leader.ident;
+    case "plan_changed":
+    case "plan_unavailable":
+    case "plan_refused":
+    case "mode_changed":
+    case "alert":
+    case "unable":
+    case "separation_lost":
+    case "forecast_changed":
+      return document.ident === pair.pursuer.ident;
+  }
+}
+
+function withIdent<T extends { readonly ident: string }>(
+  members: readonly T[],
+  ident: string,
+): T | null {
+  return members.find((each) => each.ident === ident) ?? null;
+}
