@@ -23,6 +23,7 @@ from relguide.flying.plan_documents import (
     UnsafeAlternativeCard,
 )
 from relguide.flying.verdicts import NotChecked, OptimalityCheck, RegularCheck
+from relguide.planning.phrases import whole_degrees
 from relguide.units import DEG, NM
 
 PROOFS = {
@@ -217,4 +218,4 @@ def _row(segment: PathSegment, tas: float) -> tuple[str, ...]:
 
 
 def _heading(point: PathPoint) -> str:
-    return f"{round(point.heading / DEG) % 360 or 360:03d}°"
+    return f"{whole_degrees(point.heading) or 360:03d}°"

@@ -1,10 +1,12 @@
 """Convergence areas as outsiders get them: lines and regions in metres, each name with its unit."""
 
+from math import degrees
 from typing import Any
 
 import numpy as np
 
 from relguide.contract.bodies import Anchor
+from relguide.contract.compass import compass
 from relguide.contract.refusal import Strict
 from relguide.maps.contours import Floats
 from relguide.maps.isochrones import Grid, Isochrones
@@ -126,7 +128,7 @@ def area_to_wire(
     proved = int(field.proved.sum())
     answer = {
         "grid": _grid(grid),
-        "pursuer_heading_deg": float(np.degrees(situation.pursuer.heading)) % 360.0,
+        "pursuer_heading_deg": compass(degrees(situation.pursuer.heading)),
         "levels_s": [contour.level for contour in area.contours],
         "contours": [
             {"level_s": contour.level, "lines": [_points(line, anchor) for line in contour.lines]}

@@ -13,6 +13,8 @@ from typing import Annotated, Any
 
 from pydantic import Discriminator, Field, Tag
 
+from relguide.contract.accepted import Accepted
+from relguide.contract.compass import compass, heading_of
 from relguide.contract.refusal import ContractError, Strict, parse
 from relguide.contract.wire import to_wire
 from relguide.flying.plan_documents import Direction, PlanCard
@@ -30,18 +32,16 @@ from relguide.planning.situation import (
     wind_from,
 )
 from relguide.planning.trajectory import LEFT, RIGHT
-from relguide.units import DEG
-
-# 9 decimals: a bound like 60° comes back from radians with its last digit changed
-_BANK = Field(ge=round(limits.MIN_BANK / DEG, 9), le=round(limits.MAX_BANK / DEG, 9))
-_POSITION = Field(ge=-limits.MAX_POSITION, le=limits.MAX_POSITION)
 
 MAX_ID = 200
 """Longest accepted `id` [characters]."""
 MAX_INTEGER = 2**53 - 1
 """Largest integer that every reader of JSON keeps exact."""
 
-Tas = Annotated[float, Field(ge=limits.MIN_TAS, le=limits.MAX_TAS)]
+Position = Annotated[float, Accepted(limits.POSITION)]
+Tas = Annotated[float, Accepted(limits.TAS)]
+Bank = Annotated[float, Accepted(limits.BANK)]
+Distance = Annotated[float, Accepted(limits.DISTANCE)]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,15 +56,15 @@ Anchor = LocalPlane | Unanchored
 class LocalPursuer(Strict):
     """The aircraft that is guided, at t = 0."""
 
-    x_m: Annotated[float, _POSITION]
+    x_m: Position
     """East."""
-    y_m: Annotated[float, _POSITION]
+    y_m: Position
     """North."""
     heading_deg: float
     """Clockwise from true north."""
     tas_mps: Tas
     """True airspeed, kept constant."""
-    max_bank_deg: Annotated[float, _BANK]
+    max_bank_deg: Bank
     """Bank of its turns."""
 
 
@@ -77,14 +77,14 @@ class GeodeticPursuer(Strict):
     """Clockwise from true north."""
     tas_mps: Tas
     """True airspeed, kept constant."""
-    max_bank_deg: Annotated[float, _BANK]
+    max_bank_deg: Bank
     """Bank of its turns."""
 
 
 class StraightPiece(Strict):
     """A piece of intent: keep the heading."""
 
-    straight_s: Annotated[float, Field(ge=0.0, le=limits.MAX_PIECE)]
+    straight_s: Annotated[float, Accepted(limits.PIECE)]
     """For how long."""
 
 
@@ -95,7 +95,7 @@ class TurnPiece(Strict):
     """Heading to roll out on, clockwise from true north."""
     direction: Direction
     """Which way round."""
-    bank_deg: Annotated[float, _BANK]
+    bank_deg: Bank
     """Bank of the turn."""
 
 
@@ -123,9 +123,9 @@ Intent = Annotated[list[Piece], Field(max_length=limits.MAX_PIECES)]
 class LocalLeader(Strict):
     """The aircraft to be joined, at t = 0, with what it has declared it will do."""
 
-    x_m: Annotated[float, _POSITION]
+    x_m: Position
     """East."""
-    y_m: Annotated[float, _POSITION]
+    y_m: Position
     """North."""
     heading_deg: float
     """Clockwise from true north."""
@@ -153,7 +153,7 @@ class WindBody(Strict):
 
     from_deg: float
     """Where it comes from, clockwise from true north."""
-    speed_mps: Annotated[float, Field(ge=0.0, le=limits.MAX_WIND)]
+    speed_mps: Annotated[float, Accepted(limits.WIND)]
 
 
 class SituationBody(Strict):
@@ -167,9 +167,9 @@ class SituationBody(Strict):
         Annotated[LocalLeader, Tag("#local")] | Annotated[GeodeticLeader, Tag("#geodetic")],
         Discriminator(_which_position),
     ]
-    slot_distance_m: Annotated[float, Field(ge=0.0, le=limits.MAX_SLOT_DISTANCE)]
+    slot_distance_m: Distance
     """D: how far behind the leader the pursuer is to be."""
-    min_separation_m: Annotated[float, Field(ge=0.0, le=limits.MAX_SLOT_DISTANCE)]
+    min_separation_m: Distance
     """d_min: how close the two may come; at most D."""
     wind: WindBody = WindBody(from_deg=0.0, speed_mps=0.0)
     """Left out: calm."""
@@ -209,12 +209,9 @@ def situation_from_body(body: SituationBody) -> tuple[Situation, Anchor]:
         ContractError: for what a shape cannot rule out, like D < d_min.
     """
     pursuer, leader, anchor = _aircraft(body)
-    if body.slot_distance_m < body.min_separation_m:
-        message = (
-            f"must be at least min_separation_m ({body.min_separation_m:g}), not "
-            f"{body.slot_distance_m:g}: the slot itself would be too close."
-        )
-        raise ContractError([("slot_distance_m", message)])
+    if not limits.CLEARANCE.admits(body.slot_distance_m - body.min_separation_m):
+        wrong = limits.too_close_a_slot(body.slot_distance_m, body.min_separation_m)
+        raise ContractError([("slot_distance_m", wrong)])
     try:
         return (
             Situation(
@@ -247,17 +244,17 @@ def _aircraft(body: SituationBody) -> tuple[Pursuer, Leader, Anchor]:
     match body.pursuer, body.leader:
         case LocalPursuer() as p, LocalLeader() as l:
             return (
-                _pursuer(p, p.x_m, p.y_m, radians(p.heading_deg % 360.0)),
-                _leader(l, l.x_m, l.y_m, radians(l.heading_deg % 360.0)),
+                _pursuer(p, p.x_m, p.y_m, heading_of(p.heading_deg)),
+                _leader(l, l.x_m, l.y_m, heading_of(l.heading_deg)),
                 Unanchored(),
             )
         case GeodeticPursuer() as p, GeodeticLeader() as l:
             plane = LocalPlane(l.lat_deg, l.lon_deg)
             x, y = _near(plane, p)
-            heading = radians((p.heading_deg + _meridian(plane, p.lat_deg, p.lon_deg)) % 360.0)
+            heading = heading_of(p.heading_deg + _meridian(plane, p.lat_deg, p.lon_deg))
             return (
                 _pursuer(p, x, y, heading),
-                _leader(l, 0.0, 0.0, radians(l.heading_deg % 360.0)),
+                _leader(l, 0.0, 0.0, heading_of(l.heading_deg)),
                 plane,
             )
         case _:
@@ -281,7 +278,7 @@ def _piece(body: StraightPiece | TurnPiece) -> IntentPiece:
             return FlyStraight(duration=body.straight_s)
         case TurnPiece():
             return TurnTo(
-                heading=radians(body.turn_to_heading_deg % 360.0),
+                heading=heading_of(body.turn_to_heading_deg),
                 turn=LEFT if body.direction == "left" else RIGHT,
                 bank=radians(body.bank_deg),
             )
@@ -290,14 +287,14 @@ def _piece(body: StraightPiece | TurnPiece) -> IntentPiece:
 def _wind(body: WindBody) -> Wind:
     if body.speed_mps == 0.0:
         return CALM
-    return wind_from(radians(body.from_deg % 360.0), body.speed_mps)
+    return wind_from(heading_of(body.from_deg), body.speed_mps)
 
 
 def _near(plane: LocalPlane, pursuer: GeodeticPursuer) -> tuple[float, float]:
     x, y = plane.to_local(pursuer.lat_deg, pursuer.lon_deg)
     # at the antipode the projection gives infinity
-    if not (isfinite(x) and isfinite(y)) or hypot(x, y) > limits.MAX_POSITION:
-        message = f"must lie within {limits.MAX_POSITION / 1000.0:g} km of the leader."
+    if not (isfinite(x) and isfinite(y)) or hypot(x, y) > limits.POSITION.high:
+        message = f"must lie within {limits.POSITION.high / 1000.0:g} km of the leader."
         raise ContractError([("pursuer.lat_deg, pursuer.lon_deg", message)])
     return x, y
 
@@ -312,10 +309,9 @@ def _meridian(plane: LocalPlane, lat_deg: float, lon_deg: float) -> float:
 
 def _on_earth(point: dict[str, Any], plane: LocalPlane) -> dict[str, Any]:
     lat, lon = plane.to_geodetic(point["x_m"], point["y_m"])
-    heading = (point["heading_deg"] - _meridian(plane, lat, lon)) % 360.0
     return {
         **point,
-        "heading_deg": heading if heading < 360.0 else 0.0,
+        "heading_deg": compass(point["heading_deg"] - _meridian(plane, lat, lon)),
         "lat_deg": lat,
         "lon_deg": lon,
     }

@@ -152,6 +152,7 @@ _SENTENCES = {
     "greater_than_equal": "must be at least {ge:.12g}, not {given}.",
     "less_than_equal": "must be at most {le:.12g}, not {given}.",
     "literal_error": "must be {expected}, not {given}.",
+    "value_error": "{error}",
     "union_tag_invalid": "must be one of {expected_tags}, not {tag}.",
     "union_tag_not_found": "is missing: it says what kind of object this is.",
     "too_long": "must have at most {max_length} entries, not {actual_length}.",

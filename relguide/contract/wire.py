@@ -16,6 +16,7 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_typ
 
 import orjson
 
+from relguide.contract.compass import compass
 from relguide.flying.aircraft_documents import (
     AircraftCard,
     AircraftSample,
@@ -230,6 +231,4 @@ def _per_degree(value: float) -> float:
 
 
 def _compass_degrees(value: float) -> float:
-    wrapped = degrees(_finite(value)) % 360.0
-    # the remainder of a tiny negative angle rounds to 360 itself
-    return wrapped if wrapped < 360.0 else 0.0
+    return compass(degrees(_finite(value)))

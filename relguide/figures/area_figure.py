@@ -15,6 +15,7 @@ import numpy as np
 from relguide.learn.tree.tree import Tree, TreeParameters
 from relguide.maps.area import Area
 from relguide.planning.extras import need
+from relguide.planning.phrases import whole_degrees
 from relguide.units import DEG
 
 if TYPE_CHECKING:
@@ -180,7 +181,7 @@ def _landmarks(axes: "Axes", parameters: TreeParameters, heading: float) -> None
 
 
 def _heading(heading: float) -> str:
-    degrees = round(heading / DEG) % 360
+    degrees = whole_degrees(heading)
     if degrees == 0:
         return "on the leader's heading"
     if degrees == 180:

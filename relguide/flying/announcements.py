@@ -7,6 +7,7 @@ from relguide.flying.assignment import Observation
 from relguide.flying.commitment import Commitment
 from relguide.kernels.base.angles import wrap_signed
 from relguide.planning.acceptance import Refusal
+from relguide.planning.phrases import compass
 from relguide.planning.plan import NoPlan, Plan
 from relguide.units import DEG, KT, NM, MetrePerSecond, Radian
 
@@ -106,7 +107,7 @@ def reason_sentence(reason: PlanReason, seen: Observation) -> str:
         case "separation":
             return "The plan no longer kept the minimum separation"
         case "leader_turned":
-            heading = f"{round(seen.final_heading / DEG) % 360:03d}°"
+            heading = compass(seen.final_heading)
             if seen.turn_to_come:
                 return f"The leader will turn to {heading}"
             return f"The leader's heading is {heading}"

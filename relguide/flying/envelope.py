@@ -5,7 +5,7 @@ from math import ceil, floor
 from relguide.flying.air import Air
 from relguide.flying.airframe import Airframe
 from relguide.planning.inputs import within
-from relguide.planning.limits import MAX_TAS, MIN_TAS
+from relguide.planning.limits import TAS
 from relguide.units import DEG, FT, KT, Metre, MetrePerSecond, Radian
 
 FL310: Metre = 9449.0
@@ -77,8 +77,8 @@ def level_for(
     Raises:
         ValueError: if there is no such level, with what would be right.
     """
-    slowest = within("slowest", slowest, MIN_TAS, MAX_TAS, "m/s")
-    fastest = within("fastest", fastest, slowest, MAX_TAS, "m/s")
+    slowest = within("slowest", slowest, *TAS)
+    fastest = within("fastest", fastest, slowest, TAS.high, TAS.unit)
     levels = _levels(airframe, preferred)
     slow = [level for level in levels if _slow_enough(airframe, level, air, slowest)]
     fast = [level for level in levels if _fast_enough(airframe, level, air, fastest)]

@@ -46,7 +46,7 @@ from relguide.flying.tracks import RecordedTrack
 from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.base.turn import turn_rate
 from relguide.planning.inputs import expect, expect_function, number, text, truth, whole, within
-from relguide.planning.limits import MAX_TAS, MIN_TAS
+from relguide.planning.limits import TAS
 from relguide.planning.plan import Plan, Planner
 from relguide.planning.situation import Situation, TurnTo, Wind
 from relguide.units import DEG, KT, Metre, MetrePerSecond, Radian, RadianPerSecond, Second
@@ -301,8 +301,8 @@ def _leader_model(scenario: Scenario) -> AircraftModel:
         A300,
         max_bank=max(A300.max_bank, *banks, 0.0),
         max_deceleration=0.5 * A300.max_deceleration,
-        min_tas=MIN_TAS,
-        max_tas=MAX_TAS,
+        min_tas=TAS.low,
+        max_tas=TAS.high,
     )
 
 

@@ -8,8 +8,10 @@ from typing import Literal, assert_never
 from relguide.flying.documents import LeaderChanged
 from relguide.flying.leader import LeaderFlight, TurnChoice, set_leader_speed, turn_leader
 from relguide.kernels.base.angles import wrap
-from relguide.planning.limits import MAX_TAS, MIN_TAS
-from relguide.units import DEG, KT, MetrePerSecond, Radian, Second
+from relguide.planning.inputs import within
+from relguide.planning.limits import TAS
+from relguide.planning.phrases import compass
+from relguide.units import KT, MetrePerSecond, Radian, Second
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,8 +40,7 @@ class LeaderSpeed:
 
     def __post_init__(self) -> None:
         """Refuse a speed outside the accepted range."""
-        if not MIN_TAS <= self.tas <= MAX_TAS:
-            raise ValueError(f"tas must lie in {MIN_TAS:g} … {MAX_TAS:g} m/s, not {self.tas:g}.")
+        within("tas", self.tas, *TAS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -73,8 +74,7 @@ def obey(
     """
     match command:
         case LeaderHeading(heading=heading, direction=direction):
-            degrees = round(heading / DEG) % 360
-            message = f"The leader is instructed to turn to {degrees:03d}°."
+            message = f"The leader is instructed to turn to {compass(heading)}."
             said = LeaderChanged(t=t, ident=ident, change="heading", message=message)
             return (
                 turn_leader(leader, t, wrap(heading), direction, bank),

@@ -36,7 +36,7 @@ from relguide.kernels.words.extremals import WORDS
 from relguide.maps.constrained_times import CONSTRAINED, between_nodes, search_nodes
 from relguide.maps.contours import Contour, Evaluate, Field, Floats, Region, contours, regions
 from relguide.planning.inputs import expect, expect_function, number, truth, whole, within
-from relguide.planning.limits import MAX_POSITION
+from relguide.planning.limits import POSITION
 from relguide.planning.situation import Situation
 from relguide.planning.slot import SlotFrame, slot_frame
 from relguide.planning.tables import scene_of
@@ -53,7 +53,7 @@ COLUMNS, ROWS = 160, 120
 """Its nodes."""
 MAX_NODES = 512
 """Most columns, and most rows, of a grid."""
-MIN_EXTENT, MAX_EXTENT = 1_000.0, 2.0 * MAX_POSITION
+MIN_EXTENT, MAX_EXTENT = 1_000.0, 2.0 * POSITION.high
 """Accepted width and height of a grid [m]."""
 MAX_LEVELS = 64
 """Most levels of contours."""
@@ -95,9 +95,9 @@ class Grid:
         for name, value in (("width", self.width), ("height", self.height)):
             within(f"grid.{name}", value, MIN_EXTENT, MAX_EXTENT, "m")
         for name, middle, extent in (("x", self.x, self.width), ("y", self.y, self.height)):
-            if abs(number(f"grid.{name}", middle)) + 0.5 * extent > MAX_POSITION:
+            if abs(number(f"grid.{name}", middle)) + 0.5 * extent > POSITION.high:
                 raise ValueError(
-                    f"The grid must lie within |{name}| ≤ {MAX_POSITION / 1000.0:g} km."
+                    f"The grid must lie within |{name}| ≤ {POSITION.high / 1000.0:g} km."
                 )
 
     @property
@@ -196,7 +196,7 @@ def _draw(
 def grid_around(situation: Situation) -> Grid:
     """The grid taken if none is given: round the leader, if there is room."""
     leader = situation.leader
-    east, north = MAX_POSITION - 0.5 * WIDTH, MAX_POSITION - 0.5 * HEIGHT
+    east, north = POSITION.high - 0.5 * WIDTH, POSITION.high - 0.5 * HEIGHT
     return Grid(x=min(max(leader.x, -east), east), y=min(max(leader.y, -north), north))
 
 

@@ -7,7 +7,7 @@ Ten million situations may be given at once: they are taken in blocks, so that b
 and the answer, 18 bytes a situation, there are some 40 MB.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
 from math import inf
 from numbers import Integral
@@ -23,8 +23,9 @@ from relguide.kernels.words.extremals import WORDS
 from relguide.planning import limits
 from relguide.planning.constrained_path import BEARINGS
 from relguide.planning.inputs import expect, expect_function, truth, whole
+from relguide.planning.situation import Leader, Pursuer, Situation, Wind
 from relguide.planning.words import HORIZON
-from relguide.units import Second
+from relguide.units import DEG, Second
 
 Floats = NDArray[np.float64]
 CHUNK = 512
@@ -46,6 +47,23 @@ BEYOND = VERDICTS.index("beyond_horizon")
 NAMES = (*WORDS, "constrained", "")
 """Words by their number."""
 CONSTRAINED, NO_WORD = len(WORDS), len(WORDS) + 1
+RANGES = {
+    "pursuer_x": limits.POSITION,
+    "pursuer_y": limits.POSITION,
+    "pursuer_heading": limits.HEADING,
+    "pursuer_tas": limits.TAS,
+    "max_bank": limits.BANK,
+    "leader_x": limits.POSITION,
+    "leader_y": limits.POSITION,
+    "leader_heading": limits.HEADING,
+    "leader_tas": limits.TAS,
+    "slot_distance": limits.DISTANCE,
+    "min_separation": limits.DISTANCE,
+    "wind": limits.WIND,
+    "clearance": limits.CLEARANCE,
+    "headway": limits.HEADWAY,
+}
+"""What is accepted of each column, and of what is derived from several."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,10 +99,11 @@ class Situations:
                     f"All columns must have one length, but {next(iter(sizes))} has {size} and "
                     f"{name} has {other}."
                 )
-        columns = tuple(np.broadcast_to(column, size) for column in given.values())
+        columns = {name: np.broadcast_to(column, size) for name, column in given.items()}
         for start in range(0, size, BLOCK):
-            _check(start, *(column[start : start + BLOCK] for column in columns))
-        return columns
+            block = slice(start, start + BLOCK)
+            _check(start, {name: column[block] for name, column in columns.items()})
+        return tuple(columns.values())
 
 
 class TimeRow(NamedTuple):
@@ -253,41 +272,49 @@ def _column(name: str, given: ArrayLike) -> Floats:
     return np.atleast_1d(column.astype(np.float64, copy=False))
 
 
-def _check(
-    start: int, px: Floats, py: Floats, psi: Floats, tas: Floats, bank: Floats, lx: Floats,
-    ly: Floats, leading: Floats, leader_tas: Floats, distance: Floats, nearest: Floats,
-    east: Floats, north: Floats,
-) -> None:  # fmt: skip
-    """Refuse a block with a row that cannot be flown; `start` is the number of its first."""
-    slack = 1e-9  # a bound in degrees comes back from radians with its last digit changed
-    with np.errstate(invalid="ignore", over="ignore"):  # what is not finite breaks a rule below
-        wind = np.hypot(east, north)
-        ground_speed = np.hypot(
-            leader_tas * np.sin(leading) + east, leader_tas * np.cos(leading) + north
-        )
-    rules: dict[str, NDArray[np.bool_]] = {}
-    places = {"pursuer_x": px, "pursuer_y": py, "leader_x": lx, "leader_y": ly}
-    for name, place in places.items():
-        rules[f"|{name}| ≤ {limits.MAX_POSITION:g} m"] = abs(place) <= limits.MAX_POSITION
-    for name, heading in (("pursuer", psi), ("leader", leading)):
-        rules[f"|{name}_heading| ≤ {limits.MAX_HEADING:g} rad"] = abs(heading) <= limits.MAX_HEADING
-    for name, speed in (("pursuer", tas), ("leader", leader_tas)):
-        rule = f"{name}_tas in {limits.MIN_TAS:g} … {limits.MAX_TAS:g} m/s"
-        rules[rule] = (speed >= limits.MIN_TAS) & (speed <= limits.MAX_TAS)
-    rules["max_bank in 1 … 60°"] = (bank >= limits.MIN_BANK - slack) & (
-        bank <= limits.MAX_BANK + slack
+def _check(start: int, columns: Mapping[str, Floats]) -> None:
+    """Refuse a block with a row that cannot be flown; `start` is the number of its first.
+
+    The ranges find such rows; what is wrong with one says `Situation`.
+    """
+    east, north = columns["wind_east"], columns["wind_north"]
+    tas, heading = columns["leader_tas"], columns["leader_heading"]
+    with np.errstate(invalid="ignore", over="ignore"):  # no range admits what is not a number
+        derived = {
+            "max_bank": columns["max_bank"] / DEG,
+            "wind": np.hypot(east, north),
+            "clearance": columns["slot_distance"] - columns["min_separation"],
+            "headway": np.hypot(tas * np.sin(heading) + east, tas * np.cos(heading) + north),
+        }
+    shown = {**columns, **derived}
+    good = np.ones(len(east), np.bool_)
+    for name, accepted in RANGES.items():
+        column = shown[name]
+        # the extremes alone are twice as fast, and nearly always all is well
+        if not (accepted.admits(float(column.min())) and accepted.admits(float(column.max()))):
+            good &= accepted.admits(column)
+    for i in np.flatnonzero(~good):
+        try:
+            _situation(**{name: float(column[i]) for name, column in columns.items()})
+        except ValueError as error:
+            raise ValueError(f"Situation {start + i}: {error}") from None
+
+
+def _situation(
+    *, pursuer_x: float, pursuer_y: float, pursuer_heading: float, pursuer_tas: float,
+    max_bank: float, leader_x: float, leader_y: float, leader_heading: float, leader_tas: float,
+    slot_distance: float, min_separation: float, wind_east: float, wind_north: float,
+) -> Situation:  # fmt: skip
+    """One row."""
+    return Situation(
+        pursuer=Pursuer(
+            x=pursuer_x, y=pursuer_y, heading=pursuer_heading, tas=pursuer_tas, max_bank=max_bank
+        ),
+        leader=Leader(x=leader_x, y=leader_y, heading=leader_heading, tas=leader_tas),
+        slot_distance=slot_distance,
+        min_separation=min_separation,
+        wind=Wind(east=wind_east, north=wind_north),
     )
-    rules[f"0 ≤ min_separation ≤ slot_distance ≤ {limits.MAX_SLOT_DISTANCE:g} m"] = (
-        (nearest >= 0.0) & (nearest <= distance) & (distance <= limits.MAX_SLOT_DISTANCE)
-    )
-    rules[f"wind of at most {limits.MAX_WIND:g} m/s"] = wind <= limits.MAX_WIND
-    rules[f"a leader that makes {limits.MIN_HEADWAY:g} m/s over the ground"] = (
-        ground_speed >= limits.MIN_HEADWAY
-    )
-    broken = {rule: int(np.argmin(holds)) for rule, holds in rules.items() if not holds.all()}
-    if broken:  # NaN breaks every rule it meets
-        rule = min(broken, key=lambda rule: broken[rule])
-        raise ValueError(f"Situation {start + broken[rule]} breaks a rule: there must be {rule}.")
 
 
 def _in_slot_frame(

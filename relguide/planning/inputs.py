@@ -6,8 +6,43 @@ The kernels are compiled for floats, so an integer or a numpy scalar is made one
 from math import inf, isfinite
 from numbers import Integral, Real
 from reprlib import repr as brief
+from typing import NamedTuple, overload
 
 import numpy as np
+from numpy.typing import NDArray
+
+SLACK = 1e-9
+"""By so much of itself a bound may be passed: given in degrees, it comes back from radians with its
+last digit changed."""
+
+
+class Range(NamedTuple):
+    """What is accepted of a quantity, in the unit that its sentence speaks of."""
+
+    low: float
+    high: float
+    unit: str
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """The least and the largest value that are accepted: the bounds, to rounding."""
+        return self.low - SLACK * abs(self.low), self.high + SLACK * abs(self.high)
+
+    @overload
+    def admits(self, value: float) -> bool: ...
+    @overload
+    def admits(self, value: NDArray[np.float64]) -> NDArray[np.bool_]: ...
+    def admits(self, value: float | NDArray[np.float64]) -> bool | NDArray[np.bool_]:
+        """Whether a value lies inside, to rounding; of a column, each."""
+        low, high = self.ends
+        return (value >= low) & (value <= high)
+
+    def refusal(self, value: float) -> str:
+        """What is wrong with a value outside; the name of what it is goes before it."""
+        if not isfinite(value):
+            return f"must be a finite number, not {value}."
+        unit = f" {self.unit}" if self.unit else ""
+        return f"must lie in {self.low:g} … {self.high:g}{unit}, not {value:.9g}{unit}."
 
 
 def number(name: str, value: object) -> float:
@@ -36,11 +71,11 @@ def within(name: str, value: object, low: float, high: float, unit: str) -> floa
         ValueError: for what is no number, or lies outside.
     """
     value = number(name, value)
-    # 1e-9 relative: a bound given in degrees comes back from radians with its last digit changed
-    slack = 1e-9 * max(abs(low), abs(high))
-    if not low - slack <= value <= high + slack:
-        unit = f" {unit}" if unit else ""
-        raise ValueError(f"{name} must lie in {low:g} … {high:g}{unit}, not {value:.9g}{unit}.")
+    if low <= value <= high:
+        return value
+    accepted = Range(low, high, unit)
+    if not accepted.admits(value):
+        raise ValueError(f"{name} {accepted.refusal(value)}")
     return value
 
 

@@ -6,11 +6,11 @@ from math import inf
 from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.motion import Motion
 from relguide.kernels.separation.least_bad_turn import soonest_apart, widest_miss
-from relguide.planning.phrases import distance
+from relguide.planning.phrases import compass, distance
 from relguide.planning.situation import Situation
 from relguide.planning.slot import over_ground
 from relguide.planning.tables import motion_of
-from relguide.units import DEG, Metre, Radian, Second
+from relguide.units import Metre, Radian, Second
 
 HORIZON: Second = 900.0
 """How far ahead to look: two aircraft that have not parted by then fly together [s]."""
@@ -98,7 +98,7 @@ def _both(situation: Situation) -> tuple[Motion, float, Motion]:
 
 
 def _turn(recovery: Recovery) -> str:
-    heading = f"heading {round(recovery.heading / DEG) % 360:03d}°"
+    heading = f"heading {compass(recovery.heading)}"
     if recovery.turn_angle == 0.0:
         return f"hold {heading}"
     return f"turn {'right' if recovery.turn_angle > 0.0 else 'left'} to {heading}"

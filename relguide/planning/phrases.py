@@ -1,6 +1,16 @@
-"""Distances and times in sentences: no more digits than say something."""
+"""Headings, distances and times in sentences: no more digits than say something."""
 
-from relguide.units import NM, Metre, Second
+from relguide.units import DEG, NM, Metre, Radian, Second
+
+
+def whole_degrees(heading: Radian) -> int:
+    """A heading in whole degrees, from 0 to 359."""
+    return round(heading / DEG) % 360
+
+
+def compass(heading: Radian) -> str:
+    """A heading as it is read out: `087°`."""
+    return f"{whole_degrees(heading):03d}°"
 
 
 def distance(length: Metre) -> str:

@@ -14,16 +14,17 @@ from relguide.kernels.base.angles import turn_to
 from relguide.kernels.base.turn import turn_radius
 from relguide.planning.inputs import expect, number, turn_sign, within
 from relguide.planning.limits import (
-    MAX_BANK,
-    MAX_HEADING,
-    MAX_PIECE,
+    BANK,
+    CLEARANCE,
+    DISTANCE,
+    HEADING,
+    HEADWAY,
     MAX_PIECES,
-    MAX_POSITION,
-    MAX_SLOT_DISTANCE,
-    MAX_TAS,
-    MIN_BANK,
-    MIN_HEADWAY,
-    MIN_TAS,
+    PIECE,
+    POSITION,
+    TAS,
+    no_headway,
+    too_close_a_slot,
 )
 from relguide.planning.reprs import as_code
 from relguide.planning.trajectory import LEFT, RIGHT, Arc, Segment, Straight, Trajectory, Turn
@@ -39,20 +40,15 @@ def _settle(piece: object, name: str, value: object) -> None:
 
 
 def _settle_aircraft(name: str, aircraft: "Pursuer | Leader") -> None:
-    position = -MAX_POSITION, MAX_POSITION, "m"
-    _settle(aircraft, "x", within(f"{name}.x", aircraft.x, *position))
-    _settle(aircraft, "y", within(f"{name}.y", aircraft.y, *position))
-    _settle(aircraft, "heading", _heading(f"{name}.heading", aircraft.heading))
-    _settle(aircraft, "tas", within(f"{name}.tas", aircraft.tas, MIN_TAS, MAX_TAS, "m/s"))
-
-
-def _heading(name: str, value: object) -> float:
-    return within(name, value, -MAX_HEADING, MAX_HEADING, "rad")
+    _settle(aircraft, "x", within(f"{name}.x", aircraft.x, *POSITION))
+    _settle(aircraft, "y", within(f"{name}.y", aircraft.y, *POSITION))
+    _settle(aircraft, "heading", within(f"{name}.heading", aircraft.heading, *HEADING))
+    _settle(aircraft, "tas", within(f"{name}.tas", aircraft.tas, *TAS))
 
 
 def _bank(name: str, value: object) -> float:
     bank = number(name, value)
-    within(name, bank / DEG, MIN_BANK / DEG, MAX_BANK / DEG, "°")
+    within(name, bank / DEG, *BANK)
     return bank
 
 
@@ -113,8 +109,7 @@ class FlyStraight:
 
     def __post_init__(self) -> None:
         """Refuse a duration that is not one."""
-        duration = within("intent straight.duration", self.duration, 0.0, MAX_PIECE, "s")
-        _settle(self, "duration", max(duration, 0.0))
+        _settle(self, "duration", within("intent straight.duration", self.duration, *PIECE))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
@@ -133,7 +128,7 @@ class TurnTo:
 
     def __post_init__(self) -> None:
         """Refuse a turn that cannot be flown."""
-        _settle(self, "heading", _heading("intent turn.heading", self.heading))
+        _settle(self, "heading", within("intent turn.heading", self.heading, *HEADING))
         _settle(self, "turn", turn_sign("intent turn.turn", self.turn))
         _settle(self, "bank", _bank("intent turn.bank", self.bank))
 
@@ -256,30 +251,18 @@ class Situation:
         expect("pursuer", self.pursuer, Pursuer)
         expect("leader", self.leader, Leader)
         expect("wind", self.wind, Wind)
-        _settle(self, "min_separation", number("min_separation", self.min_separation))
-        _settle(self, "slot_distance", number("slot_distance", self.slot_distance))
-        if self.min_separation < 0.0:
-            raise ValueError(f"min_separation must be 0 m or more, not {self.min_separation:g} m.")
-        if self.slot_distance < self.min_separation:
-            raise ValueError(
-                f"slot_distance ({self.slot_distance:g} m) must be at least min_separation "
-                f"({self.min_separation:g} m): the slot itself would be too close."
-            )
-        if self.slot_distance > MAX_SLOT_DISTANCE:
-            raise ValueError(
-                f"slot_distance must be at most {MAX_SLOT_DISTANCE:g} m, "
-                f"not {self.slot_distance:g} m."
-            )
+        for name in ("slot_distance", "min_separation"):
+            _settle(self, name, within(name, getattr(self, name), *DISTANCE))
+        if not CLEARANCE.admits(self.slot_distance - self.min_separation):
+            wrong = too_close_a_slot(self.slot_distance, self.min_separation)
+            raise ValueError(f"slot_distance {wrong}")
         heading = self.leader.final_heading
         headway = hypot(
             self.leader.tas * sin(heading) + self.wind.east,
             self.leader.tas * cos(heading) + self.wind.north,
         )
-        if headway < MIN_HEADWAY:
-            raise ValueError(
-                f"In this wind the leader makes no headway on its final leg ({headway:.1f} m/s "
-                f"over the ground; at least {MIN_HEADWAY:g} m/s is needed): it has no behind."
-            )
+        if not HEADWAY.admits(headway):
+            raise ValueError(f"The leader {no_headway(headway)}")
 
     @classmethod
     def from_display(

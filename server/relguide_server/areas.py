@@ -26,7 +26,7 @@ from relguide.maps.isochrones import (
     isochrones,
     times_around,
 )
-from relguide.planning.limits import MAX_POSITION
+from relguide.planning.limits import POSITION
 from relguide.planning.situation import Situation
 from relguide.planning.words import HORIZON
 from relguide.units import Second
@@ -65,7 +65,7 @@ SituationAsked = Annotated[
     ),
 ]
 Place = Annotated[
-    float | None, Query(ge=-MAX_POSITION, le=MAX_POSITION, allow_inf_nan=False,
+    float | None, Query(ge=POSITION.low, le=POSITION.high, allow_inf_nan=False,
                         description="Centre of the grid; if left out, the leader."),
 ]  # fmt: skip
 Extent = Annotated[float, Query(ge=MIN_EXTENT, le=MAX_EXTENT, allow_inf_nan=False)]

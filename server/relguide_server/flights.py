@@ -1,12 +1,12 @@
 """Routes of flights: start one, watch it, command it, end it."""
 
 import asyncio
-from math import radians
 
 from fastapi import APIRouter, Request, WebSocket
 from pydantic import RootModel
 from starlette.responses import Response
 
+from relguide.contract.compass import heading_of
 from relguide.contract.messages import (
     Command,
     FlightList,
@@ -217,7 +217,7 @@ def _command(flight: LiveFlight, command: Command) -> None:
 
 def _leader_heading(command: LeaderHeadingCommand) -> LeaderHeading:
     direction = command.direction or "shorter"
-    return LeaderHeading(heading=radians(command.heading_deg % 360.0), direction=direction)
+    return LeaderHeading(heading=heading_of(command.heading_deg), direction=direction)
 
 
 def _content(parsed: object) -> dict[str, object]:

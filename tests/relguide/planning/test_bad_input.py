@@ -34,7 +34,7 @@ from relguide import (
     plan,
     wind_from,
 )
-from relguide.planning.limits import MAX_POSITION, MAX_SLOT_DISTANCE, MAX_WIND
+from relguide.planning.limits import DISTANCE, POSITION, WIND
 from relguide.planning.optimality import check
 from relguide.planning.regular import (
     RegularTrajectory,
@@ -198,9 +198,9 @@ def anything(draw: st.DrawFn) -> Situation:
             bank=banks,
         ),
     )
-    distance = abs(draw(lengths(MAX_SLOT_DISTANCE)))
+    distance = abs(draw(lengths(DISTANCE.high)))
     nearest = draw(st.one_of(st.sampled_from([0.0, distance]), numbers(0.0, distance)))
-    x, y = draw(lengths(0.5 * MAX_POSITION)), draw(lengths(0.5 * MAX_POSITION))
+    x, y = draw(lengths(0.5 * POSITION.high)), draw(lengths(0.5 * POSITION.high))
     bearing = draw(st.sampled_from([heading, heading + pi, heading + 0.5 * pi]))
     off_x, off_y = draw(
         st.one_of(
@@ -208,10 +208,10 @@ def anything(draw: st.DrawFn) -> Situation:
             st.sampled_from([nearest, nearest * (1.0 + 1e-9), distance]).map(
                 lambda d: (d * float(np.sin(bearing)), d * float(np.cos(bearing)))
             ),
-            st.tuples(lengths(0.5 * MAX_POSITION), lengths(0.5 * MAX_POSITION)),
+            st.tuples(lengths(0.5 * POSITION.high), lengths(0.5 * POSITION.high)),
         )
     )
-    blown = draw(st.one_of(st.just(0.0), numbers(0.0, min(MAX_WIND, 0.9 * leader_tas))))
+    blown = draw(st.one_of(st.just(0.0), numbers(0.0, min(WIND.high, 0.9 * leader_tas))))
     return Situation(
         pursuer=Pursuer(
             x=x + off_x,

@@ -48,9 +48,9 @@ def test_a_pursuer_that_cannot_be(changes: dict[str, float], sentence: str) -> N
 @pytest.mark.parametrize(
     ("changes", "sentence"),
     [
-        ({"min_separation": -1.0}, "min_separation must be 0 m or more"),
+        ({"min_separation": -1.0}, r"min_separation must lie in 0 … 200000 m, not -1 m\."),
         ({"slot_distance": 8_000.0}, "must be at least min_separation"),
-        ({"slot_distance": 200_001.0}, "at most 200000 m"),
+        ({"slot_distance": 200_001.0}, r"slot_distance must lie in 0 … 200000 m, not 200001 m\."),
         ({"slot_distance": nan}, "slot_distance must be a finite number"),
     ],
 )
