@@ -1,7 +1,7 @@
 # The service and its cockpit on port 8000: docker build -t relguide . && docker run -p 8000:8000 relguide
 
 FROM python:3.12-slim AS build
-ENV PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_NO_CACHE_DIR=1
+ENV PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_NO_CACHE_DIR=1 NUMBA_CPU_NAME=generic
 WORKDIR /src
 RUN python -m venv /opt/relguide
 ENV PATH=/opt/relguide/bin:$PATH
@@ -11,6 +11,10 @@ COPY . .
 # It is this source tree that is installed, so there is no version to pin.
 # hadolint ignore=DL3013
 RUN pip install '.[serve]'
+# The kernels are compiled beside what is installed, for any CPU of this kind: that costs no speed,
+# and the image may run elsewhere than it was built, as any user, with a read-only disk.
+WORKDIR /
+RUN relguide warm-up
 
 
 FROM python:3.12-slim
@@ -19,13 +23,10 @@ LABEL org.opencontainers.image.title="relguide" \
       org.opencontainers.image.licenses="Apache-2.0"
 RUN useradd --uid 10001 --create-home relguide
 COPY --from=build /opt/relguide /opt/relguide
-# The kernels are compiled here, once, for any CPU of this kind: that costs no speed, and the image
-# may run elsewhere than it was built, as any user, with a read-only disk.
+# NUMBA_CPU_NAME: whom the kernels were compiled for.
 ENV PATH=/opt/relguide/bin:$PATH \
     PYTHONUNBUFFERED=1 \
-    NUMBA_CPU_NAME=generic \
-    NUMBA_CACHE_DIR=/opt/relguide/kernels
-RUN python -m relguide.warm_up
+    NUMBA_CPU_NAME=generic
 USER 10001
 WORKDIR /home/relguide
 

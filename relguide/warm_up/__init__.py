@@ -140,7 +140,7 @@ def prepare(
             spent[name] = STEPS[name].seconds
             done += (name,)
             cache.record([name], cache.folder())
-        if not missing(STEPS):
+        if done and not missing(STEPS):  # else nothing is new, and the disk may be read-only
             cache.record([cache.EVERYTHING], cache.folder())
         yield _state(running, spent, done)
     finally:

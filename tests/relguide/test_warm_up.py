@@ -96,6 +96,16 @@ def test_a_step_waits_for_those_it_builds_on() -> None:
     assert warm_up._ready(["proofs", "tree"], ["limited"]) == ["tree"]
 
 
+def test_where_nothing_is_missing_nothing_is_written(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(cache, "folder", lambda: tmp_path)
+    cache.record(warm_up.STEPS, tmp_path)
+    before = sorted(tmp_path.iterdir())
+    assert [state.done for state in warm_up.prepare((), jobs=1)] == [()]
+    assert sorted(tmp_path.iterdir()) == before
+
+
 def test_steps_run_in_processes_and_are_recorded(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
