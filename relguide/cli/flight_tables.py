@@ -1,6 +1,6 @@
 """Flights for people: what happened, and the figures, as tables."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, assert_never
 
 from rich.box import SIMPLE_HEAD
@@ -74,10 +74,12 @@ def _figure_rows(figures: Mapping[str, Any]) -> dict[str, str]:
         rows |= {
             "joined": f"after {clock(figures['join_time_s'])}" if figures["joined"] else "no",
             "planned at engagement": clock(figures["planned_time_s"]),
+            "promised at engagement": clock(figures["promised_s"]),
             "least separation": miles(figures["least_separation_m"]),
+            "separation lost": _losses(figures["losses"]),
             "heading swing": f"{figures['heading_swing_deg']:.0f}°",
             "bank reversals": f"{figures['bank_reversals']}",
-            "new plans": f"{figures['replans']}",
+            "new plans": f"{figures['replans']}, {figures['replans_announced']} announced",
             "fallbacks": f"{figures['fallbacks']}",
             "flown": f"{figures['track_nm']:.1f} NM over the ground",
         }
@@ -85,3 +87,11 @@ def _figure_rows(figures: Mapping[str, Any]) -> dict[str, str]:
         speed = figures["simulated_s"] / max(figures["wall_s"], 1e-9)
         rows["computed in"] = f"{figures['wall_s']:.2f} s, {speed:,.0f} times as fast as it flies"
     return rows
+
+
+def _losses(losses: Sequence[Mapping[str, Any]]) -> str:
+    if not losses:
+        return "never"
+    silent = sum(loss["announced_s"] is None for loss in losses)
+    often = "once" if len(losses) == 1 else f"{len(losses)} times"
+    return f"{often}, {silent} unannounced"

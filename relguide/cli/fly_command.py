@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING
 
 from relguide.cli.output import DONE, FAILED, say, write_json
 from relguide.cli.shared_options import add_planner
-from relguide.cli.situation_file import read_situation
+from relguide.cli.situation_file import open_input, read_situation
 from relguide.learn.planners import make_planner
 from relguide.planning.extras import need
 
 if TYPE_CHECKING:
+    from relguide.contract.orders import Order
     from relguide.flying.flight import Scenario
 
 PURPOSE = "fly a scenario, a situation or behind a recorded track"
@@ -22,7 +23,13 @@ EXAMPLES = """
     relguide fly fig_6a --json                   without; the figures as JSON
     relguide fly situation.json --record a.jsonl your own situation, recorded
     relguide fly track.csv                       behind a recorded ADS-B track
+    relguide fly fig_6b --orders orders.jsonl    the leader does as it is ordered, a line an order:
+        {"t_s": 60, "intent_known": false}
+        {"t_s": 300, "leader_heading_deg": 180, "direction": "left"}
+        {"t_s": 950, "leader_tas_mps": 100}
     """
+MAX_FOLLOWING = 36_000.0
+"""Longest time to follow [s]."""
 LOADING = 40
 """Documents of a flight flown beforehand, so that the compiled kernels are loaded: that takes
 seconds and is no part of what is measured."""
@@ -39,6 +46,18 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--seed", metavar="N", type=_seed, default=0, help="of the random numbers; default: 0"
     )
+    parser.add_argument(
+        "--orders",
+        metavar="FILE",
+        help="what the leader is ordered to do, JSON lines in order of time; -: standard input",
+    )
+    parser.add_argument(
+        "--after-joining",
+        metavar="SECONDS",
+        type=_following,
+        default=120.0,
+        help="how long to go on once joined; default: 120",
+    )
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     add_planner(parser)
 
@@ -46,21 +65,26 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(chosen: argparse.Namespace) -> int:
     """Fly, and print how it went: did it join, and keep d_min?"""
     need("pydantic", "orjson", "rich")
+    from relguide.contract.orders import commands_of
     from relguide.contract.recorder import record
     from relguide.contract.story import failures, figures, story_of
     from relguide.flying.flight import fly
     from relguide.planning.progress import watched
 
-    scenario = _scenario(chosen.scenario)
+    orders = _orders(chosen)
+    scenario = _following_for(_scenario(chosen.scenario), chosen.after_joining)
     planner = make_planner(chosen.planner)
     for _ in islice(fly(scenario, planner, sample_period=1.0), LOADING):
         pass
+    commands = commands_of(orders)
     started = perf_counter()
     if chosen.record is None:
         # nobody looks at the samples: one a second is enough for the progress bar
-        documents = fly(scenario, planner, seed=chosen.seed, sample_period=1.0)
+        documents = fly(scenario, planner, commands=commands, seed=chosen.seed, sample_period=1.0)
     else:
-        documents = record(fly(scenario, planner, seed=chosen.seed), chosen.record)
+        documents = record(
+            fly(scenario, planner, commands=commands, seed=chosen.seed), chosen.record
+        )
     flight = story_of(
         watched(
             documents,
@@ -78,10 +102,32 @@ def run(chosen: argparse.Namespace) -> int:
         from relguide.cli.flight_tables import print_flight
 
         print_flight(flight, result)
+    late = sum(order.t > flight.last_time for order in orders)
+    if late:
+        say(f"The flight ended at {flight.last_time:.0f} s, before {late} of {len(orders)} orders.")
     failed = failures(flight)
     for sentence in failed:
         say(sentence)
     return FAILED if failed else DONE
+
+
+def _orders(chosen: argparse.Namespace) -> "tuple[Order, ...]":
+    from relguide.contract.orders import read_orders
+
+    if chosen.orders is None:
+        return ()
+    if chosen.orders == chosen.scenario == "-":
+        raise ValueError("Standard input can be the situation or the orders, not both.")
+    with open_input(chosen.orders) as stream:
+        return read_orders(stream, "standard input" if chosen.orders == "-" else chosen.orders)
+
+
+def _following_for(scenario: "Scenario", after_joining: float) -> "Scenario":
+    """The scenario with this time to follow, and as much longer to fly as that is longer."""
+    longer = max(after_joining - scenario.after_joining, 0.0)
+    return replace(
+        scenario, after_joining=after_joining, duration_limit=scenario.duration_limit + longer
+    )
 
 
 def _scenario(name: str) -> "Scenario":
@@ -105,6 +151,17 @@ def _seed(text: str) -> int:
     if not (text.isascii() and text.isdigit() and int(text[:12]) < 2**32):
         raise argparse.ArgumentTypeError(f"must be a whole number from 0 to 2³² − 1, not {text}")
     return int(text)
+
+
+def _following(text: str) -> float:
+    try:
+        seconds = float(text)
+    except ValueError:
+        seconds = -1.0
+    if not 0.0 <= seconds <= MAX_FOLLOWING:
+        bounds = f"0 to {MAX_FOLLOWING:g}"
+        raise argparse.ArgumentTypeError(f"must be a number of seconds from {bounds}, not {text}")
+    return seconds
 
 
 def _recording(text: str) -> str:

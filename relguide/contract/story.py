@@ -104,13 +104,24 @@ def figures(ended: FlightEnded) -> dict[str, Any]:
         "joined": result.joined,
         "join_time_s": result.join_time,
         "planned_time_s": result.planned_time,
+        "promised_s": result.promised,
         "least_separation_m": result.least_separation,
         "heading_swing_deg": degrees(result.heading_swing),
         "bank_reversals": result.bank_reversals,
         "replans": result.replans,
+        "replans_announced": result.replans_announced,
         "fallbacks": result.fallbacks,
         "track_nm": result.track / NM,
         "simulated_s": ended.t,
+        "losses": [
+            {
+                "t_s": loss.t,
+                "separation_m": loss.separation,
+                "cause": loss.cause,
+                "announced_s": loss.announced[0] if loss.announced else None,
+            }
+            for loss in result.losses
+        ],
     }
 
 

@@ -8,20 +8,23 @@ from typing import Any
 import pytest
 
 from relguide.contract.recorder import replay
-from relguide.flying.documents import FlightStarted
+from relguide.flying.documents import FlightStarted, LeaderChanged
 from tests.command_line import NEAR, UNREACHABLE, Run, process, written
 
 FIGURES = {
     "joined",
     "join_time_s",
     "planned_time_s",
+    "promised_s",
     "least_separation_m",
     "heading_swing_deg",
     "bank_reversals",
     "replans",
+    "replans_announced",
     "fallbacks",
     "track_nm",
     "simulated_s",
+    "losses",
     "wall_s",
 }
 
@@ -60,7 +63,8 @@ def test_a_recording_replays_to_the_same_figures(
     assert told["documents"] == len(documents)
     assert isinstance(documents[0], FlightStarted)
     assert documents[0].seed == 7
-    for name in FIGURES - {"wall_s"}:
+    assert told["losses"] == figures["losses"]
+    for name in FIGURES - {"wall_s", "losses"}:
         assert told[name] == pytest.approx(figures[name], rel=1e-9)
     code, out, _ = run("replay", str(file))
     assert code == 0
@@ -94,3 +98,43 @@ def test_fly_without_a_plan_fails(run: Run) -> None:
     assert code == 1
     assert err == "relguide: It did not join within 3600 s.\n"
     assert json.loads(out)["joined"] is False
+
+
+@pytest.mark.slow
+def test_the_leader_does_as_ordered_and_is_followed_as_long_as_asked(run: Run) -> None:
+    orders = [{"t_s": 20, "leader_tas_mps": 190}, {"t_s": 9_000, "intent_known": False}]
+    lines = "".join(json.dumps(order) + "\n" for order in orders)
+    options = ("--orders", written(lines, "orders.jsonl"), "--after-joining", "30")
+    code, out, err = run("fly", written(NEAR), *options, "--record", "a.jsonl", "--json")
+    figures = json.loads(out)
+    assert (code, figures["joined"], figures["losses"]) == (0, True, [])
+    assert figures["simulated_s"] == pytest.approx(figures["join_time_s"] + 30.0, abs=1.0)
+    assert figures["replans_announced"] <= figures["replans"]
+    assert "before 1 of 2 orders" in err
+    changes = [d for d in replay("a.jsonl") if isinstance(d, LeaderChanged)]
+    assert [(change.t, change.change) for change in changes] == [(20.0, "speed")]
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        (("--orders", "none.jsonl"), "none.jsonl: No such file or directory."),
+        (("--orders", "bad.jsonl"), "bad.jsonl, line 2: t_s: must be at least 5"),
+        (("--after-joining", "nan"), "must be a number of seconds from 0 to 36000, not nan"),
+        (("--after-joining", "-1"), "must be a number of seconds from 0 to 36000, not -1"),
+        (("--after-joining", "soon"), "must be a number of seconds from 0 to 36000, not soon"),
+    ],
+)
+def test_wrong_orders_and_times_are_misuse(
+    run: Run, options: tuple[str, str], sentence: str
+) -> None:
+    written('{"t_s": 5, "intent_known": true}\n{"t_s": 4, "intent_known": true}\n', "bad.jsonl")
+    code, out, err = run("fly", "fig_6b", *options)
+    assert (code, out) == (2, "")
+    assert sentence in err
+
+
+def test_standard_input_is_one_thing(run: Run) -> None:
+    code, _, err = run("fly", "-", "--orders", "-")
+    assert code == 2
+    assert "the situation or the orders, not both" in err

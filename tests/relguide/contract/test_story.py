@@ -9,6 +9,7 @@ from relguide.flying.aircraft_documents import (
     AircraftCard,
     LinkCard,
     LinkResult,
+    Loss,
     WindCard,
 )
 from relguide.flying.documents import FlightEnded, FlightStarted, PlanChanged
@@ -95,3 +96,22 @@ def test_a_plan_that_is_no_news_is_not_in_the_story() -> None:
 def test_alerts_and_losses_are_in_the_story_and_forecasts_are_not() -> None:
     rare = rare_documents(5.0, "A", "B")
     assert story_of([STARTED, *rare, ENDED]).events == rare[:-1]
+
+
+def test_losses_are_given_with_when_they_were_announced() -> None:
+    said = Loss(t=50.0, separation=9_000.0, cause="The leader slowed down.", announced=(20.0,))
+    silent = replace(said, t=90.0, announced=())
+    assert figures(ended(replace(RESULT, losses=(said, silent))))["losses"] == [
+        {
+            "t_s": 50.0,
+            "separation_m": 9_000.0,
+            "cause": "The leader slowed down.",
+            "announced_s": 20.0,
+        },
+        {
+            "t_s": 90.0,
+            "separation_m": 9_000.0,
+            "cause": "The leader slowed down.",
+            "announced_s": None,
+        },
+    ]

@@ -1,0 +1,133 @@
+"""Orders to the leader of a flight, read from JSON lines, and given to it at their times.
+
+{"t_s": 60, "intent_known": false}
+{"t_s": 300, "leader_heading_deg": 180, "direction": "left"}
+{"t_s": 950, "leader_tas_mps": 100}
+"""
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import IO, Annotated, NamedTuple
+
+from pydantic import Field
+
+from relguide.contract.bodies import Tas
+from relguide.contract.compass import heading_of
+from relguide.contract.refusal import ContractError, Strict, loads, parse
+from relguide.flying.leader import TurnChoice
+from relguide.flying.orders import Command, IntentKnown, LeaderHeading, LeaderSpeed
+from relguide.units import Second
+
+MAX_LINE = 10_000
+"""Longest line that is read [bytes]; an order has some 70."""
+
+OrderTime = Annotated[float, Field(ge=0.0)]
+
+
+class HeadingOrder(Strict):
+    """The leader is to turn to a heading."""
+
+    t_s: OrderTime
+    """Flight time at which it is given."""
+    leader_heading_deg: float
+    """Clockwise from true north."""
+    direction: TurnChoice = "shorter"
+    """Which way round."""
+
+    def command(self) -> Command:
+        """What the flight is given."""
+        return LeaderHeading(heading=heading_of(self.leader_heading_deg), direction=self.direction)
+
+
+class SpeedOrder(Strict):
+    """The leader is to fly at a speed."""
+
+    t_s: OrderTime
+    """Flight time at which it is given."""
+    leader_tas_mps: Tas
+    """True airspeed."""
+
+    def command(self) -> Command:
+        """What the flight is given."""
+        return LeaderSpeed(tas=self.leader_tas_mps)
+
+
+class IntentOrder(Strict):
+    """The leader's intent is given to the pursuer, or withdrawn."""
+
+    t_s: OrderTime
+    """Flight time at which that happens."""
+    intent_known: bool
+
+    def command(self) -> Command:
+        """What the flight is given."""
+        return IntentKnown(known=self.intent_known)
+
+
+_MODELS: dict[str, type[HeadingOrder] | type[SpeedOrder] | type[IntentOrder]] = {
+    "leader_heading_deg": HeadingOrder,
+    "leader_tas_mps": SpeedOrder,
+    "intent_known": IntentOrder,
+}
+"""The field that only this kind of order has."""
+
+
+class Order(NamedTuple):
+    """A command and its flight time [s]."""
+
+    t: Second
+    command: Command
+
+
+def read_orders(stream: IO[bytes], name: str) -> tuple[Order, ...]:
+    """Read orders, one a line, in order of time; blank lines are passed over.
+
+    Args:
+        stream: what to read.
+        name: what the reader knows it by, for messages.
+
+    Raises:
+        ValueError: naming the first line that is not an order, and what would be right.
+    """
+    orders: list[Order] = []
+    for number, line in enumerate(_lines(stream), start=1):
+        if not line.strip():
+            continue
+        try:
+            order = _order(line)
+            if orders and order.t < orders[-1].t:
+                before = f"at least {orders[-1].t:.12g}, that of the order before"
+                raise ContractError([("t_s", f"must be {before}, not {order.t:.12g}.")])
+        except ContractError as error:
+            raise ValueError(f"{name}, line {number}: {error}") from None
+        orders.append(order)
+    return tuple(orders)
+
+
+def commands_of(orders: Sequence[Order]) -> Callable[[Second], Iterable[Command]]:
+    """What `fly` polls for commands: each is given once, at the first step at or after its time."""
+    left = list(orders)
+
+    def due(t: Second) -> Iterable[Command]:
+        while left and left[0].t <= t + 1e-9:  # a step's time is a product, and may fall short
+            yield left.pop(0).command
+
+    return due
+
+
+def _lines(stream: IO[bytes]) -> Iterator[bytes]:
+    while line := stream.readline(MAX_LINE + 1):
+        yield line
+
+
+def _order(line: bytes) -> Order:
+    if len(line) > MAX_LINE:
+        raise ContractError([("", f"This is longer than {MAX_LINE:,} bytes, so it is no order.")])
+    content = loads(line)
+    if not isinstance(content, dict):
+        raise ContractError([("", "A line must be an object with fields: an order.")])
+    given = [name for name in _MODELS if name in content]
+    if len(given) != 1:
+        names = "leader_heading_deg, leader_tas_mps or intent_known"
+        raise ContractError([("", f"An order has one of {names}, not {len(given)} of them.")])
+    body = parse(_MODELS[given[0]], content)
+    return Order(body.t_s, body.command())
