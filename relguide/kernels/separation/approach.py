@@ -222,7 +222,5 @@ def least_on_paths(
         leader_path: the leader's; past its end it goes on straight.
         tolerance: as in `least_separation` [m].
     """
-    pursuer = motion_along(path)
-    return least_separation(
-        pursuer, motion_along(leader_path), pursuer.pieces[:, 0].sum(), tolerance
-    )
+    pursuer, leader = motion_along(path), motion_along(leader_path)
+    return least_separation(pursuer, leader, pursuer.pieces[:, 0].sum(), tolerance)
