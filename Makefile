@@ -29,6 +29,7 @@ help:
 	@echo 'make check    the fast part: lint, types, page, quick tests'
 	@echo 'make bench    the planner beside its peers, in one table'
 	@echo 'make campaign  fly a hundred flights of each family, and print what became of them'
+	@echo 'make flight-figures  draw and write docs/flight.md anew'
 	@echo 'make picture  take docs/cockpit.png anew'
 	@echo 'make planner-figures  measure as bench does, and draw and write docs/planner.md anew'
 	@echo 'make wheel    build a wheel with the page and compiled kernels, which serves at once, into dist/'
@@ -137,6 +138,11 @@ planner-figures: .make/dev .make/kernels .make/bench/ready
 .PHONY: campaign
 campaign: .make/dev .make/kernels .make/traffic
 	@$(BIN)/python -m tests.campaign fly
+
+# The pictures and tables of docs/flight.md; the campaign's, of build/campaign.jsonl if that is there.
+.PHONY: flight-figures
+flight-figures: .make/dev .make/kernels
+	@$(BIN)/python -m tests.campaign report $(wildcard build/campaign.jsonl)
 
 .make/bench/ready: .make/dev pyproject.toml
 	@mkdir -p .make/bench

@@ -70,9 +70,10 @@ def test_a_run_goes_on_where_it_stopped(tmp_path: Path, capsys: pytest.CaptureFi
     assert follow.joined
     assert row_from(begun.splitlines()[0]) in (told, follow)
     capsys.readouterr()
-    assert main(["table", str(file), "--markdown"]) == 0
+    assert main(["table", str(file)]) == 0
     shown = capsys.readouterr().out
-    assert all(figure.heading in shown for figure in FIGURES if figure.values([told, follow]))
+    for figure in FIGURES:
+        assert (figure.heading in shown) == bool(figure.values([told, follow]))
     assert main(["show", "told", "0"]) == 0
     assert repr(draw("told", 0).scenario.situation) in capsys.readouterr().out
 

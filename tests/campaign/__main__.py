@@ -2,10 +2,13 @@
 
     python -m tests.campaign fly --families told follow --flights 100 --out told.jsonl
     python -m tests.campaign show follow 17
-    python -m tests.campaign table told.jsonl --markdown
+    python -m tests.campaign table told.jsonl
+    python -m tests.campaign report told.jsonl
 
 A flight is drawn from its family and number alone. Flights that a file has already are not flown
-again, so a run that was stopped goes on where it was.
+again, so a run that was stopped goes on where it was. `report` computes the margins and step
+responses of docs/flight.md anew and writes the tables of the files named into it; without files the
+tables of the campaign stay as they are.
 """
 
 import argparse
@@ -30,7 +33,7 @@ OUT = Path("build/campaign.jsonl")
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command; 1 if a flight ended with an exception."""
     given = _parser().parse_args(arguments)
-    command = {"fly": _fly, "show": _show, "table": _table}[given.command]
+    command = {"fly": _fly, "show": _show, "table": _table, "report": _report}[given.command]
     try:
         return command(given)
     except (ValueError, OSError) as refusal:
@@ -97,12 +100,28 @@ def _show(given: argparse.Namespace) -> int:
 
 
 def _table(given: argparse.Namespace) -> int:
-    rows = [row for file in given.files for row in read_rows(file)]
-    if not rows:
-        raise ValueError(f"There are no flights in {', '.join(map(str, given.files))}.")
-    rows.sort(key=lambda row: (list(FAMILIES).index(row.family), row.number))
-    _print(tables.page(rows, table=tables.markdown if given.markdown else tables.text))
+    _print(tables.page(_rows(given.files)))
     return 0
+
+
+def _report(given: argparse.Namespace) -> int:
+    # python-control and matplotlib take a second to import, which flying does not need
+    from tests.campaign import report
+
+    rows = _rows(given.files) if given.files else []
+    report.write_loops()
+    if rows:
+        report.write_campaign(rows)
+    _print(f"Written into {report.PAGE} and drawn into {report.FOLDER}: look at both.")
+    return 0
+
+
+def _rows(files: Sequence[Path]) -> list[Row]:
+    rows = [row for file in files for row in read_rows(file)]
+    if not rows:
+        raise ValueError(f"There are no flights in {', '.join(map(str, files))}.")
+    families = list(FAMILIES)
+    return sorted(rows, key=lambda row: (families.index(row.family), row.number))
 
 
 def _print(text: str) -> None:
@@ -130,7 +149,8 @@ def _parser() -> argparse.ArgumentParser:
     show.add_argument("number", type=int)
     table = commands.add_parser("table", help="the tables of files flown")
     table.add_argument("files", type=Path, nargs="+", metavar="FILE")
-    table.add_argument("--markdown", action="store_true", help="for a page")
+    report = commands.add_parser("report", help="make docs/flight.md anew")
+    report.add_argument("files", type=Path, nargs="*", metavar="FILE")
     return parser
 
 

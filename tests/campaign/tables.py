@@ -64,17 +64,17 @@ def ranking(figure: Figure, rows: Sequence[Row]) -> list[tuple[float, Row]]:
 
 def worst(rows: Sequence[Row]) -> Cells:
     """A line for each figure: the flights that are worst in it, with what they have."""
-    return [
-        [
-            figure.heading,
-            ", ".join(
-                f"{row.number} ({value:,.{figure.decimals}f})"
-                for value, row in ranking(figure, rows)[:WORST]
-            ),
+    cells = []
+    for figure in FIGURES:
+        bad = ranking(figure, rows)[:WORST]
+        named = [
+            f"{row.number} ({value:,.{figure.decimals}f})"
+            for value, row in bad
+            if figure.low_is_worse or value > 0.0
         ]
-        for figure in FIGURES
-        if figure.values(rows)
-    ]
+        if named:
+            cells.append([figure.heading, ", ".join(named)])
+    return cells
 
 
 def losses(rows: Sequence[Row]) -> Cells:
@@ -123,12 +123,12 @@ def markdown(headings: Sequence[str], cells: Cells) -> str:
     return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 
-def page(rows: Sequence[Row], *, table=text, title: str = "## {}") -> str:  # type: ignore[no-untyped-def]
-    """Everything there is to say of rows."""
-    parts = [table(OVERVIEW, overview(rows))]
+def page(rows: Sequence[Row]) -> str:
+    """Everything there is to say of rows, for a terminal."""
+    parts = [text(OVERVIEW, overview(rows))]
     for family, own in by_family(rows):
-        parts += [title.format(family), table(DISTRIBUTION, distributions(own))]
-        parts.append(table(("figure", f"the {WORST} worst flights"), worst(own)))
+        parts += [family.upper(), text(DISTRIBUTION, distributions(own))]
+        parts.append(text(("figure", f"the {WORST} worst flights"), worst(own)))
         if any(row.losses for row in own):
-            parts.append(table(LOSSES, losses(own)[: 2 * WORST]))
+            parts.append(text(LOSSES, losses(own)[: 2 * WORST]))
     return "\n\n".join(parts)

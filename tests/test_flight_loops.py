@@ -1,0 +1,140 @@
+"""The loops of docs/flight.md: margins that are margins, and the loops that are flown."""
+
+from itertools import pairwise
+from math import inf
+from pathlib import Path
+
+import numpy as np
+import pytest
+from control import StateSpace
+
+from relguide.units import DEG
+from tests.campaign import report, responses
+from tests.campaign.loops import (
+    FOLLOW_GAINS,
+    PATH_GAINS,
+    STEP,
+    TICK,
+    PathGains,
+    heading_loop,
+    margins,
+    path_loop,
+    roll_loop,
+    straight_loop,
+)
+from tests.campaign.report import (
+    AUTOPILOT,
+    CAMPAIGN,
+    FOLDER,
+    LOOPS,
+    PAGE,
+    PATH,
+    with_named_block,
+)
+
+ROOT = Path(__file__).parents[1]
+
+
+def spectral_radius(loop: StateSpace, *, gain: float = 1.0, late: int = 0) -> float:
+    """Of a loop that is closed with so much gain, so many samples late; stable below 1."""
+    n = len(loop.A)
+    whole = np.zeros((n + late, n + late))
+    whole[:n, :n] = loop.A
+    back = -gain * loop.C
+    if late == 0:
+        whole += loop.B @ back
+    else:  # a chain of samples: what comes out of its end drives the loop
+        whole[:n, -1:] = loop.B
+        whole[n : n + 1, :n] = back
+        for i in range(late - 1):
+            whole[n + 1 + i, n + i] = 1.0
+    return float(np.abs(np.linalg.eigvals(whole)).max())
+
+
+@pytest.mark.parametrize("name", LOOPS)
+def test_margins_are_where_the_closed_loop_becomes_unstable(name: str) -> None:
+    loop = LOOPS[name](report.A300)
+    found = margins(loop)
+    assert spectral_radius(loop) < 1.0
+    assert found.gain < inf
+    assert spectral_radius(loop, gain=0.98 * found.gain) < 1.0
+    assert spectral_radius(loop, gain=1.02 * found.gain) > 1.0
+    samples = found.delay / loop.dt
+    assert spectral_radius(loop, late=int(samples)) < 1.0
+    assert spectral_radius(loop, late=int(samples) + 1) > 1.0
+    assert found.phase > 45.0
+
+
+@pytest.mark.parametrize("loop", [heading_loop, path_loop, straight_loop])
+def test_margins_do_not_depend_on_the_speed(loop: object) -> None:
+    assert callable(loop)
+    slow, fast = margins(loop(tas=120.0)), margins(loop(tas=250.0))
+    assert slow.phase == pytest.approx(fast.phase, abs=1e-6)
+    assert slow.gain == pytest.approx(fast.gain, rel=1e-6)
+
+
+def test_the_roll_loop_is_an_integrator() -> None:
+    # the feedback of the roll rate cancels the roll mode
+    found = margins(roll_loop())
+    assert found.crossover == pytest.approx(0.8, rel=1e-3)
+    assert found.phase == pytest.approx(90.0 - 0.5 * 0.8 * STEP / DEG, abs=0.01)
+
+
+def test_without_a_look_ahead_a_quicker_path_loop_has_too_little_phase() -> None:
+    blind = [
+        margins(path_loop(tas=240.0, gains=PathGains(omega=w, damping=0.8, look_ahead=0.0)))
+        for w in (0.09, 0.11, 0.13)
+    ]
+    assert all(a.phase > b.phase for a, b in pairwise(blind))
+    assert blind[1].phase > 45.0 > blind[2].phase
+
+
+@pytest.mark.parametrize("gains", [PATH_GAINS, FOLLOW_GAINS])
+def test_near_the_path_what_is_flown_is_the_linear_loop(gains: PathGains) -> None:
+    loop = path_loop(tas=240.0, gains=gains)
+    state, linear = np.array([1.0, 0.0, 0.0, 0.0]), []
+    for _ in range(60):
+        linear.append(state[0])
+        state = (loop.A - loop.B @ loop.C) @ state
+    flown = responses.path_step(1.0, tas=240.0, gains=gains, duration=59.0)
+    assert flown.across[:: round(TICK / STEP)] == pytest.approx(np.array(linear), abs=0.01)
+
+
+def test_a_small_change_of_heading_is_the_linear_loop() -> None:
+    loop = heading_loop(tas=240.0)
+    state, linear = np.zeros(4), []
+    for _ in range(600):
+        linear.append(state[0])
+        state = loop.A @ state + loop.B[:, 0] * (0.1 * DEG - state[0])
+    flown = responses.heading_step(0.1 * DEG, tas=240.0, duration=30.0)
+    assert flown.heading[:600] == pytest.approx(np.array(linear), abs=2e-5)
+
+
+@pytest.mark.parametrize("across", [100.0, 1500.0])
+@pytest.mark.parametrize("in_hand", [2.5 * DEG, 25.0 * DEG])
+@pytest.mark.parametrize("tas", [120.0, 250.0])
+def test_no_start_overshoots_the_path(across: float, in_hand: float, tas: float) -> None:
+    flown = responses.path_step(across, tas=tas, in_hand=in_hand, duration=150.0)
+    assert responses.overshoot(flown.across, 0.0) < 5.0
+    assert abs(flown.across[-1]) < 0.15 * across
+
+
+def test_the_page_has_its_blocks_and_pictures() -> None:
+    page = PAGE.read_text()
+    assert "\nflight-figures:" in (ROOT / "Makefile").read_text()
+    assert "make flight-figures" in page
+    for name in (AUTOPILOT, PATH, CAMPAIGN):
+        assert f"]({FOLDER.name}/{name})" in page
+        assert "</svg>" in (FOLDER / name).read_text()
+    for name in ("margins", "gains", "responses", "campaign"):
+        again = with_named_block(with_named_block(page, name, "old"), name, "| new |")
+        assert "| new |" in again
+        assert len(again) < len(page)
+    with pytest.raises(ValueError, match="once each"):
+        with_named_block(page, "no such block", "")
+
+
+def test_the_page_shows_what_is_computed() -> None:
+    page = PAGE.read_text()
+    for cells in (*report.margins_cells(), *report.gains_cells()):
+        assert f"| {' | '.join(cells)} |" in page
