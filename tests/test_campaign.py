@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from relguide.flying.cards import plan_card
-from relguide.flying.documents import FlightEnded, Sample
+from relguide.flying.documents import Alert, FlightEnded, ForecastChanged, Sample, Unable
 from relguide.flying.flight import fly
 from relguide.planning import situation as situation_words
 from relguide.planning.plan import plan
@@ -68,7 +68,7 @@ def test_a_run_goes_on_where_it_stopped(tmp_path: Path, capsys: pytest.CaptureFi
     assert told.least_share >= 1.0
     assert (told.losses, told.below_s, told.loops) == ((), 0.0, 0)
     assert follow.joined
-    assert row_from(begun.splitlines()[0]) in (told, follow)
+    assert row_from(begun.splitlines()[1]) in (told, follow)
     capsys.readouterr()
     assert main(["table", str(file)]) == 0
     shown = capsys.readouterr().out
@@ -83,10 +83,16 @@ def test_a_file_of_something_else_is_refused(
 ) -> None:
     file = tmp_path / "else.jsonl"
     file.write_text('{"kind": "sample"}\n')
-    with pytest.raises(ValueError, match="no line of a campaign"):
+    with pytest.raises(ValueError, match="no file of a campaign"):
         read_rows(file)
     assert main(["table", str(file)]) == 2
+    assert "no file of a campaign" in capsys.readouterr().err
+    file.write_text('{"code": "0"}\n{"kind": "sample"}\n')
+    assert main(["table", str(file)]) == 2
     assert "no line of a campaign" in capsys.readouterr().err
+    file.write_text('{"code": "0"}\n')
+    assert main(["fly", "--families", "told", "--out", str(file)]) == 2
+    assert "another version" in capsys.readouterr().err
 
 
 def test_a_flight_that_fails_is_listed_and_not_counted() -> None:
@@ -148,6 +154,56 @@ def test_the_path_of_a_card_is_the_path_of_its_plan(seed: int) -> None:
     off = [distance_from(path, x, y) for x, y in zip(flown.x, flown.y, strict=True)]
     assert max(off) < 20.0  # chords of a boundary arc, 5 s long, where it turns most
     assert distance_from(path, float(flown.x[-1]) + 3e5, float(flown.y[-1])) > 1e5
+
+
+@pytest.mark.slow
+def test_a_loss_is_announced_by_an_alert_that_stands_and_by_nothing_else() -> None:
+    case = draw("follow", 0)
+    scenario = replace(case.scenario, duration_limit=40.0)
+    case = replace(case, scenario=scenario, orders=())
+    first, *others, last = fly(scenario, plan, sample_period=1.0)
+    d_min = scenario.situation.min_separation
+    lost = [
+        replace(one, guidance=(replace(one.guidance[0], separation=0.9 * d_min),))
+        if isinstance(one, Sample) and one.t == 30.0
+        else one
+        for one in others
+    ]
+    alert = Alert(
+        t=12.0, ident="PURSUER", other="LEADER", level="caution", subject="separation", message="",
+        predicted_least=0.9 * d_min, predicted_at=30.0, cleared=False,
+    )  # fmt: skip
+
+    def announced(*said: Alert | Unable) -> float | None:
+        (loss,) = row_of(case, (first, *said, *lost, last), 1.0).losses
+        return loss.announced_s
+
+    assert announced() is None
+    assert announced(alert) == 18.0
+    assert announced(alert, replace(alert, t=15.0, level="warning")) == 18.0
+    assert announced(alert, replace(alert, t=20.0, cleared=True)) is None
+    assert announced(replace(alert, level="advisory")) is None
+    assert announced(replace(alert, subject="speed")) is None
+    assert announced(Unable(t=29.0, ident="PURSUER", reason="speed", message="")) == 1.0
+
+
+@pytest.mark.slow
+def test_a_forecast_is_compared_at_the_same_time() -> None:
+    case = draw("told", 0)
+    scenario = replace(case.scenario, duration_limit=20.0)
+    documents = tuple(fly(scenario, plan, sample_period=1.0))
+    assert row_of(case, documents, 1.0).off_forecast_m is None
+    flown = [(one.t, one.aircraft[0]) for one in documents if isinstance(one, Sample)]
+    forecast = ForecastChanged(
+        t=0.0,
+        ident="PURSUER",
+        times=tuple(t for t, _ in flown[:11]),
+        x=tuple(here.x + 3.0 * t for t, here in flown[:11]),
+        y=tuple(here.y for _, here in flown[:11]),
+        heading=tuple(here.heading for _, here in flown[:11]),
+    )
+    row = row_of(case, (documents[0], forecast, *documents[1:]), 1.0)
+    assert row.off_forecast_m == pytest.approx(30.0)
 
 
 def test_circles_are_counted_across_short_straights() -> None:

@@ -6,9 +6,9 @@
     python -m tests.campaign report told.jsonl
 
 A flight is drawn from its family and number alone. Flights that a file has already are not flown
-again, so a run that was stopped goes on where it was. `report` computes the margins and step
-responses of docs/flight.md anew and writes the tables of the files named into it; without files the
-tables of the campaign stay as they are.
+again, so a run that was stopped goes on where it was; a file of another version of the library is
+refused. `report` computes the margins and step responses of docs/flight.md anew and writes the tables
+of the files named into it; without files the tables of the campaign stay as they are.
 """
 
 import argparse
@@ -24,7 +24,7 @@ from tests.bench.options import positive
 from tests.campaign import tables
 from tests.campaign.families import FAMILIES, draw
 from tests.campaign.flights import failed, fly_case
-from tests.campaign.row import Row, append_row, read_rows
+from tests.campaign.row import Row, append_row, begin_file, read_rows
 
 FLIGHTS = 100
 OUT = Path("build/campaign.jsonl")
@@ -42,8 +42,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _fly(given: argparse.Namespace) -> int:
-    rows = read_rows(given.out)
-    known = {(row.family, row.number) for row in rows}
+    begin_file(given.out)
+    known = {(row.family, row.number) for row in read_rows(given.out)}
     numbers = range(given.first, given.first + given.flights)
     missing = [
         (family, number)
@@ -51,7 +51,6 @@ def _fly(given: argparse.Namespace) -> int:
         for family in given.families
         if (family, number) not in known
     ]
-    given.out.parent.mkdir(parents=True, exist_ok=True)
     stopped = False
     try:
         for row in flown(missing, given.processes):
@@ -112,7 +111,7 @@ def _report(given: argparse.Namespace) -> int:
     report.write_loops()
     if rows:
         report.write_campaign(rows)
-    _print(f"Written into {report.PAGE} and drawn into {report.FOLDER}: look at both.")
+    _print(f"Written into {report.PAGE}, with its pictures: look at them.")
     return 0
 
 

@@ -3,8 +3,10 @@
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
-from math import hypot
+from math import hypot, inf
 from time import thread_time
+
+import numpy as np
 
 from relguide import plan
 from relguide.flying import flight
@@ -13,12 +15,14 @@ from relguide.flying.aircraft_documents import GuidanceSample, HeadingReference,
 from relguide.flying.assignment import Assignment
 from relguide.flying.autopilot import Autopilot
 from relguide.flying.documents import (
+    Alert,
     Document,
     FlightEnded,
+    ForecastChanged,
     LeaderRoute,
     PlanChanged,
-    PlanUnavailable,
     Sample,
+    Unable,
 )
 from relguide.flying.memory import Advice
 from relguide.flying.orders import Command
@@ -42,7 +46,9 @@ EVERY: Second = 1.0
 ROUNDING: Metre = 1.0
 """d_min less this is kept: a slot may lie on d_min itself."""
 WARNED: Second = 180.0
-"""An announcement longer ago does not announce a loss."""
+"""An alert longer ago does not announce a loss, nor does one that was cleared."""
+SAME: Second = 2.0
+"""So near each other in time, a loss found here and one of a document are one."""
 
 
 def fly_case(case: Case) -> Row:
@@ -70,7 +76,8 @@ def failed(case: Case, error: BaseException) -> Row:
         least_share=_start_share(case.scenario.situation),
         start_share=_start_share(case.scenario.situation), below_s=0.0, losses=(),
         shown_replans=0, all_replans=0, reversals=0, extra_reversals=0, loops=0,
-        heading_jump_deg=0.0, cross_track_m=0.0, fastest_mps=0.0, alerts=0, cpu_s=0.0,
+        heading_jump_deg=0.0, cross_track_m=0.0, off_forecast_m=None, fastest_mps=0.0, alerts=0,
+        cpu_s=0.0,
         error=f"{type(error).__name__}: {error}",
     )  # fmt: skip
 
@@ -85,8 +92,10 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
     changed = [document for document in documents if isinstance(document, PlanChanged)]
     engaged = changed[0] if end.planned_time > 0.0 else None
     planned = end.planned_time if engaged else None
+    promised = end.promised if engaged else None
     joined = end.join_time if end.joined else None
-    losses = tuple(_losses(situation.min_separation, samples, end, list(_warnings(documents))))
+    warnings = tuple(_warnings(documents))
+    losses = tuple(_losses(situation.min_separation, samples, end, warnings))
     loops = circles_flown((s.pursuer.turn_rate for s in samples), EVERY) - max(
         [circles_flown((s.leader.turn_rate for s in samples), EVERY)]
         + [circles_of(document.plan.segments) for document in changed]
@@ -100,14 +109,14 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
         flown_s=last.t,
         join_s=joined,
         planned_s=planned,
-        promised_s=None,
+        promised_s=promised,
         join_over_plan=joined / planned if joined and planned else None,
-        join_over_promise=None,
+        join_over_promise=joined / promised if joined and promised else None,
         least_share=end.least_separation / situation.min_separation,
         start_share=_start_share(situation),
         below_s=sum(loss.seconds for loss in losses),
         losses=losses,
-        shown_replans=max(len(changed) - 1, 0),
+        shown_replans=end.replans_announced,
         all_replans=end.replans,
         reversals=end.bank_reversals,
         extra_reversals=end.bank_reversals
@@ -115,21 +124,37 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
         loops=max(loops, 0),
         heading_jump_deg=_heading_jump(documents) / DEG,
         cross_track_m=_cross_track(documents, situation.wind),
+        off_forecast_m=_off_forecast(documents),
         fastest_mps=max(s.pursuer.tas for s in samples),
-        alerts=sum(1 for _ in _warnings(documents)),
+        alerts=sum(isinstance(document, Alert | Unable) for document in documents),
         cpu_s=cpu,
     )
 
 
-def _warnings(documents: Iterable[Document]) -> Iterator[Second]:
-    """When something was announced that a loss of d_min may follow from."""
+def _warnings(documents: Iterable[Document]) -> Iterator[tuple[Second, Second]]:
+    """From when to when a crew was warned of what a loss of d_min may follow from."""
+    since: float | None = None
     for document in documents:
-        if isinstance(document, PlanUnavailable):
-            yield document.t
+        match document:
+            case Alert(t=t, subject="separation", cleared=True):
+                if since is not None:
+                    yield since, t
+                since = None
+            case Alert(t=t, subject="separation", level="caution" | "warning"):
+                since = t if since is None else since
+            case Unable(t=t):
+                yield t, t + WARNED
+            case _:
+                pass
+    if since is not None:
+        yield since, inf
 
 
 def _losses(
-    min_separation: Metre, samples: list[Instant], end: LinkResult, warned: list[Second]
+    min_separation: Metre,
+    samples: list[Instant],
+    end: LinkResult,
+    warnings: tuple[tuple[Second, Second], ...],
 ) -> Iterator[Loss]:
     """Each time below d_min."""
     limit = min_separation - ROUNDING
@@ -146,14 +171,15 @@ def _losses(
         runs.append([min(samples, key=lambda s: s.guidance.separation)])
     for run in runs:
         begun = run[0].t
-        before = [begun - t for t in warned if 0.0 <= begun - t <= WARNED]
+        before = [begun - since for since, until in warnings if since <= begun <= until]
+        causes = [loss.cause for loss in end.losses if abs(loss.t - begun) <= SAME]
         yield Loss(
             t_s=begun,
             separation_m=min(sample.guidance.separation for sample in run),
             seconds=len(run) * EVERY,
             mode=run[0].guidance.mode,
-            cause="",
-            announced_s=min(before) if before else None,
+            cause=causes[0] if causes else "",
+            announced_s=max(before) if before else None,
         )
 
 
@@ -168,7 +194,7 @@ def _heading_jump(documents: Iterable[Document]) -> float:
                 held, said = heading, False
             case Sample():
                 held, said = None, False
-            case LeaderRoute():
+            case LeaderRoute() | ForecastChanged() | PlanChanged(announced=False):
                 pass
             case _:
                 said = True
@@ -181,7 +207,7 @@ def _cross_track(documents: Iterable[Document], wind: Wind) -> Metre:
     flown: Floats | None = None
     for document in documents:
         match document:
-            case PlanChanged(t=t, plan=card):
+            case PlanChanged(t=t, plan=card, announced=True):
                 flown, made, ends = path_in_air(card.segments, wind), t, t + card.time_to_converge
             case Sample(
                 t=t, aircraft=(here, _), guidance=(GuidanceSample(mode="converge" | "capture"),)
@@ -190,6 +216,23 @@ def _cross_track(documents: Iterable[Document], wind: Wind) -> Metre:
                     since = t - made
                     x, y = here.x - wind.east * since, here.y - wind.north * since
                     largest = max(largest, distance_from(flown, x, y))
+    return largest
+
+
+def _off_forecast(documents: Iterable[Document]) -> Metre | None:
+    """Largest distance from where the last forecast had the pursuer at that time, if any did."""
+    largest: float | None = None
+    forecast: ForecastChanged | None = None
+    for document in documents:
+        match document:
+            case ForecastChanged():
+                forecast = document
+            case Sample(t=t, aircraft=(here, _)) if forecast and t <= forecast.times[-1]:
+                x = float(np.interp(t, forecast.times, forecast.x))
+                y = float(np.interp(t, forecast.times, forecast.y))
+                largest = max(largest or 0.0, hypot(here.x - x, here.y - y))
+            case _:
+                pass
     return largest
 
 

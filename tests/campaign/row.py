@@ -2,8 +2,11 @@
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
+from hashlib import sha256
 from json import JSONDecodeError, dumps, loads
 from pathlib import Path
+
+import relguide
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -59,6 +62,8 @@ class Row:
     """Largest between held headings of two seconds without an announcement."""
     cross_track_m: float
     """Largest distance from the path last announced, while it is flown."""
+    off_forecast_m: float | None = None
+    """Largest distance from where the last forecast had the pursuer; `None` without one."""
     fastest_mps: float
     alerts: int
     cpu_s: float
@@ -90,22 +95,50 @@ def row_from(line: str) -> Row:
         raise ValueError(f"This is no line of a campaign: {line[:60]}") from broken
 
 
+def begin_file(file: Path) -> None:
+    """Begin a file of rows, or make sure that it was begun by this version of the library.
+
+    Raises:
+        ValueError: if it was begun by another, whose flights are not the same.
+    """
+    file.parent.mkdir(parents=True, exist_ok=True)
+    if not file.exists():
+        file.write_text(dumps({"code": code_digest()}) + "\n")
+        return
+    read_rows(file)
+    begun = loads(file.read_text().partition("\n")[0]).get("code")
+    if begun != code_digest():
+        raise ValueError(
+            f"{file} was begun by another version of relguide: delete it, or name another."
+        )
+
+
 def read_rows(file: Path) -> list[Row]:
-    """The rows of a file, those of a flight flown twice once; none if there is no file.
+    """The rows of a file.
 
     A last line that was cut short, when the run was stopped, is taken off the file.
 
     Raises:
         ValueError: if it is a file of something else.
+        OSError: if it cannot be read.
     """
-    if not file.exists():
-        return []
     text = file.read_text()
     whole = text[: text.rfind("\n") + 1]
     if whole != text:
         file.write_text(whole)
-    rows = {(row.family, row.number): row for row in map(row_from, whole.splitlines())}
-    return list(rows.values())
+    first, *lines = whole.splitlines() or [""]
+    if not first.startswith('{"code"'):
+        raise ValueError(f"{file} is no file of a campaign: it begins with {first[:60]!r}.")
+    return [row_from(line) for line in lines]
+
+
+def code_digest() -> str:
+    """A digest of what decides how flights are flown and judged."""
+    digest = sha256()
+    for folder in (Path(relguide.__file__).parent, Path(__file__).parent):
+        for source in sorted(folder.rglob("*.py")):
+            digest.update(source.read_bytes())
+    return digest.hexdigest()[:16]
 
 
 def append_row(file: Path, row: Row) -> None:
@@ -156,6 +189,7 @@ FIGURES = (
     Figure(name="loops", heading="circles not planned"),
     Figure(name="heading_jump_deg", heading="jump of the held heading, °", decimals=1),
     Figure(name="cross_track_m", heading="off the announced path, m"),
+    Figure(name="off_forecast_m", heading="off the forecast, m"),
     Figure(name="fastest_mps", heading="fastest, m/s", decimals=1),
     Figure(name="cpu_s", heading="CPU, s", decimals=2),
 )
