@@ -7,8 +7,8 @@
 
 A flight is drawn from its family and number alone. Flights that a file has already are not flown
 again, so a run that was stopped goes on where it was; a file of another version of the library is
-refused. `report` computes the margins and step responses of docs/flight.md anew and writes the tables
-of the files named into it; without files the tables of the campaign stay as they are.
+refused. `report` computes the margins and step responses of docs/flight.md anew and writes the
+tables of the files named into it; without files the tables of the campaign stay as they are.
 """
 
 import argparse
