@@ -204,18 +204,11 @@ def _make_labels(chosen: argparse.Namespace) -> None:
     counts = np.bincount(labels.best, minlength=len(BRANCHES)).tolist()
     sources = np.bincount(labels.sources, minlength=len(SOURCES)).tolist()
     if chosen.json:
-        figures = {
-            "file": str(file),
-            "labels": len(labels),
-            "sources": dict(zip(SOURCES, sources, strict=True)),
-            "fastest": dict(zip(BRANCHES, counts, strict=True)),
-            "held_out": {
-                name: int(inside.sum()) for name, inside in held_out(labels.situations).items()
-            },
-            "made_s": seconds,
-            "file_bytes": file.stat().st_size,
-        }
-        write_json(figures)
+        apart = {name: int(inside.sum()) for name, inside in held_out(labels.situations).items()}
+        _write_figures(
+            file, seconds, sources=dict(zip(SOURCES, sources, strict=True)),
+            fastest=dict(zip(BRANCHES, counts, strict=True)), held_out=apart,
+        )  # fmt: skip
         return
     shares = ", ".join(
         f"{name} {100.0 * number / len(labels):.1f} %"
@@ -258,15 +251,10 @@ def _make_path_labels(chosen: argparse.Namespace) -> None:
     counts = np.bincount(templates, minlength=len(TEMPLATES)).tolist()
     sources = np.bincount(labels.sources, minlength=len(SOURCES)).tolist()
     if chosen.json:
-        figures = {
-            "file": str(file),
-            "labels": len(labels),
-            "sources": dict(zip(SOURCES, sources, strict=True)),
-            "fastest": dict(zip(TEMPLATES, counts, strict=True)),
-            "made_s": seconds,
-            "file_bytes": file.stat().st_size,
-        }
-        write_json(figures)
+        _write_figures(
+            file, seconds, sources=dict(zip(SOURCES, sources, strict=True)),
+            fastest=dict(zip(TEMPLATES, counts, strict=True)),
+        )  # fmt: skip
         return
     there = len(labels) - counts[NONE]
     commonest = [int(at) for at in np.argsort(counts)[::-1] if at != NONE][:6]
@@ -275,6 +263,22 @@ def _make_path_labels(chosen: argparse.Namespace) -> None:
         f"{file}: {len(labels):,} situations in which d_min binds, {there:,} of them with a "
         f"path, made in {seconds:.0f} s; {file.stat().st_size / 1e6:.0f} MB.\n"
         f"Fastest: {shares}; {sum(number > 0 for number in counts)} templates in all.\n"
+    )
+
+
+def _write_figures(
+    file: Path, seconds: float, *, sources: dict[str, int], **more: dict[str, int]
+) -> None:
+    """Labels by their source and whatever else there is to count, as one JSON object."""
+    write_json(
+        {
+            "file": str(file),
+            "labels": sum(sources.values()),
+            "sources": sources,
+            **more,
+            "made_s": seconds,
+            "file_bytes": file.stat().st_size,
+        }
     )
 
 

@@ -28,7 +28,7 @@ from relguide_server.openapi import (
     response,
     schema_of,
 )
-from relguide_server.preparation import PreparationOf
+from relguide_server.preparation import Preparation, PreparationOf
 
 MAX_BATCH = 1000
 """Most situations in one request."""
@@ -110,9 +110,7 @@ async def make_plan(
     include: IncludeAsked = "",
 ) -> Response:
     """The minimum-time plan with its proof, or the answer that there is no plan, and why."""
-    included = _read_include(include)
-    if "optimality" in included:
-        preparation.require("proofs")
+    included = _read_include(include, preparation)
     situation, anchor = _read(await read_json(request), SituationBody)
     # 0.1 ms as a rule, but tens where the limit binds: the streams must not wait for it
     given, seconds = await asyncio.to_thread(_answer, situation, anchor, planner, included)
@@ -143,9 +141,7 @@ async def make_plans(
     include: IncludeAsked = "",
 ) -> Response:
     """Up to 1,000 situations; an answer for each, in order, with its `id` if it has one."""
-    included = _read_include(include)
-    if "optimality" in included:
-        preparation.require("proofs")
+    included = _read_include(include, preparation)
     bodies = await read_json(request)
     if not isinstance(bodies, list):
         raise Refusal(422, "The body must be a list of situations.")
@@ -160,11 +156,14 @@ async def make_plans(
     return json_answer([given for given, _ in answers])
 
 
-def _read_include(text: str) -> tuple[Include, ...]:
+def _read_include(text: str, preparation: Preparation) -> tuple[Include, ...]:
     try:
-        return read_include(text)
+        included = read_include(text)
     except ValueError as error:
         raise Refusal(422, str(error)) from None
+    if "optimality" in included:
+        preparation.require("proofs")
+    return included
 
 
 def _answer_all(

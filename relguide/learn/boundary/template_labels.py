@@ -26,6 +26,12 @@ from relguide.kernels.contact.chain import MAX_LEGS
 from relguide.kernels.contact.constrained_rows import exact_constrained, limit_binds_rows
 from relguide.kernels.networks.along_path import advance_rows, along_rows
 from relguide.learn.training.chunks import gather
+from relguide.learn.training.requests import (
+    begin_chunk,
+    check_ratios,
+    check_request,
+    chunks_of,
+)
 from relguide.planning.constrained_path import BEARINGS
 
 Floats = NDArray[np.float64]
@@ -60,11 +66,7 @@ class TemplateBox:
 
     def __post_init__(self) -> None:
         """Refuse a box that holds nothing, or where the slot may be out of reach."""
-        if not 0.0 <= self.min_ratio < self.max_ratio < 1.0:
-            raise ValueError(
-                f"Speed ratios must rise from 0 and stay below 1, not {self.min_ratio:g} … "
-                f"{self.max_ratio:g}."
-            )
+        check_ratios(self.min_ratio, self.max_ratio)
         if not 0.0 < self.min_limit < 1.0 < self.max_limit < inf:
             raise ValueError(
                 f"d_min must reach from below R to above it, not {self.min_limit:g} … "
@@ -91,18 +93,12 @@ class TemplateLabelRequest:
 
     def __post_init__(self) -> None:
         """Refuse what is no request."""
-        if self.count < 1 or self.chunk < 1 or self.seed < 0:
-            raise ValueError(
-                "count and chunk must be whole numbers of 1 or more, and seed of 0 or more; not "
-                f"{self.count}, {self.chunk} and {self.seed}."
-            )
-        if not (min(self.shares) >= 0.0 and abs(sum(self.shares) - 1.0) < 1e-9):
-            raise ValueError(f"shares must be 0 or more and sum up to 1, not {self.shares}.")
+        check_request(self)
 
     @property
     def chunks(self) -> int:
         """How many chunks there are."""
-        return -(-self.count // self.chunk)
+        return chunks_of(self)
 
 
 class ConstrainedPaths(NamedTuple):
@@ -207,10 +203,7 @@ def join_labels(chunks: dict[int, TemplateLabels]) -> TemplateLabels:
 
 def template_label_chunk(request: TemplateLabelRequest, number: int) -> TemplateLabels:
     """Make one chunk; a function of its arguments alone."""
-    rng = np.random.default_rng(np.random.SeedSequence(request.seed, spawn_key=(number,)))
-    size = min(request.chunk, request.count - number * request.chunk)
-    rest = [round(size * share) for share in request.shares[1:]]
-    sizes = (size - sum(rest), *rest)
+    rng, sizes = begin_chunk(request, number)
     drawn = [_draw(rng, request.box, source, n) for source, n in enumerate(sizes[:3])]
     first = _answer(np.concatenate(drawn), np.repeat(np.arange(3, dtype=np.int8), sizes[:3]))
     if sizes[3] == 0:

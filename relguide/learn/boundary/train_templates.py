@@ -37,15 +37,14 @@ from relguide.learn.training.fitting import (
     begin,
     digest_of,
     fit,
-    in_chunks,
-    part_of,
     reached_by,
+    run_training,
     scale,
     script,
+    shares_of,
     split,
-    write_better,
 )
-from relguide.learn.training.options import TrainingOptions, command_of, options_of
+from relguide.learn.training.options import TrainingOptions
 from relguide.learn.words.branch_network import layers_of, torch_model
 
 if TYPE_CHECKING:
@@ -126,8 +125,7 @@ def train_templates(
 
     def shares() -> np.ndarray:
         """Of the templates, in the rows kept."""
-        found: np.ndarray = in_chunks(model, given[:kept])[:, :SIZE].softmax(dim=1).numpy()
-        return found
+        return shares_of(model, given[:kept], SIZE)
 
     def accuracy() -> float:
         """How often the right template has the highest share, where a template is right."""
@@ -177,21 +175,15 @@ def run(chosen: argparse.Namespace, program: str) -> Iterator[Epoch[TemplateNetw
         chosen: the options of `options.add_options`.
         program: what trains, for the weights' provenance.
     """
-    labels, made = load_template_labels(chosen.labels)
-    part = part_of(chosen)
-    epochs = train_templates(
-        labels,
-        options_of(chosen),
-        box=TemplateBox(**made["request"]["box"]),
-        about={
-            "program": program,
-            "command": f"{command_of(chosen)} --method templates",
-            "dataset": made["request"] | made["provenance"],
-        },
-        checkpoint=part,
-        resume=chosen.resume,
+    return run_training(
+        chosen,
+        program,
+        load=load_template_labels,
+        box=TemplateBox,
+        train=train_templates,
+        save=save_template_network,
+        method=" --method templates",
     )
-    yield from write_better(epochs, save_template_network, chosen.weights, part)
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ script.
 import argparse
 import json
 import sys
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 from hashlib import sha256
@@ -21,7 +21,12 @@ from numpy.typing import NDArray
 
 from relguide.learn.training.checkpoint import device_of, load_checkpoint, pace, save_checkpoint
 from relguide.learn.training.files import expect_part
-from relguide.learn.training.options import TrainingOptions, add_options
+from relguide.learn.training.options import (
+    TrainingOptions,
+    add_options,
+    command_of,
+    options_of,
+)
 from relguide.planning.extras import need
 
 if TYPE_CHECKING:
@@ -219,11 +224,14 @@ def arrays_of(model: "torch.nn.Module") -> dict[str, Singles]:
     return {name: value.cpu().numpy().copy() for name, value in model.state_dict().items()}
 
 
-def in_chunks(model: "torch.nn.Module", inputs: "torch.Tensor") -> "torch.Tensor":
-    """What a model gives, on the processor: of as many rows at once as fit everywhere."""
+def shares_of(model: "torch.nn.Module", inputs: "torch.Tensor", size: int) -> Singles:
+    """The shares that the first `size` outputs of a model give to as many answers, of each row."""
     import torch
 
-    return torch.cat([model(part).cpu() for part in torch.split(inputs, 8192)])
+    # as many rows at once as fit everywhere
+    scores = torch.cat([model(part).cpu()[:, :size] for part in torch.split(inputs, 8192)])
+    shares: Singles = scores.softmax(dim=1).numpy()
+    return shares
 
 
 def digest_of(options: TrainingOptions, *columns: NDArray[Any]) -> str:
@@ -250,22 +258,45 @@ def part_of(chosen: argparse.Namespace) -> Path:
     return part
 
 
-def write_better(
-    epochs: Iterable[Epoch[N]], save: Callable[[N, Path], None], weights: Path, part: Path
+def run_training(
+    chosen: argparse.Namespace,
+    program: str,
+    *,
+    load: Callable[[Path], tuple[Any, dict[str, Any]]],
+    box: Callable[..., Any],
+    train: Callable[..., Iterator[Epoch[N]]],
+    save: Callable[[N, Path], None],
+    method: str = "",
 ) -> Iterator[Epoch[N]]:
-    """Pass epochs on; the weights are written at each better one.
+    """Do the training that was asked for; the weights are written at each better epoch.
 
     Args:
-        epochs: of a training.
-        save: writes a network.
-        weights: the file to write.
-        part: the checkpoint, of no use once the training has ended.
+        chosen: the options of `add_options`.
+        program: what trains, for the weights' provenance.
+        load: reads the labels.
+        box: makes the box that they are of.
+        train: trains a network of them.
+        save: writes it.
+        method: what the command that does the same says besides.
     """
-    for epoch in epochs:
+    labels, made = load(chosen.labels)
+    part = part_of(chosen)
+    for epoch in train(
+        labels,
+        options_of(chosen),
+        box=box(**made["request"]["box"]),
+        about={
+            "program": program,
+            "command": command_of(chosen) + method,
+            "dataset": made["request"] | made["provenance"],
+        },
+        checkpoint=part,
+        resume=chosen.resume,
+    ):
         if epoch.best == epoch.number:
-            save(epoch.network, weights)
+            save(epoch.network, chosen.weights)
         yield epoch
-    part.unlink(missing_ok=True)
+    part.unlink(missing_ok=True)  # of no use any more
 
 
 def summary_of(epoch: Epoch[Any]) -> str:
@@ -278,7 +309,7 @@ def script(name: str, run: Callable[[argparse.Namespace, str], Iterator[Epoch[An
 
     Args:
         name: of the module.
-        run: does the training chosen; is told what trains.
+        run: does the training chosen, given what trains.
     """
     parser = argparse.ArgumentParser(prog=f"python -m {name}")
     add_options(parser)

@@ -28,6 +28,12 @@ from relguide.kernels.words.branches import SIZE, WORD_OF, branch_times
 from relguide.kernels.words.extremals import SIGNS
 from relguide.learn.training.chunks import gather
 from relguide.learn.training.files import load_columns, save_columns
+from relguide.learn.training.requests import (
+    begin_chunk,
+    check_ratios,
+    check_request,
+    chunks_of,
+)
 from relguide.learn.words.visited import draw_visited
 
 Floats = NDArray[np.float64]
@@ -61,11 +67,7 @@ class Box:
         """Refuse a box that holds nothing, or where the slot may be out of reach."""
         if not (isfinite(self.max_range) and self.max_range > 0.0):
             raise ValueError(f"max_range must be above 0 R, not {self.max_range:g} R.")
-        if not 0.0 <= self.min_ratio <= self.max_ratio < 1.0:
-            raise ValueError(
-                f"Speed ratios must rise from 0 and stay below 1, not {self.min_ratio:g} … "
-                f"{self.max_ratio:g}."
-            )
+        check_ratios(self.min_ratio, self.max_ratio)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -84,20 +86,14 @@ class LabelRequest:
 
     def __post_init__(self) -> None:
         """Refuse what is no request."""
-        if self.count < 1 or self.chunk < 1 or self.seed < 0:
-            raise ValueError(
-                "count and chunk must be whole numbers of 1 or more, and seed of 0 or more; not "
-                f"{self.count}, {self.chunk} and {self.seed}."
-            )
-        if not (min(self.shares) >= 0.0 and abs(sum(self.shares) - 1.0) < 1e-9):
-            raise ValueError(f"shares must be 0 or more and sum up to 1, not {self.shares}.")
+        check_request(self)
         if not 0.0 <= self.loops <= 1.0:
             raise ValueError(f"loops must be a share from 0 to 1, not {self.loops:g}.")
 
     @property
     def chunks(self) -> int:
         """How many chunks there are."""
-        return -(-self.count // self.chunk)
+        return chunks_of(self)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -157,14 +153,11 @@ def join_labels(chunks: dict[int, Labels]) -> Labels:
 
 def label_chunk(request: LabelRequest, number: int) -> Labels:
     """Make one chunk; a function of its arguments alone."""
-    rng = np.random.default_rng(np.random.SeedSequence(request.seed, spawn_key=(number,)))
-    size = min(request.chunk, request.count - number * request.chunk)
-    reverse, edge = (round(size * share) for share in request.shares[1:])
-    box = size - reverse - edge
+    rng, (box, reverse, edge) = begin_chunk(request, number)
     parts = [_in_box(rng, request.box, box), _reversed(rng, request.box, reverse)]
     parts.append(_at_edges(rng, request.box, edge))
     # the last, so that those before are the same with and without them
-    parts.append(_in_flight(rng, request.box, round(size * request.loops)))
+    parts.append(_in_flight(rng, request.box, round((box + reverse + edge) * request.loops)))
     situations = np.concatenate(parts)
     sources = np.repeat(np.arange(len(SOURCES), dtype=np.int8), [len(part) for part in parts])
     return Labels(situations=situations, times=times_of(situations), sources=sources)

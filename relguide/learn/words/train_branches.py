@@ -22,15 +22,14 @@ from relguide.learn.training.fitting import (
     begin,
     digest_of,
     fit,
-    in_chunks,
-    part_of,
     reached_by,
+    run_training,
     scale,
     script,
+    shares_of,
     split,
-    write_better,
 )
-from relguide.learn.training.options import TrainingOptions, command_of, options_of
+from relguide.learn.training.options import TrainingOptions
 from relguide.learn.words.branch_labels import Box, Labels, held_out, load_labels
 from relguide.learn.words.branch_network import (
     BranchNetwork,
@@ -112,8 +111,7 @@ def train(
 
     def shares() -> np.ndarray:
         """Of the branches, in the rows kept."""
-        found: np.ndarray = in_chunks(model, given[:kept])[:, :SIZE].softmax(dim=1).numpy()
-        return found
+        return shares_of(model, given[:kept], SIZE)
 
     def accuracy() -> float:
         """How often the fastest branch has the highest score."""
@@ -157,21 +155,7 @@ def run(chosen: argparse.Namespace, program: str) -> Iterator[Epoch[BranchNetwor
         chosen: the options of `add_options`.
         program: what trains, for the weights' provenance.
     """
-    labels, made = load_labels(chosen.labels)
-    part = part_of(chosen)
-    epochs = train(
-        labels,
-        options_of(chosen),
-        box=Box(**made["request"]["box"]),
-        about={
-            "program": program,
-            "command": command_of(chosen),
-            "dataset": made["request"] | made["provenance"],
-        },
-        checkpoint=part,
-        resume=chosen.resume,
-    )
-    yield from write_better(epochs, save_network, chosen.weights, part)
+    return run_training(chosen, program, load=load_labels, box=Box, train=train, save=save_network)
 
 
 if __name__ == "__main__":
