@@ -2,7 +2,8 @@
 
 A flight is drawn from the name of its family and its number alone. In all of them the pursuer
 begins within 60 km and no closer than d_min, V_L/V_P is 0.6 … 0.98, d_min 3 … 5.5 NM, and
-D is up to 3 NM more; the wind blows from anywhere with up to 50 m/s.
+D is up to 3 NM more; the wind blows from anywhere with up to 50 m/s. The pursuer can fly its own
+speed at its level, and the leader's.
 """
 
 from collections.abc import Callable, Mapping
@@ -13,6 +14,8 @@ from zlib import crc32
 import numpy as np
 
 from relguide import Arc, Plan, plan
+from relguide.flying.air import STANDARD_AIR
+from relguide.flying.airframe import airframe
 from relguide.flying.flight import IntentKnown, LeaderHeading, LeaderSpeed, Scenario
 from relguide.flying.leader import TurnChoice
 from relguide.flying.orders import Command
@@ -28,13 +31,18 @@ from relguide.planning.situation import (
     wind_from,
 )
 from relguide.planning.trajectory import LEFT, RIGHT
-from relguide.units import DEG, NM, Metre, Second
+from relguide.units import DEG, NM, Metre, MetrePerSecond, Second
 from tests.campaign import recordings
 from tests.campaign.case import Case
 
 Draw = np.random.Generator
 REACH: Metre = 60_000.0
 """The pursuer begins no farther away."""
+ALTITUDE: Metre = 7_500.0
+"""Of both, but behind a recorded leader [m]: FL246, where an A300 flies 124 … 244 m/s."""
+FASTEST: MetrePerSecond = 244.0
+LEAST_FOLLOWED: MetrePerSecond = 127.0
+"""Leaders begin no slower; on command they do slow down below what a pursuer can fly [m/s]."""
 STRONGEST_WIND = 50.0
 """[m/s]."""
 NEAR_LIMIT: Metre = 0.5 * NM
@@ -54,6 +62,8 @@ SPREAD = 0.3
 """How far they are off at most."""
 POOR_BRAKES = 0.25
 """[m/s²], and as a factor: what guidance believes is 1 m/s². Every other aircraft has them."""
+IN_HAND = 1.1
+"""Behind a recorded leader the pursuer flies faster than its least speed by this factor."""
 SLOWEST = 60.0
 """Slowest leader on command [m/s]: about to land."""
 
@@ -161,7 +171,8 @@ def _recorded(rng: Draw, family: str, number: int) -> Case:
     track = recordings.track(number)
     first = track.state_at(0.0)
     fastest = max(track.state_at(t).ground_speed for t in (0.0, 60.0, 180.0))
-    tas = float(np.clip(fastest / rng.uniform(0.6, 0.98), 130.0, 250.0))
+    least, most = airframe("A306").tas_range(first.altitude, STANDARD_AIR)
+    tas = float(np.clip(fastest / rng.uniform(0.6, 0.98), IN_HAND * least, most - 1.0))
     drawn = _situation(rng, ())
     x, y = drawn.pursuer.x, drawn.pursuer.y
     situation = replace(
@@ -208,6 +219,7 @@ def _case(family: str, number: int, situation: Situation, *, intent_known: bool 
             description=described,
             situation=situation,
             intent_known=intent_known,
+            altitude=ALTITUDE,
         ),
     )
 
@@ -216,7 +228,7 @@ def _situation(
     rng: Draw, intent: tuple[IntentPiece, ...], *, extra: tuple[float, float] = (0.0, 3.0)
 ) -> Situation:
     """A start; D exceeds d_min by so many nautical miles."""
-    tas = float(rng.uniform(180.0, 250.0))
+    tas = min(float(rng.uniform(180.0, 250.0)), FASTEST)
     min_separation = float(rng.uniform(3.0, 5.5)) * NM
     bearing = float(rng.uniform(0.0, 2.0 * pi))
     # evenly over the ring between d_min and the farthest start
@@ -233,7 +245,7 @@ def _situation(
             x=0.0,
             y=0.0,
             heading=float(rng.uniform(0.0, 2.0 * pi)),
-            tas=tas * float(rng.uniform(0.6, 0.98)),
+            tas=max(tas * float(rng.uniform(0.6, 0.98)), LEAST_FOLLOWED),
             intent=intent,
         ),
         slot_distance=min_separation + float(rng.uniform(*extra)) * NM,
