@@ -120,7 +120,9 @@ describe("what the ticks say", () => {
     if (guidance === undefined) throw new Error("No guidance");
     both.aircraft.unshift({ ...aircraft({ x_m: 9 }), ident: "THIRD" });
     both.guidance.unshift({ ...guidance, ident: "THIRD", mode: "heading" });
+    const route = { kind: "leader_route", t_s: 1, ident: LEADER, segments: [] } as const;
     const foreign = [
+      { ...route, segments: [], expected_by: "THIRD", intent_known: true },
       { ...planChanged(1), ident: "THIRD" },
       { ...modeChanged(1), ident: "THIRD" },
       { ...noPlan(1), ident: "THIRD" },
@@ -133,11 +135,8 @@ describe("what the ticks say", () => {
     expect(flight.sample.value?.pursuer.ident).toBe(OWN);
     expect(flight.sample.value?.leader.ident).toBe(LEADER);
     expect(flight.sample.value?.mode).toBe("converge");
-    expect([flight.plan.value, flight.mode.value, flight.unavailable.value]).toEqual([
-      null,
-      null,
-      null,
-    ]);
+    for (const { value } of [flight.route, flight.plan, flight.mode, flight.unavailable])
+      expect(value).toBeNull();
     expect(flight.messages.value).toEqual([]);
   });
 

@@ -115,6 +115,14 @@ def test_the_leader_does_as_ordered_and_is_followed_as_long_as_asked(run: Run) -
     assert [(change.t, change.change) for change in changes] == [(20.0, "speed")]
 
 
+@pytest.mark.slow
+def test_an_hour_of_following_makes_the_flight_longer_than_an_hour(run: Run) -> None:
+    code, out, _ = run("fly", written(NEAR), "--after-joining", "3600", "--json")
+    figures = json.loads(out)
+    assert code == 0
+    assert figures["simulated_s"] == pytest.approx(figures["join_time_s"] + 3600.0, abs=1.0)
+
+
 @pytest.mark.parametrize(
     ("options", "sentence"),
     [

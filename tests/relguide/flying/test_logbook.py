@@ -1,13 +1,16 @@
 """The figures of a flight's summary, step by step."""
 
+from dataclasses import replace
 from itertools import pairwise
 from math import inf
 
 import pytest
 
 from relguide.flying.aircraft import AircraftState
-from relguide.flying.logbook import Tally, count_step
+from relguide.flying.documents import PlanChanged
+from relguide.flying.logbook import Milestones, Tally, count_event, count_step
 from relguide.units import DEG
+from tests.server.flown import ideal_flight
 
 NOTHING = Tally(inf, 0.0, 0.0, 0, 0)
 LEADER = AircraftState(0.0, 5_000.0, 0.0, 0.0, 0.0, 200.0, 9_000.0)
@@ -50,3 +53,13 @@ def test_track_and_swing_are_counted_until_joined_and_separation_always() -> Non
     assert tally(0.0, 25.0, -25.0, joined=True) == NOTHING._replace(
         least_separation=total.least_separation
     )
+
+
+def test_new_plans_are_counted_whether_announced_or_not() -> None:
+    engaged = next(d for d in ideal_flight() if isinstance(d, PlanChanged))
+    news = replace(engaged, t=1.0, reason="better_plan")
+    milestones = Milestones()
+    for document in (engaged, news, replace(news, t=2.0, announced=False)):
+        milestones = count_event(milestones, document)
+    assert (milestones.replans, milestones.replans_announced) == (2, 1)
+    assert milestones.promised == engaged.promised

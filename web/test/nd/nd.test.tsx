@@ -205,6 +205,7 @@ test("unable says why; escape is a mode of its own", () => {
   const root = show(flight, "ARC", 80);
   expect(words(root)).toContain("RG UNABLE: PATH");
   expect(words(root)).toContain("RG ESC");
+  expect(root.querySelector(".nd-slot .nd-stroke")?.getAttribute("stroke")).toBe("var(--caution)");
   expect(root.querySelector("svg")?.getAttribute("aria-label")).toContain("turning away");
 });
 
