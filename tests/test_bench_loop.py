@@ -22,7 +22,7 @@ def rows(table: Table) -> list[tuple[str, ...]]:
 
 
 @pytest.mark.slow
-def test_a_planner_loses_nothing_to_itself_and_a_bad_one_is_told_of() -> None:
+def test_a_planner_loses_nothing_to_itself_and_a_bad_one_is_reported() -> None:
     one = flown(1, plan)
     assert one.told
     assert one.way

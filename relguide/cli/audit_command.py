@@ -137,14 +137,14 @@ def _put_beside(network: "BranchNetwork", size: int, seed: int) -> "tuple[Ground
     from relguide.learn.audits.side_by_side import draw_ground, side_by_side
     from relguide.learn.tree.nearest import lookup_in
     from relguide.learn.tree.regular_network import load_regular, shipped_weights
-    from relguide.planning.progress import progress_bar, watched
+    from relguide.planning.progress import progress_bar, show_progress
 
     regressions = [load_regular(shipped_weights(method)) for method in ("paper", "direct")]
     parameters = regressions[0].parameters
     with progress_bar("drawing situations", total=size) as advance:
         ground = draw_ground(parameters, size, seed, advance)
     lookup = lookup_in(grow_tree(parameters))
-    found = watched(
+    found = show_progress(
         enumerate(side_by_side(ground, network, lookup, regressions), start=1),
         title="side by side",
         total=2 + len(regressions),

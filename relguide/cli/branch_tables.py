@@ -137,7 +137,7 @@ def _column(method: Method) -> dict[str, str]:
         "fastest branch named, %": percent(method.right),
         "  95 % interval": f"{100.0 * low:.2f}–{100.0 * high:.2f}",
         "branches in its set": f"{method.mean_set:.2f}",
-        **_flown(method),
+        **_endings(method),
         "solved: the fastest path, %": percent(method.fastest, 3),
         "  gap, %, 50 / 99 %": " / ".join(gaps[:2]),
         "  gap, %, 99.9 % / largest": " / ".join(gaps[2:]),
@@ -146,7 +146,7 @@ def _column(method: Method) -> dict[str, str]:
     }
 
 
-def _flown(method: Method) -> dict[str, str]:
+def _endings(method: Method) -> dict[str, str]:
     """How the paths that a method gives end, flown as given; our networks give none."""
     names = "as given: in the slot, %", "  off by km, 50 / 99 %", "  off by °, 50 / 99 %"
     if method.reached is None or method.places is None or method.headings is None:

@@ -29,7 +29,7 @@ LABELS, PATH_LABELS = 1_200_000, 400_000
 WITHIN = (0.0, 0.001, 0.01, 0.05)
 """Losses that the audit of a tree counts the states within."""
 ROUNDING = 1e-9
-"""A loss up to this is none."""
+"""Smaller losses are rounding."""
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:

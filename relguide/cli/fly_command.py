@@ -69,7 +69,7 @@ def run(chosen: argparse.Namespace) -> int:
     from relguide.contract.recorder import record
     from relguide.contract.story import failures, figures, story_of
     from relguide.flying.flight import fly
-    from relguide.planning.progress import watched
+    from relguide.planning.progress import show_progress
 
     orders = _orders(chosen)
     scenario = _following_for(_scenario(chosen.scenario), chosen.after_joining)
@@ -86,7 +86,7 @@ def run(chosen: argparse.Namespace) -> int:
             fly(scenario, planner, commands=commands, seed=chosen.seed), chosen.record
         )
     flight = story_of(
-        watched(
+        show_progress(
             documents,
             title=f"flying {scenario.name}",
             total=scenario.duration_limit,

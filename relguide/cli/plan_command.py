@@ -108,7 +108,7 @@ def _plan_batch(
     import orjson
 
     from relguide.contract.answers import answer_line
-    from relguide.planning.progress import watched
+    from relguide.planning.progress import show_progress
 
     invalid: list[int] = []
     read = 0
@@ -116,7 +116,7 @@ def _plan_batch(
     proving = _prove_after(planner, prove_for, shown=False)
     with open_input(file) as stream:
         size = os.fstat(stream.fileno()).st_size if file != "-" else 0
-        lines = watched(
+        lines = show_progress(
             enumerate(stream, start=1), title="planning", total=size, done=lambda _: read
         )
         for number, line in lines:
@@ -138,11 +138,11 @@ def _prove_after(planner: "Planner", seconds: float, *, shown: bool = True) -> "
     if seconds == 0.0:
         return planner
     from relguide.planning.plan import NoPlan
-    from relguide.planning.progress import watched
+    from relguide.planning.progress import show_progress
     from relguide.planning.prove import Bound, prove
 
     def progress(bounds: Iterator[Bound]) -> Iterator[Bound]:
-        return watched(
+        return show_progress(
             bounds,
             title="proving",
             total=seconds,

@@ -23,9 +23,11 @@ def run(chosen: argparse.Namespace) -> int:
     need("pydantic", "orjson", "rich")
     from relguide.contract.recorder import replay
     from relguide.contract.story import figures, story_of
-    from relguide.planning.progress import watched
+    from relguide.planning.progress import show_progress
 
-    flight = story_of(watched(replay(chosen.file), title="reading", total=0.0, done=lambda _: 0.0))
+    flight = story_of(
+        show_progress(replay(chosen.file), title="reading", total=0.0, done=lambda _: 0.0)
+    )
     whole = bool(flight.ended) and not flight.broken
     result = figures(flight.ended[0]) if flight.ended else {"simulated_s": flight.last_time}
     if chosen.json:

@@ -1,4 +1,4 @@
-"""Tables for people, and how times, lengths and shares stand in them."""
+"""Tables for people, and how times, lengths and shares are written in them."""
 
 from typing import TYPE_CHECKING
 

@@ -78,10 +78,10 @@ def _train(
 ) -> None:
     """Train to the end, with a bar, and print what came of it."""
     from relguide.learn.training.fitting import summary_of
-    from relguide.planning.progress import watched
+    from relguide.planning.progress import show_progress
 
     started = perf_counter()
-    shown = watched(
+    shown = show_progress(
         epochs,
         title="training",
         total=chosen.epochs,
@@ -107,7 +107,7 @@ def _train_regular(chosen: argparse.Namespace) -> None:
     from relguide.learn.tree.regular_network import save_regular
     from relguide.learn.tree.train_regular import train_regular
     from relguide.learn.tree.tree_file import load_tree
-    from relguide.planning.progress import watched
+    from relguide.planning.progress import show_progress
 
     if chosen.resume:
         raise ValueError("Such a network is trained in a minute, and nothing is left to resume.")
@@ -119,7 +119,7 @@ def _train_regular(chosen: argparse.Namespace) -> None:
         "command": f"{command_of(chosen)} --method {chosen.method}",
         "tree": dict(tree.provenance),
     }
-    epochs = watched(
+    epochs = show_progress(
         train_regular(tree, options_of(chosen), method=chosen.method, about=about),
         title="training",
         total=chosen.epochs,

@@ -17,7 +17,7 @@ from relguide.learn.tree.tree import (
 )
 from relguide.learn.tree.tree_file import load_growth, save_growth
 from relguide.maps.area import Floats, exact_times
-from relguide.planning.progress import progress_bar, watched
+from relguide.planning.progress import progress_bar, show_progress
 
 SAVE_EVERY = 5.0
 """Between two savings of a tree still growing [s]: what a stop may cost."""
@@ -32,7 +32,7 @@ def grow_on(growth: Growth, *, threads: int | None = None, part: Path | None = N
     """Grow a tree to its end, saving it every few seconds if there is a file for it."""
     saved = perf_counter()
     while not growth.finished:
-        blocks = watched(
+        blocks = show_progress(
             grow_order(growth, threads=threads),
             title=f"growing order {growth.order + 1}",
             total=len(growth.latest),

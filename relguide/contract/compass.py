@@ -1,4 +1,4 @@
-"""Directions on the wire: degrees clockwise from north, written in [0, 360), read in any turn."""
+"""Directions on the wire: degrees clockwise from north, written in [0, 360), read as any number."""
 
 from math import radians
 

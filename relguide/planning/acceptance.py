@@ -49,7 +49,7 @@ class Answer(NamedTuple):
 
     plan: Plan | NoPlan
     fell_back: bool
-    """Whether the exact plan stands in, for the planner itself or for what was refused."""
+    """Whether it is the exact plan: the planner gave no answer, or one that was refused."""
     refusal: Refusal | None
     """Why the planner's own answer is not flown; `None` if it is."""
 
@@ -90,9 +90,9 @@ def judge_answer(answer: object, situation: Situation) -> Answer:
 
 
 def find_fault(trajectory: Trajectory, situation: Situation) -> tuple[Fault, str] | None:
-    """Why a trajectory is no way from the pursuer to the slot; `None` if it is one.
+    """What is wrong with a trajectory from the pursuer to the slot; `None` if nothing is.
 
-    d_min is `certify`'s to judge.
+    Whether it keeps d_min is not asked here: `certify` judges that.
 
     Returns:
         what is wrong first, and the second half of a sentence that says so.

@@ -54,7 +54,7 @@ def number(name: str, value: object) -> float:
     # isinstance of `Real` takes half a microsecond, and nearly all are floats
     if type(value) is not float:
         if isinstance(value, bool) or not isinstance(value, Real):
-            raise ValueError(f"{name} must be a number, not {_shown(value)}.")
+            raise ValueError(f"{name} must be a number, not {_describe(value)}.")
         try:
             value = float(value)
         except OverflowError:  # an integer of hundreds of digits
@@ -87,7 +87,7 @@ def whole(name: str, value: object, low: int) -> int:
     """
     if isinstance(value, Integral) and not isinstance(value, bool) and int(value) >= low:
         return int(value)
-    raise ValueError(f"{name} must be a whole number of {low} or more, not {_shown(value)}.")
+    raise ValueError(f"{name} must be a whole number of {low} or more, not {_describe(value)}.")
 
 
 def text(name: str, value: object) -> str:
@@ -98,7 +98,7 @@ def text(name: str, value: object) -> str:
     """
     if isinstance(value, str):
         return value
-    raise ValueError(f"{name} must be a text, not {_shown(value)}.")
+    raise ValueError(f"{name} must be a text, not {_describe(value)}.")
 
 
 def truth(name: str, value: object) -> bool:
@@ -109,7 +109,7 @@ def truth(name: str, value: object) -> bool:
     """
     if isinstance(value, bool | np.bool_):
         return bool(value)
-    raise ValueError(f"{name} must be True or False, not {_shown(value)}.")
+    raise ValueError(f"{name} must be True or False, not {_describe(value)}.")
 
 
 def turn_sign(name: str, value: object) -> int:
@@ -121,7 +121,7 @@ def turn_sign(name: str, value: object) -> int:
     if type(value) is int or (isinstance(value, Integral) and not isinstance(value, bool)):
         if value == 1 or value == -1:
             return int(value)
-    raise ValueError(f"{name} must be LEFT (+1) or RIGHT (-1), not {_shown(value)}.")
+    raise ValueError(f"{name} must be LEFT (+1) or RIGHT (-1), not {_describe(value)}.")
 
 
 def expect(name: str, value: object, *kinds: type) -> None:
@@ -132,7 +132,7 @@ def expect(name: str, value: object, *kinds: type) -> None:
     """
     if not isinstance(value, kinds):
         wanted = " or ".join(_with_article(kind.__name__) for kind in kinds)
-        raise ValueError(f"{name} must be {wanted}, not {_shown(value)}.")
+        raise ValueError(f"{name} must be {wanted}, not {_describe(value)}.")
 
 
 def expect_function(name: str, value: object) -> None:
@@ -142,13 +142,13 @@ def expect_function(name: str, value: object) -> None:
         ValueError: naming what was given instead.
     """
     if not callable(value):
-        raise ValueError(f"{name} must be a function, not {_shown(value)}.")
+        raise ValueError(f"{name} must be a function, not {_describe(value)}.")
 
 
 def _with_article(noun: str) -> str:
     return f"{'an' if noun[0] in 'AEIOU' else 'a'} {noun}"
 
 
-def _shown(value: object) -> str:
+def _describe(value: object) -> str:
     """A value with its type, cut short."""
     return f"{brief(value)} ({type(value).__name__})"

@@ -20,7 +20,7 @@ LENGTH = 40
 T = TypeVar("T")
 
 
-def watched(
+def show_progress(
     items: Iterable[T],
     *,
     title: str,

@@ -81,12 +81,12 @@ def sample_bends(
     rates = np.array([*(rate for _, rate in bends), 0.0])
     begins = np.concatenate(([0.0], np.cumsum(durations)))
     headings = start[2] + np.concatenate(([0.0], np.cumsum(durations * rates[:-1])))
-    east, north = _moved(headings[:-1], rates[:-1], durations, tas)
+    east, north = _displacement(headings[:-1], rates[:-1], durations, tas)
     xs = start[0] + np.concatenate(([0.0], np.cumsum(east)))
     ys = start[1] + np.concatenate(([0.0], np.cumsum(north)))
     piece = np.searchsorted(begins, t, side="right") - 1
     since = t - begins[piece]
-    east, north = _moved(headings[piece], rates[piece], since, tas)
+    east, north = _displacement(headings[piece], rates[piece], since, tas)
     heading = wrap_each(headings[piece] + rates[piece] * since)
     return Samples(
         t=t,
@@ -112,7 +112,9 @@ def _times(given: ArrayLike) -> Floats:
     return t
 
 
-def _moved(heading: Floats, rate: Floats, duration: Floats, tas: float) -> tuple[Floats, Floats]:
+def _displacement(
+    heading: Floats, rate: Floats, duration: Floats, tas: float
+) -> tuple[Floats, Floats]:
     """East and north of where it began [m]."""
     half = 0.5 * rate * duration
     chord = tas * duration * np.sinc(half / pi)  # numpy's sinc has the π in it

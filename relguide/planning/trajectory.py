@@ -149,7 +149,7 @@ class Trajectory:
         if not isinstance(self.segments, tuple):
             raise ValueError("segments must be a tuple of Arc, Straight and BoundaryArc.")
         if not all(map(_is_sound, self.segments)):
-            object.__setattr__(self, "segments", tuple(map(_settled, self.segments)))
+            object.__setattr__(self, "segments", tuple(map(_accept, self.segments)))
         if not self.duration < inf:
             raise ValueError("All segments together must have a finite length and duration.")
 
@@ -275,7 +275,7 @@ def _is_sound(segment: Segment) -> bool:
     return type(segment) is Straight and type(segment.length) is float and segment.length >= 0.0
 
 
-def _settled(segment: Segment) -> Segment:
+def _accept(segment: Segment) -> Segment:
     """A segment with numbers that are floats, or a sentence that says what would be right."""
     match segment:
         case Straight(length=length):

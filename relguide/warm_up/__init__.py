@@ -20,7 +20,7 @@ from typing import NamedTuple, TextIO
 
 from relguide.kernels import cache
 from relguide.kernels.compiling import each_kernel, first_use
-from relguide.planning.progress import watched
+from relguide.planning.progress import show_progress
 from relguide.warm_up.steps import SETS as SETS
 from relguide.warm_up.steps import STEPS as STEPS
 from relguide.warm_up.steps import Step as Step
@@ -93,7 +93,7 @@ def warm_up(wanted: Sequence[str], *, jobs: int) -> None:
     """Compile the kernels of some steps, with a progress bar if that takes long."""
     total = sum(STEPS[name].seconds for name in wanted)
     shown = ""
-    for state in watched(
+    for state in show_progress(
         prepare(wanted, jobs=jobs),
         title="compiling",
         total=total,

@@ -89,7 +89,7 @@ def library_departures(planner: Planner) -> Departures:
 
 
 def _first_planned(flown: Scenario) -> Situation:
-    """Its situation, as far as the pursuer is told of the leader's intent."""
+    """Its situation, with as much of the leader's intent as the pursuer knows."""
     if flown.intent_known:
         return flown.situation
     return replace(flown.situation, leader=replace(flown.situation.leader, intent=()))

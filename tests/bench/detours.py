@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from rich.table import Table
 
 from relguide import Plan, plan
-from relguide.planning.progress import watched
+from relguide.planning.progress import show_progress
 from tests.bench.cases import Case
 from tests.bench.timing import timed
 from tests.bench.transcription import Answer, Transcription, flown, guesses
@@ -57,7 +57,7 @@ def measure(cases: list[Case], title: str) -> list[Contest]:
     programme = Transcription()
     plan(cases[0].situation)  # compiles
     contests: list[Contest] = []
-    for contest in watched(
+    for contest in show_progress(
         (_contest(programme, case) for case in cases), title=title, total=len(cases),
         done=lambda _: len(contests),
     ):  # fmt: skip

@@ -11,7 +11,7 @@ import numpy as np
 from rich.console import Console
 
 from relguide import Plan, candidates, plan
-from relguide.planning.progress import watched
+from relguide.planning.progress import show_progress
 from tests.bench import detours, drawings, throughput, unlimited
 from tests.bench.__main__ import add_counts, counts_from
 from tests.bench.cases import limited_cases
@@ -64,7 +64,7 @@ def _costs(count: int) -> tuple[dict[str, Floats], int]:
     costs, without = {}, 0
     for name, tight in TEMPLATES.items():
         cases = limited_cases(count, tight=tight)[-count:]
-        numbered = watched(
+        numbered = show_progress(
             enumerate(cases), title=f"Cost of the limit, {name}", total=count, done=lambda n: n[0]
         )
         found = [plan(case.situation) for _, case in numbered]

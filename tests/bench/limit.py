@@ -28,7 +28,7 @@ from rich.table import Table
 
 import relguide.planning.constrained_path as search
 from relguide import NoPlan, Plan, Situation, plan
-from relguide.planning.progress import watched
+from relguide.planning.progress import show_progress
 from tests.bench import draws
 from tests.bench.options import positive, share
 
@@ -114,7 +114,7 @@ def _outcomes(cases: list[int], run: Run, processes: int) -> Iterator[Outcome]:
     pool = ProcessPoolExecutor(processes, initializer=signal, initargs=(SIGINT, SIG_IGN))
     try:
         finished = enumerate(as_completed([pool.submit(compare, case) for case in cases]), 1)
-        for _, future in watched(
+        for _, future in show_progress(
             finished, title="Looking harder", total=len(cases), done=lambda pair: pair[0]
         ):
             yield future.result()

@@ -18,7 +18,7 @@ from rich.table import Table
 from relguide import Plan, Planner, Situation, plan
 from relguide.learn.network_planner import network_planner
 from relguide.learn.words.branch_network import load_network
-from relguide.planning.progress import watched
+from relguide.planning.progress import show_progress
 from tests.bench import network_batch
 from tests.bench.draws import active, anywhere, is_active
 from tests.bench.options import positive
@@ -90,7 +90,9 @@ def measure(asked: dict[str, list[Situation]]) -> dict[str, list[Pair]]:
 
 def _shown(situations: Iterable[Situation], count: int, title: str) -> Iterator[Situation]:
     """One after the other, with a bar."""
-    numbered = watched(enumerate(situations), title=title, total=count, done=lambda pair: pair[0])
+    numbered = show_progress(
+        enumerate(situations), title=title, total=count, done=lambda pair: pair[0]
+    )
     return (situation for _, situation in numbered)
 
 

@@ -12,7 +12,7 @@ from rich.table import Table
 
 from relguide import NoPlan, Plan, plan
 from relguide.kernels.words.extremals import MAX_ROWS, solve
-from relguide.planning.progress import watched
+from relguide.planning.progress import show_progress
 from tests.bench.cases import Case
 from tests.bench.dubins_curves import Length, meeting_time, shortest_length
 from tests.bench.exhaustive import least_time
@@ -73,7 +73,7 @@ def measure(cases: list[Case]) -> dict[str, Row]:
         rows = {name: Row(name=name) for name in contenders}
         for prepare in contenders.values():
             prepare(cases[0])()  # compiles, loads, fills caches
-        for _, case in watched(
+        for _, case in show_progress(
             enumerate(cases), title="Without the limit", total=len(cases), done=lambda n: n[0]
         ):
             results = {name: timed(prepare(case), REPEATS) for name, prepare in contenders.items()}

@@ -19,7 +19,7 @@ from os import cpu_count
 from pathlib import Path
 from signal import SIG_IGN, SIGINT, signal
 
-from relguide.planning.progress import watched
+from relguide.planning.progress import show_progress
 from tests.bench.options import positive
 from tests.campaign import tables
 from tests.campaign.families import FAMILIES, draw
@@ -79,7 +79,7 @@ def flown(wanted: Sequence[tuple[str, int]], processes: int) -> Iterator[Row]:
     try:
         flights = {pool.submit(flown_by_name, *one): one for one in wanted}
         finished = enumerate(as_completed(flights), 1)
-        for _, future in watched(
+        for _, future in show_progress(
             finished, title="Flying", total=len(wanted), done=lambda pair: pair[0]
         ):
             error = future.exception()

@@ -175,7 +175,7 @@ def test_a_mistake_of_ours_is_a_sentence_without_traceback() -> None:
         assert "secret" not in answer.text
 
 
-def test_a_flight_is_started_found_told_and_ended(client: TestClient) -> None:
+def test_a_flight_is_started_found_commanded_and_ended(client: TestClient) -> None:
     started = client.post("/api/v1/flights", json={"scenario": "ideal", "rate": 10.0})
     assert started.status_code == 201
     status = started.json()

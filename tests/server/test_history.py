@@ -38,7 +38,7 @@ def test_the_trail_is_thinned_and_ends_with_now() -> None:
     assert TRAIL_PERIOD == 10.0
 
 
-def test_the_newest_sample_is_told_once() -> None:
+def test_the_newest_sample_is_given_once() -> None:
     samples = [d for d in history_of(60.0).documents() if isinstance(d, Sample)]
     assert [s.t for s in samples].count(60.0) == 1
 

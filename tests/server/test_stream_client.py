@@ -71,7 +71,7 @@ def test_a_slow_client_skips_samples_and_holds_up_nobody() -> None:
     asyncio.run(scenario())
 
 
-def test_who_missed_a_plan_is_told_all_anew() -> None:
+def test_whoever_missed_a_plan_is_sent_all_anew() -> None:
     async def scenario() -> None:
         browser = Browser()
         snapshots = iter(("first snapshot", "second snapshot"))

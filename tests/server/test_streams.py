@@ -131,7 +131,7 @@ def test_all_clients_get_the_same_ticks(address: str) -> None:
 
 
 @pytest.mark.parametrize("protocol", ["relguide-000000000000", "viser-v1.1.1"])
-def test_a_page_of_another_version_is_told_so(address: str, protocol: str) -> None:
+def test_a_page_of_another_version_is_refused_with_a_reason(address: str, protocol: str) -> None:
     code, reason = asyncio.run(_answer_refusal(address, start(address), protocol))
     assert code == 4400
     assert PROTOCOL in reason
@@ -150,7 +150,7 @@ def test_no_protocol_at_all_is_refused_too(address: str) -> None:
     assert asyncio.run(dial()) == 4400
 
 
-def test_an_unknown_flight_is_told_so(address: str) -> None:
+def test_an_unknown_flight_is_refused_with_a_reason(address: str) -> None:
     code, reason = asyncio.run(_answer_refusal(address, "nothing", PROTOCOL))
     assert code == 4404
     assert reason
@@ -170,7 +170,7 @@ def test_streams_close_with_a_sentence_when_the_flight_is_ended(address: str) ->
     assert asyncio.run(watch()) == (4410, "This flight is over and has been removed.")
 
 
-def test_an_ended_flight_is_still_told_whole() -> None:
+def test_an_ended_flight_is_still_sent_whole() -> None:
     def short(commands: Callable[[float], Iterable[Command]]) -> Iterator[Document]:
         return ideal_flight(commands, duration=1.0)
 

@@ -30,7 +30,7 @@ TOPS = (1, 2, 3)
 DOUBTS = (0.0, 1e-5, 1e-4, 1e-3, 1e-2, 3e-2, 0.1, 0.2, 0.3, 0.5, 1.0)
 """Edges of the bins of doubt: 1 less the highest share."""
 EXPLAINED = 200
-"""Gaps that are explained at most, the largest: a poor network has no end of them."""
+"""Most gaps that are explained, the largest ones: a poor network has no end of them."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -73,7 +73,7 @@ class Miss:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Doubt:
-    """Situations that the network is about as sure of: whether it is right to be."""
+    """Situations of which the network is about equally sure, and whether it is right to be."""
 
     said: float
     """1 less the highest share, on average: how often it says it is wrong."""

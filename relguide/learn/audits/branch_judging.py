@@ -29,7 +29,7 @@ SHARES = (0.8, 0.1, 0.1)
 LOOPS = 0.005
 """For each of them so many more of closed loops: a flight for each chunk."""
 ROUNDING = 1e-9
-"""A gap below this is none."""
+"""Smaller gaps do not count."""
 WORTH = 1e-4
 """A gap above this is reported and explained: 0.01 %."""
 LEAST_SHARES = np.geomspace(1e-7, 0.1, 13)

@@ -1,10 +1,10 @@
 """surfaces(situations): how near a missed answer is to where its fastest branch begins to exist.
 
-The time of each branch is smooth, but branches are born at surfaces in the space of situations.
-Where the fastest one is just born, something much slower is best on the other side: the least time
-itself jumps, and a network, which is continuous, must miss some of it. The distance to where the
-fastest branch ceases to exist, and to where another becomes the fastest, tells whether a gap is
-of that kind.
+The time of each branch is smooth, but branches begin to exist at surfaces in the space of
+situations. Where the fastest one has just begun to, something much slower is best on the other
+side: the least time itself jumps, and a network, which is continuous, must miss some of it. The
+distance to where the fastest branch ceases to exist, and to where another becomes the fastest,
+shows whether a gap is of that kind.
 
 Distances are those of place and heading at the same V_L/V_P: hypot(Δx, Δy, Δh), in R and rad. They
 are looked for by bisection along fixed directions: what is found may be a little too long, never
@@ -21,8 +21,8 @@ from numpy.typing import NDArray
 from relguide.learn.words.branch_labels import Floats, times_of
 
 SMALL = 0.02
-"""A gap this close to a birth or to a switching surface is explained [R, rad]: 250 m and a degree
-for an airliner."""
+"""A gap this close to where a branch begins, or to a switching surface, is explained [R, rad]:
+250 m and a degree for an airliner."""
 LADDER = np.geomspace(1e-6, 0.5, 20)
 """Distances tried along each direction [R, rad]."""
 BISECTIONS = 12
@@ -57,7 +57,7 @@ def surfaces(situations: Floats, progress: Callable[[float], object] = lambda _:
     best = times_of(situations).argmin(axis=1).tolist()
     for i, (situation, branch) in enumerate(zip(situations, best, strict=True)):
         birth[i] = _distance(situation, partial(_gone, branch))
-        switch[i] = _distance(situation, partial(_beaten, branch))
+        switch[i] = _distance(situation, partial(_is_beaten, branch))
         progress(1.0)
     return Surfaces(birth=birth, switch=switch)
 
@@ -67,7 +67,7 @@ def _gone(branch: int, times: Floats) -> NDArray[np.bool_]:
     return gone
 
 
-def _beaten(branch: int, times: Floats) -> NDArray[np.bool_]:
+def _is_beaten(branch: int, times: Floats) -> NDArray[np.bool_]:
     beaten: NDArray[np.bool_] = times.argmin(axis=1) != branch
     return beaten
 

@@ -36,7 +36,7 @@ from relguide.planning.words import HORIZON
 from relguide.units import MetrePerSecond, Second
 
 UNIT: Second = 40.0
-"""R/V_P of the airliner in whose seconds delays are told, and that the planner is asked for."""
+"""R/V_P of the airliner that the planner is asked about, and in whose seconds delays are given."""
 TAS: MetrePerSecond = 200.0
 """Its V_P; it turns at 27° of bank then."""
 FAR = 2

@@ -2,7 +2,7 @@
 
 All answer the same fresh situations: one encounter, that of the tree, places and headings drawn
 evenly over the area from where the slot can be joined within the tree's horizon. Those in which the
-limit binds are left out, and counted: no one here has learnt to go round it, and elsewhere the
+limit binds are left out, and counted: none of them has learnt to go round it, and elsewhere the
 fastest path is known with proof.
 
 Two things are asked of each. What it gives, flown as it is: how far from the slot does that end?
@@ -202,7 +202,7 @@ def look_up_pairs(lookup: Lookup, x: Floats, y: Floats, h: Floats) -> Floats:
 
 
 def clear_pieces(pairs: Floats, parameters: TreeParameters) -> list[list[Piece]]:
-    """The pieces of each row of pairs; what is less than half a step of the tree's is none."""
+    """The pieces of each row of pairs; those shorter than half a step of the tree are left out."""
     steps = parameters.delta_theta, parameters.delta_l / parameters.encounter.turn_radius
     clear = np.where(pairs[:, :, 1:] >= 0.5 * np.array(steps), pairs[:, :, 1:], 0.0)
     return [pieces_of(row) for row in np.concatenate((pairs[:, :, :1], clear), axis=2).tolist()]

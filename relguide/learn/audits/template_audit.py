@@ -28,7 +28,7 @@ LATE: Second = 0.1
 WORTH = 1e-3
 """A gap above this is looked into."""
 LISTED = 100
-"""Of those gaps, so many are kept at most, the largest."""
+"""Most gaps that are listed, the largest ones."""
 COMMONEST = 12
 """Templates with a line of their own."""
 Reason = Literal["left out", "not solved", "of no template"]
@@ -50,7 +50,7 @@ class Late:
     sooner: int
     """Answers by more than `WITHIN` sooner than the search's."""
     invented: Share
-    """How often they do of the others; never, it is to be hoped."""
+    """How often they answer where there is no path: never, it is hoped."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -75,7 +75,7 @@ class TemplateNetwork:
 
 
 def template_features_of(situations: Floats) -> Singles:
-    """What the network is told of situations on the left of the route, shape (n, FEATURES)."""
+    """What the network is given for situations on the left of the route, shape (n, FEATURES)."""
     numbers = np.empty((len(situations), FEATURES))
     template_feature_rows(np.ascontiguousarray(situations), numbers)
     return numbers.astype(np.float32)

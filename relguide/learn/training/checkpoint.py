@@ -25,7 +25,7 @@ def device_of(name: str) -> "torch.device":
     """The device of a name; of `auto`, a GPU if there is one.
 
     Raises:
-        ValueError: if there is none such.
+        ValueError: if this machine has none of that name.
     """
     import torch
 

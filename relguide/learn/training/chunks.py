@@ -13,7 +13,7 @@ from relguide.units import Second
 
 T = TypeVar("T")
 ATTEMPTS = 5
-"""How often a part is begun before its failure is everybody's."""
+"""How often a part is tried before the whole work fails."""
 AHEAD = 4
 """Parts under way for each core: what keeps workers busy, and no more is held in memory."""
 LOST: tuple[type[Exception], ...] = (OSError, EOFError)
@@ -24,7 +24,7 @@ LOOK: Second = 1.0
 
 @runtime_checkable
 class Cluster(Protocol):
-    """What an executor tells of itself if its workers come and go."""
+    """What an executor whose workers come and go says of itself."""
 
     @property
     def cores(self) -> int:
@@ -35,7 +35,7 @@ class Cluster(Protocol):
         """What a part's result raises if its worker was lost, beside `LOST`."""
 
     def check(self) -> None:
-        """Raise an OSError that says why, once it is in vain to wait for more."""
+        """Raise an OSError that says why, once waiting for more is in vain."""
 
 
 def gather(task: Callable[[int], T], count: int, executor: Executor) -> Iterator[tuple[int, T]]:

@@ -1,7 +1,7 @@
 """Files of this package: written whole or not at all, and read as plain arrays and one text.
 
-A file is written beside its name and then moved there: a reader never meets half of one. What may
-be gone on with after a stop lies in another, named `.part`.
+A file is written beside its name and then moved there: a reader never meets half of one. What a
+stopped run can go on from lies in another, named `.part`.
 """
 
 import json
@@ -30,7 +30,7 @@ def whole(file: Path) -> Iterator[IO[bytes]]:
 
 
 def save_columns(file: Path, about: Mapping[str, Any], columns: Mapping[str, NDArray[Any]]) -> None:
-    """Write an .npz file: arrays, and a JSON text `about` that tells the rest."""
+    """Write an .npz file: arrays, and a JSON text `about` that says the rest."""
     content: dict[str, Any] = {"about": np.array(json.dumps(about, ensure_ascii=False)), **columns}
     with whole(file) as stream:
         np.savez(stream, **content)

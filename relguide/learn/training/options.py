@@ -16,7 +16,7 @@ class NetworkShape:
     width: int = 128
     """Numbers a layer has."""
     depth: int = 3
-    """Layers but for the last."""
+    """Layers before the last."""
 
     def __post_init__(self) -> None:
         """Refuse what is no network."""
@@ -119,7 +119,7 @@ def options_of(chosen: argparse.Namespace) -> TrainingOptions:
 
 
 def command_of(chosen: argparse.Namespace) -> str:
-    """The command that makes the same again, with the options that are not the default."""
+    """The command that makes the same again, with the options that differ from the default."""
     names = [name for name, _ in NUMBERS] + ["learning_rate", "device"]
     given = [
         f" --{name.replace('_', '-')} {getattr(chosen, name)}"

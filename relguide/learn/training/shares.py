@@ -1,4 +1,4 @@
-"""Share: how often something holds, with what that says of how often it would."""
+"""Share: how often something holds, and what that says of how often it would in all situations."""
 
 from dataclasses import dataclass
 from math import sqrt

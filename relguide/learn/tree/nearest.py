@@ -1,4 +1,4 @@
-"""nearest(lookup, situation): the way of the nearest state that the tree knows.
+"""nearest(lookup, situation): the path of the nearest state that the tree knows.
 
 This is the paper's method without its network, and the baseline for whatever is learned. What it
 gives leads to the slot from that state, not from the situation itself, and is certified by nobody.
@@ -71,7 +71,7 @@ def neighbours(lookup: Lookup, x: Floats, y: Floats, heading: Floats) -> Neighbo
 
 
 def nearest(lookup: Lookup, situation: Situation) -> RegularTrajectory:
-    """The parameters of the nearest known way; `trajectory_from_regular` flies them.
+    """The parameters of the nearest known path; `trajectory_from_regular` flies them.
 
     Raises:
         ValueError: if the situation belongs to another encounter than the tree.

@@ -4,10 +4,10 @@
 
 As the paper writes, it is trained on the tree of reverse dynamic programming, for one encounter,
 and what it gives is flown as it is: nothing holds its end in the slot. It is kept as the baseline
-`paper`. The baseline `direct` is the same network on the same states, taught the exact answers in
-place of the tree's: what is left of its errors is the fault of regressing parameters at all. They
+`paper`. The baseline `direct` is the same network on the same states, which learns the exact
+answers in place of the tree's: the errors that remain come from regressing parameters at all. They
 jump at every switching surface, where the best network in the sense of least squares gives a mean
-of two ways, which is none.
+of two paths, which leads nowhere.
 
 Left and right are exchanged before and after if the situation is on the right of the route.
 """
@@ -31,7 +31,7 @@ from relguide.learn.tree.tree import (
 )
 
 Method = Literal["paper", "direct"]
-"""What a network is taught: the tree's ways, or the exact ones from the same states."""
+"""What a network learns: the tree's paths, or the exact ones from the same states."""
 Singles = NDArray[np.float32]
 FILE = "relguide regular network 1"
 """What a file says it is, with the version of its arrays."""
@@ -139,5 +139,5 @@ def _check(network: RegularNetwork) -> None:
 
 
 def inputs_of(x: Floats, y: Floats, h: Floats) -> Singles:
-    """What a network is told of states on the left of the route, shape (n, INPUTS)."""
+    """What a network is given for states on the left of the route, shape (n, INPUTS)."""
     return np.column_stack((x, y, np.cos(h), np.sin(h))).astype(np.float32)

@@ -2,12 +2,12 @@
 
     tree of the encounter → nearest regular trajectory → its word, solved exactly → certificate
 
-Reverse dynamic programming grows a tree for the ratios V_L/V_P, D/R and d_min/R; the way of the
-nearest state that the tree knows gives the signs; the word they spell is solved in closed form, as
-the way itself leads to the slot from that state and not from here. If this path does not keep
-d_min, the tree's first pair is flown as it is, which is how the tree went round the limit, and the
-rest is solved from its end. Whatever is then not certified is the exact planner's to answer. So
-every answer is certified, and most are the fastest path; nothing is proved of those.
+Reverse dynamic programming grows a tree for the ratios V_L/V_P, D/R and d_min/R; the path
+from the nearest state that the tree knows gives the signs; the word they spell is solved in closed
+form, as that path leads to the slot from its own state and not from here. If the solution does not
+keep d_min, the tree's first pair is flown as it is, which is how the tree went round the limit, and
+the rest is solved from its end. What is not certified then, the exact planner answers. So every
+answer is certified, and most are the fastest path, though nothing proves it.
 
 Trees are grown when first asked for, in about a quarter of a second, and kept: there is none to
 ship, as each ratio of speeds wants its own. Ratios are rounded for that, which moves no path: the
@@ -107,7 +107,7 @@ def _plan(
 
 
 def _propose(situation: Situation, frame: SlotFrame) -> Iterator[Candidate]:
-    """The word of the nearest way; then that way's first pair, and the word of the rest."""
+    """The word of the nearest path; then that path's first pair, and the word of the rest."""
     if not LEAST_RATIO <= frame.alpha <= MOST_RATIO:
         return
     pairs = nearest_pairs(tree_for(ratios_of(situation, frame)), frame)
@@ -144,7 +144,7 @@ def _close(
 
 
 def nearest_pairs(lookup: Lookup, frame: SlotFrame) -> list[list[float]] | None:
-    """(ε, θ [rad], l [R]) of the nearest way's pairs, forward; `None` where the tree ends."""
+    """(ε, θ [rad], l [R]) of the nearest path's pairs, forward; `None` where the tree ends."""
     radius = lookup.tree.parameters.encounter.turn_radius
     place = (np.array([value]) for value in (frame.x * radius, frame.y * radius, frame.h))
     near = neighbours(lookup, *place)

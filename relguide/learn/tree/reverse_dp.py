@@ -7,7 +7,7 @@ that cell's state. Straights are tested in closed form, turns as the arcs they a
 Paper: section 3 ends by saying that dynamic programming works forward only, because of the
     separation; section 4 then does it in reverse. With a leader that keeps straight the latter is
     right: in its frame the state is Markov and the disc does not move. Section 4 calls what comes
-    out minimum-time trajectories; it is *a* way from each cell, the least found.
+    out minimum-time trajectories; it is *a* path from each cell, the fastest found.
 
 A child's heading is its parent's changed by kΔθ. So the work is dealt out by the child's heading:
 no two threads write one cell, and the tree does not depend on how many there are, nor on where it

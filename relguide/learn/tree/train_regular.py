@@ -40,7 +40,7 @@ def train_regular(
     Args:
         tree: gives the states, one a cell.
         options: how; it ends with its last epoch, whatever the patience.
-        method: what is taught.
+        method: what is learnt.
         about: what shall be numbers of the weights' origin.
     """
     import torch

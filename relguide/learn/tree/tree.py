@@ -2,7 +2,7 @@
 
 Every node is a state of the pursuer relative to the slot, and the pair (ε, θ, l) flown first from
 there; its parent is the state at the end of that pair, the root the slot itself. Each cell of
-(x, y, heading) knows its node of least time. That is *a* way there of order n or less and the best
+(x, y, heading) knows its node of least time. That is *a* path of order n or less and the best
 one *found* from anywhere in the cell: not the minimum time. Nodes hold their exact state, so what
 is said of a node holds for that state and not for the middle of its cell.
 
@@ -130,7 +130,7 @@ class Tree:
     heading_number: Ints
     """Heading, counter-clockwise from the leader's, in Δθ."""
     time: Floats
-    """T of this way to the slot [s]."""
+    """T of this path to the slot [s]."""
     parent: Ints
     """The node at the end of the first pair; −1 for the root."""
     length_number: Ints
@@ -138,7 +138,7 @@ class Tree:
     angle_number: Ints
     """θ of it in Δθ."""
     turn: Ints
-    """ε of it, before a mirror is held up to it."""
+    """ε of it, before it is mirrored."""
     mirrored: Ints
     """1 where this node is the mirror image of what its parent continues."""
     best: Ints
@@ -161,7 +161,7 @@ class Tree:
 
 
 def pairs_of(tree: Tree, nodes: Ints) -> Floats:
-    """The parameters of the ways to the slot: (ε, θ [rad], l [m]) of each pair, forward.
+    """The parameters of the paths to the slot: (ε, θ [rad], l [m]) of each pair, forward.
 
     Returns:
         shape (n, order − 1, 3); past the last pair, zeros.
@@ -181,7 +181,7 @@ def pairs_of(tree: Tree, nodes: Ints) -> Floats:
 
 
 def regular_of(tree: Tree, node: int) -> RegularTrajectory:
-    """The way from a node to the slot in the paper's form."""
+    """The path from a node to the slot in the paper's form."""
     return regular_from_pairs(pairs_of(tree, np.array([node], np.int32))[0])
 
 
@@ -237,13 +237,13 @@ def tree_area(tree: Tree, heading_number: int) -> Area:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Losses:
-    """How much slower than the exact plan a tree's ways are, at the very same states."""
+    """How much slower than the exact plan a tree's paths are, at the very same states."""
 
     nodes: Ints
     exact: Floats
     """T of the exact plan [s]; infinite where it finds none."""
     loss: Floats
-    """T of the tree over the exact one, less 1; −1 where the exact planner finds no way."""
+    """T of the tree over the exact one, less 1; −1 where the exact planner finds no path."""
 
     def share_within(self, loss: float) -> float:
         """Share of the nodes that lose no more than this."""

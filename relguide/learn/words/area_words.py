@@ -37,7 +37,7 @@ def area_words(network: BranchNetwork, situation: Situation, grid: Grid) -> Word
         situation: all but the pursuer's place counts.
         grid: of the map.
     """
-    x, y = (_asked(axis) for axis in grid.axes)
+    x, y = (_nodes_asked(axis) for axis in grid.axes)
     blocks = _blocks(_at_nodes(network, situation, x, y))
 
     def words(east: Floats, north: Floats) -> Bytes:
@@ -49,7 +49,7 @@ def area_words(network: BranchNetwork, situation: Situation, grid: Grid) -> Word
     return words
 
 
-def _asked(axis: Floats) -> Floats:
+def _nodes_asked(axis: Floats) -> Floats:
     """Every so many nodes of an axis, its two ends among them."""
     return np.linspace(axis[0], axis[-1], max(2, -(-(len(axis) - 1) // EVERY) + 1))
 

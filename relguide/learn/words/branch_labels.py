@@ -154,7 +154,7 @@ def join_labels(chunks: dict[int, Labels]) -> Labels:
 def label_chunk(request: LabelRequest, number: int) -> Labels:
     """Make one chunk; a function of its arguments alone."""
     rng, (box, reverse, edge) = begin_chunk(request, number)
-    parts = [_in_box(rng, request.box, box), _reversed(rng, request.box, reverse)]
+    parts = [_in_box(rng, request.box, box), _lay_back(rng, request.box, reverse)]
     parts.append(_at_edges(rng, request.box, edge))
     # the last, so that those before are the same with and without them
     parts.append(_in_flight(rng, request.box, round((box + reverse + edge) * request.loops)))
@@ -196,7 +196,7 @@ def _in_box(rng: np.random.Generator, box: Box, size: int) -> Floats:
     return canonical(np.column_stack((away * np.cos(bearing), away * np.sin(bearing), h, alpha)))
 
 
-def _reversed(rng: np.random.Generator, box: Box, size: int) -> Floats:
+def _lay_back(rng: np.random.Generator, box: Box, size: int) -> Floats:
     """Starts of random paths to the slot, all fastest branches as nearly alike as may be."""
     if size == 0:
         return np.empty((0, 4))
@@ -230,7 +230,7 @@ def _at_edges(rng: np.random.Generator, box: Box, size: int) -> Floats:
     if size == 0:
         return np.empty((0, 4))
     begun = max(size, FEWEST)
-    here = np.concatenate((_in_box(rng, box, begun), _reversed(rng, box, begun)))
+    here = np.concatenate((_in_box(rng, box, begun), _lay_back(rng, box, begun)))
     there = _move(rng, box, here, np.ones(len(here)))
     at_here = times_of(here).argmin(axis=1)
     between = at_here != times_of(there).argmin(axis=1)

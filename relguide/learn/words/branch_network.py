@@ -6,7 +6,7 @@ What flies is never the network's number: the words it holds possible are solved
 needed to train and to compare; who only asks evaluates the weights with
 `kernels/networks/branch_scores`.
 
-The file is in safetensors: arrays, and in its header one JSON text that tells all the rest.
+The file is in safetensors: arrays, and in its header one JSON text that says all the rest.
 """
 
 from collections.abc import Mapping
@@ -62,7 +62,7 @@ class BranchNetwork:
 
 
 def features_of(situations: Floats) -> Singles:
-    """What the network is told of situations on the left of the route, shape (n, INPUTS)."""
+    """What the network is given for situations on the left of the route, shape (n, INPUTS)."""
     numbers = np.empty((len(situations), INPUTS))
     input_rows(np.ascontiguousarray(situations), numbers)
     return numbers.astype(np.float32)

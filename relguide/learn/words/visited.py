@@ -34,9 +34,9 @@ STEP: Second = 0.25
 LONGEST: Second = 900.0
 """A flight is left there: what follows is a long straight, or the leader's path."""
 KEPT = 60
-"""Situations kept of a flight at most; its others are next to them."""
+"""Situations kept of a flight at most; the others would be next to them."""
 FLIGHTS = 50
-"""Flights without a situation to keep, one after the other, before it is said."""
+"""So many flights in a row without a situation to keep are an error."""
 
 
 def draw_visited(
@@ -87,8 +87,8 @@ def draw_visited(
 def draw_flight(rng: np.random.Generator, *, ratios: tuple[float, float] = (0.6, 0.97)) -> Scenario:
     """A flight of airliners in still air, whose leader changes course once or twice.
 
-    The pursuer begins within 40 km or within 150 km. Of the leader's course changes it is told in
-    every other flight; else it sees them as they happen.
+    The pursuer begins within 40 km or within 150 km. In every other flight it knows the leader's
+    course changes beforehand; else it sees them as they happen.
 
     Args:
         rng: the source of chance.
@@ -144,7 +144,7 @@ def situations_asked(scenario: Scenario, planner: Planner) -> list[Situation]:
 
 
 def listen_to(planner: Planner, tell: Callable[[Situation], None]) -> Planner:
-    """The same planner, that tells what it is asked."""
+    """The same planner, which also notes what it is asked."""
 
     def asked(situation: Situation) -> Plan | NoPlan:
         tell(situation)

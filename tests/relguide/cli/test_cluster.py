@@ -114,7 +114,7 @@ def test_a_part_that_kills_its_workers_is_given_up(
             list(gather(deadly, 1, workers))
 
 
-def test_a_cluster_without_workers_is_waited_for_and_told_of(
+def test_a_cluster_without_workers_is_waited_for_and_named(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     said: list[str] = []
@@ -136,7 +136,7 @@ def test_a_cluster_without_workers_is_waited_for_and_told_of(
     assert said == [f"{machines.address} has no workers: waiting up to 120 s for one."]
 
 
-def test_a_scheduler_that_is_gone_is_told_in_a_sentence(
+def test_a_scheduler_that_is_gone_gives_a_sentence(
     run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(clusters, "REACHED_WITHIN", 2.0)

@@ -60,7 +60,7 @@ def test_the_table_says_why_each_other_way_lost(run: Run) -> None:
     assert others[-1][at:].rstrip() == "no such path to the slot"
 
 
-def test_optimality_is_told_on_demand(run: Run) -> None:
+def test_optimality_is_printed_on_demand(run: Run) -> None:
     code, out, _ = run("plan", written(BODY), "--include", "optimality")
     assert code == 0
     assert json.loads(out)["optimality"]["stationary"] is True
@@ -150,7 +150,7 @@ def test_a_bad_situation_is_misuse(run: Run, content: Any, sentence: str) -> Non
         ("serve", "--host", "203.0.113.1"),
     ],
 )
-def test_misuse_is_told_in_a_sentence(run: Run, arguments: tuple[str, ...]) -> None:
+def test_misuse_gives_a_sentence(run: Run, arguments: tuple[str, ...]) -> None:
     code, out, err = run(*arguments)
     assert (code, out) == (2, "")
     last = err.splitlines()[-1]

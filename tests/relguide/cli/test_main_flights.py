@@ -73,7 +73,7 @@ def test_a_recording_replays_to_the_same_figures(
 
 
 @pytest.mark.slow
-def test_of_a_damaged_recording_the_good_part_is_told(
+def test_the_good_part_of_a_damaged_recording_is_printed(
     run: Run, flown: tuple[Path, dict[str, Any]]
 ) -> None:
     whole = gzip.decompress(flown[0].read_bytes())

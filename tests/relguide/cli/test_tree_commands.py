@@ -107,7 +107,7 @@ def test_ctrl_c_leaves_what_resume_goes_on_with(run: Run, monkeypatch: pytest.Mo
         (("area", "--figure", "area.svg", "--headings-deg", "45"), "45° is none of them"),
     ],
 )
-def test_misuse_is_told_in_a_sentence(run: Run, arguments: tuple[str, ...], sentence: str) -> None:
+def test_misuse_gives_a_sentence(run: Run, arguments: tuple[str, ...], sentence: str) -> None:
     code, out, err = run(*arguments)
     assert (code, out) == (2, "")
     assert sentence in err.splitlines()[-1]

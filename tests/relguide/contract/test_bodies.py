@@ -148,7 +148,7 @@ def test_an_overflowing_number_is_refused() -> None:
     assert problem_of(text) == ("pursuer.x_m", "must be a finite number, not -inf.")
 
 
-def test_all_defects_are_told_but_not_endlessly() -> None:
+def test_all_defects_are_listed_but_not_endlessly() -> None:
     body = changed("leader.intent", [{"straight_s": -1}] * 15)
     with pytest.raises(ContractError) as caught:
         situation_from_json(body)

@@ -83,7 +83,7 @@ def test_triplets_rounded_by_hand_still_reach_the_slot_and_tell_by_how_much_they
     assert found.stationarity.hamiltonian_residual < 1e-2
 
 
-def test_what_misses_the_slot_is_told_so() -> None:
+def test_what_misses_the_slot_is_refused() -> None:
     found = regular_check(
         RegularTrajectory(triplets=(Triplet(turn=LEFT, turn_angle=0.0, length=1e4),)),
         straight_behind(),

@@ -111,7 +111,7 @@ def test_alternatives_are_listed_with_what_they_lose() -> None:
     assert slower.turning == pytest.approx(489.0 * DEG, abs=0.5 * DEG)
 
 
-def test_of_a_slot_that_opens_later_it_is_told_who_comes_too_early() -> None:
+def test_a_slot_that_opens_later_names_what_comes_too_early() -> None:
     situation, _ = next(pair for pair in golden("reference") if pair[1]["id"] == "R104")
     answer = plan(situation)
     assert isinstance(answer, Plan)

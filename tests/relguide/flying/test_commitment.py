@@ -62,7 +62,7 @@ def test_same_way_is_continued_from_here(t: float, aside: float) -> None:
     assert choice.plan.time_to_converge == pytest.approx(due, abs=10.0)
 
 
-def test_without_the_planner_the_same_strategy_is_solved_again() -> None:
+def test_without_the_planner_the_same_branch_is_solved_again() -> None:
     choice = chosen(later(100.0, aside=100.0), 100.0, helpless)
     assert isinstance(choice, Choice)
     assert choice.cause == "continued"

@@ -154,7 +154,7 @@ def test_leader_heading_makes_a_new_plan_within_a_second() -> None:
     assert signed(flight.samples[-1].pursuer.heading - 60.0 * DEG) == pytest.approx(0.0, abs=0.01)
 
 
-def test_leader_may_be_told_which_way_round() -> None:
+def test_the_leader_may_be_instructed_which_way_round() -> None:
     flight = flown(FIG_6B, (10.0, LeaderHeading(heading=60.0 * DEG, direction="right")))
     early = [s.leader for s in flight.samples if 20.0 < s.t < 60.0]
     assert all(leader.bank > 20.0 * DEG for leader in early)
@@ -255,7 +255,7 @@ def test_a_lie_is_said_counted_and_not_flown(liar: Liar, honest: Flown) -> None:
     assert (first.planner, first.word) == ("exact", honest.of(PlanChanged)[0].plan.word)
 
 
-def test_a_lie_told_for_a_while_is_said_again() -> None:
+def test_a_lie_repeated_for_a_while_is_said_again() -> None:
     asked = iter(range(1_000_000))
 
     def sometimes(situation: Situation) -> Plan | NoPlan:

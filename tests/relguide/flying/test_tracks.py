@@ -347,12 +347,12 @@ def test_a_sample_agrees_with_what_was_broadcast() -> None:
 
 
 @pytest.mark.slow
-def test_an_unknown_callsign_is_told_others() -> None:
+def test_an_unknown_callsign_is_answered_with_others() -> None:
     with pytest.raises(ValueError, match=r"no flight 'NONE'\. It has \d+, for example ABR471, "):
         load_sample("NONE")
 
 
-def test_an_unknown_collection_is_told() -> None:
+def test_an_unknown_collection_gives_a_sentence() -> None:
     with pytest.raises(ValueError, match=r"traffic 2\.13 has no samples 'collections/none'"):
         load_sample("NONE", "collections/none")
 
@@ -377,7 +377,9 @@ class Package:
         return self.folder / path
 
 
-def test_a_damaged_package_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_damaged_package_gives_a_sentence(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(tracks, "distribution", lambda name: Package(tmp_path))
     file = tmp_path / "traffic/data/samples/a.json.gz"
     file.parent.mkdir(parents=True)

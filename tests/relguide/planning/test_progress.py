@@ -6,7 +6,7 @@ from time import sleep
 import pytest
 
 from relguide.planning import progress
-from relguide.planning.progress import progress_bar, watched
+from relguide.planning.progress import progress_bar, show_progress
 
 
 class _Terminal:
@@ -56,7 +56,7 @@ def test_a_file_gets_no_bar(
 ) -> None:
     monkeypatch.setattr(progress, "PATIENCE", 0.0)
     with progress_bar("planning", total=2) as count:
-        for item in watched(range(2), title="planning", total=2, done=float):
+        for item in show_progress(range(2), title="planning", total=2, done=float):
             sleep(0.01)
             count(item)
     assert capsys.readouterr().err == ""
@@ -67,7 +67,9 @@ def test_it_says_how_far_and_is_taken_away(monkeypatch: pytest.MonkeyPatch) -> N
     monkeypatch.setattr(progress, "PATIENCE", 0.0)
     monkeypatch.setattr(progress, "REFRESH", 0.0)
     monkeypatch.setenv("COLUMNS", "100")
-    for _ in watched(range(1, 5), title="proving", total=4, done=float, state=lambda n: f"gap {n}"):
+    for _ in show_progress(
+        range(1, 5), title="proving", total=4, done=float, state=lambda n: f"gap {n}"
+    ):
         while not terminal.text:
             sleep(0.01)
     lines = [line.rstrip() for line in terminal.text.split("\r")]

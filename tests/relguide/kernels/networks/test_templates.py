@@ -59,7 +59,7 @@ def test_exact_answers_lead_back_to_themselves() -> None:
         assert templates[commonest] > 0.03 * there
 
 
-def test_a_guess_that_is_off_leads_to_the_same_way() -> None:
+def test_a_guess_that_is_off_leads_to_the_same_path() -> None:
     same = total = 0
     for n in range(0, len(FOUND), 2):
         _, time, legs = solved(n)

@@ -103,7 +103,7 @@ def test_a_larger_set_loses_less() -> None:
     assert all(size.worth.hits <= size.lost.hits for size in sizes)
 
 
-def test_every_gap_is_told_with_what_explains_it() -> None:
+def test_every_gap_comes_with_what_explains_it() -> None:
     found = audited(3000, least_share=0.1)
     gaps = [miss.gap for miss in found.misses]
     assert gaps == sorted(gaps, reverse=True)

@@ -40,7 +40,7 @@ def test_far_from_every_surface_nothing_is_near() -> None:
 
 
 @pytest.mark.parametrize("branch", ["LRL long", "RLR long"])
-def test_where_a_strategy_is_born_it_is_found(branch: str) -> None:
+def test_where_a_branch_begins_to_exist_it_is_found(branch: str) -> None:
     here, there = edge(branch)
     found = surfaces(here[None])
     assert found.birth[0] <= 1e-5

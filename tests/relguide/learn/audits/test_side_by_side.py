@@ -115,7 +115,7 @@ def test_all_four_are_with_certificate() -> None:
     assert ours.gaps[1] <= min(method.gaps[1] for method in (nearest, paper, direct))
 
 
-def test_they_are_told_in_json() -> None:
+def test_they_are_written_as_json() -> None:
     ours, nearest, *_ = (method_as_json(method) for method in methods())
     assert "flown_as_given" not in ours
     assert set(nearest["flown_as_given"]) == {

@@ -75,7 +75,7 @@ def test_what_it_gives_flies_nearly_to_the_slot() -> None:
     assert 100.0 < np.median(missed) < 2.0 * RADIUS
 
 
-def test_mirror_situations_get_mirror_ways() -> None:
+def test_mirrored_situations_get_mirrored_paths() -> None:
     rng = np.random.default_rng(4)
     x, y, h = rng.uniform(-5.0, 10.0, 50), rng.uniform(0.1, 8.0, 50), rng.uniform(0.1, 6.0, 50)
     here, there = regress_pairs(trained(), x, y, h), regress_pairs(trained(), x, -y, -h)

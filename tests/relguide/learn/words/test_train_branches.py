@@ -95,7 +95,7 @@ def test_options_that_cannot_be_are_refused(wrong: dict[str, Any], sentence: str
         replace(OPTIONS, **wrong)
 
 
-def test_the_command_is_told_as_it_was_typed() -> None:
+def test_the_command_is_kept_as_it_was_typed() -> None:
     typed = chosen("folder/labels.npz", "w.safetensors", "--learning-rate", "0.001")
     assert command_of(typed) == "relguide train labels.npz w.safetensors --learning-rate 0.001"
     assert options_of(typed).learning_rate == 0.001

@@ -92,7 +92,7 @@ def test_who_flies_decides_what_is_met() -> None:
 
 
 @pytest.mark.slow
-def test_flights_that_never_come_there_are_told_of(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_flights_that_never_come_there_are_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("relguide.learn.words.visited.FLIGHTS", 2)
     with pytest.raises(ValueError, match=r"2 flights met nothing within 1e-06 R and speed ratios"):
         draw_visited(np.random.default_rng(0), 1, max_range=1e-6, min_ratio=0.6, max_ratio=0.7)
