@@ -74,7 +74,7 @@ def test_flights_are_of_every_kind_and_arrive() -> None:
         if flight.intent_known:
             assert end.results[0].least_separation > 0.99 * flight.situation.min_separation
         known.add(flight.intent_known)
-        joined += end.joined
+        joined += end.results[0].joined
         headings = [s.leader.heading for s in situations_asked(flight, plan)]
         turned += np.ptp(np.unwrap(headings)) > 0.1
     assert known == {True, False}
