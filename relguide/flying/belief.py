@@ -1,0 +1,171 @@
+"""What a pursuer knows of itself, its leader, the leader's intent and the air. Not the world itself.
+
+Surveillance will stand between the two: guidance reads this and nothing else.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from relguide.kernels.base.angles import wrap
+from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.base.turn import turn_rate
+from relguide.kernels.flight.ahead import add_mark
+from relguide.kernels.flight.laws import ground_track
+from relguide.kernels.flight.marks import straight_for
+from relguide.kernels.flight.program import roll_lead
+from relguide.kernels.flight.records import Body, Drift, Limits
+from relguide.planning.situation import FlyStraight, IntentPiece, Leader, TurnTo, Wind
+from relguide.units import Metre, MetrePerSecond, Radian, RadianPerSecond, Second
+
+SPARE: Metre = 20_000.0
+"""Of the leader's flown path, D and so much more is kept, and assumed straight behind it at first
+sight [m]."""
+ROOM = 600
+"""Marks that a track has room for at first; it grows."""
+
+
+class FlownTrack:
+    """The leader's flown path over the ground, a mark a second; it grows as it is flown."""
+
+    def __init__(self, leader: Body, wind: Drift, t: Second, behind: Metre) -> None:
+        """At first sight: the leader is assumed to have come straight.
+
+        Args:
+            leader: now.
+            wind: moves it.
+            t: flight time [s].
+            behind: how much of its path to assume [m].
+        """
+        direction, speed = ground_track(leader, wind)
+        rows = np.zeros((ROOM, 7))
+        east, north = np.sin(direction), np.cos(direction)
+        rows[0] = (
+            -behind, leader.x - behind * east, leader.y - behind * north,
+            leader.heading, direction, speed, t - behind / max(speed, 1.0),
+        )  # fmt: skip
+        rows[1] = 0.0, leader.x, leader.y, leader.heading, direction, speed, t
+        self._rows, self._count = rows, 2
+
+    @property
+    def marks(self) -> FloatArray:
+        """Rows as in `kernels/flight/marks.py`, the last one now."""
+        return self._rows[: self._count]
+
+    def add(self, leader: Body, wind: Drift, t: Second) -> None:
+        """A mark where the leader is now; not if it is the same report again."""
+        if self._rows[self._count - 1, 6] >= t:
+            return
+        if self._count == len(self._rows):
+            self._rows = np.vstack([self._rows, np.zeros_like(self._rows)])
+        add_mark(self._rows, self._count, leader, wind, t)
+        self._count += 1
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Belief:
+    """What a pursuer knows at one instant."""
+
+    t: Second
+    """Flight time [s]."""
+    own: Body
+    """Itself."""
+    limits: Limits
+    """What it can do."""
+    leader: Body
+    """The leader, heading continuous."""
+    leader_limits: Limits
+    """What the leader is assumed to be able to do."""
+    intent: tuple[IntentPiece, ...]
+    """The part of the leader's intent still to be flown; empty if unknown."""
+    intent_known: bool
+    program: FloatArray
+    """The intent as the kernels take it; no rows if unknown. shape (k, 3)"""
+    cursor: int
+    """Its piece being flown."""
+    held: Radian
+    """The leader's heading before the first piece, continuous [rad]."""
+    leader_tas: MetrePerSecond
+    """The speed that the leader is expected to hold [m/s]."""
+    track: FlownTrack
+    """The leader's flown path."""
+    wind: Wind
+    """As it is believed."""
+
+    @property
+    def drift(self) -> Drift:
+        """The wind as kernels take it."""
+        return Drift(self.wind.east, self.wind.north)
+
+    @property
+    def turn_to_come(self) -> bool:
+        """Whether the leader's known intent has a turn that is not over."""
+        return any(isinstance(piece, TurnTo) for piece in self.intent)
+
+    @property
+    def last_turn(self) -> int:
+        """Number of the last turn of the program; −1 if there is none."""
+        turns = [k for k in range(len(self.program)) if self.program[k, 0] != 0.0]
+        return turns[-1] if turns else -1
+
+    @property
+    def leader_turn_rate(self) -> RadianPerSecond:
+        """As observed, positive to the right [rad/s]."""
+        return turn_rate(self.leader.tas, self.leader.bank)
+
+    @property
+    def leader_rolled_out(self) -> Radian:
+        """The leader's heading if it stops turning now, continuous [rad]."""
+        if abs(self.leader.bank) < 1e-3:
+            return self.leader.heading
+        lead = roll_lead(self.leader_limits, self.leader.bank, 0.0)
+        return self.leader.heading + self.leader_turn_rate * lead
+
+    @property
+    def final_heading(self) -> Radian:
+        """The leader's heading on its final leg as far as is known, in [0, 2π) [rad]."""
+        turns = [piece.heading for piece in self.intent if isinstance(piece, TurnTo)]
+        return wrap(turns[-1] if turns else self.leader_rolled_out)
+
+    def slot_open(self, slot_distance: Metre) -> bool:
+        """Whether the leader has flown D on its final leg, as far as is known."""
+        return not self.turn_to_come and straight_for(self.track.marks, slot_distance)
+
+    def leader_after(self, seconds: Second) -> Leader:
+        """The leader as it is expected to be, over the ground, with the rest of its intent.
+
+        Args:
+            seconds: from now [s].
+        """
+        heading = self.leader.heading if self.intent_known else self.leader_rolled_out
+        now = Leader(
+            x=self.leader.x, y=self.leader.y, heading=wrap(heading), tas=self.leader.tas,
+            intent=self.intent,
+        )  # fmt: skip
+        if seconds == 0.0:
+            return now
+        then = now.trajectory.pose_at(seconds)
+        return Leader(
+            x=then.x + self.wind.east * seconds,
+            y=then.y + self.wind.north * seconds,
+            heading=then.heading,
+            tas=self.leader.tas,
+            intent=intent_after(now, seconds),
+        )
+
+
+def intent_after(leader: Leader, seconds: Second) -> tuple[IntentPiece, ...]:
+    """The part of an intent still to be flown after a time [s]."""
+    left, pieces = seconds, list[IntentPiece]()
+    durations = leader.trajectory.durations()
+    for piece, duration in zip(leader.intent, durations, strict=True):
+        if left >= duration:
+            left -= duration
+            continue
+        match piece:
+            case FlyStraight():
+                pieces.append(FlyStraight(duration=duration - left))
+            case TurnTo():
+                pieces.append(piece)
+        left = 0.0
+    return tuple(pieces)

@@ -1,0 +1,156 @@
+"""What guidance announces, in sentences for a crew, and when something is news."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+from relguide.flying.belief import Belief
+from relguide.flying.guidance.committed import Committed
+from relguide.flying.modes import Mode
+from relguide.kernels.base.angles import wrap_signed
+from relguide.planning.acceptance import Refusal
+from relguide.planning.plan import NoPlan, Plan
+from relguide.units import DEG, KT, NM, Metre, MetrePerSecond, Radian, Second
+
+PlanReason = Literal[
+    "engaged",
+    "better_plan",
+    "deviation",
+    "separation",
+    "leader_turned",
+    "leader_changed_speed",
+    "intent_received",
+    "intent_withdrawn",
+]
+"""Why a new plan was made."""
+AlertLevel = Literal["none", "advisory", "caution", "warning"]
+"""How urgent: a caution where separation would be lost soon, a warning where it is lost."""
+UnableReason = Literal["separation", "speed", "geometry", "envelope", "data"]
+"""Why guidance cannot go on."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NewPlan:
+    """A new plan is flown."""
+
+    committed: Committed
+    shown: Plan
+    """The plan with its lead-in, from where it begins."""
+    reason: PlanReason
+    message: str
+    announced: bool
+    """Whether it is news for a crew; if not, it is kept in the record."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlanMissing:
+    """There is no plan."""
+
+    answer: NoPlan
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Refused:
+    """The planner's own plan may not be flown."""
+
+    refusal: Refusal
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ModeChange:
+    """Guidance changes its mode."""
+
+    mode: Mode
+    previous: Mode
+    message: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Alerted:
+    """An alert begins, becomes more urgent or less, or is over."""
+
+    level: AlertLevel
+    message: str
+    predicted_least: Metre
+    predicted_at: Second
+    """Flight time [s]."""
+    cleared: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class UnableTo:
+    """Guidance cannot go on with what it was asked to do."""
+
+    reason: UnableReason
+    message: str
+
+
+Event = NewPlan | PlanMissing | Refused | ModeChange | Alerted | UnableTo
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Expectation:
+    """What the announced plan assumes of the leader."""
+
+    final_heading: Radian
+    tas: MetrePerSecond
+    intent_known: bool
+
+
+def expectation(belief: Belief) -> Expectation:
+    """What is known of the leader now."""
+    return Expectation(
+        final_heading=belief.final_heading,
+        tas=belief.leader.tas,
+        intent_known=belief.intent_known,
+    )
+
+
+def leader_change(
+    was: Expectation, now: Expectation, turned: Radian, speed: MetrePerSecond
+) -> PlanReason | None:
+    """What the leader does that was not expected; `None` if nothing.
+
+    Args:
+        was: what was expected.
+        now: what is known now.
+        turned: a smaller change of its final heading is none [rad].
+        speed: a smaller change of its speed is none [m/s].
+    """
+    if now.intent_known != was.intent_known:
+        return "intent_received" if now.intent_known else "intent_withdrawn"
+    if abs(wrap_signed(now.final_heading - was.final_heading)) > turned:
+        return "leader_turned"
+    if abs(now.tas - was.tas) > speed:
+        return "leader_changed_speed"
+    return None
+
+
+def reason_sentence(reason: PlanReason, belief: Belief) -> str:
+    """Why there is a new plan, without a full stop."""
+    match reason:
+        case "engaged":
+            return "Relative guidance engaged"
+        case "better_plan":
+            return "A faster path was found"
+        case "deviation":
+            return "Planned again, as the aircraft has left its path"
+        case "separation":
+            return "The plan no longer kept the minimum separation"
+        case "leader_turned":
+            heading = f"{round(belief.final_heading / DEG) % 360:03d}°"
+            if belief.turn_to_come:
+                return f"The leader will turn to {heading}"
+            return f"The leader's heading is {heading}"
+        case "leader_changed_speed":
+            return f"The leader flies {belief.leader.tas / KT:.0f} kt"
+        case "intent_received":
+            return "The leader's intent is known"
+        case "intent_withdrawn":
+            return "The leader's intent is no longer known"
+
+
+def summary(plan: Plan, joins_in: Second) -> str:
+    """Its word, when it joins and the separation it keeps, in a clause."""
+    minutes, seconds = divmod(round(joins_in), 60)
+    least = plan.certificate.least_separation / NM
+    return f"{plan.word} joins in {minutes} min {seconds:02d} s and keeps {least:.1f} NM"

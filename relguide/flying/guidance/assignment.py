@@ -1,0 +1,75 @@
+"""What a pursuer was asked to do, and with what: fixed for the flight."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from relguide.flying.guidance.settings import Settings
+from relguide.kernels.flight.guide import Gate, Task
+from relguide.kernels.flight.laws import Gains
+from relguide.units import Metre, MetrePerSecond, Radian, Second
+
+IN_GATE = 0.9
+"""Share of the gate's length that the place aimed at may lie behind D."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Assignment:
+    """One pursuer, one leader, and how far behind it."""
+
+    ident: str
+    """The pursuer."""
+    leader_ident: str
+    """Its leader."""
+    aircraft_type: str
+    """ICAO designator of the pursuer, for sentences."""
+    tas: MetrePerSecond
+    """V_P, kept until the spacing closes [m/s]."""
+    max_bank: Radian
+    """What the autopilot may use [rad]."""
+    idle_deceleration: float
+    """What the type gives at idle thrust [m/s²]."""
+    min_tas: MetrePerSecond
+    """Its least speed at its level [m/s]."""
+    max_tas: MetrePerSecond
+    """Its highest [m/s]."""
+    slot_distance: Metre
+    """D [m]."""
+    min_separation: Metre
+    """d_min [m]."""
+    spacing: Second = 0.0
+    """Time behind the leader to keep [s]; 0 where a distance is kept."""
+    settings: Settings
+
+    @cached_property
+    def planned_bank(self) -> Radian:
+        """φ_max of the plans: the autopilot has some more in hand [rad]."""
+        return self.settings.planned_bank(self.max_bank)
+
+    @cached_property
+    def aim(self) -> Metre:
+        """Where in the gate the pursuer goes: D, or what keeps d_min with a buffer [m]."""
+        wanted = self.min_separation + self.settings.separation_buffer
+        gate = self.slot_distance + IN_GATE * self.settings.joined_along
+        return min(max(self.slot_distance, wanted), gate)
+
+    @cached_property
+    def buffered_separation(self) -> Metre:
+        """The separation that new plans should keep [m]: d_min and a buffer, within the aim."""
+        return min(self.min_separation + self.settings.separation_buffer, self.aim)
+
+    @cached_property
+    def gains(self) -> Gains:
+        """Of the laws, for this aircraft."""
+        return self.settings.gains(self.idle_deceleration)
+
+    @cached_property
+    def gate(self) -> Gate:
+        """When it has joined."""
+        return self.settings.gate
+
+    @cached_property
+    def task(self) -> Task:
+        """As the kernels take it."""
+        return Task(
+            self.tas, self.slot_distance, self.aim, self.spacing, self.buffered_separation
+        )

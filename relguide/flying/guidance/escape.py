@@ -1,0 +1,129 @@
+"""Staying clear of the leader without a plan: a heading, and how much separation it keeps.
+
+Plans assume that a leader that turns unannounced stops turning now, as nothing else is known. But
+it may go on, or slow down, and what keeps d_min if it does not may leave no way out if it does. So
+while it does such things an escape is kept in sight: a turn and a straight, begun a second later,
+that keep d_min wherever the leader's turn ends.
+"""
+
+from math import inf
+from typing import NamedTuple
+
+import numpy as np
+
+from relguide.flying.belief import Belief
+from relguide.flying.guidance.assignment import Assignment
+from relguide.kernels.base.angles import wrap, wrap_signed
+from relguide.kernels.base.motion import Motion
+from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.base.turn import turn_rate
+from relguide.kernels.flight.program import roll_lead
+from relguide.kernels.separation import least_bad_turn as kernel
+from relguide.kernels.separation.approach import least_separation
+from relguide.planning.tables import motion_of
+from relguide.units import DEG, Metre, MetrePerSecond, Radian, Second
+
+ENDS_EVERY: Radian = 30.0 * DEG
+"""A leader's turn that ends between two of these is little worse [rad]."""
+TURNS_ON: Radian = 180.0 * DEG
+"""A leader that turned farther would fly back to where it came from [rad]."""
+FAINT: Radian = 2.0 * DEG
+"""An escape's heading is found to 10°; differences below this are none [rad]."""
+
+
+class Escape(NamedTuple):
+    """A heading to fly, and the separation it keeps."""
+
+    heading: Radian
+    """Clockwise from north [rad]."""
+    least_separation: Metre
+    """Least separation over all that the leader may do [m]."""
+
+
+def escape(
+    belief: Belief,
+    assignment: Assignment,
+    min_separation: Metre,
+    *,
+    turns_on: bool = False,
+    slows_to: MetrePerSecond = inf,
+    delay: Second = 0.0,
+) -> Escape:
+    """The heading nearest to the present one that keeps clear for `look_out` seconds.
+
+    If no heading does, the one that stays farthest away.
+
+    Args:
+        belief: both aircraft, and the intent as far as it is known.
+        assignment: the bank and how far to look.
+        min_separation: to be kept [m].
+        turns_on: whether the leader's present turn may go on for as much as 180° more.
+        slows_to: a speed that the leader may slow down to [m/s].
+        delay: how long the pursuer goes on as it does before it turns [s].
+    """
+    own, bank = belief.own, assignment.planned_bank
+    rate, full = turn_rate(own.tas, own.bank), turn_rate(own.tas, bank)
+    before = np.array(
+        [
+            (delay + roll_lead(belief.limits, own.bank, side * bank), rate)
+            for side in (-1.0, 0.0, 1.0)
+        ]
+    )
+    best = Escape(own.heading, inf)
+    for leader in _leaders(belief, slows_to):
+        side, angle, least = kernel.escape_path(
+            _motion(belief), full, before, leader, _pieces(belief, leader, turns_on=turns_on),
+            min_separation, assignment.settings.look_out,
+        )  # fmt: skip
+        turned = before[side + 1, 0] * rate + side * angle
+        if least < best.least_separation:
+            best = Escape(wrap(own.heading + turned), least)
+    return best
+
+
+def kept_on_heading(
+    belief: Belief, assignment: Assignment, heading: Radian, *, turns_on: bool = False
+) -> Metre:
+    """The least separation if the pursuer turns the shorter way to a heading and keeps it [m]."""
+    own, bank = belief.own, assignment.planned_bank
+    turn = wrap_signed(heading - own.heading)
+    side = 1.0 if turn > 0.0 else -1.0
+    full = turn_rate(own.tas, bank)
+    roll = roll_lead(belief.limits, own.bank, side * bank) if abs(turn) > FAINT else 0.0
+    pieces = np.array([(roll, turn_rate(own.tas, own.bank)), (abs(turn) / full, side * full)])
+    ours = _motion(belief)._replace(pieces=pieces)
+    (leader,) = _leaders(belief, inf)
+    return float(
+        min(
+            least_separation(
+                ours, leader._replace(pieces=rows), assignment.settings.look_out, 1.0
+            )[0]
+            for rows in _pieces(belief, leader, turns_on=turns_on)
+        )
+    )
+
+
+def _motion(belief: Belief) -> Motion:
+    own = belief.own
+    return Motion(own.x, own.y, own.heading, own.tas, np.zeros((1, 2)))
+
+
+def _leaders(belief: Belief, slows_to: MetrePerSecond) -> tuple[Motion, ...]:
+    """The leader at its speed, and at the lower one that it may slow down to."""
+    leader = motion_of(belief.leader_after(0.0).trajectory)
+    if slows_to < leader.tas:
+        return leader, leader._replace(tas=max(slows_to, 1.0))
+    return (leader,)
+
+
+def _pieces(belief: Belief, leader: Motion, *, turns_on: bool) -> FloatArray:
+    """Pieces of all that the leader may do: its declared intent, or a turn that goes on."""
+    known, rate = leader.pieces, belief.leader_turn_rate
+    ends = np.arange(ENDS_EVERY, TURNS_ON + 0.5 * ENDS_EVERY, ENDS_EVERY) if turns_on else ()
+    pieces = np.zeros((1 + len(ends), max(len(known), 1), 2))
+    pieces[0, : len(known)] = known
+    for i, end in enumerate(ends, start=1):
+        pieces[i, 0] = end / max(abs(rate), 1e-6), rate
+    return pieces
+
+

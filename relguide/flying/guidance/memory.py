@@ -1,0 +1,141 @@
+"""What guidance remembers from one second to the next, and the advice it gives."""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from relguide.flying.belief import Belief
+from relguide.flying.guidance.announcements import (
+    AlertLevel,
+    Event,
+    Expectation,
+    PlanReason,
+    UnableReason,
+    expectation,
+)
+from relguide.flying.guidance.committed import Committed
+from relguide.flying.guidance.forecast import Forecast
+from relguide.flying.modes import Mode
+from relguide.kernels.flight.guide import HOLD, Progress
+from relguide.kernels.flight.records import Control
+from relguide.planning.acceptance import Fault
+from relguide.planning.plan import Reason
+from relguide.planning.trajectory import Trajectory
+from relguide.units import Metre, MetrePerSecond, Radian, RadianPerSecond, Second
+
+LONG_AGO: Second = -1e9
+
+
+class Slot(NamedTuple):
+    """Where the pursuer has to be, and how that place moves."""
+
+    x: Metre
+    """East over the ground, now [m]."""
+    y: Metre
+    """North over the ground, now [m]."""
+    heading: Radian
+    """The heading to have there, clockwise from north [rad]."""
+    tas: MetrePerSecond
+    """Its speed through the air, along that heading [m/s]."""
+    turn_rate: RadianPerSecond = 0.0
+    """How fast that heading turns there [rad/s]: not 0 where the leader's own path bends."""
+
+
+class Announced(NamedTuple):
+    """The plan that a crew was last told of."""
+
+    t: Second
+    """When, flight time [s]."""
+    joins: Second
+    """When it promised to join, flight time [s]."""
+    path: Trajectory
+    """Its path over the air mass of then."""
+
+
+class Alert(NamedTuple):
+    """The alert that stands."""
+
+    level: AlertLevel = "none"
+    seen: Second = LONG_AGO
+    """When its cause was last seen, flight time [s]."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Memory:
+    """What guidance remembers from one second to the next."""
+
+    mode: Mode
+    since: Second
+    """When the mode was entered [s]."""
+    progress: Progress
+    committed: Committed | None
+    """`None` where no path is tracked."""
+    forecast: Forecast | None
+    """The flight ahead as last flown; `None` at first."""
+    expected: Expectation
+    """What the announced plan assumes of the leader."""
+    leader: Expectation
+    """What was known of the leader a second ago."""
+    leader_heading: Radian
+    """Where the leader pointed a second ago [rad]."""
+    changed: Second
+    """When the leader last did something new, flight time [s]."""
+    announced: Announced | None
+    """`None` before the first plan."""
+    pending: PlanReason | None
+    """Why there is a plan that was not announced yet; `None` if there is none."""
+    asked: Second
+    """When a plan was last asked for [s]."""
+    missing: Reason | None
+    """Why there was no plan then; `None` if there was one."""
+    unable: UnableReason | None
+    """Why guidance cannot go on, as was said; `None` if it can."""
+    alert: Alert
+    fallbacks: int
+    """How often a planner's plan could not be flown and the exact plan took its place."""
+    refused: Fault | None
+    """What was wrong with the planner's last plan; `None` if it could be flown."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Advice:
+    """What guidance asks for during the next second."""
+
+    control: Control
+    mode: Mode
+    slot: Slot
+    """Over the ground, now."""
+    slot_open: bool
+    to_slot: Metre
+    """Distance still to close along the route [m]."""
+    time_to_go: Second
+    """Until it joins, by the forecast [s]; 0 where it does not, or has."""
+    joined: bool
+    """Eq. (7) holds: within 0.2 NM of the slot along and 0.1 NM across, heading within 2°, open."""
+    alert: AlertLevel
+    forecast: Forecast
+    """The flight ahead."""
+    events: tuple[Event, ...]
+
+
+def begin(belief: Belief) -> Memory:
+    """The memory at engagement."""
+    known = expectation(belief)
+    return Memory(
+        mode="heading",
+        since=belief.t,
+        progress=Progress(HOLD, 0.0, belief.own.heading, belief.own.tas),
+        committed=None,
+        forecast=None,
+        expected=known,
+        leader=known,
+        leader_heading=belief.leader.heading,
+        changed=LONG_AGO,
+        announced=None,
+        pending="engaged",
+        asked=LONG_AGO,
+        missing=None,
+        unable=None,
+        alert=Alert(),
+        fallbacks=0,
+        refused=None,
+    )

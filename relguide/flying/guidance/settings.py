@@ -1,0 +1,182 @@
+"""All constants of guidance in one record, each with its reason; readable from TOML.
+
+    [guidance]
+    bank_in_hand_deg = 3.0
+    caution_s = 45.0
+
+Keys end in the unit that people use: _deg, _nm, _kt, _s, _mps2 …; what is left out keeps its
+default.
+"""
+
+import tomllib
+from dataclasses import dataclass, fields, replace
+from math import isfinite
+from pathlib import Path
+
+from relguide.kernels.flight.guide import Gate
+from relguide.kernels.flight.laws import Gains
+from relguide.units import DEG, KT, NM, Metre, MetrePerSecond, Radian, RadianPerSecond, Second
+
+UNITS = {"deg": DEG, "nm": NM, "m": 1.0, "kt": KT, "s": 1.0, "radps": 1.0, "share": 1.0}
+"""Endings of keys, and what their numbers are multiplied by."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Settings:
+    """How guidance plans, tracks, watches and speaks."""
+
+    bank_in_hand: Radian = 2.5 * DEG
+    """Plans turn at so much less bank than the autopilot may use: 0.43 m/s² against an offset."""
+    bank_in_hand_share: float = 0.1
+    """… but no more than this share of it, where the bank is gentle."""
+    path_bandwidth: RadianPerSecond = 0.13
+    """ω along the committed path: beyond it the bank in hand limits, not the loop."""
+    follow_bandwidth: RadianPerSecond = 0.09
+    """ω along the leader's flown path: 30 m of its noise ask for 1.5° of bank."""
+    damping: float = 0.8
+    """ζ of both."""
+    intercept: Radian = 30.0 * DEG
+    """Steepest angle at which a path is closed on: what flight decks use for a localizer."""
+    lag: Second = 1.5
+    """How late a bank asked for for a second begins to be felt: the roll loop's 1.75 s, softly."""
+    look_ahead: Second = 1.75
+    """The roll loop's lag, (1 + kd)/kp."""
+    spacing_time: Second = 12.0
+    """Lag of the spacing loop: twice the autothrust's and more."""
+    braking_share: float = 0.7
+    """Of the deceleration at idle thrust: what is left is for a leader that brakes as well."""
+    falling_back: MetrePerSecond = 20.0
+    """At most 40 kt slower than the leader, to increase the spacing."""
+    catching_up: MetrePerSecond = 5.0
+    """At least 10 kt faster, or a leader with speed V_P is never reached."""
+    separation_buffer: Metre = 0.1 * NM
+    """Plans keep d_min and this: twice the tube of a reversal at 22.5° of bank."""
+    joined_along: Metre = 0.2 * NM
+    """Half of D − d_min in Fig. 6; closing at 13 m/s there."""
+    joined_across: Metre = 0.1 * NM
+    """RNP 0.1, the tightest navigation an airliner is approved for."""
+    joined_heading: Radian = 2.0 * DEG
+    """Drifts 35 m in a kilometre: the route is kept from there on."""
+    capture_turn: Radian = 2.0 * DEG
+    """A path that turns less than this from here on is captured from."""
+    capture_across: Metre = 300.0
+    """How far the path may end beside the leader's: a minute's correction on a straight."""
+    lost_across: Metre = 3_000.0
+    """So far beside the leader's path, capture and follow give way to a plan."""
+    lost_heading: Radian = 100.0 * DEG
+    """… or so far off its direction."""
+    too_far: Metre = 2_000.0
+    """A leader that turns in capture is planned for anew if the slot is farther off than this."""
+    leader_off: Metre = 30.0
+    """The leader is as expected while nearer than this to where it was expected."""
+    leader_turned: Radian = 1.0 * DEG
+    """… on the heading expected, but for this: five times as far as an autopilot wanders."""
+    leader_speed: MetrePerSecond = 2.0 * KT
+    """… at the speed expected, but for this: below what a crew would call a change."""
+    turning: RadianPerSecond = 0.3 * DEG
+    """A leader that turns faster turns: a quarter of an airliner's rate."""
+    settled_for: Second = 4.0
+    """A leader is steady again so long after its last change."""
+    own_off: Metre = 60.0
+    """The aircraft flies its forecast while nearer than this to it."""
+    strayed: Metre = 400.0
+    """So far beside its path it plans anew from where it is."""
+    slot_moved: Metre = 150.0
+    """A plan whose slot would be so far off when it ends is made anew."""
+    better: Second = 1.0
+    """A change of plan costs one or two roll reversals, about a second each."""
+    better_share: float = 0.005
+    """What is far ahead is uncertain: half a percent of the time to go."""
+    better_while_turning: Second = 15.0
+    """While the leader turns unannounced, sides are changed only for more than this."""
+    caution: Second = 60.0
+    """Separation that would be lost within this is announced."""
+    watch: Second = 150.0
+    """How far ahead the monitor looks when it has to look anew."""
+    clears_after: Second = 3.0
+    """An alert ends so long after its cause."""
+    speed_in_hand: MetrePerSecond = 2.0
+    """A leader slower than one's least speed by this cannot be followed."""
+    announce_after: Second = 20.0
+    """Plans that follow a change of the leader are announced no more often than this."""
+    shown_apart: Metre = 0.25 * NM
+    """A path is news if it leads so far from the one last announced."""
+    shown_time: Second = 3.0
+    """… or joins so much sooner or later,"""
+    shown_share: float = 0.02
+    """and by this much of the time to go."""
+    retry: Second = 5.0
+    """Without a plan, one is asked for this often."""
+    look_out: Second = 180.0
+    """How long an escape must keep clear: DAIDALUS looks as far."""
+
+    def __post_init__(self) -> None:
+        """Refuse what is not a positive number."""
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if not (isinstance(value, int | float) and isfinite(value) and value > 0.0):
+                raise ValueError(f"{field.name} must be a number above 0, not {value!r}.")
+
+    def planned_bank(self, max_bank: Radian) -> Radian:
+        """The bank at which plans turn, for an autopilot that may use `max_bank` [rad]."""
+        return max_bank - min(self.bank_in_hand, self.bank_in_hand_share * max_bank)
+
+    def gains(self, idle_deceleration: float) -> Gains:
+        """The gains of the laws, for an aircraft that slows down so at idle thrust [m/s²]."""
+        return Gains(
+            self.path_bandwidth,
+            self.follow_bandwidth,
+            self.damping,
+            self.intercept,
+            self.lag,
+            self.look_ahead,
+            self.spacing_time,
+            self.braking_share * idle_deceleration,
+            self.falling_back,
+            self.catching_up,
+        )
+
+    @property
+    def gate(self) -> Gate:
+        """When it has joined, and when it captures."""
+        return Gate(
+            self.joined_along,
+            self.joined_across,
+            self.joined_heading,
+            self.capture_turn,
+            self.capture_across,
+        )
+
+
+DEFAULT = Settings()
+"""What flights use that are not told otherwise."""
+
+
+def load_settings(path: Path | str) -> Settings:
+    """Settings from the table `[guidance]` of a TOML file.
+
+    Raises:
+        ValueError: naming the file and the key, with what would be right.
+        OSError: if the file cannot be opened.
+    """
+    try:
+        table = tomllib.loads(Path(path).read_text(encoding="utf-8"))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise ValueError(f"{path} is not TOML: {error}.") from None
+    guidance = table.get("guidance")
+    if not isinstance(guidance, dict) or len(table) != 1:
+        raise ValueError(f"{path} must have one table, [guidance].")
+    names = {field.name for field in fields(Settings)}
+    values: dict[str, float] = {}
+    for key, value in guidance.items():
+        stem, _, unit = key.rpartition("_")
+        name, factor = (stem, UNITS[unit]) if stem in names and unit in UNITS else (key, 1.0)
+        if name not in names:
+            raise ValueError(
+                f"{path}: there is no setting {key!r}; a setting is a field's name and its unit, "
+                "for example bank_in_hand_deg."
+            )
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            raise ValueError(f"{path}: {key} must be a number, not {value!r}.")
+        values[name] = float(value) * factor
+    return replace(DEFAULT, **values)

@@ -1,0 +1,227 @@
+"""One act of guidance, once a second, without planning: what is flown now, and what is asked next.
+
+converge tracks the committed path in the air mass. Where nothing of it turns any more, capture
+closes onto the leader's flown path over the ground, and so does follow once joined: both track the
+marks, so an aircraft turns where its leader turned. Speed closes the spacing in all three. In the
+other modes a heading is held.
+"""
+
+from math import hypot
+from typing import NamedTuple
+
+from numba import njit
+
+from relguide.kernels.base.angles import wrap_signed
+from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.flight import marks as at
+from relguide.kernels.flight.laws import (
+    Gains,
+    Way,
+    closing_tas,
+    ground_track,
+    heading_for_track,
+    look_ahead,
+    tas_for_ground_speed,
+    track,
+)
+from relguide.kernels.flight.marks import beside_marks, mark_at, straight_for
+from relguide.kernels.flight.path import heading_on, project, turning_after
+from relguide.kernels.flight.records import (
+    HOLD_HEADING,
+    Body,
+    Control,
+    Drift,
+    Limits,
+    moved_to,
+)
+
+HOLD, CONVERGE, CAPTURE, FOLLOW, ESCAPE = 0, 1, 2, 3, 4
+"""Modes; in the first and the last a heading is held."""
+
+
+class Task(NamedTuple):
+    """What the pursuer was asked to do."""
+
+    tas: float
+    """V_P, kept until the spacing closes [m/s]."""
+    slot_distance: float
+    """D [m]."""
+    aim: float
+    """Where in the gate it goes: D or a little more [m]."""
+    spacing: float
+    """Time behind the leader to keep [s]; 0 where a distance is kept."""
+    min_separation: float
+    """d_min and what is kept beyond it [m]."""
+
+
+class Gate(NamedTuple):
+    """When it has joined, and when it captures."""
+
+    along: float
+    """Farthest from the slot along the route [m]."""
+    across: float
+    """Farthest beside it [m]."""
+    heading: float
+    """Largest difference from the leader's heading [rad]."""
+    capture_turn: float
+    """A path that turns less is captured from [rad]."""
+    capture_across: float
+    """… and that ends no farther beside the leader's path [m]."""
+
+
+class Course(NamedTuple):
+    """A committed path, and where the slot is along it."""
+
+    path: FloatArray
+    """Rows of `path.py`, in the air mass, which was the world frame at `begun`."""
+    begun: float
+    """Flight time [s]."""
+    slot: float
+    """Place of the slot on the path's last straight, laid back to `begun` [m]."""
+    slot_tas: float
+    """How fast it moves along it [m/s]."""
+
+
+class Progress(NamedTuple):
+    """How far guidance has come."""
+
+    mode: int
+    s: float
+    """On the path [m]; in capture and follow on the leader's flown path."""
+    heading: float
+    """Held where a heading is held [rad]."""
+    tas: float
+    """Held with it [m/s]."""
+
+
+class Act(NamedTuple):
+    """What is asked of the pursuer for a second, and how it stands."""
+
+    control: Control
+    progress: Progress
+    right: float
+    """How far to the right of what it tracks it is [m]."""
+    to_slot: float
+    """Distance still to close [m]."""
+    joined: bool
+    """In the gate, the slot open."""
+
+
+@njit(cache=True, nogil=True)
+def act(
+    progress: Progress, body: Body, limits: Limits, course: Course, marks: FloatArray,
+    turn_to_come: bool, task: Task, gate: Gate, gains: Gains, wind: Drift, t: float,
+) -> Act:  # fmt: skip
+    """What to ask of the pursuer at flight time t [s].
+
+    Args:
+        progress: as the second before left it.
+        body: the pursuer.
+        limits: what it can do.
+        course: what it converges by; not looked at in other modes.
+        marks: the leader's flown path, the last one now.
+        turn_to_come: whether the leader has declared a turn that is not over.
+        task: what the pursuer was asked to do.
+        gate: when it has joined.
+        gains: of the laws.
+        wind: as it is believed.
+        t: flight time [s].
+    """
+    mode = progress.mode
+    if mode == CONVERGE:
+        since = t - course.begun
+        x, y = body.x - wind.east * since, body.y - wind.north * since
+        s, right = project(course.path, x, y, progress.s + body.tas)
+        to_slot = course.slot + course.slot_tas * since - s
+        if turning_after(course.path, s) > gate.capture_turn or not _beside(
+            marks, body, task, gate, to_slot
+        ):
+            tas = task.tas
+            if task.tas > course.slot_tas:
+                tas = closing_tas(to_slot, course.slot_tas, tas, limits.acceleration, gains)
+            aloft = moved_to(body, x, y)
+            control = _along_path(course.path, s, right, aloft, limits, gains, tas)
+            return Act(control, Progress(CONVERGE, s, 0.0, 0.0), right, to_slot, False)
+        mode = CAPTURE
+        progress = Progress(CAPTURE, _slot_on(marks, task) - to_slot - body.tas, 0.0, 0.0)
+    if mode in (CAPTURE, FOLLOW):
+        return _along_marks(
+            mode, progress, body, limits, marks, turn_to_come, task, gate, gains, wind
+        )
+    asked = Control(HOLD_HEADING, progress.heading, progress.tas)
+    return Act(asked, progress, 0.0, 0.0, False)
+
+
+@njit(cache=True, nogil=True)
+def _along_path(
+    path: FloatArray, s: float, right: float, body: Body, limits: Limits, gains: Gains, tas: float
+) -> Control:
+    """Track the committed path; the body's place is that in the air mass."""
+    x, y, heading = look_ahead(body, Drift(0.0, 0.0), gains.look_ahead)
+    s_later, right_later = project(path, x, y, s + body.tas * gains.look_ahead)
+    felt = s + body.tas * gains.lag
+    way = Way(
+        heading_on(path, s), heading_on(path, s_later),
+        heading_on(path, felt), heading_on(path, felt + body.tas), right, right_later,
+    )  # fmt: skip
+    asked = track(way, heading, body, limits.max_bank, gains.path_bandwidth, gains)
+    return Control(asked.kind, asked.value, tas)
+
+
+@njit(cache=True, nogil=True)
+def _slot_on(marks: FloatArray, task: Task) -> float:
+    """Where on the leader's flown path the pursuer should be [m]."""
+    last = marks[len(marks) - 1]
+    if task.spacing > 0.0:
+        return mark_at(marks, at.T, last[at.T] - task.spacing)[0]
+    return float(last[at.S] - task.aim)
+
+
+@njit(cache=True, nogil=True)
+def _beside(marks: FloatArray, body: Body, task: Task, gate: Gate, to_slot: float) -> bool:
+    """Whether the leader's flown path is near enough to be captured from here."""
+    s, right = beside_marks(marks, body.x, body.y, _slot_on(marks, task) - to_slot)
+    heading = mark_at(marks, at.S, s)[3]
+    off = abs(wrap_signed(body.heading - heading))
+    return abs(right) < gate.capture_across and off < gate.capture_turn + 4.0 * gate.heading
+
+
+@njit(cache=True, nogil=True)
+def _along_marks(
+    mode: int, progress: Progress, body: Body, limits: Limits, marks: FloatArray,
+    turn_to_come: bool, task: Task, gate: Gate, gains: Gains, wind: Drift,
+) -> Act:  # fmt: skip
+    s, right = beside_marks(marks, body.x, body.y, progress.s + body.tas)
+    _, speed = ground_track(body, wind)
+    leader = marks[len(marks) - 1]
+    x, y, heading = look_ahead(body, wind, gains.look_ahead)
+    s_later, right_later = beside_marks(marks, x, y, s + speed * gains.look_ahead)
+    felt = s + speed * gains.lag
+    way = Way(
+        heading_for_track(mark_at(marks, at.S, s)[4], body.tas, wind),
+        heading_for_track(mark_at(marks, at.S, s_later)[4], body.tas, wind),
+        heading_for_track(mark_at(marks, at.S, felt)[4], body.tas, wind),
+        heading_for_track(mark_at(marks, at.S, felt + speed)[4], body.tas, wind),
+        right, right_later,
+    )  # fmt: skip
+    asked = track(way, heading, body, limits.max_bank, gains.follow_bandwidth, gains)
+    to_slot = _slot_on(marks, task) - s
+    # on a bend the leader is nearer than along its path: the shorter distance sets the speed
+    room = hypot(body.x - leader[at.X], body.y - leader[at.Y]) - task.min_separation
+    closing = min(to_slot, room) if room < 0.0 else to_slot
+    keeping = tas_for_ground_speed(body.heading, leader[at.SPEED], wind)
+    tas = closing_tas(closing, keeping, task.tas, limits.acceleration, gains)
+    ahead_of_slot = s - (leader[at.S] - task.slot_distance)
+    if task.spacing > 0.0:
+        ahead_of_slot = -to_slot
+    joined = (
+        not turn_to_come
+        and abs(ahead_of_slot) <= gate.along
+        and abs(right) <= gate.across
+        and abs(wrap_signed(body.heading - leader[at.HEADING])) <= gate.heading
+        and straight_for(marks, task.slot_distance)
+    )
+    if joined:
+        mode = FOLLOW
+    control = Control(asked.kind, asked.value, tas)
+    return Act(control, Progress(mode, s, 0.0, 0.0), right, to_slot, joined)

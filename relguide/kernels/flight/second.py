@@ -1,0 +1,106 @@
+"""A whole second of all aircraft in one call: autopilots, roll, speed, wind, least separations."""
+
+from math import hypot, inf
+
+from numba import njit
+
+from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.flight.lateral import lateral_step
+from relguide.kernels.flight.program import next_piece, programmed
+from relguide.kernels.flight.records import Control, Drift, body_at, limits_at, store
+
+GUIDED = 0
+"""A pilot: flies its row of `controls`."""
+PROGRAMMED = 1
+"""Flies its program, at the speed of its row of `controls`."""
+RECORDED = 2
+"""Flies what stands in `trace`."""
+BANKED = 0.05236
+"""Less than 3° of bank is a correction, not a turn [rad]."""
+SWING, TRACK, SIDE, REVERSALS = 0, 1, 2, 3
+"""Columns of `tallies`: heading flown through [rad]; way over the ground [m]; the last side banked
+to, +1 right, −1 left; and how often it changed."""
+
+
+@njit(cache=True, nogil=True)
+def fly_second(
+    states: FloatArray, limits: FloatArray, pilots: FloatArray, controls: FloatArray,
+    programs: FloatArray, lengths: FloatArray, cursors: FloatArray, helds: FloatArray,
+    wind: Drift, t: float, dt: float, trace: FloatArray, tallies: FloatArray,
+) -> None:  # fmt: skip
+    """Fly all aircraft from t on, step by step.
+
+    Args:
+        states: where they are; in the end, where they are then. shape (n, 7), as `Body`
+        limits: what they can do. shape (n, 8), as `Limits`
+        pilots: who flies each: `GUIDED`, `PROGRAMMED` or `RECORDED`. shape (n,)
+        controls: what guidance asks of each. shape (n, 3), as `Control`
+        programs: what each declared; the rest of a row is not read. shape (n, k, 3)
+        lengths: how many pieces each declared. shape (n,)
+        cursors: the piece each is flying, kept up to date. shape (n,)
+        helds: headings before the first piece [rad]. shape (n,)
+        wind: moves all of them.
+        t: flight time [s].
+        dt: the step [s].
+        trace: where each is after each step, the present first; rows of recorded aircraft are
+            given, all others written. shape (n, steps + 1, 7)
+        tallies: figures so far. shape (n, 4)
+    """
+    steps = trace.shape[1] - 1
+    for i in range(len(states)):
+        can = limits_at(limits, i)
+        body = body_at(states, i)
+        store(trace[i], 0, body)
+        program = programs[i, : lengths[i]]
+        for k in range(steps):
+            if pilots[i] == RECORDED:
+                after = body_at(trace[i], k + 1)
+            else:
+                control = Control(controls[i, 0], controls[i, 1], controls[i, 2])
+                now = t + k * dt
+                if pilots[i] == PROGRAMMED:
+                    control = programmed(
+                        program, cursors[i], helds[i], body, can, now, controls[i, 2]
+                    )
+                after = lateral_step(body, control, can, wind, dt)
+                if pilots[i] == PROGRAMMED:
+                    cursors[i] = next_piece(program, cursors[i], after, now + dt)
+                store(trace[i], k + 1, after)
+            tallies[i, SWING] += abs(after.heading - body.heading)
+            tallies[i, TRACK] += hypot(after.x - body.x, after.y - body.y)
+            if abs(after.bank) > BANKED:
+                side = 1.0 if after.bank > 0.0 else -1.0
+                if side * tallies[i, SIDE] < 0.0:
+                    tallies[i, REVERSALS] += 1.0
+                tallies[i, SIDE] = side
+            body = after
+        store(states, i, body)
+
+
+@njit(cache=True, nogil=True)
+def least_between(one: FloatArray, other: FloatArray) -> tuple[float, float]:
+    """The least distance of two aircraft on their traces, and at which share of them.
+
+    Between steps the relative motion is taken as straight: over 0.05 s it bends by millimetres.
+
+    Args:
+        one: as a row of `trace`. shape (steps + 1, 7)
+        other: the same of the other aircraft.
+
+    Returns:
+        distance [m], and when, in steps from the first.
+    """
+    least, at = inf, 0.0
+    for k in range(len(one)):
+        dx, dy = one[k, 0] - other[k, 0], one[k, 1] - other[k, 1]
+        share = 0.0
+        if k + 1 < len(one):
+            vx, vy = one[k + 1, 0] - other[k + 1, 0] - dx, one[k + 1, 1] - other[k + 1, 1] - dy
+            speed = vx * vx + vy * vy
+            if speed > 0.0:
+                share = min(max(-(dx * vx + dy * vy) / speed, 0.0), 1.0)
+                dx, dy = dx + share * vx, dy + share * vy
+        apart = hypot(dx, dy)
+        if apart < least:
+            least, at = apart, k + share
+    return least, at
