@@ -101,6 +101,30 @@ class RecordedTrack:
         """How long it lasts [s]."""
         return float(self.t[-1])
 
+    def sample(self, t: Array) -> tuple[Array, Array, Array, Array, Array]:
+        """As `state_at`, at many times of the recording at once.
+
+        Args:
+            t: times from 0 to `duration` [s]. shape (n,)
+
+        Returns:
+            east, north [m], ground velocity east, north [m/s], and altitude [m]. shape (n,) each
+        """
+        knots, step = np.array(self._knots), float(self.t[1])
+        i = np.minimum((t / step).astype(np.intp), len(knots) - 2)
+        u = t / step - i
+        x0, y0, east0, north0, altitude0 = knots[i].T
+        x1, y1, east1, north1, altitude1 = knots[i + 1].T
+        a, b, c = (1.0 - u) ** 2 * (1.0 + 2.0 * u), u * (1.0 - u) ** 2, u * u * (u - 1.0)
+        da, db, dc = 6.0 * u * (u - 1.0), (3.0 * u - 1.0) * (u - 1.0), u * (3.0 * u - 2.0)
+        return (
+            a * x0 + (1.0 - a) * x1 + step * (b * east0 + c * east1),
+            a * y0 + (1.0 - a) * y1 + step * (b * north0 + c * north1),
+            da * (x0 - x1) / step + db * east0 + dc * east1,
+            da * (y0 - y1) / step + db * north0 + dc * north1,
+            altitude0 + u * (altitude1 - altitude0),
+        )
+
     def state_at(self, t: float) -> TrackState:
         """Where it is at time t [s]; before its start and after its end it flies straight on.
 

@@ -23,7 +23,7 @@ from relguide.flying.guidance.path_distance import distance_between, is_same_pat
 from relguide.kernels.flight import path as on
 from relguide.kernels.flight.guide import CONVERGE, Progress
 from relguide.planning.acceptance import Answer, Refusal, ask
-from relguide.planning.candidates import candidates
+from relguide.planning.words import candidates
 from relguide.planning.certificate import certify
 from relguide.planning.phrases import distance
 from relguide.planning.plan import AS_FAST, NoPlan, Optimality, Plan, Planner, Reason

@@ -1,0 +1,154 @@
+"""The monitor: every second, in every mode, how far apart what is flown now will keep the aircraft.
+
+It trusts the forecast for as long as both aircraft are where that has them. Else it flies ahead
+anew: with the leader as it is expected to go on, and, while it turns unannounced or slows down,
+with a leader that goes on doing so. An alert begins when separation would be lost within `caution`
+seconds, is a warning when it is lost, and ends some seconds after its cause has.
+"""
+
+from math import inf
+from typing import NamedTuple
+
+from relguide.flying.belief import Belief
+from relguide.flying.guidance.announcements import Alerted, AlertLevel, Event
+from relguide.flying.guidance.assignment import Assignment
+from relguide.flying.guidance.forecast import Forecast, forecast
+from relguide.flying.guidance.memory import Alert
+from relguide.kernels.flight.guide import Course, Progress
+from relguide.planning.phrases import distance
+from relguide.units import Metre, MetrePerSecond, Second
+
+SLOWS_ON: Second = 30.0
+"""A leader that slows down is taken to go on for so long [s]."""
+URGENCY: dict[AlertLevel, int] = {"none": 0, "advisory": 1, "caution": 2, "warning": 3}
+"""Levels in order."""
+
+
+class Outlook(NamedTuple):
+    """What lies ahead if nothing is done."""
+
+    forecast: Forecast
+    """With the leader as it is expected to go on."""
+    least: Metre
+    """Least separation, over all that is reckoned with [m]."""
+    at: Second
+    """When, flight time [s]."""
+
+
+def is_as_forecast(ahead: Forecast, belief: Belief, assignment: Assignment) -> bool:
+    """Whether both aircraft are where a forecast has them."""
+    settings, t = assignment.settings, belief.t
+    if ahead.own_off(t, belief.own) > settings.own_off or t + settings.caution > ahead.until:
+        return False
+    return leader_is_as_forecast(ahead, belief, assignment)
+
+
+def leader_is_as_forecast(ahead: Forecast, belief: Belief, assignment: Assignment) -> bool:
+    """Whether the leader is where a forecast has it, on its heading and at its speed."""
+    settings = assignment.settings
+    off, turned, faster = ahead.leader_off(belief.t, belief.leader)
+    return (
+        off <= settings.leader_off
+        and turned <= settings.leader_turned
+        and faster <= settings.leader_speed
+    )
+
+
+def look_out(
+    belief: Belief,
+    assignment: Assignment,
+    progress: Progress,
+    course: Course,
+    trusted: Forecast | None,
+    *,
+    turns_on: bool,
+    slowing: MetrePerSecond,
+) -> Outlook:
+    """What lies ahead.
+
+    Args:
+        belief: what is known now.
+        assignment: what was asked.
+        progress: how far guidance has come.
+        course: the committed path.
+        trusted: a forecast that still holds; `None` to fly ahead anew.
+        turns_on: whether the leader turns unannounced, and may go on.
+        slowing: by how much the leader slows down [m/s²]; 0 if it does not.
+    """
+    settings = assignment.settings
+    ahead = trusted
+    if ahead is None:
+        ahead = forecast(
+            belief, assignment, progress, course, until=belief.t + settings.watch
+        )
+    least, at = ahead.least(belief.t, settings.watch)
+    if turns_on or slowing > 0.0:
+        worse = forecast(
+            belief,
+            assignment,
+            progress,
+            course,
+            until=belief.t + settings.caution,
+            turns_on=turns_on,
+            leader_tas=max(belief.leader.tas - slowing * SLOWS_ON, 1.0),
+        )
+        other, when = worse.least(belief.t)
+        if other < least:
+            least, at = other, when
+    return Outlook(ahead, least, at)
+
+
+def judge_separation(
+    alert: Alert, outlook: Outlook, apart: Metre, belief: Belief, assignment: Assignment
+) -> tuple[Alert, tuple[Event, ...]]:
+    """The alert that stands now, and what is said of it.
+
+    Args:
+        alert: the one of a second ago.
+        outlook: what lies ahead.
+        apart: the separation now [m].
+        belief: gives the time.
+        assignment: gives d_min.
+    """
+    t, limit, settings = belief.t, assignment.min_separation, assignment.settings
+    level: AlertLevel = "none"
+    if apart < limit:
+        level = "warning"
+    elif outlook.least < limit and outlook.at - t <= settings.caution:
+        level = "caution"
+    if level == "none":
+        if alert.level == "none" or t - alert.seen < settings.clears_after:
+            return alert, ()
+        said = Alerted(
+            level="none",
+            message="Separation is kept again.",
+            predicted_least=min(outlook.least, 1e9),
+            predicted_at=outlook.at,
+            cleared=True,
+        )
+        return Alert(), (said,)
+    if URGENCY[level] < URGENCY[alert.level] and t - alert.seen < settings.clears_after:
+        return alert, ()
+    seen = Alert(level, t)
+    if level == alert.level:
+        return seen, ()
+    return seen, (
+        Alerted(
+            level=level,
+            message=_sentence(level, outlook, apart, t, limit),
+            predicted_least=outlook.least if outlook.least < inf else apart,
+            predicted_at=outlook.at,
+            cleared=False,
+        ),
+    )
+
+
+def _sentence(
+    level: AlertLevel, outlook: Outlook, apart: Metre, t: Second, limit: Metre
+) -> str:
+    if level == "warning":
+        return f"Separation: {distance(apart)}, less than {distance(limit)}."
+    return (
+        f"Separation in {max(outlook.at - t, 0.0):.0f} s: {distance(outlook.least)}, "
+        f"less than {distance(limit)}."
+    )

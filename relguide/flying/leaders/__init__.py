@@ -1,0 +1,1 @@
+"""What leaders fly: an intent, a recording, orders, or something drawn at random."""

@@ -1,0 +1,322 @@
+"""The world: aircraft that fly, the air they fly in, and who is to join whom.
+
+    what each knows → guidance (once a second) → one call that flies a whole second for all
+
+Guidance sees a `Belief`, never the world.
+"""
+
+from dataclasses import dataclass
+from math import hypot
+from typing import Literal
+
+import numpy as np
+
+from relguide.flying.air import STANDARD_AIR, Air
+from relguide.flying.aircraft import AircraftState
+from relguide.flying.airframe import Airframe
+from relguide.flying.belief import SPARE, Belief, FlownTrack
+from relguide.flying.guidance.settings import DEFAULT, Settings
+from relguide.flying.leaders.declared import Program, program_of, remaining, turn_program
+from relguide.flying.leaders.recorded import recorded_rows
+from relguide.flying.tracks import RecordedTrack
+from relguide.kernels.base.angles import wrap
+from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.flight.records import Body, Control, Drift, Limits, limits_at
+from relguide.kernels.flight.second import (
+    GUIDED,
+    PROGRAMMED,
+    RECORDED,
+    fly_second,
+    least_between,
+)
+from relguide.planning.limits import MAX_POSITION, MAX_TAS, MIN_TAS
+from relguide.planning.situation import IntentPiece, Wind
+from relguide.units import Metre, MetrePerSecond, Radian, Second
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Guided:
+    """Flies what its guidance asks for."""
+
+    kind: Literal["guided"] = "guided"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Declared:
+    """Flies an intent, then straight on."""
+
+    intent: tuple[IntentPiece, ...] = ()
+    kind: Literal["declared"] = "declared"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Recorded:
+    """Flies as it was recorded."""
+
+    track: RecordedTrack
+    kind: Literal["recorded"] = "recorded"
+
+
+Pilot = Guided | Declared | Recorded
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Aircraft:
+    """One aircraft as it begins."""
+
+    ident: str
+    airframe: Airframe
+    x: Metre
+    """East [m]."""
+    y: Metre
+    """North [m]."""
+    heading: Radian
+    """Clockwise from north [rad]."""
+    tas: MetrePerSecond
+    """True airspeed [m/s]."""
+    altitude: Metre
+    """[m]."""
+    max_bank: Radian
+    """What its autopilot may use [rad]."""
+    pilot: Pilot
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Link:
+    """Who is to join whom, and how."""
+
+    pursuer: str
+    """Ident of a guided aircraft."""
+    leader: str
+    """Ident of another aircraft."""
+    slot_distance: Metre
+    """D [m]."""
+    min_separation: Metre
+    """d_min [m]."""
+    spacing: Second = 0.0
+    """Time behind the leader to keep once joined [s]; 0 to keep D."""
+    intent_known: bool = True
+    """Whether the pursuer knows the leader's intent."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class World:
+    """All that flies."""
+
+    aircraft: tuple[Aircraft, ...]
+    links: tuple[Link, ...]
+    air: Air = STANDARD_AIR
+    """What physics asks."""
+    believed_air: Air | None = None
+    """What guidance believes; the same if left out."""
+    settings: Settings = DEFAULT
+
+    def __post_init__(self) -> None:
+        """Refuse links between aircraft that are not there."""
+        idents = [aircraft.ident for aircraft in self.aircraft]
+        if len(set(idents)) != len(idents):
+            raise ValueError("Each aircraft must have an ident of its own.")
+        for link in self.links:
+            for ident in (link.pursuer, link.leader):
+                if ident not in idents:
+                    raise ValueError(f"There is no aircraft {ident!r} to link.")
+            if link.pursuer == link.leader:
+                raise ValueError(f"{link.pursuer!r} cannot follow itself.")
+
+    def index(self, ident: str) -> int:
+        """Which of the aircraft has an ident."""
+        return [aircraft.ident for aircraft in self.aircraft].index(ident)
+
+
+DECLARED_DECELERATION = 0.5
+"""Share of its type's deceleration that a leader uses: it slows down without brakes."""
+
+
+class Fleet:
+    """The aircraft of a world in flight: one of the few things here that change."""
+
+    def __init__(self, world: World, step: Second) -> None:
+        """All aircraft where they begin.
+
+        Args:
+            world: gives them.
+            step: of the integration; a whole number of them makes a second [s].
+        """
+        count, steps = len(world.aircraft), round(1.0 / step)
+        self.world, self.step, self.steps = world, step, steps
+        self.states = np.zeros((count, 7))
+        self.limits = np.zeros((count, 8))
+        self.pilots = np.zeros(count, dtype=np.int64)
+        self.controls = np.zeros((count, 3))
+        self.programs = np.zeros((count, 32, 3))
+        self.lengths = np.zeros(count, dtype=np.int64)
+        self.cursors = np.zeros(count, dtype=np.int64)
+        self.helds = np.zeros(count)
+        self.trace = np.zeros((count, steps + 1, 7))
+        self.tallies = np.zeros((count, 4))
+        self.declared: list[Program] = []
+        self.recordings: list[FloatArray] = []
+        wind = world.air.wind_at(0.0, 0.0, 0.0, 0.0)
+        self.wind = wind
+        for i, aircraft in enumerate(world.aircraft):
+            self.limits[i] = limits_of(aircraft, world.air)
+            heading = wrap(aircraft.heading)
+            self.states[i] = aircraft.x, aircraft.y, heading, 0.0, 0.0, aircraft.tas, 0.0
+            self.controls[i] = 0.0, heading, aircraft.tas
+            self.declared.append(program_of((), heading, 0.0, aircraft.tas))
+            self.recordings.append(np.zeros((0, 7)))
+            self.helds[i] = heading
+            match aircraft.pilot:
+                case Guided():
+                    self.pilots[i] = GUIDED
+                case Declared(intent=intent):
+                    self.set_program(i, program_of(intent, heading, 0.0, aircraft.tas))
+                case Recorded(track=track):
+                    self.pilots[i] = RECORDED
+                    self.recordings[i] = recorded_rows(track, wind, step)
+                    self.states[i] = self.recordings[i][0]
+
+    @property
+    def drift(self) -> Drift:
+        """The wind as kernels take it."""
+        return Drift(self.wind.east, self.wind.north)
+
+    def set_program(self, i: int, program: Program) -> None:
+        """Have an aircraft fly something else from now on."""
+        self.declared[i] = program
+        self.pilots[i] = PROGRAMMED
+        self.programs[i, : len(program.rows)] = program.rows
+        self.lengths[i], self.cursors[i], self.helds[i] = len(program.rows), 0, program.held
+
+    def turn(self, i: int, heading: Radian, direction: str, bank: Radian) -> None:
+        """Have an aircraft turn to a heading; what it declared before is dropped."""
+        self.leave_recording(i)
+        self.set_program(i, turn_program(float(self.states[i, 2]), heading, direction, bank))
+
+    def set_speed(self, i: int, tas: MetrePerSecond) -> None:
+        """Have an aircraft fly at another true airspeed [m/s]."""
+        self.leave_recording(i)
+        self.controls[i, 2] = tas
+
+    def leave_recording(self, i: int) -> None:
+        """A recorded aircraft flies on under its own autopilot, as it flies now."""
+        if self.pilots[i] == RECORDED:
+            self.controls[i, 2] = self.states[i, 5]
+            heading = float(self.states[i, 2])
+            self.set_program(i, program_of((), heading, 0.0, float(self.states[i, 5])))
+
+    def recorded_until(self) -> Second:
+        """When the first recording ends [s]; infinite if none is flown."""
+        ends = [
+            (len(rows) - 1) * self.step
+            for rows, pilot in zip(self.recordings, self.pilots, strict=True)
+            if pilot == RECORDED
+        ]
+        return min(ends, default=float("inf"))
+
+    def fly_second(self, t: Second) -> None:
+        """All aircraft, one second on; `trace` then holds each step of it."""
+        for i in np.flatnonzero(self.pilots == RECORDED):
+            first = round(t / self.step)
+            rows = self.recordings[i][first : first + self.steps + 1]
+            self.trace[i, : len(rows)] = rows
+            self.trace[i, len(rows) :] = rows[-1]
+        fly_second(
+            self.states, self.limits, self.pilots, self.controls, self.programs, self.lengths,
+            self.cursors, self.helds, self.drift, t, self.step, self.trace, self.tallies,
+        )  # fmt: skip
+
+    def control(self, i: int, control: Control) -> None:
+        """What a guided aircraft is to fly for the next second."""
+        self.controls[i] = control
+
+    def body(self, i: int) -> Body:
+        """An aircraft now."""
+        return Body(*self.states[i].tolist())
+
+    def state(self, i: int, k: int | None = None) -> AircraftState:
+        """An aircraft now, or at a step of the last second, as documents show it."""
+        row = self.states[i] if k is None else self.trace[i, k]
+        x, y, heading, bank, roll_rate, tas, _ = row.tolist()
+        altitude = self.altitude(i)
+        return AircraftState(x, y, wrap(heading), bank, roll_rate, tas, altitude)
+
+    def altitude(self, i: int) -> Metre:
+        """Kept, but for a recorded aircraft [m]."""
+        return self.world.aircraft[i].altitude
+
+    def apart(self, i: int, j: int) -> Metre:
+        """How far apart two aircraft are now [m]."""
+        one, other = self.states[i], self.states[j]
+        return hypot(one[0] - other[0], one[1] - other[1])
+
+    def least_apart(self, i: int, j: int) -> tuple[Metre, Second]:
+        """How near two aircraft came in the last second [m], and when in it [s]."""
+        least, at = least_between(self.trace[i], self.trace[j])
+        return least, at * self.step
+
+    def beyond_edge(self) -> str:
+        """The ident of an aircraft about to leave the plane; empty if there is none."""
+        far = np.flatnonzero(np.max(np.abs(self.states[:, :2]), axis=1) > MAX_POSITION - EDGE)
+        return self.world.aircraft[int(far[0])].ident if len(far) else ""
+
+    def belief(self, i: int, j: int, track: FlownTrack, t: Second, known: bool) -> Belief:
+        """What aircraft i knows of itself and of aircraft j, exactly."""
+        leader = self.body(j)
+        program, cursor = self.declared[j], int(self.cursors[j])
+        known = known and bool(self.pilots[j] == PROGRAMMED)
+        intent = remaining(program, cursor, leader.heading, t) if known else ()
+        air = self.world.believed_air or self.world.air
+        own = self.body(i)
+        return Belief(
+            t=t,
+            own=own,
+            limits=limits_at(self.limits, i),
+            leader=leader,
+            leader_limits=limits_at(self.limits, j),
+            intent=intent,
+            intent_known=known,
+            program=program.rows if known else NO_PROGRAM,
+            cursor=cursor if known else 0,
+            held=program.held if known else leader.heading,
+            leader_tas=leader.tas,
+            track=track,
+            wind=air.wind_at(own.x, own.y, self.altitude(i), t),
+        )
+
+    def begin_track(self, link: Link) -> FlownTrack:
+        """The leader's flown path, at first sight."""
+        leader = self.body(self.world.index(link.leader))
+        return FlownTrack(leader, self.drift, 0.0, link.slot_distance + SPARE)
+
+
+NO_PROGRAM = np.zeros((0, 3))
+EDGE: Metre = 2_000.0
+"""So near the edge of the plane a flight ends: before plans are refused for it [m]."""
+
+
+def limits_of(aircraft: Aircraft, air: Air) -> Limits:
+    """What an aircraft can do at its level; leaders may fly at any speed that is accepted."""
+    airframe = aircraft.airframe
+    slowest, fastest = airframe.tas_range(aircraft.altitude, air)
+    deceleration = airframe.max_deceleration
+    if not isinstance(aircraft.pilot, Guided):
+        slowest, fastest = MIN_TAS, MAX_TAS
+        deceleration *= DECLARED_DECELERATION
+    return Limits(
+        aircraft.max_bank,
+        airframe.max_roll_rate,
+        airframe.roll_time_constant,
+        airframe.speed_time_constant,
+        airframe.max_acceleration,
+        deceleration,
+        slowest,
+        fastest,
+    )
+
+
+def believed_wind(world: World) -> Wind:
+    """The wind as guidance believes it, at the start."""
+    return (world.believed_air or world.air).wind_at(0.0, 0.0, 0.0, 0.0)
+
+
