@@ -265,7 +265,8 @@ class Fleet:
         leader = self.body(j)
         program, cursor = self.declared[j], int(self.cursors[j])
         known = known and bool(self.pilots[j] == PROGRAMMED)
-        intent = remaining(program, cursor, leader.heading, t) if known else ()
+        can = limits_at(self.limits, j)
+        intent = remaining(program, cursor, leader, can, t) if known else ()
         air = self.world.believed_air or self.world.air
         own = self.body(i)
         return Belief(
@@ -273,7 +274,7 @@ class Fleet:
             own=own,
             limits=limits_at(self.limits, i),
             leader=leader,
-            leader_limits=limits_at(self.limits, j),
+            leader_limits=can,
             intent=intent,
             intent_known=known,
             program=program.rows if known else NO_PROGRAM,

@@ -250,6 +250,9 @@ def _stay_or_change(
     memory, events = _announce_pending(memory, belief, assignment)
     if not as_forecast or not converge.may_be_bettered(committed, t, assignment):
         return memory, events
+    if committed.plan.planner == "exact" and t - memory.asked < settings.ask_every:
+        return memory, events
+    memory = replace(memory, asked=t)
     found = converge.better(belief, assignment, committed, planner)
     if found is None:
         return memory, events

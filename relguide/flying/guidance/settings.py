@@ -59,8 +59,11 @@ class Settings:
     """Drifts 35 m in a kilometre: the route is kept from there on."""
     capture_turn: Radian = 2.0 * DEG
     """A path that turns less than this from here on is captured from."""
-    capture_across: Metre = 300.0
+    capture_across: Metre = 600.0
     """How far the path may end beside the leader's: a minute's correction on a straight."""
+    ask_every: Second = 10.0
+    """While the leader is as expected, the exact planner is asked this often for a better path: a
+    path that was the fastest stays so along it. Other planners are asked each second."""
     lost_across: Metre = 3_000.0
     """So far beside the leader's path, capture and follow give way to a plan."""
     lost_heading: Radian = 100.0 * DEG

@@ -8,11 +8,15 @@ import numpy as np
 from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.base.turn import turn_rate
-from relguide.kernels.flight.program import ROLLED_OUT, STRAIGHT, TURN
+from relguide.kernels.flight.program import ROLLED_OUT, STRAIGHT, TURN, roll_lead
+from relguide.kernels.flight.records import Body, Limits
+from relguide.planning.limits import MAX_PIECES
 from relguide.planning.situation import FlyStraight, IntentPiece, TurnTo
 from relguide.planning.trajectory import LEFT, RIGHT, Turn
-from relguide.units import Radian, Second
+from relguide.units import DEG, Radian, Second
 
+ROLLED_IN: Radian = 2.0 * DEG
+"""A turn that lacks less bank than this is being flown [rad]."""
 NO_TURN: Radian = 1e-9
 """A turn that misses a full one by less is rounding of none at all [rad]."""
 
@@ -63,13 +67,19 @@ def turn_program(
     return program_of((piece,), heading, 0.0, 1.0)
 
 
-def remaining(program: Program, cursor: int, heading: Radian, t: Second) -> tuple[IntentPiece, ...]:
+def remaining(
+    program: Program, cursor: int, body: Body, limits: Limits, t: Second
+) -> tuple[IntentPiece, ...]:
     """The part of a program still to be flown.
+
+    A turn that is still being rolled into comes with a short straight before it: what is declared
+    changes its bank at once, half of the roll after its own beginning.
 
     Args:
         program: the whole.
         cursor: the piece being flown.
-        heading: of the aircraft, continuous [rad].
+        body: the aircraft now.
+        limits: how it rolls.
         t: flight time [s].
     """
     left = program.pieces[cursor:]
@@ -79,6 +89,14 @@ def remaining(program: Program, cursor: int, heading: Radian, t: Second) -> tupl
     match left[0]:
         case FlyStraight():
             return (FlyStraight(duration=max(end - t, 0.0)), *left[1:])
-        case TurnTo(turn=turn):
-            to_go = -turn * (end - heading)
-            return left[1:] if to_go < ROLLED_OUT else left
+        case TurnTo(turn=turn, bank=bank):
+            to_go = -turn * (end - body.heading)
+            if to_go < ROLLED_OUT:
+                return left[1:]
+            missing = bank + turn * body.bank
+            # nearly done, it rolls out, not in
+            rolls_out = to_go < turn_rate(body.tas, bank) * roll_lead(limits, bank, 0.0)
+            if missing < ROLLED_IN or rolls_out or len(left) == MAX_PIECES:
+                return left
+            lead = roll_lead(limits, -turn * body.bank, bank)
+            return (FlyStraight(duration=lead), *left)
