@@ -9,16 +9,14 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal, Protocol, TypeVar
 
-from relguide.flying.announcements import Mode as Mode
+from relguide.flying.guidance.announcements import AlertLevel as AlertLevel
+from relguide.flying.guidance.announcements import AlertState as AlertState
+from relguide.flying.modes import Mode as Mode
 from relguide.flying.plan_documents import PathPoint
 from relguide.units import Metre, MetrePerSecond, Radian, RadianPerSecond, Second
 
 Spacing = Literal["distance", "time"]
 """What a link keeps once joined: the distance D, or the time that the leader takes to fly it."""
-AlertLevel = Literal["advisory", "caution", "warning"]
-"""advisory: to be known; caution: to be seen to at once; warning: to be acted upon at once."""
-AlertState = Literal["none", "advisory", "caution", "warning"]
-"""The highest level among the alerts that stand."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

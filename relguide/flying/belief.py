@@ -1,4 +1,4 @@
-"""What a pursuer knows of itself, its leader, the leader's intent and the air. Not the world itself.
+"""What a pursuer knows of itself, its leader, the leader's intent and the air.
 
 Surveillance will stand between the two: guidance reads this and nothing else.
 """

@@ -59,12 +59,15 @@ VIA: Second = 5.0
 """Time between the points that draw a boundary arc [s]: their chords stray from it by metres."""
 
 
-def plan_card(plan: Plan, others: Sequence[AnyAlternative] = ()) -> PlanCard:
+def plan_card(
+    plan: Plan, others: Sequence[AnyAlternative] = (), *, later: Second = 0.0
+) -> PlanCard:
     """A plan with its segments over the ground.
 
     Args:
         plan: what is shown.
         others: its `alternatives`, if they are to be shown too.
+        later: added to their times, where they begin after a lead-in that the plan includes [s].
     """
     certificate, optimality = plan.certificate, plan.optimality
     return PlanCard(
@@ -76,7 +79,7 @@ def plan_card(plan: Plan, others: Sequence[AnyAlternative] = ()) -> PlanCard:
         separation=separation_card(certificate),
         arrival=arrival_card(plan.arrival),
         optimality=OptimalityCard(proof=optimality.proof, lower_bound=optimality.lower_bound),
-        alternatives=tuple(map(_alternative_card, others)),
+        alternatives=tuple(_alternative_card(other, later) for other in others),
         compute=plan.compute_time,
     )
 
@@ -211,13 +214,16 @@ def wind_card(wind: Wind) -> WindCard:
     return WindCard(from_=direction, speed=wind.speed)
 
 
-def _alternative_card(other: AnyAlternative) -> AnyAlternativeCard:
+def _alternative_card(other: AnyAlternative, later: Second) -> AnyAlternativeCard:
     match other:
         case NoRoot(word=word, why=why):
             return MissingAlternativeCard(word=word, why=why)
         case TooEarly(word=word, time_to_converge=time, release_time=release_time, why=why):
             return EarlyAlternativeCard(
-                word=word, time_to_converge=time, release_time=release_time, why=why
+                word=word,
+                time_to_converge=time + later,
+                release_time=release_time + later,
+                why=why,
             )
         case Alternative(candidate=candidate, passing=passing):
             turning = sum(abs(heading_change(s)) for s in candidate.trajectory.segments)
@@ -228,18 +234,18 @@ def _alternative_card(other: AnyAlternative) -> AnyAlternativeCard:
         case LosesSeparation(least_separation=least, at_time=at):
             return UnsafeAlternativeCard(
                 word=candidate.word,
-                time_to_converge=candidate.time_to_converge,
+                time_to_converge=candidate.time_to_converge + later,
                 turning=turning,
                 passes=passing.where,
                 side=side,
                 least_separation=least,
-                at=at,
+                at=at + later,
                 why=other.why,
             )
         case Slower() | AsFast() | Faster():
             return AlternativeCard(
                 word=candidate.word,
-                time_to_converge=candidate.time_to_converge,
+                time_to_converge=candidate.time_to_converge + later,
                 turning=turning,
                 passes=passing.where,
                 side=side,

@@ -21,8 +21,9 @@ from relguide.flying.aircraft_documents import (
     LinkResult,
     WindCard,
 )
-from relguide.flying.announcements import Mode as Mode
-from relguide.flying.announcements import PlanReason as PlanReason
+from relguide.flying.guidance.announcements import PlanReason as PlanReason
+from relguide.flying.guidance.announcements import UnableReason as UnableReason
+from relguide.flying.modes import Mode as Mode
 from relguide.flying.plan_documents import NoPlanCard, PathPoint, PathSegment, PlanCard
 from relguide.planning.acceptance import Fault as Fault
 from relguide.units import Metre, Radian, Second
@@ -32,8 +33,6 @@ AlertSubject = Literal["separation", "speed", "data", "geometry"]
 """separation: d_min will be lost; speed: the leader flies at a speed that cannot be matched; data:
 what is known of the leader is old or contradicts itself; geometry: it flies where it cannot be
 followed, as when it turns back."""
-UnableReason = Literal["separation", "speed", "geometry", "envelope", "data"]
-"""As the subjects of alerts; envelope: the aircraft cannot do what its task asks of it."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -1,7 +1,11 @@
 """The documents that report what happens in flight, and the figures of its summary."""
 
+from collections.abc import Sequence
+from dataclasses import replace
 from math import cos, hypot, sin
 from typing import NamedTuple, assert_never
+
+import numpy as np
 
 from relguide.flying.aircraft import AircraftState, ground_velocity
 from relguide.flying.aircraft_documents import (
@@ -9,33 +13,50 @@ from relguide.flying.aircraft_documents import (
     GuidanceSample,
     HeadingReference,
     LinkResult,
+    Loss,
     ReferenceCard,
     TurnRateReference,
+    by_ident,
 )
-from relguide.flying.announcements import Event, ModeChange, NewPlan, PlanMissing, Refused
-from relguide.flying.autopilot import HoldHeading, Reference, TurnRate
 from relguide.flying.cards import no_plan_card, path_point, path_segments, plan_card
 from relguide.flying.documents import (
+    Alert,
     Document,
-    FlightEnded,
+    ForecastChanged,
     LeaderRoute,
     ModeChanged,
     PlanChanged,
     PlanRefused,
     PlanUnavailable,
     Sample,
+    SeparationLost,
+    Unable,
 )
-from relguide.flying.memory import Advice
+from relguide.flying.guidance.announcements import (
+    Alerted,
+    Event,
+    ModeChange,
+    NewPlan,
+    PlanMissing,
+    Refused,
+    UnableTo,
+)
+from relguide.flying.guidance.forecast import Forecast
+from relguide.flying.guidance.memory import Advice
 from relguide.flying.plan_documents import PathPoint
-from relguide.kernels.base.angles import wrap, wrap_signed
+from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.turn import turn_rate
+from relguide.kernels.flight.records import HOLD_HEADING, Control
 from relguide.planning.alternatives import alternatives
-from relguide.planning.situation import IntentPiece, Leader, Wind
+from relguide.planning.situation import Leader, Wind
 from relguide.units import DEG, Metre, Radian, Second
 
 FINAL_LEG: Second = 1200.0
 """How much of the leader's endless final leg is shown [s]: as much as a pursuer needs at 100 km."""
-BANKED: Radian = 3.0 * DEG  # less is a correction, not a turn
+BENT: Radian = 3.0 * DEG
+"""A forecast's points are no farther apart than this in heading: the chord strays by 4 m [rad]."""
+STRAIGHT_FOR = 30
+"""… nor than this in time [s]."""
 
 
 class Names(NamedTuple):
@@ -46,17 +67,15 @@ class Names(NamedTuple):
 
 
 class Tally(NamedTuple):
-    """Figures of a flight so far."""
+    """Figures of a flight so far; all but the first until joined."""
 
     least_separation: Metre
-    heading_swing: Radian
-    """Total variation of the pursuer's heading until joined."""
-    track: Metre
-    """Flown over the ground until joined."""
-    banked: int
-    """The last side banked to: +1 right, −1 left, 0 before the first."""
-    bank_reversals: int
-    """From one side to the other, until joined."""
+    heading_swing: Radian = 0.0
+    """Total variation of the pursuer's heading."""
+    track: Metre = 0.0
+    """Flown over the ground."""
+    bank_reversals: int = 0
+    """From one side to the other."""
 
 
 class Milestones(NamedTuple):
@@ -73,6 +92,9 @@ class Milestones(NamedTuple):
     """When it first joined, if it has [s]."""
     following_since: Second = 0.0
     """When it last began to follow, if it has [s]."""
+    warned: tuple[Second, ...] = ()
+    """When the first alert or `Unable` was given that still matters; empty if there is none."""
+    losses: tuple[Loss, ...] = ()
 
 
 def count_event(milestones: Milestones, document: Document) -> Milestones:
@@ -88,59 +110,69 @@ def count_event(milestones: Milestones, document: Document) -> Milestones:
                 replans_announced=milestones.replans_announced + announced,
             )
         case ModeChanged(t=t, mode="follow"):
-            first = milestones.join_time if milestones.joined else t
-            return milestones._replace(joined=True, join_time=first, following_since=t)
+            return milestones._replace(following_since=t)
+        case Alert(cleared=True):
+            return milestones._replace(warned=())
+        case Alert(t=t, level="caution" | "warning") | Unable(t=t):
+            return milestones._replace(warned=milestones.warned or (t,))
+        case SeparationLost():
+            loss = Loss(
+                t=document.t,
+                separation=document.separation,
+                cause=document.cause,
+                announced=document.announced,
+            )
+            return milestones._replace(losses=(*milestones.losses, loss))
         case _:
             return milestones
 
 
-def count_step(
-    tally: Tally, before: AircraftState, now: AircraftState, leader: AircraftState, joined: bool
-) -> Tally:
-    """The figures a step later."""
-    separation = hypot(now.x - leader.x, now.y - leader.y)
-    least = min(tally.least_separation, separation)
-    if joined:
-        return tally._replace(least_separation=least)
-    turned = abs(wrap_signed(now.heading - before.heading))
-    side = tally.banked
-    if abs(now.bank) > BANKED:
-        side = 1 if now.bank > 0.0 else -1
-    return Tally(
-        least,
-        tally.heading_swing + turned,
-        tally.track + hypot(now.x - before.x, now.y - before.y),
-        side,
-        tally.bank_reversals + (side * tally.banked < 0),
-    )
+def count_loss(milestones: Milestones, least: Metre) -> Milestones:
+    """The last loss went on, and came to this [m]."""
+    *before, last = milestones.losses
+    last = replace(last, separation=min(last.separation, least))
+    return milestones._replace(losses=(*before, last))
 
 
 def sample(
     t: Second,
-    names: Names,
-    pursuer: AircraftState,
-    leader: AircraftState,
-    advice: Advice,
-    since: Second,
-    tally: Tally,
+    aircraft: Sequence[tuple[str, AircraftState]],
     wind: Wind,
+    links: Sequence[tuple[Names, Advice, Metre]],
+    since: Second,
 ) -> Sample:
     """The flight at one instant.
 
     Args:
         t: flight time [s].
-        names: of both.
-        pursuer: now.
-        leader: now.
-        advice: the last that guidance gave.
-        since: how long ago it did [s]; the slot has moved since.
-        tally: gives the least separation.
-        wind: moves both aircraft and the slot.
+        aircraft: ident and state of each.
+        wind: moves all of them, and the slots.
+        links: of each, who flies, the last advice that guidance gave, and the least separation.
+        since: how long ago it was given [s]; the slots have moved since.
     """
-    east, north = leader.x - pursuer.x, leader.y - pursuer.y
+    samples = tuple(_aircraft_sample(ident, state, wind) for ident, state in aircraft)
+    return Sample(
+        t=t,
+        aircraft=samples,
+        guidance=tuple(
+            _guidance_sample(t, samples, names, advice, least, since, wind)
+            for names, advice, least in links
+        ),
+    )
+
+
+def _guidance_sample(
+    t: Second,
+    samples: tuple[AircraftSample, ...],
+    names: Names,
+    advice: Advice,
+    least: Metre,
+    since: Second,
+    wind: Wind,
+) -> GuidanceSample:
+    own, other = by_ident(samples, names.pursuer), by_ident(samples, names.leader)
+    east, north = other.x - own.x, other.y - own.y
     separation = hypot(east, north)
-    own = _aircraft_sample(names.pursuer, pursuer, wind)
-    other = _aircraft_sample(names.leader, leader, wind)
     closure = 0.0
     if separation > 0.0:
         relative_east = own.ground_speed * sin(own.track) - other.ground_speed * sin(other.track)
@@ -152,31 +184,30 @@ def sample(
     slot_north = slot.tas * cos(slot.heading + half_turn) + wind.north
     slot_x, slot_y = slot.x + slot_east * since, slot.y + slot_north * since
     slot_speed = hypot(slot_east, slot_north)
-    dx, dy = pursuer.x - slot_x, pursuer.y - slot_y
-    guidance = GuidanceSample(
+    dx, dy = own.x - slot_x, own.y - slot_y
+    return GuidanceSample(
         ident=names.pursuer,
         leader=names.leader,
         mode=advice.mode,
-        reference=_reference_card(advice.reference),
-        commanded_tas=advice.commanded_tas,
+        reference=_reference_card(advice.control),
+        commanded_tas=advice.control.tas,
         separation=separation,
         closure=closure,
-        least_separation=tally.least_separation,
+        least_separation=min(least, separation),
         slot=PathPoint(t=t, x=slot_x, y=slot_y, heading=wrap(slot.heading + 2.0 * half_turn)),
         slot_open=advice.slot_open,
         spacing_error=-(dx * slot_east + dy * slot_north) / slot_speed,
         cross_track=(dx * slot_north - dy * slot_east) / slot_speed,
         time_to_go=max(advice.time_to_go - since, 0.0),
-        joined=advice.mode == "follow",
-        alert="none",
+        joined=advice.joined,
+        alert=advice.alert,
     )
-    return Sample(t=t, aircraft=(own, other), guidance=(guidance,))
 
 
-def flight_ended(
+def link_result(
     t: Second, names: Names, milestones: Milestones, tally: Tally, fallbacks: int
-) -> FlightEnded:
-    """How the flight went.
+) -> LinkResult:
+    """How the flight of one pursuer went.
 
     Args:
         t: flight time at its end [s].
@@ -185,7 +216,7 @@ def flight_ended(
         tally: its figures.
         fallbacks: how often the exact plan took the place of a planner's.
     """
-    result = LinkResult(
+    return LinkResult(
         ident=names.pursuer,
         leader=names.leader,
         joined=milestones.joined,
@@ -199,22 +230,14 @@ def flight_ended(
         replans_announced=milestones.replans_announced,
         fallbacks=fallbacks,
         track=tally.track,
-        losses=(),
+        losses=milestones.losses,
     )
-    return FlightEnded(t=t, results=(result,))
 
 
 def leader_route(
-    t: Second,
-    names: Names,
-    leader: AircraftState,
-    intent: tuple[IntentPiece, ...],
-    *,
-    intent_known: bool,
-    wind: Wind,
+    t: Second, names: Names, expected: Leader, *, intent_known: bool, wind: Wind
 ) -> LeaderRoute:
     """What the pursuer expects the leader to fly."""
-    expected = Leader(x=leader.x, y=leader.y, heading=leader.heading, tas=leader.tas, intent=intent)
     trajectory = expected.trajectory
     return LeaderRoute(
         t=t,
@@ -227,25 +250,27 @@ def leader_route(
     )
 
 
-def event_document(t: Second, ident: str, event: Event) -> Document:
-    """What the guidance of the aircraft `ident` announces, as a document."""
+def event_document(t: Second, names: Names, event: Event) -> Document:
+    """What the guidance of a pursuer announces, as a document."""
+    ident = names.pursuer
     match event:
-        case NewPlan(commitment=commitment):
-            plan = commitment.plan
+        case NewPlan(shown=plan, committed=committed):
             at, wind = plan.certificate.at_time, plan.situation.wind
-            leader = plan.situation.leader.trajectory
+            leader, ahead = plan.situation.leader.trajectory, committed.forecast
+            least, _ = ahead.least(t)
+            others = alternatives(committed.plan) if event.announced else ()
             return PlanChanged(
                 t=t,
                 ident=ident,
                 reason=event.reason,
                 message=event.message,
-                plan=plan_card(plan, alternatives(plan)),
+                plan=plan_card(plan, others, later=committed.begins - t),
                 leader_at_closest=path_point(leader.pose_at(at), at, wind),
                 pursuer_at_closest=path_point(plan.trajectory.pose_at(at), at, wind),
-                announced=True,
-                promised=plan.time_to_converge,
-                tube=0.0,
-                flown_least=plan.certificate.least_separation,
+                announced=event.announced,
+                promised=(ahead.join_time if ahead.joins else committed.due) - t,
+                tube=ahead.tube,
+                flown_least=least,
             )
         case PlanMissing(answer=answer):
             return PlanUnavailable(t=t, ident=ident, answer=no_plan_card(answer))
@@ -265,8 +290,42 @@ def event_document(t: Second, ident: str, event: Event) -> Document:
                 previous=event.previous,
                 message=event.message,
             )
+        case Alerted():
+            return Alert(
+                t=t,
+                ident=ident,
+                other=names.leader,
+                level=event.level,
+                subject="separation",
+                message=event.message,
+                predicted_least=event.predicted_least,
+                predicted_at=event.predicted_at,
+                cleared=event.cleared,
+            )
+        case UnableTo():
+            return Unable(t=t, ident=ident, reason=event.reason, message=event.message)
         case _:
             assert_never(event)
+
+
+def forecast_document(t: Second, ident: str, ahead: Forecast) -> ForecastChanged:
+    """The path that will be flown: its turns point by point, its straights by their ends."""
+    rows = ahead.own[max(round(t - ahead.t), 0) :]
+    kept, last = [0], 0
+    for k in range(1, len(rows) - 1):
+        if abs(rows[k, 2] - rows[last, 2]) > BENT or k - last >= STRAIGHT_FOR:
+            kept.append(k)
+            last = k
+    kept.append(len(rows) - 1)
+    times, points = t + np.array(kept, dtype=float), rows[kept]
+    return ForecastChanged(
+        t=t,
+        ident=ident,
+        times=tuple(times.tolist()),
+        x=tuple(points[:, 0].tolist()),
+        y=tuple(points[:, 1].tolist()),
+        heading=tuple(wrap(heading) for heading in points[:, 2].tolist()),
+    )
 
 
 def _aircraft_sample(ident: str, state: AircraftState, wind: Wind) -> AircraftSample:
@@ -285,11 +344,7 @@ def _aircraft_sample(ident: str, state: AircraftState, wind: Wind) -> AircraftSa
     )
 
 
-def _reference_card(reference: Reference) -> ReferenceCard:
-    match reference:
-        case HoldHeading(heading=heading):
-            return HeadingReference(heading=heading)
-        case TurnRate(turn_rate=rate):
-            return TurnRateReference(turn_rate=rate)
-        case _:
-            assert_never(reference)
+def _reference_card(control: Control) -> ReferenceCard:
+    if control.kind == HOLD_HEADING:
+        return HeadingReference(heading=wrap(control.value))
+    return TurnRateReference(turn_rate=control.value)

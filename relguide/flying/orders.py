@@ -6,12 +6,16 @@ from math import isfinite
 from typing import Literal, assert_never
 
 from relguide.flying.documents import LeaderChanged
-from relguide.flying.leader import LeaderFlight, TurnChoice, set_leader_speed, turn_leader
+from relguide.flying.leaders.declared import TurnChoice
+from relguide.flying.world import Fleet
 from relguide.kernels.base.angles import wrap
 from relguide.planning.inputs import within
 from relguide.planning.limits import TAS
 from relguide.planning.phrases import compass
-from relguide.units import KT, MetrePerSecond, Radian, Second
+from relguide.units import DEG, KT, MetrePerSecond, Radian, Second
+
+ORDERED_BANK: Radian = 25.0 * DEG
+"""Of the turns that a leader makes when ordered to [rad]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -60,40 +64,36 @@ def no_commands(t: Second) -> Iterable[Command]:
 
 
 def obey(
-    command: Command, leader: LeaderFlight, ident: str, known: bool, t: Second, bank: Radian
-) -> tuple[LeaderFlight, bool, tuple[LeaderChanged, ...]]:
-    """Carry out a command: the leader, whether its intent is known, and the documents that say so.
+    command: Command, fleet: Fleet, i: int, known: bool, t: Second
+) -> tuple[bool, tuple[LeaderChanged, ...]]:
+    """Carry out a command: whether the leader's intent is known then, and what is said of it.
 
     Args:
         command: what is asked.
-        leader: before.
-        ident: the leader's.
+        fleet: the leader is one of it, and does as it is told.
+        i: which of the fleet.
         known: whether its intent was known before.
         t: flight time [s].
-        bank: of the turns it makes on command [rad].
     """
+    ident = fleet.world.aircraft[i].ident
     match command:
         case LeaderHeading(heading=heading, direction=direction):
+            fleet.turn(i, wrap(heading), direction, ORDERED_BANK)
             message = f"The leader is instructed to turn to {compass(heading)}."
-            said = LeaderChanged(t=t, ident=ident, change="heading", message=message)
-            return (
-                turn_leader(leader, t, wrap(heading), direction, bank),
-                known,
-                (said,),
-            )
+            return known, (LeaderChanged(t=t, ident=ident, change="heading", message=message),)
         case LeaderSpeed(tas=tas):
+            fleet.set_speed(i, tas)
             message = f"The leader is instructed to fly {tas / KT:.0f} kt."
-            said = LeaderChanged(t=t, ident=ident, change="speed", message=message)
-            return set_leader_speed(leader, t, tas), known, (said,)
+            return known, (LeaderChanged(t=t, ident=ident, change="speed", message=message),)
         case IntentKnown(known=now) if now == known:
-            return leader, known, ()
+            return known, ()
         case IntentKnown(known=True):
             message = "The leader's intent is received."
             said = LeaderChanged(t=t, ident=ident, change="intent_received", message=message)
-            return leader, True, (said,)
+            return True, (said,)
         case IntentKnown():
             message = "The leader's intent is withdrawn."
             said = LeaderChanged(t=t, ident=ident, change="intent_withdrawn", message=message)
-            return leader, False, (said,)
+            return False, (said,)
         case _:
             assert_never(command)

@@ -19,7 +19,10 @@ from dataclasses import dataclass
 from importlib.util import find_spec
 from math import cos, sin
 
-from relguide.flying.flight import Scenario
+from relguide.flying.air import STANDARD_AIR, Air
+from relguide.flying.airframe import airframe
+from relguide.flying.envelope import level_for
+from relguide.flying.flight import DEFAULT_TYPE, Scenario
 from relguide.flying.tracks import DEFAULT_LEADER, INSTALL, RecordedTrack, load_sample
 from relguide.planning.inputs import expect, number
 from relguide.planning.situation import CALM, FlyStraight, Leader, Pursuer, Situation, TurnTo
@@ -28,6 +31,8 @@ from relguide.units import DEG, NM, Metre, Second
 
 LEADER_TURNS_AT: Second = 820.0
 """When the leader of Fig. 6 begins its turn [s]."""
+FASTER = 1.2
+"""How much faster than a recorded leader its pursuer flies."""
 BEHIND: Metre = 30_000.0
 """How far behind the recorded leader the pursuer begins [m]."""
 ABEAM: Metre = 20_000.0
@@ -86,6 +91,8 @@ def scenario_behind(
 ) -> Scenario:
     """A flight behind a recorded leader, by a pursuer 20 % faster, behind it and to its left.
 
+    The pursuer is slower than that where its type cannot fly so fast at the leader's level.
+
     Args:
         track: the leader; its heading and speed changes come as they were flown, unannounced.
         behind: where the pursuer begins, back along the leader's first track [m].
@@ -95,7 +102,9 @@ def scenario_behind(
     behind, abeam = number("behind", behind), number("abeam", abeam)
     first = track.state_at(0.0)
     along_x, along_y = sin(first.track), cos(first.track)
-    speed = 1.2 * max(first.ground_speed, *(track.state_at(t).ground_speed for t in (60.0, 180.0)))
+    fast = max(first.ground_speed, *(track.state_at(t).ground_speed for t in (60.0, 180.0)))
+    can = airframe(DEFAULT_TYPE).tas_range(first.altitude, STANDARD_AIR)
+    speed = min(max(FASTER * fast, can.least), can.most)
     return Scenario(
         name="recorded_leader",
         title=TITLES["recorded_leader"],
@@ -134,14 +143,29 @@ def scenario(name: str) -> Scenario:
 
 
 def own_scenario(situation: Situation, *, intent_known: bool = True) -> Scenario:
-    """A situation of one's own, to be flown."""
+    """A situation of one's own, flown by an A300 at the level nearest to FL310 where it can.
+
+    Raises:
+        ValueError: if there is no level at which it can fly so fast or bank so much, in a sentence.
+    """
     return Scenario(
         name="own",
         title="Own situation",
         description="A situation that was sent.",
         situation=situation,
         intent_known=intent_known,
+        altitude=_level(situation),
     )
+
+
+def _level(situation: Situation) -> Metre:
+    """Where the pursuer can fly its own speed and, if there is such a level, its leader's."""
+    own, can = situation.pursuer.tas, airframe(DEFAULT_TYPE)
+    air = Air(wind=situation.wind)
+    try:
+        return level_for(can, air, slowest=min(own, situation.leader.tas), fastest=own)
+    except ValueError:
+        return level_for(can, air, slowest=own, fastest=own)
 
 
 def _nothing_missing() -> str:

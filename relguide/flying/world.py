@@ -16,7 +16,13 @@ from relguide.flying.aircraft import AircraftState
 from relguide.flying.airframe import Airframe
 from relguide.flying.belief import SPARE, Belief, FlownTrack
 from relguide.flying.guidance.settings import DEFAULT, Settings
-from relguide.flying.leaders.declared import Program, program_of, remaining, turn_program
+from relguide.flying.leaders.declared import (
+    Program,
+    TurnChoice,
+    program_of,
+    remaining,
+    turn_program,
+)
 from relguide.flying.leaders.recorded import recorded_rows
 from relguide.flying.tracks import RecordedTrack
 from relguide.kernels.base.angles import wrap
@@ -29,7 +35,7 @@ from relguide.kernels.flight.second import (
     fly_second,
     least_between,
 )
-from relguide.planning.limits import MAX_POSITION, MAX_TAS, MIN_TAS
+from relguide.planning.limits import POSITION, TAS
 from relguide.planning.situation import IntentPiece, Wind
 from relguide.units import Metre, MetrePerSecond, Radian, Second
 
@@ -66,6 +72,9 @@ class Aircraft:
 
     ident: str
     airframe: Airframe
+    """How it rolls, and changes speed."""
+    aircraft_type: str
+    """ICAO designator, as shown."""
     x: Metre
     """East [m]."""
     y: Metre
@@ -188,7 +197,7 @@ class Fleet:
         self.programs[i, : len(program.rows)] = program.rows
         self.lengths[i], self.cursors[i], self.helds[i] = len(program.rows), 0, program.held
 
-    def turn(self, i: int, heading: Radian, direction: str, bank: Radian) -> None:
+    def turn(self, i: int, heading: Radian, direction: TurnChoice, bank: Radian) -> None:
         """Have an aircraft turn to a heading; what it declared before is dropped."""
         self.leave_recording(i)
         self.set_program(i, turn_program(float(self.states[i, 2]), heading, direction, bank))
@@ -250,14 +259,13 @@ class Fleet:
         one, other = self.states[i], self.states[j]
         return hypot(one[0] - other[0], one[1] - other[1])
 
-    def least_apart(self, i: int, j: int) -> tuple[Metre, Second]:
-        """How near two aircraft came in the last second [m], and when in it [s]."""
-        least, at = least_between(self.trace[i], self.trace[j])
-        return least, at * self.step
+    def least_apart(self, i: int, j: int) -> Metre:
+        """How near two aircraft came in the last second [m]."""
+        return least_between(self.trace[i], self.trace[j])[0]
 
     def beyond_edge(self) -> str:
         """The ident of an aircraft about to leave the plane; empty if there is none."""
-        far = np.flatnonzero(np.max(np.abs(self.states[:, :2]), axis=1) > MAX_POSITION - EDGE)
+        far = np.flatnonzero(np.max(np.abs(self.states[:, :2]), axis=1) > POSITION.high - EDGE)
         return self.world.aircraft[int(far[0])].ident if len(far) else ""
 
     def belief(self, i: int, j: int, track: FlownTrack, t: Second, known: bool) -> Belief:
@@ -302,7 +310,7 @@ def limits_of(aircraft: Aircraft, air: Air) -> Limits:
     slowest, fastest = airframe.tas_range(aircraft.altitude, air)
     deceleration = airframe.max_deceleration
     if not isinstance(aircraft.pilot, Guided):
-        slowest, fastest = MIN_TAS, MAX_TAS
+        slowest, fastest = TAS.low, TAS.high
         deceleration *= DECLARED_DECELERATION
     return Limits(
         aircraft.max_bank,
@@ -319,5 +327,3 @@ def limits_of(aircraft: Aircraft, air: Air) -> Limits:
 def believed_wind(world: World) -> Wind:
     """The wind as guidance believes it, at the start."""
     return (world.believed_air or world.air).wind_at(0.0, 0.0, 0.0, 0.0)
-
-

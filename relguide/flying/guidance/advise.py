@@ -12,31 +12,31 @@ from relguide.flying.belief import Belief
 from relguide.flying.guidance import converge
 from relguide.flying.guidance.announcements import (
     Event,
-    ModeChange,
-    NewPlan,
-    PlanMissing,
     PlanReason,
-    Refused,
-    UnableReason,
     UnableTo,
     expectation,
     leader_change,
-    reason_sentence,
-    summary,
 )
 from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.committed import (
-    Committed,
     situation_now,
-    shown_plan,
     slot_mismatch,
 )
 from relguide.flying.guidance.converge import NoProposal, Proposal
-from relguide.flying.guidance.escape import escape, kept_on_heading
 from relguide.flying.guidance.forecast import NO_COURSE
-from relguide.flying.guidance.memory import Advice, Announced, Memory, Slot
-from relguide.flying.guidance.path_distance import is_same_path
-from relguide.flying.modes import NAMES, NUMBERS, Mode, change
+from relguide.flying.guidance.leader_news import (
+    is_steady,
+    judge_speed,
+    notice_leader,
+    turns_unannounced,
+)
+from relguide.flying.guidance.leaving import (
+    clear_heading,
+    keep_heading,
+    must_leave,
+    turn_away,
+)
+from relguide.flying.guidance.memory import Advice, Memory, Slot, enter
 from relguide.flying.guidance.monitor import (
     Outlook,
     is_as_forecast,
@@ -44,18 +44,23 @@ from relguide.flying.guidance.monitor import (
     leader_is_as_forecast,
     look_out,
 )
+from relguide.flying.guidance.plan_news import (
+    announce_pending,
+    count_refusal,
+    fly_proposal,
+    say_no_plan,
+)
+from relguide.flying.modes import NAMES, NUMBERS
 from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.flight import marks as at
 from relguide.kernels.flight import path as on
 from relguide.kernels.flight.guide import Act, Progress, act
 from relguide.kernels.flight.marks import mark_at
 from relguide.planning.phrases import distance
-from relguide.planning.plan import NoPlan, Planner, Reason
+from relguide.planning.plan import Planner
 from relguide.planning.slot import slot_frame
-from relguide.units import DEG, KT, Metre, MetrePerSecond, Second
+from relguide.units import DEG, Metre, MetrePerSecond, Second
 
-OWN_TUBE: Metre = 60.0
-"""What an escape must keep beyond d_min: its turn is planned without the roll's soft ends [m]."""
 TURNED: float = 3.0 * DEG
 """A leader that has turned so far since capture began has left the route that was captured [rad].
 It moves the slot by 0.5 km, which capture takes up."""
@@ -69,12 +74,12 @@ def advise(
     memory: Memory, belief: Belief, assignment: Assignment, planner: Planner
 ) -> tuple[Memory, Advice]:
     """What to fly for the next second."""
-    memory, slowing = _notice_leader(memory, belief, assignment)
-    memory, unfit = _judge_speed(memory, belief, assignment)
+    memory, slowing = notice_leader(memory, belief, assignment)
+    memory, unfit = judge_speed(memory, belief, assignment)
     events: list[Event] = [*unfit]
     if memory.unable == "speed":
         if memory.mode not in ("heading", "escape"):
-            memory, news = _leave(memory, belief, assignment, "The leader cannot be followed.")
+            memory, news = turn_away(memory, belief, assignment, "The leader cannot be followed.")
             events += news
     elif memory.mode in ("heading", "escape"):
         memory, news = _try_to_plan(memory, belief, assignment, planner)
@@ -85,10 +90,10 @@ def advise(
     elif _has_left_capture(memory, belief, assignment):
         memory, news = _plan_again(memory, belief, assignment, planner)
         events += news
-    memory = _keep_heading(memory, belief, assignment)
+    memory = keep_heading(memory, belief, assignment)
     done = _act(memory, belief, assignment)
     outlook = _outlook(memory, belief, assignment, slowing)
-    if memory.mode not in ("heading", "escape") and _must_leave(
+    if memory.mode not in ("heading", "escape") and must_leave(
         memory, belief, assignment, outlook, slowing
     ):
         memory, news, saved = _replan_or_escape(memory, belief, assignment, planner, outlook)
@@ -103,94 +108,6 @@ def advise(
     return memory, _advice(memory, belief, assignment, done, (*events, *said))
 
 
-def _notice_leader(
-    memory: Memory, belief: Belief, assignment: Assignment
-) -> tuple[Memory, MetrePerSecond]:
-    """Remember when the leader last did something new, and by how much it slows down [m/s²]."""
-    settings, now, was = assignment.settings, expectation(belief), memory.leader
-    turning = not belief.intent_known and abs(belief.leader_turn_rate) > settings.turning
-    rate = now.tas - was.tas
-    moved = turning or abs(rate) > 0.1 or now.intent_known != was.intent_known
-    changed = belief.t if moved else memory.changed
-    memory = replace(
-        memory, leader=now, leader_heading=belief.leader.heading, changed=changed
-    )
-    return memory, max(-rate, 0.0) if abs(rate) > 0.1 else 0.0
-
-
-def _is_steady(memory: Memory, belief: Belief, assignment: Assignment) -> bool:
-    return belief.t - memory.changed >= assignment.settings.settled_for
-
-
-def _turns_unannounced(belief: Belief, assignment: Assignment) -> bool:
-    return (
-        not belief.intent_known
-        and abs(belief.leader_turn_rate) > assignment.settings.turning
-    )
-
-
-def _judge_speed(
-    memory: Memory, belief: Belief, assignment: Assignment
-) -> tuple[Memory, tuple[Event, ...]]:
-    """Whether the leader is slower than the pursuer can fly, and what is said of it once."""
-    slow, in_hand = belief.leader.tas, assignment.settings.speed_in_hand
-    if slow < assignment.min_tas - in_hand:
-        if memory.unable == "speed":
-            return memory, ()
-        message = (
-            f"Unable to follow: the leader flies {slow / KT:.0f} kt, and "
-            f"{assignment.min_tas / KT:.0f} kt is the least speed of this "
-            f"{assignment.aircraft_type} at its level."
-        )
-        said = UnableTo(reason="speed", message=message)
-        return replace(memory, unable="speed"), (said,)
-    if memory.unable == "speed" and slow > assignment.min_tas:
-        return replace(memory, unable=None, asked=-1e9), ()
-    return memory, ()
-
-
-def _enter(memory: Memory, belief: Belief, to: Mode, message: str) -> tuple[Memory, list[Event]]:
-    """The mode entered, and the event that says so if it is a new one."""
-    if to == memory.mode:
-        return memory, []
-    event = ModeChange(mode=change(memory.mode, to), previous=memory.mode, message=message)
-    progress = memory.progress._replace(mode=NUMBERS[to])
-    return replace(memory, mode=to, since=belief.t, progress=progress), [event]
-
-
-def _leave(
-    memory: Memory, belief: Belief, assignment: Assignment, why: str
-) -> tuple[Memory, list[Event]]:
-    """Turn away to a heading that keeps clear."""
-    out = _clear_heading(belief, assignment)
-    degrees = round(out / DEG) % 360
-    memory, news = _enter(memory, belief, "escape", f"{why} Turning to {degrees:03d}°.")
-    progress = Progress(NUMBERS["escape"], 0.0, out, belief.own.tas)
-    return replace(memory, progress=progress, committed=None, forecast=None), news
-
-
-def _clear_heading(belief: Belief, assignment: Assignment) -> float:
-    turns_on = _turns_unannounced(belief, assignment)
-    wanted = assignment.buffered_separation
-    return escape(belief, assignment, wanted, turns_on=turns_on).heading
-
-
-def _keep_heading(memory: Memory, belief: Belief, assignment: Assignment) -> Memory:
-    """Keep the heading held for as long as it keeps clear, so that it does not jump."""
-    if memory.mode not in ("heading", "escape"):
-        return memory
-    progress = memory.progress
-    turns_on = _turns_unannounced(belief, assignment)
-    wanted = assignment.min_separation + OWN_TUBE
-    if kept_on_heading(belief, assignment, progress.heading, turns_on=turns_on) >= wanted:
-        return memory
-    out = escape(belief, assignment, assignment.buffered_separation, turns_on=turns_on)
-    now = kept_on_heading(belief, assignment, progress.heading, turns_on=turns_on)
-    if out.least_separation < now + OWN_TUBE:
-        return memory
-    return replace(memory, progress=progress._replace(heading=out.heading))
-
-
 def _try_to_plan(
     memory: Memory, belief: Belief, assignment: Assignment, planner: Planner
 ) -> tuple[Memory, list[Event]]:
@@ -200,28 +117,16 @@ def _try_to_plan(
         return memory, []
     if memory.mode == "escape":
         apart = hypot(belief.own.x - belief.leader.x, belief.own.y - belief.leader.y)
-        rested = t - memory.since >= ESCAPES_FOR and _is_steady(memory, belief, assignment)
+        rested = t - memory.since >= ESCAPES_FOR and is_steady(memory, belief, assignment)
         if not rested or apart < min(assignment.min_separation + ROOM, assignment.aim):
             return memory, []
     found = converge.propose(belief, assignment, None, planner)
     memory = replace(memory, asked=t)
-    memory, events = _count_refusal(memory, found)
+    memory, events = count_refusal(memory, found)
     if isinstance(found, NoProposal):
-        return _say_no_plan(memory, belief, assignment, found.answer, events)
+        return say_no_plan(memory, belief, assignment, found.answer, events)
     reason: PlanReason = "engaged" if memory.announced is None else "better_plan"
-    return _fly(memory, belief, assignment, found, reason, events)
-
-
-def _say_no_plan(
-    memory: Memory, belief: Belief, assignment: Assignment, answer: NoPlan, events: list[Event]
-) -> tuple[Memory, list[Event]]:
-    if memory.missing != answer.reason:
-        events.append(PlanMissing(answer=answer))
-        reason: UnableReason = (
-            "speed" if answer.reason == Reason.SLOT_UNREACHABLE else "separation"
-        )
-        events.append(UnableTo(reason=reason, message=f"Unable: {answer.message}"))
-    return replace(memory, missing=answer.reason), events
+    return fly_proposal(memory, belief, assignment, found, reason, events)
 
 
 def _stay_or_change(
@@ -244,10 +149,10 @@ def _stay_or_change(
         now.intent_known != memory.expected.intent_known
         or slot_mismatch(belief, committed) > settings.slot_moved
     ):
-        stay = 0.0 if _is_steady(memory, belief, assignment) else settings.better_while_turning
+        stay = 0.0 if is_steady(memory, belief, assignment) else settings.better_while_turning
         reason = changed or "deviation"
         return _plan_again(memory, belief, assignment, planner, reason=reason, stay=stay)
-    memory, events = _announce_pending(memory, belief, assignment)
+    memory, events = announce_pending(memory, belief, assignment)
     if not as_forecast or not converge.may_be_bettered(committed, t, assignment):
         return memory, events
     if committed.plan.planner == "exact" and t - memory.asked < settings.ask_every:
@@ -256,8 +161,8 @@ def _stay_or_change(
     found = converge.better(belief, assignment, committed, planner)
     if found is None:
         return memory, events
-    memory, refused = _count_refusal(memory, found)
-    return _fly(memory, belief, assignment, found, "better_plan", [*events, *refused])
+    memory, refused = count_refusal(memory, found)
+    return fly_proposal(memory, belief, assignment, found, "better_plan", [*events, *refused])
 
 
 def _strayed(memory: Memory, belief: Belief, assignment: Assignment) -> bool:
@@ -284,132 +189,15 @@ def _plan_again(
     committed = None if reason == "deviation" else memory.committed
     found = converge.propose(belief, assignment, committed, planner, stay=stay)
     memory = replace(memory, asked=belief.t)
-    memory, events = _count_refusal(memory, found)
+    memory, events = count_refusal(memory, found)
     if isinstance(found, Proposal):
-        return _fly(memory, belief, assignment, found, reason, events)
-    memory, events = _say_no_plan(memory, belief, assignment, found.answer, events)
+        return fly_proposal(memory, belief, assignment, found, reason, events)
+    memory, events = say_no_plan(memory, belief, assignment, found.answer, events)
     message = f"No plan: holding a safe heading. {found.answer.message}"
-    memory, news = _enter(memory, belief, "heading", message)
-    out = _clear_heading(belief, assignment)
+    memory, news = enter(memory, belief, "heading", message)
+    out = clear_heading(belief, assignment)
     progress = Progress(NUMBERS["heading"], 0.0, out, assignment.tas)
     return replace(memory, progress=progress, committed=None, forecast=None), [*events, *news]
-
-
-def _fly(
-    memory: Memory,
-    belief: Belief,
-    assignment: Assignment,
-    found: Proposal,
-    reason: PlanReason,
-    events: list[Event],
-) -> tuple[Memory, list[Event]]:
-    """Commit to a proposal; announce it if it is news and the leader has settled."""
-    committed = found.committed
-    message = f"Converging by {committed.plan.word}."
-    memory, news = _enter(memory, belief, "converge", message)
-    memory = replace(
-        memory,
-        committed=committed,
-        forecast=committed.forecast,
-        progress=Progress(NUMBERS["converge"], committed.s, 0.0, 0.0),
-        missing=None,
-    )
-    shown = shown_plan(committed.plan, found.lead, belief, assignment)
-    is_news = _is_news(memory, belief, assignment, committed, shown.trajectory, reason)
-    announced = is_news and (
-        memory.announced is None
-        or reason in ("separation", "engaged")
-        or _may_speak(memory, belief, assignment)
-    )
-    joins = committed.forecast.join_time if committed.forecast.joins else committed.due
-    text = f"{reason_sentence(reason, belief)}: {summary(shown, joins - belief.t)}."
-    said = NewPlan(
-        committed=committed, shown=shown, reason=reason, message=text, announced=announced
-    )
-    if announced:
-        memory = _announced(memory, belief, shown, joins)
-    elif is_news:
-        memory = replace(memory, pending=reason)
-    memory = replace(memory, expected=expectation(belief))
-    return memory, [*events, *news, said]
-
-
-def _announced(memory: Memory, belief: Belief, shown: converge.Plan, joins: Second) -> Memory:
-    told = Announced(belief.t, joins, shown.trajectory)
-    return replace(memory, announced=told, pending=None)
-
-
-def _may_speak(memory: Memory, belief: Belief, assignment: Assignment) -> bool:
-    """Whether the leader has settled, and the last announcement is not of just now."""
-    last = memory.announced
-    rested = last is None or belief.t - last.t >= assignment.settings.announce_after
-    return rested and _is_steady(memory, belief, assignment)
-
-
-def _is_news(
-    memory: Memory,
-    belief: Belief,
-    assignment: Assignment,
-    committed: Committed,
-    path: converge.Trajectory,
-    reason: PlanReason,
-) -> bool:
-    """Whether the path or its time is not what a crew was told."""
-    settings, told = assignment.settings, memory.announced
-    if told is None or reason in ("engaged", "separation", "better_plan"):
-        return True
-    if memory.pending is not None:
-        return True
-    joins = committed.forecast.join_time if committed.forecast.joins else committed.due
-    left = joins - belief.t
-    if abs(joins - told.joins) > max(settings.shown_time, settings.shown_share * left):
-        return True
-    return not is_same_path(path, told.path)
-
-
-def _announce_pending(
-    memory: Memory, belief: Belief, assignment: Assignment
-) -> tuple[Memory, list[Event]]:
-    """Say now what was not said while the leader was doing something new."""
-    committed, reason = memory.committed, memory.pending
-    if committed is None or reason is None or not _may_speak(memory, belief, assignment):
-        return memory, []
-    lead = converge.lead_in(belief, assignment, committed)
-    left = committed.remaining(belief.t, assignment.tas)
-    now = situation_now(belief, assignment)
-    now = replace(
-        now, pursuer=replace(now.pursuer, x=left.x, y=left.y, heading=left.heading)
-    )
-    plan = committed.plan
-    shown = replace(
-        plan,
-        situation=now,
-        trajectory=left,
-        word=left.letters,
-        certificate=converge.certify(left, now),
-        optimality=replace(
-            plan.optimality,
-            lower_bound=min(plan.optimality.lower_bound + lead.seconds, left.duration),
-            proof="none",
-        ),
-    )
-    ahead = memory.forecast or committed.forecast
-    joins = ahead.join_time if ahead.joins else committed.due
-    text = f"{reason_sentence(reason, belief)}: {summary(shown, joins - belief.t)}."
-    said = NewPlan(committed=committed, shown=shown, reason=reason, message=text, announced=True)
-    memory = _announced(memory, belief, shown, joins)
-    return replace(memory, expected=expectation(belief)), [said]
-
-
-def _count_refusal(
-    memory: Memory, found: Proposal | NoProposal
-) -> tuple[Memory, list[Event]]:
-    """Count that the exact plan took over, and say why if the planner's fault is a new one."""
-    fault = None if found.refusal is None else found.refusal.fault
-    news: list[Event] = []
-    if found.refusal is not None and fault != memory.refused:
-        news.append(Refused(refusal=found.refusal))
-    return replace(memory, fallbacks=memory.fallbacks + found.fell_back, refused=fault), news
 
 
 def _has_left_capture(memory: Memory, belief: Belief, assignment: Assignment) -> bool:
@@ -451,32 +239,9 @@ def _outlook(
         memory.progress,
         course,
         trusted,
-        turns_on=_turns_unannounced(belief, assignment),
+        turns_on=turns_unannounced(belief, assignment),
         slowing=slowing,
     )
-
-
-def _must_leave(
-    memory: Memory,
-    belief: Belief,
-    assignment: Assignment,
-    outlook: Outlook,
-    slowing: MetrePerSecond,
-) -> bool:
-    """Whether what is flown now would lose d_min, or soon leave no way to keep it."""
-    t, limit = belief.t, assignment.min_separation
-    if outlook.forecast.least(t, assignment.settings.caution)[0] < limit:
-        return True
-    turns_on = _turns_unannounced(belief, assignment)
-    if not turns_on and slowing == 0.0 and outlook.least >= limit:
-        return False
-    apart = hypot(belief.own.x - belief.leader.x, belief.own.y - belief.leader.y)
-    wanted = min(limit + OWN_TUBE, apart)
-    slows_to = belief.leader.tas - slowing * 20.0
-    later = escape(
-        belief, assignment, wanted, turns_on=turns_on, slows_to=slows_to, delay=1.0
-    )
-    return later.least_separation < wanted
 
 
 def _replan_or_escape(
@@ -487,12 +252,12 @@ def _replan_or_escape(
     outlook: Outlook,
 ) -> tuple[Memory, list[Event], Outlook | None]:
     """Another path if there is one that keeps d_min; else away from the leader."""
-    turns_on = _turns_unannounced(belief, assignment)
+    turns_on = turns_unannounced(belief, assignment)
     if memory.mode == "converge" and not turns_on:
         found = converge.propose(belief, assignment, memory.committed, planner)
         if isinstance(found, Proposal):
-            memory, events = _count_refusal(memory, found)
-            memory, news = _fly(memory, belief, assignment, found, "separation", events)
+            memory, events = count_refusal(memory, found)
+            memory, news = fly_proposal(memory, belief, assignment, found, "separation", events)
             return memory, news, None
     why = (
         "The leader is turning; if it goes on, there may soon be no way to keep clear."
@@ -500,7 +265,7 @@ def _replan_or_escape(
         else f"What is flown would come within {distance(outlook.least)} of the leader."
     )
     said = UnableTo(reason="separation", message=f"Unable: {why}")
-    memory, news = _leave(memory, belief, assignment, why)
+    memory, news = turn_away(memory, belief, assignment, why)
     return replace(memory, asked=belief.t), [said, *news], None
 
 
@@ -514,7 +279,7 @@ def _follow_act(
         if mode == "follow"
         else "Capturing the leader's route."
     )
-    memory, events = _enter(memory, belief, mode, message)
+    memory, events = enter(memory, belief, mode, message)
     memory = replace(memory, progress=done.progress)
     if memory.mode in ("capture", "follow"):
         memory = replace(memory, committed=None)
@@ -571,8 +336,6 @@ def _slot(memory: Memory, belief: Belief, assignment: Assignment) -> Slot:
             wrap(heading),
             course.slot_tas,
         )
-    situation = replace(
-        situation_now(belief, assignment), slot_distance=assignment.slot_distance
-    )
+    situation = replace(situation_now(belief, assignment), slot_distance=assignment.slot_distance)
     frame = slot_frame(situation, situation.leader.trajectory)
     return Slot(frame.origin_x, frame.origin_y, frame.heading, belief.leader.tas)

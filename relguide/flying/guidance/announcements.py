@@ -8,8 +8,9 @@ from relguide.flying.guidance.committed import Committed
 from relguide.flying.modes import Mode
 from relguide.kernels.base.angles import wrap_signed
 from relguide.planning.acceptance import Refusal
+from relguide.planning.phrases import compass
 from relguide.planning.plan import NoPlan, Plan
-from relguide.units import DEG, KT, NM, Metre, MetrePerSecond, Radian, Second
+from relguide.units import KT, NM, Metre, MetrePerSecond, Radian, Second
 
 PlanReason = Literal[
     "engaged",
@@ -22,10 +23,14 @@ PlanReason = Literal[
     "intent_withdrawn",
 ]
 """Why a new plan was made."""
-AlertLevel = Literal["none", "advisory", "caution", "warning"]
-"""How urgent: a caution where separation would be lost soon, a warning where it is lost."""
+AlertLevel = Literal["advisory", "caution", "warning"]
+"""advisory: to be known; caution: to be seen to at once; warning: to be acted upon at once."""
+AlertState = Literal["none", "advisory", "caution", "warning"]
+"""The level of the alert that stands, or that there is none."""
 UnableReason = Literal["separation", "speed", "geometry", "envelope", "data"]
-"""Why guidance cannot go on."""
+"""separation: d_min would be lost; speed: the leader flies at a speed that cannot be matched;
+geometry: it flies where it cannot be followed; envelope: the aircraft cannot do what its task asks
+of it; data: what is known of the leader is old or contradicts itself."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -69,6 +74,7 @@ class Alerted:
     """An alert begins, becomes more urgent or less, or is over."""
 
     level: AlertLevel
+    """Of the alert that begins or, when cleared, ends."""
     message: str
     predicted_least: Metre
     predicted_at: Second
@@ -137,7 +143,7 @@ def reason_sentence(reason: PlanReason, belief: Belief) -> str:
         case "separation":
             return "The plan no longer kept the minimum separation"
         case "leader_turned":
-            heading = f"{round(belief.final_heading / DEG) % 360:03d}°"
+            heading = compass(belief.final_heading)
             if belief.turn_to_come:
                 return f"The leader will turn to {heading}"
             return f"The leader's heading is {heading}"

@@ -70,6 +70,4 @@ class Assignment:
     @cached_property
     def task(self) -> Task:
         """As the kernels take it."""
-        return Task(
-            self.tas, self.slot_distance, self.aim, self.spacing, self.buffered_separation
-        )
+        return Task(self.tas, self.slot_distance, self.aim, self.spacing, self.buffered_separation)

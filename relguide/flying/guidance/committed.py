@@ -56,9 +56,7 @@ class Committed:
         path, since = self.course.path, t - self.course.begun
         x, y, heading = on.pose_on(path, self.s)
         end = float(path[-1, on.S])
-        pieces = (
-            on.pieces_between(path, self.s, end) if self.s < end else np.zeros((0, 2))
-        )
+        pieces = on.pieces_between(path, self.s, end) if self.s < end else np.zeros((0, 2))
         wind = self.plan.situation.wind
         return Trajectory(
             x=x + wind.east * since,
@@ -185,9 +183,7 @@ def shown_plan(plan: Plan, lead: LeadIn, belief: Belief, assignment: Assignment)
         situation=now,
         trajectory=trajectory,
         certificate=certify(trajectory, now),
-        optimality=replace(
-            plan.optimality, lower_bound=plan.optimality.lower_bound + lead.seconds
-        ),
+        optimality=replace(plan.optimality, lower_bound=plan.optimality.lower_bound + lead.seconds),
     )
 
 

@@ -23,12 +23,12 @@ from relguide.flying.guidance.path_distance import distance_between, is_same_pat
 from relguide.kernels.flight import path as on
 from relguide.kernels.flight.guide import CONVERGE, Progress
 from relguide.planning.acceptance import Answer, Refusal, ask
-from relguide.planning.words import candidates
 from relguide.planning.certificate import certify
 from relguide.planning.phrases import distance
 from relguide.planning.plan import AS_FAST, NoPlan, Optimality, Plan, Planner, Reason
 from relguide.planning.situation import Situation
 from relguide.planning.trajectory import Trajectory
+from relguide.planning.words import candidates
 from relguide.units import Metre, Second
 
 BRAKES_FOR: Second = 600.0
@@ -166,9 +166,7 @@ def better(
     )
     if least < assignment.min_separation or not sooner:
         return None
-    return Proposal(
-        committed=found, lead=lead, fell_back=answer.fell_back, refusal=answer.refusal
-    )
+    return Proposal(committed=found, lead=lead, fell_back=answer.fell_back, refusal=answer.refusal)
 
 
 def commit(

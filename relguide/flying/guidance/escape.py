@@ -95,9 +95,9 @@ def kept_on_heading(
     (leader,) = _leaders(belief, inf)
     return float(
         min(
-            least_separation(
-                ours, leader._replace(pieces=rows), assignment.settings.look_out, 1.0
-            )[0]
+            least_separation(ours, leader._replace(pieces=rows), assignment.settings.look_out, 1.0)[
+                0
+            ]
             for rows in _pieces(belief, leader, turns_on=turns_on)
         )
     )
@@ -125,5 +125,3 @@ def _pieces(belief: Belief, leader: Motion, *, turns_on: bool) -> FloatArray:
     for i, end in enumerate(ends, start=1):
         pieces[i, 0] = end / max(abs(rate), 1e-6), rate
     return pieces
-
-

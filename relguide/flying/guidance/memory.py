@@ -1,20 +1,21 @@
 """What guidance remembers from one second to the next, and the advice it gives."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from relguide.flying.belief import Belief
 from relguide.flying.guidance.announcements import (
-    AlertLevel,
+    AlertState,
     Event,
     Expectation,
+    ModeChange,
     PlanReason,
     UnableReason,
     expectation,
 )
 from relguide.flying.guidance.committed import Committed
 from relguide.flying.guidance.forecast import Forecast
-from relguide.flying.modes import Mode
+from relguide.flying.modes import NUMBERS, Mode, change
 from relguide.kernels.flight.guide import HOLD, Progress
 from relguide.kernels.flight.records import Control
 from relguide.planning.acceptance import Fault
@@ -54,7 +55,7 @@ class Announced(NamedTuple):
 class Alert(NamedTuple):
     """The alert that stands."""
 
-    level: AlertLevel = "none"
+    level: AlertState = "none"
     seen: Second = LONG_AGO
     """When its cause was last seen, flight time [s]."""
 
@@ -111,7 +112,7 @@ class Advice:
     """Until it joins, by the forecast [s]; 0 where it does not, or has."""
     joined: bool
     """Eq. (7) holds: within 0.2 NM of the slot along and 0.1 NM across, heading within 2°, open."""
-    alert: AlertLevel
+    alert: AlertState
     forecast: Forecast
     """The flight ahead."""
     events: tuple[Event, ...]
@@ -139,3 +140,12 @@ def begin(belief: Belief) -> Memory:
         fallbacks=0,
         refused=None,
     )
+
+
+def enter(memory: Memory, belief: Belief, to: Mode, message: str) -> tuple[Memory, list[Event]]:
+    """The mode entered, and the event that says so if it is a new one."""
+    if to == memory.mode:
+        return memory, []
+    event = ModeChange(mode=change(memory.mode, to), previous=memory.mode, message=message)
+    progress = memory.progress._replace(mode=NUMBERS[to])
+    return replace(memory, mode=to, since=belief.t, progress=progress), [event]

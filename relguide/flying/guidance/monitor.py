@@ -10,7 +10,7 @@ from math import inf
 from typing import NamedTuple
 
 from relguide.flying.belief import Belief
-from relguide.flying.guidance.announcements import Alerted, AlertLevel, Event
+from relguide.flying.guidance.announcements import Alerted, AlertLevel, AlertState, Event
 from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.forecast import Forecast, forecast
 from relguide.flying.guidance.memory import Alert
@@ -20,7 +20,7 @@ from relguide.units import Metre, MetrePerSecond, Second
 
 SLOWS_ON: Second = 30.0
 """A leader that slows down is taken to go on for so long [s]."""
-URGENCY: dict[AlertLevel, int] = {"none": 0, "advisory": 1, "caution": 2, "warning": 3}
+URGENCY: dict[AlertState, int] = {"none": 0, "advisory": 1, "caution": 2, "warning": 3}
 """Levels in order."""
 
 
@@ -78,9 +78,7 @@ def look_out(
     settings = assignment.settings
     ahead = trusted
     if ahead is None:
-        ahead = forecast(
-            belief, assignment, progress, course, until=belief.t + settings.watch
-        )
+        ahead = forecast(belief, assignment, progress, course, until=belief.t + settings.watch)
     least, at = ahead.least(belief.t, settings.watch)
     if turns_on or slowing > 0.0:
         worse = forecast(
@@ -111,7 +109,7 @@ def judge_separation(
         assignment: gives d_min.
     """
     t, limit, settings = belief.t, assignment.min_separation, assignment.settings
-    level: AlertLevel = "none"
+    level: AlertState = "none"
     if apart < limit:
         level = "warning"
     elif outlook.least < limit and outlook.at - t <= settings.caution:
@@ -120,9 +118,9 @@ def judge_separation(
         if alert.level == "none" or t - alert.seen < settings.clears_after:
             return alert, ()
         said = Alerted(
-            level="none",
+            level=alert.level,
             message="Separation is kept again.",
-            predicted_least=min(outlook.least, 1e9),
+            predicted_least=outlook.least if outlook.least < inf else apart,
             predicted_at=outlook.at,
             cleared=True,
         )
@@ -143,9 +141,7 @@ def judge_separation(
     )
 
 
-def _sentence(
-    level: AlertLevel, outlook: Outlook, apart: Metre, t: Second, limit: Metre
-) -> str:
+def _sentence(level: AlertLevel, outlook: Outlook, apart: Metre, t: Second, limit: Metre) -> str:
     if level == "warning":
         return f"Separation: {distance(apart)}, less than {distance(limit)}."
     return (

@@ -1,7 +1,7 @@
 """A leader that flies its intent: the pieces as the kernels fly them, and what is left of them."""
 
 from math import pi
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -15,6 +15,8 @@ from relguide.planning.situation import FlyStraight, IntentPiece, TurnTo
 from relguide.planning.trajectory import LEFT, RIGHT, Turn
 from relguide.units import DEG, Radian, Second
 
+TurnChoice = Literal["left", "right", "shorter"]
+"""Which way round to turn to a heading."""
 ROLLED_IN: Radian = 2.0 * DEG
 """A turn that lacks less bank than this is being flown [rad]."""
 NO_TURN: Radian = 1e-9
@@ -56,9 +58,7 @@ def program_of(pieces: tuple[IntentPiece, ...], heading: Radian, t: Second, tas:
     return Program(pieces, np.array(rows).reshape(-1, 3), heading)
 
 
-def turn_program(
-    heading: Radian, to: Radian, direction: str, bank: Radian
-) -> Program:
+def turn_program(heading: Radian, to: Radian, direction: TurnChoice, bank: Radian) -> Program:
     """An order to turn to a heading, by the way round that `direction` says."""
     change = wrap_signed(to - heading)
     left = direction == "left" or (direction == "shorter" and change < 0.0)

@@ -21,12 +21,12 @@ def recorded_rows(track: RecordedTrack, wind: Wind, step: Second) -> FloatArray:
     Returns:
         rows as `Body`. shape (n, 7)
     """
-    count = int(round(track.duration / step)) + 1
+    count = round(track.duration / step) + 1
     t = np.minimum(np.arange(count) * step, track.duration)
     x, y, east, north, _ = track.sample(t)
     heading = np.unwrap(np.arctan2(east - wind.east, north - wind.north))
     tas = np.hypot(east - wind.east, north - wind.north)
-    second = max(int(round(1.0 / step)), 1)
+    second = max(round(1.0 / step), 1)
     later = np.append(heading[second:], np.full(min(second, count), heading[-1]))[:count]
     bank = np.arctan(tas * (later - heading) / G0)
     zero = np.zeros(count)

@@ -8,8 +8,8 @@ from numba import njit
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.flight import marks as at
 from relguide.kernels.flight.guide import CONVERGE, Course, Gate, Progress, Task, act
-from relguide.kernels.flight.laws import Gains, ground_track
 from relguide.kernels.flight.lateral import lateral_step
+from relguide.kernels.flight.laws import Gains, ground_track
 from relguide.kernels.flight.program import next_piece, programmed
 from relguide.kernels.flight.records import Body, Drift, Limits, store
 from relguide.kernels.flight.second import least_between

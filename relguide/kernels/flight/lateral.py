@@ -36,6 +36,4 @@ def lateral_step(body: Body, control: Control, limits: Limits, wind: Drift, dt: 
     v_mean = 0.5 * (v + v_end)
     rate = turn_rate(v_mean, 0.5 * (phi + phi_end))
     x, y, heading = advance(body.x, body.y, body.heading, v_mean, rate, dt)
-    return Body(
-        x + wind.east * dt, y + wind.north * dt, heading, phi_end, p_end, v_end, integral
-    )
+    return Body(x + wind.east * dt, y + wind.north * dt, heading, phi_end, p_end, v_end, integral)

@@ -89,7 +89,7 @@ def heading_on(path: FloatArray, s: float) -> float:
         if inside > 0.0:
             bend = path[i, CURVATURE] - path[i - 1, CURVATURE]
             heading += bend * inside * inside / (4.0 * h)
-    return heading
+    return float(heading)
 
 
 @njit(cache=True, nogil=True)
@@ -170,7 +170,7 @@ def splice(
 
 @njit(cache=True, nogil=True)
 def pieces_between(path: FloatArray, s: float, until: float) -> FloatArray:
-    """Length and curvature of each piece between two lengths [m]. shape (n, 2)"""
+    """Length and curvature of each piece between two lengths [m], a row each."""
     first, last = row_at(path, s), row_at(path, until)
     pieces = np.empty((last - first + 1, 2))
     for k in range(first, last + 1):

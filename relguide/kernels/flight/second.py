@@ -2,13 +2,16 @@
 
 from math import hypot, inf
 
+import numpy as np
 from numba import njit
+from numpy.typing import NDArray
 
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.flight.lateral import lateral_step
 from relguide.kernels.flight.program import next_piece, programmed
 from relguide.kernels.flight.records import Control, Drift, body_at, limits_at, store
 
+IntArray = NDArray[np.int64]
 GUIDED = 0
 """A pilot: flies its row of `controls`."""
 PROGRAMMED = 1
@@ -24,8 +27,8 @@ to, +1 right, −1 left; and how often it changed."""
 
 @njit(cache=True, nogil=True)
 def fly_second(
-    states: FloatArray, limits: FloatArray, pilots: FloatArray, controls: FloatArray,
-    programs: FloatArray, lengths: FloatArray, cursors: FloatArray, helds: FloatArray,
+    states: FloatArray, limits: FloatArray, pilots: IntArray, controls: FloatArray,
+    programs: FloatArray, lengths: IntArray, cursors: IntArray, helds: FloatArray,
     wind: Drift, t: float, dt: float, trace: FloatArray, tallies: FloatArray,
 ) -> None:  # fmt: skip
     """Fly all aircraft from t on, step by step.

@@ -7,7 +7,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from relguide.flying.closing import JOINED_ACROSS, JOINED_ALONG, JOINED_HEADING
+from relguide.flying.guidance.settings import DEFAULT
 from relguide.flying.documents import (
     Document,
     FlightEnded,
@@ -88,9 +88,9 @@ def test_documents_come_in_order(fig_6b: Flown) -> None:
 def test_joined_is_eq_7_within_tolerance(fig_6b: Flown) -> None:
     at = next(s for s in fig_6b.samples if s.guidance.joined)
     assert at.t == fig_6b.result.join_time
-    assert abs(at.guidance.spacing_error) <= JOINED_ALONG
-    assert abs(at.guidance.cross_track) <= JOINED_ACROSS
-    assert abs(signed(at.pursuer.heading - at.leader.heading)) <= JOINED_HEADING
+    assert abs(at.guidance.spacing_error) <= DEFAULT.joined_along
+    assert abs(at.guidance.cross_track) <= DEFAULT.joined_across
+    assert abs(signed(at.pursuer.heading - at.leader.heading)) <= DEFAULT.joined_heading
     assert at.guidance.slot_open
 
 

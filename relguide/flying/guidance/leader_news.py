@@ -1,0 +1,52 @@
+"""What is new of the leader: that it does something new, and whether it can be followed at all."""
+
+from dataclasses import replace
+
+from relguide.flying.belief import Belief
+from relguide.flying.guidance.announcements import Event, UnableTo, expectation
+from relguide.flying.guidance.assignment import Assignment
+from relguide.flying.guidance.memory import LONG_AGO, Memory
+from relguide.units import KT, MetrePerSecond
+
+
+def notice_leader(
+    memory: Memory, belief: Belief, assignment: Assignment
+) -> tuple[Memory, MetrePerSecond]:
+    """Remember when the leader last did something new, and by how much it slows down [m/s²]."""
+    settings, now, was = assignment.settings, expectation(belief), memory.leader
+    turning = not belief.intent_known and abs(belief.leader_turn_rate) > settings.turning
+    rate = now.tas - was.tas
+    moved = turning or abs(rate) > 0.1 or now.intent_known != was.intent_known
+    changed = belief.t if moved else memory.changed
+    memory = replace(memory, leader=now, leader_heading=belief.leader.heading, changed=changed)
+    return memory, max(-rate, 0.0) if abs(rate) > 0.1 else 0.0
+
+
+def is_steady(memory: Memory, belief: Belief, assignment: Assignment) -> bool:
+    """Whether the leader has done nothing new for a while."""
+    return belief.t - memory.changed >= assignment.settings.settled_for
+
+
+def turns_unannounced(belief: Belief, assignment: Assignment) -> bool:
+    """Whether the leader turns, and nothing says how far."""
+    return not belief.intent_known and abs(belief.leader_turn_rate) > assignment.settings.turning
+
+
+def judge_speed(
+    memory: Memory, belief: Belief, assignment: Assignment
+) -> tuple[Memory, tuple[Event, ...]]:
+    """Whether the leader is slower than the pursuer can fly, and what is said of it once."""
+    slow, in_hand = belief.leader.tas, assignment.settings.speed_in_hand
+    if slow < assignment.min_tas - in_hand:
+        if memory.unable == "speed":
+            return memory, ()
+        message = (
+            f"Unable to follow: the leader flies {slow / KT:.0f} kt, and "
+            f"{assignment.min_tas / KT:.0f} kt is the least speed of this "
+            f"{assignment.aircraft_type} at its level."
+        )
+        said = UnableTo(reason="speed", message=message)
+        return replace(memory, unable="speed"), (said,)
+    if memory.unable == "speed" and slow > assignment.min_tas:
+        return replace(memory, unable=None, asked=LONG_AGO), ()
+    return memory, ()

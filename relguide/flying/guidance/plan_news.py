@@ -1,0 +1,158 @@
+"""What a crew is told of plans: those that are news, once the leader has settled; never all."""
+
+from dataclasses import replace
+
+from relguide.flying.belief import Belief
+from relguide.flying.guidance.announcements import (
+    Event,
+    NewPlan,
+    PlanMissing,
+    PlanReason,
+    Refused,
+    UnableReason,
+    UnableTo,
+    expectation,
+    reason_sentence,
+    summary,
+)
+from relguide.flying.guidance.assignment import Assignment
+from relguide.flying.guidance.committed import (
+    Committed,
+    lead_in,
+    shown_plan,
+    situation_now,
+)
+from relguide.flying.guidance.converge import NoProposal, Proposal
+from relguide.flying.guidance.leader_news import is_steady
+from relguide.flying.guidance.memory import Announced, Memory, enter
+from relguide.flying.guidance.path_distance import is_same_path
+from relguide.flying.modes import NUMBERS
+from relguide.kernels.flight.guide import Progress
+from relguide.planning.certificate import certify
+from relguide.planning.plan import NoPlan, Plan, Reason
+from relguide.planning.trajectory import Trajectory
+from relguide.units import Second
+
+
+def fly_proposal(
+    memory: Memory,
+    belief: Belief,
+    assignment: Assignment,
+    found: Proposal,
+    reason: PlanReason,
+    events: list[Event],
+) -> tuple[Memory, list[Event]]:
+    """Commit to a proposal; announce it if it is news and the leader has settled."""
+    committed = found.committed
+    message = f"Converging by {committed.plan.word}."
+    memory, news = enter(memory, belief, "converge", message)
+    memory = replace(
+        memory,
+        committed=committed,
+        forecast=committed.forecast,
+        progress=Progress(NUMBERS["converge"], committed.s, 0.0, 0.0),
+        missing=None,
+    )
+    shown = shown_plan(committed.plan, found.lead, belief, assignment)
+    fresh = is_news(memory, belief, assignment, committed, shown.trajectory, reason)
+    announced = fresh and (
+        memory.announced is None
+        or reason in ("separation", "engaged")
+        or may_speak(memory, belief, assignment)
+    )
+    joins = committed.forecast.join_time if committed.forecast.joins else committed.due
+    text = f"{reason_sentence(reason, belief)}: {summary(shown, joins - belief.t)}."
+    said = NewPlan(
+        committed=committed, shown=shown, reason=reason, message=text, announced=announced
+    )
+    if announced:
+        memory = _announced(memory, belief, shown, joins)
+    elif fresh:
+        memory = replace(memory, pending=reason)
+    memory = replace(memory, expected=expectation(belief))
+    return memory, [*events, *news, said]
+
+
+def _announced(memory: Memory, belief: Belief, shown: Plan, joins: Second) -> Memory:
+    told = Announced(belief.t, joins, shown.trajectory)
+    return replace(memory, announced=told, pending=None)
+
+
+def may_speak(memory: Memory, belief: Belief, assignment: Assignment) -> bool:
+    """Whether the leader has settled, and the last announcement is not of just now."""
+    last = memory.announced
+    rested = last is None or belief.t - last.t >= assignment.settings.announce_after
+    return rested and is_steady(memory, belief, assignment)
+
+
+def is_news(
+    memory: Memory,
+    belief: Belief,
+    assignment: Assignment,
+    committed: Committed,
+    path: Trajectory,
+    reason: PlanReason,
+) -> bool:
+    """Whether the path or its time is not what a crew was told."""
+    settings, told = assignment.settings, memory.announced
+    if told is None or reason in ("engaged", "separation", "better_plan"):
+        return True
+    if memory.pending is not None:
+        return True
+    joins = committed.forecast.join_time if committed.forecast.joins else committed.due
+    left = joins - belief.t
+    if abs(joins - told.joins) > max(settings.shown_time, settings.shown_share * left):
+        return True
+    return not is_same_path(path, told.path)
+
+
+def announce_pending(
+    memory: Memory, belief: Belief, assignment: Assignment
+) -> tuple[Memory, list[Event]]:
+    """Say now what was not said while the leader was doing something new."""
+    committed, reason = memory.committed, memory.pending
+    if committed is None or reason is None or not may_speak(memory, belief, assignment):
+        return memory, []
+    lead = lead_in(belief, assignment, committed)
+    left = committed.remaining(belief.t, assignment.tas)
+    now = situation_now(belief, assignment)
+    now = replace(now, pursuer=replace(now.pursuer, x=left.x, y=left.y, heading=left.heading))
+    plan = committed.plan
+    shown = replace(
+        plan,
+        situation=now,
+        trajectory=left,
+        word=left.letters,
+        certificate=certify(left, now),
+        optimality=replace(
+            plan.optimality,
+            lower_bound=min(plan.optimality.lower_bound + lead.seconds, left.duration),
+            proof="none",
+        ),
+    )
+    ahead = memory.forecast or committed.forecast
+    joins = ahead.join_time if ahead.joins else committed.due
+    text = f"{reason_sentence(reason, belief)}: {summary(shown, joins - belief.t)}."
+    said = NewPlan(committed=committed, shown=shown, reason=reason, message=text, announced=True)
+    memory = _announced(memory, belief, shown, joins)
+    return replace(memory, expected=expectation(belief)), [said]
+
+
+def count_refusal(memory: Memory, found: Proposal | NoProposal) -> tuple[Memory, list[Event]]:
+    """Count that the exact plan took over, and say why if the planner's fault is a new one."""
+    fault = None if found.refusal is None else found.refusal.fault
+    news: list[Event] = []
+    if found.refusal is not None and fault != memory.refused:
+        news.append(Refused(refusal=found.refusal))
+    return replace(memory, fallbacks=memory.fallbacks + found.fell_back, refused=fault), news
+
+
+def say_no_plan(
+    memory: Memory, belief: Belief, assignment: Assignment, answer: NoPlan, events: list[Event]
+) -> tuple[Memory, list[Event]]:
+    """Why there is no plan, once while the reason stays the same."""
+    if memory.missing != answer.reason:
+        events.append(PlanMissing(answer=answer))
+        reason: UnableReason = "speed" if answer.reason == Reason.SLOT_UNREACHABLE else "separation"
+        events.append(UnableTo(reason=reason, message=f"Unable: {answer.message}"))
+    return replace(memory, missing=answer.reason), events
