@@ -13,7 +13,7 @@ from pydantic import Field
 from relguide.contract.bodies import Tas
 from relguide.contract.compass import heading_of
 from relguide.contract.refusal import ContractError, Strict, loads, parse
-from relguide.flying.leader import TurnChoice
+from relguide.flying.leaders.declared import TurnChoice
 from relguide.flying.orders import Command, IntentKnown, LeaderHeading, LeaderSpeed
 from relguide.units import Second
 

@@ -17,7 +17,7 @@ from relguide import Arc, Plan, plan
 from relguide.flying.air import STANDARD_AIR
 from relguide.flying.airframe import airframe
 from relguide.flying.flight import IntentKnown, LeaderHeading, LeaderSpeed, Scenario
-from relguide.flying.leader import TurnChoice
+from relguide.flying.leaders.declared import TurnChoice
 from relguide.flying.orders import Command
 from relguide.kernels.base.angles import wrap
 from relguide.planning.situation import (
