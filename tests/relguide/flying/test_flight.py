@@ -7,7 +7,6 @@ from math import pi
 import numpy as np
 import pytest
 
-from relguide.flying.guidance.settings import DEFAULT
 from relguide.flying.documents import (
     Document,
     FlightEnded,
@@ -21,6 +20,7 @@ from relguide.flying.documents import (
     Sample,
 )
 from relguide.flying.flight import IntentKnown, LeaderHeading, LeaderSpeed, Scenario, fly
+from relguide.flying.guidance.settings import DEFAULT
 from relguide.flying.scenarios import fig_6
 from relguide.flying.tracks import RecordedTrack
 from relguide.planning.frames import LocalPlane
