@@ -23,25 +23,49 @@ controls held, nothing is approximated by a delay.
 
 from dataclasses import dataclass
 from math import pi
+from typing import NamedTuple
 
 import control
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import expm
 
-from relguide.flying.aircraft import A300, AircraftModel
-from relguide.flying.autopilot import HEADING_GAINS, ROLL_GAINS
-from relguide.flying.pid import Gains
+from relguide.flying.airframe import Airframe
+from relguide.flying.guidance.settings import DEFAULT
+from relguide.kernels.flight import autopilot
 from relguide.units import G0, MetrePerSecond, RadianPerSecond, Second
+from tests.aloft import A306, STEP
 
 Floats = NDArray[np.float64]
-STEP: Second = 0.05
-"""Of the autopilot."""
 TICK: Second = 1.0
 """Of guidance."""
 FREQUENCIES = 1_000
 """At which a loop's response is computed, up to half its sampling rate."""
 SLOWEST: RadianPerSecond = 1e-3
+
+
+class RollGains(NamedTuple):
+    """Of the roll loop."""
+
+    kp: float
+    """K_φ [1/s]."""
+    kd: float
+    """D_φ."""
+
+
+class HeadingGains(NamedTuple):
+    """Of the heading loop."""
+
+    kp: float
+    """K_ψ [1/s]."""
+    ki: float
+    """I_ψ [1/s²]."""
+    kd: float
+    """D_ψ."""
+
+
+ROLL_GAINS = RollGains(autopilot.ROLL_KP, autopilot.ROLL_KD)
+HEADING_GAINS = HeadingGains(autopilot.HEADING_KP, autopilot.HEADING_KI, autopilot.HEADING_KD)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,9 +80,13 @@ class PathGains:
     """For when the errors are expected."""
 
 
-PATH_GAINS = PathGains(omega=0.13, damping=0.8, look_ahead=1.75)
+PATH_GAINS = PathGains(
+    omega=DEFAULT.path_bandwidth, damping=DEFAULT.damping, look_ahead=DEFAULT.look_ahead
+)
 """Along the plan. The look-ahead is the lag of the roll loop, (1 + D_φ)/K_φ."""
-FOLLOW_GAINS = PathGains(omega=0.09, damping=0.8, look_ahead=1.75)
+FOLLOW_GAINS = PathGains(
+    omega=DEFAULT.follow_bandwidth, damping=DEFAULT.damping, look_ahead=DEFAULT.look_ahead
+)
 """Along the leader's path: 30 m of its noise ask for 1.5° of bank."""
 
 
@@ -92,18 +120,18 @@ def margins(loop: control.StateSpace) -> Margins:
     return Margins(gain=float(gain), phase=float(phase), crossover=float(crossover))
 
 
-def roll_loop(model: AircraftModel = A300, gains: Gains = ROLL_GAINS) -> control.StateSpace:
+def roll_loop(model: Airframe = A306, gains: RollGains = ROLL_GAINS) -> control.StateSpace:
     """From the bank asked for to bank, open at the ailerons."""
     a, b = _held(*_roll_mode(model), STEP)
     return control.StateSpace(a, b, [[gains.kp, gains.kd]], 0.0, STEP)
 
 
 def heading_loop(
-    model: AircraftModel = A300,
+    model: Airframe = A306,
     *,
     tas: MetrePerSecond,
-    gains: Gains = HEADING_GAINS,
-    roll_gains: Gains = ROLL_GAINS,
+    gains: HeadingGains = HEADING_GAINS,
+    roll_gains: RollGains = ROLL_GAINS,
 ) -> control.StateSpace:
     """From heading error to heading, the roll loop closed."""
     a, b = _heading_open(model, tas, gains, roll_gains)
@@ -111,7 +139,7 @@ def heading_loop(
 
 
 def _heading_open(
-    model: AircraftModel, tas: MetrePerSecond, gains: Gains, roll_gains: Gains
+    model: Airframe, tas: MetrePerSecond, gains: HeadingGains, roll_gains: RollGains
 ) -> tuple[Floats, Floats]:
     """Heading, bank, roll rate and the integral of the error, driven by the error."""
     a = np.zeros((3, 3))
@@ -128,7 +156,7 @@ def _heading_open(
 
 
 def _heading_closed(
-    model: AircraftModel, tas: MetrePerSecond, gains: Gains, roll_gains: Gains
+    model: Airframe, tas: MetrePerSecond, gains: HeadingGains, roll_gains: RollGains
 ) -> tuple[Floats, Floats]:
     """The same, driven by the heading asked for."""
     a, b = _heading_open(model, tas, gains, roll_gains)
@@ -136,11 +164,11 @@ def _heading_closed(
 
 
 def path_loop(
-    model: AircraftModel = A300,
+    model: Airframe = A306,
     *,
     tas: MetrePerSecond,
     gains: PathGains = PATH_GAINS,
-    roll_gains: Gains = ROLL_GAINS,
+    roll_gains: RollGains = ROLL_GAINS,
 ) -> control.StateSpace:
     """From the bank asked for back to the bank asked for, held for a second each."""
     a = np.zeros((4, 4))  # cross-track, heading error, bank, roll rate
@@ -156,7 +184,7 @@ def path_loop(
 
 
 def straight_loop(
-    model: AircraftModel = A300, *, tas: MetrePerSecond, gains: PathGains = PATH_GAINS
+    model: Airframe = A306, *, tas: MetrePerSecond, gains: PathGains = PATH_GAINS
 ) -> control.StateSpace:
     """From the heading asked for back to it, held for a second each, the heading loop closed."""
     closed, drive = _heading_closed(model, tas, HEADING_GAINS, ROLL_GAINS)
@@ -189,7 +217,7 @@ def path_feedback(tas: MetrePerSecond, gains: PathGains) -> Floats:
     )
 
 
-def _roll_mode(model: AircraftModel) -> tuple[Floats, Floats]:
+def _roll_mode(model: Airframe) -> tuple[Floats, Floats]:
     """Bank and roll rate, driven by the ailerons."""
     rate = 1.0 / model.roll_time_constant
     return np.array([[0.0, 1.0], [0.0, -rate]]), np.array([[0.0], [rate]])

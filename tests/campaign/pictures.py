@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 
-from relguide.flying.aircraft import A300
 from relguide.units import DEG
+from tests.aloft import A306
 from tests.bench.drawings import BLUE, GREEN, INK, ORANGE, PALE, PURPLE, figure
 from tests.campaign import responses
 from tests.campaign.row import FIGURES, Row
@@ -18,14 +18,14 @@ COLOURS = (BLUE, ORANGE, GREEN, PURPLE, INK, PALE, "#e69f00", "#56b4e9")
 THIN = 10
 """One step in so many is drawn."""
 SLUGGISH = replace(
-    A300,
-    max_roll_rate=0.7 * A300.max_roll_rate,
-    roll_time_constant=1.3 * A300.roll_time_constant,
+    A306,
+    max_roll_rate=0.7 * A306.max_roll_rate,
+    roll_time_constant=1.3 * A306.roll_time_constant,
 )
 NIMBLE = replace(
-    A300,
-    max_roll_rate=1.3 * A300.max_roll_rate,
-    roll_time_constant=0.7 * A300.roll_time_constant,
+    A306,
+    max_roll_rate=1.3 * A306.max_roll_rate,
+    roll_time_constant=0.7 * A306.roll_time_constant,
 )
 
 
@@ -61,7 +61,7 @@ def _bank_steps(axes: Axes) -> None:
     for before, colour in ((0.0, BLUE), (-25.0, ORANGE)):
         low, high, plain = (
             responses.bank_step(before * DEG, 25.0 * DEG, model=model)
-            for model in (SLUGGISH, NIMBLE, A300)
+            for model in (SLUGGISH, NIMBLE, A306)
         )
         axes.fill_between(
             plain.t[::THIN],

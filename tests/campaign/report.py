@@ -11,8 +11,9 @@ from pathlib import Path
 
 from control import StateSpace
 
-from relguide.flying.aircraft import A300, AircraftModel
+from relguide.flying.airframe import Airframe
 from relguide.units import DEG
+from tests.aloft import A306
 from tests.bench.page import DOCS, FOLDER
 from tests.campaign import pictures, responses, tables
 from tests.campaign.loops import (
@@ -95,7 +96,7 @@ ROLL_MODES = (1.0, 0.7, 1.3)
 def margins_cells() -> Cells:
     """Each loop; in brackets with the roll mode quicker and slower."""
     models = [
-        replace(A300, roll_time_constant=factor * A300.roll_time_constant) for factor in ROLL_MODES
+        replace(A306, roll_time_constant=factor * A306.roll_time_constant) for factor in ROLL_MODES
     ]
     cells = []
     for name, loop in LOOPS.items():
@@ -115,7 +116,7 @@ def margins_cells() -> Cells:
     return cells
 
 
-LOOPS: dict[str, Callable[[AircraftModel], StateSpace]] = {
+LOOPS: dict[str, Callable[[Airframe], StateSpace]] = {
     "roll": roll_loop,
     "heading": partial(heading_loop, tas=240.0),
     "path": partial(path_loop, tas=240.0),
@@ -153,14 +154,14 @@ RESPONSES = "step", "aircraft", "settled after", "overshoot"
 def responses_cells() -> Cells:
     """Step responses in numbers, the aircraft as it is and 30 % off."""
     aircraft = (
-        ("as it is", A300),
+        ("as it is", A306),
         ("slow in roll", pictures.SLUGGISH),
         ("quick in roll", pictures.NIMBLE),
     )
     return [cells for name, model in aircraft for cells in _response_cells(name, model)]
 
 
-def _response_cells(name: str, model: AircraftModel) -> Cells:
+def _response_cells(name: str, model: Airframe) -> Cells:
     cells = []
     for before, after in ((0.0, 25.0), (-25.0, 25.0)):
         found = responses.bank_step(before * DEG, after * DEG, model=model)

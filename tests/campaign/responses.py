@@ -1,25 +1,21 @@
-"""Step responses of the loops as they are flown: the autopilot and the aircraft of the library.
+"""Step responses of the loops as they are flown: the autopilot, the laws and the aircraft.
 
 Nothing is linear here: the roll rate and the bank have their limits, and turn rates go with tan φ.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from math import asin, copysign, sin, sqrt
+from math import copysign
 
 import numpy as np
 
-from relguide.flying.aircraft import A300, AircraftModel, AircraftState, step
-from relguide.flying.autopilot import Autopilot, HoldHeading, Reference, TurnRate
-from relguide.kernels.base.angles import wrap_signed
-from relguide.kernels.base.turn import turn_rate
-from relguide.units import DEG, G0, Metre, MetrePerSecond, Radian, Second
-from tests.campaign.loops import PATH_GAINS, STEP, TICK, Floats, PathGains
-
-INTERCEPT: Radian = 30.0 * DEG
-"""Steepest angle at which a path is closed on."""
-BRAKING_SHARE = 0.5
-"""Of the bank in hand, used to brake the closing of a path: the other half corrects."""
+from relguide.flying.airframe import Airframe
+from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.base.turn import bank_for_turn_rate, turn_rate
+from relguide.kernels.flight.path import lay_path, project
+from relguide.kernels.flight.records import HOLD_HEADING, TURN_RATE, Body, Control
+from relguide.units import Metre, MetrePerSecond, Radian, RadianPerSecond, Second
+from tests.aloft import A306, GAINS, MAX_BANK, fly, limits_of, tracking
+from tests.campaign.loops import PATH_GAINS, STEP, Floats, PathGains
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -32,7 +28,7 @@ class Response:
     bank: Floats
     """[rad]."""
     across: Floats
-    """East of where it began [m]."""
+    """To the right of the path, or east of where it began [m]."""
 
     def settled(self, values: Floats, within: float) -> Second:
         """When values have come within so much of their last for good."""
@@ -40,20 +36,18 @@ class Response:
         return float(self.t[off[-1] + 1]) if off.size else 0.0
 
 
-def bank_step(before: Radian, after: Radian, *, model: AircraftModel = A300) -> Response:
+def bank_step(before: Radian, after: Radian, *, model: Airframe = A306) -> Response:
     """From one bank to another, at 240 m/s."""
-    tas = 240.0
-    wanted = TurnRate(turn_rate(tas, after))
-    begun = AircraftState(0.0, 0.0, 0.0, before, 0.0, tas, 9449.0)
-    return fly(lambda t, state: wanted, begun, duration=25.0, model=model)
+    asked = Control(TURN_RATE, turn_rate(240.0, after), 240.0)
+    return _response(fly(asked, _begun(240.0, bank=before), 25.0, limits=limits_of(model)))
 
 
 def heading_step(
-    change: Radian, *, tas: MetrePerSecond, model: AircraftModel = A300, duration: Second = 180.0
+    change: Radian, *, tas: MetrePerSecond, model: Airframe = A306, duration: Second = 180.0
 ) -> Response:
     """To another heading, from straight flight."""
-    begun = AircraftState(0.0, 0.0, 0.0, 0.0, 0.0, tas, 9449.0)
-    return fly(lambda t, state: HoldHeading(change), begun, duration=duration, model=model)
+    asked = Control(HOLD_HEADING, change, tas)
+    return _response(fly(asked, _begun(tas), duration, limits=limits_of(model)))
 
 
 def path_step(
@@ -61,8 +55,9 @@ def path_step(
     *,
     tas: MetrePerSecond,
     gains: PathGains = PATH_GAINS,
-    in_hand: Radian = 25.0 * DEG,
-    model: AircraftModel = A300,
+    in_hand: Radian = MAX_BANK,
+    bend: RadianPerSecond = 0.0,
+    model: Airframe = A306,
     duration: Second = 180.0,
 ) -> Response:
     """Back onto a path that leads north, from so far to its right.
@@ -72,73 +67,34 @@ def path_step(
         tas: true airspeed [m/s].
         gains: of the path loop.
         in_hand: bank that the path leaves [rad].
+        bend: how fast the path turns, and the aircraft with it [rad/s].
         model: the aircraft.
         duration: how long it is flown [s].
     """
-    begun = AircraftState(across, 0.0, 0.0, 0.0, 0.0, tas, 9449.0)
-
-    def law(t: Second, state: AircraftState) -> Reference:
-        bank = path_bank(state.x, wrap_signed(state.heading), state.bank, tas, gains, in_hand)
-        return TurnRate(turn_rate(tas, bank))
-
-    return fly(law, begun, duration=duration, model=model)
-
-
-def path_bank(
-    across: Metre,
-    heading: Radian,
-    bank: Radian,
-    tas: MetrePerSecond,
-    gains: PathGains,
-    in_hand: Radian,
-) -> Radian:
-    """Bank that leads back onto a path, within what is in hand.
-
-        v_e = √((aτ)² + 2a|e|) − aτ,  τ = 2ζ/ω          no faster than it can be braked at a
-        η_c = −sign(e) asin(v_e/V),   φ = −2ζωV/g (η − η_c)
-
-    For small e this is −ω²/g e − 2ζωV/g η, the linear law; without the root a far start would
-    overshoot by hundreds of metres, as the bank for it is not there.
-    """
-    ahead = gains.look_ahead
-    rate = turn_rate(tas, bank)
-    across += tas * ahead * sin(heading) + 0.5 * tas * rate * ahead**2
-    heading += rate * ahead
-    slow = 2.0 * gains.damping / gains.omega
-    brake = BRAKING_SHARE * G0 * in_hand
-    closing = sqrt((brake * slow) ** 2 + 2.0 * brake * abs(across)) - brake * slow
-    course = -copysign(asin(min(closing / tas, sin(INTERCEPT))), across)
-    asked = -2.0 * gains.damping * gains.omega * tas / G0 * (heading - course)
-    return min(max(asked, -in_hand), in_hand)
+    limits = limits_of(model, max_bank=in_hand)
+    pieces = np.array([[2.0 * tas * duration, bend / tas]])
+    path = lay_path(0.0, 0.0, 0.0, pieces, tas, 0.0, limits.max_roll_rate)
+    set_to = GAINS._replace(
+        path_bandwidth=gains.omega, damping=gains.damping, look_ahead=gains.look_ahead
+    )
+    law = tracking(path, tas=tas, limits=limits, gains=set_to)
+    begun = _begun(tas, bank=bank_for_turn_rate(tas, bend))._replace(x=across)
+    flown = fly(law, begun, duration, limits=limits)
+    beside, s = [], 0.0
+    for row in flown:
+        s, right = project(path, row[0], row[1], s + tas * STEP)
+        beside.append(right)
+    return _response(flown, np.array(beside))
 
 
-def fly(
-    law: Callable[[Second, AircraftState], Reference],
-    begun: AircraftState,
-    *,
-    duration: Second,
-    model: AircraftModel,
-) -> Response:
-    """Fly in still air by a law that is asked once a second."""
-    pilot, state = Autopilot(model=model), begun
-    rows, turned, a_tick = [], 0.0, round(TICK / STEP)
-    for n in range(round(duration / STEP) + 1):
-        if n % a_tick == 0:
-            reference = law(n * STEP, state)
-        rows.append((n * STEP, turned, state.bank, state.x))
-        moved = step(
-            model,
-            state,
-            aileron=pilot.aileron(reference, state, STEP),
-            commanded_tas=begun.tas,
-            wind_east=0.0,
-            wind_north=0.0,
-            duration=STEP,
-        )
-        turned += wrap_signed(moved.heading - state.heading)
-        state = moved
-    t, heading, bank, across = np.array(rows).T
-    return Response(t=t, heading=heading, bank=bank, across=across)
+def _begun(tas: MetrePerSecond, bank: Radian = 0.0) -> Body:
+    return Body(0.0, 0.0, 0.0, bank, 0.0, tas, 0.0)
+
+
+def _response(flown: FloatArray, across: Floats | None = None) -> Response:
+    t = np.arange(len(flown)) * STEP
+    x, _, heading, bank, *_ = flown.T
+    return Response(t=t, heading=heading, bank=bank, across=x if across is None else across)
 
 
 def overshoot(values: Floats, wanted: float) -> float:

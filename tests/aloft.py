@@ -1,0 +1,112 @@
+"""Short ways to fly the flight kernels in tests: one aircraft, asked something once a second."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from relguide.flying.airframe import Airframe, airframe
+from relguide.flying.guidance.settings import DEFAULT
+from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.flight.guide import CONVERGE, Course, Progress, Task, act
+from relguide.kernels.flight.laws import Gains
+from relguide.kernels.flight.records import HOLD_HEADING, Body, Control, Drift, Limits
+from relguide.kernels.flight.second import GUIDED, fly_second
+from relguide.units import DEG, Metre, MetrePerSecond, Radian, Second
+
+A306 = airframe("A306")
+MAX_BANK: Radian = 25.0 * DEG
+"""What most flights let the autopilot use."""
+STEP: Second = 0.05
+STILL = Drift(0.0, 0.0)
+Law = Callable[[Second, Body], Control]
+"""What to ask of the autopilot for a second, at a flight time."""
+
+
+def limits_of(
+    kind: Airframe = A306,
+    *,
+    max_bank: Radian = MAX_BANK,
+    min_tas: MetrePerSecond = 100.0,
+    max_tas: MetrePerSecond = 280.0,
+) -> Limits:
+    """What a type can do, by an autopilot that may bank so much."""
+    return Limits(
+        max_bank,
+        kind.max_roll_rate,
+        kind.roll_time_constant,
+        kind.speed_time_constant,
+        kind.max_acceleration,
+        kind.max_deceleration,
+        min_tas,
+        max_tas,
+    )
+
+
+LIMITS = limits_of()
+
+
+def level(
+    x: float = 0.0, y: float = 0.0, heading: float = 0.0, *, bank: float = 0.0, tas: float = 240.0
+) -> Body:
+    """An aircraft that does not roll; angles in degrees."""
+    return Body(x, y, heading * DEG, bank * DEG, 0.0, tas, 0.0)
+
+
+def hold(heading: float, tas: float = 240.0) -> Control:
+    """A heading in degrees."""
+    return Control(HOLD_HEADING, heading * DEG, tas)
+
+
+def fly(
+    asked: Law | Control,
+    begun: Body,
+    duration: Second,
+    *,
+    limits: Limits = LIMITS,
+    wind: Drift = STILL,
+    step: Second = STEP,
+) -> FloatArray:
+    """Where an aircraft is at each step, the present first. shape (n + 1, 7), as `Body`."""
+    steps = round(1.0 / step)
+    states, rows = np.array([begun], dtype=float), [np.array([begun], dtype=float)]
+    idle = np.zeros(1, dtype=np.int64)
+    pilots = np.full(1, GUIDED, dtype=np.int64)
+    for second in range(round(duration)):
+        control = asked(float(second), Body(*states[0])) if callable(asked) else asked
+        trace = np.zeros((1, steps + 1, 7))
+        fly_second(
+            states, np.array([limits]), pilots, np.array([control]), np.zeros((1, 0, 3)), idle,
+            idle.copy(), np.zeros(1), wind, float(second), step, trace, np.zeros((1, 4)),
+        )  # fmt: skip
+        rows.append(trace[0, 1:])
+    return np.vstack(rows)
+
+
+FAR_AWAY = np.array([[0.0, 1e7, 1e7, 0.0, 0.0, 200.0, 0.0], [2e2, 1e7, 1e7, 0.0, 0.0, 200.0, 1.0]])
+"""Marks of a leader that is nowhere near: nothing is captured."""
+GAINS = DEFAULT.gains(A306.idle_deceleration)
+
+
+def tracking(
+    path: FloatArray,
+    *,
+    tas: MetrePerSecond = 240.0,
+    s: Metre = 0.0,
+    limits: Limits = LIMITS,
+    gains: Gains = GAINS,
+    wind: Drift = STILL,
+) -> Law:
+    """The law that tracks a path through the air mass, from length s on, at one speed."""
+    progress = Progress(CONVERGE, s - tas, 0.0, 0.0)
+    task = Task(tas, 10_000.0, 10_000.0, 0.0, 0.0)
+    course = Course(path, 0.0, 1e6, tas)
+
+    def law(t: Second, body: Body) -> Control:
+        nonlocal progress
+        done = act(
+            progress, body, limits, course, FAR_AWAY, False, task, DEFAULT.gate, gains, wind, t
+        )
+        progress = done.progress
+        return done.control
+
+    return law
