@@ -92,8 +92,10 @@ class Milestones(NamedTuple):
     """When it first joined, if it has [s]."""
     following_since: Second = 0.0
     """When it last began to follow, if it has [s]."""
-    warned: tuple[Second, ...] = ()
-    """When the first alert or `Unable` was given that still matters; empty if there is none."""
+    alerted: tuple[Second, ...] = ()
+    """When the alert that stands was given first; empty if none stands."""
+    unable: tuple[Second, ...] = ()
+    """When `Unable` was said first since the last plan; empty if it was not."""
     losses: tuple[Loss, ...] = ()
 
 
@@ -103,18 +105,21 @@ def count_event(milestones: Milestones, document: Document) -> Milestones:
         case PlanChanged(t=0.0, reason="engaged", plan=card, promised=promised):
             return milestones._replace(planned_time=card.time_to_converge, promised=promised)
         case PlanChanged(reason="engaged"):
-            return milestones
+            return milestones._replace(unable=())
         case PlanChanged(announced=announced):
             return milestones._replace(
+                unable=(),
                 replans=milestones.replans + 1,
                 replans_announced=milestones.replans_announced + announced,
             )
         case ModeChanged(t=t, mode="follow"):
             return milestones._replace(following_since=t)
         case Alert(cleared=True):
-            return milestones._replace(warned=())
-        case Alert(t=t, level="caution" | "warning") | Unable(t=t):
-            return milestones._replace(warned=milestones.warned or (t,))
+            return milestones._replace(alerted=())
+        case Alert(t=t, level="caution" | "warning"):
+            return milestones._replace(alerted=milestones.alerted or (t,))
+        case Unable(t=t):
+            return milestones._replace(unable=milestones.unable or (t,))
         case SeparationLost():
             loss = Loss(
                 t=document.t,

@@ -308,11 +308,17 @@ def _count(one: LinkState, fleet: Fleet, t: Second) -> list[Document]:
         x=own.x,
         y=own.y,
         cause=_cause(one, t),
-        announced=one.milestones.warned,
+        announced=_announced(one.milestones),
     )
     one.milestones = count_event(one.milestones, document)
     one.milestones = count_loss(one.milestones, least)
     return [document]
+
+
+def _announced(milestones: Milestones) -> tuple[Second, ...]:
+    """When what stands was said first, alert or `Unable`; empty if nothing stands."""
+    said = (*milestones.alerted, *milestones.unable)
+    return (min(said),) if said else ()
 
 
 def _first_below(fleet: Fleet, one: LinkState, limit: Metre) -> tuple[int, Metre]:

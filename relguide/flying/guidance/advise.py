@@ -59,7 +59,7 @@ from relguide.kernels.flight.marks import mark_at
 from relguide.planning.phrases import distance
 from relguide.planning.plan import Planner
 from relguide.planning.slot import slot_frame
-from relguide.units import DEG, Metre, MetrePerSecond, Second
+from relguide.units import DEG, Metre, Second
 
 TURNED: float = 3.0 * DEG
 """A leader that has turned so far since capture began has left the route that was captured [rad].
@@ -74,7 +74,7 @@ def advise(
     memory: Memory, belief: Belief, assignment: Assignment, planner: Planner
 ) -> tuple[Memory, Advice]:
     """What to fly for the next second."""
-    memory, slowing = notice_leader(memory, belief, assignment)
+    memory = notice_leader(memory, belief, assignment)
     memory, unfit = judge_speed(memory, belief, assignment)
     events: list[Event] = [*unfit]
     if memory.unable == "speed":
@@ -92,14 +92,12 @@ def advise(
         events += news
     memory = keep_heading(memory, belief, assignment)
     done = _act(memory, belief, assignment)
-    outlook = _outlook(memory, belief, assignment, slowing)
-    if memory.mode not in ("heading", "escape") and must_leave(
-        memory, belief, assignment, outlook, slowing
-    ):
+    outlook = _outlook(memory, belief, assignment)
+    if memory.mode not in ("heading", "escape") and must_leave(memory, belief, assignment, outlook):
         memory, news, saved = _replan_or_escape(memory, belief, assignment, planner, outlook)
         events += news
         done = _act(memory, belief, assignment)
-        outlook = saved or _outlook(memory, belief, assignment, slowing)
+        outlook = saved or _outlook(memory, belief, assignment)
     memory, news = _follow_act(memory, done, assignment, belief)
     events += news
     apart = hypot(belief.own.x - belief.leader.x, belief.own.y - belief.leader.y)
@@ -150,7 +148,7 @@ def _stay_or_change(
         or slot_mismatch(belief, committed) > settings.slot_moved
     ):
         stay = 0.0 if is_steady(memory, belief, assignment) else settings.better_while_turning
-        reason = changed or "deviation"
+        reason: PlanReason = changed or "leader_changed_speed"
         return _plan_again(memory, belief, assignment, planner, reason=reason, stay=stay)
     memory, events = announce_pending(memory, belief, assignment)
     if not as_forecast or not converge.may_be_bettered(committed, t, assignment):
@@ -195,7 +193,7 @@ def _plan_again(
     memory, events = say_no_plan(memory, belief, assignment, found.answer, events)
     message = f"No plan: holding a safe heading. {found.answer.message}"
     memory, news = enter(memory, belief, "heading", message)
-    out = clear_heading(belief, assignment)
+    out = clear_heading(memory, belief, assignment)
     progress = Progress(NUMBERS["heading"], 0.0, out, assignment.tas)
     return replace(memory, progress=progress, committed=None, forecast=None), [*events, *news]
 
@@ -212,10 +210,9 @@ def _has_left_capture(memory: Memory, belief: Belief, assignment: Assignment) ->
         return True
     if memory.mode == "follow":
         return False
-    turned = abs(wrap_signed(belief.leader_rolled_out - marks[0, at.HEADING]))
-    bent = abs(wrap_signed(belief.leader_rolled_out - heading))
+    turned = abs(wrap_signed(belief.leader_rolled_out - memory.captured))
     to_slot = marks[-1, at.S] - assignment.aim - s
-    return min(turned, bent) > TURNED and abs(to_slot) > settings.too_far
+    return bool(turned > TURNED and abs(to_slot) > settings.too_far)
 
 
 def _act(memory: Memory, belief: Belief, assignment: Assignment) -> Act:
@@ -227,9 +224,7 @@ def _act(memory: Memory, belief: Belief, assignment: Assignment) -> Act:
     )  # fmt: skip
 
 
-def _outlook(
-    memory: Memory, belief: Belief, assignment: Assignment, slowing: MetrePerSecond
-) -> Outlook:
+def _outlook(memory: Memory, belief: Belief, assignment: Assignment) -> Outlook:
     ahead = memory.forecast
     trusted = ahead if ahead is not None and is_as_forecast(ahead, belief, assignment) else None
     course = NO_COURSE if memory.committed is None else memory.committed.course
@@ -240,7 +235,7 @@ def _outlook(
         course,
         trusted,
         turns_on=turns_unannounced(belief, assignment),
-        slowing=slowing,
+        trend=memory.leader_trend,
     )
 
 
@@ -281,6 +276,8 @@ def _follow_act(
     )
     memory, events = enter(memory, belief, mode, message)
     memory = replace(memory, progress=done.progress)
+    if events and mode == "capture":
+        memory = replace(memory, captured=belief.leader_rolled_out)
     if memory.mode in ("capture", "follow"):
         memory = replace(memory, committed=None)
     return memory, events

@@ -189,15 +189,15 @@ def shown_plan(plan: Plan, lead: LeadIn, belief: Belief, assignment: Assignment)
 
 def segments_of(pieces: FloatArray) -> tuple[Segment, ...]:
     """Pieces of constant curvature as segments; boundary arcs come as their arcs."""
-    segments: list[Segment] = []
+    segments: tuple[Segment, ...] = ()
     for length, curvature in pieces.tolist():
-        if curvature == 0.0:
-            segments.append(Straight(length=length))
-        else:
+        segment: Segment = Straight(length=length)
+        if curvature != 0.0:
             turn = RIGHT if curvature > 0.0 else LEFT
             angle = length * abs(curvature)
-            segments.append(Arc(turn=turn, turn_angle=angle, radius=1.0 / abs(curvature)))
-    return tuple(segments)
+            segment = Arc(turn=turn, turn_angle=angle, radius=1.0 / abs(curvature))
+        segments = _joined(segments, (segment,))
+    return segments
 
 
 def _joined(first: tuple[Segment, ...], then: tuple[Segment, ...]) -> tuple[Segment, ...]:

@@ -46,7 +46,7 @@ def escape(
     min_separation: Metre,
     *,
     turns_on: bool = False,
-    slows_to: MetrePerSecond = inf,
+    other_tas: MetrePerSecond | None = None,
     delay: Second = 0.0,
 ) -> Escape:
     """The heading nearest to the present one that keeps clear for `look_out` seconds.
@@ -58,7 +58,7 @@ def escape(
         assignment: the bank and how far to look.
         min_separation: to be kept [m].
         turns_on: whether the leader's present turn may go on for as much as 180° more.
-        slows_to: a speed that the leader may slow down to [m/s].
+        other_tas: a speed that the leader may come to [m/s]; as it flies now, if left out.
         delay: how long the pursuer goes on as it does before it turns [s].
     """
     own, bank = belief.own, assignment.planned_bank
@@ -70,7 +70,7 @@ def escape(
         ]
     )
     best = Escape(own.heading, inf)
-    for leader in _leaders(belief, slows_to):
+    for leader in _leaders(belief, other_tas):
         side, angle, least = kernel.escape_path(
             _motion(belief), full, before, leader, _pieces(belief, leader, turns_on=turns_on),
             min_separation, assignment.settings.look_out,
@@ -82,7 +82,12 @@ def escape(
 
 
 def kept_on_heading(
-    belief: Belief, assignment: Assignment, heading: Radian, *, turns_on: bool = False
+    belief: Belief,
+    assignment: Assignment,
+    heading: Radian,
+    *,
+    turns_on: bool = False,
+    other_tas: MetrePerSecond | None = None,
 ) -> Metre:
     """The least separation if the pursuer turns the shorter way to a heading and keeps it [m]."""
     own, bank = belief.own, assignment.planned_bank
@@ -92,12 +97,12 @@ def kept_on_heading(
     roll = roll_lead(belief.limits, own.bank, side * bank) if abs(turn) > FAINT else 0.0
     pieces = np.array([(roll, turn_rate(own.tas, own.bank)), (abs(turn) / full, side * full)])
     ours = _motion(belief)._replace(pieces=pieces)
-    (leader,) = _leaders(belief, inf)
     return float(
         min(
             least_separation(ours, leader._replace(pieces=rows), assignment.settings.look_out, 1.0)[
                 0
             ]
+            for leader in _leaders(belief, other_tas)
             for rows in _pieces(belief, leader, turns_on=turns_on)
         )
     )
@@ -108,11 +113,11 @@ def _motion(belief: Belief) -> Motion:
     return Motion(own.x, own.y, own.heading, own.tas, np.zeros((1, 2)))
 
 
-def _leaders(belief: Belief, slows_to: MetrePerSecond) -> tuple[Motion, ...]:
-    """The leader at its speed, and at the lower one that it may slow down to."""
+def _leaders(belief: Belief, other_tas: MetrePerSecond | None) -> tuple[Motion, ...]:
+    """The leader at its speed, and at the one that it may come to."""
     leader = motion_of(belief.leader_after(0.0).trajectory)
-    if slows_to < leader.tas:
-        return leader, leader._replace(tas=max(slows_to, 1.0))
+    if other_tas is not None:
+        return leader, leader._replace(tas=max(other_tas, 1.0))
     return (leader,)
 
 

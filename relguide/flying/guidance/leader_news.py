@@ -8,18 +8,19 @@ from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.memory import LONG_AGO, Memory
 from relguide.units import KT, MetrePerSecond
 
+STEADY: MetrePerSecond = 0.1
+"""A speed that changes less in a second is held [m/s]."""
 
-def notice_leader(
-    memory: Memory, belief: Belief, assignment: Assignment
-) -> tuple[Memory, MetrePerSecond]:
-    """Remember when the leader last did something new, and by how much it slows down [m/s²]."""
-    settings, now, was = assignment.settings, expectation(belief), memory.leader
-    turning = not belief.intent_known and abs(belief.leader_turn_rate) > settings.turning
+
+def notice_leader(memory: Memory, belief: Belief, assignment: Assignment) -> Memory:
+    """Remember when the leader last did something new, and how fast it changes its speed."""
+    now, was = expectation(belief), memory.leader
     rate = now.tas - was.tas
-    moved = turning or abs(rate) > 0.1 or now.intent_known != was.intent_known
+    trend = rate if abs(rate) > STEADY else 0.0
+    moved = turns_unannounced(belief, assignment) or trend != 0.0
+    moved = moved or now.intent_known != was.intent_known
     changed = belief.t if moved else memory.changed
-    memory = replace(memory, leader=now, leader_heading=belief.leader.heading, changed=changed)
-    return memory, max(-rate, 0.0) if abs(rate) > 0.1 else 0.0
+    return replace(memory, leader=now, leader_trend=trend, changed=changed)
 
 
 def is_steady(memory: Memory, belief: Belief, assignment: Assignment) -> bool:

@@ -15,8 +15,8 @@ from relguide.kernels.flight.guide import Progress
 from relguide.planning.phrases import compass
 from relguide.units import Metre, MetrePerSecond, Radian, Second
 
-SLOWS_FOR: Second = 20.0
-"""A leader that slows down may go on for so long before an escape has to keep clear of it [s]."""
+GOES_ON: Second = 20.0
+"""A leader that changes its speed may go on for so long while one turns away from it [s]."""
 OWN_TUBE: Metre = 60.0
 """What an escape must keep beyond d_min: its turn is planned without the roll's soft ends [m]."""
 
@@ -25,51 +25,63 @@ def turn_away(
     memory: Memory, belief: Belief, assignment: Assignment, why: str
 ) -> tuple[Memory, list[Event]]:
     """Turn away to a heading that keeps clear."""
-    out = clear_heading(belief, assignment)
+    out = clear_heading(memory, belief, assignment)
     memory, news = enter(memory, belief, "escape", f"{why} Turning to {compass(out)}.")
     progress = Progress(NUMBERS["escape"], 0.0, out, belief.own.tas)
     return replace(memory, progress=progress, committed=None, forecast=None), news
 
 
-def clear_heading(belief: Belief, assignment: Assignment) -> Radian:
+def clear_heading(memory: Memory, belief: Belief, assignment: Assignment) -> Radian:
     """The heading nearest to the present one that keeps clear of the leader [rad]."""
-    turns_on = turns_unannounced(belief, assignment)
-    wanted = assignment.buffered_separation
-    return escape(belief, assignment, wanted, turns_on=turns_on).heading
+    return escape(
+        belief,
+        assignment,
+        assignment.buffered_separation,
+        turns_on=turns_unannounced(belief, assignment),
+        other_tas=_other_tas(memory, belief),
+    ).heading
 
 
 def keep_heading(memory: Memory, belief: Belief, assignment: Assignment) -> Memory:
     """Keep the heading held for as long as it keeps clear, so that it does not jump."""
     if memory.mode not in ("heading", "escape"):
         return memory
-    progress = memory.progress
-    turns_on = turns_unannounced(belief, assignment)
-    wanted = assignment.min_separation + OWN_TUBE
-    if kept_on_heading(belief, assignment, progress.heading, turns_on=turns_on) >= wanted:
+    progress, turns_on = memory.progress, turns_unannounced(belief, assignment)
+    other_tas = _other_tas(memory, belief)
+    kept = kept_on_heading(
+        belief, assignment, progress.heading, turns_on=turns_on, other_tas=other_tas
+    )
+    if kept >= assignment.min_separation + OWN_TUBE:
         return memory
-    out = escape(belief, assignment, assignment.buffered_separation, turns_on=turns_on)
-    now = kept_on_heading(belief, assignment, progress.heading, turns_on=turns_on)
-    if out.least_separation < now + OWN_TUBE:
+    out = escape(
+        belief,
+        assignment,
+        assignment.buffered_separation,
+        turns_on=turns_on,
+        other_tas=other_tas,
+    )
+    if out.least_separation < kept + OWN_TUBE:
         return memory
     return replace(memory, progress=progress._replace(heading=out.heading))
 
 
-def must_leave(
-    memory: Memory,
-    belief: Belief,
-    assignment: Assignment,
-    outlook: Outlook,
-    slowing: MetrePerSecond,
-) -> bool:
+def must_leave(memory: Memory, belief: Belief, assignment: Assignment, outlook: Outlook) -> bool:
     """Whether what is flown now would lose d_min, or soon leave no way to keep it."""
     t, limit = belief.t, assignment.min_separation
     if outlook.forecast.least(t, assignment.settings.caution)[0] < limit:
         return True
     turns_on = turns_unannounced(belief, assignment)
-    if not turns_on and slowing == 0.0 and outlook.least >= limit:
+    if not turns_on and memory.leader_trend == 0.0 and outlook.least >= limit:
         return False
     apart = hypot(belief.own.x - belief.leader.x, belief.own.y - belief.leader.y)
     wanted = min(limit + OWN_TUBE, apart)
-    slows_to = belief.leader.tas - slowing * SLOWS_FOR
-    later = escape(belief, assignment, wanted, turns_on=turns_on, slows_to=slows_to, delay=1.0)
+    other_tas = _other_tas(memory, belief)
+    later = escape(belief, assignment, wanted, turns_on=turns_on, other_tas=other_tas, delay=1.0)
     return later.least_separation < wanted
+
+
+def _other_tas(memory: Memory, belief: Belief) -> MetrePerSecond | None:
+    """The speed that the leader comes to if it goes on changing it; `None` if it does not."""
+    if memory.leader_trend == 0.0:
+        return None
+    return belief.leader.tas + memory.leader_trend * GOES_ON

@@ -76,8 +76,10 @@ class Memory:
     """What the announced plan assumes of the leader."""
     leader: Expectation
     """What was known of the leader a second ago."""
-    leader_heading: Radian
-    """Where the leader pointed a second ago [rad]."""
+    leader_trend: MetrePerSecond
+    """How fast the leader changes its speed [m/s²]; 0 if it does not."""
+    captured: Radian
+    """The leader's heading when capture began [rad]."""
     changed: Second
     """When the leader last did something new, flight time [s]."""
     announced: Announced | None
@@ -129,7 +131,8 @@ def begin(belief: Belief) -> Memory:
         forecast=None,
         expected=known,
         leader=known,
-        leader_heading=belief.leader.heading,
+        leader_trend=0.0,
+        captured=belief.leader.heading,
         changed=LONG_AGO,
         announced=None,
         pending="engaged",

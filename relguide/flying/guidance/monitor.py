@@ -1,9 +1,9 @@
 """The monitor: every second, in every mode, how far apart what is flown now will keep the aircraft.
 
 It trusts the forecast for as long as both aircraft are where that has them. Else it flies ahead
-anew: with the leader as it is expected to go on, and, while it turns unannounced or slows down,
-with a leader that goes on doing so. An alert begins when separation would be lost within `caution`
-seconds, is a warning when it is lost, and ends some seconds after its cause has.
+anew: with the leader as it is expected to go on, and, while it turns unannounced or changes its
+speed, with a leader that goes on doing so. An alert begins when separation would be lost within
+`caution` seconds, is a warning when it is lost, and ends some seconds after its cause has.
 """
 
 from math import inf
@@ -18,8 +18,8 @@ from relguide.kernels.flight.guide import Course, Progress
 from relguide.planning.phrases import distance
 from relguide.units import Metre, MetrePerSecond, Second
 
-SLOWS_ON: Second = 30.0
-"""A leader that slows down is taken to go on for so long [s]."""
+GOES_ON: Second = 30.0
+"""A leader that changes its speed is taken to go on for so long [s]."""
 URGENCY: dict[AlertState, int] = {"none": 0, "advisory": 1, "caution": 2, "warning": 3}
 """Levels in order."""
 
@@ -62,7 +62,7 @@ def look_out(
     trusted: Forecast | None,
     *,
     turns_on: bool,
-    slowing: MetrePerSecond,
+    trend: MetrePerSecond,
 ) -> Outlook:
     """What lies ahead.
 
@@ -73,14 +73,14 @@ def look_out(
         course: the committed path.
         trusted: a forecast that still holds; `None` to fly ahead anew.
         turns_on: whether the leader turns unannounced, and may go on.
-        slowing: by how much the leader slows down [m/s²]; 0 if it does not.
+        trend: how fast the leader changes its speed [m/s²]; 0 if it does not.
     """
     settings = assignment.settings
     ahead = trusted
     if ahead is None:
         ahead = forecast(belief, assignment, progress, course, until=belief.t + settings.watch)
     least, at = ahead.least(belief.t, settings.watch)
-    if turns_on or slowing > 0.0:
+    if turns_on or trend != 0.0:
         worse = forecast(
             belief,
             assignment,
@@ -88,7 +88,7 @@ def look_out(
             course,
             until=belief.t + settings.caution,
             turns_on=turns_on,
-            leader_tas=max(belief.leader.tas - slowing * SLOWS_ON, 1.0),
+            leader_tas=max(belief.leader.tas + trend * GOES_ON, 1.0),
         )
         other, when = worse.least(belief.t)
         if other < least:

@@ -1,6 +1,7 @@
 """What a crew is told of plans: those that are news, once the leader has settled; never all."""
 
 from dataclasses import replace
+from math import hypot
 
 from relguide.flying.belief import Belief
 from relguide.flying.guidance.announcements import (
@@ -25,13 +26,16 @@ from relguide.flying.guidance.committed import (
 from relguide.flying.guidance.converge import NoProposal, Proposal
 from relguide.flying.guidance.leader_news import is_steady
 from relguide.flying.guidance.memory import Announced, Memory, enter
-from relguide.flying.guidance.path_distance import is_same_path
+from relguide.flying.guidance.settings import Settings
 from relguide.flying.modes import NUMBERS
 from relguide.kernels.flight.guide import Progress
 from relguide.planning.certificate import certify
 from relguide.planning.plan import NoPlan, Plan, Reason
 from relguide.planning.trajectory import Trajectory
 from relguide.units import Second
+
+SHARES = (0.33, 0.67, 1.0)
+"""Where along their durations two paths are compared."""
 
 
 def fly_proposal(
@@ -69,13 +73,12 @@ def fly_proposal(
         memory = _announced(memory, belief, shown, joins)
     elif fresh:
         memory = replace(memory, pending=reason)
-    memory = replace(memory, expected=expectation(belief))
     return memory, [*events, *news, said]
 
 
 def _announced(memory: Memory, belief: Belief, shown: Plan, joins: Second) -> Memory:
     told = Announced(belief.t, joins, shown.trajectory)
-    return replace(memory, announced=told, pending=None)
+    return replace(memory, announced=told, pending=None, expected=expectation(belief))
 
 
 def may_speak(memory: Memory, belief: Belief, assignment: Assignment) -> bool:
@@ -103,7 +106,19 @@ def is_news(
     left = joins - belief.t
     if abs(joins - told.joins) > max(settings.shown_time, settings.shown_share * left):
         return True
-    return not is_same_path(path, told.path)
+    return _leads_elsewhere(told, path, belief, settings)
+
+
+def _leads_elsewhere(told: Announced, path: Trajectory, belief: Belief, settings: Settings) -> bool:
+    """Whether a path is at other places than the announced one has it at the same times."""
+    elapsed, wind = belief.t - told.t, belief.wind
+    for share in SHARES:
+        ahead = share * path.duration
+        now, then = path.pose_at(ahead), told.path.pose_at(elapsed + ahead)
+        apart = hypot(now.x - then.x - wind.east * elapsed, now.y - then.y - wind.north * elapsed)
+        if apart > settings.shown_apart + settings.shown_share * path.length * share:
+            return True
+    return False
 
 
 def announce_pending(
@@ -134,8 +149,7 @@ def announce_pending(
     joins = ahead.join_time if ahead.joins else committed.due
     text = f"{reason_sentence(reason, belief)}: {summary(shown, joins - belief.t)}."
     said = NewPlan(committed=committed, shown=shown, reason=reason, message=text, announced=True)
-    memory = _announced(memory, belief, shown, joins)
-    return replace(memory, expected=expectation(belief)), [said]
+    return _announced(memory, belief, shown, joins), [said]
 
 
 def count_refusal(memory: Memory, found: Proposal | NoProposal) -> tuple[Memory, list[Event]]:

@@ -100,14 +100,14 @@ class Settings:
     """An alert ends so long after its cause."""
     speed_in_hand: MetrePerSecond = 2.0
     """A leader slower than one's least speed by this cannot be followed."""
-    announce_after: Second = 20.0
+    announce_after: Second = 30.0
     """Plans that follow a change of the leader are announced no more often than this."""
-    shown_apart: Metre = 0.25 * NM
-    """A path is news if it leads so far from the one last announced."""
-    shown_time: Second = 3.0
-    """… or joins so much sooner or later,"""
-    shown_share: float = 0.02
-    """and by this much of the time to go."""
+    shown_apart: Metre = 0.5 * NM
+    """A path is news if it leads so far from the one last announced, or …"""
+    shown_time: Second = 10.0
+    """… joins so much sooner or later,"""
+    shown_share: float = 0.05
+    """… and by this much of the length or the time to go."""
     retry: Second = 5.0
     """Without a plan, one is asked for this often."""
     look_out: Second = 180.0
