@@ -13,10 +13,12 @@ from relguide.flying.documents import Alert, FlightEnded, ForecastChanged, Sampl
 from relguide.flying.flight import fly
 from relguide.planning import situation as situation_words
 from relguide.planning.plan import plan
-from relguide.units import DEG
+from relguide.planning.situation import Leader, Pursuer, Situation
+from relguide.units import DEG, NM
 from tests.bench.draws import active
 from tests.campaign import recordings
 from tests.campaign.__main__ import main
+from tests.campaign.evasion import best_turn
 from tests.campaign.families import FAMILIES, REACH, draw
 from tests.campaign.flights import failed, row_of
 from tests.campaign.paths import circles, circles_of, distance_from, path_in_air, reversals_of
@@ -191,7 +193,8 @@ def test_a_loss_is_announced_by_an_alert_that_stands_and_by_nothing_else() -> No
 def test_a_forecast_is_compared_at_the_same_time() -> None:
     case = draw("told", 0)
     scenario = replace(case.scenario, duration_limit=20.0)
-    documents = tuple(fly(scenario, plan, sample_period=1.0))
+    said = fly(scenario, plan, sample_period=1.0)
+    documents = tuple(one for one in said if not isinstance(one, ForecastChanged))
     assert row_of(case, documents, 1.0).off_forecast_m is None
     flown = [(one.t, one.aircraft[0]) for one in documents if isinstance(one, Sample)]
     forecast = ForecastChanged(
@@ -204,6 +207,19 @@ def test_a_forecast_is_compared_at_the_same_time() -> None:
     )
     row = row_of(case, (documents[0], forecast, *documents[1:]), 1.0)
     assert row.off_forecast_m == pytest.approx(30.0)
+
+
+@pytest.mark.slow
+def test_a_turn_begun_at_once_is_judged_by_what_it_keeps() -> None:
+    leader = Leader(x=0.0, y=0.0, heading=0.0, tas=200.0)
+    beside = Pursuer(x=6.0 * NM, y=0.0, heading=0.0, tas=200.0, max_bank=25.0 * DEG)
+    situation = Situation(
+        pursuer=beside, leader=leader, slot_distance=8.0 * NM, min_separation=5.0 * NM
+    )
+    assert best_turn(situation) == pytest.approx(6.0 * NM)  # straight on, or away
+    # head-on and 2 km away nothing keeps more than the few hundred metres of a turn aside
+    head_on = replace(beside, x=0.0, y=2_000.0, heading=pi)
+    assert best_turn(replace(situation, pursuer=head_on)) < 100.0
 
 
 def test_circles_are_counted_across_short_straights() -> None:

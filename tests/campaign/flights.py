@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import replace
 from math import hypot, inf
 from time import thread_time
 
@@ -10,10 +9,7 @@ import numpy as np
 
 from relguide import plan
 from relguide.flying import flight
-from relguide.flying.aircraft import AircraftState
 from relguide.flying.aircraft_documents import GuidanceSample, HeadingReference, LinkResult
-from relguide.flying.assignment import Assignment
-from relguide.flying.autopilot import Autopilot
 from relguide.flying.documents import (
     Alert,
     Document,
@@ -24,12 +20,14 @@ from relguide.flying.documents import (
     Sample,
     Unable,
 )
-from relguide.flying.memory import Advice
 from relguide.flying.orders import Command
+from relguide.flying.world import Fleet
 from relguide.kernels.base.angles import wrap_signed
+from relguide.kernels.flight.records import Limits
 from relguide.planning.situation import Situation, Wind
 from relguide.units import DEG, Metre, Second
 from tests.campaign.case import Case
+from tests.campaign.evasion import AHEAD, best_turn
 from tests.campaign.paths import (
     Floats,
     circles_flown,
@@ -123,11 +121,15 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
         - (reversals_of(engaged.plan.segments) if engaged else 0),
         loops=max(loops, 0),
         heading_jump_deg=_heading_jump(documents) / DEG,
-        cross_track_m=_cross_track(documents, situation.wind),
+        cross_track_m=_cross_track(documents, situation.wind, announced_only=False),
+        off_announced_m=_cross_track(documents, situation.wind, announced_only=True),
         off_forecast_m=_off_forecast(documents),
         fastest_mps=max(s.pursuer.tas for s in samples),
         alerts=sum(isinstance(document, Alert | Unable) for document in documents),
         cpu_s=cpu,
+        best_turn_share=best_turn(situation) / situation.min_separation
+        if losses and engaged is None and losses[0].t_s < AHEAD
+        else None,
     )
 
 
@@ -201,13 +203,15 @@ def _heading_jump(documents: Iterable[Document]) -> float:
     return largest
 
 
-def _cross_track(documents: Iterable[Document], wind: Wind) -> Metre:
-    """Largest distance from the path last announced, until it ends or is no longer flown."""
+def _cross_track(documents: Iterable[Document], wind: Wind, *, announced_only: bool) -> Metre:
+    """Largest distance from the path of the last plan, until it ends or is no longer flown."""
     largest, made, ends = 0.0, 0.0, 0.0
     flown: Floats | None = None
     for document in documents:
         match document:
-            case PlanChanged(t=t, plan=card, announced=True):
+            case PlanChanged(t=t, plan=card, announced=announced):
+                if announced_only and not announced:
+                    continue
                 flown, made, ends = path_in_air(card.segments, wind), t, t + card.time_to_converge
             case Sample(
                 t=t, aircraft=(here, _), guidance=(GuidanceSample(mode="converge" | "capture"),)
@@ -254,26 +258,34 @@ def _orders(
 @contextmanager
 def _aircraft_is(factors: Mapping[str, float]) -> Iterator[None]:
     """Let the pursuer be another aircraft than guidance believes, until the end of the block."""
-    believed = flight._fly_step
+    believed = Fleet.fly_second
+    columns = [(Limits._fields.index(LIMITS[name]), factor) for name, factor in factors.items()]
 
-    def fly_step(
-        pursuer: AircraftState,
-        pilot: Autopilot,
-        advice: Advice,
-        assignment: Assignment,
-        step: Second,
-    ) -> AircraftState:
-        if pilot.model is assignment.model:
-            constants = {name: f * getattr(pilot.model, name) for name, f in factors.items()}
-            pilot.model = replace(pilot.model, **constants)
-        return believed(pursuer, pilot, advice, replace(assignment, model=pilot.model), step)
+    def fly_second(fleet: Fleet, t: Second) -> None:
+        limits = fleet.limits
+        fleet.limits = limits.copy()
+        for column, factor in columns:
+            fleet.limits[0, column] *= factor
+        believed(fleet, t)
+        fleet.limits = limits
 
     if factors:
-        flight._fly_step = fly_step
+        Fleet.fly_second = fly_second
     try:
         yield
     finally:
-        flight._fly_step = believed
+        Fleet.fly_second = believed
+
+
+LIMITS = {
+    "max_bank": "max_bank",
+    "max_roll_rate": "max_roll_rate",
+    "roll_time_constant": "roll_time",
+    "speed_time_constant": "speed_time",
+    "max_acceleration": "acceleration",
+    "max_deceleration": "deceleration",
+}
+"""Constants of an aircraft as the kernels call them."""
 
 
 def _start_share(situation: Situation) -> float:

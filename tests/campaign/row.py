@@ -61,12 +61,16 @@ class Row:
     heading_jump_deg: float
     """Largest between held headings of two seconds without an announcement."""
     cross_track_m: float
-    """Largest distance from the path last announced, while it is flown."""
+    """Largest distance from the path of the last plan, while it is flown."""
+    off_announced_m: float = 0.0
+    """The same from the path last announced to the crew."""
     off_forecast_m: float | None = None
     """Largest distance from where the last forecast had the pursuer; `None` without one."""
     fastest_mps: float
     alerts: int
     cpu_s: float
+    best_turn_share: float | None = None
+    """What any turn begun at once keeps of d_min, for a flight that had no plan and lost it."""
     error: str = ""
     """What it ended with, if not with its last document."""
 
@@ -79,6 +83,11 @@ class Row:
     def silent_losses(self) -> int:
         """Losses that nothing announced."""
         return sum(loss.announced_s is None for loss in self.losses)
+
+    @property
+    def avoidable(self) -> bool:
+        """Whether d_min was lost and need not have been."""
+        return bool(self.losses) and (self.best_turn_share is None or self.best_turn_share >= 1.0)
 
 
 def row_from(line: str) -> Row:
@@ -188,7 +197,8 @@ FIGURES = (
     Figure(name="extra_reversals", heading="bank reversals beyond the plan's"),
     Figure(name="loops", heading="circles not planned"),
     Figure(name="heading_jump_deg", heading="jump of the held heading, °", decimals=1),
-    Figure(name="cross_track_m", heading="off the announced path, m"),
+    Figure(name="cross_track_m", heading="off the plan's path, m"),
+    Figure(name="off_announced_m", heading="off the announced path, m"),
     Figure(name="off_forecast_m", heading="off the forecast, m"),
     Figure(name="fastest_mps", heading="fastest, m/s", decimals=1),
     Figure(name="cpu_s", heading="CPU, s", decimals=2),

@@ -10,7 +10,7 @@ WORST = 10
 Cells = list[list[str]]
 OVERVIEW = (
     "family", "flights", "planned", "joined", "losses, planned", "losses, not planned",
-    "losses without a word", "circles", "errors", "simulated s per CPU s",
+    "of these avoidable", "losses without a word", "circles", "errors", "simulated s per CPU s",
 )  # fmt: skip
 DISTRIBUTION = "figure", "flights", "mean", "median", "95 %", "99 %", "worst", "in flight"
 
@@ -30,6 +30,7 @@ def _overview_cells(family: str, rows: Sequence[Row]) -> list[str]:
         f"{sum(row.joined for row in rows):,}",
         f"{sum(bool(row.losses) for row in rows if row.planned):,}",
         f"{sum(bool(row.losses) for row in rows if not row.planned):,}",
+        f"{sum(row.avoidable for row in rows if not row.planned):,}",
         f"{sum(row.silent_losses > 0 for row in rows):,}",
         f"{sum(row.loops > 0 for row in rows):,}",
         f"{sum(bool(row.error) for row in rows):,}",
