@@ -265,8 +265,11 @@ class Fleet:
 
     def beyond_edge(self) -> str:
         """The ident of an aircraft about to leave the plane; empty if there is none."""
-        far = np.flatnonzero(np.max(np.abs(self.states[:, :2]), axis=1) > POSITION.high - EDGE)
-        return self.world.aircraft[int(far[0])].ident if len(far) else ""
+        edge = POSITION.high - EDGE
+        if float(np.abs(self.states[:, :2]).max()) <= edge:
+            return ""
+        far = np.flatnonzero(np.max(np.abs(self.states[:, :2]), axis=1) > edge)
+        return self.world.aircraft[int(far[0])].ident
 
     def belief(self, i: int, j: int, track: FlownTrack, t: Second, known: bool) -> Belief:
         """What aircraft i knows of itself and of aircraft j, exactly."""

@@ -102,7 +102,7 @@ def advise(
     events += news
     apart = hypot(belief.own.x - belief.leader.x, belief.own.y - belief.leader.y)
     alert, said = judge_separation(memory.alert, outlook, apart, belief, assignment)
-    memory = replace(memory, alert=alert, forecast=outlook.forecast)
+    memory = memory._replace(alert=alert, forecast=outlook.forecast)
     return memory, _advice(memory, belief, assignment, done, (*events, *said))
 
 
@@ -119,7 +119,7 @@ def _try_to_plan(
         if not rested or apart < min(assignment.min_separation + ROOM, assignment.aim):
             return memory, []
     found = converge.propose(belief, assignment, None, planner)
-    memory = replace(memory, asked=t)
+    memory = memory._replace(asked=t)
     memory, events = count_refusal(memory, found)
     if isinstance(found, NoProposal):
         return say_no_plan(memory, belief, assignment, found.answer, events)
@@ -134,7 +134,7 @@ def _stay_or_change(
     settings, committed, t = assignment.settings, memory.committed, belief.t
     if committed is None:
         return _plan_again(memory, belief, assignment, planner)
-    memory = replace(memory, committed=replace(committed, s=memory.progress.s))
+    memory = memory._replace(committed=committed._replace(s=memory.progress.s))
     now = expectation(belief)
     changed = leader_change(memory.expected, now, settings.leader_turned, settings.leader_speed)
     as_forecast = memory.forecast is not None and leader_is_as_forecast(
@@ -155,7 +155,7 @@ def _stay_or_change(
         return memory, events
     if committed.plan.planner == "exact" and t - memory.asked < settings.ask_every:
         return memory, events
-    memory = replace(memory, asked=t)
+    memory = memory._replace(asked=t)
     found = converge.better(belief, assignment, committed, planner)
     if found is None:
         return memory, events
@@ -186,7 +186,7 @@ def _plan_again(
     """A new path; if there is none, hold a heading or turn away."""
     committed = None if reason == "deviation" else memory.committed
     found = converge.propose(belief, assignment, committed, planner, stay=stay)
-    memory = replace(memory, asked=belief.t)
+    memory = memory._replace(asked=belief.t)
     memory, events = count_refusal(memory, found)
     if isinstance(found, Proposal):
         return fly_proposal(memory, belief, assignment, found, reason, events)
@@ -195,7 +195,7 @@ def _plan_again(
     memory, news = enter(memory, belief, "heading", message)
     out = clear_heading(memory, belief, assignment)
     progress = Progress(NUMBERS["heading"], 0.0, out, assignment.tas)
-    return replace(memory, progress=progress, committed=None, forecast=None), [*events, *news]
+    return memory._replace(progress=progress, committed=None, forecast=None), [*events, *news]
 
 
 def _has_left_capture(memory: Memory, belief: Belief, assignment: Assignment) -> bool:
@@ -261,7 +261,7 @@ def _replan_or_escape(
     )
     said = UnableTo(reason="separation", message=f"Unable: {why}")
     memory, news = turn_away(memory, belief, assignment, why)
-    return replace(memory, asked=belief.t), [said, *news], None
+    return memory._replace(asked=belief.t), [said, *news], None
 
 
 def _follow_act(
@@ -275,11 +275,11 @@ def _follow_act(
         else "Capturing the leader's route."
     )
     memory, events = enter(memory, belief, mode, message)
-    memory = replace(memory, progress=done.progress)
+    memory = memory._replace(progress=done.progress)
     if events and mode == "capture":
-        memory = replace(memory, captured=belief.leader_rolled_out)
+        memory = memory._replace(captured=belief.leader_rolled_out)
     if memory.mode in ("capture", "follow"):
-        memory = replace(memory, committed=None)
+        memory = memory._replace(committed=None)
     return memory, events
 
 

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, replace
 from math import ceil, hypot
+from typing import NamedTuple
 
 import numpy as np
 
@@ -31,8 +32,7 @@ LEVEL: Radian = 1.0 * DEG
 """With less bank than this an aircraft is taken to fly straight on [rad]."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Committed:
+class Committed(NamedTuple):
     """What is flown now."""
 
     plan: Plan

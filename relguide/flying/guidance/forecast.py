@@ -72,10 +72,10 @@ class Forecast(NamedTuple):
         k = int(np.argmin(rows[:, LEAST]))
         return float(rows[k, LEAST]), float(rows[k, AT])
 
-    def keeps(self, t: Second, separation: Metre) -> bool:
-        """Whether it keeps a separation [m] from flight time t [s] to its end."""
+    def rest(self, t: Second) -> Metre:
+        """Least separation from flight time t [s] to its end [m]; infinite if it has ended."""
         k = int(t - self.t)
-        return k >= len(self.suffix) or bool(self.suffix[k] >= separation)
+        return float(self.suffix[k]) if 0 <= k < len(self.suffix) else inf
 
     def row(self, t: Second) -> int:
         """The row of flight time t [s]; −1 if it is not covered."""

@@ -1,7 +1,5 @@
 """What is new of the leader: that it does something new, and whether it can be followed at all."""
 
-from dataclasses import replace
-
 from relguide.flying.belief import Belief
 from relguide.flying.guidance.announcements import Event, UnableTo, expectation
 from relguide.flying.guidance.assignment import Assignment
@@ -20,7 +18,7 @@ def notice_leader(memory: Memory, belief: Belief, assignment: Assignment) -> Mem
     moved = turns_unannounced(belief, assignment) or trend != 0.0
     moved = moved or now.intent_known != was.intent_known
     changed = belief.t if moved else memory.changed
-    return replace(memory, leader=now, leader_trend=trend, changed=changed)
+    return memory._replace(leader=now, leader_trend=trend, changed=changed)
 
 
 def is_steady(memory: Memory, belief: Belief, assignment: Assignment) -> bool:
@@ -47,7 +45,7 @@ def judge_speed(
             f"{assignment.aircraft_type} at its level."
         )
         said = UnableTo(reason="speed", message=message)
-        return replace(memory, unable="speed"), (said,)
+        return memory._replace(unable="speed"), (said,)
     if memory.unable == "speed" and slow > assignment.min_tas:
-        return replace(memory, unable=None, asked=LONG_AGO), ()
+        return memory._replace(unable=None, asked=LONG_AGO), ()
     return memory, ()

@@ -1,6 +1,5 @@
 """Leaving: when what is flown would lose d_min, and on what heading the aircraft turns away."""
 
-from dataclasses import replace
 from math import hypot
 
 from relguide.flying.belief import Belief
@@ -28,7 +27,7 @@ def turn_away(
     out = clear_heading(memory, belief, assignment)
     memory, news = enter(memory, belief, "escape", f"{why} Turning to {compass(out)}.")
     progress = Progress(NUMBERS["escape"], 0.0, out, belief.own.tas)
-    return replace(memory, progress=progress, committed=None, forecast=None), news
+    return memory._replace(progress=progress, committed=None, forecast=None), news
 
 
 def clear_heading(memory: Memory, belief: Belief, assignment: Assignment) -> Radian:
@@ -62,13 +61,14 @@ def keep_heading(memory: Memory, belief: Belief, assignment: Assignment) -> Memo
     )
     if out.least_separation < kept + OWN_TUBE:
         return memory
-    return replace(memory, progress=progress._replace(heading=out.heading))
+    return memory._replace(progress=progress._replace(heading=out.heading))
 
 
 def must_leave(memory: Memory, belief: Belief, assignment: Assignment, outlook: Outlook) -> bool:
     """Whether what is flown now would lose d_min, or soon leave no way to keep it."""
     t, limit = belief.t, assignment.min_separation
-    if outlook.forecast.least(t, assignment.settings.caution)[0] < limit:
+    ahead = outlook.forecast
+    if ahead.rest(t) < limit and ahead.least(t, assignment.settings.caution)[0] < limit:
         return True
     turns_on = turns_unannounced(belief, assignment)
     if not turns_on and memory.leader_trend == 0.0 and outlook.least >= limit:

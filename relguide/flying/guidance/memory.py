@@ -1,6 +1,6 @@
 """What guidance remembers from one second to the next, and the advice it gives."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import NamedTuple
 
 from relguide.flying.belief import Belief
@@ -60,9 +60,8 @@ class Alert(NamedTuple):
     """When its cause was last seen, flight time [s]."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Memory:
-    """What guidance remembers from one second to the next."""
+class Memory(NamedTuple):
+    """What guidance remembers from one second to the next: some are made in each."""
 
     mode: Mode
     since: Second
@@ -151,4 +150,4 @@ def enter(memory: Memory, belief: Belief, to: Mode, message: str) -> tuple[Memor
         return memory, []
     event = ModeChange(mode=change(memory.mode, to), previous=memory.mode, message=message)
     progress = memory.progress._replace(mode=NUMBERS[to])
-    return replace(memory, mode=to, since=belief.t, progress=progress), [event]
+    return memory._replace(mode=to, since=belief.t, progress=progress), [event]

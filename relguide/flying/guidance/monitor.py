@@ -79,7 +79,9 @@ def look_out(
     ahead = trusted
     if ahead is None:
         ahead = forecast(belief, assignment, progress, course, until=belief.t + settings.watch)
-    least, at = ahead.least(belief.t, settings.watch)
+    least, at = ahead.rest(belief.t), belief.t
+    if least < assignment.min_separation:
+        least, at = ahead.least(belief.t, settings.watch)
     if turns_on or trend != 0.0:
         worse = forecast(
             belief,

@@ -50,8 +50,7 @@ def fly_proposal(
     committed = found.committed
     message = f"Converging by {committed.plan.word}."
     memory, news = enter(memory, belief, "converge", message)
-    memory = replace(
-        memory,
+    memory = memory._replace(
         committed=committed,
         forecast=committed.forecast,
         progress=Progress(NUMBERS["converge"], committed.s, 0.0, 0.0),
@@ -72,13 +71,13 @@ def fly_proposal(
     if announced:
         memory = _announced(memory, belief, shown, joins)
     elif fresh:
-        memory = replace(memory, pending=reason)
+        memory = memory._replace(pending=reason)
     return memory, [*events, *news, said]
 
 
 def _announced(memory: Memory, belief: Belief, shown: Plan, joins: Second) -> Memory:
     told = Announced(belief.t, joins, shown.trajectory)
-    return replace(memory, announced=told, pending=None, expected=expectation(belief))
+    return memory._replace(announced=told, pending=None, expected=expectation(belief))
 
 
 def may_speak(memory: Memory, belief: Belief, assignment: Assignment) -> bool:
@@ -158,7 +157,7 @@ def count_refusal(memory: Memory, found: Proposal | NoProposal) -> tuple[Memory,
     news: list[Event] = []
     if found.refusal is not None and fault != memory.refused:
         news.append(Refused(refusal=found.refusal))
-    return replace(memory, fallbacks=memory.fallbacks + found.fell_back, refused=fault), news
+    return memory._replace(fallbacks=memory.fallbacks + found.fell_back, refused=fault), news
 
 
 def say_no_plan(
@@ -169,4 +168,4 @@ def say_no_plan(
         events.append(PlanMissing(answer=answer))
         reason: UnableReason = "speed" if answer.reason == Reason.SLOT_UNREACHABLE else "separation"
         events.append(UnableTo(reason=reason, message=f"Unable: {answer.message}"))
-    return replace(memory, missing=answer.reason), events
+    return memory._replace(missing=answer.reason), events

@@ -25,7 +25,7 @@ SECOND = 1.0
 """Between two acts of guidance [s]."""
 WINGS_LEVEL = 1e-4
 """A heading that changes less in the seconds ahead is a straight [rad]."""
-NEAR = 50.0
+NEAR = 10.0
 """So near a straight path, and within `ALIGNED`, the autopilot holds headings [m]."""
 ALIGNED = 0.05
 """See `NEAR` [rad]."""
