@@ -90,3 +90,22 @@ def straight_for(marks: FloatArray, distance: float) -> bool:
         if marks[last, S] - marks[i, S] >= distance:
             return True
     return True
+
+
+@njit(cache=True, nogil=True)
+def sharpest_bend(marks: FloatArray, s: float, until: float, apart: float) -> float:
+    """The largest curvature of the flown path between two lengths [rad/m].
+
+    Args:
+        marks: rows.
+        s: length from which to look [m].
+        until: and to which [m]; what has not been flown yet does not count.
+        apart: between the places compared [m], > 0.
+    """
+    sharpest, before = 0.0, mark_at(marks, S, s)[4]
+    while s < min(until, marks[len(marks) - 1, S]):
+        s += apart
+        after = mark_at(marks, S, s)[4]
+        sharpest = max(sharpest, abs(after - before) / apart)
+        before = after
+    return sharpest
