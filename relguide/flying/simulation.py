@@ -176,14 +176,15 @@ def whole_steps(duration: Second, step: Second) -> int:
 def assignment_of(world: World, link: Link) -> Assignment:
     """What a link asks of its pursuer."""
     pursuer = world.aircraft[world.index(link.pursuer)]
-    least, most = pursuer.airframe.tas_range(pursuer.altitude, world.air)
+    can = pursuer.known_airframe
+    least, most = can.tas_range(pursuer.altitude, world.believed_air or world.air)
     return Assignment(
         ident=link.pursuer,
         leader_ident=link.leader,
-        aircraft_type=pursuer.airframe.designator,
+        aircraft_type=can.designator,
         tas=pursuer.tas,
         max_bank=pursuer.max_bank,
-        idle_deceleration=pursuer.airframe.idle_deceleration,
+        idle_deceleration=can.idle_deceleration,
         min_tas=least,
         max_tas=most,
         slot_distance=link.slot_distance,

@@ -88,6 +88,13 @@ class Aircraft:
     max_bank: Radian
     """What its autopilot may use [rad]."""
     pilot: Pilot
+    believed: Airframe | None = None
+    """What its guidance believes of the airframe; the truth, if left out."""
+
+    @property
+    def known_airframe(self) -> Airframe:
+        """The airframe as guidance knows it."""
+        return self.believed or self.airframe
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -163,12 +170,15 @@ class Fleet:
         self.helds = np.zeros(count)
         self.trace = np.zeros((count, steps + 1, 7))
         self.tallies = np.zeros((count, 4))
+        self.believed = [
+            limits_of(aircraft, aircraft.known_airframe, world.air) for aircraft in world.aircraft
+        ]
         self.declared: list[Program] = []
         self.recordings: list[FloatArray] = []
         wind = world.air.wind_at(0.0, 0.0, 0.0, 0.0)
         self.wind = wind
         for i, aircraft in enumerate(world.aircraft):
-            self.limits[i] = limits_of(aircraft, world.air)
+            self.limits[i] = limits_of(aircraft, aircraft.airframe, world.air)
             heading = wrap(aircraft.heading)
             self.states[i] = aircraft.x, aircraft.y, heading, 0.0, 0.0, aircraft.tas, 0.0
             self.controls[i] = 0.0, heading, aircraft.tas
@@ -283,9 +293,9 @@ class Fleet:
         return Belief(
             t=t,
             own=own,
-            limits=limits_at(self.limits, i),
+            limits=self.believed[i],
             leader=leader,
-            leader_limits=can,
+            leader_limits=self.believed[j],
             intent=intent,
             intent_known=known,
             program=program.rows if known else NO_PROGRAM,
@@ -307,9 +317,8 @@ EDGE: Metre = 2_000.0
 """So near the edge of the plane a flight ends: before plans are refused for it [m]."""
 
 
-def limits_of(aircraft: Aircraft, air: Air) -> Limits:
+def limits_of(aircraft: Aircraft, airframe: Airframe, air: Air) -> Limits:
     """What an aircraft can do at its level; leaders may fly at any speed that is accepted."""
-    airframe = aircraft.airframe
     slowest, fastest = airframe.tas_range(aircraft.altitude, air)
     deceleration = airframe.max_deceleration
     if not isinstance(aircraft.pilot, Guided):

@@ -90,7 +90,8 @@ def advise(
     elif _has_left_capture(memory, belief, assignment):
         memory, news = _plan_again(memory, belief, assignment, planner)
         events += news
-    memory = keep_heading(memory, belief, assignment)
+    memory, news = keep_heading(memory, belief, assignment)
+    events += news
     done = _act(memory, belief, assignment)
     outlook = _outlook(memory, belief, assignment)
     if memory.mode not in ("heading", "escape") and must_leave(memory, belief, assignment, outlook):

@@ -3,19 +3,22 @@
 from math import hypot
 
 from relguide.flying.belief import Belief
-from relguide.flying.guidance.announcements import Event
+from relguide.flying.guidance.announcements import Event, UnableTo
 from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.escape import escape, kept_on_heading
 from relguide.flying.guidance.leader_news import turns_unannounced
 from relguide.flying.guidance.memory import Memory, enter
 from relguide.flying.guidance.monitor import Outlook
 from relguide.flying.modes import NUMBERS
+from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.flight.guide import Progress
 from relguide.planning.phrases import compass
-from relguide.units import Metre, MetrePerSecond, Radian, Second
+from relguide.units import DEG, Metre, MetrePerSecond, Radian, Second
 
 GOES_ON: Second = 20.0
 """A leader that changes its speed may go on for so long while one turns away from it [s]."""
+NEWS: Radian = 15.0 * DEG
+"""A held heading that changes by more is announced [rad]."""
 OWN_TUBE: Metre = 60.0
 """What an escape must keep beyond d_min: its turn is planned without the roll's soft ends [m]."""
 
@@ -41,17 +44,19 @@ def clear_heading(memory: Memory, belief: Belief, assignment: Assignment) -> Rad
     ).heading
 
 
-def keep_heading(memory: Memory, belief: Belief, assignment: Assignment) -> Memory:
-    """Keep the heading held for as long as it keeps clear, so that it does not jump."""
+def keep_heading(
+    memory: Memory, belief: Belief, assignment: Assignment
+) -> tuple[Memory, list[Event]]:
+    """Keep the heading held for as long as it keeps clear; a new one does not come in silence."""
     if memory.mode not in ("heading", "escape"):
-        return memory
+        return memory, []
     progress, turns_on = memory.progress, turns_unannounced(belief, assignment)
     other_tas = _other_tas(memory, belief)
     kept = kept_on_heading(
         belief, assignment, progress.heading, turns_on=turns_on, other_tas=other_tas
     )
     if kept >= assignment.min_separation + OWN_TUBE:
-        return memory
+        return memory, []
     out = escape(
         belief,
         assignment,
@@ -60,8 +65,12 @@ def keep_heading(memory: Memory, belief: Belief, assignment: Assignment) -> Memo
         other_tas=other_tas,
     )
     if out.least_separation < kept + OWN_TUBE:
-        return memory
-    return memory._replace(progress=progress._replace(heading=out.heading))
+        return memory, []
+    said: list[Event] = []
+    if abs(wrap_signed(out.heading - progress.heading)) > NEWS:
+        message = f"Turning to {compass(out.heading)}, to keep clear of the leader."
+        said.append(UnableTo(reason="separation", message=message))
+    return memory._replace(progress=progress._replace(heading=out.heading)), said
 
 
 def must_leave(memory: Memory, belief: Belief, assignment: Assignment, outlook: Outlook) -> bool:
