@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 from control import StateSpace
 
+from relguide.flying.airframe import Airframe
+from relguide.kernels.base.turn import turn_rate
 from relguide.units import DEG
-from tests.campaign import report, responses
+from tests.campaign import pictures, report, responses
 from tests.campaign.loops import (
     FOLLOW_GAINS,
     PATH_GAINS,
@@ -137,6 +139,18 @@ def test_no_start_overshoots_the_path(across: float, in_hand: float, tas: float)
     assert abs(flown.across[-1]) < 0.15 * across
 
 
+@pytest.mark.parametrize("model", [pictures.SLUGGISH, report.A306, pictures.NIMBLE])
+def test_a_switch_of_bank_costs_what_the_page_says(model: Airframe) -> None:
+    # V Δr T²/24 is what the ramp alone costs; the feedback takes back a part of it
+    q = 0.67 * report.A306.max_roll_rate
+    rate = turn_rate(240.0, 22.5 * DEG)
+    entry = 240.0 * rate * (22.5 * DEG / q) ** 2 / 24.0
+    reversal = 240.0 * 2.0 * rate * (45.0 * DEG / q) ** 2 / 24.0
+    assert 0.5 * entry < responses.off_path([70.0 * DEG], tas=240.0, model=model) < 1.1 * entry
+    turns = [70.0 * DEG, -70.0 * DEG]
+    assert 0.5 * reversal < responses.off_path(turns, tas=120.0, model=model) < 1.1 * reversal
+
+
 def test_the_page_has_its_blocks_and_pictures() -> None:
     page = PAGE.read_text()
     assert "\nflight-figures:" in (ROOT / "Makefile").read_text()
@@ -144,7 +158,7 @@ def test_the_page_has_its_blocks_and_pictures() -> None:
     for name in (AUTOPILOT, PATH, CAMPAIGN):
         assert f"]({FOLDER.name}/{name})" in page
         assert "</svg>" in (FOLDER / name).read_text()
-    for name in ("margins", "gains", "responses", "campaign"):
+    for name in ("margins", "gains", "responses", "tube", "campaign"):
         again = with_named_block(with_named_block(page, name, "old"), name, "| new |")
         assert "| new |" in again
         assert len(again) < len(page)

@@ -54,6 +54,7 @@ def write_loops(page: Path = PAGE, folder: Path = FOLDER) -> None:
     text = with_named_block(text, "margins", markdown(MARGINS, margins_cells()))
     text = with_named_block(text, "gains", markdown(GAINS, gains_cells()))
     text = with_named_block(text, "responses", markdown(RESPONSES, responses_cells()))
+    text = with_named_block(text, "tube", markdown(TUBE, tube_cells()))
     page.write_text(text)
 
 
@@ -148,17 +149,18 @@ def gains_cells() -> Cells:
     return cells
 
 
+AIRCRAFT = (
+    ("as it is", A306),
+    ("slow in roll", pictures.SLUGGISH),
+    ("quick in roll", pictures.NIMBLE),
+)
+"""Flown side by side."""
 RESPONSES = "step", "aircraft", "settled after", "overshoot"
 
 
 def responses_cells() -> Cells:
     """Step responses in numbers, the aircraft as it is and 30 % off."""
-    aircraft = (
-        ("as it is", A306),
-        ("slow in roll", pictures.SLUGGISH),
-        ("quick in roll", pictures.NIMBLE),
-    )
-    return [cells for name, model in aircraft for cells in _response_cells(name, model)]
+    return [cells for name, model in AIRCRAFT for cells in _response_cells(name, model)]
 
 
 def _response_cells(name: str, model: Airframe) -> Cells:
@@ -194,3 +196,25 @@ def _response_cells(name: str, model: Airframe) -> Cells:
             ]
         )
     return cells
+
+
+TUBE = "turns", *(f"{name}, m" for name, _ in AIRCRAFT)
+TURNS = {
+    "70° right": (70.0,),
+    "70° right, 70° left": (70.0, -70.0),
+    "30° to each side, thrice": (30.0, -30.0, 30.0),
+}
+
+
+def tube_cells() -> Cells:
+    """How far aircraft come off the path of a plan at 240 m/s."""
+    return [
+        [
+            name,
+            *(
+                f"{responses.off_path([turn * DEG for turn in turns], tas=240.0, model=model):.0f}"
+                for _, model in AIRCRAFT
+            ),
+        ]
+        for name, turns in TURNS.items()
+    ]

@@ -3,12 +3,14 @@
 Nothing is linear here: the roll rate and the bank have their limits, and turn rates go with tan φ.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from math import copysign
+from math import ceil, copysign
 
 import numpy as np
 
 from relguide.flying.airframe import Airframe
+from relguide.flying.guidance.settings import DEFAULT
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.base.turn import bank_for_turn_rate, turn_rate
 from relguide.kernels.flight.path import lay_path, project
@@ -85,6 +87,32 @@ def path_step(
         s, right = project(path, row[0], row[1], s + tas * STEP)
         beside.append(right)
     return _response(flown, np.array(beside))
+
+
+def off_path(turns: Sequence[Radian], *, tas: MetrePerSecond, model: Airframe = A306) -> Metre:
+    """How far an aircraft comes off the path of a plan, whose bank changes at once.
+
+    Args:
+        turns: at the bank of plans, one after the other, positive to the right [rad]; straights
+            before and after.
+        tas: true airspeed [m/s].
+        model: the aircraft; guidance believes it to be an A300.
+    """
+    curvature = turn_rate(tas, DEFAULT.planned_bank(MAX_BANK)) / tas
+    pieces = [[BEFORE * tas, 0.0]]
+    pieces += [[abs(angle) / curvature, copysign(curvature, angle)] for angle in turns]
+    path = lay_path(0.0, 0.0, 0.0, np.array(pieces), tas, 0.0, A306.max_roll_rate)
+    duration = sum(length for length, _ in pieces) / tas + BEFORE
+    law = tracking(path, tas=tas)
+    largest, s = 0.0, 0.0
+    for row in fly(law, _begun(tas), float(ceil(duration)), limits=limits_of(model)):
+        s, right = project(path, row[0], row[1], s + tas * STEP)
+        largest = max(largest, abs(right))
+    return largest
+
+
+BEFORE: Second = 20.0
+"""Of the straights before and after the turns."""
 
 
 def _begun(tas: MetrePerSecond, bank: Radian = 0.0) -> Body:
