@@ -10,7 +10,7 @@ from relguide.kernels.flight import marks as at
 from relguide.kernels.flight.guide import CONVERGE, Course, Gate, Progress, Task, act
 from relguide.kernels.flight.lateral import lateral_step
 from relguide.kernels.flight.laws import Gains, ground_track
-from relguide.kernels.flight.program import next_piece, programmed
+from relguide.kernels.flight.program import fly_program
 from relguide.kernels.flight.records import Body, Drift, Limits, store
 from relguide.kernels.flight.second import least_between
 
@@ -93,11 +93,9 @@ def fly_ahead(
         store(theirs, 0, leader)
         for i in range(steps):
             body = lateral_step(body, done.control, limits, wind, dt)
-            asked = programmed(
-                program, cursor, held, leader, leader_limits, now + i * dt, leader_tas
+            leader, cursor = fly_program(
+                program, cursor, held, leader, leader_limits, wind, now + i * dt, dt, leader_tas
             )
-            leader = lateral_step(leader, asked, leader_limits, wind, dt)
-            cursor = next_piece(program, cursor, leader, now + (i + 1) * dt)
             store(ours, i + 1, body)
             store(theirs, i + 1, leader)
         least, when = least_between(ours, theirs)

@@ -4,13 +4,14 @@ What it flies differs from what it declared only by its roll: a turn begins when
 of the roll before that and half after. Headings are continuous, so any turn is flown as it is.
 """
 
-from math import pi
+from math import inf, pi
 
 from numba import njit
 
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.base.turn import turn_rate
-from relguide.kernels.flight.records import HOLD_HEADING, TURN_RATE, Body, Control, Limits
+from relguide.kernels.flight.lateral import lateral_step
+from relguide.kernels.flight.records import HOLD_HEADING, TURN_RATE, Body, Control, Drift, Limits
 
 STRAIGHT = 0.0
 """First column of a piece: fly straight until the flight time in the second [s]."""
@@ -79,3 +80,51 @@ def programmed(
             held = end
             break
     return Control(HOLD_HEADING, held, tas)
+
+
+@njit(cache=True, nogil=True)
+def until_roll(program: FloatArray, cursor: int, body: Body, limits: Limits, t: float) -> float:
+    """How long until the roll at the end of the present piece begins [s]; infinite without one."""
+    if cursor == len(program):
+        return inf
+    end, bank = program[cursor, 1], program[cursor, 2]
+    if program[cursor, 0] == STRAIGHT:
+        if cursor + 1 == len(program) or program[cursor + 1, 0] == STRAIGHT:
+            return inf
+        return float(end - t - roll_lead(limits, 0.0, program[cursor + 1, 2]))
+    rate = turn_rate(body.tas, bank)
+    return float((end - body.heading) / rate - roll_lead(limits, bank, 0.0))
+
+
+@njit(cache=True, nogil=True)
+def fly_program(
+    program: FloatArray, cursor: int, held: float, body: Body, limits: Limits, wind: Drift,
+    t: float, dt: float, tas: float,
+) -> tuple[Body, int]:  # fmt: skip
+    """Fly a program for dt; a roll that begins within begins when it should, whatever the step.
+
+    Args:
+        program: pieces, a row each. shape (n, 3)
+        cursor: the piece being flown; n after the last.
+        held: the heading before the first piece [rad].
+        body: the aircraft.
+        limits: how it rolls.
+        wind: moves it.
+        t: flight time [s].
+        dt: the step [s].
+        tas: its speed [m/s].
+
+    Returns:
+        the aircraft dt later, and the piece that it then flies.
+    """
+    end = t + dt
+    before = until_roll(program, cursor, body, limits, t)
+    if 0.0 < before < dt:
+        asked = programmed(program, cursor, held, body, limits, t, tas)
+        body = lateral_step(body, asked, limits, wind, before)
+        t += before
+        dt -= before
+    # a nanosecond later: a time that is only just reached may be rounded down
+    asked = programmed(program, cursor, held, body, limits, t + 1e-9, tas)
+    body = lateral_step(body, asked, limits, wind, dt)
+    return body, next_piece(program, cursor, body, end)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.flight.lateral import lateral_step
-from relguide.kernels.flight.program import next_piece, programmed
+from relguide.kernels.flight.program import fly_program
 from relguide.kernels.flight.records import Control, Drift, body_at, limits_at, store
 
 IntArray = NDArray[np.int64]
@@ -58,17 +58,14 @@ def fly_second(
         for k in range(steps):
             if pilots[i] == RECORDED:
                 after = body_at(trace[i], k + 1)
+            elif pilots[i] == PROGRAMMED:
+                after, cursors[i] = fly_program(
+                    program, cursors[i], helds[i], body, can, wind, t + k * dt, dt, controls[i, 2]
+                )
             else:
                 control = Control(controls[i, 0], controls[i, 1], controls[i, 2])
-                now = t + k * dt
-                if pilots[i] == PROGRAMMED:
-                    control = programmed(
-                        program, cursors[i], helds[i], body, can, now, controls[i, 2]
-                    )
                 after = lateral_step(body, control, can, wind, dt)
-                if pilots[i] == PROGRAMMED:
-                    cursors[i] = next_piece(program, cursors[i], after, now + dt)
-                store(trace[i], k + 1, after)
+            store(trace[i], k + 1, after)
             tallies[i, SWING] += abs(after.heading - body.heading)
             tallies[i, TRACK] += hypot(after.x - body.x, after.y - body.y)
             if abs(after.bank) > BANKED:

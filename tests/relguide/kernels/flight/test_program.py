@@ -1,0 +1,162 @@
+"""What was declared is flown: turns begin half a roll early and go as far round as was said."""
+
+from itertools import pairwise
+from math import hypot
+
+import numpy as np
+import pytest
+
+from relguide.flying.leaders.declared import Program, program_of
+from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.base.turn import turn_rate
+from relguide.kernels.flight.program import next_piece, programmed, roll_lead
+from relguide.kernels.flight.records import HOLD_HEADING, TURN_RATE, Control
+from relguide.kernels.flight.second import PROGRAMMED, fly_second
+from relguide.planning.situation import FlyStraight, IntentPiece, Leader, TurnTo
+from relguide.planning.trajectory import LEFT, RIGHT, Turn
+from relguide.units import DEG
+from tests.aloft import LIMITS, STEP, STILL, level
+
+TAS = 200.0
+STARTS = 90.0
+"""Heading of each flight's start, in degrees."""
+
+
+def turn_to(degrees: float, turn: Turn, bank: float = 25.0) -> TurnTo:
+    return TurnTo(heading=degrees % 360.0 * DEG, turn=turn, bank=bank * DEG)
+
+
+def straight(duration: float) -> FlyStraight:
+    return FlyStraight(duration=duration)
+
+
+def flown(
+    pieces: tuple[IntentPiece, ...], duration: float, *, step: float = STEP
+) -> tuple[FloatArray, int]:
+    """A program from its start on: rows at each step, and the piece that is then flown."""
+    program: Program = program_of(pieces, STARTS * DEG, 0.0, TAS)
+    steps = round(1.0 / step)
+    states, cursors = np.array([level(heading=STARTS, tas=TAS)]), np.zeros(1, dtype=np.int64)
+    rows = [states.copy()]
+    for second in range(round(duration)):
+        trace = np.zeros((1, steps + 1, 7))
+        fly_second(
+            states, np.array([LIMITS]), np.full(1, PROGRAMMED), np.array([[0.0, 0.0, TAS]]),
+            program.rows[np.newaxis], np.full(1, len(pieces)), cursors,
+            np.array([program.held]), STILL, float(second), step, trace, np.zeros((1, 4)),
+        )  # fmt: skip
+        rows.append(trace[0, 1:])
+    return np.vstack(rows), int(cursors[0])
+
+
+def declared(pieces: tuple[IntentPiece, ...]) -> Leader:
+    return Leader(x=0.0, y=0.0, heading=STARTS * DEG, tas=TAS, intent=pieces)
+
+
+@pytest.mark.parametrize(
+    ("pieces", "off"),
+    [
+        ((), 1e-3),
+        ((straight(60.0),), 1e-3),
+        # a turn of 45° that could be led, flown to 10 m and more by the last degree
+        ((straight(60.0), turn_to(135.0, RIGHT)), 60.0),
+        ((straight(20.0), turn_to(80.0, LEFT), straight(30.0)), 60.0),
+        ((straight(30.0), turn_to(180.0, RIGHT), straight(40.0), turn_to(90.0, LEFT)), 120.0),
+        # the roll into a turn that begins at once cannot be led: it comes 4 s late
+        ((turn_to(30.0, LEFT, bank=15.0),), 700.0),
+        ((turn_to(180.0, RIGHT), straight(40.0), turn_to(90.0, LEFT)), 900.0),
+    ],
+)
+def test_what_is_flown_is_what_was_declared(pieces: tuple[IntentPiece, ...], off: float) -> None:
+    meant, (rows, cursor) = declared(pieces).trajectory, flown(pieces, 450.0)
+    for t in (50, 150, 450):
+        pose = meant.pose_at(float(t))
+        at = rows[round(t / STEP)]
+        print(pieces, t, hypot(at[0] - pose.x, at[1] - pose.y))
+        assert hypot(at[0] - pose.x, at[1] - pose.y) < off
+    change = sum(
+        -piece.turn * segment.turn_angle
+        for piece, segment in zip(pieces, meant.segments, strict=False)
+        if isinstance(piece, TurnTo)
+    )
+    assert rows[-1, 2] == pytest.approx(STARTS * DEG + change, abs=0.2 * DEG)
+    assert cursor == len(pieces)
+
+
+@pytest.mark.parametrize("angle", [5.0, 90.0, 355.0, 359.0])
+@pytest.mark.parametrize("turn", [LEFT, RIGHT])
+def test_any_turn_is_flown_as_declared(angle: float, turn: Turn) -> None:
+    side = -turn
+    pieces = (straight(20.0), turn_to(STARTS + side * angle, turn))
+    rows, _ = flown(pieces, 320.0)
+    headings = rows[:, 2]
+    assert headings[-1] == pytest.approx((STARTS + side * angle) * DEG, abs=0.1 * DEG)
+    # continuous: no faster than at full bank, and no way back
+    fastest = turn_rate(TAS, LIMITS.max_bank) * STEP
+    assert np.max(np.abs(np.diff(headings))) <= fastest * (1.0 + 1e-9)
+    assert np.min(side * (headings - STARTS * DEG)) > -0.01 * DEG
+    assert np.max(side * (headings - STARTS * DEG)) < (angle + 0.3) * DEG
+
+
+@pytest.mark.parametrize("bank", [10.0, -25.0])
+def test_a_turn_begins_half_a_roll_early(bank: float) -> None:
+    program = np.array([[0.0, 60.0, 0.0], [1.0, 3.0, bank * DEG]])
+    lead = roll_lead(LIMITS, 0.0, bank * DEG)
+    body = level(heading=STARTS, tas=TAS)
+
+    def asked(t: float) -> Control:
+        return programmed(program, 0, STARTS * DEG, body, LIMITS, t, TAS)
+
+    assert asked(60.0 - lead - 0.1) == Control(HOLD_HEADING, STARTS * DEG, TAS)
+    early = asked(60.0 - lead + 0.1)
+    if bank > 0.0:
+        assert early == Control(TURN_RATE, turn_rate(TAS, bank * DEG), TAS)
+    else:  # its heading lies to the right: it is there at once, and held
+        assert early == Control(HOLD_HEADING, 3.0, TAS)
+
+
+def test_a_straight_that_was_led_into_a_turn_ends_when_declared() -> None:
+    program = np.array([[0.0, 60.0, 0.0], [1.0, 3.0, 0.4]])
+    assert next_piece(program, 0, level(), 59.99) == 0
+    assert next_piece(program, 0, level(), 60.0) == 1
+    assert next_piece(program, 1, level(heading=3.0 / DEG - 1.1), 99.0) == 1
+    assert next_piece(program, 1, level(heading=3.0 / DEG - 0.9), 99.0) == 2
+    assert next_piece(program, 2, level(), 99.0) == 2
+
+
+def test_a_turn_is_rolled_out_of_half_a_roll_early() -> None:
+    end, bank = 2.0, 20.0 * DEG
+    program = np.array([[1.0, end, bank]])
+    rate, lead = turn_rate(TAS, bank), roll_lead(LIMITS, bank, 0.0)
+    for left, kind in ((1.05, TURN_RATE), (0.95, HOLD_HEADING)):
+        body = level(heading=(end - left * rate * lead) / DEG, bank=20.0, tas=TAS)
+        asked = programmed(program, 0, 0.0, body, LIMITS, 30.0, TAS)
+        assert asked.kind == kind
+        assert asked.value == pytest.approx(rate if kind == TURN_RATE else end)
+
+
+def test_after_the_last_piece_its_heading_is_held() -> None:
+    program = np.array([[1.0, 2.0, 0.4], [0.0, 90.0, 0.0]])
+    body = level(heading=2.0 / DEG)
+    assert programmed(program, 2, 0.0, body, LIMITS, 99.0, TAS).value == 2.0
+    assert programmed(program, 1, 0.0, body, LIMITS, 99.0, TAS).value == 2.0
+    assert programmed(np.zeros((0, 3)), 0, 0.7, body, LIMITS, 99.0, TAS).value == 0.7
+
+
+def test_lead_is_half_the_roll_and_the_lag() -> None:
+    roll_in = roll_lead(LIMITS, 0.0, 25.0 * DEG)
+    assert 3.5 < roll_in < 5.0
+    assert roll_lead(LIMITS, -25.0 * DEG, 25.0 * DEG) > 1.7 * roll_in
+
+
+@pytest.mark.slow
+def test_what_is_flown_hardly_depends_on_the_step() -> None:
+    """Within a metre a minute."""
+    pieces = (straight(30.0), turn_to(180.0, RIGHT), straight(40.0), turn_to(90.0, LEFT))
+    coarse, _ = flown(pieces, 600.0)
+    fine, _ = flown(pieces, 600.0, step=0.01)
+    for minute in range(1, 11):
+        one, other = coarse[1200 * minute], fine[6000 * minute]
+        assert hypot(one[0] - other[0], one[1] - other[1]) < minute
+    for before, after in pairwise(fine[::100, 2]):
+        assert abs(after - before) < 0.05
