@@ -134,8 +134,7 @@ def test_a_small_change_of_heading_is_the_linear_loop() -> None:
 @pytest.mark.parametrize("tas", [120.0, 250.0])
 def test_no_start_overshoots_the_path(across: float, in_hand: float, tas: float) -> None:
     flown = responses.path_step(across, tas=tas, in_hand=in_hand, duration=150.0)
-    # a fifth of the 50 m from which the autopilot's slower heading loop takes over
-    assert responses.overshoot(flown.across, 0.0) < 11.0
+    assert responses.overshoot(flown.across, 0.0) < 5.0
     assert abs(flown.across[-1]) < 0.15 * across
 
 
