@@ -40,6 +40,7 @@ if typing.TYPE_CHECKING:
     from relguide.flying.flight import Scenario as Scenario
     from relguide.flying.flight import fly as fly
     from relguide.flying.scenarios import own_scenario as own_scenario
+    from relguide.flying.scenarios import random_scenario as random_scenario
     from relguide.flying.scenarios import scenario as scenario
     from relguide.flying.scenarios import scenario_behind as scenario_behind
     from relguide.flying.tracks import RecordedTrack as RecordedTrack
@@ -108,6 +109,7 @@ _HOMES = {
     "Scenario": "relguide.flying.flight",
     "fly": "relguide.flying.flight",
     "own_scenario": "relguide.flying.scenarios",
+    "random_scenario": "relguide.flying.scenarios",
     "scenario": "relguide.flying.scenarios",
     "scenario_behind": "relguide.flying.scenarios",
     "RecordedTrack": "relguide.flying.tracks",

@@ -23,6 +23,7 @@ EXAMPLES = """
     relguide fly fig_6a --json                   without; the figures as JSON
     relguide fly situation.json --record a.jsonl your own situation, recorded
     relguide fly track.csv                       behind a recorded ADS-B track
+    relguide fly random --seed 7                 a flight drawn from that number
     relguide fly fig_6b --orders orders.jsonl    the leader does as it is ordered, a line an order:
         {"t_s": 60, "intent_known": false}
         {"t_s": 300, "leader_heading_deg": 180, "direction": "left"}
@@ -44,7 +45,11 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--record", metavar="FILE", type=_recording, help="write a .jsonl or .jsonl.gz recording"
     )
     parser.add_argument(
-        "--seed", metavar="N", type=_seed, default=0, help="of the random numbers; default: 0"
+        "--seed",
+        metavar="N",
+        type=_seed,
+        default=0,
+        help="0, the default, flies the type as its data say; others draw its constants by chance",
     )
     parser.add_argument(
         "--orders",
@@ -72,7 +77,7 @@ def run(chosen: argparse.Namespace) -> int:
     from relguide.planning.progress import show_progress
 
     orders = _orders(chosen)
-    scenario = _following_for(_scenario(chosen.scenario), chosen.after_joining)
+    scenario = _following_for(_scenario(chosen.scenario, chosen.seed), chosen.after_joining)
     planner = make_planner(chosen.planner)
     for _ in islice(fly(scenario, planner, sample_period=1.0), LOADING):
         pass
@@ -130,8 +135,13 @@ def _following_for(scenario: "Scenario", after_joining: float) -> "Scenario":
     )
 
 
-def _scenario(name: str) -> "Scenario":
-    from relguide.flying.scenarios import own_scenario, scenario, scenario_behind
+def _scenario(name: str, seed: int) -> "Scenario":
+    from relguide.flying.scenarios import (
+        own_scenario,
+        random_scenario,
+        scenario,
+        scenario_behind,
+    )
 
     path = Path(name)
     if path.suffix == ".csv":
@@ -144,7 +154,7 @@ def _scenario(name: str) -> "Scenario":
             "The situation of standard input" if name == "-" else f"The situation of {path.name}"
         )
         return replace(own_scenario(situation), title=title)
-    return scenario(name)
+    return random_scenario(seed) if name == "random" else scenario(name)
 
 
 def _seed(text: str) -> int:

@@ -28,7 +28,8 @@ from relguide.flying.plan_documents import NoPlanCard, PathPoint, PathSegment, P
 from relguide.planning.acceptance import Fault as Fault
 from relguide.units import Metre, Radian, Second
 
-LeaderChange = Literal["heading", "speed", "intent_received", "intent_withdrawn"]
+LeaderChange = Literal["heading", "speed", "intent_received", "intent_withdrawn", "intent_broken"]
+"""What is new of a leader; intent_broken: it does not fly what it declared."""
 AlertSubject = Literal["separation", "speed", "data", "geometry"]
 """separation: d_min will be lost; speed: the leader flies at a speed that cannot be matched; data:
 what is known of the leader is old or contradicts itself; geometry: it flies where it cannot be

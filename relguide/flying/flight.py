@@ -18,12 +18,13 @@ from relguide.flying.orders import IntentKnown as IntentKnown
 from relguide.flying.orders import LeaderHeading as LeaderHeading
 from relguide.flying.orders import LeaderSpeed as LeaderSpeed
 from relguide.flying.orders import no_commands as no_commands
+from relguide.flying.scatter import scattered
 from relguide.flying.simulation import simulate, whole_steps
 from relguide.flying.tracks import RecordedTrack
 from relguide.flying.world import Aircraft, Declared, Guided, Link, Recorded, World
 from relguide.planning.inputs import expect, expect_function, number, text, truth, whole, within
 from relguide.planning.plan import Plan, Planner
-from relguide.planning.situation import Situation, TurnTo
+from relguide.planning.situation import IntentPiece, Situation, TurnTo
 from relguide.units import DEG, Metre, Radian, Second
 
 TEXTS = ("name", "title", "description", "pursuer_ident", "leader_ident", "leader_type")
@@ -53,6 +54,8 @@ class Scenario:
     """At t = 0, with the leader's true intent."""
     intent_known: bool = True
     """Whether the pursuer knows it."""
+    told: tuple[IntentPiece, ...] | None = None
+    """What the leader declared, if it is not what it flies: it breaks its word."""
     leader_source: DeclaredLeader | RecordedTrack = DeclaredLeader()
     """A recorded leader takes the place of the situation's; its intent is not known."""
     pursuer_ident: str = "PURSUER"
@@ -125,7 +128,8 @@ def fly(
         commands: polled once a second with the flight time; its commands take effect at once.
         step: integration step [s]; a whole number of steps makes a second.
         sample_period: between samples [s]; a whole number of steps.
-        seed: written into the first document: a scenario drawn at random is drawn from it.
+        seed: 0 flies the types as their data say; any other draws the pursuer's constants within
+            10 % of them, unknown to its guidance.
         settings: of guidance.
 
     Yields:
@@ -152,7 +156,7 @@ def _fly(
 ) -> Iterator[Document]:
     answer = planner(scenario.situation)
     yield from simulate(
-        world_of(scenario, settings),
+        world_of(scenario, settings, seed),
         planner,
         scenario=scenario.name,
         title=scenario.title,
@@ -166,8 +170,14 @@ def _fly(
     )
 
 
-def world_of(scenario: Scenario, settings: Settings = DEFAULT) -> World:
-    """The world of a scenario: two aircraft, and the link between them."""
+def world_of(scenario: Scenario, settings: Settings = DEFAULT, seed: int = 0) -> World:
+    """The world of a scenario: two aircraft, and the link between them.
+
+    Args:
+        scenario: what is to be flown.
+        settings: of guidance.
+        seed: as in `fly`.
+    """
     situation, can = scenario.situation, airframe(scenario.pursuer_type)
     pursuer, leader = situation.pursuer, situation.leader
     banks = [piece.bank for piece in leader.intent if isinstance(piece, TurnTo)]
@@ -182,7 +192,8 @@ def world_of(scenario: Scenario, settings: Settings = DEFAULT) -> World:
         aircraft=(
             Aircraft(
                 ident=scenario.pursuer_ident,
-                airframe=can,
+                airframe=scattered(can, seed),
+                believed=can,
                 aircraft_type=can.designator,
                 x=pursuer.x,
                 y=pursuer.y,
@@ -213,6 +224,7 @@ def world_of(scenario: Scenario, settings: Settings = DEFAULT) -> World:
                 min_separation=situation.min_separation,
                 spacing=scenario.spacing,
                 intent_known=scenario.intent_known,
+                told=scenario.told,
             ),
         ),
         air=scenario.air,

@@ -23,6 +23,7 @@ from relguide.flying.air import STANDARD_AIR, Air
 from relguide.flying.airframe import airframe
 from relguide.flying.envelope import level_for
 from relguide.flying.flight import DEFAULT_TYPE, Scenario
+from relguide.flying.scatter import random_situation
 from relguide.flying.tracks import DEFAULT_LEADER, INSTALL, RecordedTrack, load_sample
 from relguide.planning.inputs import expect, number
 from relguide.planning.situation import CALM, FlyStraight, Leader, Pursuer, Situation, TurnTo
@@ -154,6 +155,22 @@ def own_scenario(situation: Situation, *, intent_known: bool = True) -> Scenario
         description="A situation that was sent.",
         situation=situation,
         intent_known=intent_known,
+        altitude=_level(situation),
+    )
+
+
+def random_scenario(seed: int) -> Scenario:
+    """A flight drawn at random.
+
+    Args:
+        seed: the same gives the same flight.
+    """
+    situation = random_situation(seed)
+    return Scenario(
+        name="random",
+        title=f"A flight at random, number {seed}",
+        description="Start, speeds, distances, wind and the leader's intent are drawn by chance.",
+        situation=situation,
         altitude=_level(situation),
     )
 

@@ -55,6 +55,8 @@ TURN_SEEN: RadianPerSecond = 0.3 * DEG
 """A quarter of an airliner's: a turn, not a correction [rad/s]."""
 TURN_OVER: RadianPerSecond = 0.1 * DEG
 """A turn that slow is over [rad/s]."""
+DOUBTED_FOR = 5
+"""So many seconds off its intent, a leader is no longer relied on."""
 RECENT: Second = 120.0
 """A loss so soon after something new of the leader is put down to it [s]."""
 
@@ -92,6 +94,10 @@ class LinkState:
     milestones: Milestones = field(default_factory=Milestones)
     shown_forecast: Forecast | None = None
     lost: bool = False
+    told: Fleet | None = None
+    """The leader as it declared to fly; `None` if it flies what it declared, or is found not to."""
+    doubted: int = 0
+    """For how many seconds the leader has not flown what it declared."""
 
 
 def simulate(
@@ -229,8 +235,10 @@ def _started(
 def _begin(world: World, fleet: Fleet, link: Link) -> LinkState:
     i, j = world.index(link.pursuer), world.index(link.leader)
     track = fleet.begin_track(link)
-    belief = fleet.belief(i, j, track, 0.0, link.intent_known)
+    told = None if link.told is None else fleet.as_told(j, link.told)
+    belief = fleet.belief(i, j, track, 0.0, link.intent_known, told)
     return LinkState(
+        told=told,
         link=link,
         names=Names(link.pursuer, link.leader),
         pursuer=i,
@@ -252,6 +260,8 @@ def _obey(
     for one in states:
         if one.leader == first.leader:
             one.known = known
+            if isinstance(command, LeaderHeading):
+                one.told = None  # what it is ordered to do is what it declares from now on
             if isinstance(command, LeaderHeading | LeaderSpeed):
                 changed = "The leader was ordered to turn."
                 if isinstance(command, LeaderSpeed):
@@ -263,7 +273,8 @@ def _obey(
 def _guide(one: LinkState, fleet: Fleet, planner: Planner, t: Second) -> Iterator[Document]:
     """One act of guidance, and what is new of the leader."""
     one.track.add(fleet.body(one.leader), fleet.drift, t)
-    belief = fleet.belief(one.pursuer, one.leader, one.track, t, one.known)
+    yield from _doubt(one, fleet, t)
+    belief = fleet.belief(one.pursuer, one.leader, one.track, t, one.known, one.told)
     one.view, news = _look_at_leader(one, belief)
     yield from news
     one.memory, advice = advise(one.memory, belief, one.assignment, planner)
@@ -278,6 +289,20 @@ def _guide(one: LinkState, fleet: Fleet, planner: Planner, t: Second) -> Iterato
         one.milestones = one.milestones._replace(joined=True, join_time=t)
     one.advice = advice
     fleet.control(one.pursuer, advice.control)
+
+
+def _doubt(one: LinkState, fleet: Fleet, t: Second) -> Iterator[LeaderChanged]:
+    """Find out a leader that does not fly what it declared; from then on its intent is unknown."""
+    if one.told is None or not one.known:
+        return
+    one.doubted = one.doubted + 1 if fleet.breaks_its_word(one.leader, one.told) else 0
+    if one.doubted >= DOUBTED_FOR:
+        one.told, one.known = None, False
+        message = "The leader does not fly what it declared; its intent is no longer relied on."
+        one.view = one.view._replace(changed="The leader broke its word.", changed_at=t)
+        yield LeaderChanged(t=t, ident=one.names.leader, change="intent_broken", message=message)
+    else:
+        one.told.fly_second(t)
 
 
 def _count(one: LinkState, fleet: Fleet, t: Second) -> list[Document]:

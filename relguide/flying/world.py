@@ -5,7 +5,7 @@
 Guidance sees a `Belief`, never the world.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import hypot
 from typing import Literal
 
@@ -25,7 +25,7 @@ from relguide.flying.leaders.declared import (
 )
 from relguide.flying.leaders.recorded import recorded_rows
 from relguide.flying.tracks import RecordedTrack
-from relguide.kernels.base.angles import wrap
+from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.flight.records import Body, Control, Drift, Limits, limits_at
 from relguide.kernels.flight.second import (
@@ -37,7 +37,7 @@ from relguide.kernels.flight.second import (
 )
 from relguide.planning.limits import POSITION, TAS
 from relguide.planning.situation import IntentPiece, Wind
-from relguide.units import Metre, MetrePerSecond, Radian, Second
+from relguide.units import DEG, NM, Metre, MetrePerSecond, Radian, Second
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -113,6 +113,8 @@ class Link:
     """Time behind the leader to keep once joined [s]; 0 to keep D."""
     intent_known: bool = True
     """Whether the pursuer knows the leader's intent."""
+    told: tuple[IntentPiece, ...] | None = None
+    """What the leader declared, if that is not what it flies: a leader that breaks its word."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -281,11 +283,28 @@ class Fleet:
         far = np.flatnonzero(np.max(np.abs(self.states[:, :2]), axis=1) > edge)
         return self.world.aircraft[int(far[0])].ident
 
-    def belief(self, i: int, j: int, track: FlownTrack, t: Second, known: bool) -> Belief:
-        """What aircraft i knows of itself and of aircraft j, exactly."""
-        leader = self.body(j)
-        program, cursor = self.declared[j], int(self.cursors[j])
-        known = known and bool(self.pilots[j] == PROGRAMMED)
+    def belief(
+        self,
+        i: int,
+        j: int,
+        track: FlownTrack,
+        t: Second,
+        known: bool,
+        told: "Fleet | None" = None,
+    ) -> Belief:
+        """What aircraft i knows of itself and of aircraft j, exactly.
+
+        Args:
+            i: the pursuer.
+            j: its leader.
+            track: the leader's flown path.
+            t: flight time [s].
+            known: whether the leader's intent is.
+            told: the leader alone, as it declared to fly; `None` if it flies what it declared.
+        """
+        leader, source, k = self.body(j), self if told is None else told, j if told is None else 0
+        program, cursor = source.declared[k], int(source.cursors[k])
+        known = known and bool(source.pilots[k] == PROGRAMMED)
         can = limits_at(self.limits, j)
         intent = remaining(program, cursor, leader, can, t) if known else ()
         air = self.world.believed_air or self.world.air
@@ -306,12 +325,28 @@ class Fleet:
             wind=air.wind_at(own.x, own.y, self.altitude(i), t),
         )
 
+    def as_told(self, j: int, told: tuple[IntentPiece, ...]) -> "Fleet":
+        """Aircraft j alone, as it declared that it would fly."""
+        alone = replace(self.world.aircraft[j], pilot=Declared(intent=told))
+        return Fleet(World(aircraft=(alone,), links=(), air=self.world.air), self.step)
+
+    def breaks_its_word(self, j: int, told: "Fleet") -> bool:
+        """Whether aircraft j is far from where it declared that it would be."""
+        here, there = self.states[j], told.states[0]
+        if hypot(here[0] - there[0], here[1] - there[1]) > OFF_INTENT:
+            return True
+        return abs(wrap_signed(float(here[2] - there[2]))) > OFF_HEADING
+
     def begin_track(self, link: Link) -> FlownTrack:
         """The leader's flown path, at first sight."""
         leader = self.body(self.world.index(link.leader))
         return FlownTrack(leader, self.drift, 0.0, link.slot_distance + SPARE)
 
 
+OFF_INTENT: Metre = 0.5 * NM
+"""So far from where it declared that it would be, a leader does not fly its intent [m]."""
+OFF_HEADING: Radian = 10.0 * DEG
+"""… nor so far off the heading that it declared [rad]."""
 NO_PROGRAM = np.zeros((0, 3))
 EDGE: Metre = 2_000.0
 """So near the edge of the plane a flight ends: before plans are refused for it [m]."""

@@ -1,7 +1,7 @@
 // Made by `python -m relguide_server.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-5a1251ca2103";
+export const PROTOCOL = "relguide-7556d6dfd187";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -28,7 +28,12 @@ export type PlanReason =
   | "intent_withdrawn";
 
 /** What is new about the leader. */
-export type LeaderChange = "heading" | "speed" | "intent_received" | "intent_withdrawn";
+export type LeaderChange =
+  | "heading"
+  | "speed"
+  | "intent_received"
+  | "intent_withdrawn"
+  | "intent_broken";
 
 /** What a link keeps once joined: a distance, or a time. */
 export type Spacing = "distance" | "time";
