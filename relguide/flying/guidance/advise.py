@@ -22,7 +22,7 @@ from relguide.flying.guidance.committed import (
     situation_now,
     slot_mismatch,
 )
-from relguide.flying.guidance.converge import NoProposal, Proposal
+from relguide.flying.guidance.converge import NoProposal, NotBetter, Proposal
 from relguide.flying.guidance.forecast import NO_COURSE
 from relguide.flying.guidance.leader_news import (
     is_steady,
@@ -158,10 +158,11 @@ def _stay_or_change(
         return memory, events
     memory = memory._replace(asked=t)
     found = converge.better(belief, assignment, committed, planner)
-    if found is None:
-        return memory, events
     memory, refused = count_refusal(memory, found)
-    return fly_proposal(memory, belief, assignment, found, "better_plan", [*events, *refused])
+    events = [*events, *refused]
+    if isinstance(found, NotBetter):
+        return memory, events
+    return fly_proposal(memory, belief, assignment, found, "better_plan", events)
 
 
 def _strayed(memory: Memory, belief: Belief, assignment: Assignment) -> bool:
@@ -249,10 +250,11 @@ def _replan_or_escape(
 ) -> tuple[Memory, list[Event], Outlook | None]:
     """Another path if there is one that keeps d_min; else away from the leader."""
     turns_on = turns_unannounced(belief, assignment)
+    events: list[Event] = []
     if memory.mode == "converge" and not turns_on:
         found = converge.propose(belief, assignment, memory.committed, planner)
+        memory, events = count_refusal(memory, found)
         if isinstance(found, Proposal):
-            memory, events = count_refusal(memory, found)
             memory, news = fly_proposal(memory, belief, assignment, found, "separation", events)
             return memory, news, None
     why = (
@@ -262,7 +264,7 @@ def _replan_or_escape(
     )
     said = UnableTo(reason="separation", message=f"Unable: {why}")
     memory, news = turn_away(memory, belief, assignment, why)
-    return memory._replace(asked=belief.t), [said, *news], None
+    return memory._replace(asked=belief.t), [*events, said, *news], None
 
 
 def _follow_act(

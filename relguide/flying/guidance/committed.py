@@ -30,6 +30,8 @@ from relguide.units import DEG, Metre, Radian, Second
 
 LEVEL: Radian = 1.0 * DEG
 """With less bank than this an aircraft is taken to fly straight on [rad]."""
+NOTHING: Metre = 1e-3
+"""A piece shorter than this is where two others meet [m]."""
 
 
 class Committed(NamedTuple):
@@ -188,15 +190,20 @@ def shown_plan(plan: Plan, lead: LeadIn, belief: Belief, assignment: Assignment)
 
 
 def segments_of(pieces: FloatArray) -> tuple[Segment, ...]:
-    """Pieces of constant curvature as segments; boundary arcs come as their arcs."""
+    """Pieces of constant curvature as segments; boundary arcs come as their arcs.
+
+    A course is laid in parts: what goes on across their ends is one segment.
+    """
     segments: tuple[Segment, ...] = ()
     for length, curvature in pieces.tolist():
-        segment: Segment = Straight(length=length)
+        if length < NOTHING:
+            continue
+        piece: Segment = Straight(length=length)
         if curvature != 0.0:
             turn = RIGHT if curvature > 0.0 else LEFT
             angle = length * abs(curvature)
-            segment = Arc(turn=turn, turn_angle=angle, radius=1.0 / abs(curvature))
-        segments = _joined(segments, (segment,))
+            piece = Arc(turn=turn, turn_angle=angle, radius=1.0 / abs(curvature))
+        segments = _joined(segments, (piece,))
     return segments
 
 

@@ -62,6 +62,14 @@ class NoProposal:
     refusal: Refusal | None
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NotBetter:
+    """What was committed to stays."""
+
+    fell_back: bool
+    refusal: Refusal | None
+
+
 def propose(
     belief: Belief,
     assignment: Assignment,
@@ -144,8 +152,8 @@ def _too_close(least: Metre, assignment: Assignment) -> NoPlan:
 
 def better(
     belief: Belief, assignment: Assignment, committed: Committed, planner: Planner
-) -> Proposal | None:
-    """A path that is faster than the committed one by a margin; `None` if there is none."""
+) -> Proposal | NotBetter:
+    """A path that is faster than the committed one by a margin, if there is one."""
     settings = assignment.settings
     left = committed.due - belief.t
     margin = max(settings.better, settings.better_share * left)
@@ -153,19 +161,20 @@ def better(
     situation = replace(lead.situation, min_separation=assignment.buffered_separation)
     pursuer, leader = situation.pursuer, situation.leader
     if hypot(pursuer.x - leader.x, pursuer.y - leader.y) < situation.min_separation:
-        return None
+        return NotBetter(fell_back=False, refusal=None)
     answer = ask(planner, situation)
+    stays = NotBetter(fell_back=answer.fell_back, refusal=answer.refusal)
     if isinstance(answer.plan, NoPlan):
-        return None
+        return stays
     if lead.seconds + answer.plan.time_to_converge > left - margin:
-        return None
+        return stays
     found = commit(answer.plan, lead, belief, assignment, committed)
     least, _ = found.forecast.least(belief.t)
     sooner = not committed.forecast.joins or (
         found.forecast.joins and found.forecast.join_time < committed.forecast.join_time - margin
     )
     if least < assignment.min_separation or not sooner:
-        return None
+        return stays
     return Proposal(committed=found, lead=lead, fell_back=answer.fell_back, refusal=answer.refusal)
 
 

@@ -1,7 +1,12 @@
 """What is new of the leader: that it does something new, and whether it can be followed at all."""
 
 from relguide.flying.belief import Belief
-from relguide.flying.guidance.announcements import Event, UnableTo, expectation
+from relguide.flying.guidance.announcements import (
+    Event,
+    UnableTo,
+    expectation,
+    leader_change,
+)
 from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.memory import LONG_AGO, Memory
 from relguide.units import KT, MetrePerSecond
@@ -11,14 +16,21 @@ STEADY: MetrePerSecond = 0.1
 
 
 def notice_leader(memory: Memory, belief: Belief, assignment: Assignment) -> Memory:
-    """Remember when the leader last did something new, and how fast it changes its speed."""
-    now, was = expectation(belief), memory.leader
+    """Remember when the leader last did something new, and how fast it changes its speed.
+
+    A flight ahead that expects something else of it is forgotten, though the leader may still be
+    where that has it: orders are known before they are seen.
+    """
+    settings, now, was = assignment.settings, expectation(belief), memory.leader
     rate = now.tas - was.tas
     trend = rate if abs(rate) > STEADY else 0.0
     moved = turns_unannounced(belief, assignment) or trend != 0.0
     moved = moved or now.intent_known != was.intent_known
     changed = belief.t if moved else memory.changed
-    return memory._replace(leader=now, leader_trend=trend, changed=changed)
+    memory = memory._replace(leader=now, leader_trend=trend, changed=changed)
+    if leader_change(was, now, settings.leader_turned, settings.leader_speed) is not None:
+        memory = memory._replace(forecast=None)
+    return memory
 
 
 def is_steady(memory: Memory, belief: Belief, assignment: Assignment) -> bool:

@@ -23,7 +23,7 @@ from relguide.flying.guidance.committed import (
     shown_plan,
     situation_now,
 )
-from relguide.flying.guidance.converge import NoProposal, Proposal
+from relguide.flying.guidance.converge import NoProposal, NotBetter, Proposal
 from relguide.flying.guidance.leader_news import is_steady
 from relguide.flying.guidance.memory import Announced, Memory, enter
 from relguide.flying.guidance.settings import Settings
@@ -151,7 +151,9 @@ def announce_pending(
     return _announced(memory, belief, shown, joins), [said]
 
 
-def count_refusal(memory: Memory, found: Proposal | NoProposal) -> tuple[Memory, list[Event]]:
+def count_refusal(
+    memory: Memory, found: Proposal | NoProposal | NotBetter
+) -> tuple[Memory, list[Event]]:
     """Count that the exact plan took over, and say why if the planner's fault is a new one."""
     fault = None if found.refusal is None else found.refusal.fault
     news: list[Event] = []

@@ -1,19 +1,21 @@
 """draw_visited(rng, size, …): situations that closed loops meet, as rows in the slot frame.
 
-What is drawn at random is not what is asked in flight. There the planner sees one situation a
-second, each a little further along the last one's plan; a leader who turns unannounced sweeps
-the slot round; and where two paths are as fast as each other the loop may stay for a minute. So
-flights are flown, with everything a flight has (rolling, commitment, capture), and what the planner
-was asked is kept.
+What is drawn at random is not what is asked in flight. There the planner is asked where its plan
+is to begin, a few seconds ahead; a leader that turns unannounced sweeps the slot round, and a plan
+is asked for as it does; and while a faster path is not excluded, one is looked for again and again
+along the one that is flown. So flights are flown, with everything a flight has (rolling,
+commitment, capture), and what the planner was asked is kept.
 """
 
 from collections.abc import Callable
+from dataclasses import replace
 from math import cos, pi, sin
 
 import numpy as np
 from numpy.typing import NDArray
 
 from relguide.flying.flight import Scenario, fly
+from relguide.flying.scenarios import own_scenario
 from relguide.kernels.base.angles import wrap
 from relguide.planning.plan import NoPlan, Plan, Planner, plan
 from relguide.planning.situation import (
@@ -87,6 +89,8 @@ def draw_visited(
 def draw_flight(rng: np.random.Generator, *, ratios: tuple[float, float] = (0.6, 0.97)) -> Scenario:
     """A flight of airliners in still air, whose leader changes course once or twice.
 
+    At a level where the pursuer can fly its speed and, if there is one, its leader's.
+
     The pursuer begins within 40 km or within 150 km. In every other flight it knows the leader's
     course changes beforehand; else it sees them as they happen.
 
@@ -107,29 +111,30 @@ def draw_flight(rng: np.random.Generator, *, ratios: tuple[float, float] = (0.6,
         intent.append(FlyStraight(duration=float(rng.uniform(0.0, 300.0))))
         bank = float(rng.uniform(15.0, 30.0)) * DEG
         intent.append(TurnTo(heading=wrap(heading), turn=turn, bank=bank))
-    return Scenario(
+    situation = Situation(
+        pursuer=Pursuer(
+            x=far * sin(bearing),
+            y=far * cos(bearing),
+            heading=float(rng.uniform(0.0, 2.0 * pi)),
+            tas=tas,
+            max_bank=float(rng.uniform(15.0, 30.0)) * DEG,
+        ),
+        leader=Leader(
+            x=0.0,
+            y=0.0,
+            heading=begun,
+            tas=tas * float(rng.uniform(*ratios)),
+            intent=tuple(intent),
+        ),
+        slot_distance=slot_distance,
+        min_separation=min_separation,
+    )
+    flight = own_scenario(situation, intent_known=bool(rng.random() < 0.5))
+    return replace(
+        flight,
         name="visited",
         title="Visited",
         description="A flight whose leader changes course.",
-        situation=Situation(
-            pursuer=Pursuer(
-                x=far * sin(bearing),
-                y=far * cos(bearing),
-                heading=float(rng.uniform(0.0, 2.0 * pi)),
-                tas=tas,
-                max_bank=float(rng.uniform(15.0, 30.0)) * DEG,
-            ),
-            leader=Leader(
-                x=0.0,
-                y=0.0,
-                heading=begun,
-                tas=tas * float(rng.uniform(*ratios)),
-                intent=tuple(intent),
-            ),
-            slot_distance=slot_distance,
-            min_separation=min_separation,
-        ),
-        intent_known=bool(rng.random() < 0.5),
         duration_limit=LONGEST,
         after_joining=0.0,
     )

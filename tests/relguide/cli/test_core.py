@@ -32,7 +32,7 @@ alternatives(found), check(found, found.situation), prove(found, seconds=0.01)
 from relguide.flying.flight import fly
 from relguide.flying.scenarios import scenario
 *_, ended = fly(scenario("fig_6b"), plan, sample_period=1.0)
-print(found.word, ended.joined)
+print(found.word, ended.results[0].joined)
 """
 
 

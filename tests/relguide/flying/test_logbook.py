@@ -1,65 +1,150 @@
-"""The figures of a flight's summary, step by step."""
+"""The documents of a flight, and the figures of its summary."""
 
 from dataclasses import replace
-from itertools import pairwise
-from math import inf
+from math import hypot, inf
 
+import numpy as np
 import pytest
 
-from relguide.flying.aircraft import AircraftState
-from relguide.flying.documents import PlanChanged
-from relguide.flying.logbook import Milestones, Tally, count_event, count_step
+from relguide.flying.aircraft_documents import Loss
+from relguide.flying.documents import (
+    Alert,
+    Document,
+    ForecastChanged,
+    ModeChanged,
+    PlanChanged,
+    SeparationLost,
+    Unable,
+)
+from relguide.flying.guidance.forecast import NEVER, Forecast
+from relguide.flying.logbook import (
+    BENT,
+    STRAIGHT_FOR,
+    Milestones,
+    Names,
+    Tally,
+    count_event,
+    count_loss,
+    forecast_document,
+    link_result,
+)
 from relguide.units import DEG
 from tests.server.flown import ideal_flight
 
-NOTHING = Tally(inf, 0.0, 0.0, 0, 0)
-LEADER = AircraftState(0.0, 5_000.0, 0.0, 0.0, 0.0, 200.0, 9_000.0)
+NAMES = Names("A", "B")
 
 
-def tally(*banks: float, joined: bool = False) -> Tally:
-    """What is counted of an aircraft that rolls from bank to bank [deg], 200 m a step."""
-    states = [
-        AircraftState(200.0 * k, 0.0, 0.1 * k, bank * DEG, 0.0, 200.0, 9_000.0)
-        for k, bank in enumerate(banks)
-    ]
-    total = NOTHING
-    for before, now in pairwise(states):
-        total = count_step(total, before, now, LEADER, joined)
-    return total
+def counted(*documents: Document) -> Milestones:
+    milestones = Milestones()
+    for document in documents:
+        milestones = count_event(milestones, document)
+    return milestones
 
 
-@pytest.mark.parametrize(
-    ("banks", "reversals", "side"),
-    [
-        ((0.0, 25.0, 0.0, -25.0), 1, -1),
-        ((0.0, 3.1, 0.0, -3.1, 0.0, 3.1), 2, 1),
-        ((0.0, 3.1, -2.9, 2.9), 0, 1),  # a correction, not a turn
-        ((0.0, 2.9, -2.9), 0, 0),
-        ((0.0, -25.0, -10.0, -25.0), 0, -1),
-    ],
-)
-def test_a_reversal_is_a_turn_to_the_other_side(
-    banks: tuple[float, ...], reversals: int, side: int
-) -> None:
-    total = tally(*banks)
-    assert (total.bank_reversals, total.banked) == (reversals, side)
-
-
-def test_track_and_swing_are_counted_until_joined_and_separation_always() -> None:
-    total = tally(0.0, 25.0, -25.0)
-    assert total.track == pytest.approx(400.0)
-    assert total.heading_swing == pytest.approx(0.2)
-    assert total.least_separation == pytest.approx((200.0**2 + 5_000.0**2) ** 0.5)
-    assert tally(0.0, 25.0, -25.0, joined=True) == NOTHING._replace(
-        least_separation=total.least_separation
+def alert(t: float, *, level: str = "caution", cleared: bool = False) -> Alert:
+    return Alert(
+        t=t,
+        ident="A",
+        other="B",
+        level=level,  # type: ignore[arg-type]
+        subject="separation",
+        message="",
+        predicted_least=9_000.0,
+        predicted_at=t + 30.0,
+        cleared=cleared,
     )
+
+
+def loss(t: float, separation: float) -> SeparationLost:
+    return SeparationLost(
+        t=t, ident="A", other="B", separation=separation, x=0.0, y=0.0, cause="why", announced=()
+    )
+
+
+def ahead(headings: list[float], *, t: float = 100.0) -> Forecast:
+    """A flight ahead with these headings, a second apart, at 200 m/s."""
+    own = np.zeros((len(headings), 7))
+    own[:, 2], own[:, 5] = headings, 200.0
+    own[1:, 0] = np.cumsum(200.0 * np.sin(headings[:-1]))
+    own[1:, 1] = np.cumsum(200.0 * np.cos(headings[:-1]))
+    account = np.full((len(headings) - 1, 6), 9_000.0)
+    return Forecast(t, own, own.copy(), account, account[:, 0], NEVER)
 
 
 def test_new_plans_are_counted_whether_announced_or_not() -> None:
     engaged = next(d for d in ideal_flight() if isinstance(d, PlanChanged))
     news = replace(engaged, t=1.0, reason="better_plan")
-    milestones = Milestones()
-    for document in (engaged, news, replace(news, t=2.0, announced=False)):
-        milestones = count_event(milestones, document)
+    milestones = counted(engaged, news, replace(news, t=2.0, announced=False))
     assert (milestones.replans, milestones.replans_announced) == (2, 1)
     assert milestones.promised == engaged.promised
+    assert milestones.planned_time == engaged.plan.time_to_converge
+
+
+def test_only_the_plan_at_engagement_promises() -> None:
+    engaged = next(d for d in ideal_flight() if isinstance(d, PlanChanged))
+    late = counted(replace(engaged, t=5.0))
+    assert (late.planned_time, late.promised, late.replans) == (0.0, 0.0, 0)
+
+
+def test_an_alert_counts_from_its_first_word_until_it_is_cleared() -> None:
+    assert counted(alert(10.0), alert(13.0, level="warning")).alerted == (10.0,)
+    assert counted(alert(10.0), alert(20.0, cleared=True)).alerted == ()
+    assert counted(alert(10.0, level="advisory")).alerted == ()
+
+
+def test_unable_counts_from_its_first_word_until_there_is_a_plan() -> None:
+    engaged = next(d for d in ideal_flight() if isinstance(d, PlanChanged))
+    unable = Unable(t=12.0, ident="A", reason="separation", message="")
+    assert counted(unable, replace(unable, t=14.0)).unable == (12.0,)
+    assert counted(unable, alert(20.0, cleared=True)).unable == (12.0,)
+    for reason in ("engaged", "better_plan"):
+        assert counted(unable, replace(engaged, t=15.0, reason=reason)).unable == ()
+
+
+def test_following_counts_from_when_it_last_began() -> None:
+    mode = ModeChanged(t=50.0, ident="A", mode="follow", previous="capture", message="")
+    away = replace(mode, t=60.0, mode="converge", previous="follow")
+    assert counted(mode, away, replace(mode, t=90.0)).following_since == 90.0
+
+
+def test_a_loss_keeps_its_least_separation() -> None:
+    milestones = counted(loss(10.0, 9_250.0))
+    milestones = count_loss(count_loss(milestones, 9_100.0), 9_200.0)
+    assert milestones.losses == (Loss(t=10.0, separation=9_100.0, cause="why", announced=()),)
+    again = count_loss(count_event(milestones, loss(50.0, 9_255.0)), 9_000.0)
+    assert [one.separation for one in again.losses] == [9_100.0, 9_000.0]
+
+
+def test_a_straight_forecast_is_a_point_every_half_minute() -> None:
+    document = forecast_document(100.0, "A", ahead([0.5] * 121))
+    assert isinstance(document, ForecastChanged)
+    assert document.times == (100.0, 130.0, 160.0, 190.0, 220.0)
+    assert len(document.x) == len(document.y) == len(document.heading) == 5
+    assert hypot(document.x[-1], document.y[-1]) == pytest.approx(120 * 200.0)
+
+
+def test_a_turning_forecast_strays_little_from_its_chords() -> None:
+    headings = list(np.radians(np.linspace(0.0, 150.0, 101)))
+    document = forecast_document(100.0, "A", ahead(headings))
+    steps = np.diff(document.heading)
+    assert steps.max() <= BENT + 1.5 * DEG  # and what it turns in the second after
+    assert len(document.times) > 30
+    assert max(np.diff(document.times)) <= STRAIGHT_FOR
+
+
+def test_a_forecast_that_began_before_is_told_from_now_on() -> None:
+    document = forecast_document(130.0, "A", ahead([0.0] * 61))
+    assert (document.times[0], document.times[-1]) == (130.0, 160.0)
+    assert document.y[0] == pytest.approx(30 * 200.0)
+
+
+def test_the_result_of_a_pursuer_that_has_not_joined_ends_with_the_flight() -> None:
+    result = link_result(77.0, NAMES, Milestones(), Tally(inf), fallbacks=2)
+    assert (result.joined, result.join_time, result.fallbacks) == (False, 77.0, 2)
+    joined = Milestones(joined=True, join_time=55.0)
+    assert link_result(77.0, NAMES, joined, Tally(inf), 0).join_time == 55.0
+
+
+def test_headings_of_a_forecast_are_those_of_a_compass() -> None:
+    document = forecast_document(100.0, "A", ahead([7.0] * 31))
+    assert document.heading[0] == pytest.approx(7.0 - 2.0 * np.pi)
