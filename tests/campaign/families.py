@@ -50,14 +50,14 @@ NEAR_LIMIT: Metre = 0.5 * NM
 FIRST_TURN: Second = 25.0
 """… if its first turn takes so long: time enough for a heading error to add up."""
 CONSTANTS = (
-    "max_bank",
     "max_roll_rate",
     "roll_time_constant",
     "max_acceleration",
     "max_deceleration",
     "speed_time_constant",
 )
-"""Of an aircraft, all unknown to guidance in the family `aircraft`."""
+"""Of an aircraft, all unknown to guidance in the family `aircraft`; idle thrust decelerates as much
+less or more as brakes do. The bank limit is a setting of the autopilot, and known."""
 SPREAD = 0.3
 """How far they are off at most."""
 POOR_BRAKES = 0.25
@@ -122,6 +122,7 @@ def _aircraft(rng: Draw, family: str, number: int) -> Case:
     factors = {name: float(rng.uniform(1.0 - SPREAD, 1.0 + SPREAD)) for name in CONSTANTS}
     if number % 2:
         factors["max_deceleration"] = POOR_BRAKES
+    factors["idle_deceleration"] = factors["max_deceleration"]
     return replace(case, factors=factors)
 
 

@@ -1,14 +1,13 @@
 """Flying a case, and its documents as one row of figures: all that the campaign knows of flying."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 from math import hypot, inf
 from time import thread_time
 
 import numpy as np
 
 from relguide import plan
-from relguide.flying import flight
 from relguide.flying.aircraft_documents import GuidanceSample, HeadingReference, LinkResult
 from relguide.flying.documents import (
     Alert,
@@ -20,10 +19,11 @@ from relguide.flying.documents import (
     Sample,
     Unable,
 )
+from relguide.flying.flight import world_of
 from relguide.flying.orders import Command
-from relguide.flying.world import Fleet
+from relguide.flying.simulation import simulate
+from relguide.flying.world import World
 from relguide.kernels.base.angles import wrap_signed
-from relguide.kernels.flight.records import Limits
 from relguide.planning.situation import Situation, Wind
 from relguide.units import DEG, Metre, Second
 from tests.campaign.case import Case
@@ -52,17 +52,31 @@ SAME: Second = 2.0
 def fly_case(case: Case) -> Row:
     """Fly it. What guidance or the planner raises is passed on."""
     begun = thread_time()
-    with _aircraft_is(case.factors):
-        documents = tuple(
-            flight.fly(
-                case.scenario,
-                plan,
-                commands=_orders(case.orders),
-                sample_period=EVERY,
-                seed=case.number,
-            )
-        )
-    return row_of(case, documents, thread_time() - begun)
+    scenario = case.scenario
+    flight = simulate(
+        _world(case),
+        plan,
+        scenario=scenario.name,
+        title=scenario.title,
+        commands=_orders(case.orders),
+        sample_period=EVERY,
+        seed=case.number,
+        until=scenario.duration_limit,
+        after_joining=scenario.after_joining,
+    )
+    return row_of(case, tuple(flight), thread_time() - begun)
+
+
+def _world(case: Case) -> World:
+    """Two aircraft, of which the pursuer may be another than its guidance believes."""
+    world = world_of(case.scenario)
+    pursuer, leader = world.aircraft
+    believed = pursuer.airframe
+    true = replace(
+        believed,
+        **{name: factor * getattr(believed, name) for name, factor in case.factors.items()},
+    )
+    return replace(world, aircraft=(replace(pursuer, airframe=true, believed=believed), leader))
 
 
 def failed(case: Case, error: BaseException) -> Row:
@@ -253,39 +267,6 @@ def _orders(
         return now
 
     return due
-
-
-@contextmanager
-def _aircraft_is(factors: Mapping[str, float]) -> Iterator[None]:
-    """Let the pursuer be another aircraft than guidance believes, until the end of the block."""
-    believed = Fleet.fly_second
-    columns = [(Limits._fields.index(LIMITS[name]), factor) for name, factor in factors.items()]
-
-    def fly_second(fleet: Fleet, t: Second) -> None:
-        limits = fleet.limits
-        fleet.limits = limits.copy()
-        for column, factor in columns:
-            fleet.limits[0, column] *= factor
-        believed(fleet, t)
-        fleet.limits = limits
-
-    if factors:
-        Fleet.fly_second = fly_second
-    try:
-        yield
-    finally:
-        Fleet.fly_second = believed
-
-
-LIMITS = {
-    "max_bank": "max_bank",
-    "max_roll_rate": "max_roll_rate",
-    "roll_time_constant": "roll_time",
-    "speed_time_constant": "speed_time",
-    "max_acceleration": "acceleration",
-    "max_deceleration": "deceleration",
-}
-"""Constants of an aircraft as the kernels call them."""
 
 
 def _start_share(situation: Situation) -> float:
