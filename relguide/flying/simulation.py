@@ -44,7 +44,7 @@ from relguide.flying.orders import Command, LeaderHeading, LeaderSpeed, no_comma
 from relguide.flying.world import Fleet, Link, World
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.flight.second import REVERSALS, SWING, TRACK
-from relguide.planning.plan import Planner
+from relguide.planning.plan import Planner, plan
 from relguide.units import DEG, KT, Metre, MetrePerSecond, Radian, RadianPerSecond, Second
 
 ROUTE_TURNED: Radian = 1.0 * DEG
@@ -102,17 +102,17 @@ class LinkState:
 
 def simulate(
     world: World,
-    planner: Planner,
+    planner: Planner = plan,
     *,
-    scenario: str,
-    title: str,
+    scenario: str = "own",
+    title: str = "A world of one's own",
     planner_name: str = "exact",
     commands: Callable[[Second], Iterable[Command]] = no_commands,
     step: Second = 0.05,
     sample_period: Second = 0.05,
     seed: int = 0,
-    until: Second,
-    after_joining: Second,
+    until: Second = 3600.0,
+    after_joining: Second = 120.0,
 ) -> Iterator[Document]:
     """Fly a world and say what happens, in order of time.
 
