@@ -69,7 +69,7 @@ def fly_case(case: Case) -> Row:
 
 def _world(case: Case) -> World:
     """Two aircraft, of which the pursuer may be another than its guidance believes."""
-    world = world_of(case.scenario)
+    world = world_of(case.scenario, seed=case.number)
     pursuer, leader = world.aircraft
     believed = pursuer.airframe
     true = replace(
