@@ -1,7 +1,7 @@
 // Made by `python -m relguide_server.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-7556d6dfd187";
+export const PROTOCOL = "relguide-8a154f712fa3";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -24,6 +24,7 @@ export type PlanReason =
   | "separation"
   | "leader_turned"
   | "leader_changed_speed"
+  | "leader_elsewhere"
   | "intent_received"
   | "intent_withdrawn";
 

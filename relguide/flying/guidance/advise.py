@@ -79,7 +79,8 @@ def advise(
     events: list[Event] = [*unfit]
     if memory.unable == "speed":
         if memory.mode not in ("heading", "escape"):
-            memory, news = turn_away(memory, belief, assignment, "The leader cannot be followed.")
+            why = "The leader cannot be followed."
+            memory, news = turn_away(memory, belief, assignment, why, slower=True)
             events += news
     elif memory.mode in ("heading", "escape"):
         memory, news = _try_to_plan(memory, belief, assignment, planner)
@@ -149,7 +150,7 @@ def _stay_or_change(
         or slot_mismatch(belief, committed) > settings.slot_moved
     ):
         stay = 0.0 if is_steady(memory, belief, assignment) else settings.better_while_turning
-        reason: PlanReason = changed or "leader_changed_speed"
+        reason: PlanReason = changed or "leader_elsewhere"
         return _plan_again(memory, belief, assignment, planner, reason=reason, stay=stay)
     memory, events = announce_pending(memory, belief, assignment)
     if not as_forecast or not converge.may_be_bettered(committed, t, assignment):

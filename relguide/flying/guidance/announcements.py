@@ -19,6 +19,7 @@ PlanReason = Literal[
     "separation",
     "leader_turned",
     "leader_changed_speed",
+    "leader_elsewhere",
     "intent_received",
     "intent_withdrawn",
 ]
@@ -149,6 +150,8 @@ def reason_sentence(reason: PlanReason, belief: Belief) -> str:
             return f"The leader's heading is {heading}"
         case "leader_changed_speed":
             return f"The leader flies {belief.leader.tas / KT:.0f} kt"
+        case "leader_elsewhere":
+            return "The leader is not where it was expected"
         case "intent_received":
             return "The leader's intent is known"
         case "intent_withdrawn":

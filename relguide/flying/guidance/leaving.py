@@ -17,6 +17,8 @@ from relguide.units import DEG, Metre, MetrePerSecond, Radian, Second
 
 GOES_ON: Second = 20.0
 """A leader that changes its speed may go on for so long while one turns away from it [s]."""
+SLOWER = 0.6
+"""A leader too slow to be followed may slow down to this share of its speed."""
 NEWS: Radian = 15.0 * DEG
 """A held heading that changes by more is announced [rad]."""
 OWN_TUBE: Metre = 60.0
@@ -24,23 +26,34 @@ OWN_TUBE: Metre = 60.0
 
 
 def turn_away(
-    memory: Memory, belief: Belief, assignment: Assignment, why: str
+    memory: Memory, belief: Belief, assignment: Assignment, why: str, *, slower: bool = False
 ) -> tuple[Memory, list[Event]]:
-    """Turn away to a heading that keeps clear."""
-    out = clear_heading(memory, belief, assignment)
+    """Turn away to a heading that keeps clear.
+
+    Args:
+        memory: as it is.
+        belief: what is known now.
+        assignment: what was asked.
+        why: a sentence.
+        slower: whether the leader is likely to slow down further.
+    """
+    out = clear_heading(memory, belief, assignment, slower=slower)
     memory, news = enter(memory, belief, "escape", f"{why} Turning to {compass(out)}.")
     progress = Progress(NUMBERS["escape"], 0.0, out, belief.own.tas)
     return memory._replace(progress=progress, committed=None, forecast=None), news
 
 
-def clear_heading(memory: Memory, belief: Belief, assignment: Assignment) -> Radian:
+def clear_heading(
+    memory: Memory, belief: Belief, assignment: Assignment, *, slower: bool = False
+) -> Radian:
     """The heading nearest to the present one that keeps clear of the leader [rad]."""
+    other_tas = SLOWER * belief.leader.tas if slower else _other_tas(memory, belief)
     return escape(
         belief,
         assignment,
         assignment.buffered_separation,
         turns_on=turns_unannounced(belief, assignment),
-        other_tas=_other_tas(memory, belief),
+        other_tas=other_tas,
     ).heading
 
 
@@ -80,8 +93,8 @@ def must_leave(memory: Memory, belief: Belief, assignment: Assignment, outlook: 
     if ahead.rest(t) < limit and ahead.least(t, assignment.settings.caution)[0] < limit:
         return True
     turns_on = turns_unannounced(belief, assignment)
-    if not turns_on and memory.leader_trend == 0.0 and outlook.least >= limit:
-        return False
+    if not turns_on and outlook.least >= limit:
+        return False  # a change of speed is answered by speed, as the outlook has it
     apart = hypot(belief.own.x - belief.leader.x, belief.own.y - belief.leader.y)
     wanted = min(limit + OWN_TUBE, apart)
     other_tas = _other_tas(memory, belief)

@@ -178,7 +178,8 @@ def _slot_on(marks: FloatArray, task: Task) -> float:
     """Where on the leader's flown path the pursuer should be [m]."""
     last = marks[len(marks) - 1]
     if task.spacing > 0.0:
-        return mark_at(marks, at.T, last[at.T] - task.spacing)[0]
+        behind = mark_at(marks, at.T, last[at.T] - task.spacing)[0]
+        return min(behind, float(last[at.S] - task.min_separation))
     return float(last[at.S] - task.aim)
 
 

@@ -59,6 +59,7 @@ export const REPLANNED: Record<PlanReason, string> = {
   separation: "SEP – REPLAN",
   leader_turned: "LDR TURN – REPLAN",
   leader_changed_speed: "LDR SPEED – REPLAN",
+  leader_elsewhere: "LDR OFF PATH – REPLAN",
   intent_received: "LDR INTENT – REPLAN",
   intent_withdrawn: "LDR INTENT LOST – REPLAN",
 };
