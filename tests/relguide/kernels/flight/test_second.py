@@ -1,0 +1,120 @@
+"""A second of all aircraft is each of them flown alone, and nothing comes closer than is said."""
+
+from math import hypot, pi
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.base.turn import turn_rate
+from relguide.kernels.flight.records import TURN_RATE, Body, Control, Drift
+from relguide.kernels.flight.second import (
+    GUIDED,
+    PROGRAMMED,
+    RECORDED,
+    REVERSALS,
+    SIDE,
+    SWING,
+    TRACK,
+    fly_second,
+    least_between,
+)
+from relguide.units import DEG
+from tests.aloft import LIMITS, STEP, STILL, fly, hold, level
+
+WIND = Drift(15.0, -20.0)
+STEPS = round(1.0 / STEP)
+
+
+def turning(bank: float) -> Control:
+    return Control(TURN_RATE, turn_rate(240.0, bank * DEG), 240.0)
+
+
+def test_three_aircraft_fly_as_each_alone() -> None:
+    begun = [level(heading=30.0), level(5e3, 0.0, 90.0, tas=200.0), level(0.0, 9e3, bank=10.0)]
+    recording = fly(turning(10.0), begun[2], 3.0, wind=WIND)
+    programs = np.zeros((3, 4, 3))
+    programs[1, 0] = 1.0, 2.0, 20.0 * DEG
+    states = np.array(begun)
+    trace, tallies = np.zeros((3, STEPS + 1, 7)), np.zeros((3, 4))
+    cursors = np.zeros(3, dtype=np.int64)
+    for second in range(3):
+        trace[2] = recording[second * STEPS : (second + 1) * STEPS + 1]
+        fly_second(
+            states, np.array([LIMITS] * 3), np.array([GUIDED, PROGRAMMED, RECORDED]),
+            np.array([turning(-15.0), hold(0.0, tas=200.0), hold(0.0)]), programs,
+            np.array([0, 1, 0]), cursors, np.array([0.0, 90.0 * DEG, 0.0]), WIND, float(second),
+            STEP, trace, tallies,
+        )  # fmt: skip
+    assert tuple(states[0]) == tuple(fly(turning(-15.0), begun[0], 3.0, wind=WIND)[-1])
+    alone = Control(TURN_RATE, turn_rate(200.0, 20.0 * DEG), 200.0)
+    assert tuple(states[1]) == tuple(fly(alone, begun[1], 3.0, wind=WIND)[-1])
+    assert tuple(states[2]) == tuple(recording[-1])
+    assert np.array_equal(trace[:, -1], states)
+
+
+def flown_tallies(begun: Body, banks: tuple[float, ...]) -> FloatArray:
+    """Half a minute at each bank."""
+    states, tallies = np.array([begun]), np.zeros((1, 4))
+    for second in range(30 * len(banks)):
+        control = turning(banks[second // 30])
+        fly_second(
+            states, np.array([LIMITS]), np.full(1, GUIDED), np.array([control]),
+            np.zeros((1, 0, 3)), np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(1), STILL,
+            float(second), STEP, np.zeros((1, STEPS + 1, 7)), tallies,
+        )  # fmt: skip
+    return tallies[0]
+
+
+def test_swing_track_and_reversals_are_counted() -> None:
+    tallies = flown_tallies(level(), (20.0, -20.0, 2.0, -2.0, 20.0, 20.0))
+    rate = turn_rate(240.0, 20.0 * DEG)
+    # four times half a minute at 20°, less what the rolls cost
+    assert tallies[SWING] == pytest.approx(4.0 * 30.0 * rate, rel=0.12)
+    assert tallies[TRACK] == pytest.approx(180.0 * 240.0, rel=1e-3)
+    assert tallies[SIDE] == 1.0
+    # right to left, and back; 2° to a side is a correction
+    assert tallies[REVERSALS] == 2.0
+
+
+def test_a_full_turn_swings_through_a_full_turn() -> None:
+    seconds = 2.0 * pi / turn_rate(240.0, 25.0 * DEG)
+    tallies = flown_tallies(level(bank=25.0), (25.0,) * 4)
+    assert tallies[SWING] == pytest.approx(2.0 * pi * 120.0 / seconds)
+    assert tallies[REVERSALS] == 0.0
+
+
+def traces(*bodies: Body, bank: float = 0.0) -> list[FloatArray]:
+    return [
+        fly(turning(bank * side), body, 1.0) for side, body in zip((1, -1), bodies, strict=True)
+    ]
+
+
+@given(
+    st.floats(-300.0, 300.0), st.floats(-300.0, 300.0), st.floats(-pi, pi), st.floats(120.0, 250.0),
+    st.floats(-25.0, 25.0),
+)  # fmt: skip
+def test_the_least_distance_is_that_of_dense_sampling(
+    x: float, y: float, heading: float, tas: float, bank: float
+) -> None:
+    one, other = traces(
+        level(bank=bank), level(x, y, heading / DEG, bank=-bank, tas=tas), bank=bank
+    )
+    least, at = least_between(one, other)
+    t = np.linspace(0.0, STEPS, 40 * STEPS + 1)
+    k = np.arange(STEPS + 1.0)
+    apart = np.hypot(*(np.interp(t, k, one[:, i]) - np.interp(t, k, other[:, i]) for i in (0, 1)))
+    assert least <= np.min(apart) + 1e-9
+    assert least >= np.min(apart) - 0.5 * 500.0 * STEP / 40  # half a sample at 500 m/s
+    there = [np.interp(at, k, one[:, i]) - np.interp(at, k, other[:, i]) for i in (0, 1)]
+    assert hypot(*there) == pytest.approx(least, abs=1e-6)
+
+
+def test_between_two_steps_they_pass_closer_than_at_either() -> None:
+    rows = np.zeros((2, 7))
+    other = rows.copy()
+    other[:, 0], other[:, 1] = (-6.0, 10.0), 30.0
+    assert least_between(rows, other) == pytest.approx((30.0, 0.375))
+    assert least_between(rows, rows + 1.0) == pytest.approx((2.0**0.5, 0.0))
