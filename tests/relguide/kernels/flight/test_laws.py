@@ -7,7 +7,6 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from relguide.flying.guidance.settings import DEFAULT
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.base.turn import bank_for_turn_rate, turn_rate
 from relguide.kernels.flight.laws import (
@@ -245,8 +244,3 @@ def test_half_of_the_roll_that_goes_on_is_reckoned_with() -> None:
     rolling = level(bank=10.0)._replace(roll_rate=2.0 * DEG)
     _, _, heading = look_ahead(rolling, STILL, 1.5)
     assert heading == pytest.approx(1.5 * turn_rate(240.0, 11.5 * DEG))
-
-
-def test_the_settings_are_those_of_the_laws() -> None:
-    assert GAINS.path_bandwidth == DEFAULT.path_bandwidth
-    assert GAINS.braking == DEFAULT.braking_share * A306.idle_deceleration
