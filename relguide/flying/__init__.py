@@ -2,14 +2,15 @@
 
 Read it in this order, from below:
 
-1. `aircraft.py`, `pid.py`, `autopilot.py`: an aircraft, and the two loops that fly it.
-2. `steering.py`, `capture.py`: what to ask of the autopilot on a planned path, and near the slot.
-3. `assignment.py`, `flown_path.py`: what the pursuer was asked to do, and what it knows.
-4. `path_distance.py`, `commitment.py`, `escape.py`: which plan to fly, and where to go without one.
-5. `announcements.py`, `memory.py`: what guidance announces and what it remembers.
-6. `holding.py`, `closing.py`, `guidance.py`: its modes, chosen once a second.
-7. `smoothing.py`, `tracks.py`, `leader.py`, `orders.py`: the leader, recorded or under command.
-8. `documents.py`, `cards.py`, `verdicts.py`, `regular_card.py`, `logbook.py`: the documents.
-9. `flight.py`: the closed loop; `scenarios.py`: what is flown; `present.py`: the situation at some
-   instant of a flight, read from its documents.
+1. `air.py`, `airframe.py`, `envelope.py`: the air, and what an aircraft type can do in it.
+2. `tracks.py`, `smoothing.py`, `spline.py`, `leaders/`: what leaders fly, declared or recorded.
+3. `belief.py`: what a pursuer knows; `modes.py`: which mode may follow which.
+4. `guidance/`: once a second, from belief to a reference and a speed. In it `settings.py` has all
+   constants, `forecast.py` flies ahead, `committed.py` and `converge.py` choose the path,
+   `monitor.py`, `escape.py` and `leaving.py` keep clear, `advise.py` puts it together.
+5. `world.py`: all aircraft, the air, and who is to join whom; `orders.py`: commands to a leader.
+6. `documents.py` and what it is made of, `cards.py`, `verdicts.py`, `regular_card.py`,
+   `logbook.py`: what a flight says of itself.
+7. `simulation.py`: the closed loop; `flight.py`: of two aircraft; `scatter.py`, `scenarios.py`:
+   what is flown; `present.py`: the situation at some instant of a flight, read from its documents.
 """

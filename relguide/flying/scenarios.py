@@ -1,17 +1,19 @@
 """The flights that have a name: the paper's by figure number, and a recorded leader.
 
 The paper does not say when the leader of Fig. 6 turns. Both figures were flown for turns at 60 …
-850 s. In 6b the pursuer only turns right, 45° in all, whenever that is. In 6a, if the leader turns
+870 s. In 6b the pursuer only turns right, 46° in all, whenever that is (51° at 60 s). In 6a, if the
+leader turns
 
-- before 730 s, the pursuer is far out: it only turns right as well, and follows 2 … 23 % later than
-  in 6b, but nothing sways (45.4° against 44.7° of heading swing at 360 s);
-- at 760 … 790 s, it is about to join: it is there when the slot opens, as early as in 6b;
-- at 795 … 850 s, it is in its last turn onto the old route. It has converged after its first right
+- before 775 s, the pursuer is far out: it turns right as well, and joins up to 22 % later than in
+  6b (at 360 s), but nothing sways (at most 66° of heading swing);
+- at 790 … 850 s, it is in its last turn onto the old route. It has converged after its first right
   turn, changes its heading as the leader's goes round, is too close for the new slot, and comes
-  back by a wide turn right: swing 170 … 185° against 45°, following 11 % later.
+  back by a wide turn right: swing 169 … 195° against 46°, joining 11 … 17 % later;
+- at 870 s, it has joined before.
 
-Only the last is section 5's "very swaying trajectory", so `LEADER_TURNS_AT` is in its middle:
-820 s, 6a joins at 1,018 s with a swing of 181°, 6b at 916 s (planned: 904 s) with 45°.
+Only the second is section 5's "very swaying trajectory", so `LEADER_TURNS_AT` is in its middle:
+820 s, 6a joins at 1,031 s with a swing of 187°, 6b at 917 s (planned: 904 s, promised: 917 s) with
+46°.
 """
 
 from collections.abc import Callable, Mapping
