@@ -122,4 +122,7 @@ def _own(wanted: SituationFlightRequest) -> Scenario:
     except ContractError as error:
         under = [(f"situation.{path}".rstrip("."), said) for path, said in error.problems]
         raise ContractError(under) from None
-    return own_scenario(situation)
+    try:
+        return own_scenario(situation)
+    except ValueError as error:  # no level at which the aircraft could fly it, in a sentence
+        raise ContractError([("situation.pursuer", str(error))]) from None

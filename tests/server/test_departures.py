@@ -45,6 +45,17 @@ def test_a_situation_of_ones_own_flies() -> None:
         assert refused.json()["errors"][0]["path"] == "situation.slot_distance_m"
 
 
+@pytest.mark.parametrize(("key", "value"), [("tas_mps", 300.0), ("max_bank_deg", 45.0)])
+def test_what_the_aircraft_cannot_fly_is_refused(key: str, value: float) -> None:
+    with TestClient(create_app(Settings())) as client:
+        body = {"situation": {**EXAMPLE, "pursuer": {**EXAMPLE["pursuer"], key: value}}}
+        refused = client.post("/api/v1/flights", json=body)
+        assert refused.status_code == 422
+        (error,) = refused.json()["errors"]
+        assert error["path"] == "situation.pursuer"
+        assert "A306" in error["message"] and "choose" in error["message"]
+
+
 def test_scenarios_say_whether_they_can_be_flown() -> None:
     client = TestClient(create_app(Settings()))
     scenarios = client.get("/api/v1/scenarios").json()["scenarios"]

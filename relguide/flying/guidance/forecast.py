@@ -20,7 +20,7 @@ from relguide.kernels.flight.records import Body
 from relguide.units import Metre, Second
 
 STEPS = 4
-"""Of a second, in a forecast: within a metre of 20 a second."""
+"""Of a second, in a forecast: within 10 m of 20 a second."""
 FOLLOWED: Second = 150.0
 """How long a forecast goes on once it has joined [s]."""
 NO_COURSE = Course(lay_path(0.0, 0.0, 0.0, np.zeros((0, 2)), 1.0, 0.0, 1.0), 0.0, 0.0, 0.0)
