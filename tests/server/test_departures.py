@@ -53,7 +53,8 @@ def test_what_the_aircraft_cannot_fly_is_refused(key: str, value: float) -> None
         assert refused.status_code == 422
         (error,) = refused.json()["errors"]
         assert error["path"] == "situation.pursuer"
-        assert "A306" in error["message"] and "choose" in error["message"]
+        assert "A306" in error["message"]
+        assert "choose" in error["message"]
 
 
 def test_scenarios_say_whether_they_can_be_flown() -> None:
