@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from relguide.contract.wire import COMPASS, wire_fields
 from relguide.flying.documents import Alert, Document, ForecastChanged, SeparationLost, Unable
+from relguide.flying.plan_documents import PathPoint
 
 DOCUMENT_TYPES: tuple[type[Any], ...] = get_args(Document)
 
@@ -74,6 +75,14 @@ def rare_documents(t: float, ident: str, other: str) -> tuple[Document, ...]:
             announced=(t - 30.0,),
         ),
         ForecastChanged(
-            t=t, ident=ident, times=(t, t + 5.0), x=(0.0, 1e3), y=(0.0, 0.0), heading=(1.5, 1.5)
+            t=t,
+            ident=ident,
+            times=(t, t + 5.0),
+            x=(0.0, 1e3),
+            y=(0.0, 0.0),
+            heading=(1.5, 1.5),
+            least_separation=9_500.0,
+            pursuer_at_closest=PathPoint(t=t + 5.0, x=1e3, y=0.0, heading=1.5),
+            leader_at_closest=PathPoint(t=t + 5.0, x=1e3, y=9_500.0, heading=1.5),
         ),
     )

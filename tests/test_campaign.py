@@ -11,6 +11,7 @@ import pytest
 from relguide.flying.cards import plan_card
 from relguide.flying.documents import Alert, FlightEnded, ForecastChanged, Sample, Unable
 from relguide.flying.flight import fly
+from relguide.flying.plan_documents import PathPoint
 from relguide.planning import situation as situation_words
 from relguide.planning.plan import plan
 from relguide.planning.situation import Leader, Pursuer, Situation
@@ -197,6 +198,7 @@ def test_a_forecast_is_compared_at_the_same_time() -> None:
     documents = tuple(one for one in said if not isinstance(one, ForecastChanged))
     assert row_of(case, documents, 1.0).off_forecast_m is None
     flown = [(one.t, one.aircraft[0]) for one in documents if isinstance(one, Sample)]
+    nowhere = PathPoint(t=0.0, x=0.0, y=0.0, heading=0.0)
     forecast = ForecastChanged(
         t=0.0,
         ident="PURSUER",
@@ -204,6 +206,9 @@ def test_a_forecast_is_compared_at_the_same_time() -> None:
         x=tuple(here.x + 3.0 * t for t, here in flown[:11]),
         y=tuple(here.y for _, here in flown[:11]),
         heading=tuple(here.heading for _, here in flown[:11]),
+        least_separation=9e3,
+        pursuer_at_closest=nowhere,
+        leader_at_closest=nowhere,
     )
     row = row_of(case, (documents[0], forecast, *documents[1:]), 1.0)
     assert row.off_forecast_m == pytest.approx(30.0)

@@ -224,6 +224,12 @@ class ForecastChanged:
     x: tuple[Metre, ...]
     y: tuple[Metre, ...]
     heading: tuple[Radian, ...]
+    least_separation: Metre
+    """From its leader on the way, the leader flying as expected."""
+    pursuer_at_closest: PathPoint
+    """Where the aircraft is when the separation is least."""
+    leader_at_closest: PathPoint
+    """Where its leader is then."""
     kind: Literal["forecast_changed"] = "forecast_changed"
 
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from math import cos, hypot, sin
+from math import cos, hypot, inf, sin
 from typing import NamedTuple, assert_never
 
 import numpy as np
@@ -45,6 +45,7 @@ from relguide.flying.guidance.forecast import Forecast
 from relguide.flying.guidance.memory import Advice
 from relguide.flying.plan_documents import PathPoint
 from relguide.kernels.base.angles import wrap
+from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.base.turn import turn_rate
 from relguide.kernels.flight.records import HOLD_HEADING, Control
 from relguide.planning.alternatives import alternatives
@@ -323,6 +324,8 @@ def forecast_document(t: Second, ident: str, ahead: Forecast) -> ForecastChanged
             last = k
     kept.append(len(rows) - 1)
     times, points = t + np.array(kept, dtype=float), rows[kept]
+    least, at = ahead.least(t)
+    own, leader = _point_at(ahead.own, ahead.t, at), _point_at(ahead.leader, ahead.t, at)
     return ForecastChanged(
         t=t,
         ident=ident,
@@ -330,7 +333,17 @@ def forecast_document(t: Second, ident: str, ahead: Forecast) -> ForecastChanged
         x=tuple(points[:, 0].tolist()),
         y=tuple(points[:, 1].tolist()),
         heading=tuple(wrap(heading) for heading in points[:, 2].tolist()),
+        least_separation=least if least < inf else hypot(own.x - leader.x, own.y - leader.y),
+        pursuer_at_closest=own,
+        leader_at_closest=leader,
     )
+
+
+def _point_at(rows: FloatArray, begun: Second, t: Second) -> PathPoint:
+    """Where a forecast that begins at `begun` has an aircraft at flight time t [s]."""
+    k = min(int(t - begun), len(rows) - 2)
+    x, y, heading = (rows[k] + (t - begun - k) * (rows[k + 1] - rows[k]))[:3].tolist()
+    return PathPoint(t=t, x=x, y=y, heading=wrap(heading))
 
 
 def _aircraft_sample(ident: str, state: AircraftState, wind: Wind) -> AircraftSample:

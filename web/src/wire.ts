@@ -1,7 +1,7 @@
 // Made by `python -m relguide_server.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-8a154f712fa3";
+export const PROTOCOL = "relguide-dcb26d082135";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -390,6 +390,12 @@ export interface ForecastChanged {
   x_m: number[];
   y_m: number[];
   heading_deg: number[];
+  /** From its leader on the way, the leader flying as expected. */
+  least_separation_m: number;
+  /** Where the aircraft is when the separation is least. */
+  pursuer_at_closest: PathPoint;
+  /** Where its leader is then. */
+  leader_at_closest: PathPoint;
 }
 
 /** The aircraft to be joined, at t = 0, placed on the earth (WGS84). */

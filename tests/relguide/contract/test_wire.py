@@ -100,7 +100,15 @@ def test_a_sample_in_full() -> None:
 
 def test_columns_and_times_that_may_be_missing() -> None:
     forecast = ForecastChanged(
-        t=5.0, ident="RG 06", times=(5.0, 10.0), x=(0.0, 1.0), y=(2.0, 3.0), heading=(0.0, -pi)
+        t=5.0,
+        ident="RG 06",
+        times=(5.0, 10.0),
+        x=(0.0, 1.0),
+        y=(2.0, 3.0),
+        heading=(0.0, -pi),
+        least_separation=9e3,
+        pursuer_at_closest=PathPoint(t=10.0, x=1.0, y=3.0, heading=0.0),
+        leader_at_closest=PathPoint(t=10.0, x=1.0, y=9e3, heading=0.0),
     )
     assert to_wire(forecast) == {
         "kind": "forecast_changed",
@@ -110,6 +118,9 @@ def test_columns_and_times_that_may_be_missing() -> None:
         "x_m": [0.0, 1.0],
         "y_m": [2.0, 3.0],
         "heading_deg": [0.0, 180.0],
+        "least_separation_m": 9e3,
+        "pursuer_at_closest": {"t_s": 10.0, "x_m": 1.0, "y_m": 3.0, "heading_deg": 0.0},
+        "leader_at_closest": {"t_s": 10.0, "x_m": 1.0, "y_m": 9e3, "heading_deg": 0.0},
     }
     lost = SeparationLost(
         t=5.0, ident="RG 06", other="LDR 01", separation=9e3, x=0.0, y=1.0, cause="", announced=()

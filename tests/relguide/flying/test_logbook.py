@@ -67,8 +67,11 @@ def ahead(headings: list[float], *, t: float = 100.0) -> Forecast:
     own[:, 2], own[:, 5] = headings, 200.0
     own[1:, 0] = np.cumsum(200.0 * np.sin(headings[:-1]))
     own[1:, 1] = np.cumsum(200.0 * np.cos(headings[:-1]))
+    leader = own.copy()
+    leader[:, 0] += 9_000.0
     account = np.full((len(headings) - 1, 6), 9_000.0)
-    return Forecast(t, own, own.copy(), account, account[:, 0], NEVER)
+    account[:, 1] = t + np.arange(len(account)) + 0.5
+    return Forecast(t, own, leader, account, account[:, 0], NEVER)
 
 
 def test_new_plans_are_counted_whether_announced_or_not() -> None:
@@ -136,6 +139,23 @@ def test_a_forecast_that_began_before_is_told_from_now_on() -> None:
     document = forecast_document(130.0, "A", ahead([0.0] * 61))
     assert (document.times[0], document.times[-1]) == (130.0, 160.0)
     assert document.y[0] == pytest.approx(30 * 200.0)
+
+
+def test_a_forecast_says_where_both_will_be_when_they_are_closest() -> None:
+    flown = ahead([0.0] * 61)
+    flown.account[40, 0] = 8_000.0
+    document = forecast_document(110.0, "A", flown)
+    assert document.least_separation == 8_000.0
+    own, leader = document.pursuer_at_closest, document.leader_at_closest
+    assert (own.t, leader.t) == (140.5, 140.5)
+    assert own.y == pytest.approx(40.5 * 200.0)
+    assert (leader.x, leader.y) == (9_000.0, own.y)
+
+
+def test_a_forecast_at_its_end_is_closest_there() -> None:
+    document = forecast_document(160.0, "A", ahead([0.0] * 61))
+    assert document.least_separation == pytest.approx(9_000.0)
+    assert document.pursuer_at_closest.y == pytest.approx(60 * 200.0)
 
 
 def test_the_result_of_a_pursuer_that_has_not_joined_ends_with_the_flight() -> None:
