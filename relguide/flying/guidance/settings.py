@@ -4,21 +4,28 @@
     bank_in_hand_deg = 3.0
     caution_s = 45.0
 
-Keys end in the unit that people use: _deg, _nm, _kt, _s, _mps2 …; what is left out keeps its
-default.
+Keys are names of fields and end in a unit that people use: _deg, _nm, _m, _kt, _mps, _s …; shares
+and the damping have none. What is left out keeps its default.
 """
 
 import tomllib
 from dataclasses import dataclass, fields, replace
 from math import isfinite
 from pathlib import Path
+from typing import get_args
 
 from relguide.kernels.flight.guide import Gate
 from relguide.kernels.flight.laws import Gains
 from relguide.units import DEG, KT, NM, Metre, MetrePerSecond, Radian, RadianPerSecond, Second
 
-UNITS = {"deg": DEG, "nm": NM, "m": 1.0, "kt": KT, "s": 1.0, "radps": 1.0, "share": 1.0}
-"""Endings of keys, and what their numbers are multiplied by."""
+UNITS = {
+    "rad": {"deg": DEG},
+    "m": {"nm": NM, "m": 1.0},
+    "mps": {"kt": KT, "mps": 1.0},
+    "s": {"s": 1.0},
+    "radps": {"degps": DEG, "radps": 1.0},
+}
+"""For the unit of a field: endings of keys, and what their numbers are multiplied by."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -169,17 +176,32 @@ def load_settings(path: Path | str) -> Settings:
     guidance = table.get("guidance")
     if not isinstance(guidance, dict) or len(table) != 1:
         raise ValueError(f"{path} must have one table, [guidance].")
-    names = {field.name for field in fields(Settings)}
-    values: dict[str, float] = {}
+    known, values = _keys(), dict[str, float]()
     for key, value in guidance.items():
-        stem, _, unit = key.rpartition("_")
-        name, factor = (stem, UNITS[unit]) if stem in names and unit in UNITS else (key, 1.0)
-        if name not in names:
+        if key not in known:
             raise ValueError(
                 f"{path}: there is no setting {key!r}; a setting is a field's name and its unit, "
                 "for example bank_in_hand_deg."
             )
         if isinstance(value, bool) or not isinstance(value, int | float):
             raise ValueError(f"{path}: {key} must be a number, not {value!r}.")
+        name, factor = known[key]
+        if name in values:
+            raise ValueError(f"{path}: {name} must be given once, in one unit.")
         values[name] = float(value) * factor
-    return replace(DEFAULT, **values)
+    try:
+        return replace(DEFAULT, **values)
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from None
+
+
+def _keys() -> dict[str, tuple[str, float]]:
+    """Keys of a file: the field that each sets, and what its number is multiplied by."""
+    keys: dict[str, tuple[str, float]] = {}
+    for field in fields(Settings):
+        if field.type is float:
+            keys[field.name] = field.name, 1.0
+        else:
+            (unit,) = get_args(field.type)[1:]
+            keys |= {f"{field.name}_{end}": (field.name, by) for end, by in UNITS[unit].items()}
+    return keys
