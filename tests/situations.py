@@ -1,8 +1,9 @@
 """Hypothesis strategies for situations, near-degenerate ones on purpose, and the golden cases."""
 
 import json
+from dataclasses import replace
 from functools import cache
-from math import pi
+from math import cos, pi, sin
 from pathlib import Path
 from typing import Any
 
@@ -92,3 +93,51 @@ def situations(
         if with_wind
         else Wind(),
     )
+
+
+COINCIDENCES = (
+    "slot at the limit",
+    "start at the limit",
+    "same heading",
+    "opposite heading",
+    "on the slot",
+    "on the track",
+    "same speed",
+)
+"""Numbers that are equal to the last digit, as people enter them."""
+
+
+@st.composite
+def coincidences(
+    draw: st.DrawFn,
+    *,
+    kinds: tuple[str, ...] = COINCIDENCES,
+    with_intent: bool = False,
+    with_wind: bool = False,
+    reach: float = 40_000.0,
+) -> Situation:
+    """Situations in which some of `kinds` hold exactly; several at once as well."""
+    situation = draw(situations(with_intent=with_intent, with_wind=with_wind, reach=reach))
+    held = draw(st.lists(st.sampled_from(kinds), min_size=1, max_size=3, unique=True))
+    if "slot at the limit" in held:
+        situation = replace(situation, slot_distance=situation.min_separation)
+    pursuer, leader = situation.pursuer, situation.leader
+    if "same speed" in held:
+        leader = replace(leader, tas=pursuer.tas)
+    if "same heading" in held:
+        pursuer = replace(pursuer, heading=leader.heading)
+    if "opposite heading" in held:
+        # east and west, as round numbers are entered, are half a turn apart to the last digit
+        leader = replace(leader, heading=0.5 * pi)
+        pursuer = replace(pursuer, heading=1.5 * pi)
+    # behind the leader: where the slot is, within the limit or beside both
+    behind = 0.0
+    if "on the slot" in held:
+        behind = situation.slot_distance
+    elif "start at the limit" in held:
+        behind = situation.min_separation
+    elif "on the track" in held:
+        behind = draw(numbers(-reach, reach))
+    if behind != 0.0:
+        pursuer = replace(pursuer, x=-behind * sin(leader.heading), y=-behind * cos(leader.heading))
+    return replace(situation, pursuer=pursuer, leader=leader)

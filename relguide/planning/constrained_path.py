@@ -4,7 +4,10 @@ import numpy as np
 
 from relguide.kernels.contact.any_path import any_path
 from relguide.kernels.contact.chain import MAX_LEGS
-from relguide.kernels.contact.constrained_search import best_constrained_path
+from relguide.kernels.contact.constrained_search import (
+    best_constrained_path,
+    eased_to_start,
+)
 from relguide.kernels.contact.path_pieces import pieces_of
 from relguide.kernels.contact.tangent import tangents
 from relguide.planning.candidate import (
@@ -36,7 +39,8 @@ def constrained_path(found: Candidates, *, beat: Second) -> Candidate | None:
     if situation.min_separation <= 0.0:
         return None
     scale = frame.radius / situation.pursuer.tas
-    start, scene = frame.pose, scene_of(situation, frame)
+    start = frame.pose
+    scene = eased_to_start(start, scene_of(situation, frame))
     bearings = BEARINGS if len(scene.leader) == 1 else TURNING_BEARINGS
     legs, row = np.zeros((MAX_LEGS, 6)), np.zeros(5)
     time, count = best_constrained_path(

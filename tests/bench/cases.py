@@ -70,6 +70,13 @@ def limited_cases(drawn: int, *, tight: bool) -> list[Case]:
     return cases + [_case(f"drawn {i}", situation) for i, situation in enumerate(active)]
 
 
+def equal_cases(drawn: int) -> list[Case]:
+    """So many situations with D = d_min whose fastest way without the limit breaks it."""
+    rng = np.random.default_rng([SEED, 2])
+    active = [draws.active(rng, tight=i % 2 == 0, slot_at_limit=True) for i in range(drawn)]
+    return [_case(f"equal {i}", situation) for i, situation in enumerate(active)]
+
+
 def _golden() -> list[tuple[str, Situation, dict[str, Any]]]:
     """Name, situation and answer of the golden cases that all contenders can be set."""
     return [

@@ -1,5 +1,6 @@
 """Situations drawn at random, among them those in which the separation limit is active."""
 
+from dataclasses import replace
 from math import cos, pi, radians, sin
 
 import numpy as np
@@ -75,10 +76,21 @@ def near(rng: np.random.Generator, *, tight: bool, intent: bool = False) -> Situ
     )
 
 
-def active(rng: np.random.Generator, *, tight: bool, intent: bool = False) -> Situation:
-    """A situation near the leader whose fastest way without the limit breaks it."""
+def active(
+    rng: np.random.Generator, *, tight: bool, intent: bool = False, slot_at_limit: bool = False
+) -> Situation:
+    """A situation near the leader whose fastest way without the limit breaks it.
+
+    Args:
+        rng: the source of chance.
+        tight: as in `near`.
+        intent: as in `near`.
+        slot_at_limit: whether D = d_min.
+    """
     while True:
         situation = near(rng, tight=tight, intent=intent)
+        if slot_at_limit:
+            situation = replace(situation, slot_distance=situation.min_separation)
         if is_active(situation):
             return situation
 

@@ -3,9 +3,10 @@
     python -m tests.bench.limit --count 2000 --effort 100 --intent 0.25 --resume limit.jsonl
 
 draws situations in which the separation limit is active, half of them with R < d_min, a share of
-them with a leader that turns, in wind. Each is planned as the library does and again with the disc
-scanned that many times as finely. What is worse by more than 0.1 s is listed, the worst first, as
-code to paste. With --resume what is finished is kept in a file, and not done again.
+them with a leader that turns, in wind, and a share with D = d_min. Each is planned as the library
+does and again with the disc scanned that many times as finely. What is worse by more than 0.1 s is
+listed, the worst first, as code to paste. With --resume what is finished is kept in a file, and not
+done again.
 """
 
 import argparse
@@ -46,6 +47,8 @@ class Run:
     effort: int
     intent: float
     """Share of the leaders that turn, in wind."""
+    equal: float
+    """Share with D = d_min."""
     planner: str
     """A digest of the planner's sources: cases of two versions are not mixed."""
 
@@ -86,8 +89,9 @@ def main(arguments: list[str] | None = None) -> int:
     """Run the comparison and print it; 1 if something is listed."""
     wanted = _parser().parse_args(arguments)
     run = Run(
-        seed=wanted.seed, effort=wanted.effort, intent=wanted.intent, planner=_planner_digest()
-    )
+        seed=wanted.seed, effort=wanted.effort, intent=wanted.intent, equal=wanted.equal,
+        planner=_planner_digest(),
+    )  # fmt: skip
     try:
         done = _finished(wanted.resume, run) if wanted.resume else []
     except ValueError as refusal:
@@ -109,7 +113,9 @@ def main(arguments: list[str] | None = None) -> int:
 
 def _outcomes(cases: list[int], run: Run, processes: int) -> Iterator[Outcome]:
     """Finished cases, as they come."""
-    compare = partial(compared, seed=run.seed, effort=run.effort, intent=run.intent)
+    compare = partial(
+        compared, seed=run.seed, effort=run.effort, intent=run.intent, equal=run.equal
+    )
     # Ctrl-C is ours to handle: the workers are told when they have finished a case
     pool = ProcessPoolExecutor(processes, initializer=signal, initargs=(SIGINT, SIG_IGN))
     try:
@@ -122,11 +128,12 @@ def _outcomes(cases: list[int], run: Run, processes: int) -> Iterator[Outcome]:
         pool.shutdown(cancel_futures=True)
 
 
-def compared(case: int, *, seed: int, effort: int, intent: float) -> Outcome:
+def compared(case: int, *, seed: int, effort: int, intent: float, equal: float = 0.0) -> Outcome:
     """Draw a situation, which its number alone decides, and plan it twice."""
     rng = np.random.default_rng([seed, case])
     tight, turns = case % 2 == 0, bool(rng.random() < intent)
-    situation = draws.active(rng, tight=tight, intent=turns)
+    slot_at_limit = bool(rng.random() < equal) if equal > 0.0 else False
+    situation = draws.active(rng, tight=tight, intent=turns, slot_at_limit=slot_at_limit)
     usual = search.BEARINGS, search.TURNING_BEARINGS
     ours, ours_cpu = _planned(situation)
     try:
@@ -168,9 +175,10 @@ def _finished(file: Path, run: Run) -> list[Outcome]:
         raise ValueError(f"{file} is not a file of this command: name another.") from broken
     if begun != run:
         raise ValueError(
-            f"{file} was begun with seed {begun.seed}, effort {begun.effort} and intent "
-            f"{begun.intent:g}, by {'this' if begun.planner == run.planner else 'another'} version "
-            "of the planner: name another file, or ask for the same."
+            f"{file} was begun with seed {begun.seed}, effort {begun.effort}, intent "
+            f"{begun.intent:g} and equal {begun.equal:g}, by "
+            f"{'this' if begun.planner == run.planner else 'another'} version of the planner: "
+            "name another file, or ask for the same."
         )
     if whole != text:  # a line cut short when the run was stopped: its case is done again
         file.write_text(whole)
@@ -230,6 +238,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--effort", type=positive, default=100, help="how many times the bearings")
     parser.add_argument("--seed", type=positive, default=1)
     parser.add_argument("--intent", type=share, default=0.0, help="share of turning leaders, 0…1")
+    parser.add_argument("--equal", type=share, default=0.0, help="share with D = d_min, 0…1")
     parser.add_argument("--processes", type=positive, default=cpu_count() or 1)
     parser.add_argument("--resume", type=Path, metavar="FILE", help="keeps finished cases here")
     return parser

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 
 from tests.bench import detours, inference, network, network_batch, throughput, unlimited
-from tests.bench.cases import Case, limited_cases, unlimited_cases
+from tests.bench.cases import Case, equal_cases, limited_cases, unlimited_cases
 from tests.bench.detours import Contest
 from tests.bench.inference import Rate
 from tests.bench.network import Pair
@@ -61,6 +61,7 @@ def measure(counts: Counts) -> Results:
         name: detours.measure(limited_cases(counts.limited, tight=tight), title=f"Limit, {name}")
         for name, tight in (("R > d_min", False), ("R < d_min", True))
     }
+    groups["D = d_min"] = detours.measure(equal_cases(counts.limited), title="Limit, D = d_min")
     active = [contest.case for group in groups.values() for contest in group]
     batches = throughput.measure(counts.batch, counts.limited_batch, active)
     asked = network.drawn(counts.asked)

@@ -8,23 +8,35 @@ Slot frame: lengths in R, times in R/V_P, angles counter-clockwise. The work is 
 × bearings contacts, each a few words, and a fixed number of basins, hops and sweeps.
 """
 
-from math import inf
+from math import hypot, inf
 
 import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI
-from relguide.kernels.base.records import Pose, Scene
+from relguide.kernels.base.records import Pose, Scene, with_limit
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain import DELAY, MAX_CONTACTS, WORD, chain_of
 from relguide.kernels.contact.chain_refinement import fly_links, refine_chains
 from relguide.kernels.contact.contact_graph import best_chains
 from relguide.kernels.contact.nodes import contact_nodes
 from relguide.kernels.contact.one_contact import descend_basins, scan_contacts
+from relguide.kernels.separation.clearance import leader_at, piece_at
 
 _CHAINS = 4  # of the graph, refined
 _PER_HOP = 5  # so many bearings on the disc let one contact be followed to all others
 _NEARLY = 0.07  # how much a chain may fall below what the graph sees of it [R/V_P]
+
+
+@njit(cache=True, nogil=True)
+def eased_to_start(start: Pose, scene: Scene) -> Scene:
+    """The same scene, with the limit that the start itself keeps.
+
+    On a boundary arc a start lies on d_min but for rounding, and counts as keeping it to
+    `clearance.SLACK`. Nothing that begins there could keep more.
+    """
+    at = leader_at(scene, piece_at(scene.leader, 0.0), 0.0)
+    return with_limit(scene, min(scene.d_min, hypot(start.x - at.x, start.y - at.y)))
 
 
 @njit(cache=True, nogil=True)

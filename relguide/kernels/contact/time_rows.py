@@ -15,7 +15,10 @@ from relguide.kernels.base.records import Pose, Scene, with_limit
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain import MAX_LEGS
 from relguide.kernels.contact.clear_words import word_clears
-from relguide.kernels.contact.constrained_search import best_constrained_path
+from relguide.kernels.contact.constrained_search import (
+    best_constrained_path,
+    eased_to_start,
+)
 from relguide.kernels.contact.tangent import tangents
 from relguide.kernels.separation.clearance import SLACK
 from relguide.kernels.words.extremals import MAX_ROWS, solve
@@ -76,8 +79,9 @@ def _plan_row(
             break
     if scene.d_min <= 0.0:
         return
+    met = eased_to_start(pose, scene)
     arrival, count = best_constrained_path(
-        pose, scene, bearings, tangents(pose, scene), answer[0], legs
+        pose, met, bearings, tangents(pose, met), answer[0], legs
     )
     if count > 0:
         answer[0], answer[2], answer[3] = arrival, BOUNDED, CONSTRAINED

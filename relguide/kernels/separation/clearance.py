@@ -14,6 +14,9 @@ from relguide.kernels.base.roots import FloatArray
 
 SLACK = 1e-6
 """Touching d_min counts as keeping it, to this much of R: 1 cm for an airliner."""
+# 10 µm for an airliner [R]: a slot may lie on d_min itself, and where a turn ends there its bound
+# falls short by the square of the window
+_ROUNDING = 1e-9
 _DEPTH = 64
 _NARROW = 1e-6  # a window this short that is still undecided counts as too close
 _MOST_WINDOWS = 32_768  # as does a path that takes more: 1 mm outside the disc takes 10,000
@@ -43,7 +46,7 @@ def leader_at(scene: Scene, i: int, t: float) -> Pose:
 
 @njit(cache=True, nogil=True)
 def piece_clears(pose: Pose, rate: float, t: float, duration: float, scene: Scene) -> bool:
-    """Whether one piece keeps d_min.
+    """Whether one piece keeps d_min, to 1e-9 R.
 
     Args:
         pose: where it starts.
@@ -52,7 +55,7 @@ def piece_clears(pose: Pose, rate: float, t: float, duration: float, scene: Scen
         duration: of the piece [R/V_P].
         scene: the leader and d_min.
     """
-    leader, alpha = scene.leader, scene.alpha
+    leader, alpha, limit = scene.leader, scene.alpha, scene.d_min - _ROUNDING
     mids = np.empty(_DEPTH)
     halves = np.empty(_DEPTH)
     done = 0.0
@@ -78,11 +81,11 @@ def piece_clears(pose: Pose, rate: float, t: float, duration: float, scene: Scen
             if speed_squared > 0.0:
                 at = -(dx * vx + dy * vy) / speed_squared
             at = min(max(at, -half), half)
-            if hypot(dx + at * vx, dy + at * vy) - 0.5 * bend * half * half >= scene.d_min:
+            if hypot(dx + at * vx, dy + at * vy) - 0.5 * bend * half * half >= limit:
                 continue
             px, py, ph = fly_rate(pose, rate, mid + at)
             lx, ly, lh = leader_at(scene, i, t + mid + at)
-            close = hypot(px - lx, py - ly) < scene.d_min
+            close = hypot(px - lx, py - ly) < limit
             if close or half < _NARROW or n + 2 > _DEPTH or looked > _MOST_WINDOWS:
                 return False
             mids[n], halves[n] = mid - 0.5 * half, 0.5 * half
