@@ -152,6 +152,8 @@ def _stay_or_change(
         stay = 0.0 if is_steady(memory, belief, assignment) else settings.better_while_turning
         reason: PlanReason = changed or "leader_elsewhere"
         return _plan_again(memory, belief, assignment, planner, reason=reason, stay=stay)
+    if _is_overdue(memory, belief, assignment):
+        return _plan_again(memory, belief, assignment, planner, reason="leader_elsewhere")
     memory, events = announce_pending(memory, belief, assignment)
     if not as_forecast or not converge.may_be_bettered(committed, t, assignment):
         return memory, events
@@ -164,6 +166,15 @@ def _stay_or_change(
     if isinstance(found, NotBetter):
         return memory, events
     return fly_proposal(memory, belief, assignment, found, "better_plan", events)
+
+
+def _is_overdue(memory: Memory, belief: Belief, assignment: Assignment) -> bool:
+    """Whether the path has been flown to its end and does not join: asked again now and then."""
+    committed, t = memory.committed, belief.t
+    if committed is None or t < committed.due or t - memory.asked < assignment.settings.ask_every:
+        return False
+    ahead = committed.forecast if memory.forecast is None else memory.forecast
+    return not ahead.joins
 
 
 def _strayed(memory: Memory, belief: Belief, assignment: Assignment) -> bool:
