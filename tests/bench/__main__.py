@@ -6,7 +6,15 @@ from dataclasses import fields
 
 from rich.console import Console
 
-from tests.bench import detours, inference, network, network_batch, throughput, unlimited
+from tests.bench import (
+    detours,
+    inference,
+    network,
+    network_batch,
+    simulators,
+    throughput,
+    unlimited,
+)
 from tests.bench.detours import Contest
 from tests.bench.options import positive
 from tests.bench.results import Counts, Results, measure
@@ -19,7 +27,9 @@ def main(arguments: list[str] | None = None) -> int:
     """Run it all and print the tables; 1 if the planner missed an optimum."""
     parser = argparse.ArgumentParser(prog="python -m tests.bench", description=__doc__)
     add_counts(parser)
-    results = measure(counts_from(parser.parse_args(arguments)))
+    simulators.add_runs(parser)
+    given = parser.parse_args(arguments)
+    results = measure(counts_from(given))
     console = Console(width=118)
     console.print(unlimited.table(results.rows, results.cases))
     console.print(detours.table(results.groups))
@@ -27,6 +37,7 @@ def main(arguments: list[str] | None = None) -> int:
     console.print(network.table(results.pairs))
     console.print(network_batch.table(results.network_batches))
     console.print(inference.table(results.rates))
+    console.print(simulators.table(simulators.measure(given.runs)))
     for contest in results.beaten:
         console.print(_beaten(contest), soft_wrap=True, highlight=False)
     failures = _failures(results)

@@ -18,10 +18,7 @@ from relguide.flying.guidance.announcements import (
     leader_change,
 )
 from relguide.flying.guidance.assignment import Assignment
-from relguide.flying.guidance.committed import (
-    situation_now,
-    slot_mismatch,
-)
+from relguide.flying.guidance.committed import Committed, situation_now, slot_mismatch
 from relguide.flying.guidance.converge import NoProposal, NotBetter, Proposal
 from relguide.flying.guidance.forecast import NO_COURSE
 from relguide.flying.guidance.leader_news import (
@@ -155,9 +152,7 @@ def _stay_or_change(
     if _is_overdue(memory, belief, assignment):
         return _plan_again(memory, belief, assignment, planner, reason="leader_elsewhere")
     memory, events = announce_pending(memory, belief, assignment)
-    if not as_forecast or not converge.may_be_bettered(committed, t, assignment):
-        return memory, events
-    if committed.plan.planner == "exact" and t - memory.asked < settings.ask_every:
+    if not as_forecast or not _asks_now(memory, committed, t, assignment):
         return memory, events
     memory = memory._replace(asked=t)
     found = converge.better(belief, assignment, committed, planner)
@@ -175,6 +170,16 @@ def _is_overdue(memory: Memory, belief: Belief, assignment: Assignment) -> bool:
         return False
     ahead = committed.forecast if memory.forecast is None else memory.forecast
     return not ahead.joins
+
+
+def _asks_now(memory: Memory, committed: Committed, t: Second, assignment: Assignment) -> bool:
+    """Whether the planner is asked for a path that is better than the committed one."""
+    settings = assignment.settings
+    if settings.always_ask:
+        return True
+    if not converge.may_be_bettered(committed, t, assignment):
+        return False
+    return committed.plan.planner != "exact" or t - memory.asked >= settings.ask_every
 
 
 def _strayed(memory: Memory, belief: Belief, assignment: Assignment) -> bool:

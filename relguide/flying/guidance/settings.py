@@ -4,18 +4,19 @@
     bank_in_hand_deg = 3.0
     caution_s = 45.0
 
-Keys are names of fields and end in a unit that people use: _deg, _nm, _m, _kt, _mps, _s …; shares
-and the damping have none. What is left out keeps its default.
+Keys are names of fields and end in a unit that people use: _deg, _nm, _m, _kt, _mps, _s …; shares,
+the damping and flags have none. What is left out keeps its default.
 """
 
 import tomllib
 from dataclasses import dataclass, fields, replace
 from math import isfinite
 from pathlib import Path
-from typing import get_args
+from typing import Any, get_args
 
 from relguide.kernels.flight.guide import Gate
 from relguide.kernels.flight.laws import Gains
+from relguide.planning.inputs import truth
 from relguide.units import DEG, KT, NM, Metre, MetrePerSecond, Radian, RadianPerSecond, Second
 
 UNITS = {
@@ -26,6 +27,8 @@ UNITS = {
     "radps": {"degps": DEG, "radps": 1.0},
 }
 """For the unit of a field: endings of keys, and what their numbers are multiplied by."""
+FLAGS = ("always_ask",)
+"""Settings that are true or false."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -71,6 +74,9 @@ class Settings:
     ask_every: Second = 10.0
     """While the leader is as expected, the exact planner is asked this often for a better path: a
     path that was the fastest stays so along it. Other planners are asked each second."""
+    always_ask: bool = False
+    """Every planner is asked each second, although what is proved of the committed path may exclude
+    a better one: to measure what that costs."""
     lost_across: Metre = 3_000.0
     """So far beside the leader's path, capture and follow give way to a plan."""
     lost_heading: Radian = 100.0 * DEG
@@ -121,9 +127,12 @@ class Settings:
     """How long an escape must keep clear: DAIDALUS looks as far."""
 
     def __post_init__(self) -> None:
-        """Refuse what is not a positive number."""
+        """Refuse what is not a positive number, and a flag that is neither true nor false."""
         for field in fields(self):
             value = getattr(self, field.name)
+            if field.name in FLAGS:
+                truth(field.name, value)
+                continue
             if not (isinstance(value, int | float) and isfinite(value) and value > 0.0):
                 raise ValueError(f"{field.name} must be a number above 0, not {value!r}.")
 
@@ -176,13 +185,16 @@ def load_settings(path: Path | str) -> Settings:
     guidance = table.get("guidance")
     if not isinstance(guidance, dict) or len(table) != 1:
         raise ValueError(f"{path} must have one table, [guidance].")
-    known, values = _keys(), dict[str, float]()
+    known, values = _keys(), dict[str, Any]()
     for key, value in guidance.items():
         if key not in known:
             raise ValueError(
                 f"{path}: there is no setting {key!r}; a setting is a field's name and its unit, "
                 "for example bank_in_hand_deg."
             )
+        if key in FLAGS:
+            values[key] = value
+            continue
         if isinstance(value, bool) or not isinstance(value, int | float):
             raise ValueError(f"{path}: {key} must be a number, not {value!r}.")
         name, factor = known[key]
@@ -199,7 +211,7 @@ def _keys() -> dict[str, tuple[str, float]]:
     """Keys of a file: the field that each sets, and what its number is multiplied by."""
     keys: dict[str, tuple[str, float]] = {}
     for field in fields(Settings):
-        if field.type is float:
+        if field.type in (float, bool):
             keys[field.name] = field.name, 1.0
         else:
             (unit,) = get_args(field.type)[1:]

@@ -7,7 +7,7 @@ import pytest
 
 from relguide.flying.documents import PlanChanged
 from relguide.flying.flight import fly
-from relguide.flying.guidance.settings import DEFAULT, Settings, load_settings
+from relguide.flying.guidance.settings import DEFAULT, FLAGS, Settings, load_settings
 from relguide.flying.plan_documents import TurnSegment
 from relguide.flying.scenarios import fig_6
 from relguide.planning.plan import plan
@@ -41,6 +41,11 @@ def test_keys_carry_their_units_and_the_rest_keeps_its_default(file: Path) -> No
     assert load_settings(str(file)) == load_settings(file)
 
 
+def test_a_flag_is_true_or_false(file: Path) -> None:
+    file.write_text("[guidance]\nalways_ask = true\n")
+    assert load_settings(file) == replace(DEFAULT, always_ask=True)
+
+
 def test_an_empty_table_is_the_default(file: Path) -> None:
     file.write_text("[guidance]\n")
     assert load_settings(file) == DEFAULT
@@ -71,6 +76,8 @@ def test_an_empty_table_is_the_default(file: Path) -> None:
         ("[guidance]\ncaution_s = 0", r"toml: caution must be a number above 0, not 0\.0"),
         ("[guidance]\ncaution_s = -3", r"caution must be a number above 0, not -3\.0"),
         ("[guidance]\ncaution_s = inf", "caution must be a number above 0, not inf"),
+        ("[guidance]\nalways_ask = 1", r"toml: always_ask must be True or False, not 1 \(int\)"),
+        ("[guidance]\nalways_ask_s = 1", "there is no setting 'always_ask_s'"),
         ("[guidance]\ncaution_s = nan", "caution must be a number above 0, not nan"),
     ],
 )
@@ -86,8 +93,8 @@ def test_what_is_not_text_is_no_toml(file: Path) -> None:
         load_settings(file)
 
 
-@pytest.mark.parametrize("name", [field.name for field in fields(Settings)])
-def test_every_one_must_be_above_zero(name: str) -> None:
+@pytest.mark.parametrize("name", [f.name for f in fields(Settings) if f.name not in FLAGS])
+def test_every_number_must_be_above_zero(name: str) -> None:
     with pytest.raises(ValueError, match=f"^{name} must be a number above 0, not 0"):
         replace(DEFAULT, **{name: 0.0})
 
