@@ -1,0 +1,71 @@
+"""What a pursuer knows at the start of a flight, and worlds flown by hand."""
+
+from dataclasses import dataclass, replace
+
+from relguide.flying.belief import Belief
+from relguide.flying.flight import Scenario, world_of
+from relguide.flying.guidance.assignment import Assignment
+from relguide.flying.guidance.settings import DEFAULT, Settings
+from relguide.flying.scenarios import fig_6, own_scenario
+from relguide.flying.simulation import assignment_of
+from relguide.flying.world import Fleet
+from relguide.kernels.flight.records import Control
+from relguide.planning.situation import Leader, Pursuer, Situation
+from relguide.units import DEG, NM
+
+FIG_6B = fig_6(intent_known=True)
+
+
+@dataclass
+class Watched:
+    """A flight of two, a second at a time, with what the pursuer knows."""
+
+    scenario: Scenario
+    settings: Settings = DEFAULT
+    t: float = 0.0
+
+    def __post_init__(self) -> None:
+        self.world = world_of(self.scenario, self.settings)
+        (self.link,) = self.world.links
+        self.fleet = Fleet(self.world, 0.05)
+        self.track = self.fleet.begin_track(self.link)
+        self.assignment = assignment_of(self.world, self.link)
+
+    @property
+    def belief(self) -> Belief:
+        return self.fleet.belief(0, 1, self.track, self.t, self.link.intent_known)
+
+    def fly(self, control: Control) -> None:
+        self.fleet.control(0, control)
+        self.fleet.fly_second(self.t)
+        self.t += 1.0
+        self.track.add(self.fleet.body(1), self.fleet.drift, self.t)
+
+
+def seen(scenario: Scenario, settings: Settings = DEFAULT) -> tuple[Belief, Assignment]:
+    watched = Watched(scenario, settings)
+    return watched.belief, watched.assignment
+
+
+def near_limit(*, slot_distance: float = 12_000.0) -> Scenario:
+    """Head-on and a little aside: the fastest path comes close to d_min as it turns in."""
+    situation = Situation(
+        pursuer=Pursuer(x=9_000.0, y=22_000.0, heading=180.0 * DEG, tas=235.0, max_bank=25.0 * DEG),
+        leader=Leader(x=0.0, y=0.0, heading=0.0, tas=200.0),
+        slot_distance=slot_distance,
+        min_separation=5.0 * NM,
+    )
+    return own_scenario(situation)
+
+
+def behind(
+    *, along: float, abeam: float = 0.0, tas: float = 230.0, leader_tas: float = 200.0
+) -> Scenario:
+    """Behind a leader that flies north from the origin."""
+    situation = Situation(
+        pursuer=Pursuer(x=abeam, y=-along, heading=0.0, tas=tas, max_bank=25.0 * DEG),
+        leader=Leader(x=0.0, y=0.0, heading=0.0, tas=leader_tas),
+        slot_distance=10_000.0,
+        min_separation=5.0 * NM,
+    )
+    return replace(own_scenario(situation), after_joining=60.0)

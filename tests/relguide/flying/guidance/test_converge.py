@@ -1,0 +1,198 @@
+"""Which path is flown: only one that keeps d_min as it is flown, and another only by a margin."""
+
+from dataclasses import replace
+
+import pytest
+
+from relguide.flying.guidance.assignment import IN_GATE
+from relguide.flying.guidance.committed import Committed
+from relguide.flying.guidance.converge import (
+    NoProposal,
+    NotBetter,
+    Proposal,
+    better,
+    may_be_bettered,
+    propose,
+)
+from relguide.flying.guidance.settings import DEFAULT
+from relguide.flying.scenarios import own_scenario
+from relguide.planning.plan import NoPlan, Optimality, Plan, Planner, Reason, plan
+from relguide.planning.situation import Situation
+from relguide.planning.words import candidates
+from relguide.units import NM
+from tests.flights import flown, random_start
+from tests.liars import ends_beside
+from tests.relguide.flying.guidance.beliefs import FIG_6B, Watched, behind, seen
+
+GRAZING = own_scenario(random_start(12))
+"""Planned for d_min alone, its path is flown within 5.7 m less than that."""
+BARE = replace(DEFAULT, separation_buffer=1.0)
+"""As good as no buffer."""
+
+
+def proposed(planner: Planner = plan) -> Proposal:
+    found = propose(*seen(FIG_6B), None, planner)
+    assert isinstance(found, Proposal)
+    return found
+
+
+def test_a_proposal_promises_what_is_flown() -> None:
+    committed = proposed().committed
+    flight = flown(FIG_6B)
+    assert flight.result.join_time == pytest.approx(committed.forecast.join_time, abs=1.0)
+    assert committed.forecast.join_time > committed.due  # braking comes on top
+    least, _ = committed.forecast.least(0.0)
+    assert flight.result.least_separation == pytest.approx(least, abs=1.0)
+
+
+def test_plans_keep_d_min_and_the_buffer() -> None:
+    belief, assignment = seen(GRAZING)
+    found = propose(belief, assignment, None, plan)
+    assert isinstance(found, Proposal)
+    wanted = assignment.min_separation + DEFAULT.separation_buffer
+    assert found.committed.plan.situation.min_separation == wanted
+    assert found.committed.plan.certificate.least_separation >= wanted
+    assert found.committed.forecast.least(0.0)[0] >= assignment.min_separation
+
+
+def test_what_is_flown_too_close_is_planned_with_a_wider_berth() -> None:
+    belief, assignment = seen(GRAZING, BARE)
+    asked = list[float]()
+
+    def planner(situation: Situation) -> Plan | NoPlan:
+        asked.append(situation.min_separation)
+        return plan(situation)
+
+    found = propose(belief, assignment, None, planner)
+    assert isinstance(found, Proposal)
+    first, second = asked
+    assert first == assignment.min_separation + 1.0
+    assert second > first + 100.0
+    assert found.committed.forecast.least(0.0)[0] >= assignment.min_separation
+
+
+def test_where_no_wider_berth_is_found_it_is_not_flown_at_all() -> None:
+    belief, assignment = seen(GRAZING, BARE)
+
+    def planner(situation: Situation) -> Plan | NoPlan:
+        if situation.min_separation > assignment.min_separation + 1.0:
+            return NoPlan(reason=Reason.SEPARATION_UNAVOIDABLE, message="Nothing wider.")
+        return plan(situation)
+
+    found = propose(belief, assignment, None, planner)
+    assert isinstance(found, NoProposal)
+    assert found.answer.reason == Reason.SEPARATION_UNAVOIDABLE
+    assert "an aircraft that has to roll and brake would come within" in found.answer.message
+    assert "closer than 5.00 NM" in found.answer.message
+
+
+def test_where_nothing_keeps_the_buffer_d_min_alone_is_kept() -> None:
+    belief, assignment = seen(FIG_6B)
+
+    def planner(situation: Situation) -> Plan | NoPlan:
+        if situation.min_separation > assignment.min_separation:
+            return NoPlan(reason=Reason.SEPARATION_UNAVOIDABLE, message="No room for a buffer.")
+        return plan(situation)
+
+    found = propose(belief, assignment, None, planner)
+    assert isinstance(found, Proposal)
+    assert found.committed.plan.situation.min_separation == assignment.min_separation
+
+
+def test_why_there_is_no_plan_is_passed_on() -> None:
+    answer = NoPlan(reason=Reason.SLOT_UNREACHABLE, message="Too slow.")
+    found = propose(*seen(FIG_6B), None, lambda situation: answer)
+    assert isinstance(found, NoProposal)
+    assert found.answer == answer
+
+
+def test_a_lie_gives_way_to_the_exact_plan_and_is_passed_on() -> None:
+    found = proposed(ends_beside)
+    assert found.fell_back
+    assert found.refusal is not None
+    assert found.refusal.fault == "slot"
+    assert found.committed.plan.planner == "exact"
+
+
+@pytest.mark.parametrize("slot_distance", [5.0 * NM, 5.05 * NM])
+def test_with_d_at_d_min_it_goes_to_a_place_within_the_gate(slot_distance: float) -> None:
+    """The buffer fits in the gate: it joins, and d_min is kept."""
+    near = behind(along=30_000.0, abeam=8_000.0)
+    situation = replace(near.situation, slot_distance=slot_distance)
+    tight = replace(near, situation=situation)
+    _, assignment = seen(tight)
+    assert assignment.aim == situation.min_separation + DEFAULT.separation_buffer
+    assert assignment.aim <= slot_distance + IN_GATE * DEFAULT.joined_along
+    end = flown(tight).result
+    assert end.joined
+    assert end.losses == ()
+    assert end.join_time == pytest.approx(end.promised, abs=1.0)
+
+
+def test_a_large_buffer_does_not_lead_out_of_the_gate() -> None:
+    """Then what the gate has room for is kept beyond d_min."""
+    near = behind(along=30_000.0)
+    situation = replace(near.situation, slot_distance=near.situation.min_separation)
+    tight = replace(near, situation=situation)
+    _, assignment = seen(tight, replace(DEFAULT, separation_buffer=2_000.0))
+    assert assignment.aim == situation.slot_distance + IN_GATE * DEFAULT.joined_along
+    assert assignment.buffered_separation == assignment.aim
+
+
+def second_best(situation: Situation) -> Plan | NoPlan:
+    """Not the fastest path: another word, as a planner might answer that knows no better."""
+    answer = plan(situation)
+    assert isinstance(answer, Plan)
+    others = [one.trajectory for one in candidates(situation).at_release][1:]
+    others += [one.trajectory for one in candidates(situation).later][1:]
+    slower = min(others, key=lambda one: one.duration)
+    unproved = Optimality(proof="none", lower_bound=0.0)
+    return replace(answer, trajectory=slower, word=slower.letters, optimality=unproved)
+
+
+@pytest.fixture(scope="module")
+def slow() -> tuple[Watched, Committed, float]:
+    """A flight on the second best path, and how much sooner the best arrives."""
+    watched = Watched(behind(along=25_000.0, abeam=15_000.0))
+    found = propose(watched.belief, watched.assignment, None, second_best)
+    best = propose(watched.belief, watched.assignment, None, plan)
+    assert isinstance(found, Proposal)
+    assert isinstance(best, Proposal)
+    assert not found.fell_back
+    return watched, found.committed, found.committed.due - best.committed.due
+
+
+def test_a_faster_path_is_taken(slow: tuple[Watched, Committed, float]) -> None:
+    watched, committed, sooner = slow
+    assert sooner > 5.0
+    assert may_be_bettered(committed, 0.0, watched.assignment)
+    found = better(watched.belief, watched.assignment, committed, plan)
+    assert isinstance(found, Proposal)
+    assert found.committed.forecast.join_time < committed.forecast.join_time
+
+
+def test_a_path_that_is_faster_by_less_than_the_margin_is_not(
+    slow: tuple[Watched, Committed, float],
+) -> None:
+    watched, committed, sooner = slow
+    lazy = replace(watched.assignment, settings=replace(DEFAULT, better=sooner + 1.0))
+    assert isinstance(better(watched.belief, lazy, committed, plan), NotBetter)
+    keen = replace(watched.assignment, settings=replace(DEFAULT, better=0.5 * sooner))
+    assert isinstance(better(watched.belief, keen, committed, plan), Proposal)
+    far = replace(watched.assignment, settings=replace(DEFAULT, better_share=0.9))
+    assert isinstance(better(watched.belief, far, committed, plan), NotBetter)
+
+
+def test_the_same_path_is_not_better_than_itself() -> None:
+    committed = proposed().committed
+    found = better(*seen(FIG_6B), committed, plan)
+    assert found == NotBetter(fell_back=False, refusal=None)
+    assert not may_be_bettered(committed, 0.0, seen(FIG_6B)[1])  # it is proved the fastest
+
+
+def test_a_lie_that_is_not_better_is_passed_on_as_well() -> None:
+    found = better(*seen(FIG_6B), proposed().committed, ends_beside)
+    assert isinstance(found, NotBetter)
+    assert found.fell_back
+    assert found.refusal is not None
+    assert found.refusal.fault == "slot"
