@@ -70,10 +70,11 @@ def turn_program(heading: Radian, to: Radian, direction: TurnChoice, bank: Radia
 def remaining(
     program: Program, cursor: int, body: Body, limits: Limits, t: Second
 ) -> tuple[IntentPiece, ...]:
-    """The part of a program still to be flown.
+    """The part of a program still to be flown, as it will be flown.
 
-    A turn that is still being rolled into comes with a short straight before it: what is declared
-    changes its bank at once, half of the roll after its own beginning.
+    A straight ends when it was declared to, however long the turn before it takes. A turn that is
+    still being rolled into comes after what is flown until then, on the present bank: what is
+    declared changes its bank at once, half of the roll after its own beginning.
 
     Args:
         program: the whole.
@@ -82,21 +83,46 @@ def remaining(
         limits: how it rolls.
         t: flight time [s].
     """
-    left = program.pieces[cursor:]
-    if not left:
-        return ()
-    end = float(program.rows[cursor, 1])
-    match left[0]:
-        case FlyStraight():
-            return (FlyStraight(duration=max(end - t, 0.0)), *left[1:])
-        case TurnTo(turn=turn, bank=bank):
-            to_go = -turn * (end - body.heading)
-            if to_go < ROLLED_OUT:
-                return left[1:]
-            missing = bank + turn * body.bank
-            # nearly done, it rolls out, not in
-            rolls_out = to_go < turn_rate(body.tas, bank) * roll_lead(limits, bank, 0.0)
-            if missing < ROLLED_IN or rolls_out or len(left) == MAX_PIECES:
-                return left
-            lead = roll_lead(limits, -turn * body.bank, bank)
-            return (FlyStraight(duration=lead), *left)
+    left: list[IntentPiece] = []
+    heading = body.heading
+    for k, piece in enumerate(program.pieces[cursor:], cursor):
+        end = float(program.rows[k, 1])
+        match piece:
+            case FlyStraight():
+                left.append(FlyStraight(duration=max(end - t, 0.0)))
+                t = max(t, end)
+            case TurnTo(turn=turn, bank=bank):
+                if k == cursor:
+                    if -turn * (end - heading) < ROLLED_OUT:
+                        continue
+                    into = _rolling_in(piece, end, body, limits)
+                    if into is not None and len(program.pieces) - cursor < MAX_PIECES:
+                        before, lead, turned = into
+                        left.append(before)
+                        heading += turned
+                        t += lead
+                left.append(piece)
+                t += -turn * (end - heading) / turn_rate(body.tas, bank)
+                heading = end
+    return tuple(left)
+
+
+def _rolling_in(
+    piece: TurnTo, end: Radian, body: Body, limits: Limits
+) -> tuple[IntentPiece, Second, Radian] | None:
+    """What is flown on the present bank before a turn begins, how long, and how far it turns.
+
+    `None` if it is banked as it should be, or rolls out already.
+    """
+    turn, bank = piece.turn, piece.bank
+    if bank + turn * body.bank < ROLLED_IN:
+        return None
+    if -turn * (end - body.heading) < turn_rate(body.tas, bank) * roll_lead(limits, bank, 0.0):
+        return None
+    lead = roll_lead(limits, -turn * body.bank, bank)
+    if abs(body.bank) < ROLLED_IN:
+        return FlyStraight(duration=lead), lead, 0.0
+    turned = turn_rate(body.tas, body.bank) * lead
+    side: Turn = RIGHT if turned > 0.0 else LEFT
+    to = wrap(body.heading + turned)
+    return TurnTo(heading=to, turn=side, bank=abs(body.bank)), lead, turned

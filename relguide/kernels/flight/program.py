@@ -34,15 +34,43 @@ def roll_lead(limits: Limits, from_bank: float, to_bank: float) -> float:
 
 
 @njit(cache=True, nogil=True)
-def next_piece(program: FloatArray, cursor: int, body: Body, t: float) -> int:
-    """The piece being flown at flight time t [s]: the same, or the next if it is over."""
-    if cursor < len(program):
-        piece = program[cursor]
-        if piece[0] == STRAIGHT:
-            if t >= piece[1]:
-                return cursor + 1
-        elif abs(body.heading - piece[1]) < ROLLED_OUT:
-            return cursor + 1
+def bank_after(program: FloatArray, cursor: int) -> float:
+    """The bank that a piece is left with: of the turn that comes next, 0 if it is not one [rad]."""
+    if cursor + 1 < len(program) and program[cursor + 1, 0] == TURN:
+        return float(program[cursor + 1, 2])
+    return 0.0
+
+
+@njit(cache=True, nogil=True)
+def until_roll(program: FloatArray, cursor: int, body: Body, limits: Limits, t: float) -> float:
+    """How long until the roll at the end of the present piece begins [s]; infinite without one."""
+    if cursor == len(program):
+        return inf
+    end, following = program[cursor, 1], bank_after(program, cursor)
+    if program[cursor, 0] == STRAIGHT:
+        return float(end - t - roll_lead(limits, 0.0, following)) if following != 0.0 else inf
+    bank = program[cursor, 2]
+    left = (end - body.heading) / turn_rate(body.tas, bank)
+    return float(left - roll_lead(limits, bank, following))
+
+
+@njit(cache=True, nogil=True)
+def next_piece(program: FloatArray, cursor: int, body: Body, limits: Limits, t: float) -> int:
+    """The piece being flown at flight time t [s]: the same, or the next if it is over.
+
+    A turn is over once its heading is reached, or before that, where the roll into the next turn
+    is due.
+    """
+    if cursor == len(program):
+        return cursor
+    if program[cursor, 0] == STRAIGHT:
+        return cursor + 1 if t >= program[cursor, 1] else cursor
+    if abs(body.heading - program[cursor, 1]) < ROLLED_OUT:
+        return cursor + 1
+    if cursor + 1 == len(program) or until_roll(program, cursor, body, limits, t) > 0.0:
+        return cursor
+    if program[cursor + 1, 0] == TURN or until_roll(program, cursor + 1, body, limits, t) <= 0.0:
+        return cursor + 1
     return cursor
 
 
@@ -65,35 +93,17 @@ def programmed(
         if program[k, 0] == TURN:
             held = program[k, 1]
     for k in range(cursor, len(program)):
-        kind, end, bank = program[k, 0], program[k, 1], program[k, 2]
-        if kind == STRAIGHT:
-            if k + 1 == len(program):
-                break
-            following = program[k + 1, 2] if program[k + 1, 0] == TURN else 0.0
-            if end - t > roll_lead(limits, 0.0, following):
+        end, bank = program[k, 1], program[k, 2]
+        if program[k, 0] == STRAIGHT:
+            if until_roll(program, k, body, limits, t) > 0.0:
                 break
         else:
-            left = (end - body.heading) * (1.0 if bank > 0.0 else -1.0)
-            rate = turn_rate(body.tas, bank)
-            if left > abs(rate) * roll_lead(limits, bank, 0.0):
-                return Control(TURN_RATE, rate, tas)
+            if until_roll(program, k, body, limits, t) > 0.0:
+                return Control(TURN_RATE, turn_rate(body.tas, bank), tas)
             held = end
-            break
+            if bank_after(program, k) == 0.0:
+                break
     return Control(HOLD_HEADING, held, tas)
-
-
-@njit(cache=True, nogil=True)
-def until_roll(program: FloatArray, cursor: int, body: Body, limits: Limits, t: float) -> float:
-    """How long until the roll at the end of the present piece begins [s]; infinite without one."""
-    if cursor == len(program):
-        return inf
-    end, bank = program[cursor, 1], program[cursor, 2]
-    if program[cursor, 0] == STRAIGHT:
-        if cursor + 1 == len(program) or program[cursor + 1, 0] == STRAIGHT:
-            return inf
-        return float(end - t - roll_lead(limits, 0.0, program[cursor + 1, 2]))
-    rate = turn_rate(body.tas, bank)
-    return float((end - body.heading) / rate - roll_lead(limits, bank, 0.0))
 
 
 @njit(cache=True, nogil=True)
@@ -127,4 +137,4 @@ def fly_program(
     # a nanosecond later: a time that is only just reached may be rounded down
     asked = programmed(program, cursor, held, body, limits, t + 1e-9, tas)
     body = lateral_step(body, asked, limits, wind, dt)
-    return body, next_piece(program, cursor, body, end)
+    return body, next_piece(program, cursor, body, limits, end)

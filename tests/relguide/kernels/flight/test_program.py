@@ -120,11 +120,35 @@ def test_a_turn_begins_half_a_roll_early(bank: float) -> None:
 
 def test_a_straight_that_was_led_into_a_turn_ends_when_declared() -> None:
     program = np.array([[0.0, 60.0, 0.0], [1.0, 3.0, 0.4]])
-    assert next_piece(program, 0, level(), 59.99) == 0
-    assert next_piece(program, 0, level(), 60.0) == 1
-    assert next_piece(program, 1, level(heading=3.0 / DEG - 1.1), 99.0) == 1
-    assert next_piece(program, 1, level(heading=3.0 / DEG - 0.9), 99.0) == 2
-    assert next_piece(program, 2, level(), 99.0) == 2
+    assert next_piece(program, 0, level(), LIMITS, 59.99) == 0
+    assert next_piece(program, 0, level(), LIMITS, 60.0) == 1
+    assert next_piece(program, 1, level(heading=3.0 / DEG - 1.1), LIMITS, 99.0) == 1
+    assert next_piece(program, 1, level(heading=3.0 / DEG - 0.9), LIMITS, 99.0) == 2
+    assert next_piece(program, 2, level(), LIMITS, 99.0) == 2
+
+
+@pytest.mark.parametrize(
+    ("pieces", "off"),
+    [
+        # the reversal displaces it by 110 m
+        ((straight(30.0), turn_to(180.0, RIGHT), turn_to(90.0, LEFT)), 160.0),
+        ((straight(30.0), turn_to(130.0, RIGHT, bank=15.0), turn_to(200.0, RIGHT)), 40.0),
+        ((straight(30.0), turn_to(180.0, RIGHT), straight(8.0), turn_to(90.0, LEFT)), 160.0),
+    ],
+)
+def test_turns_in_a_row_are_rolled_from_bank_to_bank(
+    pieces: tuple[IntentPiece, ...], off: float
+) -> None:
+    """Rolled out of the first and settled before the second, it would come 2 km off."""
+    meant, (rows, cursor) = declared(pieces).trajectory, flown(pieces, 240.0)
+    apart = [
+        hypot(rows[20 * t, 0] - pose.x, rows[20 * t, 1] - pose.y)
+        for t in range(241)
+        for pose in (meant.pose_at(float(t)),)
+    ]
+    assert max(apart) < off
+    assert cursor == len(pieces)
+    assert rows[-1, 2] == pytest.approx(meant.pose_at(240.0).heading, abs=0.1 * DEG)
 
 
 def test_a_turn_is_rolled_out_of_half_a_roll_early() -> None:
