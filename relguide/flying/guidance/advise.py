@@ -338,6 +338,8 @@ def _slot(memory: Memory, belief: Belief, assignment: Assignment) -> Slot:
     if memory.mode in ("capture", "follow"):
         marks = belief.track.marks
         s = float(marks[-1, at.S]) - assignment.slot_distance
+        if assignment.spacing > 0.0:
+            s = mark_at(marks, at.T, marks[-1, at.T] - assignment.spacing)[0]
         _, x, y, heading, _ = mark_at(marks, at.S, s)
         later = mark_at(marks, at.S, s + belief.leader.tas)[3]
         return Slot(x, y, wrap(heading), belief.leader.tas, wrap_signed(later - heading))

@@ -17,6 +17,7 @@ from relguide.flying.guidance.committed import (
     course_of,
     lead_in,
     segments_of,
+    situation_now,
 )
 from relguide.flying.guidance.forecast import Forecast, forecast
 from relguide.flying.guidance.path_distance import distance_between, is_same_path
@@ -106,6 +107,8 @@ def propose(
         if isinstance(plan, NoPlan):
             if limits and wanted > assignment.min_separation:
                 return _without_buffer(belief, assignment, committed, planner, lead, answer)
+            if plan.reason == Reason.SEPARATION_ALREADY_LOST:
+                plan = _already_lost(plan, belief, assignment, planner, lead)
             return NoProposal(answer=plan, fell_back=fell_back, refusal=refusal)
         found = commit(plan, lead, belief, assignment, committed)
         least, _ = found.forecast.least(belief.t)
@@ -138,6 +141,25 @@ def _without_buffer(
         too_close = _too_close(least, assignment)
         return NoProposal(answer=too_close, fell_back=fell_back, refusal=refusal)
     return Proposal(committed=found, lead=lead, fell_back=fell_back, refusal=refusal)
+
+
+def _already_lost(
+    later: NoPlan, belief: Belief, assignment: Assignment, planner: Planner, lead: LeadIn
+) -> NoPlan:
+    """Why no plan can begin where the lead-in ends, in figures of now."""
+    if (
+        hypot(belief.own.x - belief.leader.x, belief.own.y - belief.leader.y)
+        < assignment.min_separation
+    ):
+        now = ask(planner, situation_now(belief, assignment)).plan
+        return now if isinstance(now, NoPlan) else later
+    pursuer, leader = lead.situation.pursuer, lead.situation.leader
+    apart = hypot(pursuer.x - leader.x, pursuer.y - leader.y)
+    return NoPlan(
+        reason=Reason.SEPARATION_UNAVOIDABLE,
+        message=f"In {lead.seconds:.0f} s, before another path can begin, the aircraft are "
+        f"{distance(apart)} apart, closer than {distance(assignment.min_separation)}.",
+    )
 
 
 def _too_close(least: Metre, assignment: Assignment) -> NoPlan:
