@@ -4,6 +4,7 @@ Surveillance will stand between the two: guidance reads this and nothing else.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -62,9 +63,9 @@ class FlownTrack:
         self._count += 1
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class Belief:
-    """What a pursuer knows at one instant."""
+    """What a pursuer knows at one instant; what follows from it is computed once."""
 
     t: Second
     """Flight time [s]."""
@@ -92,12 +93,12 @@ class Belief:
     wind: Wind
     """As it is believed."""
 
-    @property
+    @cached_property
     def drift(self) -> Drift:
         """The wind as kernels take it."""
         return Drift(self.wind.east, self.wind.north)
 
-    @property
+    @cached_property
     def turn_to_come(self) -> bool:
         """Whether the leader's known intent has a turn that is not over."""
         return any(isinstance(piece, TurnTo) for piece in self.intent)
@@ -108,12 +109,12 @@ class Belief:
         turns = [k for k in range(len(self.program)) if self.program[k, 0] != 0.0]
         return turns[-1] if turns else -1
 
-    @property
+    @cached_property
     def leader_turn_rate(self) -> RadianPerSecond:
         """As observed, positive to the right [rad/s]."""
         return turn_rate(self.leader.tas, self.leader.bank)
 
-    @property
+    @cached_property
     def leader_rolled_out(self) -> Radian:
         """The leader's heading if it stops turning now, continuous [rad]."""
         if abs(self.leader.bank) < 1e-3:
@@ -121,7 +122,7 @@ class Belief:
         lead = roll_lead(self.leader_limits, self.leader.bank, 0.0)
         return self.leader.heading + self.leader_turn_rate * lead
 
-    @property
+    @cached_property
     def final_heading(self) -> Radian:
         """The leader's heading on its final leg as far as is known, in [0, 2π) [rad]."""
         turns = [piece.heading for piece in self.intent if isinstance(piece, TurnTo)]
@@ -156,6 +157,8 @@ class Belief:
 
 def intent_after(leader: Leader, seconds: Second) -> tuple[IntentPiece, ...]:
     """The part of an intent still to be flown after a time [s]."""
+    if not leader.intent:
+        return ()
     left, pieces = seconds, list[IntentPiece]()
     durations = leader.trajectory.durations()
     for piece, duration in zip(leader.intent, durations, strict=True):

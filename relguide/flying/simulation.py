@@ -157,9 +157,8 @@ def simulate(
         documents: list[Document] = []
         for one in states:
             documents += _count(one, fleet, t)
-        for k in range(fleet.steps):
-            if (second * fleet.steps + k) % a_sample == 0:
-                documents.append(_sample(states, fleet, t, k * step, k))
+        for k in range(-second * fleet.steps % a_sample, fleet.steps, a_sample):
+            documents.append(_sample(states, fleet, t, k * step, k))
         yield from sorted(documents, key=lambda document: document.t)
     results = tuple(
         link_result(t, one.names, one.milestones, one.tally, one.memory.fallbacks) for one in states
@@ -309,13 +308,16 @@ def _count(one: LinkState, fleet: Fleet, t: Second) -> list[Document]:
     """The figures a second later, and whether separation was lost in it."""
     least = fleet.least_apart(one.pursuer, one.leader)
     row = fleet.tallies[one.pursuer]
-    one.tally = one.tally._replace(least_separation=min(one.tally.least_separation, least))
+    tally = one.tally
+    if least < tally.least_separation:
+        tally = tally._replace(least_separation=least)
     if not one.milestones.joined:
-        one.tally = one.tally._replace(
+        tally = tally._replace(
             heading_swing=float(row[SWING]),
             track=float(row[TRACK]),
             bank_reversals=int(row[REVERSALS]),
         )
+    one.tally = tally
     limit = one.link.min_separation
     if least >= limit:
         one.lost = one.lost and fleet.apart(one.pursuer, one.leader) < limit

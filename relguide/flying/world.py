@@ -178,7 +178,8 @@ class Fleet:
         self.declared: list[Program] = []
         self.recordings: list[FloatArray] = []
         wind = world.air.wind_at(0.0, 0.0, 0.0, 0.0)
-        self.wind = wind
+        self.wind, self.drift = wind, Drift(wind.east, wind.north)
+        self.recorded: set[int] = set()
         for i, aircraft in enumerate(world.aircraft):
             self.limits[i] = limits_of(aircraft, aircraft.airframe, world.air)
             heading = wrap(aircraft.heading)
@@ -194,18 +195,15 @@ class Fleet:
                     self.set_program(i, program_of(intent, heading, 0.0, aircraft.tas))
                 case Recorded(track=track):
                     self.pilots[i] = RECORDED
+                    self.recorded.add(i)
                     self.recordings[i] = recorded_rows(track, wind, step)
                     self.states[i] = self.recordings[i][0]
-
-    @property
-    def drift(self) -> Drift:
-        """The wind as kernels take it."""
-        return Drift(self.wind.east, self.wind.north)
 
     def set_program(self, i: int, program: Program) -> None:
         """Have an aircraft fly something else from now on."""
         self.declared[i] = program
         self.pilots[i] = PROGRAMMED
+        self.recorded.discard(i)
         self.programs[i, : len(program.rows)] = program.rows
         self.lengths[i], self.cursors[i], self.helds[i] = len(program.rows), 0, program.held
 
@@ -221,23 +219,19 @@ class Fleet:
 
     def leave_recording(self, i: int) -> None:
         """A recorded aircraft flies on under its own autopilot, as it flies now."""
-        if self.pilots[i] == RECORDED:
+        if i in self.recorded:
             self.controls[i, 2] = self.states[i, 5]
             heading = float(self.states[i, 2])
             self.set_program(i, program_of((), heading, 0.0, float(self.states[i, 5])))
 
     def recorded_until(self) -> Second:
         """When the first recording ends [s]; infinite if none is flown."""
-        ends = [
-            (len(rows) - 1) * self.step
-            for rows, pilot in zip(self.recordings, self.pilots, strict=True)
-            if pilot == RECORDED
-        ]
+        ends = ((len(self.recordings[i]) - 1) * self.step for i in self.recorded)
         return min(ends, default=float("inf"))
 
     def fly_second(self, t: Second) -> None:
         """All aircraft, one second on; `trace` then holds each step of it."""
-        for i in np.flatnonzero(self.pilots == RECORDED):
+        for i in self.recorded:
             first = round(t / self.step)
             rows = self.recordings[i][first : first + self.steps + 1]
             self.trace[i, : len(rows)] = rows
@@ -278,10 +272,10 @@ class Fleet:
     def beyond_edge(self) -> str:
         """The ident of an aircraft about to leave the plane; empty if there is none."""
         edge = POSITION.high - EDGE
-        if float(np.abs(self.states[:, :2]).max()) <= edge:
-            return ""
-        far = np.flatnonzero(np.max(np.abs(self.states[:, :2]), axis=1) > edge)
-        return self.world.aircraft[int(far[0])].ident
+        for aircraft, (x, y) in zip(self.world.aircraft, self.states[:, :2].tolist(), strict=True):
+            if not (abs(x) <= edge and abs(y) <= edge):
+                return aircraft.ident
+        return ""
 
     def belief(
         self,

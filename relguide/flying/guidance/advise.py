@@ -14,7 +14,6 @@ from relguide.flying.guidance.announcements import (
     Event,
     PlanReason,
     UnableTo,
-    expectation,
     leader_change,
 )
 from relguide.flying.guidance.assignment import Assignment
@@ -134,7 +133,7 @@ def _stay_or_change(
     if committed is None:
         return _plan_again(memory, belief, assignment, planner)
     memory = memory._replace(committed=committed._replace(s=memory.progress.s))
-    now = expectation(belief)
+    now = memory.leader  # noticed this second
     changed = leader_change(memory.expected, now, settings.leader_turned, settings.leader_speed)
     as_forecast = memory.forecast is not None and leader_is_as_forecast(
         memory.forecast, belief, assignment
@@ -295,11 +294,11 @@ def _follow_act(
         else "Capturing the leader's route."
     )
     memory, events = enter(memory, belief, mode, message)
-    memory = memory._replace(progress=done.progress)
+    committed = None if memory.mode in ("capture", "follow") else memory.committed
+    captured = memory.captured
     if events and mode == "capture":
-        memory = memory._replace(captured=belief.leader_rolled_out)
-    if memory.mode in ("capture", "follow"):
-        memory = memory._replace(committed=None)
+        captured = belief.leader_rolled_out
+    memory = memory._replace(progress=done.progress, committed=committed, captured=captured)
     return memory, events
 
 
@@ -318,9 +317,10 @@ def _advice(
         if not ahead.joins and memory.committed is not None:
             joins = memory.committed.due
         go = max(joins - belief.t, 0.0)
-    tas = min(max(done.control.tas, belief.limits.min_tas), belief.limits.max_tas)
+    control = done.control
+    tas = min(max(control.tas, belief.limits.min_tas), belief.limits.max_tas)
     return Advice(
-        control=done.control._replace(tas=tas),
+        control=control if tas == control.tas else control._replace(tas=tas),
         mode=memory.mode,
         slot=_slot(memory, belief, assignment),
         slot_open=belief.slot_open(assignment.slot_distance),

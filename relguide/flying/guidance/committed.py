@@ -74,8 +74,10 @@ class LeadIn:
     """Where a plan made now begins: what is flown until the aircraft can have rolled into it."""
 
     seconds: Second
-    situation: Situation
-    """At its end, to be planned for, with the bank and the place that plans use."""
+    pursuer: Pursuer
+    """At its end, with the bank that plans use."""
+    leader: Leader
+    """At its end, with the rest of its intent."""
     pieces: FloatArray
     """What is flown until then: length [m] and curvature [rad/m] of each piece. shape (n, 2)"""
     start: tuple[Metre, Metre, Radian]
@@ -115,8 +117,7 @@ def lead_in(belief: Belief, assignment: Assignment, committed: Committed | None)
         max_bank=assignment.planned_bank,
     )
     leader = belief.leader_after(seconds)
-    situation = situation_of(assignment, pursuer, leader, belief, assignment.min_separation)
-    return LeadIn(seconds=seconds, situation=situation, pieces=pieces, start=start)
+    return LeadIn(seconds=seconds, pursuer=pursuer, leader=leader, pieces=pieces, start=start)
 
 
 def situation_now(belief: Belief, assignment: Assignment) -> Situation:

@@ -6,7 +6,7 @@ change it by a minute, and move it to the other side of the leader. So while the
 same branch is solved again from where the path leads, and left only for much.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import hypot
 
 from relguide.flying.belief import Belief
@@ -18,6 +18,7 @@ from relguide.flying.guidance.committed import (
     lead_in,
     segments_of,
     situation_now,
+    situation_of,
 )
 from relguide.flying.guidance.forecast import Forecast, forecast
 from relguide.flying.guidance.path_distance import distance_between, is_same_path
@@ -90,7 +91,7 @@ def propose(
             more than this [s].
     """
     lead = lead_in(belief, assignment, committed)
-    pursuer, leader = lead.situation.pursuer, lead.situation.leader
+    pursuer, leader = lead.pursuer, lead.leader
     apart = hypot(pursuer.x - leader.x, pursuer.y - leader.y)
     limit = assignment.buffered_separation
     limits = [limit] if apart >= limit else []
@@ -98,7 +99,7 @@ def propose(
     closest: Metre = 0.0
     while len(limits) <= BUFFERS:
         wanted = limits[-1] if limits else assignment.min_separation
-        situation = replace(lead.situation, min_separation=wanted)
+        situation = situation_of(assignment, pursuer, leader, belief, wanted)
         answer = ask(planner, situation)
         fell_back, refusal = fell_back or answer.fell_back, refusal or answer.refusal
         plan = answer.plan
@@ -130,14 +131,15 @@ def _without_buffer(
     wide: Answer,
 ) -> Proposal | NoProposal:
     """With d_min alone, where nothing keeps the buffer as well."""
-    answer = ask(planner, lead.situation)
+    limit = assignment.min_separation
+    answer = ask(planner, situation_of(assignment, lead.pursuer, lead.leader, belief, limit))
     fell_back = wide.fell_back or answer.fell_back
     refusal = answer.refusal or wide.refusal
     if isinstance(answer.plan, NoPlan):
         return NoProposal(answer=answer.plan, fell_back=fell_back, refusal=refusal)
     found = commit(answer.plan, lead, belief, assignment, committed)
     least, _ = found.forecast.least(belief.t)
-    if least < assignment.min_separation:
+    if least < limit:
         too_close = _too_close(least, assignment)
         return NoProposal(answer=too_close, fell_back=fell_back, refusal=refusal)
     return Proposal(committed=found, lead=lead, fell_back=fell_back, refusal=refusal)
@@ -153,7 +155,7 @@ def _already_lost(
     ):
         now = ask(planner, situation_now(belief, assignment)).plan
         return now if isinstance(now, NoPlan) else later
-    pursuer, leader = lead.situation.pursuer, lead.situation.leader
+    pursuer, leader = lead.pursuer, lead.leader
     apart = hypot(pursuer.x - leader.x, pursuer.y - leader.y)
     return NoPlan(
         reason=Reason.SEPARATION_UNAVOIDABLE,
@@ -180,11 +182,10 @@ def better(
     left = committed.due - belief.t
     margin = max(settings.better, settings.better_share * left)
     lead = lead_in(belief, assignment, committed)
-    situation = replace(lead.situation, min_separation=assignment.buffered_separation)
-    pursuer, leader = situation.pursuer, situation.leader
-    if hypot(pursuer.x - leader.x, pursuer.y - leader.y) < situation.min_separation:
+    pursuer, leader, limit = lead.pursuer, lead.leader, assignment.buffered_separation
+    if hypot(pursuer.x - leader.x, pursuer.y - leader.y) < limit:
         return NotBetter(fell_back=False, refusal=None)
-    answer = ask(planner, situation)
+    answer = ask(planner, situation_of(assignment, pursuer, leader, belief, limit))
     stays = NotBetter(fell_back=answer.fell_back, refusal=answer.refusal)
     if isinstance(answer.plan, NoPlan):
         return stays
@@ -245,7 +246,7 @@ def _nearest(
     if cut >= end:
         return plan
     pieces = on.pieces_between(path, cut, end)
-    left = lead.situation.pursuer.flying(segments_of(pieces))
+    left = lead.pursuer.flying(segments_of(pieces))
     if is_same_path(left, plan.trajectory):
         return plan
     found = candidates(plan.situation)

@@ -85,18 +85,21 @@ class Forecast(NamedTuple):
     def own_off(self, t: Second, own: Body) -> Metre:
         """How far the pursuer is from where it was to be [m]; infinite if nothing is known."""
         k = self.row(t)
-        return inf if k < 0 else hypot(self.own[k, 0] - own.x, self.own[k, 1] - own.y)
+        if k < 0:
+            return inf
+        x, y = self.own[k, :2].tolist()
+        return hypot(x - own.x, y - own.y)
 
     def leader_off(self, t: Second, leader: Body) -> tuple[Metre, float, float]:
         """Distance [m], heading [rad] and speed [m/s] by which the leader is not as expected."""
         k = self.row(t)
         if k < 0:
             return inf, inf, inf
-        row = self.leader[k]
+        x, y, heading, _, _, tas, _ = self.leader[k].tolist()
         return (
-            hypot(row[0] - leader.x, row[1] - leader.y),
-            abs(wrap_signed(row[2] - leader.heading)),
-            abs(row[5] - leader.tas),
+            hypot(x - leader.x, y - leader.y),
+            abs(wrap_signed(heading - leader.heading)),
+            abs(tas - leader.tas),
         )
 
 

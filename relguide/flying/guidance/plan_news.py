@@ -159,6 +159,8 @@ def count_refusal(
     news: list[Event] = []
     if found.refusal is not None and fault != memory.refused:
         news.append(Refused(refusal=found.refusal))
+    if fault == memory.refused and not found.fell_back:
+        return memory, news
     return memory._replace(fallbacks=memory.fallbacks + found.fell_back, refused=fault), news
 
 

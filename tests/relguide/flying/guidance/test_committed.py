@@ -55,11 +55,11 @@ def test_it_ends_where_the_aircraft_then_is(scenario: Scenario, rate: float) -> 
     lead = lead_in(watched.belief, watched.assignment, None)
     for _ in range(round(lead.seconds)):
         watched.fly(control)
-    own, planned = watched.belief.own, lead.situation.pursuer
+    own, planned = watched.belief.own, lead.pursuer
     assert hypot(own.x - planned.x, own.y - planned.y) < 5.0
     assert wrap_signed(own.heading - planned.heading) == pytest.approx(0.0, abs=0.2 * DEG)
     leader = watched.belief.leader
-    assert hypot(leader.x - lead.situation.leader.x, leader.y - lead.situation.leader.y) < 1.0
+    assert hypot(leader.x - lead.leader.x, leader.y - lead.leader.y) < 1.0
     assert planned.max_bank == watched.assignment.planned_bank < watched.assignment.max_bank
 
 
