@@ -24,6 +24,7 @@ from relguide.contract.protocol import PROTOCOL
 from relguide.contract.refusal import ContractError, parse
 from relguide.flying.orders import IntentKnown, LeaderHeading, LeaderSpeed
 from relguide_server.departures import DeparturesOf
+from relguide_server.errors import Refusal
 from relguide_server.fleet import FleetOf
 from relguide_server.live_flight import LiveFlight
 from relguide_server.openapi import (
@@ -155,6 +156,8 @@ async def command_flight(flight_id: str, request: Request, fleet: FleetOf) -> Re
         command = parse(FlightCommand, _content(await read_json(request))).root
     except ContractError as error:
         raise problem_of(error) from None
+    if flight.over:
+        raise Refusal(409, "This flight has ended and takes no commands: start another one.")
     _command(flight, command)
     return json_answer(status_of(flight).model_dump(), 202)
 

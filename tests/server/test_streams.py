@@ -185,6 +185,20 @@ def test_an_ended_flight_is_still_sent_whole() -> None:
         assert second["documents"] == []
 
 
+def test_an_ended_flight_refuses_commands_with_a_sentence() -> None:
+    def short(commands: Callable[[float], Iterable[Command]]) -> Iterator[Document]:
+        return ideal_flight(commands, duration=1.0)
+
+    with served(ideal_app(short)) as address:
+        url = f"http://{address}/api/v1/flights/{start(address, rate=60.0)}"
+        while not httpx.get(url).json()["ended"]:
+            time.sleep(0.02)
+        command = {"command": "leader_heading", "heading_deg": 200.0}
+        answer = httpx.post(f"{url}/commands", json=command)
+        assert answer.status_code == 409
+        assert "has ended" in answer.json()["detail"]
+
+
 def test_a_flight_that_breaks_closes_its_streams_with_a_sentence() -> None:
     def breaks(commands: Callable[[float], Iterable[Command]]) -> Iterator[Document]:
         for document in ideal_flight(commands, duration=3600.0):
