@@ -45,6 +45,8 @@ from relguide_server.scene_shapes import ALTITUDE_SCALE, KM
 
 CELL = 5.0 * NM / KM
 """Cell of the ground grid [scene units]."""
+FLOWN_PART = 4.0
+"""The path ahead is cut off behind the aircraft each so many seconds [s]: a kilometre."""
 WALL = 0.8
 """Half the height of the cylinder of radius d_min [scene units]; separation is horizontal."""
 
@@ -73,6 +75,10 @@ class Scene:
         self._scene = server.scene
         self._wind = (0.0, 0.0)
         self._height = 0.0
+        self._own_height = 0.0
+        self._forecast: ForecastChanged | None = None
+        self._drawn_from = 0.0
+        self._promise = ""
         self._cast: _Cast | None = None
         self._figures: dict[str, AircraftFigure] = {}
         self._separation_lost = False
@@ -93,11 +99,12 @@ class Scene:
                 self._cast = _cast(document)
         if self._cast is None:
             return
-        # Plan and route are drawn at the leader's height, which a sample behind them may bring.
-        leader = self._cast.link.leader
+        # Paths are drawn at the heights of those who fly them: a sample behind may bring these.
+        link = self._cast.link
         samples = [d for d in documents if isinstance(d, Sample)]
         if samples:
-            self._height = height_of(by_ident(samples[-1].aircraft, leader))
+            self._height = height_of(by_ident(samples[-1].aircraft, link.leader))
+            self._own_height = height_of(by_ident(samples[-1].aircraft, link.pursuer))
         with self._server.atomic():
             for document in documents:
                 self._draw_one(document, self._cast)
@@ -116,13 +123,19 @@ class Scene:
             case PlanUnavailable():
                 if document.ident != link.pursuer:
                     return
-                for name in ("/world/plan", "/world/plan_shadow"):
-                    self._scene.remove_by_name(name)
+                self._scene.remove_by_name("/world/plan")
+            case ModeChanged(ident=ident, mode="heading" | "escape" | "capture" | "follow"):
+                if ident == link.pursuer:
+                    self._scene.remove_by_name("/world/plan")
+            case ForecastChanged():
+                if document.ident == link.pursuer:
+                    self._forecast = document
+                    self._draw_forecast(document.t)
             case Sample():
                 self._sample(document.t, _pair(document, link), cast)
             case LeaderChanged() | ModeChanged() | SeparationLost() | FlightEnded():
                 pass  # what they change is seen in the samples
-            case PlanRefused() | Alert() | Unable() | ForecastChanged():
+            case PlanRefused() | Alert() | Unable():
                 pass  # for the navigation display
             case _:
                 assert_never(document)
@@ -161,14 +174,39 @@ class Scene:
         label(self._scene, "/world/scale/note", note, (0, -4.5, 0), "top-left")
 
     def _draw_plan(self, changed: PlanChanged) -> None:
-        points = shapes.path_points(changed.plan.segments, self._wind, self._height)
-        lines(self._scene, "/world/plan", shapes.polyline(points), paint.PLAN, 3.0)
+        """The plan's ideal path, a thin line beside the one that will be flown."""
+        points = shapes.path_points(changed.plan.segments, self._wind, self._own_height)
+        lines(self._scene, "/world/plan", shapes.polyline(points), paint.PLAN, 1.0)
+
+    def _draw_forecast(self, t: float) -> None:
+        """What is left at flight time t [s] of the path that will be flown, and its shadow."""
+        forecast, self._drawn_from = self._forecast, t
+        if forecast is None or t >= forecast.times[-1]:
+            for name in ("/world/forecast", "/world/forecast_shadow"):
+                self._scene.remove_by_name(name)
+            return
+        columns = (forecast.times, forecast.x, forecast.y)
+        points = shapes.timed_points(*columns, height=self._own_height, since=t)
+        lines(self._scene, "/world/forecast", shapes.polyline(points), paint.PLAN, 3.0)
         shadow = shapes.polyline(points * (1.0, 1.0, 0.0))
-        lines(self._scene, "/world/plan_shadow", shadow, paint.PLAN_SHADOW, 1.5)
-        x, y, z = points[-1]
-        minutes, seconds = divmod(round(changed.t + changed.plan.time_to_converge), 60)
+        lines(self._scene, "/world/forecast_shadow", shadow, paint.PLAN_SHADOW, 1.5)
+
+    def _draw_promise(self, t: float, guidance: GuidanceSample) -> None:
+        """Where it joins, and how long until then, as the navigation display has it."""
+        forecast, left = self._forecast, guidance.time_to_go
+        minutes, seconds = divmod(round(left), 60)
         text = f"CNV {minutes:02d}:{seconds:02d}"
-        label(self._scene, "/world/plan/end", text, (x, y, z), "bottom-left")
+        if left <= 0.0 or forecast is None or t + left > forecast.times[-1] + 0.5:
+            text = ""
+        if text == self._promise:
+            return
+        self._promise = text
+        if not text or forecast is None:
+            self._scene.remove_by_name("/world/join")
+            return
+        x = float(np.interp(t + left, forecast.times, forecast.x)) / KM
+        y = float(np.interp(t + left, forecast.times, forecast.y)) / KM
+        label(self._scene, "/world/join", text, (x, y, self._own_height), "bottom-left")
 
     def _draw_route(self, route: LeaderRoute) -> None:
         points = shapes.path_points(route.segments, self._wind, self._height)
@@ -183,6 +221,9 @@ class Scene:
             self._first(pair, cast)
         self._figures["pursuer"].move(pair.pursuer, t)
         self._figures["leader"].move(pair.leader, t)
+        if t - self._drawn_from >= FLOWN_PART:
+            self._draw_forecast(t)
+        self._draw_promise(t, guidance)
         self._centre(pair)
         self._cameras.frame(guidance.separation / KM, self._height)
         slot = guidance.slot

@@ -134,6 +134,29 @@ def path_points(
     return np.column_stack((plane, np.full(len(plane), height)))
 
 
+def timed_points(
+    times: Sequence[float], x: Sequence[float], y: Sequence[float], *, height: float, since: float
+) -> Points:
+    """Points along a path that is known by places at times, from one time on [scene units].
+
+    Args:
+        times: ascending [s].
+        x: east of each [m].
+        y: north of each [m].
+        height: z of all points [scene units].
+        since: what was flown before is left out [s].
+    """
+    steps = np.diff(times)
+    lengths = np.hypot(np.diff(x), np.diff(y))
+    # Lines that reach far behind the camera are drawn broken, so none is long.
+    counts = np.maximum(np.ceil(lengths / LONGEST).astype(int), 1)
+    pieces = zip(times[:-1], steps, counts, strict=True)
+    at = np.concatenate([t + dt * np.arange(n) / n for t, dt, n in pieces] + [times[-1:]])
+    at = np.concatenate(([since], at[at > since]))
+    plane = np.column_stack((np.interp(at, times, x), np.interp(at, times, y))) / KM
+    return np.column_stack((plane, np.full(len(plane), height)))
+
+
 def _piece_points(segment: PathSegment, wind: tuple[float, float]) -> Points:
     match segment:
         case StraightSegment():

@@ -10,8 +10,15 @@ from relguide_server.scene import Scene
 from relguide_server.scene_shapes import ALTITUDE_SCALE
 from viser import ViserServer
 
-from relguide.flying.documents import Document, PlanUnavailable, Sample
-from relguide.flying.plan_documents import NoPlanCard
+from relguide.flying.documents import (
+    Document,
+    ForecastChanged,
+    ModeChanged,
+    PlanUnavailable,
+    Sample,
+)
+from relguide.flying.modes import Mode
+from relguide.flying.plan_documents import NoPlanCard, PathPoint
 from relguide.planning.plan import Reason
 from tests.documents import rare_documents
 from tests.server.flown import LEADER, OWN, ideal_flight
@@ -69,10 +76,70 @@ def test_what_is_about_others_or_only_for_the_crew_changes_nothing(
     scene.draw(documents)
     before = set(nodes(viser_server))
     answer = NoPlanCard(reason=Reason.SLOT_UNREACHABLE, message="Too fast a leader.")
-    scene.draw(
-        [*rare_documents(20.0, OWN, LEADER), PlanUnavailable(t=20.0, ident="OTHER", answer=answer)]
-    )
+    rare = [d for d in rare_documents(20.0, OWN, LEADER) if not isinstance(d, ForecastChanged)]
+    others = [d for d in rare_documents(20.0, "OTHER", LEADER) if isinstance(d, ForecastChanged)]
+    scene.draw([*rare, *others, PlanUnavailable(t=20.0, ident="OTHER", answer=answer)])
     assert set(nodes(viser_server)) == before
+
+
+def forecast(documents: list[Document], *, t: float, until: float) -> ForecastChanged:
+    """Straight east from where own ship is in the last sample, a point each ten seconds."""
+    own, leader = next(d for d in reversed(documents) if isinstance(d, Sample)).aircraft
+    times = np.arange(t, until + 1.0, 10.0)
+    return ForecastChanged(
+        t=t,
+        ident=OWN,
+        times=tuple(times),
+        x=tuple(own.x + 240.0 * (times - t)),
+        y=(own.y,) * len(times),
+        heading=(np.pi / 2.0,) * len(times),
+        least_separation=10_000.0,
+        pursuer_at_closest=PathPoint(t=until, x=own.x, y=own.y, heading=0.0),
+        leader_at_closest=PathPoint(t=until, x=leader.x, y=leader.y, heading=0.0),
+    )
+
+
+def test_the_path_that_will_be_flown_is_drawn_at_the_height_of_own_ship(
+    viser_server: ViserServer, documents: list[Document]
+) -> None:
+    scene = Scene(viser_server)
+    sample = next(d for d in reversed(documents) if isinstance(d, Sample))
+    own, leader = sample.aircraft
+    higher = replace(sample, aircraft=(replace(own, altitude=own.altitude + 1_000.0), leader))
+    ahead = forecast(documents, t=20.0, until=900.0)
+    scene.draw([*documents, higher, ahead])
+    points = np.asarray(nodes(viser_server)["/world/forecast"].points)
+    assert points[..., 2] == pytest.approx((own.altitude / 1000.0 + 1.0) * ALTITUDE_SCALE)
+    assert points[-1, 1, 0] == pytest.approx(ahead.x[-1] / 1000.0, abs=0.01)
+    assert nodes(viser_server)["/world/plan"].thickness < 1.5
+
+
+def test_the_flown_part_of_the_path_goes_and_the_time_to_join_counts_down(
+    viser_server: ViserServer, documents: list[Document]
+) -> None:
+    scene = Scene(viser_server)
+    ahead = forecast(documents, t=20.0, until=900.0)
+    sample = next(d for d in reversed(documents) if isinstance(d, Sample))
+    scene.draw([*documents, ahead])
+    guidance = replace(sample.guidance[0], time_to_go=501.0)
+    scene.draw([replace(sample, t=120.0, guidance=(guidance,))])
+    points = np.asarray(nodes(viser_server)["/world/forecast"].points)
+    assert points[0, 0, 0] == pytest.approx((ahead.x[0] + 24_000.0) / 1000.0, abs=0.01)
+    assert nodes(viser_server)["/world/join"].text == "CNV 08:21"
+    joined = replace(guidance, time_to_go=0.0)
+    scene.draw([replace(sample, t=901.0, guidance=(joined,))])
+    assert "/world/join" not in nodes(viser_server)
+    assert "/world/forecast" not in nodes(viser_server)
+
+
+@pytest.mark.parametrize("mode", ["heading", "escape", "follow"])
+def test_the_ideal_path_goes_when_the_plan_is_flown_no_more(
+    viser_server: ViserServer, documents: list[Document], mode: Mode
+) -> None:
+    scene = Scene(viser_server)
+    scene.draw(documents)
+    scene.draw([ModeChanged(t=20.0, ident=OWN, mode=mode, previous="converge", message="Why.")])
+    assert "/world/plan" not in nodes(viser_server)
 
 
 def test_without_a_plan_none_is_shown(viser_server: ViserServer, documents: list[Document]) -> None:

@@ -55,6 +55,14 @@ def test_every_turn_meets_the_straight_after_it() -> None:
     assert steps.max() < shapes.LONGEST + 1.0
 
 
+def test_a_timed_path_begins_where_the_aircraft_is_and_has_no_long_piece() -> None:
+    times, x, y = (0.0, 100.0, 110.0), (0.0, 24_000.0, 24_000.0), (0.0, 0.0, 2_400.0)
+    points = shapes.timed_points(times, x, y, height=5.0, since=50.0)
+    assert points[0] == pytest.approx([12.0, 0.0, 5.0])
+    assert points[-1] == pytest.approx([24.0, 2.4, 5.0])
+    assert np.linalg.norm(np.diff(points, axis=0), axis=1).max() * 1000 < shapes.LONGEST + 1.0
+
+
 def test_dashes_cover_their_share_of_the_line() -> None:
     line = np.array([[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [10.0, 10.0, 0.0]])
     dashes = shapes.dashes(line, dash=2.0, gap=2.0)
