@@ -4,7 +4,7 @@ import { type Answer, commandFlight, createFlight, listScenarios, readFlight } f
 import type { FlightStore } from "./flight";
 import type { Actions, Session } from "./session";
 import { OTHER_VERSION, openStream, type Stream } from "./stream";
-import { formatHeading, formatKnots } from "./units";
+import { formatHeading, formatKnots, inPageUnits, wrap360 } from "./units";
 import { type Command, type FlightStatus, PROTOCOL } from "./wire";
 
 /** What a page that is opened without a flight shows: the paper's figure, soon over. */
@@ -122,7 +122,7 @@ export function createActions(
     say("sending", doing);
     const answer = await commandFlight(status.id, body);
     if (answer.kind === "done") say("done", done);
-    else say("refused", answer.sentence);
+    else say("refused", inPageUnits(answer.sentence));
   }
 
   return {
@@ -133,9 +133,13 @@ export function createActions(
     setRate: (rate) =>
       void command({ command: "set_rate", rate }, `Rate ×${rate}…`, `Rate ×${rate}.`),
     leaderHeading(heading, direction) {
+      if (heading < 0 || heading > 360) {
+        say("refused", `A heading is 0 to 360°, not ${heading}°.`);
+        return;
+      }
       const way = direction === undefined ? "" : ` by the ${direction}`;
       const text = `Leader to heading ${formatHeading(heading)}${way}`;
-      const body = { command: "leader_heading", heading_deg: heading } as const;
+      const body = { command: "leader_heading", heading_deg: wrap360(heading) } as const;
       void command(direction === undefined ? body : { ...body, direction }, `${text}…`, `${text}.`);
     },
     leaderSpeed(tas) {

@@ -9,13 +9,15 @@ export function Dial(props: {
   unit: string;
   value: number;
   digits: number;
-  /** Brings any number into the range of what is selected. */
+  /** Brings a number that was stepped to into the range of what is selected. */
   correct: (value: number) => number;
+  /** The largest number that can be commanded: a larger one may be typed, and is refused. */
+  most: number;
   change: (value: number) => void;
   /** Enter: what is selected is commanded. */
   commit: (value: number) => void;
 }) {
-  const { label, unit, value, digits, correct, change, commit } = props;
+  const { label, unit, value, digits, correct, most, change, commit } = props;
   const typed = useSignal<string | null>(null);
   const shown = String(value).padStart(digits, "0");
   const step = (by: number) => {
@@ -56,6 +58,8 @@ export function Dial(props: {
           role="spinbutton"
           aria-label={label}
           aria-valuenow={value}
+          aria-valuemax={most}
+          aria-invalid={value > most}
           maxLength={3}
           size={3}
           value={typed.value ?? shown}
@@ -63,7 +67,7 @@ export function Dial(props: {
           onInput={(event) => {
             const digitsOnly = event.currentTarget.value.replace(/\D/g, "");
             typed.value = digitsOnly;
-            if (digitsOnly !== "") change(correct(Number(digitsOnly)));
+            if (digitsOnly !== "") change(Number(digitsOnly));
           }}
           onBlur={() => {
             typed.value = null;

@@ -12,6 +12,7 @@ import { take } from "./take";
 import type { TrailPoint } from "./trail";
 import type {
   Alert,
+  ForecastChanged,
   LeaderRoute,
   LinkResult,
   ModeChanged,
@@ -53,8 +54,10 @@ export interface Flight {
   readonly id: Signal<string | null>;
   readonly started: Signal<PairCard | null>;
   readonly route: Signal<LeaderRoute | null>;
-  /** The plan flown now. */
+  /** The last plan that was flown: `flownPlan` says whether it still is. */
   readonly plan: Signal<PlanChanged | null>;
+  /** The path that own ship will really fly, whatever its mode. */
+  readonly forecast: Signal<ForecastChanged | null>;
   /** The plan before, shown until `until` [ms]. */
   readonly superseded: Signal<{ plan: PlanChanged; until: number } | null>;
   /** Set while the last answer was "no plan". */
@@ -72,6 +75,8 @@ export interface Flight {
   readonly sample: Signal<PairSample | null>;
   /** The newest sample carried on to this animation frame, at most 2 s of wall time ahead. */
   readonly now: Signal<PairSample | null>;
+  /** The same for numbers to be read: it changes five times a second. */
+  readonly reading: Signal<PairSample | null>;
   /** Flight time at this animation frame [s]. */
   readonly simTime: Signal<number>;
   /** Wall time since the newest sample arrived [s]; while paused, since the newest tick. */
@@ -98,6 +103,8 @@ export interface FlightStore {
   link(state: Link): void;
 }
 
+/** Numbers are read, not watched: they change this often [wall ms]. */
+const READING_PERIOD = 200;
 /** The picture runs at most this far ahead of the newest sample [wall s]. */
 const AHEAD_LIMIT = 2;
 /** Data older than this is flagged [s]. */
@@ -110,6 +117,7 @@ export function createFlightStore(): FlightStore {
   let clock: FlightClock | null = null;
   let fresh = -Infinity; // wall time at which the data were last known to be new [ms]
   let linked: Link = "connecting";
+  let readAt = -Infinity;
   let offset: { gap: Gap; wall: number } = { gap: NO_GAP, wall: 0 };
 
   function receive(tick: Tick, wall: number): void {
@@ -154,6 +162,9 @@ export function createFlightStore(): FlightStore {
       flight.simTime.value = t;
       const moved = moveSample(sample, t - sample.t_s);
       flight.now.value = blend(moved, offset.gap, wall - offset.wall);
+      if (flight.reading.value !== null && wall - readAt < READING_PERIOD) return;
+      readAt = wall;
+      flight.reading.value = flight.now.value;
     });
   }
 
@@ -171,6 +182,7 @@ function emptyFlight(): Flight {
     started: signal(null),
     route: signal(null),
     plan: signal(null),
+    forecast: signal(null),
     superseded: signal(null),
     unavailable: signal(null),
     alerts: signal([]),
@@ -180,6 +192,7 @@ function emptyFlight(): Flight {
     modeSince: signal(-Infinity),
     sample: signal(null),
     now: signal(null),
+    reading: signal(null),
     simTime: signal(0),
     dataAge: signal(0),
     trail: { pursuer: signal([]), leader: signal([]) },
@@ -195,6 +208,7 @@ function clear(flight: Flight): void {
   flight.started.value = null;
   flight.route.value = null;
   flight.plan.value = null;
+  flight.forecast.value = null;
   flight.superseded.value = null;
   flight.unavailable.value = null;
   flight.alerts.value = [];
@@ -204,6 +218,7 @@ function clear(flight: Flight): void {
   flight.modeSince.value = -Infinity;
   flight.sample.value = null;
   flight.now.value = null;
+  flight.reading.value = null;
   flight.simTime.value = 0;
   flight.trail.pursuer.value = [];
   flight.trail.leader.value = [];

@@ -14,10 +14,7 @@ import { Cockpit } from "./cockpit";
 import { followFirstStart } from "./first-start";
 import { createFlightStore } from "./flight";
 import { isTaken, keyAction } from "./keyboard";
-import { createSession, takeReading } from "./session";
-
-/** Numbers are read, not watched: they change this often [ms]. */
-const READING_PERIOD = 200;
+import { createSession } from "./session";
 
 const store = createFlightStore();
 const session = createSession(store.flight, followFirstStart());
@@ -35,14 +32,9 @@ addEventListener("keydown", (event) => {
   act();
 });
 
-let readAt = -Infinity;
 function animate(wall: number): void {
   requestAnimationFrame(animate);
   store.advance(wall);
-  if (wall - readAt >= READING_PERIOD) {
-    readAt = wall;
-    takeReading(session);
-  }
 }
 requestAnimationFrame(animate);
 

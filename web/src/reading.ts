@@ -1,39 +1,7 @@
 /** The texts of the numbers beside the picture, from plan and sample: plain functions, no DOM. */
 
 import { formatClock, formatHeading, formatKnots, formatMiles, NM } from "./units";
-import type {
-  Alternative,
-  Direction,
-  Mode,
-  OptimalityCard,
-  PlanCard,
-  PlanChanged,
-  ReferenceCard,
-} from "./wire";
-
-/** The turn to come, or the one being flown. */
-export interface NextTurn {
-  readonly direction: Direction;
-  /** Heading still to change [deg]. */
-  readonly angle: number;
-  /** Until it begins [s]; 0 while it is flown. */
-  readonly in: number;
-}
-
-/** The next turn of a plan at flight time `t` [s]; null when no turn is left. */
-export function nextTurn(changed: PlanChanged, t: number): NextTurn | null {
-  const elapsed = t - changed.t_s;
-  for (const segment of changed.plan.segments) {
-    if (segment.kind !== "turn" || segment.end.t_s <= elapsed) continue;
-    const left = (segment.end.t_s - Math.max(elapsed, segment.start.t_s)) / segment.duration_s;
-    return {
-      direction: segment.direction,
-      angle: segment.angle_deg * left,
-      in: Math.max(0, segment.start.t_s - elapsed),
-    };
-  }
-  return null;
-}
+import type { Alternative, Mode, OptimalityCard, PlanCard, ReferenceCard } from "./wire";
 
 export function countTurns(plan: PlanCard): number {
   return plan.segments.filter((segment) => segment.kind === "turn").length;

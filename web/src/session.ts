@@ -1,6 +1,6 @@
 /** The state of the page around the instruments, and what its buttons do: signals and types, no network. */
 
-import { type Signal, signal } from "@preact/signals";
+import { computed, type ReadonlySignal, type Signal, signal } from "@preact/signals";
 import type { Readiness } from "./api";
 import { type Flight, LOST_AGE } from "./flight";
 import type { PairSample } from "./pair";
@@ -30,10 +30,10 @@ export type Outage =
 export interface Session {
   readonly flight: Flight;
   /**
-   * The newest sample for numbers to be read: changes 5 times a second, unlike `flight.now`.
+   * The sample for numbers to be read: changes 5 times a second, unlike `flight.now`.
    * Null when data are lost: an old number is blanked, never left standing.
    */
-  readonly reading: Signal<PairSample | null>;
+  readonly reading: ReadonlySignal<PairSample | null>;
   readonly scenarios: Signal<readonly ScenarioInfo[]>;
   readonly status: Signal<FlightStatus | null>;
   readonly feedback: Signal<Feedback>;
@@ -70,7 +70,7 @@ export function createSession(
 ): Session {
   return {
     flight,
-    reading: signal(null),
+    reading: computed(() => (flight.dataAge.value > LOST_AGE ? null : flight.reading.value)),
     scenarios: signal([]),
     status: signal(null),
     feedback: signal({ kind: "none" }),
@@ -81,12 +81,6 @@ export function createSession(
     helpOpen: signal(false),
     firstStart,
   };
-}
-
-/** Takes the numbers to be read from the picture of this instant. */
-export function takeReading(session: Session): void {
-  const { now, dataAge } = session.flight;
-  session.reading.value = dataAge.value > LOST_AGE ? null : now.value;
 }
 
 /** The next range outward (+1) or inward (−1), held to the ends of the selector. */

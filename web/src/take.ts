@@ -63,7 +63,8 @@ export function take(flight: Flight, document: Document, arrival: Arrival): void
       log(flight, { t, kind: "lost", text: document.cause });
       return;
     case "forecast_changed":
-      return; // the picture shows the plan
+      flight.forecast.value = document;
+      return;
     case "sample": {
       const sample = pairSample(document, pair);
       if (sample !== null) takeSample(flight, sample);
@@ -81,6 +82,7 @@ export function take(flight: Flight, document: Document, arrival: Arrival): void
 /** Also the first document for a late joiner or a reconnected page: what holds comes again. */
 function begin(flight: Flight, started: FlightStarted): void {
   flight.started.value = pairCard(started);
+  flight.forecast.value = null;
   flight.trail.pursuer.value = [];
   flight.trail.leader.value = [];
   flight.alerts.value = [];

@@ -57,6 +57,24 @@ export function formatLevel(altitude: number): string {
   return `FL${String(nearestInteger(altitude / FT / 100)).padStart(3, "0")}`;
 }
 
+/** The fields of commands as the page calls them. */
+const NAMES = [
+  ["tas_mps:", "The true airspeed"],
+  ["heading_deg:", "The heading"],
+] as const;
+
+/** A sentence of the server, its fields by their names here and its speeds in knots. */
+export function inPageUnits(sentence: string): string {
+  const named = NAMES.reduce((text, [field, name]) => text.replace(field, name), sentence);
+  const number = "\\d+(?:\\.\\d+)?";
+  const speeds = new RegExp(`(${number})( … )?(${number})? ?m/s`, "g");
+  return named.replace(speeds, (_, low: string, to: string | undefined, high: string | undefined) =>
+    [formatKnots(Number(low)), ...(to && high ? [to, formatKnots(Number(high))] : []), " kt"].join(
+      "",
+    ),
+  );
+}
+
 /** A bank as magnitude and side, e.g. "25 R". `bank` [deg], positive right wing down. */
 export function formatBank(bank: number): string {
   const whole = nearestInteger(bank);

@@ -12,7 +12,7 @@ import { OutageNotice } from "../src/panels/outage";
 import { PlanNumbers } from "../src/panels/plan";
 import { ScenarioPicker } from "../src/panels/scenario-picker";
 import { Scene } from "../src/panels/scene";
-import { createSession, takeReading } from "../src/session";
+import { createSession } from "../src/session";
 import { NM } from "../src/units";
 import {
   alert,
@@ -47,7 +47,6 @@ function flying() {
     0,
   );
   const session = createSession(store.flight);
-  session.reading.value = store.flight.now.value;
   session.status.value = {
     id: "one",
     scenario: "fig_6b",
@@ -95,14 +94,32 @@ describe("panels", () => {
     const { session } = flying();
     render(<PlanNumbers session={session} />, place);
     const text = place.textContent ?? "";
-    for (const part of ["04:10", "joins at 04:10", "RS", "R 90°", "closing 78 kt", "Optimal"]) {
+    for (const part of ["04:10", "joins at 04:10", "RS", "closing 78 kt", "Optimal"]) {
       expect(text).toContain(part);
     }
   });
 
+  test.each(["heading", "escape"] as const)(
+    "in mode %s nothing is said of the plan before",
+    (mode) => {
+      const { store, session } = flying();
+      store.receive(tick(1, [modeChanged(1, mode), sample(1, { mode })]), 1000);
+      render(
+        <>
+          <PlanNumbers session={session} />
+          <Alternatives session={session} />
+        </>,
+        place,
+      );
+      expect(place.textContent).not.toMatch(/flown$|Least proved|Least forecast|Optimal|joins at/);
+      expect(place.querySelector(".flown")).toBeNull();
+      expect(place.textContent).toContain("No plan is flown now.");
+    },
+  );
+
   test("lost separation is told in words, not only in red", () => {
     const { session } = flying();
-    session.reading.value = pairAt(0, { least_separation_m: 4 * NM });
+    session.flight.reading.value = pairAt(0, { least_separation_m: 4 * NM });
     render(<PlanNumbers session={session} />, place);
     expect(place.querySelector(".figure.alert")?.textContent).toBe("4.0");
     expect(place.textContent).toContain("LOST");
@@ -152,10 +169,8 @@ describe("panels", () => {
   test("numbers are blanked when the data are lost, not left standing", () => {
     const { store, session } = flying();
     store.advance(4000);
-    takeReading(session);
     expect(session.reading.value).not.toBeNull();
     store.advance(5100);
-    takeReading(session);
     render(
       <>
         <Header session={session} />
@@ -230,6 +245,33 @@ describe("panels", () => {
     expect(actions.leaderHeading).toHaveBeenLastCalledWith(355);
     act(() => button("Leader's heading: plus 10").click());
     expect(input.value).toBe("005");
+  });
+
+  test("a heading beyond 360 is passed on as typed, to be refused, and marked", () => {
+    const { session, actions } = flying();
+    render(<LeaderControls session={session} actions={actions} />, place);
+    const input = place.querySelector<HTMLInputElement>('[aria-label="Leader\'s heading"]');
+    if (input === null) throw new Error("no heading field");
+    act(() => {
+      input.value = "400";
+      input.dispatchEvent(new Event("input", { bubbles: true }));
+    });
+    expect(input.getAttribute("aria-invalid")).toBe("true");
+    act(() => button("Right").click());
+    expect(actions.leaderHeading).toHaveBeenLastCalledWith(400, "right");
+  });
+
+  test("a leader that is called Leader is not called so twice", () => {
+    const { store, session, actions } = flying();
+    render(<LeaderControls session={session} actions={actions} />, place);
+    expect(place.querySelector(".leader header")?.textContent).toBe("LeaderAF123");
+    const started = store.flight.started.value;
+    if (started === null) throw new Error("no flight");
+    const leader = { ...started.leader, ident: "LEADER" };
+    act(() => {
+      store.flight.started.value = { ...started, leader };
+    });
+    expect(place.querySelector(".leader header")?.textContent).toBe("Leader");
   });
 
   test("the speed is commanded in metres per second", () => {

@@ -8,6 +8,7 @@ import {
   formatLevel,
   formatMiles,
   formatSignedKnots,
+  inPageUnits,
   KT,
   NM,
   wrap180,
@@ -54,4 +55,11 @@ describe("units", () => {
   test("bank names its side", () => {
     expect([24.6, -25, 0.2].map(formatBank)).toEqual(["25 R", "25 L", "0"]);
   });
+});
+
+test("a refusal speaks the units of the page", () => {
+  expect(inPageUnits("tas_mps: must lie in 30 … 400 m/s, not 513.936 m/s.")).toBe(
+    "The true airspeed must lie in 58 … 778 kt, not 999 kt.",
+  );
+  expect(inPageUnits("The flight has ended.")).toBe("The flight has ended.");
 });

@@ -1,7 +1,7 @@
 import { useComputed } from "@preact/signals";
 import { formatHeading, formatKnots, KT, wrap360 } from "../units";
 import { Cell } from "./cell";
-import { type LayerProps, shownGuidance } from "./picture";
+import { type LayerProps, shownReading } from "./picture";
 import { Stroke } from "./stroke";
 import { placeAt, READOUTS } from "./view";
 
@@ -10,10 +10,7 @@ const ARROW_FROM = 2 * KT;
 
 /** Ground speed, true airspeed, wind. */
 export function AirData({ flight, view }: LayerProps) {
-  const own = useComputed(() => {
-    void view.beat.value;
-    return shownGuidance(flight)?.now.pursuer ?? null;
-  });
+  const own = useComputed(() => shownReading(flight)?.now.pursuer ?? null);
   const gs = useComputed(() => (own.value === null ? "---" : knots(own.value.ground_speed_mps)));
   const tas = useComputed(() => (own.value === null ? "---" : knots(own.value.tas_mps)));
   const wind = useComputed(() => (own.value === null ? null : flight.started.value?.wind) ?? null);

@@ -1,8 +1,9 @@
 import { useComputed } from "@preact/signals";
+import { closestApproach, isClosestAtJoin, joinPoint, timeToJoin } from "../committed";
 import { formatClock } from "../units";
-import { closestAtEnd, closestText } from "./closest";
+import { closestText } from "./closest";
 import type { Label } from "./labels";
-import { type LayerProps, planTime, shownPlan } from "./picture";
+import { type LayerProps, shownGuidance } from "./picture";
 import { ink } from "./style";
 import { offNose, onMap, placeAt, project, toMap } from "./view";
 
@@ -25,24 +26,23 @@ export function CapturePoint({ flight, view }: LayerProps) {
 }
 
 function captureAt(flight: LayerProps["flight"]) {
-  const plan = shownPlan(flight);
-  const end = plan?.plan.segments.at(-1)?.end;
-  return plan === null || end === undefined || planTime(flight, plan) > end.t_s ? null : end;
+  return shownGuidance(flight)?.look.path === "committed" ? joinPoint(flight) : null;
 }
 
 /** "CNV mm:ss", the time still to fly. */
 export function captureLabel({ flight, view }: LayerProps): Label | null {
-  const [plan, end, pose] = [shownPlan(flight), captureAt(flight), view.pose.value];
-  if (plan === null || end === null || pose === null) return null;
+  const [left, end, pose] = [timeToJoin(flight), captureAt(flight), view.pose.value];
+  if (left === null || end === null || pose === null) return null;
   const at = project(view.layout.value, pose, end);
   if (!onMap(view.layout.value, at)) return null;
-  const left = plan.plan.time_to_converge_s - planTime(flight, plan);
+  const closest = closestApproach(flight);
+  const isClosest = closest !== null && isClosestAtJoin(flight, closest);
   return {
     id: "capture",
     at,
     lines: [
-      { text: `CNV ${formatClock(Math.max(0, left))}`, colour: "plan" },
-      ...(closestAtEnd(plan) ? [{ text: closestText(plan), colour: "label" as const }] : []),
+      { text: `CNV ${formatClock(left)}`, colour: "plan" },
+      ...(isClosest ? [{ text: closestText(closest), colour: "label" as const }] : []),
     ],
     side: offNose(pose, end.heading_deg + 90),
     gap: 16,

@@ -1,9 +1,9 @@
 import { useComputed } from "@preact/signals";
+import { type Closest, closestApproach, isClosestAtJoin } from "../committed";
 import { formatClock, formatMiles } from "../units";
-import type { PlanChanged } from "../wire";
 import type { Label } from "./labels";
 import { line } from "./path";
-import { type LayerProps, planTime, shownPlan } from "./picture";
+import { type LayerProps, shownGuidance } from "./picture";
 import { GRAZE } from "./states";
 import { Stroke } from "./stroke";
 import { LINES } from "./style";
@@ -41,45 +41,41 @@ function Ghost({ flight, view, who }: LayerProps & { who: "pursuer" | "leader" }
 }
 
 function closestColour(flight: LayerProps["flight"]) {
-  const least = flight.plan.value?.plan.separation.least_m ?? Number.POSITIVE_INFINITY;
+  const least = closest(flight)?.least ?? Number.POSITIVE_INFINITY;
   const minSeparation = flight.started.value?.min_separation_m ?? 0;
   return least < minSeparation - GRAZE ? "caution" : "label";
 }
 
-/** The closest approach of the plan flown, while it is still to come. */
-function closest(flight: LayerProps["flight"]) {
-  const plan = shownPlan(flight);
-  if (plan === null || planTime(flight, plan) >= plan.plan.separation.at_s) return null;
-  return { pursuer: plan.pursuer_at_closest, leader: plan.leader_at_closest, plan };
-}
-
-/** Whether they are closest at the slot itself: then the label of the capture point says how close. */
-export function closestAtEnd({ plan }: PlanChanged): boolean {
-  return plan.time_to_converge_s - plan.separation.at_s < 1;
+/** The closest approach on the path flown, while it is still to come. At the join it is no pair of its own. */
+function closest(flight: LayerProps["flight"]): Closest | null {
+  if (shownGuidance(flight)?.look.path !== "committed") return null;
+  const pair = closestApproach(flight);
+  if (pair === null || flight.simTime.value >= pair.at || isClosestAtJoin(flight, pair))
+    return null;
+  return pair;
 }
 
 /** How close they come. */
-export function closestText({ plan }: PlanChanged): string {
-  return `${formatMiles(plan.separation.least_m)} NM`;
+export function closestText({ least }: Closest): string {
+  return `${formatMiles(least)} NM`;
 }
 
 /** How close, and how long until then. */
 export function closestLabel({ flight, view }: LayerProps): Label | null {
-  const [pair, pose] = [closest(flight), view.pose.value];
-  if (pair === null || pose === null || closestAtEnd(pair.plan)) return null;
-  const { separation } = pair.plan.plan;
+  const [pair, pose, reading] = [closest(flight), view.pose.value, flight.reading.value];
+  if (pair === null || pose === null || reading === null) return null;
   const at = project(view.layout.value, pose, {
     x_m: (pair.pursuer.x_m + pair.leader.x_m) / 2,
     y_m: (pair.pursuer.y_m + pair.leader.y_m) / 2,
   });
   if (!onMap(view.layout.value, at)) return null;
-  const left = separation.at_s - planTime(flight, pair.plan);
+  const left = Math.max(0, pair.at - reading.t_s);
   return {
     id: "closest",
     at,
     lines: [
       {
-        text: `${closestText(pair.plan)} ${formatClock(left)}`,
+        text: `${closestText(pair)} ${formatClock(left)}`,
         colour: closestColour(flight),
       },
     ],

@@ -1,14 +1,13 @@
 import { useComputed } from "@preact/signals";
 import { formatMiles } from "../units";
-import { type LayerProps, shownGuidance } from "./picture";
+import { type LayerProps, shownReading } from "./picture";
 import { ink } from "./style";
 import { placeAt } from "./view";
 
 /** Offset from the leader's route, beside the own ship, once it is to be kept small. */
 export function CrossTrack({ flight, view }: LayerProps) {
   const text = useComputed(() => {
-    void view.beat.value;
-    const shown = shownGuidance(flight);
+    const shown = shownReading(flight);
     return shown?.look.crossTrack === true ? formatSide(shown.now.cross_track_m) : "";
   });
   const place = useComputed(() => {

@@ -1,7 +1,8 @@
 /** The picture in words, for those who do not see it. */
 
+import { closestApproach, timeToJoin } from "../committed";
 import { formatClock, formatHeading, formatMiles } from "../units";
-import { type LayerProps, planTime, shownNow, shownPlan } from "./picture";
+import { type LayerProps, shownGuidance, shownNow } from "./picture";
 import { age, separation } from "./states";
 import { AGE } from "./style";
 import { bearing } from "./view";
@@ -25,11 +26,10 @@ export function describe({ flight, view }: LayerProps): string {
     `Own ship ${MODE_WORDS[now.mode]}, heading ${formatHeading(now.pursuer.heading_deg)}.`,
     `Leader ${leader} bearing ${formatHeading(bearing(now.pursuer, now.leader))}, ${formatMiles(now.separation_m)} nautical miles.`,
   ];
-  const plan = shownPlan(flight);
-  if (plan !== null) {
-    const left = plan.plan.time_to_converge_s - planTime(flight, plan);
-    const least = formatMiles(plan.plan.separation.least_m);
-    parts.push(`Slot in ${formatClock(Math.max(0, left))}, least separation ${least}.`);
+  const [left, closest] = [timeToJoin(flight), closestApproach(flight)];
+  if (shownGuidance(flight) !== null && left !== null && closest !== null) {
+    const least = formatMiles(closest.least);
+    parts.push(`Slot in ${formatClock(left)}, least separation ${least}.`);
   }
   if (flight.unavailable.value !== null) parts.push("No plan available.");
   if (flight.route.value?.intent_known === false) parts.push("Leader's intent unknown.");

@@ -1,4 +1,5 @@
 import { useComputed } from "@preact/signals";
+import { joinPoint } from "../committed";
 import { NM } from "../units";
 import { line } from "./path";
 import { type LayerProps, shownGuidance, slotTrack } from "./picture";
@@ -10,8 +11,8 @@ import { onwards, type Place } from "./view";
 export function FinalTrack({ flight, view }: LayerProps) {
   const d = useComputed(() => {
     const shown = shownGuidance(flight);
-    const end = flight.plan.value?.plan.segments.at(-1)?.end;
-    if (shown?.look.points !== true || end === undefined) return "";
+    const end = joinPoint(flight);
+    if (shown?.look.points !== true || end === null) return "";
     const track = slotTrack(flight);
     const leg = finalLegStart(flight) ?? shown.now.leader;
     const along = (leg.x_m - end.x_m) * track.x + (leg.y_m - end.y_m) * track.y;

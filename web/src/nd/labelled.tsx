@@ -1,9 +1,11 @@
 import { computed, type ReadonlySignal, untracked, useComputed } from "@preact/signals";
 import { useMemo } from "preact/hooks";
+import { closestApproach, forecastIndex, joinPoint } from "../committed";
 import { samplePath } from "../geometry";
 import { captureLabel } from "./capture";
 import { circleLabel } from "./circle";
 import { closestLabel } from "./closest";
+import { pointsAfter, shownUntil } from "./committed";
 import { intentLabels } from "./intent";
 import { type Label, LINE_HEIGHT, type Placement, placeLabels } from "./labels";
 import { leaderOnMap, leaderTag } from "./leader";
@@ -51,7 +53,7 @@ export function Labels({ flight, view }: LayerProps) {
     let before: ReadonlyMap<string, Placement> = new Map();
     return computed(() => {
       void view.beat.value;
-      void flight.plan.value;
+      void flight.forecast.value;
       // Sides are chosen at the pace of reading; between, each label moves with its point.
       before = untracked(() => choose({ flight, view }, [...labels.peek().values()], before));
       return before;
@@ -137,12 +139,9 @@ function symbols({ flight, view }: LayerProps): Box[] {
   const boxes = [square(layout.centre, 28), square(project(layout, pose, now.slot), 20)];
   if (leaderOnMap({ flight, view }) !== null)
     boxes.push(square(project(layout, pose, now.leader), 24));
-  const plan = shownPlan(flight);
-  if (plan !== null) {
-    const end = plan.plan.segments.at(-1)?.end;
-    const points = [plan.pursuer_at_closest, plan.leader_at_closest, ...(end ? [end] : [])];
-    boxes.push(...points.map((point) => square(project(layout, pose, point), 11)));
-  }
+  const [closest, join] = [closestApproach(flight), joinPoint(flight)];
+  const points = [closest?.pursuer, closest?.leader, join].filter((point) => point != null);
+  boxes.push(...points.map((point) => square(project(layout, pose, point), 11)));
   for (const { radius } of layout.rings)
     boxes.push(...ringLabelPoints(layout, radius).map((point) => square(point, 14)));
   return boxes;
@@ -158,7 +157,12 @@ function linePoints({ flight, view }: LayerProps): Point[] {
   if (pose === null) return [];
   const layout = view.layout.value;
   const wind = windNow(flight);
-  const own = plan === null ? [] : samplePath(plan.plan.segments, wind, planTime(flight, plan));
+  const forecast = flight.forecast.value;
+  const planned = plan === null ? [] : samplePath(plan.plan.segments, wind, planTime(flight, plan));
+  const own =
+    forecast === null
+      ? planned
+      : pointsAfter(forecast, forecastIndex(forecast, flight.simTime.value), shownUntil(flight));
   const leader = route === null ? [] : samplePath(route.segments, wind, flight.simTime.value);
   return [own, leader].flatMap((path) => dense(path.map((point) => project(layout, pose, point))));
 }

@@ -97,9 +97,6 @@ export function createNotices(flight: Flight): ReadonlySignal<readonly Notice[]>
     const { loss, wall: noted } = lastLoss.value;
     const isNews = loss !== null && isRecent(flight, loss.t_s, wall - noted);
     if (isNews && notices.length === 0) notices.push({ level: "warning", text: "SEPARATION" });
-    const isAlerted = flight.alerts.value.some((alert) => alert.subject === "separation");
-    if (outlook.state === "predicted" && now !== null && !isAlerted)
-      notices.push({ level: "caution", text: `SEP IN ${outlook.within} S` });
     const old = age(flight);
     if (old === "old" || old === "dropped")
       notices.push({ level: "caution", text: `LDR DATA ${Math.floor(flight.dataAge.value)} S` });

@@ -1,7 +1,8 @@
 import { useComputed } from "@preact/signals";
+import { committedPoint, joinTime } from "../committed";
 import { pathPointAt } from "../geometry";
 import { DEG } from "../units";
-import type { PathPoint, PathSegment } from "../wire";
+import type { PathPoint } from "../wire";
 import type { Label } from "./labels";
 import { type LayerProps, planTime, shownPlan, windNow } from "./picture";
 import { Stroke } from "./stroke";
@@ -18,12 +19,8 @@ const HALF = 5;
 export function TimeTicks({ flight, view }: LayerProps) {
   const plan = useComputed(() => shownPlan(flight));
   const shown = useComputed(() => view.layout.value.range <= TICKS_TO);
-  const own = useComputed(() =>
-    plan.value === null ? "" : ticks({ flight, view }, plan.value.plan.segments, plan.value.t_s),
-  );
-  const leader = useComputed(() =>
-    plan.value === null ? "" : ticks({ flight, view }, flight.route.value?.segments ?? [], 0),
-  );
+  const own = useComputed(() => ticks({ flight, view }, ownPoint));
+  const leader = useComputed(() => ticks({ flight, view }, leaderPoint));
   if (plan.value === null || !shown.value) return null;
   return (
     <g class="nd-minutes">
@@ -37,13 +34,20 @@ function thin(line: Line): Line {
   return { ...line, width: 1.75 };
 }
 
-function ticks(
-  { flight, view }: LayerProps,
-  segments: readonly PathSegment[],
-  start: number,
-): string {
-  return minutes({ flight, view })
-    .map((minute) => minutePoint({ flight, view }, segments, minute, start))
+/** Where one of the two is on its path at flight time `t` [s]. */
+type PointAt = (flight: LayerProps["flight"], t: number) => PathPoint | null;
+
+const ownPoint: PointAt = committedPoint;
+
+const leaderPoint: PointAt = (flight, t) => {
+  const segments = flight.route.value?.segments ?? [];
+  const [from, to] = [segments[0]?.start.t_s ?? 0, segments.at(-1)?.end.t_s ?? 0];
+  return t < from || t > to ? null : pathPointAt(segments, t, windNow(flight));
+};
+
+function ticks({ flight, view }: LayerProps, pointAt: PointAt): string {
+  return minutes(flight)
+    .map(({ t }) => pointAt(flight, t))
     .filter((point) => point !== null)
     .map((point) => {
       const { x, y } = toMap(view.layout.value, point);
@@ -54,26 +58,16 @@ function ticks(
     .join("");
 }
 
-/** The minutes of the plan still to come. */
-function minutes({ flight }: LayerProps): number[] {
-  const plan = shownPlan(flight);
-  if (plan === null) return [];
-  const last = Math.floor((plan.plan.time_to_converge_s - 1) / 60);
+/** The minutes of the plan still to come, and when they are over [s, flight time]. */
+function minutes(flight: LayerProps["flight"]): { minute: number; t: number }[] {
+  const [plan, join] = [shownPlan(flight), joinTime(flight)];
+  if (plan === null || join === null) return [];
+  const last = Math.floor((join - plan.t_s - 1) / 60);
   const next = Math.max(1, Math.floor(planTime(flight, plan) / 60) + 1);
-  return Array.from({ length: Math.max(0, last - next + 1) }, (_, i) => next + i);
-}
-
-function minutePoint(
-  { flight }: LayerProps,
-  segments: readonly PathSegment[],
-  minute: number,
-  start: number,
-): PathPoint | null {
-  const plan = shownPlan(flight);
-  if (plan === null) return null;
-  const t = plan.t_s + 60 * minute - start;
-  const [from, to] = [segments[0]?.start.t_s ?? 0, segments.at(-1)?.end.t_s ?? 0];
-  return t < from || t > to ? null : pathPointAt(segments, t, windNow(flight));
+  return Array.from({ length: Math.max(0, last - next + 1) }, (_, i) => ({
+    minute: next + i,
+    t: plan.t_s + 60 * (next + i),
+  }));
 }
 
 /** The numbers of every fifth minute, on both paths. */
@@ -81,13 +75,14 @@ export function minuteLabels({ flight, view }: LayerProps): Label[] {
   const [plan, pose] = [shownPlan(flight), view.pose.value];
   const layout = view.layout.value;
   if (plan === null || pose === null || layout.range > TICKS_TO) return [];
-  const own = { segments: plan.plan.segments, start: plan.t_s, colour: "plan" as const };
-  const route = flight.route.value?.segments ?? [];
-  const leader = { segments: route, start: 0, colour: "leader" as const };
+  const both = [
+    { pointAt: ownPoint, colour: "plan" },
+    { pointAt: leaderPoint, colour: "leader" },
+  ] as const;
   const labels: Label[] = [];
-  for (const minute of minutes({ flight, view }).filter((each) => each % 5 === 0)) {
-    for (const { segments, start, colour } of [own, leader]) {
-      const point = minutePoint({ flight, view }, segments, minute, start);
+  for (const { minute, t } of minutes(flight).filter((each) => each.minute % 5 === 0)) {
+    for (const { pointAt, colour } of both) {
+      const point = pointAt(flight, t);
       if (point === null) continue;
       const at = project(layout, pose, point);
       if (!onMap(layout, at)) continue;

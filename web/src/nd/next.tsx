@@ -1,24 +1,14 @@
 import { useComputed } from "@preact/signals";
+import { committedPoint, joinPoint, nextTurn, timeToJoin } from "../committed";
 import { formatClock, formatHeading, formatMiles, NM } from "../units";
 import { Cell } from "./cell";
-import {
-  type LayerProps,
-  leaderIdent,
-  planTime,
-  ROLL_IN,
-  shownGuidance,
-  shownPlan,
-  turnsOf,
-} from "./picture";
+import { type LayerProps, leaderIdent, ROLL_IN, shownPlan, shownReading } from "./picture";
 import type { Colour } from "./style";
 import { bearing, distance, placeAt, READOUTS } from "./view";
 
 /** What comes next on the plan: the turn with its bearing, distance and countdown, or the capture point. */
-export function NextPoint({ flight, view }: LayerProps) {
-  const next = useComputed(() => {
-    void view.beat.value;
-    return nextPoint(flight);
-  });
+export function NextPoint({ flight }: LayerProps) {
+  const next = useComputed(() => nextPoint(flight));
   const name = useComputed(() => next.value?.name ?? "");
   const place = useComputed(() => next.value?.place ?? "");
   const degree = useComputed(() => (next.value === null ? "" : "°/"));
@@ -40,7 +30,7 @@ export function NextPoint({ flight, view }: LayerProps) {
 }
 
 function nextPoint(flight: LayerProps["flight"]) {
-  const [plan, shown] = [shownPlan(flight), shownGuidance(flight)];
+  const [plan, shown] = [shownPlan(flight), shownReading(flight)];
   if (shown === null) return null;
   const own = shown.now.pursuer;
   if (plan === null) {
@@ -48,16 +38,15 @@ function nextPoint(flight: LayerProps["flight"]) {
     const name = leaderIdent(flight);
     return { name, ...toward(own, shown.now.leader), left: "", urgent: false };
   }
-  const t = planTime(flight, plan);
-  const turn = turnsOf(plan).find(({ segment }) => t < segment.start.t_s);
-  const point = turn?.segment.start ?? plan.plan.segments.at(-1)?.end;
-  if (point === undefined || t > point.t_s) return null;
-  const left = point.t_s - t;
+  const turn = nextTurn(plan, shown.now.t_s);
+  const left = turn?.in ?? timeToJoin(flight);
+  const point = turn === null ? joinPoint(flight) : committedPoint(flight, turn.at);
+  if (point === null || left === null) return null;
   return {
-    name: turn === undefined ? "CNV" : `${turn.name} ${turn.size}°`,
+    name: turn === null ? "CNV" : `${turn.name} ${turn.size}°`,
     ...toward(own, point),
     left: formatClock(left),
-    urgent: turn !== undefined && left <= ROLL_IN,
+    urgent: turn !== null && left <= ROLL_IN,
   };
 }
 

@@ -76,6 +76,12 @@ export function pixelLength(layout: Layout, segment: PathSegment): number {
   return distance(segment.start, segment.end) * layout.scale;
 }
 
+/** Places joined by straight lines; fewer than two are no line. */
+export function polyline(layout: Layout, places: readonly Place[]): string {
+  if (places.length < 2) return "";
+  return `M${places.map((place) => point(layout, place)).join("L")}`;
+}
+
 export function line(layout: Layout, from: Place, to: Place): string {
   return `M${point(layout, from)}L${point(layout, to)}`;
 }

@@ -1,9 +1,10 @@
 /** What the picture shows of a flight: the states looked up in the tables of style. */
 
+import { flownPlan } from "../committed";
 import type { Flight } from "../flight";
 import { CALM, type Vector, velocity, windVector } from "../geometry";
 import type { PairSample } from "../pair";
-import type { PathSegment, PlanChanged, TurnSegment } from "../wire";
+import type { PathSegment, PlanChanged } from "../wire";
 import { age, guidance } from "./states";
 import { AGE, GUIDANCE, type GuidanceLook } from "./style";
 import type { View } from "./view";
@@ -31,9 +32,15 @@ export function shownGuidance(flight: Flight): { now: PairSample; look: Guidance
   return now === null ? null : { now, look: GUIDANCE[guidance(flight)] };
 }
 
+/** The same for numbers to be read. */
+export function shownReading(flight: Flight): { now: PairSample; look: GuidanceLook } | null {
+  const now = AGE[age(flight)].guidance ? flight.reading.value : null;
+  return now === null ? null : { now, look: GUIDANCE[guidance(flight)] };
+}
+
 /** The plan that is flown, with its points; null once it is over or cannot be trusted. */
 export function shownPlan(flight: Flight): PlanChanged | null {
-  return shownGuidance(flight)?.look.points === true ? flight.plan.value : null;
+  return shownGuidance(flight)?.look.points === true ? flownPlan(flight) : null;
 }
 
 /** Time on the plan's own clock [s]. */
@@ -44,29 +51,6 @@ export function planTime(flight: Flight, plan: PlanChanged): number {
 export function windNow(flight: Flight): Vector {
   const wind = flight.started.value?.wind;
   return wind === undefined ? CALM : windVector(wind);
-}
-
-/** One turn of the plan as the pilot reads it. */
-export interface Turn {
-  /** "T2". */
-  readonly name: string;
-  /** "R42". */
-  readonly size: string;
-  readonly segment: TurnSegment;
-}
-
-/** Turns smaller than this are corrections, not turns to be announced [deg]. */
-const SMALLEST_TURN = 1;
-
-export function turnsOf(plan: PlanChanged): Turn[] {
-  return plan.plan.segments
-    .filter((segment) => segment.kind === "turn")
-    .filter((segment) => segment.angle_deg >= SMALLEST_TURN)
-    .map((segment, i) => ({
-      name: `T${i + 1}`,
-      size: `${segment.direction === "right" ? "R" : "L"}${Math.round(segment.angle_deg)}`,
-      segment,
-    }));
 }
 
 /** The direction in which the slot moves over the ground, as a unit vector. */

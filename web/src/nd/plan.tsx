@@ -1,12 +1,16 @@
 import { useComputed } from "@preact/signals";
 import { PathAhead, WholePath } from "./ahead";
+import { ForecastAhead } from "./committed";
 import { line } from "./path";
-import { type LayerProps, shownGuidance, slotTrack } from "./picture";
+import { type LayerProps, shownGuidance, shownPlan, slotTrack } from "./picture";
 import { Stroke } from "./stroke";
 import { LINES } from "./style";
 import { onwards } from "./view";
 
-/** The path being flown, solid: what is left of the plan, or the leader's route once behind it. */
+/**
+ * The path being flown, solid: the forecast, with the plan's ideal path as a thin line under it.
+ * Before the first forecast: what is left of the plan, or the leader's route once behind it.
+ */
 export function ActivePath({ flight, view }: LayerProps) {
   const kind = useComputed(() => shownGuidance(flight)?.look.path ?? "none");
   const path = useComputed(() => {
@@ -19,15 +23,31 @@ export function ActivePath({ flight, view }: LayerProps) {
     if (now === undefined || length === undefined) return "";
     return line(view.layout.value, now.slot, onwards(now.slot, slotTrack(flight), length));
   });
+  const isForecast = useComputed(() => flight.forecast.value !== null);
+  const isPlanned = useComputed(() => shownPlan(flight) !== null);
   switch (kind.value) {
     case "none":
       return null;
-    case "plan":
-      return <PathAhead flight={flight} view={view} path={path} line={LINES.active} />;
     case "old_plan":
       return <PathAhead flight={flight} view={view} path={path} line={LINES.superseded} />;
-    case "route":
-      return <Stroke d={route} line={LINES.active} />;
+    case "committed":
+      if (!isForecast.value) {
+        if (!isPlanned.value) return <Stroke d={route} line={LINES.active} />;
+        return <PathAhead flight={flight} view={view} path={path} line={LINES.active} />;
+      }
+      return (
+        <>
+          {isPlanned.value && (
+            <PathAhead flight={flight} view={view} path={path} line={LINES.ideal} />
+          )}
+          <ForecastAhead
+            flight={flight}
+            view={view}
+            forecast={flight.forecast}
+            line={LINES.active}
+          />
+        </>
+      );
   }
 }
 

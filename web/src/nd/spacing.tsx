@@ -1,26 +1,22 @@
 import { useComputed } from "@preact/signals";
+import { timeToJoin } from "../committed";
 import { formatClock, formatMiles, formatSignedKnots } from "../units";
 import { Cell } from "./cell";
 import { formatSide } from "./crosstrack";
-import { type LayerProps, shownGuidance, shownPlan } from "./picture";
+import { type LayerProps, shownReading } from "./picture";
 import { placeAt, READOUTS } from "./view";
 
 /** Spacing to the leader: D asked, d now, closure, offset from its final route, time to converge. */
-export function Spacing({ flight, view }: LayerProps) {
-  const now = useComputed(() => {
-    void view.beat.value;
-    return shownGuidance(flight)?.now ?? null;
-  });
+export function Spacing({ flight }: LayerProps) {
+  const now = useComputed(() => shownReading(flight)?.now ?? null);
   const shown = useComputed(() => now.value !== null);
   const asked = useComputed(() => formatMiles(flight.started.value?.slot_distance_m ?? 0));
   const separation = useComputed(() => formatMiles(now.value?.separation_m ?? 0));
   const closure = useComputed(() => formatSignedKnots(now.value?.closure_mps ?? 0));
   const offset = useComputed(() => formatSide(now.value?.cross_track_m ?? 0) || "0.0");
   const left = useComputed(() => {
-    const [plan, t] = [shownPlan(flight), now.value?.t_s ?? 0];
-    return plan === null
-      ? "--:--"
-      : formatClock(Math.max(0, plan.plan.time_to_converge_s - (t - plan.t_s)));
+    const time = timeToJoin(flight);
+    return time === null ? "--:--" : formatClock(time);
   });
   if (!shown.value) return null;
   const { x, y, width, height } = READOUTS.spacing;

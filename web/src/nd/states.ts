@@ -1,9 +1,6 @@
 /** The states of the picture: what guidance does, how old the data are, whether the separation holds. */
 
 import type { Flight } from "../flight";
-import { pathPointAt, windVector } from "../geometry";
-import { moveAircraft } from "../motion";
-import { distance } from "./view";
 
 /** off: holds its heading; unable: there is no plan; the others are the modes of guidance. */
 export const GUIDANCES = ["off", "converge", "capture", "follow", "escape", "unable"] as const;
@@ -34,8 +31,6 @@ export function age(flight: Flight): Age {
   return seconds <= 24 ? "dropped" : "gone";
 }
 
-/** How far ahead a loss of separation is looked for [s]. */
-const LOOK_AHEAD = 60;
 /** Plans may graze the minimum separation: this much below it is no loss yet [m]. */
 export const GRAZE = 20;
 
@@ -45,41 +40,18 @@ export interface Outlook {
   readonly within: number;
 }
 
-/** Whether the minimum separation is kept now and for the next minute, on the paths known for both. */
+/** Whether the minimum separation is kept now, and whether guidance expects it to be lost. */
 export function separation(flight: Flight): Outlook {
   const now = flight.now.value;
   const minSeparation = flight.started.value?.min_separation_m;
   if (now === null || minSeparation === undefined) return { state: "kept", within: 0 };
   if (now.separation_m < minSeparation - GRAZE) return { state: "lost", within: 0 };
-  const state = guidance(flight);
-  // From capture on guidance slows down as the spacing closes, so constant speed predicts nothing.
-  if (state === "capture" || state === "follow") return { state: "kept", within: 0 };
-  for (let ahead = 2; ahead <= LOOK_AHEAD; ahead += 2) {
-    const own = state === "converge" ? ownAhead(flight, ahead) : moveAircraft(now.pursuer, ahead);
-    if (own === null) break;
-    if (distance(own, leaderAhead(flight, ahead) ?? now.leader) < minSeparation - GRAZE)
-      return { state: "predicted", within: ahead };
-  }
-  return { state: "kept", within: 0 };
-}
-
-function ownAhead(flight: Flight, ahead: number) {
-  const [plan, started] = [flight.plan.value, flight.started.value];
-  if (plan === null || started === null) return null;
-  const { segments } = plan.plan;
-  const t = flight.simTime.value + ahead - plan.t_s;
-  if (t > (segments.at(-1)?.end.t_s ?? 0)) return null;
-  return pathPointAt(segments, t, windVector(started.wind));
-}
-
-function leaderAhead(flight: Flight, ahead: number) {
-  const [now, route, started] = [flight.now.value, flight.route.value, flight.started.value];
-  if (now === null) return null;
-  if (route === null || started === null) return moveAircraft(now.leader, ahead);
-  const end = route.segments.at(-1)?.end.t_s ?? 0;
-  const t = flight.simTime.value + ahead;
-  if (t > end) return moveAircraft(now.leader, ahead);
-  return pathPointAt(route.segments, t, windVector(started.wind));
+  const alert = flight.alerts.value.find(
+    ({ subject, level }) => subject === "separation" && level !== "advisory",
+  );
+  if (alert === undefined) return { state: "kept", within: 0 };
+  const within = Math.max(0, Math.round(alert.predicted_at_s - flight.simTime.value));
+  return { state: "predicted", within };
 }
 
 /** The wall clock [ms] at this frame; reading it subscribes to the frames. */

@@ -32,6 +32,7 @@ export interface Line {
 
 export const LINES = {
   active: { colour: "plan", width: 3, dash: "" },
+  ideal: { colour: "plan", width: 1, dash: "" },
   superseded: { colour: "superseded", width: 2.5, dash: "2 11" },
   final: { colour: "plan", width: 1.75, dash: "20 9" },
   declared: { colour: "leader", width: 2, dash: "12 4 2 4" },
@@ -51,9 +52,9 @@ export type LineName = keyof typeof LINES;
 
 /** What the picture shows of guidance. */
 export interface GuidanceLook {
-  /** The path own ship flies: the plan, the leader's final route behind it, the plan it can no longer fly. */
-  readonly path: "none" | "plan" | "route" | "old_plan";
-  /** Turn points, capture point, final track and closest approach belong to a plan being flown. */
+  /** The path own ship flies, or the plan that it can no longer fly. */
+  readonly path: "none" | "committed" | "old_plan";
+  /** Turn points, final track and time ticks belong to a plan being flown. */
   readonly points: boolean;
   /** Nothing but the present track says where own ship goes. */
   readonly trackLine: boolean;
@@ -77,7 +78,7 @@ export const GUIDANCE: Record<Guidance, GuidanceLook> = {
     speed: { now: "SPD", next: "" },
   },
   converge: {
-    path: "plan",
+    path: "committed",
     points: true,
     trackLine: false,
     slot: "open",
@@ -87,7 +88,7 @@ export const GUIDANCE: Record<Guidance, GuidanceLook> = {
     speed: { now: "SPD", next: "RG SPD" },
   },
   capture: {
-    path: "route",
+    path: "committed",
     points: false,
     trackLine: false,
     slot: "open",
@@ -97,7 +98,7 @@ export const GUIDANCE: Record<Guidance, GuidanceLook> = {
     speed: { now: "SPD", next: "RG SPD" },
   },
   follow: {
-    path: "route",
+    path: "committed",
     points: false,
     trackLine: false,
     slot: "open",
@@ -107,9 +108,9 @@ export const GUIDANCE: Record<Guidance, GuidanceLook> = {
     speed: { now: "RG SPD", next: "" },
   },
   escape: {
-    path: "none",
+    path: "committed",
     points: false,
-    trackLine: true,
+    trackLine: false,
     slot: "crossed",
     slotColour: "caution",
     crossTrack: false,

@@ -1,7 +1,7 @@
 import { useComputed } from "@preact/signals";
-import type { PathPoint } from "../wire";
+import { committedPoint, type Turn, turnsOf } from "../committed";
 import type { Label } from "./labels";
-import { type LayerProps, planTime, ROLL_IN, shownPlan, type Turn, turnsOf } from "./picture";
+import { type LayerProps, planTime, ROLL_IN, shownPlan } from "./picture";
 import { Stroke } from "./stroke";
 import { LINES } from "./style";
 import { offNose, onMap, placeAt, project, toMap } from "./view";
@@ -19,9 +19,9 @@ export function TurnPoints({ flight, view }: LayerProps) {
     <g class="nd-turns">
       {turnsOf(plan.value).map(({ name, segment }) => (
         <g key={`${start} ${name}`}>
-          <Mark flight={flight} view={view} point={segment.start} start={start} half={9} />
-          <Mark flight={flight} view={view} point={segment.end} start={start} half={6} />
-          <RollIn flight={flight} view={view} point={segment.start} start={start} />
+          <Mark flight={flight} view={view} at={start + segment.start.t_s} half={9} />
+          <Mark flight={flight} view={view} at={start + segment.end.t_s} half={6} />
+          <RollIn flight={flight} view={view} at={start + segment.start.t_s} />
         </g>
       ))}
     </g>
@@ -29,14 +29,19 @@ export function TurnPoints({ flight, view }: LayerProps) {
 }
 
 interface MarkProps extends LayerProps {
-  readonly point: PathPoint;
-  /** When the clock of the point shows 0 [s]. */
-  readonly start: number;
+  /** When own ship is there [s, flight time]. */
+  readonly at: number;
 }
 
-function Mark({ flight, view, point, start, half }: MarkProps & { half: number }) {
-  const shown = useComputed(() => flight.simTime.value - start < point.t_s);
-  const place = useComputed(() => placeAt(toMap(view.layout.value, point), point.heading_deg));
+/** Where a mark stands, across the path that is drawn. */
+function markPlace({ flight, view, at }: MarkProps): string {
+  const point = committedPoint(flight, at);
+  return point === null ? "" : placeAt(toMap(view.layout.value, point), point.heading_deg);
+}
+
+function Mark({ flight, view, at, half }: MarkProps & { half: number }) {
+  const shown = useComputed(() => flight.simTime.value < at);
+  const place = useComputed(() => markPlace({ flight, view, at }));
   if (!shown.value) return null;
   return (
     <g transform={place}>
@@ -45,12 +50,12 @@ function Mark({ flight, view, point, start, half }: MarkProps & { half: number }
   );
 }
 
-function RollIn({ flight, view, point, start }: MarkProps) {
+function RollIn({ flight, view, at }: MarkProps) {
   const shown = useComputed(() => {
-    const left = point.t_s + start - flight.simTime.value;
+    const left = at - flight.simTime.value;
     return left > 0 && left <= ROLL_IN;
   });
-  const place = useComputed(() => placeAt(toMap(view.layout.value, point), point.heading_deg));
+  const place = useComputed(() => markPlace({ flight, view, at }));
   if (!shown.value) return null;
   return (
     <g class="nd-rollin" transform={place}>
@@ -67,15 +72,19 @@ export function turnLabels({ flight, view }: LayerProps): Label[] {
   return turnsOf(plan)
     .filter(({ segment }) => planTime(flight, plan) < segment.start.t_s)
     .slice(0, 6)
-    .map((turn) => ({
-      id: turn.name,
-      at: project(layout, pose, turn.segment.start),
-      lines: [{ text: nameOf(turn, layout.range), colour: "plan" as const }],
-      side: offNose(pose, turn.segment.start.heading_deg + (turn.size[0] === "R" ? -90 : 90)),
-      gap: 13,
-      size: 20,
-      optional: true,
-    }))
+    .map((turn) => {
+      const begins = turn.segment.start;
+      const point = committedPoint(flight, plan.t_s + begins.t_s) ?? begins;
+      return {
+        id: turn.name,
+        at: project(layout, pose, point),
+        lines: [{ text: nameOf(turn, layout.range), colour: "plan" as const }],
+        side: offNose(pose, point.heading_deg + (turn.size[0] === "R" ? -90 : 90)),
+        gap: 13,
+        size: 20,
+        optional: true,
+      };
+    })
     .filter(({ at }) => onMap(layout, at));
 }
 

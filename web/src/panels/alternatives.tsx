@@ -1,5 +1,6 @@
 /** The other paths to the slot that were considered, and why each is not flown. */
 
+import { flownPlan } from "../committed";
 import { Panel } from "../parts";
 import { alternativeSentence, alternativeTime } from "../reading";
 import type { Session } from "../session";
@@ -7,11 +8,14 @@ import { formatClock } from "../units";
 import type { Alternative } from "../wire";
 
 export function Alternatives(props: { session: Session }) {
-  const plan = props.session.flight.plan.value?.plan;
+  const { flight } = props.session;
+  const plan = flownPlan(flight)?.plan;
   return (
     <Panel name="alternatives" title="Alternatives">
       {plan === undefined ? (
-        <p class="hint">They come with the first plan.</p>
+        <p class="hint">
+          {flight.plan.value === null ? "They come with the first plan." : "No plan is flown now."}
+        </p>
       ) : (
         <table class="list">
           <caption class="visually-hidden">Paths considered, fastest first</caption>

@@ -10,17 +10,21 @@ export function LeaderControls(props: { session: Session; actions: Actions }) {
   const { session, actions } = props;
   const leader = session.reading.value?.leader;
   const ident = session.flight.started.value?.leader.ident ?? "";
+  // A leader that is called so needs not be called so twice.
+  const named =
+    ident.toLowerCase() === "leader" ? {} : { aside: <span class="ident">{ident}</span> };
   // A dial shows what the leader flies now until it is used.
   const heading = useSignal<number | null>(null);
   const knots = useSignal<number | null>(null);
   const headingNow = leader === undefined ? 0 : Math.round(leader.heading_deg);
   const knotsNow = leader === undefined ? 0 : Math.round(leader.tas_mps / KT);
-  const selectedHeading = Number(formatHeading(heading.value ?? headingNow));
+  const dialled = heading.value ?? headingNow;
+  const selectedHeading = dialled > 360 ? dialled : Number(formatHeading(dialled));
   const selectedKnots = knots.value ?? knotsNow;
   const known = session.flight.route.value?.intent_known ?? null;
   const absent = leader === undefined;
   return (
-    <Panel name="leader" title="Leader" aside={<span class="ident">{ident}</span>}>
+    <Panel name="leader" title="Leader" {...named}>
       <p class="caption">
         <span>Heading</span>
         <span>now {absent ? "––" : `${formatHeading(headingNow)}°`}</span>
@@ -34,14 +38,15 @@ export function LeaderControls(props: { session: Session; actions: Actions }) {
         change={(value) => {
           heading.value = value;
         }}
-        commit={(value) => actions.leaderHeading(wrap360(value))}
+        most={360}
+        commit={(value) => actions.leaderHeading(value)}
       />
       <div class="row">
         <button
           type="button"
           class="grow"
           disabled={absent}
-          onClick={() => actions.leaderHeading(wrap360(selectedHeading), "left")}
+          onClick={() => actions.leaderHeading(selectedHeading, "left")}
         >
           <Icon name="left" />
           Left
@@ -50,7 +55,7 @@ export function LeaderControls(props: { session: Session; actions: Actions }) {
           type="button"
           class="grow"
           disabled={absent}
-          onClick={() => actions.leaderHeading(wrap360(selectedHeading))}
+          onClick={() => actions.leaderHeading(selectedHeading)}
         >
           Shorter
         </button>
@@ -58,7 +63,7 @@ export function LeaderControls(props: { session: Session; actions: Actions }) {
           type="button"
           class="grow"
           disabled={absent}
-          onClick={() => actions.leaderHeading(wrap360(selectedHeading), "right")}
+          onClick={() => actions.leaderHeading(selectedHeading, "right")}
         >
           Right
           <Icon name="right" />
@@ -81,6 +86,7 @@ export function LeaderControls(props: { session: Session; actions: Actions }) {
         value={selectedKnots}
         digits={3}
         correct={(value) => Math.max(0, value)}
+        most={999}
         change={(value) => {
           knots.value = value;
         }}

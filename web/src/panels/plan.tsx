@@ -1,5 +1,13 @@
 /** The plan in numbers: when, how far, which turns, how close, and what is proved of it. */
 
+import {
+  type Closest,
+  closestApproach,
+  flownPlan,
+  isClosestAtJoin,
+  nextTurn,
+  timeToJoin,
+} from "../committed";
 import type { Flight } from "../flight";
 import type { PairSample } from "../pair";
 import { Panel, Reading } from "../parts";
@@ -8,19 +16,18 @@ import {
   countTurns,
   crossTrackText,
   MODE_NAMES,
-  nextTurn,
   plannerName,
   proofSentence,
   spacingText,
 } from "../reading";
 import type { Session } from "../session";
 import { formatClock, formatMiles } from "../units";
-import type { LinkResult, PlanChanged, PlanUnavailable } from "../wire";
+import type { LinkResult, PlanChanged } from "../wire";
 
 export function PlanNumbers(props: { session: Session }) {
   const { flight, reading } = props.session;
   const sample = reading.value;
-  const plan = flight.plan.value;
+  const plan = flownPlan(flight);
   if (sample === null) {
     return (
       <Panel name="plan" title="Convergence">
@@ -40,17 +47,12 @@ export function PlanNumbers(props: { session: Session }) {
       {flight.ended.value !== null ? (
         <Outcome ended={flight.ended.value} />
       ) : (
-        <Headline
-          sample={sample}
-          plan={plan}
-          engaged={engaged}
-          unavailable={flight.unavailable.value}
-        />
+        <Headline flight={flight} sample={sample} />
       )}
       <dl class="readings">
         {plan !== null && engaged && <PathReadings plan={plan} t={sample.t_s} />}
         <SpacingReadings flight={flight} sample={sample} engaged={engaged} />
-        {plan !== null && <SafetyReadings flight={flight} plan={plan} sample={sample} />}
+        <SafetyReadings flight={flight} plan={plan} sample={sample} />
       </dl>
       {plan !== null && (
         <p class="proof">{proofSentence(plan.plan.optimality, plan.plan.time_to_converge_s)}</p>
@@ -60,28 +62,24 @@ export function PlanNumbers(props: { session: Session }) {
 }
 
 /** The one number that matters now. */
-function Headline(props: {
-  sample: PairSample;
-  plan: PlanChanged | null;
-  engaged: boolean;
-  unavailable: PlanUnavailable | null;
-}) {
-  const { sample, plan, engaged, unavailable } = props;
-  if (unavailable !== null) {
+function Headline(props: { flight: Flight; sample: PairSample }) {
+  const { flight, sample } = props;
+  const [unavailable, unable] = [flight.unavailable.value, flight.unable.value];
+  if (unavailable !== null || unable !== null) {
     return (
       <div class="headline caution">
-        <span class="headline-label">No plan</span>
-        <p>{unavailable.answer.message}</p>
+        <span class="headline-label">{unavailable === null ? "Unable" : "No plan"}</span>
+        <p>{unavailable?.answer.message ?? unable?.message}</p>
       </div>
     );
   }
-  if (engaged && plan !== null) {
-    const join = plan.t_s + plan.plan.time_to_converge_s;
+  const left = timeToJoin(flight);
+  if (left !== null) {
     return (
       <div class="headline">
         <span class="headline-label">Time to converge</span>
-        <span class="headline-figure">{formatClock(sample.time_to_go_s)}</span>
-        <span class="headline-note">joins at {formatClock(join)}</span>
+        <span class="headline-figure">{formatClock(left)}</span>
+        <span class="headline-note">joins at {formatClock(sample.t_s + left)}</span>
       </div>
     );
   }
@@ -120,12 +118,8 @@ function PathReadings(props: { plan: PlanChanged; t: number }) {
       />
       <Reading
         label="Next turn"
-        value={
-          next === null
-            ? "none"
-            : `${next.direction === "left" ? "L" : "R"} ${Math.round(next.angle)}°`
-        }
-        {...(next !== null && { note: next.in === 0 ? "turning" : `in ${formatClock(next.in)}` })}
+        value={next === null ? "none" : `${next.size[0]} ${next.size.slice(1)}°`}
+        {...(next !== null && { note: `in ${formatClock(next.in)}` })}
       />
     </>
   );
@@ -153,21 +147,35 @@ function SpacingReadings(props: { flight: Flight; sample: PairSample; engaged: b
   );
 }
 
-function SafetyReadings(props: { flight: Flight; plan: PlanChanged; sample: PairSample }) {
+/** When they are closest: how long until then, unless that is past, or once joined. */
+function whenClosest(flight: Flight, closest: Closest, t: number): string {
+  if (closest.at <= t) return "passed";
+  return isClosestAtJoin(flight, closest) ? "once joined" : `in ${formatClock(closest.at - t)}`;
+}
+
+function SafetyReadings(props: { flight: Flight; plan: PlanChanged | null; sample: PairSample }) {
   const { flight, plan, sample } = props;
-  const { separation } = plan.plan;
+  const closest = closestApproach(flight);
   const minSeparation = flight.started.value?.min_separation_m ?? 0;
   const flown = sample.least_separation_m;
   const known = flight.route.value?.intent_known ?? null;
   return (
     <>
-      <Reading
-        label="Least planned"
-        value={formatMiles(separation.least_m)}
-        unit="NM"
-        note={`at ${formatClock(plan.t_s + separation.at_s)}`}
-      />
-      <Reading label="Least proved" value={formatMiles(separation.proved_above_m)} unit="NM" />
+      {closest !== null && (
+        <Reading
+          label="Least forecast"
+          value={formatMiles(closest.least)}
+          unit="NM"
+          note={whenClosest(flight, closest, sample.t_s)}
+        />
+      )}
+      {plan !== null && (
+        <Reading
+          label="Least proved"
+          value={formatMiles(plan.plan.separation.proved_above_m)}
+          unit="NM"
+        />
+      )}
       <Reading
         label="Least so far"
         value={formatMiles(flown)}
@@ -180,11 +188,13 @@ function SafetyReadings(props: { flight: Flight; plan: PlanChanged; sample: Pair
         value={known === null ? "––" : known ? "YES" : "NO"}
         tone={known === false ? "plain" : "value"}
       />
-      <Reading
-        label="Planner"
-        value={plannerName(plan.plan.planner)}
-        note={`${plan.plan.compute_ms.toFixed(2)} ms`}
-      />
+      {plan !== null && (
+        <Reading
+          label="Planner"
+          value={plannerName(plan.plan.planner)}
+          note={`${plan.plan.compute_ms.toFixed(2)} ms`}
+        />
+      )}
     </>
   );
 }

@@ -2,12 +2,13 @@
 
 import { signal } from "@preact/signals";
 import type { Flight } from "../../src/flight";
-import { cutPath, pathPointAt, velocity, windVector } from "../../src/geometry";
+import { cutPath, pathPointAt, samplePath, velocity, windVector } from "../../src/geometry";
 import { type PairCard, type PairSample, pairCard } from "../../src/pair";
 import { wrap360 } from "../../src/units";
 import type {
   AircraftSample,
   FlightStarted,
+  ForecastChanged,
   LeaderRoute,
   Mode,
   PathPoint,
@@ -40,6 +41,31 @@ export function documentsOf(name: FlightName): Documents {
   return { started, route, plan };
 }
 
+/** A forecast that bulges so far to the left of the plan, as if flown with more room [m]. */
+export function forecastOf(name: FlightName, bulge = 400): ForecastChanged {
+  const { plan, started } = documentsOf(name);
+  const points = samplePath(plan.plan.segments, windVector(started.wind), 0, Infinity, 3);
+  const last = points.length - 1;
+  const beside = points.map((point, k) => {
+    const across = velocity(bulge * Math.sin((Math.PI * k) / last), point.heading_deg - 90);
+    return { ...point, x_m: point.x_m + across.x, y_m: point.y_m + across.y };
+  });
+  const closest = beside[Math.floor(last / 2)];
+  if (closest === undefined) throw new Error("A plan without a path.");
+  return {
+    kind: "forecast_changed",
+    t_s: 0,
+    ident: started.pursuer.ident,
+    times_s: beside.map(({ t_s }) => t_s),
+    x_m: beside.map(({ x_m }) => x_m),
+    y_m: beside.map(({ y_m }) => y_m),
+    heading_deg: beside.map(({ heading_deg }) => heading_deg),
+    least_separation_m: 11_000,
+    pursuer_at_closest: closest,
+    leader_at_closest: { ...closest, x_m: closest.x_m + 11_000 },
+  };
+}
+
 /** An empty store, as before the first tick. */
 export function emptyFlight(): Flight {
   return {
@@ -47,6 +73,7 @@ export function emptyFlight(): Flight {
     started: signal(null),
     route: signal(null),
     plan: signal(null),
+    forecast: signal(null),
     superseded: signal(null),
     unavailable: signal(null),
     alerts: signal([]),
@@ -56,6 +83,7 @@ export function emptyFlight(): Flight {
     modeSince: signal(-Infinity),
     sample: signal(null),
     now: signal(null),
+    reading: signal(null),
     simTime: signal(0),
     dataAge: signal(0),
     trail: { pursuer: signal([]), leader: signal([]) },
@@ -95,6 +123,7 @@ export function setTime(flight: Flight, t: number, mode: Mode): void {
   flight.simTime.value = t;
   flight.sample.value = sample;
   flight.now.value = sample;
+  flight.reading.value = sample;
   const wind = windVector(started.wind);
   const times = Array.from({ length: 61 }, (_, i) => t - 600 + 10 * i).filter((each) => each >= 0);
   flight.trail.leader.value = times.map((each) => {

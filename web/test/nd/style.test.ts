@@ -52,7 +52,7 @@ test("the display knows nothing of streams, requests and panels", () => {
     const imports = [...text.matchAll(/from "(\.\.\/[^"]+)"/g)].map(([, path]) => path);
     for (const path of imports)
       expect(
-        ["../flight", "../geometry", "../motion", "../pair", "../units", "../wire"],
+        ["../committed", "../flight", "../geometry", "../motion", "../pair", "../units", "../wire"],
         file,
       ).toContain(path);
   }

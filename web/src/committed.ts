@@ -1,0 +1,166 @@
+/**
+ * What guidance is committed to: the plan while it is flown, the flight forecast along it, and when
+ * and where the two join and are closest. Everything that shows one of these asks here.
+ */
+
+import type { Flight } from "./flight";
+import { pathPointAt, windVector } from "./geometry";
+import { wrap180, wrap360 } from "./units";
+import type { ForecastChanged, PathPoint, PlanChanged, TurnSegment } from "./wire";
+
+/** The plan, while it is flown: not once it is over, and not once guidance has given it up. */
+export function flownPlan(flight: Flight): PlanChanged | null {
+  if (!isOnItsWay(flight)) return null;
+  if (flight.unavailable.value !== null || flight.unable.value !== null) return null;
+  return flight.plan.value;
+}
+
+function isOnItsWay(flight: Flight): boolean {
+  const mode = flight.sample.value?.mode;
+  return mode === "converge" || mode === "capture";
+}
+
+/** Where a forecast has the aircraft at flight time `t` [s], held to its ends. */
+export function forecastPoint(forecast: ForecastChanged, t: number): PathPoint {
+  const k = Math.max(1, forecastIndex(forecast, t));
+  const [before, after] = [pointOf(forecast, k - 1), pointOf(forecast, k)];
+  const span = after.t_s - before.t_s;
+  const part = span > 0 ? Math.min(1, Math.max(0, (t - before.t_s) / span)) : 0;
+  const turned = wrap180(after.heading_deg - before.heading_deg);
+  return {
+    t_s: t,
+    x_m: before.x_m + part * (after.x_m - before.x_m),
+    y_m: before.y_m + part * (after.y_m - before.y_m),
+    heading_deg: wrap360(before.heading_deg + part * turned),
+  };
+}
+
+/** The first of a forecast's points that is still to come at flight time `t` [s]; the last if none is. */
+export function forecastIndex(forecast: ForecastChanged, t: number): number {
+  const next = forecast.times_s.findIndex((time) => time > t);
+  return next < 0 ? forecast.times_s.length - 1 : next;
+}
+
+/** One point of a forecast's columns. */
+export function pointOf(forecast: ForecastChanged, k: number): PathPoint {
+  const at = Math.min(k, forecast.times_s.length - 1);
+  return {
+    t_s: forecast.times_s[at] ?? 0,
+    x_m: forecast.x_m[at] ?? 0,
+    y_m: forecast.y_m[at] ?? 0,
+    heading_deg: forecast.heading_deg[at] ?? 0,
+  };
+}
+
+/** Whether a forecast reaches so far ahead [s, flight time]. */
+function reaches(forecast: ForecastChanged | null, t: number): forecast is ForecastChanged {
+  return forecast !== null && t <= (forecast.times_s.at(-1) ?? Number.NEGATIVE_INFINITY) + 0.5;
+}
+
+/** The aircraft on its committed path at flight time `t` [s]; null if nobody knows. */
+export function committedPoint(flight: Flight, t: number): PathPoint | null {
+  const forecast = flight.forecast.value;
+  if (reaches(forecast, t)) return forecastPoint(forecast, t);
+  const [plan, started] = [flownPlan(flight), flight.started.value];
+  if (plan === null || started === null) return null;
+  return pathPointAt(plan.plan.segments, t - plan.t_s, windVector(started.wind));
+}
+
+/** How long until it joins [s], as read five times a second; null when there is no way or it is over. */
+export function timeToJoin(flight: Flight): number | null {
+  const reading = flight.reading.value;
+  if (reading === null || !isOnItsWay(flight) || reading.joined) return null;
+  return reading.time_to_go_s > 0 ? reading.time_to_go_s : null;
+}
+
+/** When it joins [s, flight time]; null as above. To a hundredth, so that it stands still. */
+export function joinTime(flight: Flight): number | null {
+  const sample = flight.sample.value;
+  if (sample === null || !isOnItsWay(flight) || sample.joined || sample.time_to_go_s <= 0)
+    return null;
+  return Math.round(100 * (sample.t_s + sample.time_to_go_s)) / 100;
+}
+
+/** Where own ship joins. */
+export function joinPoint(flight: Flight): PathPoint | null {
+  const t = joinTime(flight);
+  return t === null ? null : committedPoint(flight, t);
+}
+
+/** How close the two will come. */
+export interface Closest {
+  /** Least separation [m]. */
+  readonly least: number;
+  /** When [s, flight time]. */
+  readonly at: number;
+  readonly pursuer: PathPoint;
+  readonly leader: PathPoint;
+}
+
+/** The closest approach on the committed path, past or to come; null if none is flown. */
+export function closestApproach(flight: Flight): Closest | null {
+  const plan = flownPlan(flight);
+  if (plan === null) return null;
+  const at = plan.t_s + plan.plan.separation.at_s;
+  const forecast = flight.forecast.value;
+  if (reaches(forecast, joinTime(flight) ?? at)) {
+    return {
+      least: forecast.least_separation_m,
+      at: forecast.pursuer_at_closest.t_s,
+      pursuer: forecast.pursuer_at_closest,
+      leader: forecast.leader_at_closest,
+    };
+  }
+  return {
+    least: plan.plan.separation.least_m,
+    at,
+    pursuer: plan.pursuer_at_closest,
+    leader: plan.leader_at_closest,
+  };
+}
+
+/** Whether they are closest when they join, or after: then that is no point of its own. */
+export function isClosestAtJoin(flight: Flight, closest: Closest): boolean {
+  const join = joinTime(flight);
+  return join !== null && closest.at > join - 1;
+}
+
+/** One turn of the plan as the pilot reads it. */
+export interface Turn {
+  /** "T2". */
+  readonly name: string;
+  /** "R42". */
+  readonly size: string;
+  readonly segment: TurnSegment;
+}
+
+/** Turns smaller than this are corrections, not turns to be announced [deg]. */
+const SMALLEST_TURN = 1;
+
+/** The turns of a plan, corrections left out. */
+export function turnsOf(plan: PlanChanged): Turn[] {
+  return plan.plan.segments
+    .filter((segment) => segment.kind === "turn")
+    .filter((segment) => segment.angle_deg >= SMALLEST_TURN)
+    .map((segment, i) => ({
+      name: `T${i + 1}`,
+      size: `${segment.direction === "right" ? "R" : "L"}${Math.round(segment.angle_deg)}`,
+      segment,
+    }));
+}
+
+/** A turn to come. */
+export interface NextTurn extends Turn {
+  /** When it begins [s, flight time]. */
+  readonly at: number;
+  /** How long until then [s]. */
+  readonly in: number;
+}
+
+/** The turn of a plan that begins next after flight time `t` [s]; null when none is left. */
+export function nextTurn(plan: PlanChanged, t: number): NextTurn | null {
+  const turn = turnsOf(plan).find(({ segment }) => t < plan.t_s + segment.start.t_s);
+  if (turn === undefined) return null;
+  const at = plan.t_s + turn.segment.start.t_s;
+  return { ...turn, at, in: at - t };
+}

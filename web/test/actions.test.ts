@@ -1,0 +1,60 @@
+import { afterEach, expect, test, vi } from "vitest";
+import { createActions } from "../src/actions";
+import { createFlightStore } from "../src/flight";
+import { createSession } from "../src/session";
+
+afterEach(() => vi.unstubAllGlobals());
+
+function flying(answer: Response) {
+  const asked = vi.fn(async () => answer);
+  vi.stubGlobal("fetch", asked);
+  const store = createFlightStore();
+  const session = createSession(store.flight);
+  session.status.value = {
+    id: "one",
+    scenario: "fig_6b",
+    title: "Fig. 6b",
+    t_s: 0,
+    rate: 1,
+    paused: false,
+    ended: false,
+    mode: "converge",
+    joined: false,
+    separation_m: 20000,
+    stream_url: "",
+    scene_url: "",
+  };
+  return { asked, session, actions: createActions(session, store) };
+}
+
+function problem(status: number, detail: string): Response {
+  return new Response(JSON.stringify({ detail }), { status });
+}
+
+test("a heading beyond 360° is refused with a sentence, and nobody is asked", () => {
+  const { asked, session, actions } = flying(problem(500, ""));
+  actions.leaderHeading(400, "right");
+  expect(session.feedback.value).toEqual({
+    kind: "refused",
+    text: "A heading is 0 to 360°, not 400°.",
+  });
+  expect(asked).not.toHaveBeenCalled();
+});
+
+test("a refused speed is refused in knots", async () => {
+  const sentence = "tas_mps: must lie in 30 … 400 m/s, not 513.936 m/s.";
+  const { session, actions } = flying(problem(422, sentence));
+  actions.leaderSpeed(513.936);
+  await vi.waitFor(() => expect(session.feedback.value.kind).toBe("refused"));
+  expect(session.feedback.value).toMatchObject({
+    text: "The true airspeed must lie in 58 … 778 kt, not 999 kt.",
+  });
+});
+
+test("what an ended flight answers is shown as it is", async () => {
+  const sentence = "This flight has ended and takes no commands: start another one.";
+  const { session, actions } = flying(problem(409, sentence));
+  actions.leaderHeading(200);
+  await vi.waitFor(() => expect(session.feedback.value.kind).toBe("refused"));
+  expect(session.feedback.value).toMatchObject({ text: sentence });
+});
