@@ -1,0 +1,154 @@
+"""What cannot be followed is left in time: said, on a heading that stays, and d_min kept."""
+
+from dataclasses import replace
+from itertools import pairwise
+
+import pytest
+
+from relguide.flying.aircraft_documents import HeadingReference
+from relguide.flying.documents import Alert, ModeChanged, PlanUnavailable, SeparationLost, Unable
+from relguide.flying.flight import LeaderHeading, LeaderSpeed, Scenario
+from relguide.flying.orders import Command, IntentKnown
+from relguide.flying.scenarios import own_scenario
+from relguide.kernels.base.angles import wrap_signed
+from relguide.planning.plan import NoPlan, Reason
+from relguide.units import DEG, KT
+from tests.flights import Flown, flown, random_start
+from tests.relguide.flying.guidance.beliefs import FIG_6B
+
+FOLLOWED = replace(FIG_6B, after_joining=600.0)
+JOINED = 950.0
+"""By then Fig. 6b has joined, and the leader flies south-east [s]."""
+
+
+def held_headings(flight: Flown) -> list[tuple[float, float]]:
+    """When a heading was held, and which."""
+    held = [s for s in flight.samples if s.guidance.mode in ("heading", "escape")]
+    assert all(isinstance(s.guidance.reference, HeadingReference) for s in held)
+    return [(s.t, s.guidance.reference.heading) for s in held]  # type: ignore[union-attr]
+
+
+def assert_steady(flight: Flown) -> None:
+    """A held heading changes seldom: not from second to second, and never there and back."""
+    held = held_headings(flight)
+    jumps = [
+        (later, wrap_signed(there - here))
+        for (_, here), (later, there) in pairwise(held)
+        if abs(wrap_signed(there - here)) > 0.5 * DEG
+    ]
+    assert len(jumps) <= 3
+    assert all(later - before > 10.0 for (before, _), (later, _) in pairwise(jumps))
+
+
+def untold(seed: int) -> Scenario:
+    scenario = own_scenario(random_start(seed), intent_known=False)
+    return replace(scenario, duration_limit=3_000.0, after_joining=60.0)
+
+
+@pytest.fixture(scope="module")
+def slowed() -> Flown:
+    return flown(FOLLOWED, (JOINED, LeaderSpeed(tas=100.0)))
+
+
+def test_a_leader_ordered_to_100_mps_is_left_before_d_min(slowed: Flown) -> None:
+    end = slowed.result
+    assert end.joined
+    assert end.losses == ()
+    assert slowed.of(SeparationLost) == []
+    assert end.least_separation >= FOLLOWED.situation.min_separation
+    (left,) = [d for d in slowed.of(ModeChanged) if d.mode == "escape"]
+    (said,) = slowed.of(Unable)
+    assert said.t == left.t
+    assert said.reason == "speed"
+    assert "is the least speed of this A306 at its level" in said.message
+    speed = next(s.leader.tas for s in slowed.samples if s.t == said.t)
+    assert f"the leader flies {speed / KT:.0f} kt" in said.message
+    assert slowed.samples[-1].guidance.mode == "escape"
+    assert not slowed.samples[-1].guidance.joined
+
+
+def test_it_stays_away_on_one_heading(slowed: Flown) -> None:
+    assert_steady(slowed)
+    assert len(held_headings(slowed)) > 1_000
+
+
+def test_it_comes_back_when_the_leader_is_fast_enough_again() -> None:
+    back = (JOINED + 150.0, LeaderSpeed(tas=200.0))
+    flight = flown(FOLLOWED, (JOINED, LeaderSpeed(tas=100.0)), back)
+    assert [d.mode for d in flight.of(ModeChanged)] == [
+        "converge", "capture", "follow", "escape", "converge", "capture", "follow",
+    ]  # fmt: skip
+    assert flight.result.losses == ()
+    assert flight.samples[-1].guidance.joined
+    assert_steady(flight)
+
+
+@pytest.mark.parametrize("direction", ["left", "right"])
+@pytest.mark.parametrize("turned", [90.0, 150.0, 180.0, 210.0])
+@pytest.mark.parametrize("known", [True, False])
+def test_a_leader_that_turns_back_while_followed_is_not_met(
+    direction: str, turned: float, known: bool
+) -> None:
+    """d_min is kept, or its loss is announced."""
+    heading = (135.0 + (turned if direction == "right" else -turned)) * DEG
+    order = LeaderHeading(heading=heading, direction=direction)  # type: ignore[arg-type]
+    orders: list[tuple[float, Command]] = [(JOINED, order)]
+    if not known:
+        orders.insert(0, (JOINED - 20.0, IntentKnown(known=False)))
+    flight = flown(replace(FOLLOWED, after_joining=300.0), *orders)
+    assert all(loss.announced for loss in flight.result.losses)
+    if turned <= 180.0:
+        assert flight.result.losses == ()
+    assert_steady(flight)
+
+
+@pytest.mark.parametrize("seed", [12, 21])
+def test_an_unannounced_turn_towards_it_is_left_before_there_is_no_way_out(seed: int) -> None:
+    flight = flown(untold(seed))
+    assert flight.result.joined
+    assert flight.result.losses == ()
+    (left,) = [d for d in flight.of(ModeChanged) if d.mode == "escape"]
+    (said,) = [d for d in flight.of(Unable) if d.t == left.t]
+    assert said.reason == "separation"
+    assert "there may soon be no way to keep clear" in said.message
+    assert "Turning to" in left.message
+    caution = flight.of(Alert)[0]
+    assert (caution.level, caution.cleared) == ("caution", False)
+    assert caution.t <= left.t
+    assert_steady(flight)
+
+
+def test_a_loss_that_cannot_be_helped_is_announced_first_and_left_the_shortest_way() -> None:
+    """Two aircraft 11 km apart, nearly head-on: nothing keeps d_min."""
+    flight = flown(untold(9))
+    (loss,) = flight.result.losses
+    assert loss.announced == (0.0,)
+    assert loss.t > 10.0
+    assert flight.of(PlanUnavailable)[0].t == 0.0
+    warning = next(d for d in flight.of(Alert) if d.level == "warning")
+    assert warning.t - loss.t <= 1.0
+    assert flight.result.joined
+    assert_steady(flight)
+
+
+def test_what_is_said_of_the_separation_is_true_of_that_second() -> None:
+    flight = flown(untold(9))
+    lost = [
+        d for d in flight.of(PlanUnavailable) if d.answer.reason == Reason.SEPARATION_ALREADY_LOST
+    ]
+    assert lost
+    for document in lost:
+        apart = next(s.guidance.separation for s in flight.samples if s.t == document.t)
+        assert f"{apart:,.0f} m" in document.answer.message
+
+
+def test_without_a_plan_one_heading_is_held_that_keeps_clear() -> None:
+    nothing = NoPlan(reason=Reason.SEPARATION_UNAVOIDABLE, message="Nothing found.")
+    own = replace(FIG_6B.situation.pursuer, x=60e3, y=0.0, heading=270.0 * DEG)
+    head_on = replace(FIG_6B, situation=replace(FIG_6B.situation, pursuer=own))
+    flight = flown(replace(head_on, duration_limit=400.0), planner=lambda situation: nothing)
+    assert flight.result.losses == ()
+    assert_steady(flight)
+    (turning,) = [d for d in flight.of(Unable) if "Turning to" in d.message]
+    ((_, heading),) = set(held_headings(flight)[-1:])
+    assert f"{heading / DEG:03.0f}°" in turning.message
