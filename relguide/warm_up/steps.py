@@ -42,11 +42,17 @@ class Step:
 
 
 def _flying() -> None:
-    from relguide.flying.flight import fly
+    from relguide.flying.flight import IntentKnown, LeaderHeading, fly
     from relguide.flying.scenarios import scenario
     from relguide.planning.plan import plan
 
-    for _ in islice(fly(scenario("fig_6b"), plan), SAMPLES):
+    flight = scenario("fig_6b")
+    for _ in fly(flight, plan, sample_period=1.0):  # joins, and follows
+        pass
+    # a leader that turns unannounced is planned for anew, watched, and escaped from
+    orders = {2.0: (IntentKnown(known=False), LeaderHeading(heading=0.5))}
+    surprised = fly(flight, plan, commands=lambda t: orders.get(t, ()), sample_period=1.0)
+    for _ in islice(surprised, SAMPLES):
         pass
     plan(_situation(-40e3, 40e3, 90.0))
     plan(_situation(-20e3, 5e3, 0.0, intent=TURNING))

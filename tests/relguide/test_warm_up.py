@@ -62,6 +62,38 @@ sys.exit(", ".join(called() - compiled) or 0)
 """What a user may do; its exit status names the kernels that are then compiled after all."""
 
 
+FLOWN = """
+import sys
+from importlib import import_module
+from pkgutil import walk_packages
+from numba.core.dispatcher import Dispatcher
+from relguide import kernels, plan
+from relguide.flying.flight import LeaderHeading, LeaderSpeed, fly
+from relguide.flying.scenarios import scenario
+from relguide.warm_up import STEPS
+from tests.flights import saying
+
+def called():
+    found = walk_packages(kernels.__path__, "relguide.kernels.")
+    modules = [import_module(module.name) for module in found]
+    found = {f for module in modules for f in vars(module).values() if isinstance(f, Dispatcher)}
+    return {
+        f"{f.py_func.__name__}{sig}" for f in found for sig in f.signatures
+        if f.py_func.__module__.startswith(kernels.__name__ + ".flight")
+    }
+
+STEPS["flying"].run()
+compiled = called()
+surprises = (100.0, LeaderHeading(heading=3.0)), (200.0, LeaderSpeed(tas=150.0))
+for name in ("fig_6a", "fig_6b"):
+    for commands in (saying(), saying(*surprises)):
+        for _ in fly(scenario(name), plan, commands=commands, sample_period=1.0):
+            pass
+sys.exit(", ".join(called() - compiled) or 0)
+"""
+"""First flights after the step that is for them; as above, of the kernels that fly."""
+
+
 def _run(*command: str, **environment: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
         [sys.executable, *command],
@@ -76,6 +108,12 @@ def _run(*command: str, **environment: str) -> subprocess.CompletedProcess[str]:
 def test_nothing_is_left_to_compile() -> None:
     used = _run("-c", USED)
     assert used.returncode == 0, f"compiled after all: {used.stderr}"
+
+
+@pytest.mark.slow
+def test_a_first_flight_waits_for_no_kernel_of_its_own() -> None:
+    used = _run("-c", FLOWN)
+    assert used.returncode == 0, f"compiled in flight: {used.stderr}"
 
 
 @pytest.mark.slow
