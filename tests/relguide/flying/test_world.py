@@ -9,6 +9,8 @@ import pytest
 from relguide.flying.air import Air
 from relguide.flying.airframe import airframe
 from relguide.flying.documents import FlightEnded, FlightStarted, Sample, Unable
+from relguide.flying.flight import fly
+from relguide.flying.scenarios import scenario
 from relguide.flying.simulation import simulate
 from relguide.flying.world import (
     DECLARED_DECELERATION,
@@ -30,6 +32,7 @@ from relguide.planning.plan import plan
 from relguide.planning.situation import FlyStraight, TurnTo, Wind
 from relguide.planning.trajectory import RIGHT
 from relguide.units import DEG, NM
+from tests.flights import random_start
 from tests.recording import SPEED, recording
 
 A306 = airframe("A306")
@@ -286,3 +289,24 @@ def test_a_flight_ends_with_a_sentence_where_an_aircraft_leaves_the_plane() -> N
     assert (said.reason, said.t) == ("geometry", 26.0)
     assert said.message.startswith("L leaves the plane of this flight")
     assert documents[-1].t == said.t
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("drawn", [None, 1, 2])
+def test_whole_flights_hardly_depend_on_the_step(drawn: int | None) -> None:
+    """Planning included, within a metre a minute; measured: 0.4 m."""
+    flight = scenario("fig_6a")
+    if drawn is not None:
+        flight = replace(flight, situation=random_start(drawn, wind=20.0))
+    coarse, fine = (
+        [
+            document
+            for document in fly(flight, plan, step=step, sample_period=1.0)
+            if isinstance(document, Sample)
+        ]
+        for step in (0.05, 0.01)
+    )
+    assert len(coarse) == len(fine)
+    for one, other in zip(coarse, fine, strict=True):
+        for here, there in zip(one.aircraft, other.aircraft, strict=True):
+            assert hypot(here.x - there.x, here.y - there.y) < max(one.t / 60.0, 1.0)
