@@ -17,11 +17,13 @@ from relguide.kernels.flight.marks import straight_for
 from relguide.kernels.flight.program import roll_lead
 from relguide.kernels.flight.records import Body, Drift, Limits
 from relguide.planning.situation import FlyStraight, IntentPiece, Leader, TurnTo, Wind
-from relguide.units import Metre, MetrePerSecond, Radian, RadianPerSecond, Second
+from relguide.units import DEG, Metre, MetrePerSecond, Radian, RadianPerSecond, Second
 
 SPARE: Metre = 20_000.0
 """Of the leader's flown path, D and so much more is kept, and assumed straight behind it at first
 sight [m]."""
+ROLLING_OUT: Radian = 3.0 * DEG
+"""So near the heading that it holds, a leader is on it but for its roll [rad]."""
 ROOM = 600
 """Marks that a track has room for at first; it grows."""
 
@@ -86,6 +88,8 @@ class Belief:
     """Its piece being flown."""
     held: Radian
     """The leader's heading before the first piece, continuous [rad]."""
+    holds: Radian
+    """The heading that a leader of known intent holds on its straights, continuous [rad]."""
     leader_tas: MetrePerSecond
     """The speed that the leader is expected to hold [m/s]."""
     track: FlownTrack
@@ -126,7 +130,16 @@ class Belief:
     def final_heading(self) -> Radian:
         """The leader's heading on its final leg as far as is known, in [0, 2π) [rad]."""
         turns = [piece.heading for piece in self.intent if isinstance(piece, TurnTo)]
-        return wrap(turns[-1] if turns else self.leader_rolled_out)
+        return wrap(turns[-1] if turns else self._straight_heading)
+
+    @property
+    def _straight_heading(self) -> Radian:
+        """Where the leader points, or, rolling out of a turn, will point [rad, continuous]."""
+        if not self.intent_known:
+            return self.leader_rolled_out
+        turns = bool(self.intent) and isinstance(self.intent[0], TurnTo)
+        near = abs(self.leader.heading - self.holds) < ROLLING_OUT
+        return self.holds if near and not turns else self.leader.heading
 
     def slot_open(self, slot_distance: Metre) -> bool:
         """Whether the leader has flown D on its final leg, as far as is known."""
@@ -138,7 +151,7 @@ class Belief:
         Args:
             seconds: from now [s].
         """
-        heading = self.leader.heading if self.intent_known else self.leader_rolled_out
+        heading = self._straight_heading
         now = Leader(
             x=self.leader.x, y=self.leader.y, heading=wrap(heading), tas=self.leader.tas,
             intent=self.intent,

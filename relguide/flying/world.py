@@ -19,6 +19,7 @@ from relguide.flying.guidance.settings import DEFAULT, Settings
 from relguide.flying.leaders.declared import (
     Program,
     TurnChoice,
+    heading_held,
     program_of,
     remaining,
     turn_program,
@@ -314,6 +315,7 @@ class Fleet:
             program=program.rows if known else NO_PROGRAM,
             cursor=cursor if known else 0,
             held=program.held if known else leader.heading,
+            holds=heading_held(program, cursor) if known else leader.heading,
             leader_tas=leader.tas,
             track=track,
             wind=air.wind_at(own.x, own.y, self.altitude(i), t),
