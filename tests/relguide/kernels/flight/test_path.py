@@ -200,3 +200,15 @@ def test_rows_hold_where_each_piece_begins() -> None:
     assert path[0, [X, Y, HEADING]] == pytest.approx([1_000.0, -2_000.0, 90.0 * DEG])
     assert path[:, CURVATURE] * RADIUS == pytest.approx([1.0, 0.0, -1.0, 1.0, 0.0])
     assert [row_at(path, s) for s in (-1.0, 0.0, 4_999.0, 5_000.0, 28e3, 1e9)] == [0, 0, 0, 1, 3, 4]
+
+
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+@pytest.mark.parametrize("share", [-0.6, 0.4])
+def test_far_beside_a_turn_the_place_next_to_it_is_still_found(side: float, share: float) -> None:
+    """Six tenths of the radius outside, four inside, a kilometre from where it was expected."""
+    path = laid((40_000.0, side))
+    x, y, heading = pose_on(path, 15_000.0)
+    right = side * share * RADIUS
+    place = x + right * cos(heading), y - right * sin(heading)
+    found, off = project(path, *place, 16_000.0)
+    assert (found, off) == pytest.approx((15_000.0, right), abs=1.0)
