@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from relguide.kernels.base.angles import wrap
+from relguide.kernels.base.motion import advance
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.base.turn import turn_rate
 from relguide.kernels.flight.ahead import add_mark
@@ -149,23 +150,18 @@ class Belief:
         """The leader as it is expected to be, over the ground, with the rest of its intent.
 
         Args:
-            seconds: from now [s].
+            seconds: from now [s], ≥ 0.
         """
-        heading = self._straight_heading
-        now = Leader(
-            x=self.leader.x, y=self.leader.y, heading=wrap(heading), tas=self.leader.tas,
-            intent=self.intent,
-        )  # fmt: skip
-        if seconds == 0.0:
-            return now
-        then = now.trajectory.pose_at(seconds)
-        return Leader(
-            x=then.x + self.wind.east * seconds,
-            y=then.y + self.wind.north * seconds,
-            heading=then.heading,
-            tas=self.leader.tas,
-            intent=intent_after(now, seconds),
-        )
+        x, y, tas, intent = self.leader.x, self.leader.y, self.leader.tas, self.intent
+        heading = wrap(self._straight_heading)
+        if intent and seconds > 0.0:
+            now = Leader(x=x, y=y, heading=heading, tas=tas, intent=intent)
+            then, intent = now.trajectory.pose_at(seconds), intent_after(now, seconds)
+            x, y, heading = then.x, then.y, then.heading
+        elif seconds > 0.0:
+            x, y, heading = advance(x, y, heading, tas, 0.0, seconds)
+        x, y = x + self.wind.east * seconds, y + self.wind.north * seconds
+        return Leader(x=x, y=y, heading=heading, tas=tas, intent=intent)
 
 
 def intent_after(leader: Leader, seconds: Second) -> tuple[IntentPiece, ...]:

@@ -382,6 +382,8 @@ def _notice_turn(one: LinkState, seen: Belief) -> tuple[LeaderView, tuple[Leader
     if view.turning or abs(rate) < TURN_SEEN:
         turning = view.turning and abs(rate) > TURN_OVER
         changed_at = seen.t if turning and not seen.intent_known else view.changed_at
+        if turning == view.turning and changed_at == view.changed_at:
+            return view, ()
         return view._replace(turning=turning, changed_at=changed_at), ()
     if seen.intent_known or view.commanded:
         return view._replace(turning=True), ()
