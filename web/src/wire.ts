@@ -1,7 +1,7 @@
 // Made by `python -m relguide_server.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-dcb26d082135";
+export const PROTOCOL = "relguide-a573564d1e69";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -19,6 +19,7 @@ export type Proof = "relaxation" | "bound" | "none";
 /** Why a new plan was made. */
 export type PlanReason =
   | "engaged"
+  | "resumed"
   | "better_plan"
   | "deviation"
   | "separation"

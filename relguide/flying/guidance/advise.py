@@ -121,7 +121,7 @@ def _try_to_plan(
     memory, events = count_refusal(memory, found)
     if isinstance(found, NoProposal):
         return say_no_plan(memory, belief, assignment, found.answer, events)
-    reason: PlanReason = "engaged" if memory.announced is None else "better_plan"
+    reason: PlanReason = "engaged" if memory.announced is None else "resumed"
     return fly_proposal(memory, belief, assignment, found, reason, events)
 
 

@@ -14,6 +14,7 @@ from relguide.units import KT, NM, Metre, MetrePerSecond, Radian, Second
 
 PlanReason = Literal[
     "engaged",
+    "resumed",
     "better_plan",
     "deviation",
     "separation",
@@ -137,6 +138,8 @@ def reason_sentence(reason: PlanReason, belief: Belief) -> str:
     match reason:
         case "engaged":
             return "Relative guidance engaged"
+        case "resumed":
+            return "Relative guidance resumed"
         case "better_plan":
             return "A faster path was found"
         case "deviation":

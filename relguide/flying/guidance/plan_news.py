@@ -60,7 +60,7 @@ def fly_proposal(
     fresh = is_news(memory, belief, assignment, committed, shown.trajectory, reason)
     announced = fresh and (
         memory.announced is None
-        or reason in ("separation", "engaged")
+        or reason in ("separation", "engaged", "resumed")
         or may_speak(memory, belief, assignment)
     )
     joins = committed.forecast.join_time if committed.forecast.joins else committed.due
@@ -97,7 +97,7 @@ def is_news(
 ) -> bool:
     """Whether the path or its time is not what a crew was told."""
     settings, told = assignment.settings, memory.announced
-    if told is None or reason in ("engaged", "separation", "better_plan"):
+    if told is None or reason in ("engaged", "resumed", "separation", "better_plan"):
         return True
     if memory.pending is not None:
         return True

@@ -54,6 +54,7 @@ const URGENCY: readonly Notice["level"][] = ["warning", "caution", "advice"];
 
 export const REPLANNED: Record<PlanReason, string> = {
   engaged: "CONV ACTIVE",
+  resumed: "CONV RESUMED",
   better_plan: "SHORTER PATH",
   deviation: "OFF PATH – REPLAN",
   separation: "SEP – REPLAN",
