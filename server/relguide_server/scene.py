@@ -35,6 +35,7 @@ from relguide.flying.documents import (
     SeparationLost,
     Unable,
 )
+from relguide.flying.modes import Mode
 from relguide.units import NM
 from relguide_server import scene_paint as paint
 from relguide_server import scene_shapes as shapes
@@ -49,6 +50,16 @@ FLOWN_PART = 4.0
 """The path ahead is cut off behind the aircraft each so many seconds [s]: a kilometre."""
 WALL = 0.8
 """Half the height of the cylinder of radius d_min [scene units]; separation is horizontal."""
+
+
+GATES: dict[Mode, paint.Colour] = {
+    "heading": paint.SLOT,
+    "converge": paint.PLAN,
+    "capture": paint.PLAN,
+    "follow": paint.PLAN,
+    "escape": paint.CAUTION,
+}
+"""The slot's colour, as on the navigation display."""
 
 
 class _Cast(NamedTuple):
@@ -82,7 +93,7 @@ class Scene:
         self._cast: _Cast | None = None
         self._figures: dict[str, AircraftFigure] = {}
         self._separation_lost = False
-        self._slot_colour = paint.SLOT
+        self._gate = (paint.SLOT, "")
         server.gui.configure_theme(dark_mode=True, show_logo=False, show_share_button=False)
         server.scene.set_background_image(np.full((1, 1, 3), paint.BACKGROUND, dtype=np.uint8))
         server.scene.set_up_direction("+z")
@@ -229,10 +240,9 @@ class Scene:
         slot = guidance.slot
         self._slot.position = (slot.x / KM, slot.y / KM, self._height)
         self._slot.wxyz = shapes.attitude(slot.heading, 0.0)
-        if guidance.joined and self._slot_colour != paint.PLAN:
-            self._draw_gate(paint.PLAN, "SLOT · joined")
-        elif not guidance.joined and self._slot_colour != paint.SLOT:
-            self._draw_gate(paint.SLOT, "SLOT")
+        gate = (GATES[guidance.mode], "SLOT · joined" if guidance.joined else "SLOT")
+        if gate != self._gate:
+            self._draw_gate(*gate)
         lost = guidance.separation < min_separation
         if lost != self._separation_lost:
             self._draw_min_separation(min_separation, lost=lost)
@@ -244,7 +254,6 @@ class Scene:
             "leader": AircraftFigure(scene, "leader", paint.LEADER, cast.leader, pair.leader),
         }
         self._draw_min_separation(cast.link.min_separation, lost=False)
-        self._draw_gate(paint.SLOT, "SLOT")
 
     def _centre(self, pair: _Pair) -> None:
         x = (pair.pursuer.x + pair.leader.x) / 2.0 / KM
@@ -255,7 +264,7 @@ class Scene:
         self._scale.position = (CELL * round(x / CELL - 1.5), CELL * round(south / CELL), 0.0)
 
     def _draw_gate(self, colour: paint.Colour, text: str) -> None:
-        self._slot_colour = colour
+        self._gate = (colour, text)
         lines(self._scene, "/world/slot/gate", shapes.gate(3.6, 2.4), colour, 3.0)
         lines(self._scene, "/world/slot/drop", shapes.drop(self._height, 0.5), colour, 0.8)
         label(self._scene, "/world/slot/text", text, (0, 0, -1.4), "top-center")

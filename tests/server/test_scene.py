@@ -150,18 +150,20 @@ def test_without_a_plan_none_is_shown(viser_server: ViserServer, documents: list
     assert not [name for name in nodes(viser_server) if name.startswith("/world/plan")]
 
 
-def test_a_lost_limit_and_a_joined_slot_change_colour(
+def test_a_lost_limit_and_an_escape_change_colour(
     viser_server: ViserServer, documents: list[Document]
 ) -> None:
     scene = Scene(viser_server)
     scene.draw(documents)
     sample = next(d for d in reversed(documents) if isinstance(d, Sample))
     assert tuple(nodes(viser_server)["/world/leader/min_separation"].color) == paint.LEADER
-    close = replace(sample.guidance[0], separation=1000.0, joined=True)
+    gate = np.asarray(nodes(viser_server)["/world/slot/gate"].colors)
+    assert tuple(gate.reshape(-1, 3)[0]) == paint.PLAN
+    close = replace(sample.guidance[0], separation=1000.0, mode="escape")
     scene.draw([replace(sample, guidance=(close,))])
     assert tuple(nodes(viser_server)["/world/leader/min_separation"].color) == paint.ALERT
     gate = np.asarray(nodes(viser_server)["/world/slot/gate"].colors)
-    assert tuple(gate.reshape(-1, 3)[0]) == paint.PLAN
+    assert tuple(gate.reshape(-1, 3)[0]) == paint.CAUTION
 
 
 def test_the_first_picture_has_both_aircraft_in_it(
