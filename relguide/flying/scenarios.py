@@ -8,11 +8,11 @@ leader turns
   6b (at 360 s), but nothing sways (at most 66° of heading swing);
 - at 790 … 850 s, it is in its last turn onto the old route. It has converged after its first right
   turn, changes its heading as the leader's goes round, is too close for the new slot, and comes
-  back by a wide turn right: swing 169 … 195° against 46°, joining 11 … 17 % later;
+  back by a wide turn right: swing 173 … 195° against 46°, joining 13 … 15 % later;
 - at 870 s, it has joined before.
 
 Only the second is section 5's "very swaying trajectory", so `LEADER_TURNS_AT` is in its middle:
-820 s, 6a joins at 1,031 s with a swing of 187°, 6b at 917 s (planned: 904 s, promised: 917 s) with
+820 s, 6a joins at 1,041 s with a swing of 192°, 6b at 917 s (planned: 904 s, promised: 917 s) with
 46°.
 """
 

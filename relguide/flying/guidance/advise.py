@@ -17,7 +17,7 @@ from relguide.flying.guidance.announcements import (
     leader_change,
 )
 from relguide.flying.guidance.assignment import Assignment
-from relguide.flying.guidance.committed import Committed, situation_now, slot_mismatch
+from relguide.flying.guidance.committed import Committed, place_on, situation_now, slot_mismatch
 from relguide.flying.guidance.converge import NoProposal, NotBetter, Proposal
 from relguide.flying.guidance.forecast import NO_COURSE
 from relguide.flying.guidance.leader_news import (
@@ -132,13 +132,14 @@ def _stay_or_change(
     settings, committed, t = assignment.settings, memory.committed, belief.t
     if committed is None:
         return _plan_again(memory, belief, assignment, planner)
-    memory = memory._replace(committed=committed._replace(s=memory.progress.s))
+    committed, right = place_on(committed, belief, memory.progress.s)
+    memory = memory._replace(committed=committed)
     now = memory.leader  # noticed this second
     changed = leader_change(memory.expected, now, settings.leader_turned, settings.leader_speed)
     as_forecast = memory.forecast is not None and leader_is_as_forecast(
         memory.forecast, belief, assignment
     )
-    strayed = memory.forecast is not None and _strayed(memory, belief, assignment)
+    strayed = memory.forecast is not None and abs(right) > settings.strayed
     if strayed:
         return _plan_again(memory, belief, assignment, planner, reason="deviation")
     if not as_forecast and (
@@ -179,17 +180,6 @@ def _asks_now(memory: Memory, committed: Committed, t: Second, assignment: Assig
     if not converge.may_be_bettered(committed, t, assignment):
         return False
     return committed.plan.planner != "exact" or t - memory.asked >= settings.ask_every
-
-
-def _strayed(memory: Memory, belief: Belief, assignment: Assignment) -> bool:
-    """Whether the aircraft is far beside its path."""
-    committed = memory.committed
-    if committed is None:
-        return False
-    since, wind = belief.t - committed.course.begun, belief.wind
-    x, y = belief.own.x - wind.east * since, belief.own.y - wind.north * since
-    _, right = on.project(committed.course.path, x, y, committed.s + belief.own.tas)
-    return bool(abs(right) > assignment.settings.strayed)
 
 
 def _plan_again(

@@ -151,6 +151,23 @@ def situation_of(
     )
 
 
+def place_on(committed: Committed, belief: Belief, before: Metre) -> tuple[Committed, Metre]:
+    """The committed path as it has been flown until now.
+
+    Args:
+        committed: what is tracked.
+        belief: gives the aircraft.
+        before: how much of it had been flown a second ago [m].
+
+    Returns:
+        the same with its `s` of now, and how far to the right of it the aircraft is [m].
+    """
+    own, wind, since = belief.own, belief.wind, belief.t - committed.course.begun
+    x, y = own.x - wind.east * since, own.y - wind.north * since
+    s, right = on.project(committed.course.path, x, y, before + own.tas)
+    return committed._replace(s=s), right
+
+
 def course_of(
     plan: Plan, lead: LeadIn, belief: Belief, assignment: Assignment, committed: Committed | None
 ) -> tuple[Course, Metre]:

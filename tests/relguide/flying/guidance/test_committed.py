@@ -11,6 +11,7 @@ from relguide.flying.guidance.committed import (
     Committed,
     lead_in,
     lead_time,
+    place_on,
     segments_of,
     shown_plan,
     slot_mismatch,
@@ -109,6 +110,22 @@ def test_a_new_course_goes_on_with_the_old_one_and_then_with_the_new_plan() -> N
 def _aloft(watched: Watched) -> tuple[float, float]:
     own, wind = watched.belief.own, watched.belief.wind
     return own.x - wind.east * watched.t, own.y - wind.north * watched.t
+
+
+def test_what_has_been_flown_is_where_the_aircraft_is_now() -> None:
+    """Not where it was a second ago: else each new plan would begin 240 m behind it."""
+    watched = Watched(WINDY)
+    committed, before = committed_at(watched).committed, 0.0
+    heading = watched.scenario.situation.pursuer.heading
+    for second in range(1, 6):
+        watched.fly(Control(HOLD_HEADING, heading, 240.0))
+        committed, right = place_on(committed, watched.belief, before)
+        before = committed.s
+        assert committed.s == pytest.approx(240.0 * second, abs=1.0)
+        assert right == pytest.approx(0.0, abs=1.0)
+    lead = lead_in(watched.belief, watched.assignment, committed)
+    own = watched.belief.own
+    assert lead.start[:2] == pytest.approx((own.x, own.y), abs=2.0)
 
 
 def test_the_plan_shown_begins_now_and_ends_as_planned() -> None:
