@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 from itertools import pairwise
-from math import pi
+from math import hypot, pi
 
 import numpy as np
 import pytest
@@ -16,7 +16,6 @@ from relguide.flying.documents import (
     LeaderRoute,
     ModeChanged,
     PlanChanged,
-    PlanRefused,
     PlanUnavailable,
     Sample,
 )
@@ -26,11 +25,12 @@ from relguide.flying.plan_documents import TurnSegment
 from relguide.flying.scenarios import fig_6, own_scenario
 from relguide.flying.tracks import RecordedTrack
 from relguide.planning.frames import LocalPlane
-from relguide.planning.plan import NoPlan, Optimality, Plan, Reason, plan
-from relguide.planning.situation import Situation, wind_from
+from relguide.planning.plan import NoPlan, Plan, Reason, plan
+from relguide.planning.situation import FlyStraight, Situation, TurnTo, wind_from
+from relguide.planning.trajectory import LEFT, RIGHT, Turn
 from relguide.units import DEG, NM
 from tests.flights import Flown, Instant, flown, instant, random_start
-from tests.liars import LIARS, LIED_ABOUT, Liar, comes_too_early, ends_beside
+from tests.liars import LIED_ABOUT
 
 FIG_6B = fig_6(intent_known=True)
 KEPT = 5.0 * NM - 1.0  # 1 m: what a step of 50 ms moves a grazing pass
@@ -250,68 +250,6 @@ def test_unannounced_turns_do_not_stop_it() -> None:
     assert flight.result.joined
 
 
-@pytest.fixture(scope="module")
-def honest() -> Flown:
-    return flown(replace(scenario(LIED_ABOUT), duration_limit=20.0))
-
-
-@pytest.mark.parametrize("liar", LIARS, ids=lambda liar: liar.__name__)
-def test_a_lie_is_said_counted_and_not_flown(liar: Liar, honest: Flown) -> None:
-    asked = list[Situation]()
-
-    def planner(situation: Situation) -> Plan | NoPlan:
-        asked.append(situation)
-        return liar(situation)
-
-    flight = flown(replace(scenario(LIED_ABOUT), duration_limit=20.0), planner=planner)
-    assert flight.samples == honest.samples
-    # once before the flight, for its name; then at engagement, and every 10 s for a faster path
-    assert flight.result.fallbacks == len(asked) - 1 == 3
-    refused = [(d.t, d.fault) for d in flight.of(PlanRefused)]
-    # on the way its path is no longer early, but as near to the leader as before
-    later = [(10.0, "separation")] if liar is comes_too_early else []
-    assert refused == [(0.0, LIARS[liar]), *later]
-    (first,) = flight.of(PlanChanged)
-    (true,) = honest.of(PlanChanged)
-    assert (first.plan.planner, first.plan.word) == ("exact", true.plan.word)
-
-
-@pytest.mark.parametrize("liar", LIARS, ids=lambda liar: liar.__name__)
-def test_a_lie_told_on_the_way_is_not_flown_either(liar: Liar) -> None:
-    """While a faster path is not excluded it is asked each second, and lies from the sixth on."""
-    asked = iter(range(1_000_000))
-
-    def planner(situation: Situation) -> Plan | NoPlan:
-        return liar(situation) if next(asked) > 6 else unproved(situation)
-
-    flight = flown(replace(scenario(LIED_ABOUT), duration_limit=20.0), planner=planner)
-    honest = flown(replace(scenario(LIED_ABOUT), duration_limit=20.0), planner=unproved)
-    assert flight.samples == honest.samples
-    assert [d.t for d in flight.of(PlanChanged)] == [0.0]
-    fault = "separation" if liar is comes_too_early else LIARS[liar]
-    assert [(d.t, d.fault) for d in flight.of(PlanRefused)] == [(6.0, fault)]
-    assert flight.result.fallbacks == 15
-
-
-def unproved(situation: Situation) -> Plan | NoPlan:
-    """The fastest path, of which its planner cannot say so."""
-    answer = plan(situation)
-    if isinstance(answer, NoPlan):
-        return answer
-    return replace(answer, planner="modest", optimality=Optimality(proof="none", lower_bound=0.0))
-
-
-def test_a_lie_repeated_for_a_while_is_said_again() -> None:
-    asked = iter(range(1_000_000))
-
-    def sometimes(situation: Situation) -> Plan | NoPlan:
-        return ends_beside(situation) if next(asked) // 5 % 2 else unproved(situation)
-
-    flight = flown(replace(scenario(LIED_ABOUT), duration_limit=20.0), planner=sometimes)
-    assert len(flight.of(PlanRefused)) == 2
-    assert flight.result.fallbacks == 10
-
-
 def test_what_a_planner_raises_ends_the_flight_there() -> None:
     class OwnError(Exception):
         pass
@@ -392,13 +330,6 @@ def test_recording_ends_the_flight_and_a_command_takes_over_from_it() -> None:
     assert taken_over.samples[120].leader.bank < -20.0 * DEG
 
 
-def test_steps_and_periods_must_fit() -> None:
-    with pytest.raises(ValueError, match="whole number of steps"):
-        fly(FIG_6B, plan, step=0.3)
-    with pytest.raises(ValueError, match="whole number of steps"):
-        fly(FIG_6B, plan, sample_period=0.07)
-
-
 def test_coarser_steps_fly_the_same(fig_6b: Flown) -> None:
     end = [*fly(FIG_6B, plan, step=0.1, sample_period=1.0)][-1]
     assert isinstance(end, FlightEnded)
@@ -418,3 +349,48 @@ def test_what_cannot_be_is_refused(make: object, sentence: str) -> None:
     assert callable(make)
     with pytest.raises(ValueError, match=sentence):
         make()
+
+
+@pytest.mark.parametrize("turn", [LEFT, RIGHT])
+def test_a_declared_turn_of_355_degrees_is_flown_as_declared(turn: Turn) -> None:
+    """And joined when promised: not taken for one of 5° the other way."""
+    intent = (
+        FlyStraight(duration=200.0),
+        TurnTo(heading=(90.0 + 5.0 * turn) * DEG, turn=turn, bank=20.0 * DEG),
+    )
+    leader = replace(FIG_6B.situation.leader, intent=intent)
+    flight = flown(replace(FIG_6B, situation=replace(FIG_6B.situation, leader=leader)))
+    headings = np.unwrap([s.leader.heading for s in flight.samples])
+    assert headings[-1] - headings[0] == pytest.approx(-turn * 355.0 * DEG, abs=0.5 * DEG)
+    assert flight.result.joined
+    assert flight.result.losses == ()
+    assert flight.result.join_time == pytest.approx(flight.result.promised, abs=1.0)
+    assert flight.result.replans == 0
+
+
+@pytest.mark.parametrize("wind", [(0.0, 0.0), (0.0, 40.0)])
+def test_a_time_behind_the_leader_is_kept(wind: tuple[float, float]) -> None:
+    """60 s on its path, and through its turn; 12 km in still air."""
+    situation = replace(FIG_6B.situation, wind=wind_from(wind[0] * DEG, wind[1]))
+    apart = replace(FIG_6B, situation=situation, spacing=60.0, after_joining=600.0)
+    flight = flown(apart, (1_100.0, LeaderHeading(heading=90.0 * DEG)))
+    assert flight.result.joined
+    assert flight.result.losses == ()
+    assert flight.result.join_time == pytest.approx(flight.result.promised, abs=1.0)
+    last = flight.samples[-1]
+    assert last.guidance.joined
+    assert abs(last.guidance.spacing_error) < 60.0
+    assert abs(last.guidance.cross_track) < 0.1 * NM
+    then = next(s.leader for s in flight.samples if s.t == last.t - 60.0)
+    assert hypot(last.pursuer.x - then.x, last.pursuer.y - then.y) < 100.0
+
+
+def test_ground_track_and_speed_are_matched_in_a_cross_wind_through_a_turn() -> None:
+    """40 m/s across and a turn of 90° while followed: within 0.1 NM of the leader's path."""
+    situation = replace(FIG_6B.situation, wind=wind_from(45.0 * DEG, 40.0))
+    longer = replace(FIG_6B, situation=situation, after_joining=500.0)
+    flight = flown(longer, (1_100.0, LeaderHeading(heading=45.0 * DEG)))
+    followed = [s for s in flight.samples if s.guidance.mode == "follow"]
+    assert followed[-1].t > 1_400.0
+    assert max(abs(s.guidance.cross_track) for s in followed) < 0.1 * NM
+    assert flight.result.losses == ()

@@ -239,3 +239,10 @@ def test_durations_are_whole_steps(duration: float, step: float, steps: int) -> 
 def test_and_nothing_else(duration: float, step: float) -> None:
     with pytest.raises(ValueError, match="must be a whole number of steps"):
         whole_steps(duration, step)
+
+
+def test_steps_and_periods_must_fit() -> None:
+    with pytest.raises(ValueError, match="whole number of steps"):
+        fly(FIG_6B, plan, step=0.3)
+    with pytest.raises(ValueError, match="whole number of steps"):
+        fly(FIG_6B, plan, sample_period=0.07)

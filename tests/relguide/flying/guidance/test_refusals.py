@@ -1,0 +1,77 @@
+"""Whoever made a plan, what must not be flown is not: it is said, counted, and replaced."""
+
+from dataclasses import replace
+
+import pytest
+
+from relguide.flying.documents import PlanChanged, PlanRefused
+from relguide.flying.flight import Scenario
+from relguide.flying.scenarios import own_scenario
+from relguide.planning.plan import NoPlan, Optimality, Plan, plan
+from relguide.planning.situation import Situation
+from tests.flights import Flown, flown
+from tests.liars import LIARS, LIED_ABOUT, Liar, comes_too_early, ends_beside
+
+SHORT: Scenario = replace(own_scenario(LIED_ABOUT), duration_limit=20.0)
+
+
+@pytest.fixture(scope="module")
+def honest() -> Flown:
+    return flown(SHORT)
+
+
+@pytest.mark.parametrize("liar", LIARS, ids=lambda liar: liar.__name__)
+def test_a_lie_is_said_counted_and_not_flown(liar: Liar, honest: Flown) -> None:
+    asked = list[Situation]()
+
+    def planner(situation: Situation) -> Plan | NoPlan:
+        asked.append(situation)
+        return liar(situation)
+
+    flight = flown(SHORT, planner=planner)
+    assert flight.samples == honest.samples
+    # once before the flight, for its name; then at engagement, and every 10 s for a faster path
+    assert flight.result.fallbacks == len(asked) - 1 == 3
+    refused = [(d.t, d.fault) for d in flight.of(PlanRefused)]
+    # on the way its path is no longer early, but as near to the leader as before
+    later = [(10.0, "separation")] if liar is comes_too_early else []
+    assert refused == [(0.0, LIARS[liar]), *later]
+    (first,) = flight.of(PlanChanged)
+    (true,) = honest.of(PlanChanged)
+    assert (first.plan.planner, first.plan.word) == ("exact", true.plan.word)
+
+
+@pytest.mark.parametrize("liar", LIARS, ids=lambda liar: liar.__name__)
+def test_a_lie_told_on_the_way_is_not_flown_either(liar: Liar) -> None:
+    """While a faster path is not excluded it is asked each second, and lies from the sixth on."""
+    asked = iter(range(1_000_000))
+
+    def planner(situation: Situation) -> Plan | NoPlan:
+        return liar(situation) if next(asked) > 6 else unproved(situation)
+
+    flight = flown(SHORT, planner=planner)
+    honest = flown(SHORT, planner=unproved)
+    assert flight.samples == honest.samples
+    assert [d.t for d in flight.of(PlanChanged)] == [0.0]
+    fault = "separation" if liar is comes_too_early else LIARS[liar]
+    assert [(d.t, d.fault) for d in flight.of(PlanRefused)] == [(6.0, fault)]
+    assert flight.result.fallbacks == 15
+
+
+def unproved(situation: Situation) -> Plan | NoPlan:
+    """The fastest path, of which its planner cannot say so."""
+    answer = plan(situation)
+    if isinstance(answer, NoPlan):
+        return answer
+    return replace(answer, planner="modest", optimality=Optimality(proof="none", lower_bound=0.0))
+
+
+def test_a_lie_repeated_for_a_while_is_said_again() -> None:
+    asked = iter(range(1_000_000))
+
+    def sometimes(situation: Situation) -> Plan | NoPlan:
+        return ends_beside(situation) if next(asked) // 5 % 2 else unproved(situation)
+
+    flight = flown(SHORT, planner=sometimes)
+    assert len(flight.of(PlanRefused)) == 2
+    assert flight.result.fallbacks == 10
