@@ -64,7 +64,7 @@ export interface Flight {
   readonly unavailable: Signal<PlanUnavailable | null>;
   /** The alerts that stand: of each subject and other aircraft the newest. */
   readonly alerts: Signal<readonly Alert[]>;
-  /** Set from "unable" to the next plan. */
+  /** Set when guidance is unable, until the next plan. */
   readonly unable: Signal<Unable | null>;
   /** The last loss of separation. */
   readonly lost: Signal<SeparationLost | null>;

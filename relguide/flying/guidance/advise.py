@@ -164,9 +164,9 @@ def _stay_or_change(
 
 
 def _is_overdue(memory: Memory, belief: Belief, assignment: Assignment) -> bool:
-    """Whether the path has been flown to its end and does not join: asked again now and then."""
+    """Whether the path has been flown to its end and does not join."""
     committed, t = memory.committed, belief.t
-    if committed is None or t < committed.due or t - memory.asked < assignment.settings.ask_every:
+    if committed is None or t < committed.due + assignment.settings.ask_every:
         return False
     ahead = committed.forecast if memory.forecast is None else memory.forecast
     return not ahead.joins
