@@ -235,13 +235,16 @@ def _act(memory: Memory, belief: Belief, assignment: Assignment) -> Act:
 def _outlook(memory: Memory, belief: Belief, assignment: Assignment) -> Outlook:
     ahead = memory.forecast
     trusted = ahead if ahead is not None and is_as_forecast(ahead, belief, assignment) else None
-    course = NO_COURSE if memory.committed is None else memory.committed.course
+    committed, until = memory.committed, belief.t + assignment.settings.watch
+    if committed is not None:  # all of its path, which is drawn
+        until = max(committed.due, belief.t) + converge.BRAKES_FOR
     return look_out(
         belief,
         assignment,
         memory.progress,
-        course,
+        NO_COURSE if committed is None else committed.course,
         trusted,
+        until=until,
         turns_on=turns_unannounced(belief, assignment),
         trend=memory.leader_trend,
     )

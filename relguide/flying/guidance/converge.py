@@ -221,14 +221,6 @@ def commit(
     return Committed(plan=plan, begins=begins, course=course, s=s, forecast=ahead)
 
 
-def looked_at_anew(
-    committed: Committed, belief: Belief, assignment: Assignment, progress: Progress
-) -> Forecast:
-    """The committed path flown ahead from where the aircraft is now."""
-    until = max(committed.due, belief.t) + BRAKES_FOR
-    return forecast(belief, assignment, progress, committed.course, until=until)
-
-
 def may_be_bettered(committed: Committed, t: Second, assignment: Assignment) -> bool:
     """Whether any path could be faster than the committed one by the margin, by what is proved."""
     settings = assignment.settings

@@ -61,6 +61,7 @@ def look_out(
     course: Course,
     trusted: Forecast | None,
     *,
+    until: Second,
     turns_on: bool,
     trend: MetrePerSecond,
 ) -> Outlook:
@@ -72,13 +73,14 @@ def look_out(
         progress: how far guidance has come.
         course: the committed path.
         trusted: a forecast that still holds; `None` to fly ahead anew.
+        until: how far to fly ahead anew, flight time [s].
         turns_on: whether the leader turns unannounced, and may go on.
         trend: how fast the leader changes its speed [m/s²]; 0 if it does not.
     """
     settings = assignment.settings
     ahead = trusted
     if ahead is None:
-        ahead = forecast(belief, assignment, progress, course, until=belief.t + settings.watch)
+        ahead = forecast(belief, assignment, progress, course, until=until)
     least, at = ahead.rest(belief.t), belief.t
     if least < assignment.min_separation:
         least, at = ahead.least(belief.t, settings.watch)

@@ -91,7 +91,9 @@ def outlook(watched: Watched, trusted: Forecast | None = None, **more: float | b
     belief = watched.belief
     progress = Progress(HOLD, 0.0, belief.own.heading, belief.own.tas)
     options: dict[str, float | bool] = {"turns_on": False, "trend": 0.0} | more
-    return look_out(belief, watched.assignment, progress, NO_COURSE, trusted, **options)  # type: ignore[arg-type]
+    return look_out(
+        belief, watched.assignment, progress, NO_COURSE, trusted, until=belief.t + 150.0, **options
+    )  # type: ignore[arg-type]
 
 
 def test_flying_on_into_the_leader_is_seen_ahead() -> None:
