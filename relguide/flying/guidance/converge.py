@@ -20,7 +20,7 @@ from relguide.flying.guidance.committed import (
     situation_now,
     situation_of,
 )
-from relguide.flying.guidance.forecast import Forecast, forecast
+from relguide.flying.guidance.forecast import forecast
 from relguide.flying.guidance.path_distance import distance_between, is_same_path
 from relguide.kernels.flight import path as on
 from relguide.kernels.flight.guide import CONVERGE, Progress
