@@ -22,6 +22,7 @@ from relguide import Plan, Planner, Situation, plan
 from relguide.flying.aircraft_documents import LinkResult
 from relguide.flying.documents import FlightEnded
 from relguide.flying.flight import Scenario, fly
+from relguide.flying.guidance.settings import Settings
 from relguide.learn.network_planner import network_planner
 from relguide.learn.words.branch_network import SHIPPED, load_network
 from relguide.learn.words.visited import STEP, draw_flight
@@ -131,7 +132,8 @@ def flown(number: int, planner: Planner, longest: float = LONGEST) -> Flown:
         return answer
 
     begun = thread_time()
-    *_, end = fly(scenario, measured, step=STEP, sample_period=1.0)
+    each_second = Settings(always_ask=True)
+    *_, end = fly(scenario, measured, step=STEP, sample_period=1.0, settings=each_second)
     assert isinstance(end, FlightEnded)
     (result,) = end.results
     return Flown(
