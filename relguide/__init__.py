@@ -22,9 +22,6 @@ from relguide.planning.extras import with_command as _with_command
 if typing.TYPE_CHECKING:
     from relguide.contract.recorder import record as record
     from relguide.contract.recorder import replay as replay
-    from relguide.flying.air import Air as Air
-    from relguide.flying.airframe import Airframe as Airframe
-    from relguide.flying.airframe import airframe as airframe
     from relguide.flying.documents import Alert as Alert
     from relguide.flying.documents import Document as Document
     from relguide.flying.documents import FlightEnded as FlightEnded
@@ -42,19 +39,11 @@ if typing.TYPE_CHECKING:
     from relguide.flying.flight import DeclaredLeader as DeclaredLeader
     from relguide.flying.flight import Scenario as Scenario
     from relguide.flying.flight import fly as fly
-    from relguide.flying.guidance.settings import Settings as Settings
     from relguide.flying.scenarios import own_scenario as own_scenario
-    from relguide.flying.scenarios import random_scenario as random_scenario
     from relguide.flying.scenarios import scenario as scenario
     from relguide.flying.scenarios import scenario_behind as scenario_behind
-    from relguide.flying.simulation import simulate as simulate
     from relguide.flying.tracks import RecordedTrack as RecordedTrack
     from relguide.flying.tracks import load_track as load_track
-    from relguide.flying.world import Aircraft as Aircraft
-    from relguide.flying.world import Declared as Declared
-    from relguide.flying.world import Guided as Guided
-    from relguide.flying.world import Link as Link
-    from relguide.flying.world import World as World
     from relguide.maps.isochrones import Grid as Grid
     from relguide.maps.isochrones import Isochrones as Isochrones
     from relguide.maps.isochrones import isochrones as isochrones
@@ -118,18 +107,7 @@ _HOMES = {
     "DeclaredLeader": "relguide.flying.flight",
     "Scenario": "relguide.flying.flight",
     "fly": "relguide.flying.flight",
-    "Settings": "relguide.flying.guidance.settings",
-    "World": "relguide.flying.world",
-    "Aircraft": "relguide.flying.world",
-    "Link": "relguide.flying.world",
-    "Guided": "relguide.flying.world",
-    "Declared": "relguide.flying.world",
-    "simulate": "relguide.flying.simulation",
-    "Airframe": "relguide.flying.airframe",
-    "airframe": "relguide.flying.airframe",
-    "Air": "relguide.flying.air",
     "own_scenario": "relguide.flying.scenarios",
-    "random_scenario": "relguide.flying.scenarios",
     "scenario": "relguide.flying.scenarios",
     "scenario_behind": "relguide.flying.scenarios",
     "RecordedTrack": "relguide.flying.tracks",
@@ -181,9 +159,6 @@ __all__ = [
     "CALM",
     "LEFT",
     "RIGHT",
-    "Air",
-    "Aircraft",
-    "Airframe",
     "Alert",
     "Alternative",
     "Arc",
@@ -191,7 +166,6 @@ __all__ = [
     "BoundaryArc",
     "Candidate",
     "Certificate",
-    "Declared",
     "DeclaredLeader",
     "Document",
     "FlightEnded",
@@ -199,12 +173,10 @@ __all__ = [
     "FlyStraight",
     "ForecastChanged",
     "Grid",
-    "Guided",
     "Isochrones",
     "Leader",
     "LeaderChanged",
     "LeaderRoute",
-    "Link",
     "ModeChanged",
     "NoPlan",
     "Optimality",
@@ -222,7 +194,6 @@ __all__ = [
     "Samples",
     "Scenario",
     "SeparationLost",
-    "Settings",
     "Situation",
     "Situations",
     "Straight",
@@ -232,8 +203,6 @@ __all__ = [
     "TurnTo",
     "Unable",
     "Wind",
-    "World",
-    "airframe",
     "alternatives",
     "candidates",
     "certify",
@@ -246,12 +215,10 @@ __all__ = [
     "plan_arrays",
     "progress_bar",
     "prove",
-    "random_scenario",
     "record",
     "replay",
     "scenario",
     "scenario_behind",
-    "simulate",
     "wind_from",
 ]
 

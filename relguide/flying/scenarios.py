@@ -151,6 +151,7 @@ def own_scenario(situation: Situation, *, intent_known: bool = True) -> Scenario
     Raises:
         ValueError: if there is no level at which it can fly so fast or bank so much, in a sentence.
     """
+    expect("situation", situation, Situation)
     return Scenario(
         name="own",
         title="Own situation",

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from relguide.flying.flight import Scenario, fly
+from relguide.flying.guidance.settings import Settings
 from relguide.flying.scenarios import own_scenario
 from relguide.kernels.base.angles import wrap
 from relguide.planning.plan import NoPlan, Plan, Planner, plan
@@ -143,7 +144,8 @@ def draw_flight(rng: np.random.Generator, *, ratios: tuple[float, float] = (0.6,
 def situations_asked(scenario: Scenario, planner: Planner) -> list[Situation]:
     """Fly a scenario, and give what its planner was asked, in order."""
     asked: list[Situation] = []
-    for _ in fly(scenario, listen_to(planner, asked.append), step=STEP, sample_period=1.0):
+    listening, each_second = listen_to(planner, asked.append), Settings(always_ask=True)
+    for _ in fly(scenario, listening, step=STEP, sample_period=1.0, settings=each_second):
         pass
     return asked
 

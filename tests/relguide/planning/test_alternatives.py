@@ -185,30 +185,31 @@ def test_a_golden_case_with_intent_whose_slot_opens_later() -> None:
 
 
 def test_of_a_word_with_two_paths_both_are_listed_if_both_are_faster() -> None:
-    """Both RLR pass on the same side with as small a middle arc; what keeps either from being
+    """Both LRL pass on the same side with as small a middle arc; what keeps either from being
     flown is its own separation."""
     situation = Situation(
         pursuer=Pursuer(
-            x=17_000.0, y=17_000.0, heading=197.0 * DEG, tas=167.0, max_bank=20.0 * DEG
+            x=-20_000.0, y=21_000.0, heading=159.0 * DEG, tas=226.0, max_bank=20.0 * DEG
         ),
-        leader=Leader(x=0.0, y=0.0, heading=0.0, tas=155.0),
-        slot_distance=12_000.0,
-        min_separation=12_000.0,
+        leader=Leader(x=0.0, y=0.0, heading=0.0, tas=203.0),
+        slot_distance=9_000.0,
+        min_separation=8_500.0,
     )
     answer = planned(situation)
-    assert answer.word == "LSR"
+    assert answer.word == "RSLSR"
     listed = alternatives(answer)
     assert told(listed) == [
-        ("Alternative", "RSR: comes within 6.20 NM at 93 s"),
-        ("Alternative", "RLR: comes within 6.20 NM at 94 s"),
-        ("Alternative", "RLR: comes within 1.17 NM at 136 s"),
-        ("Alternative", "RSL: 2,714 s slower, and comes within 0.89 NM at 252 s"),
-        ("Alternative", "LSL: 3,551 s slower, and comes within 6.20 NM at 4100 s"),
-        ("NoRoot", "LRL: no such path to the slot"),
+        ("Alternative", "LSR: comes within 3.80 NM at 87 s"),
+        ("Alternative", "LRL: comes within 3.80 NM at 87 s"),
+        ("Alternative", "LRL: comes within 3.80 NM at 87 s"),
+        ("Alternative", "RSL: 965 s slower"),
+        ("Alternative", "LSL: 3,769 s slower, and comes within 3.64 NM at 618 s"),
+        ("Alternative", "RSR: 4,718 s slower"),
+        ("NoRoot", "RLR: no such path to the slot"),
     ]
-    first, second = (o for o in listed if isinstance(o, Alternative) and o.word == "RLR")
+    first, second = (o for o in listed if isinstance(o, Alternative) and o.word == "LRL")
     assert first.passing == second.passing
-    assert second.time_to_converge == pytest.approx(401.25, abs=0.01)
+    assert second.time_to_converge == pytest.approx(328.32, abs=0.01)
 
 
 def test_of_slower_paths_only_the_fastest_of_each_branch_is_listed() -> None:

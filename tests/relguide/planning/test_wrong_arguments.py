@@ -270,7 +270,8 @@ def test_a_wrong_argument_is_refused_with_a_sentence(name: str, argument: str, w
         return
     assert said.endswith(".")
     assert any(
-        word in said for word in ("must", "at least", "at most", "reaches", "headway", "there are")
+        word in said
+        for word in ("must", "at least", "at most", "reaches", "headway", "there are", "choose")
     )
 
 
