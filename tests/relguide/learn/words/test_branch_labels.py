@@ -83,7 +83,7 @@ def test_closed_loops_bring_more_and_leave_the_others_as_they_are() -> None:
     assert SMALL.box.min_ratio <= alpha.min() <= alpha.max() <= SMALL.box.max_ratio
     assert y.min() >= 0.0
     assert found.times[loop].min(axis=1).max() < inf
-    # of two flights, whose leaders keep their speed; the first cannot be followed, and is asked once
+    # of two flights, whose leaders keep their speed; the first of them cannot be followed
     assert len(set(alpha.round(1))) <= 2
     with pytest.raises(ValueError, match="loops must be a share from 0 to 1, not 2"):
         replace(SMALL, loops=2.0)
