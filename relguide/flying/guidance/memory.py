@@ -50,6 +50,8 @@ class Announced(NamedTuple):
     """When it promised to join, flight time [s]."""
     path: Trajectory
     """Its path over the air mass of then."""
+    quiet_until: Second
+    """What follows a change of the leader waits until then, flight time [s]."""
 
 
 class Alert(NamedTuple):

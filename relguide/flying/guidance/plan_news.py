@@ -69,21 +69,23 @@ def fly_proposal(
         committed=committed, shown=shown, reason=reason, message=text, announced=announced
     )
     if announced:
-        memory = _announced(memory, belief, shown, joins)
+        begins = reason in ("engaged", "resumed")
+        pause = 0.0 if begins else assignment.settings.announce_after
+        memory = _announced(memory, belief, shown, joins, pause)
     elif fresh:
         memory = memory._replace(pending=reason)
     return memory, [*events, *news, said]
 
 
-def _announced(memory: Memory, belief: Belief, shown: Plan, joins: Second) -> Memory:
-    told = Announced(belief.t, joins, shown.trajectory)
+def _announced(memory: Memory, belief: Belief, shown: Plan, joins: Second, pause: Second) -> Memory:
+    told = Announced(belief.t, joins, shown.trajectory, belief.t + pause)
     return memory._replace(announced=told, pending=None, expected=expectation(belief))
 
 
 def may_speak(memory: Memory, belief: Belief, assignment: Assignment) -> bool:
     """Whether the leader has settled, and the last announcement is not of just now."""
     last = memory.announced
-    rested = last is None or belief.t - last.t >= assignment.settings.announce_after
+    rested = last is None or belief.t >= last.quiet_until
     return rested and is_steady(memory, belief, assignment)
 
 
@@ -148,7 +150,8 @@ def announce_pending(
     joins = ahead.join_time if ahead.joins else committed.due
     text = f"{reason_sentence(reason, belief)}: {summary(shown, joins - belief.t)}."
     said = NewPlan(committed=committed, shown=shown, reason=reason, message=text, announced=True)
-    return _announced(memory, belief, shown, joins), [said]
+    pause = assignment.settings.announce_after
+    return _announced(memory, belief, shown, joins, pause), [said]
 
 
 def count_refusal(
