@@ -1,8 +1,8 @@
 /** What the buttons do: the one place where the page talks to the server. */
 
 import { type Answer, commandFlight, createFlight, listScenarios, readFlight } from "./api";
-import type { FlightStore } from "./flight";
 import type { Actions, Session } from "./session";
+import type { FlightStore } from "./store/flight";
 import { OTHER_VERSION, openStream, type Stream } from "./stream";
 import { formatHeading, formatKnots, inPageUnits, wrap360 } from "./units";
 import { type Command, type FlightStatus, PROTOCOL } from "./wire";

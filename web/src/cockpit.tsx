@@ -36,7 +36,7 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
           <div class="bezel">
             <div class="glass">
               <NavigationDisplay
-                flight={session.flight}
+                shown={session.shown}
                 mode={session.ndMode}
                 range={session.ndRange}
               />

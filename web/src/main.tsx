@@ -12,9 +12,9 @@ import { render } from "preact";
 import { createActions } from "./actions";
 import { Cockpit } from "./cockpit";
 import { followFirstStart } from "./first-start";
-import { createFlightStore } from "./flight";
 import { isTaken, keyAction } from "./keyboard";
 import { createSession } from "./session";
+import { createFlightStore } from "./store/flight";
 
 const store = createFlightStore();
 const session = createSession(store.flight, followFirstStart());

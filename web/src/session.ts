@@ -1,9 +1,9 @@
 /** The state of the page around the instruments, and what its buttons do: signals and types, no network. */
 
-import { computed, type ReadonlySignal, type Signal, signal } from "@preact/signals";
+import { type Signal, signal } from "@preact/signals";
 import type { Readiness } from "./api";
-import { type Flight, LOST_AGE } from "./flight";
-import type { PairSample } from "./pair";
+import type { Flight } from "./store/flight";
+import { createShown, type Shown } from "./store/picture";
 import type { Direction, FlightStatus, ScenarioInfo } from "./wire";
 
 export type NdMode = "ROSE" | "ARC";
@@ -29,11 +29,8 @@ export type Outage =
 
 export interface Session {
   readonly flight: Flight;
-  /**
-   * The sample for numbers to be read: changes 5 times a second, unlike `flight.now`.
-   * Null when data are lost: an old number is blanked, never left standing.
-   */
-  readonly reading: ReadonlySignal<PairSample | null>;
+  /** The picture of this instant, and its numbers: what every part of the page shows. */
+  readonly shown: Shown;
   readonly scenarios: Signal<readonly ScenarioInfo[]>;
   readonly status: Signal<FlightStatus | null>;
   readonly feedback: Signal<Feedback>;
@@ -70,7 +67,7 @@ export function createSession(
 ): Session {
   return {
     flight,
-    reading: computed(() => (flight.dataAge.value > LOST_AGE ? null : flight.reading.value)),
+    shown: createShown(flight),
     scenarios: signal([]),
     status: signal(null),
     feedback: signal({ kind: "none" }),

@@ -1,7 +1,7 @@
 import { afterEach, expect, test, vi } from "vitest";
 import { createActions } from "../src/actions";
-import { createFlightStore } from "../src/flight";
 import { createSession } from "../src/session";
+import { createFlightStore } from "../src/store/flight";
 
 afterEach(() => vi.unstubAllGlobals());
 

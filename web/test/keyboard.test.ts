@@ -1,7 +1,7 @@
 import { describe, expect, test } from "vitest";
-import { createFlightStore } from "../src/flight";
 import { isTaken, keyAction } from "../src/keyboard";
 import { createSession, stepRange } from "../src/session";
+import { createFlightStore } from "../src/store/flight";
 import { silentActions } from "./silence";
 
 describe("the keys", () => {

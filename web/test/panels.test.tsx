@@ -1,7 +1,6 @@
 import { render } from "preact";
 import { act } from "preact/test-utils";
 import { afterEach, describe, expect, test, vi } from "vitest";
-import { createFlightStore } from "../src/flight";
 import { Aircraft } from "../src/panels/aircraft";
 import { Alternatives } from "../src/panels/alternatives";
 import { Announcer, Events } from "../src/panels/events";
@@ -13,6 +12,7 @@ import { PlanNumbers } from "../src/panels/plan";
 import { ScenarioPicker } from "../src/panels/scenario-picker";
 import { Scene } from "../src/panels/scene";
 import { createSession } from "../src/session";
+import { createFlightStore } from "../src/store/flight";
 import { NM } from "../src/units";
 import {
   alert,
@@ -169,7 +169,7 @@ describe("panels", () => {
   test("numbers are blanked when the data are lost, not left standing", () => {
     const { store, session } = flying();
     store.advance(4000);
-    expect(session.reading.value).not.toBeNull();
+    expect(session.shown.numbers.value.sample).not.toBeNull();
     store.advance(5100);
     render(
       <>

@@ -1,6 +1,6 @@
 /** Documents and ticks for tests: a plain flight at 35,000 ft, own aircraft east-bound from the origin. */
 
-import type { PairSample } from "../src/pair";
+import type { PairSample } from "../src/store/pair";
 import type {
   AircraftSample,
   Alert,

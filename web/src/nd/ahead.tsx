@@ -1,6 +1,6 @@
 import { type ReadonlySignal, useComputed } from "@preact/signals";
+import { type LayerProps, type TimedPath, usePart } from "./layer";
 import { pathData, pixelLength, restData, segmentAt } from "./path";
-import { type LayerProps, type TimedPath, windNow } from "./picture";
 import { Stroke } from "./stroke";
 import type { Line } from "./style";
 
@@ -12,22 +12,20 @@ interface Props extends LayerProps {
 }
 
 /** A path without its flown part: the segment being flown follows each frame, those to come stay. */
-export function PathAhead({ flight, view, path, line, horizon = Number.POSITIVE_INFINITY }: Props) {
-  const time = useComputed(() => flight.simTime.value - (path.value?.start ?? 0));
+export function PathAhead({ shown, view, path, line, horizon = Number.POSITIVE_INFINITY }: Props) {
+  const wind = usePart(shown, (picture) => picture.wind);
+  const time = useComputed(() => shown.picture.value.t - (path.value?.start ?? 0));
   const index = useComputed(() => segmentAt(path.value?.segments ?? [], time.value));
   // Beyond the horizon nothing is drawn; it is moved on in whole seconds, so that what waits stays as it is.
   const until = useComputed(() => Math.ceil(time.value) + horizon);
   const current = useComputed(() => {
     const segment = path.value?.segments[index.value];
-    const layout = view.layout.value;
-    return restData(layout, segment, windNow(flight), time.value, until.value);
+    return restData(view.layout.value, segment, wind.value, time.value, until.value);
   });
   const coming = useComputed(() =>
     (path.value?.segments ?? [])
       .slice(index.value + 1)
-      .map((each) =>
-        restData(view.layout.value, each, windNow(flight), each.start.t_s, until.value),
-      )
+      .map((each) => restData(view.layout.value, each, wind.value, each.start.t_s, until.value))
       .join(""),
   );
   // Dashes stay where they are on the ground while the line is eaten up from its start.
@@ -48,9 +46,9 @@ export function PathAhead({ flight, view, path, line, horizon = Number.POSITIVE_
 }
 
 /** A path as it was, whole. */
-export function WholePath({ flight, view, path, line }: Props) {
+export function WholePath({ shown, view, path, line }: Props) {
   const d = useComputed(() =>
-    pathData(view.layout.value, path.value?.segments ?? [], windNow(flight)),
+    pathData(view.layout.value, path.value?.segments ?? [], shown.picture.value.wind),
   );
   return <Stroke d={d} line={line} />;
 }

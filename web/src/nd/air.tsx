@@ -1,29 +1,20 @@
 import { useComputed } from "@preact/signals";
-import { formatHeading, formatKnots, KT, wrap360 } from "../units";
+import { wrap360 } from "../units";
 import { Cell } from "./cell";
-import { type LayerProps, shownReading } from "./picture";
+import type { LayerProps } from "./layer";
 import { Stroke } from "./stroke";
 import { placeAt, READOUTS } from "./view";
 
-/** Calm below this: no arrow. */
-const ARROW_FROM = 2 * KT;
-
 /** Ground speed, true airspeed, wind. */
-export function AirData({ flight, view }: LayerProps) {
-  const own = useComputed(() => shownReading(flight)?.now.pursuer ?? null);
-  const gs = useComputed(() => (own.value === null ? "---" : knots(own.value.ground_speed_mps)));
-  const tas = useComputed(() => (own.value === null ? "---" : knots(own.value.tas_mps)));
-  const wind = useComputed(() => (own.value === null ? null : flight.started.value?.wind) ?? null);
-  const from = useComputed(() => {
-    const value = wind.value;
-    if (value === null) return "---";
-    return value.speed_mps < ARROW_FROM / 2 ? "---" : formatHeading(value.from_deg);
-  });
-  const speed = useComputed(() => (wind.value === null ? "---" : windKnots(wind.value.speed_mps)));
+export function AirData({ shown: { numbers }, view }: LayerProps) {
+  const gs = useComputed(() => numbers.value.gs);
+  const tas = useComputed(() => numbers.value.tas);
+  const from = useComputed(() => numbers.value.windFrom);
+  const speed = useComputed(() => numbers.value.windSpeed);
   const arrow = useComputed(() => {
-    const [value, pose] = [wind.value, view.pose.value];
-    if (value === null || pose === null || value.speed_mps <= ARROW_FROM) return "";
-    return placeAt({ x: 122, y: 46 }, wrap360(value.from_deg + 180 - pose.heading_deg));
+    const [to, pose] = [numbers.value.windTo, view.pose.value];
+    if (to === null || pose === null) return "";
+    return placeAt({ x: 122, y: 46 }, wrap360(to - pose.heading_deg));
   });
   const blowing = useComputed(() => arrow.value !== "");
   const { x, y } = READOUTS.air;
@@ -43,12 +34,4 @@ export function AirData({ flight, view }: LayerProps) {
       )}
     </g>
   );
-}
-
-function knots(speed: number): string {
-  return formatKnots(speed).padStart(3, "0");
-}
-
-function windKnots(speed: number): string {
-  return formatKnots(speed).padStart(2, "0");
 }

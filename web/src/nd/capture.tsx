@@ -1,23 +1,19 @@
 import { useComputed } from "@preact/signals";
-import { closestApproach, isClosestAtJoin, joinPoint, timeToJoin } from "../committed";
-import { formatClock } from "../units";
-import { closestText } from "./closest";
 import type { Label } from "./labels";
-import { type LayerProps, shownGuidance } from "./picture";
+import { type LayerProps, usePart } from "./layer";
 import { ink } from "./style";
 import { offNose, onMap, placeAt, project, toMap } from "./view";
 
 /** Where and when own ship reaches the slot. */
-export function CapturePoint({ flight, view }: LayerProps) {
-  const place = useComputed(() => {
-    const end = captureAt(flight);
-    return end === null ? null : placeAt(toMap(view.layout.value, end));
-  });
-  const shown = useComputed(() => place.value !== null);
-  const at = useComputed(() => place.value ?? "");
-  if (!shown.value) return null;
+export function CapturePoint({ shown, view }: LayerProps) {
+  const join = usePart(shown, (picture) => picture.join);
+  const isShown = useComputed(() => join.value !== null);
+  const place = useComputed(() =>
+    join.value === null ? "" : placeAt(toMap(view.layout.value, join.value)),
+  );
+  if (!isShown.value) return null;
   return (
-    <g class="nd-capture" transform={at}>
+    <g class="nd-capture" transform={place}>
       <circle class="nd-halo" r={8} stroke-width={6} />
       <circle class="nd-stroke" r={8} stroke={ink("plan")} stroke-width={2.5} />
       <circle class="nd-solid" r={3} fill={ink("plan")} />
@@ -25,26 +21,22 @@ export function CapturePoint({ flight, view }: LayerProps) {
   );
 }
 
-function captureAt(flight: LayerProps["flight"]) {
-  return shownGuidance(flight)?.look.path === "committed" ? joinPoint(flight) : null;
-}
-
 /** "CNV mm:ss", the time still to fly. */
-export function captureLabel({ flight, view }: LayerProps): Label | null {
-  const [left, end, pose] = [timeToJoin(flight), captureAt(flight), view.pose.value];
-  if (left === null || end === null || pose === null) return null;
-  const at = project(view.layout.value, pose, end);
+export function captureLabel({ shown, view }: LayerProps): Label | null {
+  const [{ join, closestAtJoin }, { toJoin, least }] = [shown.picture.value, shown.numbers.value];
+  const pose = view.pose.value;
+  if (toJoin === "" || join === null || pose === null) return null;
+  const at = project(view.layout.value, pose, join);
   if (!onMap(view.layout.value, at)) return null;
-  const closest = closestApproach(flight);
-  const isClosest = closest !== null && isClosestAtJoin(flight, closest);
+  const isClosest = closestAtJoin !== null && least !== null;
   return {
     id: "capture",
     at,
     lines: [
-      { text: `CNV ${formatClock(left)}`, colour: "plan" },
-      ...(isClosest ? [{ text: closestText(closest), colour: "label" as const }] : []),
+      { text: `CNV ${toJoin}`, colour: "plan" },
+      ...(isClosest ? [{ text: `${least.miles} NM`, colour: "label" as const }] : []),
     ],
-    side: offNose(pose, end.heading_deg + 90),
+    side: offNose(pose, join.heading_deg + 90),
     gap: 16,
     size: 20,
     optional: false,

@@ -1,5 +1,6 @@
 import { type ReadonlySignal, useComputed } from "@preact/signals";
-import { type Colour, ink } from "./style";
+import type { Colour } from "../store/colours";
+import { ink } from "./style";
 
 interface CellProps {
   readonly x: number;

@@ -1,23 +1,23 @@
 import { useComputed } from "@preact/signals";
-import { DEG, formatMiles } from "../units";
+import { DEG } from "../units";
 import type { Label } from "./labels";
-import { type LayerProps, shownNow } from "./picture";
-import { separation } from "./states";
+import { type LayerProps, usePart } from "./layer";
 import { ink, SEPARATION } from "./style";
 import { onMap, placeAt, project, toMap } from "./view";
 
 /** The minimum separation, round the leader. */
-export function SeparationCircle({ flight, view }: LayerProps) {
+export function SeparationCircle({ shown, view }: LayerProps) {
+  const { picture } = shown;
   const place = useComputed(() => {
-    const now = shownNow(flight);
+    const { now } = picture.value;
     return now === null ? "" : placeAt(toMap(view.layout.value, now.leader));
   });
   const radius = useComputed(
-    () => (flight.started.value?.min_separation_m ?? 0) * view.layout.value.scale,
+    () => (picture.value.started?.min_separation_m ?? 0) * view.layout.value.scale,
   );
-  const shown = useComputed(() => place.value !== "" && radius.value > 0);
-  const look = useComputed(() => SEPARATION[separation(flight).state]);
-  if (!shown.value) return null;
+  const isShown = useComputed(() => place.value !== "" && radius.value > 0);
+  const look = usePart(shown, ({ separation }) => SEPARATION[separation.state]);
+  if (!isShown.value) return null;
   const { colour, width, dash } = look.value;
   return (
     <g class={`nd-circle${colour === "alert" ? " nd-flash" : ""}`} transform={place}>
@@ -34,14 +34,15 @@ export function SeparationCircle({ flight, view }: LayerProps) {
 }
 
 /** The size of the circle, on its side away from the own ship. */
-export function circleLabel({ flight, view }: LayerProps): Label | null {
-  const [now, pose] = [shownNow(flight), view.pose.value];
-  const minSeparation = flight.started.value?.min_separation_m;
+export function circleLabel({ shown, view }: LayerProps): Label | null {
+  const { now, started, separation } = shown.picture.value;
+  const pose = view.pose.value;
+  const minSeparation = started?.min_separation_m;
   if (now === null || pose === null || minSeparation === undefined) return null;
   const layout = view.layout.value;
   const centre = project(layout, pose, now.leader);
   const radius = minSeparation * layout.scale;
-  const { colour } = SEPARATION[separation(flight).state];
+  const { colour } = SEPARATION[separation.state];
   for (const turn of [0, 45, -45, 90, -90, 135, -135, 180]) {
     const side = away(layout.centre, centre) + turn;
     const at = {
@@ -49,7 +50,7 @@ export function circleLabel({ flight, view }: LayerProps): Label | null {
       y: centre.y - radius * Math.cos(side * DEG),
     };
     if (!onMap(layout, at, 30)) continue;
-    const lines = [{ text: `MIN ${formatMiles(minSeparation)}`, colour }];
+    const lines = [{ text: `MIN ${shown.numbers.value.minSeparation}`, colour }];
     return { id: "circle", at, lines, side, gap: 6, size: 18, optional: false };
   }
   return null;

@@ -1,6 +1,6 @@
 import { useComputed } from "@preact/signals";
 import { DEG } from "../units";
-import { type LayerProps, shownGuidance } from "./picture";
+import { type LayerProps, usePart } from "./layer";
 import { Stroke } from "./stroke";
 import { ink, LINES } from "./style";
 import { offNose, placeAt, polar, round } from "./view";
@@ -11,19 +11,20 @@ const ARROW_TIME = 10;
 const HEAD = 14;
 
 /** What guidance asks for: a pip on the tape at the commanded heading, or a curved arrow into the turn. */
-export function Commanded({ flight, view }: LayerProps) {
+export function Commanded({ shown, view }: LayerProps) {
+  const guided = usePart(shown, (picture) => picture.guided);
   const pip = useComputed(() => {
-    const shown = shownGuidance(flight);
-    if (shown?.now.reference.kind !== "hold_heading") return "";
-    const direction = offNose(shown.now.pursuer, shown.now.reference.heading_deg);
+    const now = guided.value;
+    if (now?.reference.kind !== "hold_heading") return "";
+    const direction = offNose(now.pursuer, now.reference.heading_deg);
     const { layout } = view;
     return placeAt(polar(layout.value, direction, layout.value.tape), direction);
   });
   const arrow = useComputed(() => {
-    const shown = shownGuidance(flight);
-    if (shown?.now.reference.kind !== "turn_rate") return "";
+    const now = guided.value;
+    if (now?.reference.kind !== "turn_rate") return "";
     const layout = view.layout.value;
-    const sweep = shown.now.reference.turn_rate_degps * ARROW_TIME;
+    const sweep = now.reference.turn_rate_degps * ARROW_TIME;
     if (Math.abs(sweep) < 1) return "";
     const radius = layout.tape - 26;
     const [from, to] = [polar(layout, 0, radius), polar(layout, sweep, radius)];

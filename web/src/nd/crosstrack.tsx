@@ -1,15 +1,14 @@
 import { useComputed } from "@preact/signals";
-import { formatMiles } from "../units";
-import { type LayerProps, shownReading } from "./picture";
+import type { LayerProps } from "./layer";
 import { ink } from "./style";
 import { placeAt } from "./view";
 
 /** Offset from the leader's route, beside the own ship, once it is to be kept small. */
-export function CrossTrack({ flight, view }: LayerProps) {
-  const text = useComputed(() => {
-    const shown = shownReading(flight);
-    return shown?.look.crossTrack === true ? formatSide(shown.now.cross_track_m) : "";
-  });
+export function CrossTrack({ shown, view }: LayerProps) {
+  const { picture, numbers } = shown;
+  const text = useComputed(() =>
+    picture.value.look?.crossTrack === true ? numbers.value.crossTrack : "",
+  );
   const place = useComputed(() => {
     const { x, y } = view.layout.value.centre;
     return placeAt({ x: x + 32, y: y + 24 });
@@ -19,10 +18,4 @@ export function CrossTrack({ flight, view }: LayerProps) {
       {text}
     </text>
   );
-}
-
-/** An offset with its side, e.g. "0.3R"; "" below 0.05 NM. */
-export function formatSide(offset: number): string {
-  const miles = formatMiles(Math.abs(offset));
-  return miles === "0.0" ? "" : `${miles}${offset > 0 ? "R" : "L"}`;
 }

@@ -1,12 +1,11 @@
-import { useComputed } from "@preact/signals";
-import type { LayerProps } from "./picture";
-import { age } from "./states";
-import { AGE, type Colour, ink } from "./style";
+import type { Colour } from "../store/colours";
+import { type LayerProps, usePart } from "./layer";
+import { ink } from "./style";
 import { flagPoint } from "./view";
 
 /** What is missing, in large letters over the map. */
-export function Flags({ flight, view }: LayerProps) {
-  const flag = useComputed(() => AGE[age(flight)].flag);
+export function Flags({ shown, view }: LayerProps) {
+  const flag = usePart(shown, (picture) => picture.age.flag);
   const layout = view.layout.value;
   if (flag.value === "") return null;
   const map = flag.value === "MAP NOT AVAIL";

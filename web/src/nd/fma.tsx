@@ -1,42 +1,27 @@
 import { useComputed } from "@preact/signals";
-import { formatKnots, formatMiles } from "../units";
 import { Cell } from "./cell";
-import { type LayerProps, shownGuidance } from "./picture";
-import { wallNow } from "./states";
-import { GUIDANCE } from "./style";
+import { type LayerProps, usePart } from "./layer";
 import { READOUTS } from "./view";
 
-/** A new mode is boxed this long [ms]. */
-const BOXED = 10_000;
 const COLUMN = READOUTS.fma.width / 5;
 const ROW = { now: 23, next: 48 } as const;
 
 /** The mode strip: what is engaged (upper row, green) and what comes next (lower row, cyan). */
-export function ModeStrip({ flight }: LayerProps) {
-  // What is engaged, whatever guidance is able to do: by the mode, not by the picture's state.
-  const look = useComputed(() => {
-    const shown = shownGuidance(flight);
-    if (shown === null) return null;
-    if (shown.now.mode !== "heading") return { ...GUIDANCE[shown.now.mode], now: shown.now };
-    const unable = flight.unavailable.value !== null;
-    return { ...GUIDANCE[unable ? "unable" : "off"], now: shown.now };
-  });
-  const lateral = useComputed(() => look.value?.lateral.now ?? "");
-  const lateralNext = useComputed(() => look.value?.lateral.next ?? "");
-  const speed = useComputed(() => {
-    if (look.value === null) return "";
-    return `${look.value.speed.now} ${formatKnots(look.value.now.commanded_tas_mps)}`;
-  });
-  const speedNext = useComputed(() => look.value?.speed.next ?? "");
-  const level = useComputed(() => (look.value === null ? "" : "ALT"));
-  const spacing = useComputed(() => {
-    const distance = flight.started.value?.slot_distance_m;
-    return look.value === null || distance === undefined ? "" : `D ${formatMiles(distance)}`;
-  });
-  const pilot = useComputed(() => (look.value === null ? "" : "AP1"));
-  const boxed = useComputed(
-    () => look.value !== null && wallNow(flight) - flight.modeSince.value < BOXED,
+export function ModeStrip({ shown }: LayerProps) {
+  const { numbers } = shown;
+  const modes = usePart(shown, (picture) => picture.modes);
+  const lateral = useComputed(() => modes.value?.lateral.now ?? "");
+  const lateralNext = useComputed(() => modes.value?.lateral.next ?? "");
+  const speed = useComputed(() =>
+    modes.value === null ? "" : `${modes.value.speed.now} ${numbers.value.commandedSpeed}`,
   );
+  const speedNext = useComputed(() => modes.value?.speed.next ?? "");
+  const level = useComputed(() => (modes.value === null ? "" : "ALT"));
+  const spacing = useComputed(() =>
+    modes.value === null ? "" : `D ${numbers.value.slotDistance}`,
+  );
+  const pilot = useComputed(() => (modes.value === null ? "" : "AP1"));
+  const boxed = usePart(shown, (picture) => picture.boxed);
   const middle = (column: number) => COLUMN * (column + 0.5);
   const { height, width } = READOUTS.fma;
   return (

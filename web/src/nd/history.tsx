@@ -1,5 +1,5 @@
 import { useComputed } from "@preact/signals";
-import { type LayerProps, shownNow } from "./picture";
+import { type LayerProps, usePart } from "./layer";
 import { ink } from "./style";
 import { toMap } from "./view";
 
@@ -11,24 +11,26 @@ const APART = 9;
 const PERIOD = 10;
 
 /** Where the leader has been, one dot each 10 s: the path to follow. */
-export function LeaderHistory({ flight, view }: LayerProps) {
+export function LeaderHistory({ shown, view }: LayerProps) {
   return (
     <g class="nd-history">
       {Array.from({ length: MINUTES }, (_, minute) => (
-        <Minute key={minute} flight={flight} view={view} minute={minute} />
+        <Minute key={minute} shown={shown} view={view} minute={minute} />
       ))}
     </g>
   );
 }
 
-function Minute({ flight, view, minute }: LayerProps & { minute: number }) {
+function Minute({ shown, view, minute }: LayerProps & { minute: number }) {
+  const points = usePart(shown, (picture) => picture.trail);
+  // Whole knots: a stride that trembled would make the dots dance.
+  const speed = usePart(shown, ({ now }) => Math.round(now?.leader.ground_speed_mps ?? 0));
   const d = useComputed(() => {
-    const trail = flight.trail.leader.value;
+    const trail = points.value;
     const newest = trail.at(-1)?.t;
-    if (newest === undefined || shownNow(flight) === null) return "";
+    if (newest === undefined) return "";
     const layout = view.layout.value;
-    const speed = flight.sample.value?.leader.ground_speed_mps ?? 0;
-    const stride = Math.ceil(APART / Math.max(1, speed * PERIOD * layout.scale));
+    const stride = Math.ceil(APART / Math.max(1, speed.value * PERIOD * layout.scale));
     return trail
       .filter(({ t }) => t > newest - 60 * (minute + 1) && t <= newest - 60 * minute)
       .filter(({ t }) => Math.round(t / PERIOD) % stride === 0)

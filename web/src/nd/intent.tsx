@@ -3,7 +3,7 @@ import { DEG, formatHeading } from "../units";
 import type { PathSegment, TurnSegment } from "../wire";
 import { PathAhead } from "./ahead";
 import type { Label } from "./labels";
-import { type LayerProps, shownNow } from "./picture";
+import { type LayerProps, usePart } from "./layer";
 import { ink, LINES } from "./style";
 import { offNose, onMap, onwards, placeAt, project, toMap } from "./view";
 
@@ -11,39 +11,32 @@ import { offNose, onMap, onwards, placeAt, project, toMap } from "./view";
 const GUESS = 180;
 
 /** The leader's declared intent (dash-dot, new legs marked), or straight on if it is unknown (dots). */
-export function LeaderIntent({ flight, view }: LayerProps) {
-  const path = useComputed(() => {
-    const route = flight.route.value;
-    if (route === null || shownNow(flight) === null) return null;
-    return { segments: route.segments, start: 0 };
-  });
-  const known = useComputed(() => flight.route.value?.intent_known ?? false);
+export function LeaderIntent({ shown, view }: LayerProps) {
+  const route = usePart(shown, (picture) => picture.route);
+  const path = useComputed(() =>
+    route.value === null ? null : { segments: route.value.segments, start: 0 },
+  );
+  const known = useComputed(() => route.value?.intent_known ?? false);
   const legs = useComputed(() => (known.value ? (path.value?.segments ?? []).filter(isTurn) : []));
   if (!known.value) {
     return (
-      <PathAhead
-        flight={flight}
-        view={view}
-        path={path}
-        line={LINES.extrapolated}
-        horizon={GUESS}
-      />
+      <PathAhead shown={shown} view={view} path={path} line={LINES.extrapolated} horizon={GUESS} />
     );
   }
   return (
     <g class="nd-intent">
-      <PathAhead flight={flight} view={view} path={path} line={LINES.declared} />
+      <PathAhead shown={shown} view={view} path={path} line={LINES.declared} />
       {legs.value.map((leg) => (
-        <NewLeg key={leg.start.t_s} flight={flight} view={view} leg={leg} />
+        <NewLeg key={leg.start.t_s} shown={shown} view={view} leg={leg} />
       ))}
     </g>
   );
 }
 
-function NewLeg({ flight, view, leg }: LayerProps & { leg: TurnSegment }) {
-  const shown = useComputed(() => flight.simTime.value < leg.end.t_s);
+function NewLeg({ shown, view, leg }: LayerProps & { leg: TurnSegment }) {
+  const isToCome = usePart(shown, ({ t }) => t < leg.end.t_s);
   const place = useComputed(() => placeAt(toMap(view.layout.value, leg.end)));
-  if (!shown.value) return null;
+  if (!isToCome.value) return null;
   return (
     <path
       class="nd-hollow"
@@ -60,8 +53,8 @@ function isTurn(segment: PathSegment): segment is TurnSegment {
 }
 
 /** The heading of each new leg, or that the intent is unknown. */
-export function intentLabels({ flight, view }: LayerProps): Label[] {
-  const [now, pose, route] = [shownNow(flight), view.pose.value, flight.route.value];
+export function intentLabels({ shown, view }: LayerProps): Label[] {
+  const [{ now, route, t }, pose] = [shown.picture.value, view.pose.value];
   if (now === null || pose === null || route === null) return [];
   const layout = view.layout.value;
   const base = { gap: 14, size: 18, optional: true };
@@ -80,7 +73,7 @@ export function intentLabels({ flight, view }: LayerProps): Label[] {
   }
   return route.segments
     .filter(isTurn)
-    .filter((leg) => flight.simTime.value < leg.end.t_s)
+    .filter((leg) => t < leg.end.t_s)
     .slice(0, 3)
     .map((leg, i) => {
       const outside = leg.direction === "right" ? -90 : 90;

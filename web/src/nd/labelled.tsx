@@ -1,17 +1,16 @@
 import { computed, type ReadonlySignal, untracked, useComputed } from "@preact/signals";
 import { useMemo } from "preact/hooks";
-import { closestApproach, forecastIndex, joinPoint } from "../committed";
 import { samplePath } from "../geometry";
+import { forecastIndex, pointsAfter } from "../store/forecast";
 import { captureLabel } from "./capture";
 import { circleLabel } from "./circle";
 import { closestLabel } from "./closest";
-import { pointsAfter, shownUntil } from "./committed";
 import { intentLabels } from "./intent";
 import { type Label, LINE_HEIGHT, type Placement, placeLabels } from "./labels";
+import { type LayerProps, usePart } from "./layer";
 import { leaderOnMap, leaderTag } from "./leader";
 import { minuteLabels } from "./minutes";
 import { offScaleTag } from "./offscale";
-import { type LayerProps, planTime, shownPlan, windNow } from "./picture";
 import { ringLabelPoints } from "./rings";
 import { ink } from "./style";
 import { turnLabels } from "./turns";
@@ -45,20 +44,21 @@ const IDS = [
 ];
 
 /** The map's labels, clear of each other. They stand upright: outside the turning map. */
-export function Labels({ flight, view }: LayerProps) {
+export function Labels({ shown, view }: LayerProps) {
   const labels = useComputed(
-    () => new Map(labelsOf({ flight, view }).map((each) => [each.id, each])),
+    () => new Map(labelsOf({ shown, view }).map((each) => [each.id, each])),
   );
+  const forecast = usePart(shown, (picture) => picture.forecast);
   const placements = useMemo(() => {
     let before: ReadonlyMap<string, Placement> = new Map();
     return computed(() => {
       void view.beat.value;
-      void flight.forecast.value;
+      void forecast.value;
       // Sides are chosen at the pace of reading; between, each label moves with its point.
-      before = untracked(() => choose({ flight, view }, [...labels.peek().values()], before));
+      before = untracked(() => choose({ shown, view }, [...labels.peek().values()], before));
       return before;
     });
-  }, [flight, view, labels]);
+  }, [shown, view, labels, forecast]);
   return (
     <g class="nd-labels">
       {IDS.map((id) => (
@@ -132,15 +132,15 @@ function choose(props: LayerProps, labels: Label[], before: ReadonlyMap<string, 
 }
 
 /** The symbols that no label may cover. */
-function symbols({ flight, view }: LayerProps): Box[] {
-  const [now, pose] = [flight.now.value, view.pose.value];
+function symbols({ shown, view }: LayerProps): Box[] {
+  const [{ now, closest, closestAtJoin, join }, pose] = [shown.picture.value, view.pose.value];
   const layout = view.layout.value;
   if (now === null || pose === null) return [];
   const boxes = [square(layout.centre, 28), square(project(layout, pose, now.slot), 20)];
-  if (leaderOnMap({ flight, view }) !== null)
+  if (leaderOnMap({ shown, view }) !== null)
     boxes.push(square(project(layout, pose, now.leader), 24));
-  const [closest, join] = [closestApproach(flight), joinPoint(flight)];
-  const points = [closest?.pursuer, closest?.leader, join].filter((point) => point != null);
+  const pair = closest ?? closestAtJoin;
+  const points = [pair?.pursuer, pair?.leader, join].filter((point) => point != null);
   boxes.push(...points.map((point) => square(project(layout, pose, point), 11)));
   for (const { radius } of layout.rings)
     boxes.push(...ringLabelPoints(layout, radius).map((point) => square(point, 14)));
@@ -152,18 +152,15 @@ function square({ x, y }: Point, half: number): Box {
 }
 
 /** Points along both paths, close enough that no label can stand between two of them. */
-function linePoints({ flight, view }: LayerProps): Point[] {
-  const [plan, route, pose] = [shownPlan(flight), flight.route.value, view.pose.value];
+function linePoints({ shown, view }: LayerProps): Point[] {
+  const pose = view.pose.value;
   if (pose === null) return [];
   const layout = view.layout.value;
-  const wind = windNow(flight);
-  const forecast = flight.forecast.value;
-  const planned = plan === null ? [] : samplePath(plan.plan.segments, wind, planTime(flight, plan));
+  const { t, flown, forecast, route, until, wind } = shown.picture.value;
+  const planned = flown === null ? [] : samplePath(flown.plan.segments, wind, t - flown.t_s);
   const own =
-    forecast === null
-      ? planned
-      : pointsAfter(forecast, forecastIndex(forecast, flight.simTime.value), shownUntil(flight));
-  const leader = route === null ? [] : samplePath(route.segments, wind, flight.simTime.value);
+    forecast === null ? planned : pointsAfter(forecast, forecastIndex(forecast, t), until);
+  const leader = route === null ? [] : samplePath(route.segments, wind, t);
   return [own, leader].flatMap((path) => dense(path.map((point) => project(layout, pose, point))));
 }
 

@@ -5,8 +5,8 @@
  * best one, so that it does not hop; one that finds no room at all and may be left out is left out.
  */
 
+import type { Colour } from "../store/colours";
 import { DEG } from "../units";
-import type { Colour } from "./style";
 import { type Box, type Layout, onMap, overlap, type Point, SIZE, within } from "./view";
 
 export interface LabelLine {

@@ -1,9 +1,8 @@
 import { useComputed } from "@preact/signals";
-import { FT, formatKnots } from "../units";
+import { FT } from "../units";
 import type { Label } from "./labels";
-import { type LayerProps, leaderIdent, shownNow } from "./picture";
-import { age, separation } from "./states";
-import { AGE, ink } from "./style";
+import { type LayerProps, usePart } from "./layer";
+import { ink } from "./style";
 import { onMap, placeAt, project, toMap } from "./view";
 
 const CHEVRON = "M0 -14L11 12L0 5L-11 12Z";
@@ -12,18 +11,17 @@ export const BROKEN = "10 7";
 export const RINGS = [18, 23] as const;
 
 /** The leader: a chevron along its heading in a double ring, since it is the one we join. */
-export function Leader({ flight, view }: LayerProps) {
+export function Leader({ shown, view }: LayerProps) {
   const place = useComputed(() => {
-    const leader = leaderOnMap({ flight, view });
+    const leader = leaderOnMap({ shown, view });
     return leader === null ? null : placeAt(toMap(view.layout.value, leader), leader.heading_deg);
   });
-  const shown = useComputed(() => place.value !== null);
+  const isShown = useComputed(() => place.value !== null);
   const at = useComputed(() => place.value ?? "");
-  const look = useComputed(() => AGE[age(flight)]);
-  const fill = useComputed(() =>
-    ink(separation(flight).state === "lost" ? "alert" : look.value.colour),
-  );
-  if (!shown.value) return null;
+  const look = usePart(shown, (picture) => picture.age);
+  const isLost = usePart(shown, ({ separation }) => separation.state === "lost");
+  const fill = useComputed(() => ink(isLost.value ? "alert" : look.value.colour));
+  if (!isShown.value) return null;
   const broken = look.value.ring === "broken";
   return (
     <g class="nd-leader" transform={at}>
@@ -43,28 +41,26 @@ export function Leader({ flight, view }: LayerProps) {
 }
 
 /** The leader when its symbol can be seen whole, else null. */
-export function leaderOnMap({ flight, view }: LayerProps) {
-  const [now, pose] = [shownNow(flight), view.pose.value];
+export function leaderOnMap({ shown, view }: LayerProps) {
+  const [{ now }, pose] = [shown.picture.value, view.pose.value];
   if (now === null || pose === null) return null;
   const point = project(view.layout.value, pose, now.leader);
   return onMap(view.layout.value, point) ? now.leader : null;
 }
 
 /** Who the leader is, how much higher or lower [hundreds of feet], its ground speed [kt], its data's age. */
-export function leaderTag({ flight, view }: LayerProps): Label | null {
-  const [now, pose] = [flight.now.value, view.pose.value];
-  const leader = leaderOnMap({ flight, view });
+export function leaderTag({ shown, view }: LayerProps): Label | null {
+  const [{ now, age, ageSeconds, ident }, pose] = [shown.picture.value, view.pose.value];
+  const leader = leaderOnMap({ shown, view });
   if (leader === null || now === null || pose === null) return null;
   const at = project(view.layout.value, pose, leader);
-  const look = AGE[age(flight)];
+  const height = relativeAltitude(leader.altitude_m - now.pursuer.altitude_m);
+  const { colour } = age;
   const lines = [
-    { text: leaderIdent(flight), colour: look.colour },
-    {
-      text: `${relativeAltitude(leader.altitude_m - now.pursuer.altitude_m)} ${formatKnots(leader.ground_speed_mps)}`,
-      colour: look.colour,
-    },
+    { text: ident, colour },
+    { text: `${height} ${shown.numbers.value.leaderSpeed}`, colour },
   ];
-  if (look.showsAge) lines.push({ text: ageText(flight), colour: look.colour });
+  if (age.showsAge) lines.push({ text: `${ageSeconds} S`, colour });
   return {
     id: "leader",
     at,
@@ -74,10 +70,6 @@ export function leaderTag({ flight, view }: LayerProps): Label | null {
     size: 20,
     optional: false,
   };
-}
-
-function ageText(flight: LayerProps["flight"]): string {
-  return `${Math.floor(flight.dataAge.value)} S`;
 }
 
 /** Height over the own ship in hundreds of feet with its sign, e.g. "+00", "−12". `height` [m] */

@@ -1,14 +1,13 @@
 import { useComputed } from "@preact/signals";
-import { useMemo } from "preact/hooks";
-import { createNotices, NOTICE_COLOUR } from "./messages";
-import type { LayerProps } from "./picture";
+import { NOTICE_COLOUR } from "../store/notices";
+import { type LayerProps, usePart } from "./layer";
 import { Stroke } from "./stroke";
 import { ink } from "./style";
 import { placeAt, READOUTS } from "./view";
 
 /** One line for the most urgent notice, an arrow when there are more. */
-export function MessageLine({ flight }: LayerProps) {
-  const notices = useMemo(() => createNotices(flight), [flight]);
+export function MessageLine({ shown }: LayerProps) {
+  const notices = usePart(shown, (picture) => picture.notices);
   const first = useComputed(() => notices.value[0] ?? null);
   const text = useComputed(() => first.value?.text ?? "");
   const level = useComputed(() => first.value?.level ?? null);

@@ -2,27 +2,26 @@
 
 import { type Signal, useComputed } from "@preact/signals";
 import { useId, useMemo } from "preact/hooks";
-import type { Flight } from "../flight";
+import type { Shown } from "../store/picture";
 import { AirData } from "./air";
 import { CapturePoint } from "./capture";
 import { SeparationCircle } from "./circle";
 import { ClosestApproach } from "./closest";
 import { Commanded } from "./commanded";
 import { CrossTrack } from "./crosstrack";
-import { describe } from "./describe";
 import { FinalTrack } from "./final";
 import { Flags } from "./flags";
 import { ModeStrip } from "./fma";
 import { LeaderHistory } from "./history";
 import { LeaderIntent } from "./intent";
 import { Labels } from "./labelled";
+import { type LayerProps, usePart } from "./layer";
 import { Leader } from "./leader";
 import { MessageLine } from "./message";
 import { TimeTicks } from "./minutes";
 import { NextPoint } from "./next";
 import { OffScaleLeader } from "./offscale";
 import { OwnShip } from "./ownship";
-import { type LayerProps, shownNow } from "./picture";
 import { ActivePath, SupersededPath } from "./plan";
 import { RangeRings } from "./rings";
 import { Slot } from "./slot";
@@ -72,37 +71,38 @@ export const GLASS_LAYERS = [
 ] as const;
 
 interface Props {
-  readonly flight: Flight;
+  readonly shown: Shown;
   readonly mode: Signal<DisplayMode>;
   /** NM. */
   readonly range: Signal<number>;
 }
 
-export function NavigationDisplay({ flight, mode, range }: Props) {
-  const view = useMemo(() => createView(flight, mode, range), [flight, mode, range]);
+export function NavigationDisplay({ shown, mode, range }: Props) {
+  const view = useMemo(() => createView(shown, mode, range), [shown, mode, range]);
   const label = useComputed(() => {
-    void view.beat.value;
-    return describe({ flight, view });
+    const { mode, range } = view.layout.value;
+    const head = `Navigation display, ${mode}, range ${range} nautical miles.`;
+    return `${head} ${shown.words.value}`;
   });
   return (
     <svg class="nd" viewBox={`0 0 ${SIZE} ${SIZE}`} role="img" aria-label={label}>
       {GROUND_LAYERS.map((Layer) => (
-        <Layer key={Layer.name} flight={flight} view={view} />
+        <Layer key={Layer.name} shown={shown} view={view} />
       ))}
-      <WorldMap flight={flight} view={view} />
+      <WorldMap shown={shown} view={view} />
       {GLASS_LAYERS.map((Layer) => (
-        <Layer key={Layer.name} flight={flight} view={view} />
+        <Layer key={Layer.name} shown={shown} view={view} />
       ))}
     </svg>
   );
 }
 
 /** The world, cut to the tape, carried by one transform a frame. */
-function WorldMap({ flight, view }: LayerProps) {
+function WorldMap({ shown, view }: LayerProps) {
   const clip = useId();
-  const shown = useComputed(() => shownNow(flight) !== null);
+  const isShown = usePart(shown, ({ now }) => now !== null);
   const { centre, tape } = view.layout.value;
-  if (!shown.value) return null;
+  if (!isShown.value) return null;
   return (
     <g clip-path={`url(#${clip})`}>
       <clipPath id={clip}>
@@ -110,7 +110,7 @@ function WorldMap({ flight, view }: LayerProps) {
       </clipPath>
       <g class="nd-map" transform={view.mapTransform}>
         {MAP_LAYERS.map((Layer) => (
-          <Layer key={Layer.name} flight={flight} view={view} />
+          <Layer key={Layer.name} shown={shown} view={view} />
         ))}
       </g>
     </g>

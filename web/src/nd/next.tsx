@@ -1,21 +1,19 @@
 import { useComputed } from "@preact/signals";
-import { committedPoint, joinPoint, nextTurn, timeToJoin } from "../committed";
-import { formatClock, formatHeading, formatMiles, NM } from "../units";
+import type { Colour } from "../store/colours";
 import { Cell } from "./cell";
-import { type LayerProps, leaderIdent, ROLL_IN, shownPlan, shownReading } from "./picture";
-import type { Colour } from "./style";
-import { bearing, distance, placeAt, READOUTS } from "./view";
+import type { LayerProps } from "./layer";
+import { placeAt, READOUTS } from "./view";
 
 /** What comes next on the plan: the turn with its bearing, distance and countdown, or the capture point. */
-export function NextPoint({ flight }: LayerProps) {
-  const next = useComputed(() => nextPoint(flight));
+export function NextPoint({ shown: { numbers } }: LayerProps) {
+  const next = useComputed(() => numbers.value.next);
   const name = useComputed(() => next.value?.name ?? "");
-  const place = useComputed(() => next.value?.place ?? "");
+  const place = useComputed(() => next.value?.bearing ?? "");
   const degree = useComputed(() => (next.value === null ? "" : "°/"));
   const miles = useComputed(() => next.value?.miles ?? "");
   const unit = useComputed(() => (next.value === null ? "" : "NM"));
   const left = useComputed(() => next.value?.left ?? "");
-  const urgent = useComputed<Colour>(() => (next.value?.urgent === true ? "managed" : "value"));
+  const urgent = useComputed<Colour>(() => (next.value?.isUrgent === true ? "managed" : "value"));
   const { x, y, width } = READOUTS.next;
   return (
     <g class="nd-next" transform={placeAt({ x, y })}>
@@ -27,31 +25,4 @@ export function NextPoint({ flight }: LayerProps) {
       <Cell x={width} y={82} text={left} colour={urgent} anchor="end" />
     </g>
   );
-}
-
-function nextPoint(flight: LayerProps["flight"]) {
-  const [plan, shown] = [shownPlan(flight), shownReading(flight)];
-  if (shown === null) return null;
-  const own = shown.now.pursuer;
-  if (plan === null) {
-    if (!shown.look.crossTrack) return null;
-    const name = leaderIdent(flight);
-    return { name, ...toward(own, shown.now.leader), left: "", urgent: false };
-  }
-  const turn = nextTurn(plan, shown.now.t_s);
-  const left = turn?.in ?? timeToJoin(flight);
-  const point = turn === null ? joinPoint(flight) : committedPoint(flight, turn.at);
-  if (point === null || left === null) return null;
-  return {
-    name: turn === null ? "CNV" : `${turn.name} ${turn.size}°`,
-    ...toward(own, point),
-    left: formatClock(left),
-    urgent: turn !== null && left <= ROLL_IN,
-  };
-}
-
-function toward(own: { x_m: number; y_m: number }, point: { x_m: number; y_m: number }) {
-  const length = distance(own, point);
-  const decimals = length < 20 * NM ? 1 : 0;
-  return { place: formatHeading(bearing(own, point)), miles: formatMiles(length, decimals) };
 }

@@ -1,23 +1,21 @@
 import { useComputed } from "@preact/signals";
-import { formatHeading, formatMiles } from "../units";
 import type { Label } from "./labels";
+import { type LayerProps, usePart } from "./layer";
 import { BROKEN, leaderOnMap, RINGS } from "./leader";
-import { type LayerProps, leaderIdent, shownNow } from "./picture";
-import { age } from "./states";
-import { AGE, ink } from "./style";
+import { ink } from "./style";
 import { bearing, edge, offNose, placeAt, remedy } from "./view";
 
 /** The leader off the map: half a symbol on the edge in its direction, pointing there. */
-export function OffScaleLeader({ flight, view }: LayerProps) {
+export function OffScaleLeader({ shown, view }: LayerProps) {
   const place = useComputed(() => {
-    const direction = offScaleDirection({ flight, view });
+    const direction = offScaleDirection({ shown, view });
     if (direction === null) return null;
     return placeAt(edge(view.layout.value, direction), direction);
   });
-  const shown = useComputed(() => place.value !== null);
+  const isShown = useComputed(() => place.value !== null);
   const at = useComputed(() => place.value ?? "");
-  const look = useComputed(() => AGE[age(flight)]);
-  if (!shown.value) return null;
+  const look = usePart(shown, (picture) => picture.age);
+  if (!isShown.value) return null;
   const colour = ink(look.value.colour === "leader" ? "leader-ring" : look.value.colour);
   return (
     <g class="nd-offscale" transform={at}>
@@ -37,27 +35,27 @@ export function OffScaleLeader({ flight, view }: LayerProps) {
 }
 
 /** Right of the nose [deg], when the leader is off the map. */
-export function offScaleDirection({ flight, view }: LayerProps): number | null {
-  const [now, pose] = [shownNow(flight), view.pose.value];
-  if (now === null || pose === null || leaderOnMap({ flight, view }) !== null) return null;
+export function offScaleDirection({ shown, view }: LayerProps): number | null {
+  const [{ now }, pose] = [shown.picture.value, view.pose.value];
+  if (now === null || pose === null || leaderOnMap({ shown, view }) !== null) return null;
   return offNose(pose, bearing(pose, now.leader));
 }
 
 /** Who it is, its bearing and distance, and what to select to see it. */
-export function offScaleTag({ flight, view }: LayerProps): Label | null {
-  const [now, pose] = [flight.now.value, view.pose.value];
-  const direction = offScaleDirection({ flight, view });
+export function offScaleTag({ shown, view }: LayerProps): Label | null {
+  const [{ now, age, ident }, pose] = [shown.picture.value, view.pose.value];
+  const direction = offScaleDirection({ shown, view });
   if (direction === null || now === null || pose === null) return null;
   const layout = view.layout.value;
-  const { colour } = AGE[age(flight)];
-  const to = formatHeading(bearing(pose, now.leader));
+  const { colour } = age;
+  const { leaderBearing, separation } = shown.numbers.value;
   const hint = remedy(layout, pose, now.leader);
   return {
     id: "offscale",
     at: edge(layout, direction),
     lines: [
-      { text: leaderIdent(flight), colour },
-      { text: `${to}° ${formatMiles(now.separation_m)}`, colour },
+      { text: ident, colour },
+      { text: `${leaderBearing}° ${separation}`, colour },
       ...(hint === null ? [] : [{ text: hint, colour: "selected" as const }]),
     ],
     side: direction + 180,

@@ -1,5 +1,5 @@
 import { useComputed } from "@preact/signals";
-import { type LayerProps, shownNow } from "./picture";
+import { type LayerProps, usePart } from "./layer";
 import { Stroke } from "./stroke";
 import { ink } from "./style";
 import { placeAt } from "./view";
@@ -7,8 +7,8 @@ import { placeAt } from "./view";
 const SHAPE = "M0 -20V22M-24 0H24M-9 18H9";
 
 /** The own ship; a red circle when nothing is known of where its nose points. */
-export function OwnShip({ flight, view }: LayerProps) {
-  const valid = useComputed(() => shownNow(flight) !== null);
+export function OwnShip({ shown, view }: LayerProps) {
+  const valid = usePart(shown, ({ now }) => now !== null);
   const place = useComputed(() => placeAt(view.layout.value.centre));
   return (
     <g class="nd-ownship" transform={place}>

@@ -1,12 +1,11 @@
-import { useComputed } from "@preact/signals";
-import { type LayerProps, shownNow } from "./picture";
+import { type LayerProps, usePart } from "./layer";
 import { Stroke } from "./stroke";
 import { ink, LINES } from "./style";
 import { type Layout, polar, round } from "./view";
 
 /** The range rings and what they say. */
-export function RangeRings({ flight, view }: LayerProps) {
-  const valid = useComputed(() => shownNow(flight) !== null);
+export function RangeRings({ shown, view }: LayerProps) {
+  const valid = usePart(shown, ({ now }) => now !== null);
   const layout = view.layout.value;
   return (
     <g class="nd-rings">

@@ -1,5 +1,5 @@
 import { useComputed } from "@preact/signals";
-import { type LayerProps, shownGuidance } from "./picture";
+import { type LayerProps, usePart } from "./layer";
 import { Stroke } from "./stroke";
 import { ink } from "./style";
 import { placeAt, toMap } from "./view";
@@ -9,15 +9,15 @@ const GATE = "M-28 -15H28V15H-28Z";
 const PENNANT = "M28 -15V-42L47 -35L28 -28";
 
 /** The slot: a pennant over a gate across the leader's route; filled once own ship is in it. */
-export function Slot({ flight, view }: LayerProps) {
-  const shown = useComputed(() => shownGuidance(flight));
+export function Slot({ shown, view }: LayerProps) {
+  const guided = usePart(shown, (picture) => picture.guided);
   const place = useComputed(() => {
-    const slot = shown.value?.now.slot;
+    const slot = guided.value?.slot;
     return slot === undefined ? "" : placeAt(toMap(view.layout.value, slot), slot.heading_deg);
   });
-  const look = useComputed(() => shown.value?.look ?? null);
-  const joined = useComputed(() => shown.value?.now.joined ?? false);
-  const open = useComputed(() => shown.value?.now.slot_open ?? false);
+  const look = usePart(shown, (picture) => picture.look);
+  const joined = useComputed(() => guided.value?.joined ?? false);
+  const open = useComputed(() => guided.value?.slot_open ?? false);
   if (look.value === null) return null;
   const colour = look.value.slotColour;
   // Until the leader is on its final leg the slot is only a place in the making: broken lines.

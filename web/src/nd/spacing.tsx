@@ -1,24 +1,17 @@
 import { useComputed } from "@preact/signals";
-import { timeToJoin } from "../committed";
-import { formatClock, formatMiles, formatSignedKnots } from "../units";
 import { Cell } from "./cell";
-import { formatSide } from "./crosstrack";
-import { type LayerProps, shownReading } from "./picture";
+import type { LayerProps } from "./layer";
 import { placeAt, READOUTS } from "./view";
 
 /** Spacing to the leader: D asked, d now, closure, offset from its final route, time to converge. */
-export function Spacing({ flight }: LayerProps) {
-  const now = useComputed(() => shownReading(flight)?.now ?? null);
-  const shown = useComputed(() => now.value !== null);
-  const asked = useComputed(() => formatMiles(flight.started.value?.slot_distance_m ?? 0));
-  const separation = useComputed(() => formatMiles(now.value?.separation_m ?? 0));
-  const closure = useComputed(() => formatSignedKnots(now.value?.closure_mps ?? 0));
-  const offset = useComputed(() => formatSide(now.value?.cross_track_m ?? 0) || "0.0");
-  const left = useComputed(() => {
-    const time = timeToJoin(flight);
-    return time === null ? "--:--" : formatClock(time);
-  });
-  if (!shown.value) return null;
+export function Spacing({ shown: { numbers } }: LayerProps) {
+  const isShown = useComputed(() => numbers.value.guided !== null);
+  const asked = useComputed(() => numbers.value.slotDistance);
+  const separation = useComputed(() => numbers.value.separation);
+  const closure = useComputed(() => numbers.value.closure);
+  const offset = useComputed(() => numbers.value.crossTrack || "0.0");
+  const left = useComputed(() => numbers.value.toJoin || "--:--");
+  if (!isShown.value) return null;
   const { x, y, width, height } = READOUTS.spacing;
   const rows = [
     { label: "D", value: asked, unit: "NM", colour: "selected" },

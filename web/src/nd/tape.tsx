@@ -1,6 +1,6 @@
 import { useComputed } from "@preact/signals";
 import { DEG } from "../units";
-import { type LayerProps, shownNow } from "./picture";
+import { type LayerProps, usePart } from "./layer";
 import { Stroke } from "./stroke";
 import { ink, LINES } from "./style";
 import { polar, round } from "./view";
@@ -9,8 +9,8 @@ const TICK = { short: 10, long: 18, number: 38 } as const;
 const HEADINGS = Array.from({ length: 72 }, (_, i) => i * 5);
 
 /** The heading tape or rose: a tick each 5°, a number each 10°, a larger one each 30°. */
-export function HeadingTape({ flight, view }: LayerProps) {
-  const valid = useComputed(() => shownNow(flight) !== null);
+export function HeadingTape({ shown, view }: LayerProps) {
+  const valid = usePart(shown, ({ now }) => now !== null);
   const radius = view.layout.value.tape;
   if (!valid.value) {
     return (

@@ -1,21 +1,20 @@
 import { useComputed } from "@preact/signals";
-import { type LayerProps, shownNow } from "./picture";
-import { guidance } from "./states";
+import { type LayerProps, usePart } from "./layer";
 import { Stroke } from "./stroke";
-import { GUIDANCE, LINES } from "./style";
+import { LINES } from "./style";
 import { offNose, placeAt, polar, round } from "./view";
 
 /** Where the ground velocity points, on the tape. */
-export function TrackDiamond({ flight, view }: LayerProps) {
+export function TrackDiamond({ shown, view }: LayerProps) {
   const place = useComputed(() => {
-    const own = shownNow(flight)?.pursuer;
+    const own = shown.picture.value.now?.pursuer;
     if (own === undefined) return null;
     const direction = offNose(own, own.track_deg);
     return placeAt(polar(view.layout.value, direction, view.layout.value.tape - 9), direction);
   });
-  const shown = useComputed(() => place.value !== null);
+  const isShown = usePart(shown, ({ now }) => now !== null);
   const at = useComputed(() => place.value ?? "");
-  if (!shown.value) return null;
+  if (!isShown.value) return null;
   return (
     <g class="nd-track" transform={at}>
       <Stroke d="M0 -9L6 0L0 9L-6 0Z" line={{ ...LINES.track, width: 2.5 }} />
@@ -24,10 +23,11 @@ export function TrackDiamond({ flight, view }: LayerProps) {
 }
 
 /** From the own ship to the tape along its track, while no path says where it goes. */
-export function TrackLine({ flight, view }: LayerProps) {
+export function TrackLine({ shown, view }: LayerProps) {
   const d = useComputed(() => {
-    const own = shownNow(flight)?.pursuer;
-    if (own === undefined || !GUIDANCE[guidance(flight)].trackLine) return "";
+    const { now, look } = shown.picture.value;
+    const own = now?.pursuer;
+    if (own === undefined || look?.trackLine === false) return "";
     const { centre, tape } = view.layout.value;
     const end = polar(view.layout.value, offNose(own, own.track_deg), tape);
     return `M${centre.x} ${centre.y}L${round(end.x)} ${round(end.y)}`;

@@ -6,7 +6,7 @@
  */
 
 import { computed, type ReadonlySignal, type Signal } from "@preact/signals";
-import type { Flight } from "../flight";
+import type { Shown } from "../store/picture";
 import { DEG, NM, wrap180 } from "../units";
 
 export const SIZE = 768;
@@ -104,9 +104,9 @@ export function layoutOf(mode: DisplayMode, range: number): Layout {
   };
 }
 
-export function createView(flight: Flight, mode: Signal<DisplayMode>, range: Signal<number>): View {
+export function createView(shown: Shown, mode: Signal<DisplayMode>, range: Signal<number>): View {
   const layout = computed(() => layoutOf(mode.value, range.value));
-  const pose = computed(() => flight.now.value?.pursuer ?? null);
+  const pose = computed(() => shown.picture.value.pose);
   return {
     layout,
     pose,
@@ -118,8 +118,8 @@ export function createView(flight: Flight, mode: Signal<DisplayMode>, range: Sig
       return `translate(${centre.x} ${centre.y}) rotate(${round(-(pose.value?.heading_deg ?? 0))})`;
     }),
     beat: computed(() => {
-      const tick = Math.floor((flight.simTime.value * 5) / flight.clock.value.rate);
-      return `${tick} ${flight.now.value === null} ${mode.value} ${range.value}`;
+      const { readAt } = shown.numbers.value;
+      return `${readAt} ${pose.value === null} ${mode.value} ${range.value}`;
     }),
   };
 }

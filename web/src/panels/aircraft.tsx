@@ -1,8 +1,8 @@
 /** Both aircraft side by side, and what guidance asks of the own one. */
 
 import { Panel } from "../parts";
-import { referenceText } from "../reading";
 import type { Session } from "../session";
+import { referenceText } from "../store/reading";
 import { formatBank, formatHeading, formatKnots, formatLevel } from "../units";
 import type { AircraftSample } from "../wire";
 
@@ -16,7 +16,7 @@ const ROWS: readonly (readonly [string, string, (aircraft: AircraftSample) => st
 ];
 
 export function Aircraft(props: { session: Session }) {
-  const sample = props.session.reading.value;
+  const { sample, commandedSpeed } = props.session.shown.numbers.value;
   const started = props.session.flight.started.value;
   const idents = [started?.pursuer.ident ?? "Own", started?.leader.ident ?? "Leader"] as const;
   const heads = (
@@ -51,7 +51,7 @@ export function Aircraft(props: { session: Session }) {
       <p class="commanded">
         <span>Guidance</span>
         <b>{sample === null ? "––" : referenceText(sample.reference)}</b>
-        <b>{sample === null ? "" : `${formatKnots(sample.commanded_tas_mps)} kt`}</b>
+        <b>{sample === null ? "" : `${commandedSpeed} kt`}</b>
       </p>
     </Panel>
   );

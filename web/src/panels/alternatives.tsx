@@ -1,15 +1,14 @@
 /** The other paths to the slot that were considered, and why each is not flown. */
 
-import { flownPlan } from "../committed";
 import { Panel } from "../parts";
-import { alternativeSentence, alternativeTime } from "../reading";
 import type { Session } from "../session";
+import { alternativeSentence, alternativeTime } from "../store/reading";
 import { formatClock } from "../units";
 import type { Alternative } from "../wire";
 
 export function Alternatives(props: { session: Session }) {
-  const { flight } = props.session;
-  const plan = flownPlan(flight)?.plan;
+  const { flight, shown } = props.session;
+  const plan = shown.numbers.value.plan?.plan;
   return (
     <Panel name="alternatives" title="Alternatives">
       {plan === undefined ? (

@@ -1,9 +1,9 @@
 /** What happened, newest first, with flight time; and the same for those who listen. */
 
-import type { Message } from "../flight";
 import { Panel } from "../parts";
-import { MODE_NAMES } from "../reading";
 import type { Session } from "../session";
+import type { Message } from "../store/flight";
+import { MODE_NAMES } from "../store/reading";
 import { formatClock } from "../units";
 
 const KIND_NAMES: Record<Message["kind"], string> = {

@@ -1,10 +1,9 @@
 /** The strip on top: the picker handed in, simulated time and rate, the state of the connection. */
 
 import type { ComponentChildren } from "preact";
-import type { Connection } from "../flight";
 import { Icon } from "../parts";
 import type { Session } from "../session";
-import { formatClock } from "../units";
+import type { Connection } from "../store/flight";
 
 const CONNECTION_TEXT: Record<Connection, string> = {
   connecting: "Connecting",
@@ -41,13 +40,12 @@ export function Header(props: { session: Session; children?: ComponentChildren }
 }
 
 function SimClock(props: { session: Session }) {
-  const { flight, reading } = props.session;
+  const { flight, shown } = props.session;
   const { rate, paused, ended } = flight.clock.value;
-  const t = reading.value?.t_s;
   return (
     <p class="sim">
       <span class="sim-label">SIM</span>
-      <span class="sim-time">{t === undefined ? "––:––" : formatClock(t)}</span>
+      <span class="sim-time">{shown.numbers.value.clock}</span>
       <span class="sim-rate">×{Number.isInteger(rate) ? rate : rate.toFixed(1)}</span>
       <span class="sim-state">{ended ? "ENDED" : paused ? "PAUSED" : ""}</span>
     </p>

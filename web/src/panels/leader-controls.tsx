@@ -8,7 +8,7 @@ import { formatHeading, KT, wrap360 } from "../units";
 
 export function LeaderControls(props: { session: Session; actions: Actions }) {
   const { session, actions } = props;
-  const leader = session.reading.value?.leader;
+  const leader = session.shown.numbers.value.sample?.leader;
   const ident = session.flight.started.value?.leader.ident ?? "";
   // A leader that is called so needs not be called so twice.
   const named =

@@ -1,38 +1,21 @@
 /** The plan in numbers: when, how far, which turns, how close, and what is proved of it. */
 
-import {
-  type Closest,
-  closestApproach,
-  flownPlan,
-  isClosestAtJoin,
-  nextTurn,
-  timeToJoin,
-} from "../committed";
-import type { Flight } from "../flight";
-import type { PairSample } from "../pair";
 import { Panel, Reading } from "../parts";
-import {
-  closureText,
-  countTurns,
-  crossTrackText,
-  MODE_NAMES,
-  plannerName,
-  proofSentence,
-  spacingText,
-} from "../reading";
 import type { Session } from "../session";
+import type { LeastAhead, Numbers } from "../store/numbers";
+import { countTurns, MODE_NAMES, plannerName, proofSentence } from "../store/reading";
 import { formatClock, formatMiles } from "../units";
 import type { LinkResult, PlanChanged } from "../wire";
 
 export function PlanNumbers(props: { session: Session }) {
-  const { flight, reading } = props.session;
-  const sample = reading.value;
-  const plan = flownPlan(flight);
+  const { flight, shown } = props.session;
+  const numbers = shown.numbers.value;
+  const { sample, plan } = numbers;
   if (sample === null) {
     return (
       <Panel name="plan" title="Convergence">
         <p class="hint">
-          {flight.sample.value === null ? "Waiting for the first position." : "The data are lost."}
+          {numbers.readAt === null ? "Waiting for the first position." : "The data are lost."}
         </p>
       </Panel>
     );
@@ -47,12 +30,15 @@ export function PlanNumbers(props: { session: Session }) {
       {flight.ended.value !== null ? (
         <Outcome ended={flight.ended.value} />
       ) : (
-        <Headline flight={flight} sample={sample} />
+        <Headline numbers={numbers} isJoined={sample.joined} />
       )}
       <dl class="readings">
-        {plan !== null && engaged && <PathReadings plan={plan} t={sample.t_s} />}
-        <SpacingReadings flight={flight} sample={sample} engaged={engaged} />
-        <SafetyReadings flight={flight} plan={plan} sample={sample} />
+        {plan !== null && engaged && <PathReadings plan={plan} numbers={numbers} />}
+        <SpacingReadings numbers={numbers} engaged={engaged} />
+        <SafetyReadings
+          numbers={numbers}
+          isIntentKnown={flight.route.value?.intent_known ?? null}
+        />
       </dl>
       {plan !== null && (
         <p class="proof">{proofSentence(plan.plan.optimality, plan.plan.time_to_converge_s)}</p>
@@ -62,31 +48,29 @@ export function PlanNumbers(props: { session: Session }) {
 }
 
 /** The one number that matters now. */
-function Headline(props: { flight: Flight; sample: PairSample }) {
-  const { flight, sample } = props;
-  const [unavailable, unable] = [flight.unavailable.value, flight.unable.value];
-  if (unavailable !== null || unable !== null) {
+function Headline(props: { numbers: Numbers; isJoined: boolean }) {
+  const { trouble, toJoin, joinsAt, separation } = props.numbers;
+  if (trouble !== null) {
     return (
       <div class="headline caution">
-        <span class="headline-label">{unavailable === null ? "Unable" : "No plan"}</span>
-        <p>{unavailable?.answer.message ?? unable?.message}</p>
+        <span class="headline-label">{trouble.label}</span>
+        <p>{trouble.sentence}</p>
       </div>
     );
   }
-  const left = timeToJoin(flight);
-  if (left !== null) {
+  if (toJoin !== "") {
     return (
       <div class="headline">
         <span class="headline-label">Time to converge</span>
-        <span class="headline-figure">{formatClock(left)}</span>
-        <span class="headline-note">joins at {formatClock(sample.t_s + left)}</span>
+        <span class="headline-figure">{toJoin}</span>
+        <span class="headline-note">joins at {joinsAt}</span>
       </div>
     );
   }
   return (
     <div class="headline">
-      <span class="headline-label">{sample.joined ? "Joined" : "Separation"}</span>
-      <span class="headline-figure">{formatMiles(sample.separation_m)}</span>
+      <span class="headline-label">{props.isJoined ? "Joined" : "Separation"}</span>
+      <span class="headline-figure">{separation}</span>
       <span class="headline-note">NM to the leader</span>
     </div>
   );
@@ -105,69 +89,50 @@ function Outcome(props: { ended: LinkResult }) {
   );
 }
 
-function PathReadings(props: { plan: PlanChanged; t: number }) {
-  const { plan, t } = props;
-  const turns = countTurns(plan.plan);
-  const next = nextTurn(plan, t);
+function PathReadings(props: { plan: PlanChanged; numbers: Numbers }) {
+  const { plan } = props.plan;
+  const { nextTurn } = props.numbers;
+  const turns = countTurns(plan);
   return (
     <>
       <Reading
         label="Path"
-        value={plan.plan.word}
-        note={`${formatMiles(plan.plan.length_m)} NM, ${turns} turn${turns === 1 ? "" : "s"}`}
+        value={plan.word}
+        note={`${formatMiles(plan.length_m)} NM, ${turns} turn${turns === 1 ? "" : "s"}`}
       />
       <Reading
         label="Next turn"
-        value={next === null ? "none" : `${next.size[0]} ${next.size.slice(1)}°`}
-        {...(next !== null && { note: `in ${formatClock(next.in)}` })}
+        value={nextTurn?.size ?? "none"}
+        {...(nextTurn !== null && { note: `in ${nextTurn.left}` })}
       />
     </>
   );
 }
 
-function SpacingReadings(props: { flight: Flight; sample: PairSample; engaged: boolean }) {
-  const { flight, sample, engaged } = props;
-  const required = flight.started.value?.slot_distance_m;
+function SpacingReadings(props: { numbers: Numbers; engaged: boolean }) {
+  const { slotDistance, separation, closureWords, spacingWords, crossTrackWords } = props.numbers;
   return (
     <>
-      <Reading
-        label="D required"
-        value={required === undefined ? "––" : formatMiles(required)}
-        unit="NM"
-      />
-      <Reading
-        label="d now"
-        value={formatMiles(sample.separation_m)}
-        unit="NM"
-        note={closureText(sample.closure_mps)}
-      />
-      {!engaged && <Reading label="Spacing error" value={spacingText(sample.spacing_error_m)} />}
-      {!engaged && <Reading label="Cross-track" value={crossTrackText(sample.cross_track_m)} />}
+      <Reading label="D required" value={slotDistance} unit="NM" />
+      <Reading label="d now" value={separation} unit="NM" note={closureWords} />
+      {!props.engaged && <Reading label="Spacing error" value={spacingWords} />}
+      {!props.engaged && <Reading label="Cross-track" value={crossTrackWords} />}
     </>
   );
 }
 
 /** When they are closest: how long until then, unless that is past, or once joined. */
-function whenClosest(flight: Flight, closest: Closest, t: number): string {
-  if (closest.at <= t) return "passed";
-  return isClosestAtJoin(flight, closest) ? "once joined" : `in ${formatClock(closest.at - t)}`;
+function whenClosest({ when, left }: LeastAhead): string {
+  return { ahead: `in ${left}`, passed: "passed", at_join: "once joined" }[when];
 }
 
-function SafetyReadings(props: { flight: Flight; plan: PlanChanged | null; sample: PairSample }) {
-  const { flight, plan, sample } = props;
-  const closest = closestApproach(flight);
-  const minSeparation = flight.started.value?.min_separation_m ?? 0;
-  const flown = sample.least_separation_m;
-  const known = flight.route.value?.intent_known ?? null;
+function SafetyReadings(props: { numbers: Numbers; isIntentKnown: boolean | null }) {
+  const { least, plan, leastSoFar, wasLost, minSeparation } = props.numbers;
+  const known = props.isIntentKnown;
   return (
     <>
-      {closest !== null && (
-        <Reading
-          label="Least forecast"
-          value={formatMiles(closest.least)}
-          unit="NM"
-          note={whenClosest(flight, closest, sample.t_s)}
-        />
+      {least !== null && (
+        <Reading label="Least forecast" value={least.miles} unit="NM" note={whenClosest(least)} />
       )}
       {plan !== null && (
         <Reading
@@ -178,10 +143,10 @@ function SafetyReadings(props: { flight: Flight; plan: PlanChanged | null; sampl
       )}
       <Reading
         label="Least so far"
-        value={formatMiles(flown)}
+        value={leastSoFar}
         unit="NM"
-        tone={flown < minSeparation ? "alert" : "value"}
-        note={`${flown < minSeparation ? "LOST " : ""}(MIN ${formatMiles(minSeparation)})`}
+        tone={wasLost ? "alert" : "value"}
+        note={`${wasLost ? "LOST " : ""}(MIN ${minSeparation})`}
       />
       <Reading
         label="Leader intent"

@@ -2,11 +2,13 @@
 
 import { type Signal, signal } from "@preact/signals";
 import { type ComponentType, h, render } from "preact";
-import type { Flight } from "../../src/flight";
-import type { LayerProps } from "../../src/nd/picture";
+import type { LayerProps } from "../../src/nd/layer";
 import { createView, type DisplayMode, type View } from "../../src/nd/view";
+import type { Flight } from "../../src/store/flight";
+import { createShown, type Shown } from "../../src/store/picture";
 
 export interface Screen {
+  readonly shown: Shown;
   readonly view: View;
   readonly mode: Signal<DisplayMode>;
   readonly range: Signal<number>;
@@ -14,8 +16,10 @@ export interface Screen {
 
 export function screenOf(flight: Flight, mode: DisplayMode, range: number): Screen {
   const [modeSignal, rangeSignal] = [signal(mode), signal(range)];
+  const shown = createShown(flight);
   return {
-    view: createView(flight, modeSignal, rangeSignal),
+    shown,
+    view: createView(shown, modeSignal, rangeSignal),
     mode: modeSignal,
     range: rangeSignal,
   };
@@ -28,8 +32,8 @@ export function mount<P extends object>(component: ComponentType<P>, props: P): 
   return root;
 }
 
-export function drawLayer(layer: ComponentType<LayerProps>, flight: Flight, view: View): string {
-  return pretty(mount(layer, { flight, view }).innerHTML);
+export function drawLayer(layer: ComponentType<LayerProps>, { shown, view }: Screen): string {
+  return pretty(mount(layer, { shown, view }).innerHTML);
 }
 
 /** One element a line, numbers to three decimals. */

@@ -1,9 +1,9 @@
 /** Flights as the display gets them: documents made by the exact planner, samples where both would be. */
 
 import { signal } from "@preact/signals";
-import type { Flight } from "../../src/flight";
 import { cutPath, pathPointAt, samplePath, velocity, windVector } from "../../src/geometry";
-import { type PairCard, type PairSample, pairCard } from "../../src/pair";
+import type { Flight } from "../../src/store/flight";
+import { type PairCard, type PairSample, pairCard } from "../../src/store/pair";
 import { wrap360 } from "../../src/units";
 import type {
   AircraftSample,
@@ -81,9 +81,14 @@ export function emptyFlight(): Flight {
     lost: signal(null),
     mode: signal(null),
     modeSince: signal(-Infinity),
+    planSince: signal(-Infinity),
+    lostSince: signal(-Infinity),
+    joinedSince: signal(-Infinity),
+    belowSince: signal(-Infinity),
     sample: signal(null),
     now: signal(null),
     reading: signal(null),
+    wall: signal(0),
     simTime: signal(0),
     dataAge: signal(0),
     trail: { pursuer: signal([]), leader: signal([]) },
@@ -102,6 +107,7 @@ export function flightAt(name: FlightName, t: number, mode: Mode = "converge"): 
   flight.started.value = documents.started;
   flight.route.value = documents.route;
   flight.plan.value = documents.plan;
+  flight.planSince.value = 0;
   const ident = documents.started.pursuer.ident;
   flight.mode.value = {
     kind: "mode_changed",
@@ -120,6 +126,7 @@ export function setTime(flight: Flight, t: number, mode: Mode): void {
   const [started, route, plan] = [flight.started.value, flight.route.value, flight.plan.value];
   if (started === null || route === null || plan === null) throw new Error("An empty flight.");
   const sample = sampleAt({ started, route, plan }, t, mode);
+  flight.wall.value = 1000 * t;
   flight.simTime.value = t;
   flight.sample.value = sample;
   flight.now.value = sample;

@@ -17,8 +17,8 @@ function points(data: string): [number, number][] {
 function picture(t: number, mode: "converge" | "follow" | "escape" = "converge") {
   const flight = flightAt("fig_6b", t, mode);
   flight.forecast.value = forecastOf("fig_6b");
-  const { view } = screenOf(flight, "ARC", 10);
-  return { flight, view, root: mount(ActivePath, { flight, view }) };
+  const { shown, view } = screenOf(flight, "ARC", 10);
+  return { flight, view, root: mount(ActivePath, { shown, view }) };
 }
 
 test("the layer draws exactly the points of the forecast, solid, from own ship on", () => {

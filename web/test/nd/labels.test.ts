@@ -53,8 +53,8 @@ const FLIGHTS: [FlightName, "ROSE" | "ARC", number][] = [
 test.each(FLIGHTS)("no label of %s covers another or a readout, %s %i", (name, mode, range) => {
   for (let t = 0; t < 840; t += 20) {
     const flight = flightAt(name, t);
-    const { view } = screenOf(flight, mode, range);
-    const boxes = chooseLabels({ flight, view }).map(({ label: { at }, placement: { box } }) => ({
+    const { shown, view } = screenOf(flight, mode, range);
+    const boxes = chooseLabels({ shown, view }).map(({ label: { at }, placement: { box } }) => ({
       ...box,
       x: box.x + at.x,
       y: box.y + at.y,

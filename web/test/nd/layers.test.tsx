@@ -13,8 +13,7 @@ const CASES = [
 
 describe.each(CASES)("$name", ({ name, flight, mode, range }) => {
   test.each(LAYERS.map((layer) => [layer.name, layer] as const))("%s", async (title, layer) => {
-    const { view } = screenOf(flight, mode, range);
-    await expect(drawLayer(layer, flight, view)).toMatchFileSnapshot(
+    await expect(drawLayer(layer, screenOf(flight, mode, range))).toMatchFileSnapshot(
       `snapshots/${name}/${title}.svg`,
     );
   });

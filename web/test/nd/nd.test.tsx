@@ -1,21 +1,19 @@
 import { signal } from "@preact/signals";
-import { afterEach, beforeEach, expect, test, vi } from "vitest";
-import type { Flight } from "../../src/flight";
+import { expect, test } from "vitest";
 import { NavigationDisplay } from "../../src/nd/nd";
-import type { PairSample } from "../../src/pair";
+import type { Flight } from "../../src/store/flight";
+import type { PairSample } from "../../src/store/pair";
+import { createShown } from "../../src/store/picture";
 import { alert, separationLost, unable } from "../samples";
 import { mount } from "./draw";
 import { documentsOf, emptyFlight, flightAt, setTime } from "./fixture";
 
-beforeEach(() => {
-  vi.useFakeTimers({ toFake: ["performance"], now: 100_000 });
-});
-afterEach(() => {
-  vi.useRealTimers();
-});
-
 function show(flight: Flight, mode: "ROSE" | "ARC" = "ROSE", range = 80): Element {
-  return mount(NavigationDisplay, { flight, mode: signal(mode), range: signal(range) });
+  return mount(NavigationDisplay, {
+    shown: createShown(flight),
+    mode: signal(mode),
+    range: signal(range),
+  });
 }
 
 /** Signals write to the page at once; what appears or goes is drawn in the next task. */
@@ -103,14 +101,12 @@ test("a flight that has ended does not grow old", () => {
 
 test("a new mode is boxed for ten seconds", async () => {
   const flight = flightAt("fig_6b", 10);
-  flight.modeSince.value = performance.now();
+  flight.modeSince.value = 10_000;
   const root = show(flight);
   expect(has(root, "box")).toBe(true);
-  vi.advanceTimersByTime(9_900);
   setTime(flight, 19.9, "converge");
   await drawn();
   expect(has(root, "box")).toBe(true);
-  vi.advanceTimersByTime(200);
   setTime(flight, 20.1, "converge");
   await drawn();
   expect(has(root, "box")).toBe(false);
@@ -120,7 +116,7 @@ test("a leader off the map is half a symbol on the edge, with what to select", a
   const flight = flightAt("crossing", 30);
   const range = signal(20);
   const mode = signal<"ROSE" | "ARC">("ARC");
-  const root = mount(NavigationDisplay, { flight, mode, range });
+  const root = mount(NavigationDisplay, { shown: createShown(flight), mode, range });
   expect(has(root, "leader")).toBe(false);
   expect(has(root, "offscale")).toBe(true);
   expect(words(root)).toMatch(/AF123 \d{3}° \d+\.\d → (ROSE|RANGE \d+)/);
@@ -190,6 +186,7 @@ test("an alert is in the message line with its level's colour, before lesser new
 test("a loss of separation that was just given is a warning", () => {
   const flight = flightAt("fig_6b", 300);
   flight.lost.value = separationLost(300);
+  flight.lostSince.value = 300_000;
   const text = show(flight, "ARC", 40).querySelector(".nd-message text");
   expect(text?.textContent).toBe("SEPARATION");
   expect(text?.getAttribute("fill")).toBe("var(--alert)");

@@ -1,8 +1,9 @@
 import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { expect, test } from "vitest";
-import { AGES, GUIDANCES, SEPARATIONS } from "../../src/nd/states";
-import { AGE, GUIDANCE, LINES, SEPARATION } from "../../src/nd/style";
+import { LINES, SEPARATION } from "../../src/nd/style";
+import { AGE, GUIDANCE } from "../../src/store/looks";
+import { AGES, GUIDANCES, SEPARATIONS } from "../../src/store/states";
 
 const SOURCE = join(import.meta.dirname, "../../src");
 const tokens = readFileSync(join(SOURCE, "styles/tokens.css"), "utf8");
@@ -46,14 +47,48 @@ test("every colour is one of the tokens", () => {
   for (const colour of used) expect(tokens).toContain(`--${colour}:`);
 });
 
-test("the display knows nothing of streams, requests and panels", () => {
-  for (const file of readdirSync(join(SOURCE, "nd"))) {
-    const text = readFileSync(join(SOURCE, "nd", file), "utf8");
-    const imports = [...text.matchAll(/from "(\.\.\/[^"]+)"/g)].map(([, path]) => path);
-    for (const path of imports)
-      expect(
-        ["../committed", "../flight", "../geometry", "../motion", "../pair", "../units", "../wire"],
-        file,
-      ).toContain(path);
-  }
+function importsOf(folder: string): { file: string; path: string }[] {
+  return readdirSync(join(SOURCE, folder)).flatMap((file) => {
+    const text = readFileSync(join(SOURCE, folder, file), "utf8");
+    const imports = [...text.matchAll(/from "(\.\.\/[^"]+)"/g)];
+    return imports.map(([, path = ""]) => ({ file, path }));
+  });
+}
+
+/** What is shown, and words for it: no facts of a flight, and nothing that works one out. */
+const STORE = [
+  "picture",
+  "numbers",
+  "notices",
+  "forecast",
+  "colours",
+  "states",
+  "looks",
+  "reading",
+];
+
+test("the display knows nothing of streams, requests and panels, and reads only the picture", () => {
+  const allowed = [
+    ...STORE.map((name) => `../store/${name}`),
+    "../geometry",
+    "../units",
+    "../wire",
+  ];
+  for (const { file, path } of importsOf("nd")) expect(allowed, file).toContain(path);
+});
+
+test("panels work nothing out of the facts of a flight", () => {
+  for (const { file, path } of importsOf("panels").filter(({ path }) => path.includes("store/")))
+    expect(
+      [...STORE, "flight"].map((name) => `../store/${name}`),
+      file,
+    ).toContain(path);
+});
+
+test("the time of the view is handed in: nothing that draws asks a clock", () => {
+  for (const folder of ["nd", "store", "panels"])
+    for (const file of readdirSync(join(SOURCE, folder)).filter((name) => !name.endsWith(".css"))) {
+      const text = readFileSync(join(SOURCE, folder, file), "utf8");
+      expect(text.match(/performance\.now\(\)|Date\.now\(\)|new Date\(/g), file).toBeNull();
+    }
 });

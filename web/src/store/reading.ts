@@ -1,7 +1,7 @@
 /** The texts of the numbers beside the picture, from plan and sample: plain functions, no DOM. */
 
-import { formatClock, formatHeading, formatKnots, formatMiles, NM } from "./units";
-import type { Alternative, Mode, OptimalityCard, PlanCard, ReferenceCard } from "./wire";
+import { formatClock, formatHeading, formatKnots, formatMiles, NM } from "../units";
+import type { Alternative, Mode, OptimalityCard, PlanCard, ReferenceCard } from "../wire";
 
 export function countTurns(plan: PlanCard): number {
   return plan.segments.filter((segment) => segment.kind === "turn").length;

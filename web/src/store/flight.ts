@@ -1,15 +1,10 @@
 /**
  * What the display knows of a flight, as signals: the ticks of the stream go in, the picture reads out.
  *
- * No DOM and no clock of its own: every wall-clock instant [ms, performance.now()] is handed in.
+ * No DOM and no clock of its own: every wall-clock instant [ms] is handed in.
  */
 
 import { batch, type Signal, signal } from "@preact/signals";
-import { type FlightClock, readClock, setClock } from "./clock";
-import { blend, type Gap, gap, moveSample, NO_GAP } from "./motion";
-import type { PairCard, PairSample } from "./pair";
-import { take } from "./take";
-import type { TrailPoint } from "./trail";
 import type {
   Alert,
   ForecastChanged,
@@ -21,7 +16,13 @@ import type {
   SeparationLost,
   Tick,
   Unable,
-} from "./wire";
+} from "../wire";
+import { type FlightClock, readClock, setClock } from "./clock";
+import { blend, type Gap, gap, moveSample, NO_GAP } from "./motion";
+import type { PairCard, PairSample } from "./pair";
+import { separation } from "./states";
+import { take } from "./take";
+import type { TrailPoint } from "./trail";
 
 export type { TrailPoint } from "./trail";
 
@@ -49,7 +50,7 @@ export interface Message {
   readonly text: string;
 }
 
-/** What the display knows. Wall-clock instants are performance.now() [ms]. */
+/** What the display knows. Wall-clock instants in ms. */
 export interface Flight {
   readonly id: Signal<string | null>;
   readonly started: Signal<PairCard | null>;
@@ -71,12 +72,20 @@ export interface Flight {
   readonly mode: Signal<ModeChanged | null>;
   /** When the mode last changed [ms]: the new mode is boxed for 10 s. */
   readonly modeSince: Signal<number>;
+  /** When the last plan was made, separation was last lost, and it joined [ms]. */
+  readonly planSince: Signal<number>;
+  readonly lostSince: Signal<number>;
+  readonly joinedSince: Signal<number>;
+  /** When the separation was last seen below the minimum [ms]. */
+  readonly belowSince: Signal<number>;
   /** The newest sample, as it came. */
   readonly sample: Signal<PairSample | null>;
   /** The newest sample carried on to this animation frame, at most 2 s of wall time ahead. */
   readonly now: Signal<PairSample | null>;
   /** The same for numbers to be read: it changes five times a second. */
   readonly reading: Signal<PairSample | null>;
+  /** The time of the view: the wall clock at this animation frame [ms]. */
+  readonly wall: Signal<number>;
   /** Flight time at this animation frame [s]. */
   readonly simTime: Signal<number>;
   /** Wall time since the newest sample arrived [s]; while paused, since the newest tick. */
@@ -151,6 +160,7 @@ export function createFlightStore(): FlightStore {
 
   function advance(wall: number): void {
     batch(() => {
+      flight.wall.value = wall;
       flight.dataAge.value = Number.isFinite(fresh) ? Math.max(0, (wall - fresh) / 1000) : 0;
       flight.connection.value = connection(flight, linked);
       const superseded = flight.superseded.value;
@@ -162,6 +172,7 @@ export function createFlightStore(): FlightStore {
       flight.simTime.value = t;
       const moved = moveSample(sample, t - sample.t_s);
       flight.now.value = blend(moved, offset.gap, wall - offset.wall);
+      if (separation(flight).state === "lost") flight.belowSince.value = wall;
       if (flight.reading.value !== null && wall - readAt < READING_PERIOD) return;
       readAt = wall;
       flight.reading.value = flight.now.value;
@@ -190,9 +201,14 @@ function emptyFlight(): Flight {
     lost: signal(null),
     mode: signal(null),
     modeSince: signal(-Infinity),
+    planSince: signal(-Infinity),
+    lostSince: signal(-Infinity),
+    joinedSince: signal(-Infinity),
+    belowSince: signal(-Infinity),
     sample: signal(null),
     now: signal(null),
     reading: signal(null),
+    wall: signal(0),
     simTime: signal(0),
     dataAge: signal(0),
     trail: { pursuer: signal([]), leader: signal([]) },
@@ -216,6 +232,10 @@ function clear(flight: Flight): void {
   flight.lost.value = null;
   flight.mode.value = null;
   flight.modeSince.value = -Infinity;
+  flight.planSince.value = -Infinity;
+  flight.lostSince.value = -Infinity;
+  flight.joinedSince.value = -Infinity;
+  flight.belowSince.value = -Infinity;
   flight.sample.value = null;
   flight.now.value = null;
   flight.reading.value = null;

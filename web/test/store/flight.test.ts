@@ -1,5 +1,5 @@
 import { describe, expect, test } from "vitest";
-import { createFlightStore } from "../src/flight";
+import { createFlightStore } from "../../src/store/flight";
 import {
   aircraft,
   alert,
@@ -12,7 +12,7 @@ import {
   sample,
   tick,
   unable,
-} from "./samples";
+} from "../samples";
 
 /** A store that has joined a flight at time `t`, at wall time 1000 ms. */
 function joined(t = 0, rate = 1) {

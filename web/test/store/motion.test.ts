@@ -1,7 +1,7 @@
 import { describe, expect, test } from "vitest";
-import { readClock, setClock } from "../src/clock";
-import { blend, gap, moveAircraft, moveSample, windOf } from "../src/motion";
-import { aircraft, pairAt } from "./samples";
+import { readClock, setClock } from "../../src/store/clock";
+import { blend, gap, moveAircraft, moveSample, windOf } from "../../src/store/motion";
+import { aircraft, pairAt } from "../samples";
 
 describe("motion from a sample", () => {
   test("straight ahead", () => {

@@ -3,13 +3,13 @@ import {
   closestApproach,
   committedPoint,
   flownPlan,
-  forecastPoint,
   joinPoint,
   nextTurn,
   timeToJoin,
-} from "../src/committed";
-import { documentsOf, flightAt, forecastOf } from "./nd/fixture";
-import { planChanged, point, rightTurn, straight, unable } from "./samples";
+} from "../../src/store/committed";
+import { forecastPoint } from "../../src/store/forecast";
+import { documentsOf, flightAt, forecastOf } from "../nd/fixture";
+import { planChanged, point, rightTurn, straight, unable } from "../samples";
 
 test("the next turn is the one that begins next; a correction is none", () => {
   const lead = straight(point(0, 0, 0, 0), 60, 100);

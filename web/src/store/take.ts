@@ -1,10 +1,10 @@
 /** What one document changes of what the display knows. */
 
+import { formatClock } from "../units";
+import type { Alert, Document, FlightStarted, LinkResult, PlanChanged } from "../wire";
 import type { Flight, Message } from "./flight";
 import { isAbout, type PairSample, pairCard, pairResult, pairSample } from "./pair";
 import { appendTrail } from "./trail";
-import { formatClock } from "./units";
-import type { Alert, Document, FlightStarted, LinkResult, PlanChanged } from "./wire";
 
 /** The previous plan stays visible this long [ms]. */
 const SUPERSEDED_SHOWN = 3000;
@@ -14,7 +14,7 @@ const MESSAGES_KEPT = 200;
 export interface Arrival {
   /** With all that a late joiner is given, so that it is no news. */
   readonly joining: boolean;
-  /** When it came [ms, performance.now()]. */
+  /** When it came [ms]. */
   readonly wall: number;
   /** When it happened by the wall clock, going by the tick's rate [ms]. */
   readonly since: number;
@@ -60,6 +60,7 @@ export function take(flight: Flight, document: Document, arrival: Arrival): void
       return;
     case "separation_lost":
       flight.lost.value = document;
+      flight.lostSince.value = arrival.since;
       log(flight, { t, kind: "lost", text: document.cause });
       return;
     case "forecast_changed":
@@ -67,7 +68,7 @@ export function take(flight: Flight, document: Document, arrival: Arrival): void
       return;
     case "sample": {
       const sample = pairSample(document, pair);
-      if (sample !== null) takeSample(flight, sample);
+      if (sample !== null) takeSample(flight, sample, arrival);
       return;
     }
     case "flight_ended": {
@@ -90,13 +91,14 @@ function begin(flight: Flight, started: FlightStarted): void {
   flight.ended.value = null;
 }
 
-function takePlan(flight: Flight, changed: PlanChanged, { joining, wall }: Arrival): void {
+function takePlan(flight: Flight, changed: PlanChanged, { joining, wall, since }: Arrival): void {
   const previous = flight.plan.value;
   const isNews = changed.announced && !joining;
   if (previous !== null && isNews && flight.unavailable.value === null) {
     flight.superseded.value = { plan: previous, until: wall + SUPERSEDED_SHOWN };
   }
   flight.plan.value = changed;
+  flight.planSince.value = since;
   flight.unavailable.value = null;
   flight.unable.value = null;
   if (changed.announced) log(flight, { t: changed.t_s, kind: "plan", text: changed.message });
@@ -111,8 +113,9 @@ function takeAlert(flight: Flight, alert: Alert): void {
   log(flight, { t: alert.t_s, kind, text: alert.message });
 }
 
-function takeSample(flight: Flight, sample: PairSample): void {
+function takeSample(flight: Flight, sample: PairSample, { since }: Arrival): void {
   const { pursuer, leader } = flight.trail;
+  if (sample.joined && flight.sample.value?.joined !== true) flight.joinedSince.value = since;
   flight.sample.value = sample;
   pursuer.value = appendTrail(pursuer.value, sample.t_s, sample.pursuer);
   leader.value = appendTrail(leader.value, sample.t_s, sample.leader);

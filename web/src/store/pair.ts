@@ -14,7 +14,7 @@ import type {
   LinkCard,
   LinkResult,
   Sample,
-} from "./wire";
+} from "../wire";
 
 /** What is known of the two before the flight. */
 export interface PairCard

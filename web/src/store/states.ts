@@ -1,6 +1,6 @@
 /** The states of the picture: what guidance does, how old the data are, whether the separation holds. */
 
-import type { Flight } from "../flight";
+import type { Flight } from "./flight";
 
 /** off: holds its heading; unable: there is no plan; the others are the modes of guidance. */
 export const GUIDANCES = ["off", "converge", "capture", "follow", "escape", "unable"] as const;
@@ -52,11 +52,4 @@ export function separation(flight: Flight): Outlook {
   if (alert === undefined) return { state: "kept", within: 0 };
   const within = Math.max(0, Math.round(alert.predicted_at_s - flight.simTime.value));
   return { state: "predicted", within };
-}
-
-/** The wall clock [ms] at this frame; reading it subscribes to the frames. */
-export function wallNow(flight: Flight): number {
-  void flight.simTime.value;
-  void flight.dataAge.value;
-  return performance.now();
 }

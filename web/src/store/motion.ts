@@ -1,9 +1,9 @@
 /** Where two aircraft are a little later (or earlier) than a sample says: constant turn rate, constant wind. */
 
-import { CALM, type Vector, velocity } from "./geometry";
+import { CALM, type Vector, velocity } from "../geometry";
+import { DEG, wrap180, wrap360 } from "../units";
+import type { AircraftSample, PathPoint } from "../wire";
 import type { PairSample } from "./pair";
-import { DEG, wrap180, wrap360 } from "./units";
-import type { AircraftSample, PathPoint } from "./wire";
 
 /** The wind an aircraft flies in [m/s]: its velocity over the ground less that through the air. */
 export function windOf(aircraft: AircraftSample): Vector {

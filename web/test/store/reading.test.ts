@@ -8,9 +8,9 @@ import {
   proofSentence,
   referenceText,
   spacingText,
-} from "../src/reading";
-import { KT, NM } from "../src/units";
-import { planCard, rightTurn } from "./samples";
+} from "../../src/store/reading";
+import { KT, NM } from "../../src/units";
+import { planCard, rightTurn } from "../samples";
 
 describe("numbers beside the picture", () => {
   test("turns are counted", () => {

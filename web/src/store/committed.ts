@@ -3,10 +3,11 @@
  * and where the two join and are closest. Everything that shows one of these asks here.
  */
 
+import { pathPointAt, windVector } from "../geometry";
+import type { ForecastChanged, PathPoint, PlanChanged, TurnSegment } from "../wire";
 import type { Flight } from "./flight";
-import { pathPointAt, windVector } from "./geometry";
-import { wrap180, wrap360 } from "./units";
-import type { ForecastChanged, PathPoint, PlanChanged, TurnSegment } from "./wire";
+import { forecastPoint } from "./forecast";
+import { GRAZE } from "./states";
 
 /** The plan, while it is flown: not once it is over, and not once guidance has given it up. */
 export function flownPlan(flight: Flight): PlanChanged | null {
@@ -18,38 +19,6 @@ export function flownPlan(flight: Flight): PlanChanged | null {
 function isOnItsWay(flight: Flight): boolean {
   const mode = flight.sample.value?.mode;
   return mode === "converge" || mode === "capture";
-}
-
-/** Where a forecast has the aircraft at flight time `t` [s], held to its ends. */
-export function forecastPoint(forecast: ForecastChanged, t: number): PathPoint {
-  const k = Math.max(1, forecastIndex(forecast, t));
-  const [before, after] = [pointOf(forecast, k - 1), pointOf(forecast, k)];
-  const span = after.t_s - before.t_s;
-  const part = span > 0 ? Math.min(1, Math.max(0, (t - before.t_s) / span)) : 0;
-  const turned = wrap180(after.heading_deg - before.heading_deg);
-  return {
-    t_s: t,
-    x_m: before.x_m + part * (after.x_m - before.x_m),
-    y_m: before.y_m + part * (after.y_m - before.y_m),
-    heading_deg: wrap360(before.heading_deg + part * turned),
-  };
-}
-
-/** The first of a forecast's points that is still to come at flight time `t` [s]; the last if none is. */
-export function forecastIndex(forecast: ForecastChanged, t: number): number {
-  const next = forecast.times_s.findIndex((time) => time > t);
-  return next < 0 ? forecast.times_s.length - 1 : next;
-}
-
-/** One point of a forecast's columns. */
-export function pointOf(forecast: ForecastChanged, k: number): PathPoint {
-  const at = Math.min(k, forecast.times_s.length - 1);
-  return {
-    t_s: forecast.times_s[at] ?? 0,
-    x_m: forecast.x_m[at] ?? 0,
-    y_m: forecast.y_m[at] ?? 0,
-    heading_deg: forecast.heading_deg[at] ?? 0,
-  };
 }
 
 /** Whether a forecast reaches so far ahead [s, flight time]. */
@@ -95,12 +64,15 @@ export interface Closest {
   readonly at: number;
   readonly pursuer: PathPoint;
   readonly leader: PathPoint;
+  /** Whether that is less than the minimum, by more than a graze. */
+  readonly isTooClose: boolean;
 }
 
 /** The closest approach on the committed path, past or to come; null if none is flown. */
 export function closestApproach(flight: Flight): Closest | null {
   const plan = flownPlan(flight);
   if (plan === null) return null;
+  const tooClose = (flight.started.value?.min_separation_m ?? 0) - GRAZE;
   const at = plan.t_s + plan.plan.separation.at_s;
   const forecast = flight.forecast.value;
   if (reaches(forecast, joinTime(flight) ?? at)) {
@@ -109,6 +81,7 @@ export function closestApproach(flight: Flight): Closest | null {
       at: forecast.pursuer_at_closest.t_s,
       pursuer: forecast.pursuer_at_closest,
       leader: forecast.leader_at_closest,
+      isTooClose: forecast.least_separation_m < tooClose,
     };
   }
   return {
@@ -116,6 +89,7 @@ export function closestApproach(flight: Flight): Closest | null {
     at,
     pursuer: plan.pursuer_at_closest,
     leader: plan.leader_at_closest,
+    isTooClose: plan.plan.separation.least_m < tooClose,
   };
 }
 
@@ -163,4 +137,16 @@ export function nextTurn(plan: PlanChanged, t: number): NextTurn | null {
   if (turn === undefined) return null;
   const at = plan.t_s + turn.segment.start.t_s;
   return { ...turn, at, in: at - t };
+}
+
+/** The minutes of a plan still to come, and when they are over [s, flight time]. */
+export function minutesToCome(flight: Flight, plan: PlanChanged): { minute: number; t: number }[] {
+  const join = joinTime(flight);
+  if (join === null) return [];
+  const last = Math.floor((join - plan.t_s - 1) / 60);
+  const next = Math.max(1, Math.floor((flight.simTime.value - plan.t_s) / 60) + 1);
+  return Array.from({ length: Math.max(0, last - next + 1) }, (_, i) => ({
+    minute: next + i,
+    t: plan.t_s + 60 * (next + i),
+  }));
 }

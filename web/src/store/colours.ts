@@ -1,0 +1,16 @@
+/** The colours of the instrument by what they mean: tokens.css says how they look. */
+
+export type Colour =
+  | "scale"
+  | "ownship"
+  | "plan"
+  | "selected"
+  | "leader"
+  | "leader-ring"
+  | "managed"
+  | "value"
+  | "label"
+  | "unit"
+  | "caution"
+  | "alert"
+  | "superseded";

@@ -1,0 +1,39 @@
+/** The picture in words, for those who do not see it: as often as numbers are read. */
+
+import { formatHeading } from "../units";
+import type { Flight } from "./flight";
+import { AGE, GUIDANCE } from "./looks";
+import type { Numbers } from "./numbers";
+import { age, guidance, separation } from "./states";
+
+const MODE_WORDS = {
+  heading: "holding heading",
+  converge: "converging",
+  capture: "capturing the leader's route",
+  follow: "following the leader",
+  escape: "turning away to keep the separation",
+} as const;
+
+export function describe(flight: Flight, numbers: Numbers): string {
+  const seen = AGE[age(flight)];
+  const now = flight.reading.value;
+  if (!seen.map || now === null) return "Map not available.";
+  const leader = flight.started.value?.leader.ident ?? "the leader";
+  const parts = [
+    `Own ship ${MODE_WORDS[now.mode]}, heading ${formatHeading(now.pursuer.heading_deg)}.`,
+  ];
+  if (numbers.sample !== null)
+    parts.push(
+      `Leader ${leader} bearing ${numbers.leaderBearing}, ${numbers.separation} nautical miles.`,
+    );
+  if (numbers.toJoin !== "" && numbers.least !== null)
+    parts.push(`Slot in ${numbers.toJoin}, least separation ${numbers.least.miles}.`);
+  if (GUIDANCE[guidance(flight)].path === "old_plan") parts.push("No plan available.");
+  if (flight.route.value?.intent_known === false) parts.push("Leader's intent unknown.");
+  if (now.joined) parts.push("Joined.");
+  const outlook = separation(flight).state;
+  if (outlook === "lost") parts.push("Warning: separation lost.");
+  if (outlook === "predicted") parts.push("Caution: loss of separation predicted.");
+  if (seen.flag !== "") parts.push("Caution: data old.");
+  return parts.join(" ");
+}

@@ -1,0 +1,125 @@
+/** What the message line says: warnings before cautions before advice, one at a time. */
+
+import { formatMiles } from "../units";
+import type { Alert, AlertSubject, Mode, PlanReason, Reason, UnableReason } from "../wire";
+import type { Colour } from "./colours";
+import type { Flight } from "./flight";
+import { AGE } from "./looks";
+import { age, separation } from "./states";
+
+export interface Notice {
+  readonly level: "warning" | "caution" | "advice";
+  readonly text: string;
+}
+
+export const NOTICE_COLOUR: Record<Notice["level"], Colour> = {
+  warning: "alert",
+  caution: "caution",
+  advice: "label",
+};
+
+/** Why guidance is unable, in the words of the panel. */
+export const UNABLE: Record<Reason, string> = {
+  slot_unreachable: "SPEED",
+  separation_already_lost: "SEP",
+  separation_unavoidable: "SEP",
+  beyond_horizon: "TIME",
+};
+
+/** … and in those of `Unable`. */
+export const UNABLE_TO: Record<UnableReason, string> = {
+  separation: "SEP",
+  speed: "SPEED",
+  geometry: "PATH",
+  envelope: "ENVELOPE",
+  data: "DATA",
+};
+
+/** What an alert is about; a loss of separation also says when. */
+export const ALERTED: Record<AlertSubject, string> = {
+  separation: "SEP",
+  speed: "LDR SPEED",
+  data: "LDR DATA",
+  geometry: "LDR PATH",
+};
+
+const ALERT_NOTICE: Record<Alert["level"], Notice["level"]> = {
+  advisory: "advice",
+  caution: "caution",
+  warning: "warning",
+};
+/** The most urgent first. */
+const URGENCY: readonly Notice["level"][] = ["warning", "caution", "advice"];
+
+export const REPLANNED: Record<PlanReason, string> = {
+  engaged: "CONV ACTIVE",
+  resumed: "CONV RESUMED",
+  better_plan: "SHORTER PATH",
+  deviation: "OFF PATH – REPLAN",
+  separation: "SEP – REPLAN",
+  leader_turned: "LDR TURN – REPLAN",
+  leader_changed_speed: "LDR SPEED – REPLAN",
+  leader_elsewhere: "LDR OFF PATH – REPLAN",
+  intent_received: "LDR INTENT – REPLAN",
+  intent_withdrawn: "LDR INTENT LOST – REPLAN",
+};
+
+export const ENTERED: Record<Mode, string> = {
+  heading: "RG OFF – HDG",
+  converge: "CONV ACTIVE",
+  capture: "CAPTURE",
+  follow: "FOLLOWING",
+  escape: "RG ESCAPE",
+};
+
+/** Advice stands this long [ms]. */
+const SHOWN = 10_000;
+/** A warning stays this long after its cause is gone, so that it does not blink on the edge [ms]. */
+const HELD = 3_000;
+
+/** All notices of this moment, the most urgent first. */
+export function noticesOf(flight: Flight): readonly Notice[] {
+  const notices: Notice[] = [];
+  const seen = AGE[age(flight)];
+  const isRecent = (since: number) => flight.wall.value - since < SHOWN;
+  const isLost = separation(flight).state === "lost" || isHeld(flight);
+  if (seen.map && flight.now.value !== null && isLost)
+    notices.push({ level: "warning", text: "SEPARATION" });
+  else if (flight.lost.value !== null && isRecent(flight.lostSince.value))
+    notices.push({ level: "warning", text: "SEPARATION" });
+  const old = age(flight);
+  if (old === "old" || old === "dropped")
+    notices.push({ level: "caution", text: `LDR DATA ${Math.floor(flight.dataAge.value)} S` });
+  if (!seen.guidance || flight.now.value === null) return notices;
+  for (const alert of flight.alerts.value)
+    notices.push({ level: ALERT_NOTICE[alert.level], text: alertText(flight, alert) });
+  const [unavailable, unable] = [flight.unavailable.value, flight.unable.value];
+  if (unable !== null)
+    notices.push({ level: "caution", text: `RG UNABLE: ${UNABLE_TO[unable.reason]}` });
+  else if (unavailable !== null)
+    notices.push({ level: "caution", text: `RG UNABLE: ${UNABLE[unavailable.answer.reason]}` });
+  if (flight.sample.value?.joined === true) {
+    const spacing = formatMiles(flight.started.value?.slot_distance_m ?? 0);
+    const text = isRecent(flight.joinedSince.value) ? "JOINED" : `SPACING ${spacing} NM`;
+    notices.push({ level: "advice", text });
+  }
+  const plan = flight.plan.value;
+  if (plan?.announced === true && unavailable === null && isRecent(flight.planSince.value))
+    notices.push({ level: "advice", text: REPLANNED[plan.reason] });
+  const mode = flight.mode.value;
+  const isNew = mode !== null && isRecent(flight.modeSince.value);
+  if (isNew && !(mode.mode === "converge" && notices.length > 0))
+    notices.push({ level: "advice", text: ENTERED[mode.mode] });
+  return notices.sort((a, b) => URGENCY.indexOf(a.level) - URGENCY.indexOf(b.level));
+}
+
+/** Whether the separation was lost a moment ago. */
+function isHeld(flight: Flight): boolean {
+  return flight.wall.value - flight.belowSince.value < HELD;
+}
+
+function alertText(flight: Flight, alert: Alert): string {
+  if (alert.subject !== "separation") return ALERTED[alert.subject];
+  const within = Math.max(0, Math.round(alert.predicted_at_s - flight.simTime.value));
+  return `${ALERTED.separation} IN ${within} S`;
+}

@@ -1,0 +1,226 @@
+/**
+ * Every number that is read, as text or as the one value that all texts of it are made of: five times
+ * a second, from one reading. What stands twice on the page is written once here.
+ */
+
+import {
+  formatClock,
+  formatHeading,
+  formatKnots,
+  formatMiles,
+  formatSignedKnots,
+  KT,
+  NM,
+} from "../units";
+import type { PathPoint, PlanChanged } from "../wire";
+import {
+  closestApproach,
+  committedPoint,
+  flownPlan,
+  isClosestAtJoin,
+  joinPoint,
+  nextTurn,
+  timeToJoin,
+} from "./committed";
+import type { Flight } from "./flight";
+import { AGE, GUIDANCE } from "./looks";
+import type { PairSample } from "./pair";
+import { closureText, crossTrackText, spacingText } from "./reading";
+import { age, guidance } from "./states";
+
+/** The next turn, or the join: bearing, distance and how long until then. */
+export interface NextPoint {
+  readonly name: string;
+  /** Bearing in three digits. */
+  readonly bearing: string;
+  readonly miles: string;
+  /** mm:ss; "" where there is nothing to count down. */
+  readonly left: string;
+  /** Whether the roll-in is due. */
+  readonly isUrgent: boolean;
+}
+
+/** The turn to come, as the panel says it. */
+export interface NextTurnText {
+  /** "R 42°". */
+  readonly size: string;
+  readonly left: string;
+}
+
+/** Least separation on the way. */
+export interface LeastAhead {
+  readonly miles: string;
+  /** How long until then; "" once joined or passed. */
+  readonly left: string;
+  readonly when: "ahead" | "passed" | "at_join";
+}
+
+/** Why there is no plan. */
+export interface Trouble {
+  readonly label: "No plan" | "Unable";
+  readonly sentence: string;
+}
+
+export interface Numbers {
+  /** Flight time of the reading [s]; null before the first. */
+  readonly readAt: number | null;
+  /** The reading; null when there is none, or it is too old to be read. */
+  readonly sample: PairSample | null;
+  /** The same, while what guidance says may be shown. */
+  readonly guided: PairSample | null;
+  readonly gs: string;
+  readonly tas: string;
+  /** Where the wind comes from, and its speed. */
+  readonly windFrom: string;
+  readonly windSpeed: string;
+  /** Where the wind blows to [deg]; null in calm. */
+  readonly windTo: number | null;
+  /** D and MIN [NM]. */
+  readonly slotDistance: string;
+  readonly minSeparation: string;
+  readonly separation: string;
+  readonly closure: string;
+  /** Offset from the leader's route, "0.3R"; "" below 0.05 NM. */
+  readonly crossTrack: string;
+  /** mm:ss until it joins; "" when there is no way or it is over. */
+  readonly toJoin: string;
+  /** Flight time of the join; "" as above. */
+  readonly joinsAt: string;
+  readonly next: NextPoint | null;
+  readonly nextTurn: NextTurnText | null;
+  readonly least: LeastAhead | null;
+  /** The plan that is flown, and what became of it when there is none. */
+  readonly plan: PlanChanged | null;
+  readonly trouble: Trouble | null;
+  /** Least separation so far, and whether that is less than the minimum. */
+  readonly leastSoFar: string;
+  readonly wasLost: boolean;
+  /** "closing 35 kt". */
+  readonly closureWords: string;
+  /** "1.20 NM behind". */
+  readonly spacingWords: string;
+  /** "0.10 NM R". */
+  readonly crossTrackWords: string;
+  readonly clock: string;
+  readonly commandedSpeed: string;
+  /** Bearing and distance to the leader. */
+  readonly leaderBearing: string;
+  readonly leaderSpeed: string;
+}
+
+/** Calm below this: no arrow. */
+const ARROW_FROM = 2 * KT;
+/** The roll-in to a turn is announced this long before [s]. */
+export const ROLL_IN = 30;
+const NOTHING = "---";
+
+export function numbersOf(flight: Flight): Numbers {
+  const seen = AGE[age(flight)];
+  const sample = seen.numbers ? flight.reading.value : null;
+  const guided = seen.guidance ? sample : null;
+  const left = guided === null ? null : timeToJoin(flight);
+  const started = flight.started.value;
+  const shown = guided ?? sample;
+  return {
+    readAt: flight.reading.value?.t_s ?? null,
+    sample,
+    guided,
+    ...airTexts(flight, guided),
+    slotDistance: started === null ? NOTHING : formatMiles(started.slot_distance_m),
+    minSeparation: started === null ? NOTHING : formatMiles(started.min_separation_m),
+    separation: shown === null ? NOTHING : formatMiles(shown.separation_m),
+    closure: shown === null ? NOTHING : formatSignedKnots(shown.closure_mps),
+    crossTrack: shown === null ? "" : formatSide(shown.cross_track_m),
+    toJoin: left === null ? "" : formatClock(left),
+    joinsAt: left === null || guided === null ? "" : formatClock(guided.t_s + left),
+    next: guided === null ? null : nextPoint(flight, guided),
+    nextTurn: guided === null ? null : nextTurnText(flight, guided),
+    least: guided === null ? null : leastAhead(flight, guided),
+    plan: guided === null ? null : flownPlan(flight),
+    trouble: guided === null ? null : troubleOf(flight),
+    leastSoFar: shown === null ? NOTHING : formatMiles(shown.least_separation_m),
+    wasLost: shown !== null && shown.least_separation_m < (started?.min_separation_m ?? 0),
+    closureWords: shown === null ? "" : closureText(shown.closure_mps),
+    spacingWords: shown === null ? "" : spacingText(shown.spacing_error_m),
+    crossTrackWords: shown === null ? "" : crossTrackText(shown.cross_track_m),
+    clock: sample === null ? "––:––" : formatClock(sample.t_s),
+    commandedSpeed: guided === null ? "" : formatKnots(guided.commanded_tas_mps),
+    leaderBearing: shown === null ? "" : formatHeading(bearingTo(shown.pursuer, shown.leader)),
+    leaderSpeed: shown === null ? "" : formatKnots(shown.leader.ground_speed_mps),
+  };
+}
+
+function troubleOf(flight: Flight): Trouble | null {
+  const [unavailable, unable] = [flight.unavailable.value, flight.unable.value];
+  if (unavailable !== null) return { label: "No plan", sentence: unavailable.answer.message };
+  return unable === null ? null : { label: "Unable", sentence: unable.message };
+}
+
+function airTexts(flight: Flight, reading: PairSample | null) {
+  const wind = reading === null ? null : (flight.started.value?.wind ?? null);
+  return {
+    gs: reading === null ? NOTHING : formatKnots(reading.pursuer.ground_speed_mps).padStart(3, "0"),
+    tas: reading === null ? NOTHING : formatKnots(reading.pursuer.tas_mps).padStart(3, "0"),
+    windFrom:
+      wind === null || wind.speed_mps < ARROW_FROM / 2 ? NOTHING : formatHeading(wind.from_deg),
+    windSpeed: wind === null ? NOTHING : formatKnots(wind.speed_mps).padStart(2, "0"),
+    windTo: wind === null || wind.speed_mps <= ARROW_FROM ? null : wind.from_deg + 180,
+  };
+}
+
+/** An offset with its side, e.g. "0.3R"; "" below 0.05 NM. */
+function formatSide(offset: number): string {
+  const miles = formatMiles(Math.abs(offset));
+  return miles === "0.0" ? "" : `${miles}${offset > 0 ? "R" : "L"}`;
+}
+
+function nextPoint(flight: Flight, reading: PairSample): NextPoint | null {
+  const look = GUIDANCE[guidance(flight)];
+  const plan = look.points ? flownPlan(flight) : null;
+  if (plan === null) {
+    if (!look.crossTrack) return null;
+    const name = flight.started.value?.leader.ident ?? "LEADER";
+    return { name, ...toward(reading, reading.leader), left: "", isUrgent: false };
+  }
+  const turn = nextTurn(plan, reading.t_s);
+  const left = turn?.in ?? timeToJoin(flight);
+  const point = turn === null ? joinPoint(flight) : committedPoint(flight, turn.at);
+  if (point === null || left === null) return null;
+  return {
+    name: turn === null ? "CNV" : `${turn.name} ${turn.size}°`,
+    ...toward(reading, point),
+    left: formatClock(left),
+    isUrgent: turn !== null && left <= ROLL_IN,
+  };
+}
+
+function nextTurnText(flight: Flight, reading: PairSample): NextTurnText | null {
+  const plan = flownPlan(flight);
+  const turn = plan === null ? null : nextTurn(plan, reading.t_s);
+  if (turn === null) return null;
+  return { size: `${turn.size[0]} ${turn.size.slice(1)}°`, left: formatClock(turn.in) };
+}
+
+function leastAhead(flight: Flight, reading: PairSample): LeastAhead | null {
+  const closest = closestApproach(flight);
+  if (closest === null) return null;
+  const miles = formatMiles(closest.least);
+  if (closest.at <= reading.t_s) return { miles, left: "", when: "passed" };
+  if (isClosestAtJoin(flight, closest)) return { miles, left: "", when: "at_join" };
+  return { miles, left: formatClock(closest.at - reading.t_s), when: "ahead" };
+}
+
+type Place = Pick<PathPoint, "x_m" | "y_m">;
+
+function toward({ pursuer }: PairSample, place: Place): { bearing: string; miles: string } {
+  const length = Math.hypot(place.x_m - pursuer.x_m, place.y_m - pursuer.y_m);
+  const decimals = length < 20 * NM ? 1 : 0;
+  return {
+    bearing: formatHeading(bearingTo(pursuer, place)),
+    miles: formatMiles(length, decimals),
+  };
+}
+
+function bearingTo(from: Place, to: Place): number {
+  return (Math.atan2(to.x_m - from.x_m, to.y_m - from.y_m) * 180) / Math.PI;
+}

@@ -1,0 +1,250 @@
+/**
+ * One picture: everything that is shown of a flight at one instant, from what is known of the flight
+ * and the time of the view. The display, the panels and the scene's poster read it and compute nothing.
+ */
+
+import { computed, type ReadonlySignal } from "@preact/signals";
+import { CALM, pathPointAt, type Vector, velocity, windVector } from "../geometry";
+import { KT } from "../units";
+import type { AircraftSample, ForecastChanged, LeaderRoute, PathPoint, PlanChanged } from "../wire";
+import {
+  type Closest,
+  closestApproach,
+  committedPoint,
+  flownPlan,
+  isClosestAtJoin,
+  joinPoint,
+  joinTime,
+  minutesToCome,
+  type Turn,
+  turnsOf,
+} from "./committed";
+import { describe } from "./description";
+import type { Flight } from "./flight";
+import { AGE, type AgeLook, GUIDANCE, type GuidanceLook } from "./looks";
+import { moveAircraft } from "./motion";
+import { type Notice, noticesOf } from "./notices";
+import { type Numbers, numbersOf, ROLL_IN } from "./numbers";
+import type { PairCard, PairSample } from "./pair";
+import { age, type Guidance, guidance, type Outlook, separation } from "./states";
+import type { TrailPoint } from "./trail";
+
+/** A turn to come, and where own ship will be when it begins and ends. */
+export interface TurnAhead extends Turn {
+  /** When it begins and ends [s, flight time]. */
+  readonly begins: number;
+  readonly ends: number;
+  readonly hasBegun: boolean;
+  /** Whether its roll-in is due. */
+  readonly isRollIn: boolean;
+  readonly from: PathPoint;
+  readonly to: PathPoint;
+}
+
+/** A whole minute of the plan, and where both will be. */
+export interface MinuteAhead {
+  readonly minute: number;
+  readonly own: PathPoint | null;
+  readonly leader: PathPoint | null;
+}
+
+/** Own ship a while ahead. */
+export interface TrendPoint {
+  /** How far ahead [s]. */
+  readonly in: number;
+  readonly x_m: number;
+  readonly y_m: number;
+  readonly track_deg: number;
+}
+
+export interface Picture {
+  /** Flight time [s]. */
+  readonly t: number;
+  readonly look: GuidanceLook | null;
+  readonly age: AgeLook;
+  /** How old the data are, in whole seconds. */
+  readonly ageSeconds: number;
+  readonly separation: Outlook;
+  /** Own ship, whatever the age of its data; null before the first. */
+  readonly pose: AircraftSample | null;
+  /** The two, while the map may be shown. */
+  readonly now: PairSample | null;
+  /** The two, while what guidance says may be shown. */
+  readonly guided: PairSample | null;
+  readonly started: PairCard | null;
+  /** What the leader is called. */
+  readonly ident: string;
+  /** Where own ship will be if it keeps turning as now; nothing when it is too slow for that. */
+  readonly trend: readonly TrendPoint[];
+  readonly route: LeaderRoute | null;
+  readonly wind: Vector;
+  readonly trail: readonly TrailPoint[];
+  /** The last plan, flown or not. */
+  readonly plan: PlanChanged | null;
+  /** The plan that is flown and whose points are shown. */
+  readonly flown: PlanChanged | null;
+  readonly superseded: PlanChanged | null;
+  readonly forecast: ForecastChanged | null;
+  /** Up to when the path is drawn [s, flight time]. */
+  readonly until: number;
+  readonly turns: readonly TurnAhead[];
+  readonly minutes: readonly MinuteAhead[];
+  /** Where own ship joins. */
+  readonly join: PathPoint | null;
+  /** The closest approach that is still to come and is a point of its own. */
+  readonly closest: Closest | null;
+  /** The closest approach, when it is at the join. */
+  readonly closestAtJoin: Closest | null;
+  /** The direction in which the slot moves over the ground, as a unit vector. */
+  readonly slotTrack: Vector;
+  /** The modes of the mode strip, by what is engaged, whatever guidance is able to do. */
+  readonly modes: Pick<GuidanceLook, "lateral" | "speed"> | null;
+  /** A new mode is boxed for a while. */
+  readonly boxed: boolean;
+  readonly notices: readonly Notice[];
+  readonly ended: boolean;
+}
+
+/** What is shown: places each frame, numbers to be read five times a second. */
+export interface Shown {
+  readonly picture: ReadonlySignal<Picture>;
+  readonly numbers: ReadonlySignal<Numbers>;
+  /** The picture in words. */
+  readonly words: ReadonlySignal<string>;
+}
+
+/** A new mode is boxed this long [wall ms]. */
+const BOXED = 10_000;
+
+export function createShown(flight: Flight): Shown {
+  const numbers = computed(() => numbersOf(flight));
+  return {
+    picture: computed(() => pictureOf(flight)),
+    numbers,
+    words: computed(() => describe(flight, numbers.value)),
+  };
+}
+
+export function pictureOf(flight: Flight): Picture {
+  const seen = AGE[age(flight)];
+  const now = seen.map ? flight.now.value : null;
+  const guided = seen.guidance ? flight.now.value : null;
+  const look = guided === null ? null : GUIDANCE[guidance(flight)];
+  const flown = look?.points === true ? flownPlan(flight) : null;
+  const isCommitted = look?.path === "committed";
+  const pair = isCommitted ? closestApproach(flight) : null;
+  const isAtJoin = pair !== null && isClosestAtJoin(flight, pair);
+  const t = flight.simTime.value;
+  return {
+    t,
+    look,
+    age: seen,
+    ageSeconds: Math.floor(flight.dataAge.value),
+    separation: separation(flight),
+    pose: flight.now.value?.pursuer ?? null,
+    now,
+    guided,
+    started: flight.started.value,
+    ident: flight.started.value?.leader.ident ?? "LEADER",
+    trend: now === null ? [] : trendOf(now),
+    route: now === null ? null : flight.route.value,
+    wind: windOver(flight),
+    trail: now === null ? NO_TRAIL : flight.trail.leader.value,
+    plan: guided === null ? null : flight.plan.value,
+    flown,
+    superseded: guided === null ? null : (flight.superseded.value?.plan ?? null),
+    forecast: flight.forecast.value,
+    until: shownUntil(flight, guided),
+    turns: flown === null ? [] : turnsAhead(flight, flown),
+    minutes: flown === null ? [] : minutesAhead(flight, flown),
+    join: isCommitted ? joinPoint(flight) : null,
+    closest: pair !== null && !isAtJoin && t < pair.at ? pair : null,
+    closestAtJoin: isAtJoin ? pair : null,
+    slotTrack: slotTrack(flight),
+    modes: guided === null ? null : GUIDANCE[engaged(flight, guided)],
+    boxed: look !== null && flight.wall.value - flight.modeSince.value < BOXED,
+    notices: noticesOf(flight),
+    ended: flight.clock.value.ended,
+  };
+}
+
+function engaged(flight: Flight, guided: PairSample): Guidance {
+  if (guided.mode !== "heading") return guided.mode;
+  return flight.unavailable.value === null ? "off" : "unable";
+}
+
+const NO_TRAIL: readonly TrailPoint[] = [];
+
+function windOver(flight: Flight): Vector {
+  const wind = flight.started.value?.wind;
+  return wind === undefined ? CALM : windVector(wind);
+}
+
+/** The trend is bent every so many seconds, and ends after so many. */
+const TREND_STEP = 5;
+const TREND_END = 90;
+/** Below this there is no trend worth showing [m/s]. */
+const SLOWEST = 100 * KT;
+
+function trendOf({ pursuer }: PairSample): TrendPoint[] {
+  if (pursuer.ground_speed_mps < SLOWEST) return [];
+  return Array.from({ length: TREND_END / TREND_STEP }, (_, i) => {
+    const ahead = TREND_STEP * (i + 1);
+    const { x_m, y_m, track_deg } = moveAircraft(pursuer, ahead);
+    return { in: ahead, x_m, y_m, track_deg };
+  });
+}
+
+/** Up to when the path is drawn: the join, or once joined where the leader is now. */
+function shownUntil(flight: Flight, guided: PairSample | null): number {
+  if (guided?.mode !== "follow") return joinTime(flight) ?? Number.POSITIVE_INFINITY;
+  const length = flight.started.value?.slot_distance_m ?? 0;
+  // Its end moves on in whole seconds, so that what waits stays as it is.
+  return Math.ceil(flight.simTime.value) + length / Math.max(1, guided.leader.ground_speed_mps);
+}
+
+function turnsAhead(flight: Flight, plan: PlanChanged): TurnAhead[] {
+  return turnsOf(plan)
+    .map((turn) => ({
+      ...turn,
+      begins: plan.t_s + turn.segment.start.t_s,
+      ends: plan.t_s + turn.segment.end.t_s,
+    }))
+    .filter(({ ends }) => ends > flight.simTime.value)
+    .map((turn) => ({
+      ...turn,
+      hasBegun: flight.simTime.value >= turn.begins,
+      isRollIn: isSoon(turn.begins - flight.simTime.value),
+      from: committedPoint(flight, turn.begins) ?? turn.segment.start,
+      to: committedPoint(flight, turn.ends) ?? turn.segment.end,
+    }));
+}
+
+function isSoon(left: number): boolean {
+  return left > 0 && left <= ROLL_IN;
+}
+
+function minutesAhead(flight: Flight, plan: PlanChanged): MinuteAhead[] {
+  return minutesToCome(flight, plan).map(({ minute, t }) => ({
+    minute,
+    own: committedPoint(flight, t),
+    leader: leaderPoint(flight, t),
+  }));
+}
+
+/** Where the leader is expected at flight time `t` [s]. */
+function leaderPoint(flight: Flight, t: number): PathPoint | null {
+  const segments = flight.route.value?.segments ?? [];
+  const [from, to] = [segments[0]?.start.t_s ?? 0, segments.at(-1)?.end.t_s ?? 0];
+  return t < from || t > to ? null : pathPointAt(segments, t, windOver(flight));
+}
+
+function slotTrack(flight: Flight): Vector {
+  const now = flight.now.value;
+  if (now === null) return { x: 0, y: 1 };
+  const air = velocity(now.leader.tas_mps, now.slot.heading_deg);
+  const wind = windOver(flight);
+  const [x, y] = [air.x + wind.x, air.y + wind.y];
+  const speed = Math.hypot(x, y) || 1;
+  return { x: x / speed, y: y / speed };
+}
