@@ -62,6 +62,7 @@ def display_flight(name: str) -> tuple[Document, ...]:
                 slot_distance=situation.slot_distance,
                 min_separation=situation.min_separation,
                 spacing="distance",
+                spacing_time=0.0,
             ),
         ),
         wind=wind_card(wind),

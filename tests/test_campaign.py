@@ -57,28 +57,28 @@ def test_all_recorded_flights_of_the_collection_lead() -> None:
 def test_a_run_goes_on_where_it_stopped(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "flown.jsonl"
     options = ["fly", "--processes", "1", "--flights", "1", "--out", str(file)]
-    assert main([*options, "--families", "told", "follow"]) == 0
+    assert main([*options, "--families", "declared", "follow"]) == 0
     begun = file.read_text()
     with file.open("a") as cut_short:
-        cut_short.write('{"family": "told"')
-    assert main([*options, "--families", "told"]) == 0
+        cut_short.write('{"family": "declared"')
+    assert main([*options, "--families", "declared"]) == 0
     assert file.read_text() == begun
-    told, follow = sorted(read_rows(file), key=lambda row: row.family, reverse=True)
-    assert told.planned
-    assert told.joined
-    assert told.join_over_plan is not None
-    assert 0.95 < told.join_over_plan < 1.5
-    assert told.least_share >= 1.0
-    assert (told.losses, told.below_s, told.loops) == ((), 0.0, 0)
+    declared, follow = sorted(read_rows(file), key=lambda row: row.family)
+    assert declared.planned
+    assert declared.joined
+    assert declared.join_over_plan is not None
+    assert 0.95 < declared.join_over_plan < 1.5
+    assert declared.least_share >= 1.0
+    assert (declared.losses, declared.below_s, declared.loops) == ((), 0.0, 0)
     assert follow.joined
-    assert row_from(begun.splitlines()[1]) in (told, follow)
+    assert row_from(begun.splitlines()[1]) in (declared, follow)
     capsys.readouterr()
     assert main(["table", str(file)]) == 0
     shown = capsys.readouterr().out
     for figure in FIGURES:
-        assert (figure.heading in shown) == bool(figure.values([told, follow]))
-    assert main(["show", "told", "0"]) == 0
-    assert repr(draw("told", 0).scenario.situation) in capsys.readouterr().out
+        assert (figure.heading in shown) == bool(figure.values([declared, follow]))
+    assert main(["show", "declared", "0"]) == 0
+    assert repr(draw("declared", 0).scenario.situation) in capsys.readouterr().out
 
 
 def test_a_file_of_something_else_is_refused(
@@ -94,18 +94,18 @@ def test_a_file_of_something_else_is_refused(
     assert main(["table", str(file)]) == 2
     assert "no line of a campaign" in capsys.readouterr().err
     file.write_text('{"code": "0"}\n')
-    assert main(["fly", "--families", "told", "--out", str(file)]) == 2
+    assert main(["fly", "--families", "declared", "--out", str(file)]) == 2
     assert "another version" in capsys.readouterr().err
 
 
 def test_a_flight_that_fails_is_listed_and_not_counted() -> None:
-    row = failed(draw("told", 0), ZeroDivisionError("by zero"))
+    row = failed(draw("declared", 0), ZeroDivisionError("by zero"))
     assert row.error == "ZeroDivisionError: by zero"
     assert distributions([row]) == []
 
 
 def test_the_worst_comes_first_whichever_way_is_worse() -> None:
-    row = replace(failed(draw("told", 0), ValueError()), error="")
+    row = replace(failed(draw("declared", 0), ValueError()), error="")
     rows = [replace(row, number=i, least_share=share) for i, share in enumerate((1.2, 0.9, 1.1))]
     (least,) = (figure for figure in FIGURES if figure.name == "least_share")
     assert [one.number for _, one in ranking(least, rows)] == [1, 2, 0]
@@ -121,7 +121,7 @@ def test_a_loss_of_d_min_is_found_with_its_time_and_its_depth() -> None:
     documents = tuple(fly(scenario, plan, sample_period=1.0))
     d_min = scenario.situation.min_separation
     near = {20.0: 0.9 * d_min, 21.0: 0.8 * d_min, 40.0: 0.95 * d_min}
-    told = tuple(
+    documents = tuple(
         replace(
             document,
             guidance=(replace(document.guidance[0], separation=near[document.t]),),
@@ -134,7 +134,7 @@ def test_a_loss_of_d_min_is_found_with_its_time_and_its_depth() -> None:
         else document
         for document in documents
     )
-    row = row_of(case, told, 1.0)
+    row = row_of(case, documents, 1.0)
     assert [(loss.t_s, loss.seconds) for loss in row.losses] == [(20.0, 2.0), (40.0, 1.0)]
     assert row.losses[0].separation_m == 0.8 * d_min
     assert (row.below_s, row.silent_losses, row.least_share) == (3.0, 2, 0.79)
@@ -192,7 +192,7 @@ def test_a_loss_is_announced_by_an_alert_that_stands_and_by_nothing_else() -> No
 
 @pytest.mark.slow
 def test_a_forecast_is_compared_at_the_same_time() -> None:
-    case = draw("told", 0)
+    case = draw("declared", 0)
     scenario = replace(case.scenario, duration_limit=20.0)
     said = fly(scenario, plan, sample_period=1.0)
     documents = tuple(one for one in said if not isinstance(one, ForecastChanged))

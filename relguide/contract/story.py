@@ -132,7 +132,7 @@ def failures(flight: Story) -> tuple[str, ...]:
         for result in ended.results:
             who = result.ident if len(ended.results) > 1 else "It"
             if not result.joined:
-                sentences.append(f"{who} did not join within {ended.t:.0f} s.")
+                sentences.append(f"{who} did not join. {ended.message}")
             for limit in _limits(flight, result):
                 if result.least_separation < limit:
                     sentences.append(

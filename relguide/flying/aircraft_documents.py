@@ -51,6 +51,8 @@ class LinkCard:
     min_separation: Metre
     """d_min, to be kept at all times."""
     spacing: Spacing
+    spacing_time: Second
+    """Time behind the leader to keep once joined; 0 where the distance is kept."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -5,6 +5,7 @@ Surveillance will stand between the two: guidance reads this and nothing else.
 
 from dataclasses import dataclass
 from functools import cached_property
+from math import hypot
 
 import numpy as np
 
@@ -102,6 +103,11 @@ class Belief:
     def drift(self) -> Drift:
         """The wind as kernels take it."""
         return Drift(self.wind.east, self.wind.north)
+
+    @cached_property
+    def separation(self) -> Metre:
+        """Distance to the leader [m]."""
+        return hypot(self.own.x - self.leader.x, self.own.y - self.leader.y)
 
     @cached_property
     def turn_to_come(self) -> bool:

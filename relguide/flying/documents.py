@@ -35,6 +35,9 @@ AlertSubject = Literal["separation", "speed", "data", "geometry"]
 what is known of the leader is old or contradicts itself; geometry: it flies where it cannot be
 followed, as when it turns back."""
 
+EndReason = Literal["joined", "time_over", "recording_over", "plane_left"]
+"""Why a flight ends."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FlightStarted:
@@ -250,6 +253,9 @@ class FlightEnded:
     """How the flight went: the last document."""
 
     t: Second
+    reason: EndReason
+    message: str
+    """The same in a sentence."""
     results: tuple[LinkResult, ...]
     """In the order of `FlightStarted.links`."""
     kind: Literal["flight_ended"] = "flight_ended"

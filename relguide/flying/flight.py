@@ -54,7 +54,7 @@ class Scenario:
     """At t = 0, with the leader's true intent."""
     intent_known: bool = True
     """Whether the pursuer knows it."""
-    told: tuple[IntentPiece, ...] | None = None
+    declared_intent: tuple[IntentPiece, ...] | None = None
     """What the leader declared, if it is not what it flies: it breaks its word."""
     leader_source: DeclaredLeader | RecordedTrack = DeclaredLeader()
     """A recorded leader takes the place of the situation's; its intent is not known."""
@@ -224,7 +224,7 @@ def world_of(scenario: Scenario, settings: Settings = DEFAULT, seed: int = 0) ->
                 min_separation=situation.min_separation,
                 spacing=scenario.spacing,
                 intent_known=scenario.intent_known,
-                told=scenario.told,
+                declared_intent=scenario.declared_intent,
             ),
         ),
         air=scenario.air,

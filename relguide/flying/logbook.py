@@ -274,7 +274,7 @@ def event_document(t: Second, names: Names, event: Event) -> Document:
                 leader_at_closest=path_point(leader.pose_at(at), at, wind),
                 pursuer_at_closest=path_point(plan.trajectory.pose_at(at), at, wind),
                 announced=event.announced,
-                promised=(ahead.join_time if ahead.joins else committed.due) - t,
+                promised=committed.joins_at(ahead) - t,
                 tube=ahead.tube,
                 flown_least=least,
             )

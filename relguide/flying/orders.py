@@ -6,8 +6,8 @@ from math import isfinite
 from typing import Literal, assert_never
 
 from relguide.flying.documents import LeaderChanged
+from relguide.flying.fleet import Fleet
 from relguide.flying.leaders.declared import TurnChoice
-from relguide.flying.world import Fleet
 from relguide.kernels.base.angles import wrap
 from relguide.planning.inputs import within
 from relguide.planning.limits import TAS
@@ -70,7 +70,7 @@ def obey(
 
     Args:
         command: what is asked.
-        fleet: the leader is one of it, and does as it is told.
+        fleet: the leader is one of it, and does as it is ordered.
         i: which of the fleet.
         known: whether its intent was known before.
         t: flight time [s].

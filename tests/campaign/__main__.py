@@ -1,9 +1,9 @@
 """Fly the campaign, print its flights, and make its tables: `python -m tests.campaign --help`.
 
-    python -m tests.campaign fly --families told follow --flights 100 --out told.jsonl
+    python -m tests.campaign fly --families declared follow --flights 100 --out declared.jsonl
     python -m tests.campaign show follow 17
-    python -m tests.campaign table told.jsonl
-    python -m tests.campaign report told.jsonl
+    python -m tests.campaign table declared.jsonl
+    python -m tests.campaign report declared.jsonl
 
 A flight is drawn from its family and number alone. Flights that a file has already are not flown
 again, so a run that was stopped goes on where it was; a file of another version of the library is
@@ -74,7 +74,7 @@ def _fly(given: argparse.Namespace) -> int:
 
 def flown(wanted: Sequence[tuple[str, int]], processes: int) -> Iterator[Row]:
     """Rows of flights, as they are finished; an exception is a row that says so."""
-    # Ctrl-C is ours to handle: the workers are told when they have finished a flight
+    # Ctrl-C is ours to handle: the workers learn of it between two flights
     pool = ProcessPoolExecutor(processes, initializer=signal, initargs=(SIGINT, SIG_IGN))
     try:
         flights = {pool.submit(flown_by_name, *one): one for one in wanted}

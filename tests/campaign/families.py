@@ -80,13 +80,13 @@ def draw(family: str, number: int) -> Case:
     return FAMILIES[family](rng, family, number)
 
 
-def _told(rng: Draw, family: str, number: int) -> Case:
+def _declared(rng: Draw, family: str, number: int) -> Case:
     """Intent known; straight and turning by turns."""
     intent = _turns(rng) if number % 2 else ()
     return _case(family, number, _situation(rng, intent))
 
 
-def _untold(rng: Draw, family: str, number: int) -> Case:
+def _undeclared(rng: Draw, family: str, number: int) -> Case:
     """The leader turns once to three times without a word."""
     return _case(family, number, _situation(rng, _turns(rng)), intent_known=False)
 
@@ -197,8 +197,8 @@ def _recorded(rng: Draw, family: str, number: int) -> Case:
 
 
 FAMILIES: Mapping[str, Callable[[Draw, str, int], Case]] = {
-    "told": _told,
-    "untold": _untold,
+    "declared": _declared,
+    "undeclared": _undeclared,
     "commands": _commands,
     "near_limit": _near_limit,
     "aircraft": _aircraft,

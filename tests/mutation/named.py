@@ -67,7 +67,7 @@ NAMED = (
     ),
     Named(
         name="how fast the leader slows down",
-        file="relguide/flying/world.py",
+        file="relguide/flying/fleet.py",
         before="DECLARED_DECELERATION = 0.5",
         after="DECLARED_DECELERATION = 1.0",
     ),

@@ -84,6 +84,7 @@ def ideal_flight(
                 slot_distance=situation.slot_distance,
                 min_separation=situation.min_separation,
                 spacing="distance",
+                spacing_time=0.0,
             ),
         ),
         wind=wind_card(situation.wind),
@@ -134,7 +135,7 @@ def ideal_flight(
         track=240.0 * duration,
         losses=(),
     )
-    yield FlightEnded(t=duration, results=(result,))
+    yield FlightEnded(t=duration, reason="joined", message="Joined.", results=(result,))
 
 
 def _sample(t: float, answer: Plan, route: Trajectory, wind: Wind) -> Sample:

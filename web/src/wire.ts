@@ -1,7 +1,7 @@
 // Made by `python -m relguide_server.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-a573564d1e69";
+export const PROTOCOL = "relguide-334a5729979c";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -329,6 +329,9 @@ export interface EarlyAlternativeCard {
 export interface FlightEnded {
   kind: "flight_ended";
   t_s: number;
+  reason: "joined" | "time_over" | "recording_over" | "plane_left";
+  /** The same in a sentence. */
+  message: string;
   /** In the order of `FlightStarted.links`. */
   results: LinkResult[];
 }
@@ -516,6 +519,8 @@ export interface LinkCard {
   /** d_min, to be kept at all times. */
   min_separation_m: number;
   spacing: Spacing;
+  /** Time behind the leader to keep once joined; 0 where the distance is kept. */
+  spacing_time_s: number;
 }
 
 /** How the flight of one pursuer behind its leader went. */

@@ -225,6 +225,7 @@ export const STARTED: FlightStarted = {
       slot_distance_m: 10000,
       min_separation_m: 9260,
       spacing: "distance",
+      spacing_time_s: 0,
     },
   ],
   wind: { from_deg: 0, speed_mps: 0 },

@@ -6,7 +6,7 @@ nothing here changes in place.
 """
 
 from dataclasses import replace
-from math import cos, hypot, sin
+from math import cos, sin
 
 from relguide.flying.belief import Belief
 from relguide.flying.guidance import converge
@@ -92,14 +92,13 @@ def advise(
     done = _act(memory, belief, assignment)
     outlook = _outlook(memory, belief, assignment)
     if memory.mode not in ("heading", "escape") and must_leave(memory, belief, assignment, outlook):
-        memory, news, saved = _replan_or_escape(memory, belief, assignment, planner, outlook)
+        memory, news = _replan_or_escape(memory, belief, assignment, planner, outlook)
         events += news
         done = _act(memory, belief, assignment)
-        outlook = saved or _outlook(memory, belief, assignment)
-    memory, news = _follow_act(memory, done, assignment, belief)
+        outlook = _outlook(memory, belief, assignment)
+    memory, news = _follow_act(memory, belief, done)
     events += news
-    apart = hypot(belief.own.x - belief.leader.x, belief.own.y - belief.leader.y)
-    alert, said = judge_separation(memory.alert, outlook, apart, belief, assignment)
+    alert, said = judge_separation(memory.alert, outlook, belief, assignment)
     memory = memory._replace(alert=alert, forecast=outlook.forecast)
     return memory, _advice(memory, belief, assignment, done, (*events, *said))
 
@@ -112,9 +111,8 @@ def _try_to_plan(
     if t - memory.asked < settings.retry:
         return memory, []
     if memory.mode == "escape":
-        apart = hypot(belief.own.x - belief.leader.x, belief.own.y - belief.leader.y)
         rested = t - memory.since >= ESCAPES_FOR and is_steady(memory, belief, assignment)
-        if not rested or apart < min(assignment.min_separation + ROOM, assignment.aim):
+        if not rested or belief.separation < min(assignment.min_separation + ROOM, assignment.aim):
             return memory, []
     found = converge.propose(belief, assignment, None, planner)
     memory = memory._replace(asked=t)
@@ -177,7 +175,7 @@ def _asks_now(memory: Memory, committed: Committed, t: Second, assignment: Assig
     settings = assignment.settings
     if settings.always_ask:
         return True
-    if not converge.may_be_bettered(committed, t, assignment):
+    if not converge.may_be_improved(committed, t, assignment):
         return False
     return committed.plan.planner != "exact" or t - memory.asked >= settings.ask_every
 
@@ -256,7 +254,7 @@ def _replan_or_escape(
     assignment: Assignment,
     planner: Planner,
     outlook: Outlook,
-) -> tuple[Memory, list[Event], Outlook | None]:
+) -> tuple[Memory, list[Event]]:
     """Another path if there is one that keeps d_min; else away from the leader."""
     turns_on = turns_unannounced(belief, assignment)
     events: list[Event] = []
@@ -265,7 +263,7 @@ def _replan_or_escape(
         memory, events = count_refusal(memory, found)
         if isinstance(found, Proposal):
             memory, news = fly_proposal(memory, belief, assignment, found, "separation", events)
-            return memory, news, None
+            return memory, news
     why = (
         "The leader is turning; if it goes on, there may soon be no way to keep clear."
         if turns_on
@@ -273,12 +271,10 @@ def _replan_or_escape(
     )
     said = UnableTo(reason="separation", message=f"Unable: {why}")
     memory, news = turn_away(memory, belief, assignment, why)
-    return memory._replace(asked=belief.t), [*events, said, *news], None
+    return memory._replace(asked=belief.t), [*events, said, *news]
 
 
-def _follow_act(
-    memory: Memory, done: Act, assignment: Assignment, belief: Belief
-) -> tuple[Memory, list[Event]]:
+def _follow_act(memory: Memory, belief: Belief, done: Act) -> tuple[Memory, list[Event]]:
     """The progress that the laws made, and the mode that they reached."""
     mode = NAMES[done.progress.mode]
     message = (
@@ -306,9 +302,8 @@ def _advice(
     assert ahead is not None  # the outlook has just flown it
     go = 0.0
     if not done.joined and memory.mode not in ("heading", "escape"):
-        joins = ahead.join_time
-        if not ahead.joins and memory.committed is not None:
-            joins = memory.committed.due
+        committed = memory.committed
+        joins = ahead.join_time if committed is None else committed.joins_at(ahead)
         go = max(joins - belief.t, 0.0)
     control = done.control
     tas = min(max(control.tas, belief.limits.min_tas), belief.limits.max_tas)

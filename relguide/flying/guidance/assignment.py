@@ -16,10 +16,6 @@ IN_GATE = 0.9
 class Assignment:
     """One pursuer, one leader, and how far behind it."""
 
-    ident: str
-    """The pursuer."""
-    leader_ident: str
-    """Its leader."""
     aircraft_type: str
     """ICAO designator of the pursuer, for sentences."""
     tas: MetrePerSecond
@@ -30,8 +26,6 @@ class Assignment:
     """What the type gives at idle thrust [m/s²]."""
     min_tas: MetrePerSecond
     """Its least speed at its level [m/s]."""
-    max_tas: MetrePerSecond
-    """Its highest [m/s]."""
     slot_distance: Metre
     """D [m]."""
     min_separation: Metre

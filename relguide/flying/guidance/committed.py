@@ -53,6 +53,10 @@ class Committed(NamedTuple):
         """When the ideal path arrives, flight time [s]; braking comes later."""
         return self.begins + self.plan.time_to_converge
 
+    def joins_at(self, ahead: Forecast) -> Second:
+        """When it joins by a forecast, or would at best if that does not, flight time [s]."""
+        return ahead.join_time if ahead.joins else self.due
+
     def remaining(self, t: Second, tas: float) -> Trajectory:
         """What is left of the ideal path at flight time t [s], in the air mass of then."""
         path, since = self.course.path, t - self.course.begun
@@ -82,6 +86,11 @@ class LeadIn:
     """What is flown until then: length [m] and curvature [rad/m] of each piece. shape (n, 2)"""
     start: tuple[Metre, Metre, Radian]
     """Where that begins now, over the ground: east [m], north [m], heading [rad]."""
+
+    @property
+    def separation(self) -> Metre:
+        """Distance of the two at its end [m]."""
+        return hypot(self.pursuer.x - self.leader.x, self.pursuer.y - self.leader.y)
 
 
 def lead_time(assignment: Assignment, max_roll_rate: float) -> Second:
@@ -196,7 +205,7 @@ def shown_plan(plan: Plan, lead: LeadIn, belief: Belief, assignment: Assignment)
     now = situation_now(belief, assignment)
     x, y, heading = lead.start
     now = replace(now, pursuer=replace(now.pursuer, x=x, y=y, heading=wrap(heading)))
-    segments = _joined(segments_of(lead.pieces), plan.trajectory.segments)
+    segments = join_segments(segments_of(lead.pieces), plan.trajectory.segments)
     trajectory = now.pursuer.flying(segments)
     return replace(
         plan,
@@ -221,11 +230,11 @@ def segments_of(pieces: FloatArray) -> tuple[Segment, ...]:
             turn = RIGHT if curvature > 0.0 else LEFT
             angle = length * abs(curvature)
             piece = Arc(turn=turn, turn_angle=angle, radius=1.0 / abs(curvature))
-        segments = _joined(segments, (piece,))
+        segments = join_segments(segments, (piece,))
     return segments
 
 
-def _joined(first: tuple[Segment, ...], then: tuple[Segment, ...]) -> tuple[Segment, ...]:
+def join_segments(first: tuple[Segment, ...], then: tuple[Segment, ...]) -> tuple[Segment, ...]:
     """Two runs of segments as one, where they meet made one segment if they are alike."""
     if first and then:
         match first[-1], then[0]:

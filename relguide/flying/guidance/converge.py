@@ -7,7 +7,6 @@ same branch is solved again from where the path leads, and left only for much.
 """
 
 from dataclasses import dataclass
-from math import hypot
 
 from relguide.flying.belief import Belief
 from relguide.flying.guidance.assignment import Assignment
@@ -91,8 +90,7 @@ def propose(
             more than this [s].
     """
     lead = lead_in(belief, assignment, committed)
-    pursuer, leader = lead.pursuer, lead.leader
-    apart = hypot(pursuer.x - leader.x, pursuer.y - leader.y)
+    pursuer, leader, apart = lead.pursuer, lead.leader, lead.separation
     limit = assignment.buffered_separation
     limits = [limit] if apart >= limit else []
     fell_back, refusal = False, None
@@ -149,18 +147,13 @@ def _already_lost(
     later: NoPlan, belief: Belief, assignment: Assignment, planner: Planner, lead: LeadIn
 ) -> NoPlan:
     """Why no plan can begin where the lead-in ends, in figures of now."""
-    if (
-        hypot(belief.own.x - belief.leader.x, belief.own.y - belief.leader.y)
-        < assignment.min_separation
-    ):
+    if belief.separation < assignment.min_separation:
         now = ask(planner, situation_now(belief, assignment)).plan
         return now if isinstance(now, NoPlan) else later
-    pursuer, leader = lead.pursuer, lead.leader
-    apart = hypot(pursuer.x - leader.x, pursuer.y - leader.y)
     return NoPlan(
         reason=Reason.SEPARATION_UNAVOIDABLE,
         message=f"In {lead.seconds:.0f} s, before another path can begin, the aircraft are "
-        f"{distance(apart)} apart, closer than {distance(assignment.min_separation)}.",
+        f"{distance(lead.separation)} apart, closer than {distance(assignment.min_separation)}.",
     )
 
 
@@ -182,10 +175,10 @@ def better(
     left = committed.due - belief.t
     margin = max(settings.better, settings.better_share * left)
     lead = lead_in(belief, assignment, committed)
-    pursuer, leader, limit = lead.pursuer, lead.leader, assignment.buffered_separation
-    if hypot(pursuer.x - leader.x, pursuer.y - leader.y) < limit:
+    limit = assignment.buffered_separation
+    if lead.separation < limit:
         return NotBetter(fell_back=False, refusal=None)
-    answer = ask(planner, situation_of(assignment, pursuer, leader, belief, limit))
+    answer = ask(planner, situation_of(assignment, lead.pursuer, lead.leader, belief, limit))
     stays = NotBetter(fell_back=answer.fell_back, refusal=answer.refusal)
     if isinstance(answer.plan, NoPlan):
         return stays
@@ -221,7 +214,7 @@ def commit(
     return Committed(plan=plan, begins=begins, course=course, s=s, forecast=ahead)
 
 
-def may_be_bettered(committed: Committed, t: Second, assignment: Assignment) -> bool:
+def may_be_improved(committed: Committed, t: Second, assignment: Assignment) -> bool:
     """Whether any path could be faster than the committed one by the margin, by what is proved."""
     settings = assignment.settings
     bound = committed.plan.optimality.lower_bound

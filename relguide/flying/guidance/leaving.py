@@ -1,7 +1,5 @@
 """Leaving: when what is flown would lose d_min, and on what heading the aircraft turns away."""
 
-from math import hypot
-
 from relguide.flying.belief import Belief
 from relguide.flying.guidance.announcements import Event, UnableTo
 from relguide.flying.guidance.assignment import Assignment
@@ -95,7 +93,7 @@ def must_leave(memory: Memory, belief: Belief, assignment: Assignment, outlook: 
     turns_on = turns_unannounced(belief, assignment)
     if not turns_on and outlook.least >= limit:
         return False  # a change of speed is answered by speed, as the outlook has it
-    apart = hypot(belief.own.x - belief.leader.x, belief.own.y - belief.leader.y)
+    apart = belief.separation
     wanted = min(limit + OWN_TUBE, apart)
     other_tas = _other_tas(memory, belief)
     later = escape(belief, assignment, wanted, turns_on=turns_on, other_tas=other_tas, delay=1.0)

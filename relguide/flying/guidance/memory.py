@@ -42,7 +42,7 @@ class Slot(NamedTuple):
 
 
 class Announced(NamedTuple):
-    """The plan that a crew was last told of."""
+    """The plan that a crew was last shown."""
 
     t: Second
     """When, flight time [s]."""

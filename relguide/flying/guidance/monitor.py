@@ -101,18 +101,18 @@ def look_out(
 
 
 def judge_separation(
-    alert: Alert, outlook: Outlook, apart: Metre, belief: Belief, assignment: Assignment
+    alert: Alert, outlook: Outlook, belief: Belief, assignment: Assignment
 ) -> tuple[Alert, tuple[Event, ...]]:
     """The alert that stands now, and what is said of it.
 
     Args:
         alert: the one of a second ago.
         outlook: what lies ahead.
-        apart: the separation now [m].
-        belief: gives the time.
+        belief: gives the time, and the separation now.
         assignment: gives d_min.
     """
     t, limit, settings = belief.t, assignment.min_separation, assignment.settings
+    apart = belief.separation
     level: AlertState = "none"
     if apart < limit:
         level = "warning"

@@ -1,4 +1,4 @@
-"""What a crew is told of plans: those that are news, once the leader has settled; never all."""
+"""Which plans a crew is shown: those that are news, once the leader has settled; never all."""
 
 from dataclasses import replace
 from math import hypot
@@ -63,7 +63,7 @@ def fly_proposal(
         or reason in ("separation", "engaged", "resumed")
         or may_speak(memory, belief, assignment)
     )
-    joins = committed.forecast.join_time if committed.forecast.joins else committed.due
+    joins = committed.joins_at(committed.forecast)
     text = f"{reason_sentence(reason, belief)}: {summary(shown, joins - belief.t)}."
     said = NewPlan(
         committed=committed, shown=shown, reason=reason, message=text, announced=announced
@@ -78,8 +78,8 @@ def fly_proposal(
 
 
 def _announced(memory: Memory, belief: Belief, shown: Plan, joins: Second, pause: Second) -> Memory:
-    told = Announced(belief.t, joins, shown.trajectory, belief.t + pause)
-    return memory._replace(announced=told, pending=None, expected=expectation(belief))
+    said = Announced(belief.t, joins, shown.trajectory, belief.t + pause)
+    return memory._replace(announced=said, pending=None, expected=expectation(belief))
 
 
 def may_speak(memory: Memory, belief: Belief, assignment: Assignment) -> bool:
@@ -97,25 +97,25 @@ def is_news(
     path: Trajectory,
     reason: PlanReason,
 ) -> bool:
-    """Whether the path or its time is not what a crew was told."""
-    settings, told = assignment.settings, memory.announced
-    if told is None or reason in ("engaged", "resumed", "separation", "better_plan"):
+    """Whether the path or its time is not what a crew was shown."""
+    settings, last = assignment.settings, memory.announced
+    if last is None or reason in ("engaged", "resumed", "separation", "better_plan"):
         return True
     if memory.pending is not None:
         return True
-    joins = committed.forecast.join_time if committed.forecast.joins else committed.due
+    joins = committed.joins_at(committed.forecast)
     left = joins - belief.t
-    if abs(joins - told.joins) > max(settings.shown_time, settings.shown_share * left):
+    if abs(joins - last.joins) > max(settings.shown_time, settings.shown_share * left):
         return True
-    return _leads_elsewhere(told, path, belief, settings)
+    return _leads_elsewhere(last, path, belief, settings)
 
 
-def _leads_elsewhere(told: Announced, path: Trajectory, belief: Belief, settings: Settings) -> bool:
+def _leads_elsewhere(last: Announced, path: Trajectory, belief: Belief, settings: Settings) -> bool:
     """Whether a path is at other places than the announced one has it at the same times."""
-    elapsed, wind = belief.t - told.t, belief.wind
+    elapsed, wind = belief.t - last.t, belief.wind
     for share in SHARES:
         ahead = share * path.duration
-        now, then = path.pose_at(ahead), told.path.pose_at(elapsed + ahead)
+        now, then = path.pose_at(ahead), last.path.pose_at(elapsed + ahead)
         apart = hypot(now.x - then.x - wind.east * elapsed, now.y - then.y - wind.north * elapsed)
         if apart > settings.shown_apart + settings.shown_share * path.length * share:
             return True
@@ -146,8 +146,7 @@ def announce_pending(
             proof="none",
         ),
     )
-    ahead = memory.forecast or committed.forecast
-    joins = ahead.join_time if ahead.joins else committed.due
+    joins = committed.joins_at(memory.forecast or committed.forecast)
     text = f"{reason_sentence(reason, belief)}: {summary(shown, joins - belief.t)}."
     said = NewPlan(committed=committed, shown=shown, reason=reason, message=text, announced=True)
     pause = assignment.settings.announce_after

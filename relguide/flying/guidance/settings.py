@@ -168,7 +168,7 @@ class Settings:
 
 
 DEFAULT = Settings()
-"""What flights use that are not told otherwise."""
+"""What flights use if nothing else is given."""
 
 
 def load_settings(path: Path | str) -> Settings:

@@ -1,5 +1,7 @@
 """A leader as it was recorded, step by step, as the kernels take it."""
 
+from typing import NamedTuple
+
 import numpy as np
 
 from relguide.flying.tracks import RecordedTrack
@@ -8,7 +10,16 @@ from relguide.planning.situation import Wind
 from relguide.units import G0, Second
 
 
-def recorded_rows(track: RecordedTrack, wind: Wind, step: Second) -> FloatArray:
+class Recording(NamedTuple):
+    """A recorded leader at each step."""
+
+    rows: FloatArray
+    """As `Body`. shape (n, 7)"""
+    altitude: FloatArray
+    """[m]. shape (n,)"""
+
+
+def recorded_steps(track: RecordedTrack, wind: Wind, step: Second) -> Recording:
     """Where a recorded leader is at each step, from its start to its end.
 
     Heading and airspeed follow from the wind, the bank from how fast the heading changes.
@@ -17,17 +28,14 @@ def recorded_rows(track: RecordedTrack, wind: Wind, step: Second) -> FloatArray:
         track: the recording.
         wind: that it flew in, as far as is known.
         step: between rows [s].
-
-    Returns:
-        rows as `Body`. shape (n, 7)
     """
     count = round(track.duration / step) + 1
     t = np.minimum(np.arange(count) * step, track.duration)
-    x, y, east, north, _ = track.sample(t)
+    x, y, east, north, altitude = track.sample(t)
     heading = np.unwrap(np.arctan2(east - wind.east, north - wind.north))
     tas = np.hypot(east - wind.east, north - wind.north)
     second = max(round(1.0 / step), 1)
     later = np.append(heading[second:], np.full(min(second, count), heading[-1]))[:count]
     bank = np.arctan(tas * (later - heading) / G0)
     zero = np.zeros(count)
-    return np.column_stack([x, y, heading, bank, zero, tas, zero])
+    return Recording(np.column_stack([x, y, heading, bank, zero, tas, zero]), altitude)

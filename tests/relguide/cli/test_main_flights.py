@@ -96,7 +96,7 @@ def test_the_good_part_of_a_damaged_recording_is_printed(
 def test_fly_without_a_plan_fails(run: Run) -> None:
     code, out, err = run("fly", written(UNREACHABLE), "--json")
     assert code == 1
-    assert err == "relguide: It did not join within 3600 s.\n"
+    assert err == ("relguide: It did not join. The flight ends at its time limit of 3600 s.\n")
     assert json.loads(out)["joined"] is False
 
 

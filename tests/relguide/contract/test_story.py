@@ -22,7 +22,12 @@ CARDS = tuple(
     AircraftCard(ident=ident, aircraft_type="A300", max_bank=0.4) for ident in ("A", "B", "C")
 )
 LINK = LinkCard(
-    pursuer="A", leader="B", slot_distance=10_000.0, min_separation=5.0 * NM, spacing="distance"
+    pursuer="A",
+    leader="B",
+    slot_distance=10_000.0,
+    min_separation=5.0 * NM,
+    spacing="distance",
+    spacing_time=0.0,
 )
 STARTED = FlightStarted(
     t=0.0,
@@ -51,7 +56,9 @@ RESULT = LinkResult(
     track=10.0 * NM,
     losses=(),
 )
-ENDED = FlightEnded(t=720.0, results=(RESULT,))
+ENDED = FlightEnded(
+    t=720.0, reason="joined", message="Joined, and followed for 120 s.", results=(RESULT,)
+)
 
 
 def ended(*results: LinkResult) -> FlightEnded:
@@ -72,8 +79,14 @@ def test_a_lost_separation_is_a_failure() -> None:
 
 
 def test_not_joining_is_a_failure() -> None:
-    missed = story_of([STARTED, ended(replace(RESULT, joined=False))])
-    assert failures(missed) == ("It did not join within 720 s.",)
+    last = replace(
+        ended(replace(RESULT, joined=False)),
+        reason="recording_over",
+        message="The leader's recording ends after 720 s.",
+    )
+    assert failures(story_of([STARTED, last])) == (
+        "It did not join. The leader's recording ends after 720 s.",
+    )
 
 
 def test_of_several_links_each_is_judged_by_its_own_limit() -> None:
@@ -82,7 +95,7 @@ def test_of_several_links_each_is_judged_by_its_own_limit() -> None:
     close = replace(RESULT, least_separation=5.5 * NM)
     second = replace(close, ident="C", leader="A", joined=False)
     assert failures(story_of([started, ended(close, second)])) == (
-        "C did not join within 720 s.",
+        f"C did not join. {ENDED.message}",
         "The separation fell below 6.00 NM: they came within 5.50 NM.",
     )
 

@@ -8,7 +8,8 @@ import pytest
 from relguide.flying.air import Air
 from relguide.flying.airframe import airframe
 from relguide.flying.belief import ROOM, SPARE, Belief, FlownTrack, intent_after
-from relguide.flying.world import Aircraft, Declared, Fleet, Guided, Link, Pilot, World
+from relguide.flying.fleet import Fleet
+from relguide.flying.world import Aircraft, Declared, Guided, Link, Pilot, World
 from relguide.kernels.flight.laws import ground_track
 from relguide.kernels.flight.program import roll_lead
 from relguide.kernels.flight.records import Drift

@@ -9,23 +9,11 @@ import pytest
 from relguide.flying.air import Air
 from relguide.flying.airframe import airframe
 from relguide.flying.documents import FlightEnded, FlightStarted, Sample, Unable
+from relguide.flying.fleet import DECLARED_DECELERATION, EDGE, OFF_HEADING, OFF_INTENT, Fleet
 from relguide.flying.flight import fly
 from relguide.flying.scenarios import scenario
 from relguide.flying.simulation import simulate
-from relguide.flying.world import (
-    DECLARED_DECELERATION,
-    EDGE,
-    OFF_HEADING,
-    OFF_INTENT,
-    Aircraft,
-    Declared,
-    Fleet,
-    Guided,
-    Link,
-    Pilot,
-    Recorded,
-    World,
-)
+from relguide.flying.world import Aircraft, Declared, Guided, Link, Pilot, Recorded, World
 from relguide.kernels.flight.records import HOLD_HEADING, Control
 from relguide.planning.limits import POSITION, TAS
 from relguide.planning.plan import plan
@@ -213,7 +201,7 @@ def test_the_edge_of_the_plane_is_noticed_before_plans_are_refused_for_it() -> N
 
 def test_a_leader_breaks_its_word_once_it_is_far_from_what_it_declared() -> None:
     fleet = Fleet(World(aircraft=(aircraft("L", pilot=TURNING),), links=()), 0.05)
-    told = fleet.as_told(0, ())
+    told = fleet.as_declared(0, ())
     for second in range(80):
         fleet.fly_second(float(second))
         told.fly_second(float(second))

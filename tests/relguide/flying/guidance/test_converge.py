@@ -11,7 +11,7 @@ from relguide.flying.guidance.converge import (
     NotBetter,
     Proposal,
     better,
-    may_be_bettered,
+    may_be_improved,
     propose,
 )
 from relguide.flying.guidance.settings import DEFAULT
@@ -165,7 +165,7 @@ def slow() -> tuple[Watched, Committed, float]:
 def test_a_faster_path_is_taken(slow: tuple[Watched, Committed, float]) -> None:
     watched, committed, sooner = slow
     assert sooner > 5.0
-    assert may_be_bettered(committed, 0.0, watched.assignment)
+    assert may_be_improved(committed, 0.0, watched.assignment)
     found = better(watched.belief, watched.assignment, committed, plan)
     assert isinstance(found, Proposal)
     assert found.committed.forecast.join_time < committed.forecast.join_time
@@ -187,7 +187,7 @@ def test_the_same_path_is_not_better_than_itself() -> None:
     committed = proposed().committed
     found = better(*seen(FIG_6B), committed, plan)
     assert found == NotBetter(fell_back=False, refusal=None)
-    assert not may_be_bettered(committed, 0.0, seen(FIG_6B)[1])  # it is proved the fastest
+    assert not may_be_improved(committed, 0.0, seen(FIG_6B)[1])  # it is proved the fastest
 
 
 def test_a_lie_that_is_not_better_is_passed_on_as_well() -> None:

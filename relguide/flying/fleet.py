@@ -1,0 +1,253 @@
+"""The aircraft of a world in flight: one call flies a whole second for all.
+
+    what each knows → guidance (once a second) → a second flown → what each knows
+
+Guidance sees a `Belief`, never the world.
+"""
+
+from dataclasses import replace
+from math import hypot, inf
+
+import numpy as np
+
+from relguide.flying.air import Air
+from relguide.flying.aircraft import AircraftState
+from relguide.flying.airframe import Airframe
+from relguide.flying.belief import SPARE, Belief, FlownTrack
+from relguide.flying.leaders.declared import (
+    Program,
+    TurnChoice,
+    heading_held,
+    program_of,
+    remaining,
+    turn_program,
+)
+from relguide.flying.leaders.recorded import Recording, recorded_steps
+from relguide.flying.world import Aircraft, Declared, Guided, Link, Recorded, World
+from relguide.kernels.base.angles import wrap, wrap_signed
+from relguide.kernels.flight.records import Body, Control, Drift, Limits, limits_at
+from relguide.kernels.flight.second import (
+    GUIDED,
+    PROGRAMMED,
+    RECORDED,
+    fly_second,
+    least_between,
+)
+from relguide.planning.limits import POSITION, TAS
+from relguide.planning.situation import IntentPiece
+from relguide.units import DEG, NM, Metre, MetrePerSecond, Radian, Second
+
+DECLARED_DECELERATION = 0.5
+"""Share of its type's deceleration that a leader uses: it slows down without brakes."""
+OFF_INTENT: Metre = 0.5 * NM
+"""So far from where it declared that it would be, a leader does not fly its intent [m]."""
+OFF_HEADING: Radian = 10.0 * DEG
+"""… nor so far off the heading that it declared [rad]."""
+NO_PROGRAM = np.zeros((0, 3))
+EDGE: Metre = 2_000.0
+"""So near the edge of the plane a flight ends: before plans are refused for it [m]."""
+
+
+class Fleet:
+    """The aircraft of a world in flight: one of the few things here that change."""
+
+    def __init__(self, world: World, step: Second) -> None:
+        """All aircraft where they begin.
+
+        Args:
+            world: gives them.
+            step: of the integration; a whole number of them makes a second [s].
+        """
+        count, steps = len(world.aircraft), round(1.0 / step)
+        self.world, self.step, self.steps = world, step, steps
+        self.states = np.zeros((count, 7))
+        self.limits = np.zeros((count, 8))
+        self.pilots = np.zeros(count, dtype=np.int64)
+        self.controls = np.zeros((count, 3))
+        self.programs = np.zeros((count, 32, 3))
+        self.lengths = np.zeros(count, dtype=np.int64)
+        self.cursors = np.zeros(count, dtype=np.int64)
+        self.helds = np.zeros(count)
+        self.trace = np.zeros((count, steps + 1, 7))
+        self.tallies = np.zeros((count, 4))
+        self.altitudes = np.zeros((count, steps + 1))
+        self.believed_air = world.believed_air or world.air
+        self.believed_limits = [
+            limits_of(aircraft, aircraft.known_airframe, self.believed_air)
+            for aircraft in world.aircraft
+        ]
+        self.declared: list[Program] = []
+        self.recordings: dict[int, Recording] = {}
+        wind = world.air.wind_at(0.0, 0.0, 0.0, 0.0)
+        self.wind, self.drift = wind, Drift(wind.east, wind.north)
+        for i, aircraft in enumerate(world.aircraft):
+            self.limits[i] = limits_of(aircraft, aircraft.airframe, world.air)
+            heading = wrap(aircraft.heading)
+            self.states[i] = aircraft.x, aircraft.y, heading, 0.0, 0.0, aircraft.tas, 0.0
+            self.controls[i] = 0.0, heading, aircraft.tas
+            self.declared.append(program_of((), heading, 0.0, aircraft.tas))
+            self.altitudes[i] = aircraft.altitude
+            self.helds[i] = heading
+            match aircraft.pilot:
+                case Guided():
+                    self.pilots[i] = GUIDED
+                case Declared(intent=intent):
+                    self.set_program(i, program_of(intent, heading, 0.0, aircraft.tas))
+                case Recorded(track=track):
+                    self.pilots[i] = RECORDED
+                    self.recordings[i] = recording = recorded_steps(track, wind, step)
+                    self.states[i] = recording.rows[0]
+                    self.altitudes[i] = recording.altitude[0]
+
+    def set_program(self, i: int, program: Program) -> None:
+        """Have an aircraft fly something else from now on."""
+        self.declared[i] = program
+        self.pilots[i] = PROGRAMMED
+        self.recordings.pop(i, None)
+        self.programs[i, : len(program.rows)] = program.rows
+        self.lengths[i], self.cursors[i], self.helds[i] = len(program.rows), 0, program.held
+
+    def turn(self, i: int, heading: Radian, direction: TurnChoice, bank: Radian) -> None:
+        """Have an aircraft turn to a heading; what it declared before is dropped."""
+        self.leave_recording(i)
+        self.set_program(i, turn_program(float(self.states[i, 2]), heading, direction, bank))
+
+    def set_speed(self, i: int, tas: MetrePerSecond) -> None:
+        """Have an aircraft fly at another true airspeed [m/s]."""
+        self.leave_recording(i)
+        self.controls[i, 2] = tas
+
+    def leave_recording(self, i: int) -> None:
+        """A recorded aircraft flies on under its own autopilot, as it flies now."""
+        if i in self.recordings:
+            self.controls[i, 2] = self.states[i, 5]
+            heading = float(self.states[i, 2])
+            self.set_program(i, program_of((), heading, 0.0, float(self.states[i, 5])))
+
+    def recorded_until(self) -> Second:
+        """When the first recording ends [s]; infinite where nothing recorded is flown."""
+        ends = ((len(one.rows) - 1) * self.step for one in self.recordings.values())
+        return min(ends, default=inf)
+
+    def fly_second(self, t: Second) -> None:
+        """All aircraft, one second on; `trace` then holds each step of it."""
+        first = round(t / self.step)
+        for i, recording in self.recordings.items():
+            steps = np.minimum(np.arange(first, first + self.steps + 1), len(recording.rows) - 1)
+            self.trace[i] = recording.rows[steps]
+            self.altitudes[i] = recording.altitude[steps]
+        fly_second(
+            self.states, self.limits, self.pilots, self.controls, self.programs, self.lengths,
+            self.cursors, self.helds, self.drift, t, self.step, self.trace, self.tallies,
+        )  # fmt: skip
+
+    def control(self, i: int, control: Control) -> None:
+        """What a guided aircraft is to fly for the next second."""
+        self.controls[i] = control
+
+    def body(self, i: int) -> Body:
+        """An aircraft now."""
+        return Body(*self.states[i].tolist())
+
+    def state(self, i: int, k: int | None = None) -> AircraftState:
+        """An aircraft now, or at a step of the last second, as documents show it."""
+        row = self.states[i] if k is None else self.trace[i, k]
+        x, y, heading, bank, roll_rate, tas, _ = row.tolist()
+        altitude = float(self.altitudes[i, -1 if k is None else k])
+        return AircraftState(x, y, wrap(heading), bank, roll_rate, tas, altitude)
+
+    def apart(self, i: int, j: int) -> Metre:
+        """How far apart two aircraft are now [m]."""
+        one, other = self.states[i], self.states[j]
+        return hypot(one[0] - other[0], one[1] - other[1])
+
+    def least_apart(self, i: int, j: int) -> Metre:
+        """How near two aircraft came in the last second [m]."""
+        return least_between(self.trace[i], self.trace[j])[0]
+
+    def beyond_edge(self) -> str:
+        """The ident of an aircraft about to leave the plane; empty if there is none."""
+        edge = POSITION.high - EDGE
+        for aircraft, (x, y) in zip(self.world.aircraft, self.states[:, :2].tolist(), strict=True):
+            if not (abs(x) <= edge and abs(y) <= edge):
+                return aircraft.ident
+        return ""
+
+    def belief(
+        self,
+        i: int,
+        j: int,
+        track: FlownTrack,
+        t: Second,
+        known: bool,
+        declared: "Fleet | None" = None,
+    ) -> Belief:
+        """What aircraft i knows of itself and of aircraft j, exactly.
+
+        Args:
+            i: the pursuer.
+            j: its leader.
+            track: the leader's flown path.
+            t: flight time [s].
+            known: whether the leader's intent is.
+            declared: the leader alone, as it declared to fly; `None` if it flies what it declared.
+        """
+        leader = self.body(j)
+        source, k = (self, j) if declared is None else (declared, 0)
+        program, cursor = source.declared[k], int(source.cursors[k])
+        known = known and bool(source.pilots[k] == PROGRAMMED)
+        can = limits_at(self.limits, j)
+        intent = remaining(program, cursor, leader, can, t) if known else ()
+        own = self.body(i)
+        return Belief(
+            t=t,
+            own=own,
+            limits=self.believed_limits[i],
+            leader=leader,
+            leader_limits=self.believed_limits[j],
+            intent=intent,
+            intent_known=known,
+            program=program.rows if known else NO_PROGRAM,
+            cursor=cursor if known else 0,
+            held=program.held if known else leader.heading,
+            holds=heading_held(program, cursor) if known else leader.heading,
+            leader_tas=leader.tas,
+            track=track,
+            wind=self.believed_air.wind_at(own.x, own.y, float(self.altitudes[i, -1]), t),
+        )
+
+    def as_declared(self, j: int, intent: tuple[IntentPiece, ...]) -> "Fleet":
+        """Aircraft j alone, as it declared that it would fly."""
+        alone = replace(self.world.aircraft[j], pilot=Declared(intent=intent))
+        return Fleet(World(aircraft=(alone,), links=(), air=self.world.air), self.step)
+
+    def breaks_its_word(self, j: int, declared: "Fleet") -> bool:
+        """Whether aircraft j is far from where it declared that it would be."""
+        here, there = self.states[j], declared.states[0]
+        if hypot(here[0] - there[0], here[1] - there[1]) > OFF_INTENT:
+            return True
+        return abs(wrap_signed(float(here[2] - there[2]))) > OFF_HEADING
+
+    def begin_track(self, link: Link) -> FlownTrack:
+        """The leader's flown path, at first sight."""
+        leader = self.body(self.world.index(link.leader))
+        return FlownTrack(leader, self.drift, 0.0, link.slot_distance + SPARE)
+
+
+def limits_of(aircraft: Aircraft, airframe: Airframe, air: Air) -> Limits:
+    """What an aircraft can do at its level; leaders may fly at any speed that is accepted."""
+    slowest, fastest = airframe.tas_range(aircraft.altitude, air)
+    deceleration = airframe.max_deceleration
+    if not isinstance(aircraft.pilot, Guided):
+        slowest, fastest = TAS.low, TAS.high
+        deceleration *= DECLARED_DECELERATION
+    return Limits(
+        aircraft.max_bank,
+        airframe.max_roll_rate,
+        airframe.roll_time_constant,
+        airframe.speed_time_constant,
+        airframe.max_acceleration,
+        deceleration,
+        slowest,
+        fastest,
+    )

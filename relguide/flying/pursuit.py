@@ -1,0 +1,101 @@
+"""One pursuer and its leader in flight: what a closed loop keeps of them from second to second."""
+
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from relguide.flying.belief import Belief, FlownTrack
+from relguide.flying.fleet import Fleet
+from relguide.flying.guidance.assignment import Assignment
+from relguide.flying.guidance.forecast import Forecast
+from relguide.flying.guidance.memory import LONG_AGO, Advice, Memory, begin
+from relguide.flying.logbook import Milestones, Names, Tally
+from relguide.flying.world import Link, World
+from relguide.units import Second
+
+
+class LeaderView(NamedTuple):
+    """What was last said of a leader."""
+
+    shown: Belief
+    """From which its route was drawn."""
+    turning: bool = False
+    """Whether it turns, and that was announced."""
+    rerouted: bool = False
+    """Whether a command changed its flight since its route was drawn."""
+    turn_ordered: bool = False
+    """Whether it was announced that it will turn, and it has not begun to."""
+    changed: str = ""
+    """What it last did unannounced, for the cause of a loss; empty if nothing."""
+    changed_at: Second = LONG_AGO
+    """When, flight time [s]."""
+
+
+@dataclass(slots=True)
+class Pursuit:
+    """One pursuer and its leader in flight."""
+
+    link: Link
+    names: Names
+    pursuer: int
+    """Which of the fleet."""
+    leader: int
+    """Which of the fleet."""
+    assignment: Assignment
+    track: FlownTrack
+    known: bool
+    """Whether the leader's intent is."""
+    declared: Fleet | None
+    """The leader as it declared to fly; `None` if it flies what it declared, or is found not to."""
+    view: LeaderView
+    memory: Memory
+    tally: Tally
+    advice: Advice | None = None
+    milestones: Milestones = field(default_factory=Milestones)
+    shown_forecast: Forecast | None = None
+    lost: bool = False
+    """Whether the separation is below d_min."""
+    doubted: int = 0
+    """For how many seconds the leader has not flown what it declared."""
+
+    def belief(self, fleet: Fleet, t: Second) -> Belief:
+        """What the pursuer knows now."""
+        return fleet.belief(self.pursuer, self.leader, self.track, t, self.known, self.declared)
+
+
+def begin_pursuit(world: World, fleet: Fleet, link: Link) -> Pursuit:
+    """A link at the start of a flight."""
+    i, j = world.index(link.pursuer), world.index(link.leader)
+    intent, track = link.declared_intent, fleet.begin_track(link)
+    declared = None if intent is None else fleet.as_declared(j, intent)
+    belief = fleet.belief(i, j, track, 0.0, link.intent_known, declared)
+    return Pursuit(
+        link=link,
+        names=Names(link.pursuer, link.leader),
+        pursuer=i,
+        leader=j,
+        assignment=assignment_of(world, link),
+        track=track,
+        known=belief.intent_known,
+        declared=declared,
+        view=LeaderView(belief),
+        memory=begin(belief),
+        tally=Tally(fleet.apart(i, j)),
+    )
+
+
+def assignment_of(world: World, link: Link) -> Assignment:
+    """What a link asks of its pursuer."""
+    pursuer = world.aircraft[world.index(link.pursuer)]
+    can = pursuer.known_airframe
+    least, _ = can.tas_range(pursuer.altitude, world.believed_air or world.air)
+    return Assignment(
+        aircraft_type=can.designator,
+        tas=pursuer.tas,
+        max_bank=pursuer.max_bank,
+        idle_deceleration=can.idle_deceleration,
+        min_tas=least,
+        slot_distance=link.slot_distance,
+        min_separation=link.min_separation,
+        spacing=link.spacing,
+        settings=world.settings,
+    )
