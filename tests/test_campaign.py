@@ -121,7 +121,7 @@ def test_a_loss_of_d_min_is_found_with_its_time_and_its_depth() -> None:
     documents = tuple(fly(scenario, plan, sample_period=1.0))
     d_min = scenario.situation.min_separation
     near = {20.0: 0.9 * d_min, 21.0: 0.8 * d_min, 40.0: 0.95 * d_min}
-    documents = tuple(
+    lost = tuple(
         replace(
             document,
             guidance=(replace(document.guidance[0], separation=near[document.t]),),
@@ -134,7 +134,7 @@ def test_a_loss_of_d_min_is_found_with_its_time_and_its_depth() -> None:
         else document
         for document in documents
     )
-    row = row_of(case, documents, 1.0)
+    row = row_of(case, lost, 1.0)
     assert [(loss.t_s, loss.seconds) for loss in row.losses] == [(20.0, 2.0), (40.0, 1.0)]
     assert row.losses[0].separation_m == 0.8 * d_min
     assert (row.below_s, row.silent_losses, row.least_share) == (3.0, 2, 0.79)

@@ -29,13 +29,15 @@ from relguide.flying.flight import (
     world_of,
 )
 from relguide.flying.guidance.settings import DEFAULT
+from relguide.flying.losses import RECENT
 from relguide.flying.scenarios import fig_6, own_scenario
-from relguide.flying.simulation import RECENT, simulate, whole_steps
+from relguide.flying.simulation import simulate, whole_steps
 from relguide.flying.world import Aircraft, Declared, Guided, Link, World
 from relguide.planning.plan import plan
 from relguide.planning.situation import Leader, Pursuer, Situation
 from relguide.units import DEG, NM
 from tests.flights import Flown, flown, random_start, saying
+from tests.recording import recording
 
 FIG_6B = fig_6(intent_known=True)
 LIMIT = 5.0 * NM
@@ -211,6 +213,52 @@ def test_a_flight_ends_at_its_limit_or_once_followed_for_long_enough(fig_6b: Flo
     assert flown(replace(FIG_6B, duration_limit=77.0)).end.t == 77.0
     follow = next(d.t for d in fig_6b.of(ModeChanged) if d.mode == "follow")
     assert fig_6b.end.t == follow + FIG_6B.after_joining
+
+
+def test_its_end_is_explained(fig_6b: Flown) -> None:
+    track = replace(recording(90, turns_at=1e9), altitude=np.linspace(9_000.0, 8_000.0, 91))
+    ends = [
+        (fig_6b.end, "joined", "Joined, and followed for 120 s."),
+        (
+            flown(replace(FIG_6B, duration_limit=77.0)).end,
+            "time_over",
+            "The flight ends at its time limit of 77 s.",
+        ),
+        (
+            flown(replace(FIG_6B, leader_source=track)).end,
+            "recording_over",
+            "The leader's recording ends after 90 s.",
+        ),
+    ]
+    for end, reason, message in ends:
+        assert (end.reason, end.message) == (reason, message)
+
+
+def test_a_recorded_leader_is_shown_at_the_altitude_that_was_recorded() -> None:
+    track = replace(recording(90, turns_at=1e9), altitude=np.linspace(9_000.0, 8_000.0, 91))
+    flight = flown(replace(FIG_6B, leader_source=track), (60.0, LeaderSpeed(tas=180.0)))
+    altitudes = {d.t: [a.altitude for a in d.aircraft] for d in flight.of(Sample)}
+    assert altitudes[0.0] == [FIG_6B.altitude, 9_000.0]
+    assert altitudes[45.0] == pytest.approx([FIG_6B.altitude, 8_500.0])
+    assert altitudes[80.0] == altitudes[61.0]  # it has left its recording, and flies level
+
+
+def test_aircraft_that_join_nobody_fly_until_the_end() -> None:
+    alone = replace(chain(), links=())
+    *_, last, end = simulate(alone, until=10.0, sample_period=1.0)
+    assert isinstance(last, Sample)
+    assert isinstance(end, FlightEnded)
+    assert (last.t, last.aircraft[0].y, end.results) == (10.0, pytest.approx(2_000.0), ())
+
+
+def test_a_turn_that_was_ordered_is_said_once() -> None:
+    scenario = replace(FIG_6B, intent_known=False, duration_limit=220.0)
+    orders = (10.0, LeaderHeading(heading=90.0 * DEG)), (150.0, LeaderHeading(heading=0.0))
+    said = [d.message for d in flown(scenario, *orders).of(LeaderChanged)]
+    assert said == [
+        "The leader is instructed to turn to 090°.",
+        "The leader is instructed to turn to 000°.",
+    ]
 
 
 def test_a_world_is_flown_by_the_exact_planner_where_none_is_given() -> None:

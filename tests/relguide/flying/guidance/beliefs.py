@@ -7,8 +7,8 @@ from relguide.flying.fleet import Fleet
 from relguide.flying.flight import Scenario, world_of
 from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.settings import DEFAULT, Settings
+from relguide.flying.pursuit import assignment_of
 from relguide.flying.scenarios import fig_6, own_scenario
-from relguide.flying.simulation import assignment_of
 from relguide.kernels.flight.records import Control
 from relguide.planning.situation import Leader, Pursuer, Situation
 from relguide.units import DEG, NM

@@ -29,9 +29,10 @@ def judged(*seconds: tuple[float, float, float]) -> list[tuple[float, Alerted]]:
     """What is said, second by second: separation now, least separation ahead, and in what time."""
     alert, said = Alert(), list[tuple[float, Alerted]]()
     for t, (apart, least, in_seconds) in enumerate(seconds):
-        belief = replace(BELIEF, t=float(t))
+        own = BELIEF.leader._replace(y=BELIEF.leader.y - apart)
+        belief = replace(BELIEF, t=float(t), own=own)
         outlook = Outlook(NOTHING_AHEAD, least, t + in_seconds)
-        alert, events = judge_separation(alert, outlook, apart, belief, ASSIGNMENT)
+        alert, events = judge_separation(alert, outlook, belief, ASSIGNMENT)
         for event in events:
             assert isinstance(event, Alerted)
             said.append((float(t), event))

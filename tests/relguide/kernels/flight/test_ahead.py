@@ -12,8 +12,8 @@ from relguide.flying.flight import Scenario, world_of
 from relguide.flying.guidance.converge import Proposal, propose
 from relguide.flying.guidance.forecast import NO_COURSE
 from relguide.flying.guidance.settings import DEFAULT
+from relguide.flying.pursuit import assignment_of
 from relguide.flying.scenarios import scenario
-from relguide.flying.simulation import assignment_of
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.flight import marks as at
 from relguide.kernels.flight.ahead import AT, LEAST, MODE, NEVER, TO_SLOT, add_mark, fly_ahead
