@@ -80,7 +80,7 @@ def test_a_batch_by_networks_gives_what_their_planner_gives() -> None:
     rng = np.random.default_rng(12)
     drawn = [draws.near(rng, tight=bool(k % 2)) for k in range(40)]
     rows, answers = np.array([as_row(situation) for situation in drawn]), np.zeros((40, 4))
-    answer_rows(rows, load_network(), load_template_network(), BEARINGS, 0, 40, answers)
+    answer_rows(rows, load_template_network(), BEARINGS, 0, 40, answers)
     planner = network_planner(load_network())
     answered = 0
     for situation, (time, _, verdict, _) in zip(drawn, answers.tolist(), strict=True):

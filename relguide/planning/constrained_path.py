@@ -25,6 +25,9 @@ BEARINGS = 60
 """How finely the disc is scanned round a leader that keeps straight: every 6°."""
 TURNING_BEARINGS = 72
 """Round one that turns: every 5°, since contacts must fall into the time of one piece."""
+_HARDER = 5
+"""So many times the bearings round a leader that keeps straight, where nothing is found at first:
+one as fast as the pursuer is met in windows narrower than 6°."""
 
 
 def constrained_path(found: Candidates, *, beat: Second) -> Candidate | None:
@@ -41,11 +44,14 @@ def constrained_path(found: Candidates, *, beat: Second) -> Candidate | None:
     scale = frame.radius / situation.pursuer.tas
     start = frame.pose
     scene = eased_to_start(start, scene_of(situation, frame))
-    bearings = BEARINGS if len(scene.leader) == 1 else TURNING_BEARINGS
+    keeps_straight = len(scene.leader) == 1
+    bearings = BEARINGS if keeps_straight else TURNING_BEARINGS
     legs, row = np.zeros((MAX_LEGS, 6)), np.zeros(5)
-    time, count = best_constrained_path(
-        start, scene, bearings, tangents(start, scene), beat / scale, legs
-    )
+    near = tangents(start, scene)
+    time, count = best_constrained_path(start, scene, bearings, near, beat / scale, legs)
+    if count == 0 and beat >= HORIZON and keeps_straight:
+        bearings *= _HARDER
+        time, count = best_constrained_path(start, scene, bearings, near, beat / scale, legs)
     if count > 0:
         pieces = pieces_of(start, scene, frame.radius, 1.0, time, legs[:count])
         if pieces.shape[1] > 0:

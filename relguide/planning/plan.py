@@ -25,7 +25,7 @@ from relguide.planning.least_bad import (
 )
 from relguide.planning.phrases import distance
 from relguide.planning.sampling import Samples
-from relguide.planning.situation import Situation
+from relguide.planning.situation import CALM, Situation
 from relguide.planning.straight_ahead import first_candidate
 from relguide.planning.tables import leader_path, path_of
 from relguide.planning.trajectory import Trajectory, pieces_text
@@ -246,9 +246,30 @@ def _search(situation: Situation, radius: Metre) -> _Chosen | NoPlan:
     return _first_certified(found, situation, radius) or NoPlan(
         reason=Reason.SEPARATION_UNAVOIDABLE,
         message=f"Each of the {len(found)} direct trajectories to the slot comes closer "
-        f"than {distance(situation.min_separation)} to the leader, and no path round it was found. "
-        f"{least_bad_sentence(least_bad(situation))}",
+        f"than {distance(situation.min_separation)} to the leader, and "
+        f"{_why_none_round(situation)} {least_bad_sentence(least_bad(situation))}",
     )
+
+
+def _why_none_round(situation: Situation) -> str:
+    """Why no path round the leader is known.
+
+    Into the slot of a leader that is faster the pursuer falls back, from less than D. With equal
+    speeds, let h be the heading from the leader's, and s the time to go: it comes from y = ∫h to
+    the side and x = ∫h²/2 ahead, to second order, so d ≥ D asks for (∫h)² ≥ D ∫h². But (∫h)² is at
+    most s ∫h², by Cauchy and Schwarz.
+    """
+    pursuer, leader = situation.pursuer, situation.leader
+    if (
+        leader.tas >= pursuer.tas
+        and situation.slot_distance <= situation.min_separation
+        and situation.wind == CALM
+    ):
+        return (
+            "no path does otherwise: a pursuer that is no faster falls back into the slot from "
+            "nearer the leader, so the slot distance must be more than the minimum separation."
+        )
+    return "no path round it was found."
 
 
 def _first_certified(found: Candidates, situation: Situation, radius: Metre) -> _Chosen | None:

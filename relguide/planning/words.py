@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from math import hypot
 
 import numpy as np
 
@@ -69,7 +70,8 @@ def candidates(situation: Situation) -> Candidates:
     rows = np.empty((MAX_ROWS, 5))
     n, shortest = solve_and_measure(frame.x, frame.y, frame.h, frame.alpha, frame.t_release, rows)
     reachable = shortest <= frame.t_release + NO_TURN
-    at_release = _at_release(situation, frame) if reachable else ()
+    at_release = _at_release(situation, frame) if reachable or _in_the_slot(frame) else ()
+    reachable = reachable or len(at_release) > 0
     within = HORIZON * situation.pursuer.tas / frame.radius
     while n > (0 if at_release else 1) and rows[n - 1, 0] > within:
         n -= 1
@@ -81,6 +83,12 @@ def candidates(situation: Situation) -> Candidates:
         at_release=at_release,
         reachable_at_release=reachable,
     )
+
+
+def _in_the_slot(frame: SlotFrame) -> bool:
+    """Whether going straight just reaches the slot as it opens: a pursuer in it, and as fast."""
+    straight = hypot(frame.alpha * frame.t_release - frame.x, frame.y)
+    return frame.t_release > 0.0 and abs(straight - frame.t_release) <= NO_TURN
 
 
 def _at_release(situation: Situation, frame: SlotFrame) -> tuple[Candidate, ...]:

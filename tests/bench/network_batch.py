@@ -13,7 +13,6 @@ from rich.table import Table
 from relguide import Situation
 from relguide.kernels.contact.time_rows import plan_rows
 from relguide.learn.boundary.template_network import load_template_network
-from relguide.learn.words.branch_network import load_network
 from relguide.planning.constrained_path import BEARINGS
 from relguide.planning.progress import progress_bar
 from relguide.planning.slot import slot_frame
@@ -49,7 +48,7 @@ class Batch:
 
 def measure(drawn: dict[str, list[Situation]]) -> list[Batch]:
     """Answer all of each kind, by networks and by the search alone; with a bar."""
-    words, ways = load_network(), load_template_network()
+    ways = load_template_network()
     batches = []
     with progress_bar("Networks, in batches", total=2 * REPEATS * len(drawn)) as done:
         for name, situations in drawn.items():
@@ -57,7 +56,7 @@ def measure(drawn: dict[str, list[Situation]]) -> list[Batch]:
             asked, exact = np.empty((len(rows), 4)), np.empty((len(rows), 4))
 
             def ask(first: int, last: int, rows: Floats = rows, out: Floats = asked) -> None:
-                answer_rows(rows, words, ways, BEARINGS, first, last, out)
+                answer_rows(rows, ways, BEARINGS, first, last, out)
 
             def search(first: int, last: int, rows: Floats = rows, out: Floats = exact) -> None:
                 plan_rows(rows, BEARINGS, True, first, last, out)

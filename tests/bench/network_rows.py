@@ -1,8 +1,8 @@
 """Certified answers to many situations at once, by networks: what `plan_rows` is compared to.
 
-As `learn.planner`, row by row in one kernel: the fastest way; where that keeps the limit the words
-that one network names, else the way round the limit that the other leads to; then the certificate.
-What the networks pass on, `plan_rows` answers. Slot frame: lengths in R, times in R/V_P, angles
+As `learn.planner`, row by row in one kernel: the fastest way, and where that breaks the limit
+the way round it that the network leads to; then the certificate. What the network passes on,
+`plan_rows` answers. Slot frame: lengths in R, times in R/V_P, angles
 counter-clockwise; the leader is at (D/R, 0) at t = 0 and keeps heading 0.
 """
 
@@ -17,16 +17,15 @@ from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.clear_words import word_clears
 from relguide.kernels.contact.path_pieces import pieces_of
 from relguide.kernels.contact.time_rows import plan_rows
-from relguide.kernels.networks.branch_scores import Layers, choose
+from relguide.kernels.networks.branch_scores import Layers
 from relguide.kernels.networks.template_scores import LEGS, Decision, choose_template
 from relguide.kernels.separation.approach import least_on_paths
 from relguide.kernels.separation.clearance import SLACK
 from relguide.kernels.words.branches import needs_mirror
-from relguide.kernels.words.extremals import MAX_ROWS, SIGNS
+from relguide.kernels.words.extremals import SIGNS
 from relguide.kernels.words.fastest import fastest
 from relguide.kernels.words.sooner import make_scratch
 from relguide.learn.boundary.template_network import TemplateNetwork
-from relguide.learn.words.branch_network import BranchNetwork
 from relguide.planning.certificate import TOLERANCE
 
 BY_NETWORK = -1.0
@@ -35,25 +34,22 @@ _RADIUS, _TAS = 10_000.0, 200.0  # certificates round in metres, so they are ask
 
 
 def answer_rows(
-    situations: FloatArray, words: BranchNetwork, ways: TemplateNetwork, bearings: int, first: int,
-    last: int, answers: FloatArray,
+    situations: FloatArray, ways: TemplateNetwork, bearings: int, first: int, last: int,
+    answers: FloatArray,
 ) -> None:  # fmt: skip
     """Answer situations first … last − 1.
 
     Args:
         situations: x, y, h of the pursuer; α; x, y of the leader; d_min. shape (n, 7)
-        words: names the words to the slot.
         ways: names the templates where the limit binds.
         bearings: how finely the disc is scanned for constrained paths, where `plan_rows` is asked.
         first: from this row on.
         last: up to this row.
         answers: as `plan_rows` gives them, or with the verdict `BY_NETWORK`. shape (n, 4)
     """
-    box, around = words.box, ways.box
+    around = ways.box
     _answer_rows(
-        situations, words.layers, (words.least_share, words.most),
-        (box.max_range, box.min_ratio, box.max_ratio),
-        ways.layers, (ways.least_share, ways.most, ways.doubt),
+        situations, ways.layers, (ways.least_share, ways.most, ways.doubt),
         (around.min_ratio, around.max_ratio, around.min_limit, around.max_limit, around.max_slot,
          around.max_range),
         bearings, first, last, answers,
@@ -62,13 +58,12 @@ def answer_rows(
 
 @njit(nogil=True)
 def _answer_rows(
-    situations: FloatArray, words: Layers, sure: tuple[float, int],
-    box: tuple[float, float, float], ways: Layers, surer: tuple[float, int, float],
+    situations: FloatArray, ways: Layers, surer: tuple[float, int, float],
     around: tuple[float, float, float, float, float, float], bearings: int, first: int, last: int,
     answers: FloatArray,
 ) -> None:  # fmt: skip
     free, scratch = np.empty(5), make_scratch()
-    rows, legs, leader = np.empty((MAX_ROWS, 5)), np.zeros((LEGS, 6)), np.zeros((1, 5))
+    legs, leader = np.zeros((LEGS, 6)), np.zeros((1, 5))
     for n in range(first, last):
         x, y, h, alpha, slot, _, limit = situations[n]
         if needs_mirror(y, h):
@@ -79,14 +74,11 @@ def _answer_rows(
         if not fastest(Pose(x, y, h), alpha, 0.0, 0, scratch, free):
             time = inf
         elif word_clears(Pose(x, y, h), 0.0, free, Scene(leader, alpha, limit - SLACK, 0.0)):
-            if np.hypot(x, y) <= box[0] and box[1] <= alpha <= box[2]:
-                _, count = choose(x, y, h, alpha, words, sure[0], sure[1], rows)
-                if count > 0:
-                    time = rows[0, 0]
-                    pieces = np.zeros((3, 3))
-                    pieces[1], pieces[2] = SIGNS[int(rows[0, 1])], rows[0, 2:5]
-                    for k in range(3):
-                        pieces[2, k] *= _RADIUS if pieces[1, k] == 0.0 else 1.0
+            time = free[0]
+            pieces = np.zeros((3, 3))
+            pieces[1], pieces[2] = SIGNS[int(free[1])], free[2:5]
+            for k in range(3):
+                pieces[2, k] *= _RADIUS if pieces[1, k] == 0.0 else 1.0
         elif (
             around[0] <= alpha <= around[1]
             and around[2] <= limit <= around[3]

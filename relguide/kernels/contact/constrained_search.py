@@ -23,6 +23,7 @@ from relguide.kernels.contact.nodes import contact_nodes
 from relguide.kernels.contact.one_contact import descend_basins, scan_contacts
 from relguide.kernels.separation.clearance import leader_at, piece_at
 
+_AT_LIMIT = 1.02  # a slot less far out, in d_min, is reached by boundary arcs of a few degrees
 _CHAINS = 4  # of the graph, refined
 _PER_HOP = 5  # so many bearings on the disc let one contact be followed to all others
 _NEARLY = 0.07  # how much a chain may fall below what the graph sees of it [R/V_P]
@@ -48,7 +49,8 @@ def best_constrained_path(
     Args:
         start: where it begins, at t = 0.
         scene: what it has to reckon with.
-        bearings: how finely the disc is scanned.
+        bearings: how finely the disc is scanned; twice as finely round a leader that keeps
+            straight if the slot lies hardly outside.
         tangents: contacts to be looked at besides, from `tangent.tangents`. shape (·, 4)
         beat: an arrival already known [R/V_P]; only earlier ones are looked for.
         legs: takes the legs of the path, as `chain.Chain`. shape (MAX_LEGS, 6)
@@ -56,6 +58,10 @@ def best_constrained_path(
     Returns:
         arrival time [R/V_P] and the number of legs; `beat` and 0 if no path is faster.
     """
+    if len(scene.leader) == 1 and hypot(scene.leader[0, 1], scene.leader[0, 2]) < (
+        _AT_LIMIT * scene.d_min
+    ):
+        bearings *= 2
     nodes = contact_nodes(scene, bearings, tangents)
     path = np.empty((2, 5))
     best = scan_contacts(start, scene, nodes, beat, path)

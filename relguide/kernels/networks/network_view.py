@@ -4,8 +4,6 @@ One call from the world frame: a call into compiled code with the conversions ar
 long as the work done here (see `straight_leader`).
 """
 
-from math import inf
-
 from numba import njit
 
 from relguide.kernels.base.angles import mirror_heading, wrap
@@ -14,7 +12,7 @@ from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.base.slot_frame import slot_offset, to_slot
 from relguide.kernels.contact.constrained_rows import breaks_limit
 from relguide.kernels.separation.clearance import SLACK
-from relguide.kernels.words.branches import direct_time, needs_mirror
+from relguide.kernels.words.branches import needs_mirror
 
 _ASIDE = 1e-9  # the slot counts as straight behind the leader [R]: 10 µm for an airliner
 
@@ -37,7 +35,7 @@ def view(
     x: float, y: float, heading: float, tas: float, radius: float, leader_x: float,
     leader_y: float, leader_heading: float, leader_tas: float, slot_distance: float,
     min_separation: float, wind_east: float, wind_north: float, free: FloatArray,
-) -> tuple[bool, float, Where]:  # fmt: skip
+) -> tuple[bool, Where]:  # fmt: skip
     """Where pursuer, slot and leader are, and whether the fastest path without the limit breaks it.
 
     Args:
@@ -55,20 +53,18 @@ def view(
         wind_east: the air mass over the ground [m/s].
         wind_north: the same, north [m/s].
         free: takes the fastest extremal, a row of `solve`; that of the mirror image where the
-            situation `needs_mirror`. shape (5,)
+            situation `needs_mirror`; nothing where the slot lies aside. shape (5,)
 
     Returns:
         whether the limit binds: never where the slot lies aside of the leader's route, as it does
-        in a cross wind, which is no case for networks; when a pursuer that need not turn would be
-        at the slot [R/V_P]; and where all are.
+        in a cross wind, which is no case for networks; and where all are.
     """
     east, north, _ = slot_offset(leader_heading, leader_tas, wind_east, wind_north, slot_distance)
     along, left = to_slot(x - leader_x - east, y - leader_y - north, leader_heading, radius)
     slot, aside = to_slot(-east, -north, leader_heading, radius)
     h, alpha, d_min = wrap(leader_heading - heading), leader_tas / tas, min_separation / radius
-    soonest = direct_time(along, left, alpha) if alpha < 1.0 else inf
     binds = False
     if abs(aside) <= _ASIDE:
         pose, _ = on_left(Pose(along, left, h))
         binds = breaks_limit(pose, straight_scene(alpha, slot, d_min - SLACK), free)
-    return binds, soonest, (along, left, h, slot, alpha, d_min)
+    return binds, (along, left, h, slot, alpha, d_min)

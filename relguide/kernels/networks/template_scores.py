@@ -30,6 +30,7 @@ OUTPUTS = 3 * SIZE
 """Score of each template, then its guess."""
 LEGS = MAX_CONTACTS + 1
 """Room for the legs of a path, as the search has it."""
+_BESIDE = 1e-9  # least heading that is looked at [rad]
 _MOST_LATE = 9.5  # the limit costs more in 1 of 200 situations, and then the path is mostly wrong
 
 
@@ -75,7 +76,9 @@ def template_shares(
         the layer before the outputs, for `guess_of`.
     """
     numbers = np.empty(FEATURES)
-    template_features(pose, scene, free, numbers)
+    # on the leader's own heading some features jump: labels lie on either side, and none there
+    beside = Pose(pose.x, pose.y, max(pose.h, _BESIDE))
+    template_features(beside, scene, free, numbers)
     hidden = last_hidden(numbers, layers)
     score = layers.last_bias[:SIZE].copy()
     for i in range(len(hidden)):

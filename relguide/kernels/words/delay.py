@@ -25,6 +25,7 @@ DELAY_PIECES = 5
 """Pieces of such a path: one before, three of the word, one after."""
 _FIRST = (0.0, 1.0, -1.0)  # ε of a piece put first
 _LEADS = 8  # lengths of the straight before a word that another straight follows
+_SAME = 1e-9  # lengths closer than this are one [R]; ≈ 1e-5 m at R = 12 km
 _GRID = 96  # steps of the free amount: a straight of 30 R in steps of R/3 on average, a turn in 4°
 
 
@@ -113,16 +114,35 @@ def delay_paths(pose: Pose, alpha: float, t_release: float, paths: FloatArray) -
     Returns:
         how many paths.
     """
-    n = 0
-    if hypot(alpha * t_release - pose.x, pose.y) > t_release:
+    n, end_x = 0, alpha * t_release
+    if hypot(end_x - pose.x, pose.y) > t_release + _SAME:
         return n
+    n = _exact_words(pose, end_x, t_release, paths)
     for k in range(len(_FIRST) + _LEADS):
         if k < len(_FIRST):
             family = _Family(_FIRST[k], 0.0, False)
         else:
             family = _Family(0.0, t_release * ((k - len(_FIRST)) / 12.0), True)
         for j in range(4 if family.last else SIZE):
-            n = _cross(pose, alpha * t_release, t_release, TO_POINT[j], family, paths, n)
+            n = _cross(pose, end_x, t_release, TO_POINT[j], family, paths, n)
+    return n
+
+
+@njit(cache=True, nogil=True)
+def _exact_words(pose: Pose, end_x: float, length: float, paths: FloatArray) -> int:
+    """Put down the words that have this length as they are; how many.
+
+    Of a pursuer that already is in the slot, and as fast, the last piece has no room for a delay.
+    """
+    n, piece = 0, np.empty(3)
+    for branch in TO_POINT:
+        total = word_to_point(pose, end_x, branch, piece)
+        if total >= 0.0 and abs(total - length) < _SAME:
+            paths[:, n] = 0.0
+            for k in range(3):
+                paths[0, n, k + 1] = SIGNS[WORD_OF[branch], k]
+                paths[1, n, k + 1] = piece[k]
+            n += 1
     return n
 
 
@@ -153,7 +173,7 @@ def _cross(
                     high = middle
             total = _total(pose, end_x, branch, family, high, piece)
             # a jump of a turn by 2π changes sign too: only a true crossing has the right length
-            if total >= 0.0 and abs(total - length) < 1e-9:
+            if total >= 0.0 and abs(total - length) < _SAME:
                 signs, amounts = paths[0, n], paths[1, n]
                 signs[0] = family.sign
                 amounts[0] = family.lead if family.last else high

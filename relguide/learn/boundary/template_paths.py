@@ -9,7 +9,7 @@ leader never was), a cross wind, which puts the slot aside of the leader's headi
 outside the box, and paths that the network does not know or is not sure of.
 """
 
-from math import hypot
+from math import hypot, inf
 
 import numpy as np
 
@@ -17,14 +17,22 @@ from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.networks import network_view
 from relguide.kernels.networks.network_view import Where
 from relguide.kernels.networks.template_scores import constrained_pieces
+from relguide.kernels.words.branches import needs_mirror
+from relguide.kernels.words.extremals import WORDS
 from relguide.learn.boundary.template_network import TemplateNetwork
-from relguide.planning.candidate import Candidate, candidate_of, segments_flown
+from relguide.planning.candidate import (
+    SIGN_ROWS,
+    Candidate,
+    candidate_of,
+    segments_flown,
+    segments_of,
+)
 from relguide.planning.situation import Situation
 from relguide.planning.words import HORIZON
-from relguide.units import Metre
+from relguide.units import Metre, Second
 
 
-def view(situation: Situation, radius: Metre) -> tuple[bool, float, Where, FloatArray]:
+def view(situation: Situation, radius: Metre) -> tuple[bool, Where, FloatArray]:
     """A situation as networks see it, behind a leader that keeps straight.
 
     Args:
@@ -32,17 +40,34 @@ def view(situation: Situation, radius: Metre) -> tuple[bool, float, Where, Float
         radius: R, which callers have at hand [m].
 
     Returns:
-        whether the limit binds, when nobody can be at the slot yet [R/V_P], where all are, and the
-        fastest path without the limit: see `network_view.view`.
+        whether the limit binds, where all are, and the fastest path without the limit, at an
+        infinite time if there is none or the slot lies aside: see `network_view.view`.
     """
     pursuer, leader, wind = situation.pursuer, situation.leader, situation.wind
-    free = np.empty(5)
-    binds, soonest, where = network_view.view(
+    free = np.full(5, inf)
+    binds, where = network_view.view(
         pursuer.x, pursuer.y, pursuer.heading, pursuer.tas, radius,
         leader.x, leader.y, leader.heading, leader.tas,
         situation.slot_distance, situation.min_separation, wind.east, wind.north, free,
     )  # fmt: skip
-    return binds, soonest, where, free
+    return binds, where, free
+
+
+def free_path(
+    situation: Situation, radius: Metre, where: Where, free: FloatArray
+) -> tuple[Candidate, Second] | None:
+    """The fastest path without the limit that `view` has found, and when it arrives [s].
+
+    Arguments as `solve_constrained`; `None` if there is none within the horizon.
+    """
+    time, word, *amounts = free.tolist()
+    seconds = time * radius / situation.pursuer.tas
+    if seconds > HORIZON:
+        return None
+    # the words of three letters and their mirror images are neighbours
+    number = int(word) ^ needs_mirror(where[1], where[2])
+    segments = segments_of(radius, SIGN_ROWS[number], amounts)
+    return candidate_of(situation.pursuer, segments, WORDS[number]), seconds
 
 
 def solve_constrained(

@@ -7,9 +7,22 @@ import numpy as np
 import pytest
 from hypothesis import given
 
-from relguide import NoPlan, Plan, Situation, plan
+from relguide import (
+    LEFT,
+    Arc,
+    FlyStraight,
+    Leader,
+    NoPlan,
+    Plan,
+    Pursuer,
+    Situation,
+    TurnTo,
+    plan,
+)
 from relguide.kernels.separation.clearance import SLACK
 from relguide.planning.batch import Situations, plan_arrays
+from relguide.planning.slot import slot_frame
+from relguide.units import DEG
 from tests.bench import draws
 from tests.oracle import arrival_error
 from tests.situations import coincidences
@@ -102,3 +115,86 @@ def test_what_is_left_of_a_plan_is_found_again_from_its_contact() -> None:
             limit = away + inside
             met = replace(met, min_separation=limit, slot_distance=max(met.slot_distance, limit))
             assert arrival_time(met) <= left + ALIKE
+
+
+def test_in_the_slot_and_as_fast_there_is_a_plan_until_it_opens() -> None:
+    # behind the leader on its own track: it turns, and the slot opens when it has flown D after it
+    turning = (TurnTo(heading=0.0, turn=LEFT, bank=20 * DEG), FlyStraight(duration=1.0))
+    leader = Leader(x=0.0, y=0.0, heading=40 * DEG, tas=200.0, intent=turning)
+    pursuer = Pursuer(x=0.0, y=0.0, heading=0.0, tas=200.0, max_bank=25 * DEG)
+    base = Situation(pursuer=pursuer, leader=leader, slot_distance=12_000.0, min_separation=5_000.0)
+    frame = slot_frame(base, leader.trajectory)
+    for away in (0.0, 3_000.0, 9_000.0):  # already in it, and with a turn to come
+        there = replace(pursuer, x=frame.origin_x, y=frame.origin_y)
+        if away > 0.0:
+            turn = Arc(turn=LEFT, turn_angle=away / pursuer.turn_radius, radius=pursuer.turn_radius)
+            heading = turn.turn_angle
+            end = replace(pursuer, heading=heading).flying((turn,)).breakpoints()[-1]
+            x, y = frame.origin_x - end.x, frame.origin_y + away - end.y
+            there = replace(pursuer, x=x, y=y, heading=heading)
+        situation = replace(base, pursuer=there)
+        answer = plan(situation)
+        assert isinstance(answer, Plan), (away, answer)
+        assert answer.arrival.holds
+        assert answer.optimality.proof == "relaxation"
+        release = frame.t_release * frame.radius / pursuer.tas
+        assert answer.time_to_converge == pytest.approx(release, abs=1e-6)
+
+
+AS_FAST = (
+    Situation(
+        pursuer=Pursuer(
+            x=-36_259.93460827661, y=54_306.42841347938, heading=2.244843637981682,
+            tas=150.9218023450088, max_bank=0.09538988276642316,
+        ),
+        leader=Leader(x=0.0, y=0.0, heading=5.7332401154145956, tas=150.9218023450088),
+        slot_distance=8_120.263851354572,
+        min_separation=8_118.987904733498,
+    ),
+    Situation(
+        pursuer=Pursuer(
+            x=-3_266.9946451293176, y=4_473.939176048786, heading=1.7570835004948329,
+            tas=67.88558585719467, max_bank=0.5176200659010611,
+        ),
+        leader=Leader(x=0.0, y=0.0, heading=5.83158550147089, tas=67.94752942866015),
+        slot_distance=167.26746444245921,
+        min_separation=167.0798222308012,
+    ),
+    Situation(
+        pursuer=Pursuer(
+            x=-1_353.334891409382, y=996.1410804664945, heading=5.269574691138757,
+            tas=141.98202384210174, max_bank=0.7491444171534385,
+        ),
+        leader=Leader(x=0.0, y=0.0, heading=5.984150580863486, tas=141.98529182284136),
+        slot_distance=546.1486787131306,
+        min_separation=546.0259302427723,
+    ),
+)  # fmt: skip
+"""Behind leaders as fast or hardly faster, the slot hardly outside d_min."""
+
+
+@pytest.mark.parametrize("situation", AS_FAST)
+def test_round_a_leader_as_fast_narrow_windows_are_searched(situation: Situation) -> None:
+    answer = plan(situation)
+    assert isinstance(answer, Plan)
+    assert answer.certificate.holds
+    assert answer.arrival.holds
+
+
+@pytest.mark.parametrize("faster", [0.0, 20.0], ids=["as fast", "faster"])
+def test_why_a_slot_at_the_limit_of_a_leader_no_slower_is_out_of_reach(faster: float) -> None:
+    ahead = Situation(
+        pursuer=Pursuer(x=3_000.0, y=20_000.0, heading=0.0, tas=200.0, max_bank=25 * DEG),
+        leader=Leader(x=0.0, y=0.0, heading=0.0, tas=200.0 + faster),
+        slot_distance=9_000.0,
+        min_separation=9_000.0,
+    )
+    answer = plan(ahead)
+    assert isinstance(answer, NoPlan)
+    assert answer.reason == "separation_unavoidable"
+    assert "slot distance must be more than the minimum" in answer.message
+    farther = plan(replace(ahead, slot_distance=12_000.0))
+    assert isinstance(farther, Plan)
+    # a slower leader's slot is entered from behind
+    slower = plan(replace(ahead, leader=replace(ahead.leader, tas=180.0)))
+    assert isinstance(slower, Plan)

@@ -1,4 +1,7 @@
-"""The planner against 294 situations solved by an independent program (tests/golden/README.md)."""
+"""The planner against situations solved by others, or by itself with more effort.
+
+See tests/golden/README.md: 294 by an independent program, 43 of exact coincidences.
+"""
 
 import json
 from typing import Any
@@ -67,6 +70,23 @@ def test_with_the_limit_active_the_best_known_time_is_met_or_beaten(name: str, i
     assert answer.optimality.proof == "bound"
     assert answer.optimality.lower_bound == pytest.approx(expected["unlimited_time_s"], abs=1e-4)
     assert answer.time_to_converge >= answer.optimality.lower_bound
+
+
+@pytest.mark.parametrize(
+    ("name", "i"), cases("coincidence", "optimal") + cases("coincidence", "best_known")
+)
+def test_numbers_that_are_equal_to_the_last_digit_cost_nothing(name: str, i: int) -> None:
+    situation, expected = golden(name)[i]
+    answer = flown(situation)
+    assert answer.certificate.holds
+    assert answer.arrival.holds
+    proved = expected["status"] == "optimal"
+    assert answer.optimality.proof == ("relaxation" if proved else "bound")
+    assert answer.optimality.lower_bound == pytest.approx(expected["unlimited_time_s"], abs=1e-4)
+    # no other word, nor more effort, is sooner; less than the tolerance may be gained
+    assert answer.time_to_converge == pytest.approx(
+        expected["time_to_converge_s"], abs=expected["tolerance_s"]
+    )
 
 
 @pytest.mark.parametrize(

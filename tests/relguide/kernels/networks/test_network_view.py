@@ -10,13 +10,13 @@ from relguide import Situation
 from relguide.kernels.contact.constrained_rows import limit_binds
 from relguide.kernels.networks.network_view import Where, view
 from relguide.kernels.separation.clearance import SLACK
-from relguide.kernels.words.branches import direct_time, needs_mirror
+from relguide.kernels.words.branches import needs_mirror
 from relguide.planning.slot import slot_frame
 from tests.bench import draws
 from tests.situations import situations
 
 
-def told(situation: Situation, free: np.ndarray) -> tuple[bool, float, Where]:
+def told(situation: Situation, free: np.ndarray) -> tuple[bool, Where]:
     pursuer, leader, wind = situation.pursuer, situation.leader, situation.wind
     return view(
         pursuer.x, pursuer.y, pursuer.heading, pursuer.tas, pursuer.turn_radius,
@@ -29,13 +29,12 @@ def told(situation: Situation, free: np.ndarray) -> tuple[bool, float, Where]:
 def test_it_is_the_slot_frame_and_the_limit_binds_where_it_does(situation: Situation) -> None:
     frame = slot_frame(situation, situation.leader.trajectory)
     free = np.empty(5)
-    binds, soonest, (x, y, h, slot, alpha, limit) = told(situation, free)
+    binds, (x, y, h, slot, alpha, limit) = told(situation, free)
     assert (x, y) == pytest.approx((frame.x, frame.y), rel=1e-9, abs=1e-9)
     assert (np.cos(h), np.sin(h)) == pytest.approx((np.cos(frame.h), np.sin(frame.h)), abs=1e-9)
     along, aside = frame.to_slot(situation.leader.x, situation.leader.y)
     assert (slot, alpha) == pytest.approx((along, frame.alpha), rel=1e-9, abs=1e-9)
     assert limit == situation.min_separation / situation.pursuer.turn_radius
-    assert soonest == (direct_time(x, y, alpha) if alpha < 1.0 else np.inf)
     if abs(aside) > 1e-8:
         assert not binds
         return
@@ -59,9 +58,9 @@ def test_mirror_images_are_looked_at_from_one_side() -> None:
             leader=replace(leader, x=-leader.x, heading=-leader.heading),
         )
         free, other = np.empty(5), np.empty(5)
-        binds, soonest, (x, y, *_) = told(situation, free)
-        there, then, (along, left, *_) = told(image, other)
-        assert (there, then) == (binds, pytest.approx(soonest, abs=1e-9))
+        binds, (x, y, *_) = told(situation, free)
+        there, (along, left, *_) = told(image, other)
+        assert there == binds
         assert (along, left) == pytest.approx((x, -y), abs=1e-9)
         assert other == pytest.approx(free, rel=1e-6, abs=1e-6)
         bound += binds

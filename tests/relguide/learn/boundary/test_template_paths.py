@@ -38,7 +38,7 @@ UNSEEN = [
 def constrained_path(network: TemplateNetwork, situation: Situation) -> Candidate | None:
     """What the network leads to where the limit is seen to bind."""
     radius = situation.pursuer.turn_radius
-    binds, _, where, free = view(situation, radius)
+    binds, where, free = view(situation, radius)
     return solve_constrained(network, situation, radius, where, free) if binds else None
 
 
