@@ -17,7 +17,7 @@ d_min. Five conventions hold everywhere:
 import importlib
 import typing
 
-from relguide.planning.extras import with_command as _with_command
+from relguide.planning.extras import add_command as _add_command
 
 if typing.TYPE_CHECKING:
     from relguide.contract.recorder import record as record
@@ -230,7 +230,7 @@ def __getattr__(name: str) -> typing.Any:
     try:
         module = importlib.import_module(_HOMES[name])
     except ModuleNotFoundError as error:
-        raise _with_command(error) from None
+        raise _add_command(error) from None
     value = getattr(module, name)
     globals()[name] = value
     return value

@@ -27,7 +27,7 @@ BODY: dict[str, Any] = {
 }
 
 
-def changed(path: str, value: Any) -> dict[str, Any]:
+def change(path: str, value: Any) -> dict[str, Any]:
     """BODY with one field set, or removed if the value is `...`."""
     body = copy.deepcopy(BODY)
     *way, last = path.split(".")

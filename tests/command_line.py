@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from tests.bodies import BODY, changed
+from tests.bodies import BODY, change
 
 Run = Callable[..., tuple[int, str, str]]
 """What the fixture `run` gives: exit code, standard output, standard error of a command."""
@@ -17,10 +17,10 @@ NEAR = {
     "slot_distance_m": 10000,
     "min_separation_m": 9260,
 }
-UNREACHABLE = changed("leader.tas_mps", 300)
+UNREACHABLE = change("leader.tas_mps", 300)
 
 
-def written(content: Any, name: str = "situation.json") -> str:
+def write(content: Any, name: str = "situation.json") -> str:
     Path(name).write_text(content if isinstance(content, str) else json.dumps(content), "utf-8")
     return name
 

@@ -58,7 +58,7 @@ class Flown:
         return [document for document in self.documents if isinstance(document, kind)]
 
 
-def flown(scenario: Scenario, *said: tuple[float, Command], planner: Planner = plan) -> Flown:
+def fly_whole(scenario: Scenario, *said: tuple[float, Command], planner: Planner = plan) -> Flown:
     """A whole flight, a sample a second, with commands at their times."""
     return Flown(tuple(fly(scenario, planner, commands=saying(*said), sample_period=1.0)))
 

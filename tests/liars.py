@@ -25,7 +25,7 @@ Liar = Callable[[Situation], Plan | NoPlan]
 
 def ends_beside(situation: Situation) -> Plan | NoPlan:
     """It flies on, past the slot."""
-    return _changed(situation, lambda segments: (*segments, Straight(length=4_000.0)))
+    return _change(situation, lambda segments: (*segments, Straight(length=4_000.0)))
 
 
 def ends_askew(situation: Situation) -> Plan | NoPlan:
@@ -36,7 +36,7 @@ def ends_askew(situation: Situation) -> Plan | NoPlan:
         assert isinstance(last, Arc)
         return (*segments[:-1], replace(last, turn_angle=last.turn_angle + 1.0 * DEG))
 
-    return _changed(situation, turned)
+    return _change(situation, turned)
 
 
 def comes_too_early(situation: Situation) -> Plan | NoPlan:
@@ -83,7 +83,7 @@ def answers_nothing(situation: Situation) -> Plan | NoPlan:
     return cast(Plan, None)
 
 
-def _changed(
+def _change(
     situation: Situation, change: Callable[[tuple[Segment, ...]], tuple[Segment, ...]]
 ) -> Plan | NoPlan:
     answer = plan(situation)

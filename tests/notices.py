@@ -64,16 +64,16 @@ class Notice(NamedTuple):
 
 def main() -> None:
     lines = [HEAD, PAGE]
-    for notice in bundled():
+    for notice in bundled_notices():
         text = (MODULES / notice.name / "LICENSE").read_text("utf-8").strip()
         shown = indent(text, "    ", lambda line: bool(line.strip()))
         lines.append(f"\n### {notice.name}\n\n{notice.licence}, <{notice.home}>\n\n{shown}\n")
     lines.append(PYTHON)
-    lines += [f"| {n.name} | {n.licence} | <{n.home}> |\n" for n in installed()]
+    lines += [f"| {n.name} | {n.licence} | <{n.home}> |\n" for n in installed_notices()]
     NOTICES.write_text("".join(lines), "utf-8")
 
 
-def installed() -> list[Notice]:
+def installed_notices() -> list[Notice]:
     """The distributions that `relguide[serve]` brings, by name."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
     waiting = [*project["dependencies"], *project["optional-dependencies"]["serve"]]
@@ -87,11 +87,11 @@ def installed() -> list[Notice]:
         for extra in ("", *requirement.extras):
             if (name, extra) not in asked:
                 asked.add((name, extra))
-                waiting += _required(about, extra)
+                waiting += _requirements(about, extra)
     return [found[name] for name in sorted(found)]
 
 
-def _required(about: Distribution, extra: str) -> list[str]:
+def _requirements(about: Distribution, extra: str) -> list[str]:
     """What a distribution needs here, for one of its extras."""
     lines = [(line, Requirement(line).marker) for line in about.requires or ()]
     return [line for line, marker in lines if marker is None or marker.evaluate({"extra": extra})]
@@ -115,17 +115,17 @@ def _notice(about: Distribution) -> Notice:
     return Notice(fields["Name"], LICENCES.get(licence, licence), home)
 
 
-def imported() -> set[str]:
+def imports_of_page() -> set[str]:
     """The packages that the page's own sources import."""
     sources = [*(ROOT / "web" / "src").rglob("*.ts"), *(ROOT / "web" / "src").rglob("*.tsx")]
     paths = {path for file in sources for path in IMPORTED.findall(file.read_text("utf-8"))}
     return {"/".join(path.split("/")[: 2 if path[0] == "@" else 1]) for path in paths}
 
 
-def bundled() -> list[Notice]:
+def bundled_notices() -> list[Notice]:
     """The packages in the page and those that they need in turn, by name."""
     locked = json.loads((ROOT / "web" / "package-lock.json").read_text("utf-8"))["packages"]
-    waiting, found = sorted(imported()), dict[str, Notice]()
+    waiting, found = sorted(imports_of_page()), dict[str, Notice]()
     while waiting:
         name = waiting.pop()
         about = locked[f"node_modules/{name}"]

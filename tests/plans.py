@@ -12,13 +12,13 @@ EXACT = 1e-8
 """Residuals of what is solved in closed form, [1] and in R/V_P: rounding at 150 km."""
 
 
-def planned(situation: Situation) -> Plan:
+def find_plan(situation: Situation) -> Plan:
     answer = plan(situation)
     assert isinstance(answer, Plan)
     return answer
 
 
-def unlimited(situation: Situation) -> Plan:
+def plan_unlimited(situation: Situation) -> Plan:
     """The plan of a drawn situation, if the limit plays no part in it."""
     answer = plan(situation)
     assume(isinstance(answer, Plan) and answer.optimality.proof == "relaxation")
@@ -27,7 +27,7 @@ def unlimited(situation: Situation) -> Plan:
 
 
 def golden_plan(ident: str) -> Plan:
-    return planned(next(s for s, a in golden("reference") if a["id"] == ident))
+    return find_plan(next(s for s, a in golden("reference") if a["id"] == ident))
 
 
 def assert_exact(report: OptimalityReport, situation: Situation) -> None:
@@ -48,7 +48,7 @@ def straight_behind(*, d_min: float = 5_000.0, leader_tas: float = 180.0) -> Sit
     )
 
 
-def flown(situation: Situation, *segments: Arc | Straight) -> Trajectory:
+def fly_planned(situation: Situation, *segments: Arc | Straight) -> Trajectory:
     pursuer = situation.pursuer
     return Trajectory(
         x=pursuer.x, y=pursuer.y, heading=pursuer.heading, tas=pursuer.tas, segments=segments

@@ -17,7 +17,7 @@ from relguide.learn.words.branch_network import load_network
 from relguide.planning.constrained_path import BEARINGS
 from tests.bench import draws
 from tests.bench.exhaustive import least_time
-from tests.bench.limit import compared, main
+from tests.bench.limit import main, plan_twice
 from tests.bench.network_batch import as_row
 from tests.bench.network_rows import BY_NETWORK, answer_rows
 from tests.bench.page import BEGIN, COMMAND, END, FOLDER, PAGE, PICTURES, with_block
@@ -96,6 +96,6 @@ def test_a_batch_by_networks_gives_what_their_planner_gives() -> None:
 
 
 def test_a_case_is_what_its_number_says() -> None:
-    first, again = (compared(5, seed=1, effort=1, intent=0.5) for _ in range(2))
+    first, again = (plan_twice(5, seed=1, effort=1, intent=0.5) for _ in range(2))
     assert (first.situation, first.ours_s) == (again.situation, again.ours_s)
     assert first.loss == 0.0

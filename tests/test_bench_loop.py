@@ -11,7 +11,7 @@ from tests.bench.loop import (
     decisions_table,
     failures,
     flights_table,
-    flown,
+    fly_measured,
     losses_table,
     main,
 )
@@ -23,7 +23,7 @@ def rows(table: Table) -> list[tuple[str, ...]]:
 
 @pytest.mark.slow
 def test_a_planner_loses_nothing_to_itself_and_a_bad_one_is_reported() -> None:
-    one = flown(1, plan)
+    one = fly_measured(1, plan)
     assert one.told
     assert one.way
     assert len(one.spent) > 300
@@ -47,7 +47,7 @@ def test_a_planner_loses_nothing_to_itself_and_a_bad_one_is_reported() -> None:
 
 
 def test_what_nobody_could_keep_is_no_failure() -> None:
-    one = flown(1, plan, longest=3.0)
+    one = fly_measured(1, plan, longest=3.0)
     head_on = replace(one, kept=0.7, result=replace(one.result, planned_time=0.0))
     assert failures({"exact": [head_on]}) == []
     assert rows(flights_table({"exact": [head_on]}))[0][-2:] == ("1", "1")

@@ -21,11 +21,11 @@ from tests.campaign import recordings
 from tests.campaign.__main__ import main
 from tests.campaign.evasion import best_turn
 from tests.campaign.families import FAMILIES, REACH, draw
-from tests.campaign.flights import failed, row_of
+from tests.campaign.flights import failed_row, row_of
 from tests.campaign.paths import circles, circles_of, distance_from, path_in_air, reversals_of
 from tests.campaign.row import FIGURES, read_rows, row_from
 from tests.campaign.tables import distributions, ranking
-from tests.plans import golden_plan, planned
+from tests.plans import find_plan, golden_plan
 
 DRAWN = [family for family in FAMILIES if family != "recorded"]
 
@@ -99,13 +99,13 @@ def test_a_file_of_something_else_is_refused(
 
 
 def test_a_flight_that_fails_is_listed_and_not_counted() -> None:
-    row = failed(draw("declared", 0), ZeroDivisionError("by zero"))
+    row = failed_row(draw("declared", 0), ZeroDivisionError("by zero"))
     assert row.error == "ZeroDivisionError: by zero"
     assert distributions([row]) == []
 
 
 def test_the_worst_comes_first_whichever_way_is_worse() -> None:
-    row = replace(failed(draw("declared", 0), ValueError()), error="")
+    row = replace(failed_row(draw("declared", 0), ValueError()), error="")
     rows = [replace(row, number=i, least_share=share) for i, share in enumerate((1.2, 0.9, 1.1))]
     (least,) = (figure for figure in FIGURES if figure.name == "least_share")
     assert [one.number for _, one in ranking(least, rows)] == [1, 2, 0]
@@ -150,7 +150,7 @@ def test_a_loss_of_d_min_is_found_with_its_time_and_its_depth() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", [0, 1, 9])
 def test_the_path_of_a_card_is_the_path_of_its_plan(seed: int) -> None:
-    found = planned(active(np.random.default_rng(seed), tight=True, intent=seed > 0))
+    found = find_plan(active(np.random.default_rng(seed), tight=True, intent=seed > 0))
     assert "B" in found.word
     path = path_in_air(plan_card(found).segments, found.situation.wind)
     flown = found.sample(np.linspace(0.0, found.time_to_converge, 200))

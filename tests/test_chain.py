@@ -88,17 +88,17 @@ def test_from_a_scenario_to_a_replay(tmp_path: Path) -> None:
 
     again = list(replay(recording))
     assert len(again) == len(flown)
-    assert [rounded(to_wire(d)) for d in again] == [rounded(to_wire(d)) for d in flown]
+    assert [round_off(to_wire(d)) for d in again] == [round_off(to_wire(d)) for d in flown]
 
 
-def rounded(value: object) -> object:
+def round_off(value: object) -> object:
     """Without the last digits, which degrees and radians do not agree on."""
     match value:
         case float():
             return round(value, 6)
         case dict():
-            return {name: rounded(item) for name, item in value.items()}
+            return {name: round_off(item) for name, item in value.items()}
         case list():
-            return [rounded(item) for item in value]
+            return [round_off(item) for item in value]
         case _:
             return value

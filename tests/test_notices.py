@@ -2,7 +2,7 @@
 
 import re
 
-from tests.notices import NOTICES, bundled, imported, installed
+from tests.notices import NOTICES, bundled_notices, imports_of_page, installed_notices
 
 SHOWN = NOTICES.read_text("utf-8")
 RENEW = "python -m tests.notices writes the file anew"
@@ -10,14 +10,14 @@ RENEW = "python -m tests.notices writes the file anew"
 
 def test_each_distribution_of_the_container_has_its_licence() -> None:
     named = set(re.findall(r"^\| (\S+) \| \S.* \| <https?://\S+> \|$", SHOWN, re.MULTILINE))
-    found = {notice.name for notice in installed()}
+    found = {notice.name for notice in installed_notices()}
     assert {"numpy", "numba", "pydantic", "viser", "anyio"} <= found
     assert found <= named, RENEW
 
 
 def test_each_package_in_the_page_has_the_text_of_its_licence() -> None:
-    assert imported() >= {"preact", "@preact/signals", "@fontsource/b612"}
-    for notice in bundled():
+    assert imports_of_page() >= {"preact", "@preact/signals", "@fontsource/b612"}
+    for notice in bundled_notices():
         _, _, section = SHOWN.partition(f"\n### {notice.name}\n")
         text = section.partition("\n##")[0]
         assert text.startswith(f"\n{notice.licence}, <"), RENEW

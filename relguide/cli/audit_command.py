@@ -107,7 +107,7 @@ def _audit_branches(chosen: argparse.Namespace) -> None:
     with progress_bar("explaining gaps", total=0.0) as advance:
         audit = audit_of(chunks, advance)
     asked = latencies(network, request)
-    ground, methods = _put_beside(network, beside, chosen.seed) if beside else (None, [])
+    ground, methods = _judge_side_by_side(network, beside, chosen.seed) if beside else (None, [])
     if chosen.figures is not None:
         from relguide.figures.branch_figure import draw_audit
 
@@ -131,7 +131,9 @@ def _audit_branches(chosen: argparse.Namespace) -> None:
     write_json(found)
 
 
-def _put_beside(network: "BranchNetwork", size: int, seed: int) -> "tuple[Ground, list[Method]]":
+def _judge_side_by_side(
+    network: "BranchNetwork", size: int, seed: int
+) -> "tuple[Ground, list[Method]]":
     """Draw common situations, grow the paper's tree, and judge all methods there."""
     from relguide.cli.tree_growth import grow_tree
     from relguide.learn.audits.side_by_side import draw_ground, side_by_side

@@ -180,7 +180,7 @@ def _make_labels(chosen: argparse.Namespace) -> None:
         BRANCHES,
         SOURCES,
         LabelRequest,
-        held_out,
+        held_out_regions,
         join_labels,
         make_labels,
         save_labels,
@@ -204,7 +204,9 @@ def _make_labels(chosen: argparse.Namespace) -> None:
     counts = np.bincount(labels.best, minlength=len(BRANCHES)).tolist()
     sources = np.bincount(labels.sources, minlength=len(SOURCES)).tolist()
     if chosen.json:
-        apart = {name: int(inside.sum()) for name, inside in held_out(labels.situations).items()}
+        apart = {
+            name: int(inside.sum()) for name, inside in held_out_regions(labels.situations).items()
+        }
         _write_figures(
             file, seconds, sources=dict(zip(SOURCES, sources, strict=True)),
             fastest=dict(zip(BRANCHES, counts, strict=True)), held_out=apart,

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from datetime import UTC, datetime
 from typing import Any
 
-from relguide.planning.extras import MissingExtra, with_command
+from relguide.planning.extras import MissingExtra, add_command
 
 DONE, FAILED, MISUSE, STOPPED = 0, 1, 2, 130
 """Exit statuses: done; no plan or a failed check; misuse; stopped by Ctrl-C, as shells number it.
@@ -33,7 +33,7 @@ def say(sentence: str) -> None:
 
 def command_for(error: ModuleNotFoundError) -> str | None:
     """The sentence with the command that brings a missing package, if an extra of ours does."""
-    missing = with_command(error)
+    missing = add_command(error)
     return str(missing) if isinstance(missing, MissingExtra) else None
 
 

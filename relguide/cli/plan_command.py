@@ -45,7 +45,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--include",
         metavar="WHAT",
-        type=_included,
+        type=_parse_include,
         default=(),
         help="alternatives: every other path to the slot and why it is not flown; optimality: how "
         "the plan meets Pontryagin's conditions, with H and λ along it; or both, with a comma",
@@ -159,7 +159,7 @@ def _prove_after(planner: "Planner", seconds: float, *, shown: bool = True) -> "
     return plan_and_prove
 
 
-def _included(text: str) -> "tuple[Include, ...]":
+def _parse_include(text: str) -> "tuple[Include, ...]":
     from relguide.contract.answers import read_include
 
     try:

@@ -36,7 +36,7 @@ def print_template_audit(audit: TemplateAudit, latency: Mapping[str, tuple[float
         audit: what to print.
         latency: median and 99th percentile of a query, by who is asked [µs].
     """
-    _print_named(audit)
+    _print_naming(audit)
     _print_late(audit)
     _print_everywhere(audit)
     write(
@@ -47,14 +47,14 @@ def print_template_audit(audit: TemplateAudit, latency: Mapping[str, tuple[float
     _print_gaps(audit)
 
 
-def _print_named(audit: TemplateAudit) -> None:
+def _print_naming(audit: TemplateAudit) -> None:
     """How often the right template is named, and is in the set."""
     write("Where d_min binds: how often the first choice is the fastest path.\n")
     shown = table("situations")
     for heading in ("number", "named, % (95 %)", "in its set, %", "set", "answered, %"):
         shown.add_column(heading, justify="right", no_wrap=True)
 
-    _print_groups(audit, shown, _named_row)
+    _print_groups(audit, shown, _naming_row)
 
 
 def _print_late(audit: TemplateAudit) -> None:
@@ -71,7 +71,11 @@ def _print_late(audit: TemplateAudit) -> None:
     _print_groups(
         audit,
         shown,
-        lambda group: (*_late_row(group.late), _none(group.late), f"{group.late.sooner:,}"),
+        lambda group: (
+            *_late_row(group.late),
+            _no_path_cells(group.late),
+            f"{group.late.sooner:,}",
+        ),
     )
 
 
@@ -86,7 +90,7 @@ def _print_groups(
     print_table(shown)
 
 
-def _named_row(group: TemplateGroup) -> tuple[str, ...]:
+def _naming_row(group: TemplateGroup) -> tuple[str, ...]:
     return (
         f"{group.size:,}", with_interval(group.named), percent(group.covered),
         f"{group.mean_set:.2f}", percent(group.late.answered),
@@ -98,7 +102,7 @@ def _late_row(late: Late) -> tuple[str, ...]:
     return (f"{late.answered.hits:,}", *gaps, percent(late.late, 3))
 
 
-def _none(late: Late) -> str:
+def _no_path_cells(late: Late) -> str:
     """Answers where there is no path, and how many such situations there are."""
     return f"{late.invented.hits:,} of {late.invented.of:,}"
 
@@ -117,7 +121,7 @@ def _print_everywhere(audit: TemplateAudit) -> None:
         _, *gaps, late = _late_row(group.late)
         shown.add_row(
             group.name, f"{group.size:,}", with_interval(group.named), f"{passed:.2f}", *gaps[1:],
-            late, _none(group.late),
+            late, _no_path_cells(group.late),
         )  # fmt: skip
     print_table(shown)
 

@@ -11,7 +11,7 @@ from relguide.contract.bodies import (
     plan_to_wire,
     situation_from_body,
 )
-from relguide.contract.refusal import ContractError, loads, parse, printable
+from relguide.contract.refusal import ContractError, loads, make_printable, parse
 from relguide.contract.wire import to_wire
 from relguide.flying.cards import no_plan_card, optimality_check, plan_card
 from relguide.flying.verdicts import OptimalityCheck
@@ -107,7 +107,7 @@ def _name(content: dict[str, Any]) -> dict[str, Any]:
             return {}
         case int(number) if abs(number) <= MAX_INTEGER:
             return {"id": number}
-        case str(text) if len(text) <= MAX_ID and printable(text) == text:
+        case str(text) if len(text) <= MAX_ID and make_printable(text) == text:
             return {"id": text}
         case _:
             return {}

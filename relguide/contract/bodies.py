@@ -233,8 +233,8 @@ def plan_to_wire(card: PlanCard, anchor: Anchor) -> dict[str, Any]:
     match anchor:
         case LocalPlane():
             for segment in answer["segments"]:
-                segment["start"] = _on_earth(segment["start"], anchor)
-                segment["end"] = _on_earth(segment["end"], anchor)
+                segment["start"] = _point_to_wire(segment["start"], anchor)
+                segment["end"] = _point_to_wire(segment["end"], anchor)
         case Unanchored():
             pass
     return answer
@@ -250,7 +250,7 @@ def _aircraft(body: SituationBody) -> tuple[Pursuer, Leader, Anchor]:
             )
         case GeodeticPursuer() as p, GeodeticLeader() as l:
             plane = LocalPlane(l.lat_deg, l.lon_deg)
-            x, y = _near(plane, p)
+            x, y = _project_near(plane, p)
             heading = heading_of(p.heading_deg + _meridian(plane, p.lat_deg, p.lon_deg))
             return (
                 _pursuer(p, x, y, heading),
@@ -290,7 +290,7 @@ def _wind(body: WindBody) -> Wind:
     return wind_from(heading_of(body.from_deg), body.speed_mps)
 
 
-def _near(plane: LocalPlane, pursuer: GeodeticPursuer) -> tuple[float, float]:
+def _project_near(plane: LocalPlane, pursuer: GeodeticPursuer) -> tuple[float, float]:
     x, y = plane.to_local(pursuer.lat_deg, pursuer.lon_deg)
     # at the antipode the projection gives infinity
     if not (isfinite(x) and isfinite(y)) or hypot(x, y) > limits.POSITION.high:
@@ -307,7 +307,7 @@ def _meridian(plane: LocalPlane, lat_deg: float, lon_deg: float) -> float:
     return degrees(atan2((x_step - x) / step, (y_step - y) / step))
 
 
-def _on_earth(point: dict[str, Any], plane: LocalPlane) -> dict[str, Any]:
+def _point_to_wire(point: dict[str, Any], plane: LocalPlane) -> dict[str, Any]:
     lat, lon = plane.to_geodetic(point["x_m"], point["y_m"])
     return {
         **point,

@@ -77,7 +77,7 @@ def model_of(document_type: type[Any]) -> type[BaseModel]:
     if document_type is PathPoint:
         members |= _GEODETIC
     if document_type is OptimalityCard:
-        members |= _on_demand(OptimalityCheck)
+        members |= _optional_members(OptimalityCheck)
     model = create_model(
         document_type.__name__, __base__=Strict, __doc__=document_type.__doc__, **members
     )
@@ -85,7 +85,7 @@ def model_of(document_type: type[Any]) -> type[BaseModel]:
     return model
 
 
-def _on_demand(document_type: type[Any]) -> dict[str, Any]:
+def _optional_members(document_type: type[Any]) -> dict[str, Any]:
     """The members of a card that are added to another card on request."""
     return {
         f.wire_name: (

@@ -34,7 +34,9 @@ class ContractError(ValueError):
     """
 
     def __init__(self, problems: Sequence[tuple[str, str]]) -> None:
-        self.problems = tuple((printable(path), printable(message)) for path, message in problems)
+        self.problems = tuple(
+            (make_printable(path), make_printable(message)) for path, message in problems
+        )
         listed = [f"{path}: {message}" if path else message for path, message in self.problems]
         more = len(listed) - MAX_LISTED
         if more > 0:
@@ -98,7 +100,7 @@ def _unique_keys(pairs: list[tuple[str, object]]) -> dict[str, object]:
         seen: set[str] = set()
         for key, _ in pairs:
             if key in seen:
-                raise ContractError([(_cut(key), "is given more than once: give it once.")])
+                raise ContractError([(_shorten(key), "is given more than once: give it once.")])
             seen.add(key)
     return members
 
@@ -115,7 +117,7 @@ def _path(error: Any, content: object) -> str:
             path += f"[{step}]"
             here = here[step] if isinstance(here, list) and step < len(here) else None
         elif not _is_tag(step, here):
-            path += f".{_cut(step)}" if path else _cut(step)
+            path += f".{_shorten(step)}" if path else _shorten(step)
             here = here.get(step) if isinstance(here, Mapping) else None
     if error["type"] in ("union_tag_invalid", "union_tag_not_found"):
         field = error["ctx"]["discriminator"].strip("'")
@@ -189,7 +191,7 @@ def _quote(value: object) -> str:
         case int() | float():
             return f"{value}"
         case str():
-            return f'the text "{_cut(value)}"'
+            return f'the text "{_shorten(value)}"'
         case Mapping():
             return "an object"
         case list() | tuple():
@@ -198,10 +200,10 @@ def _quote(value: object) -> str:
             return f"a Python {type(value).__name__}"
 
 
-def _cut(text: str) -> str:
+def _shorten(text: str) -> str:
     return text if len(text) <= MAX_QUOTED else text[: MAX_QUOTED - 1] + "…"
 
 
-def printable(text: str) -> str:
+def make_printable(text: str) -> str:
     """Text without lone surrogates, which JSON can write but no terminal or socket."""
     return text.encode("utf-8", "backslashreplace").decode("utf-8")

@@ -126,8 +126,8 @@ def tick(
         {
             "kind": "tick",
             "flight_id": flight_id,
-            "t_s": _finite(t),
-            "rate": _finite(rate),
+            "t_s": _expect_finite(t),
+            "rate": _expect_finite(rate),
             "paused": paused,
             "ended": ended,
             "documents": [to_wire(document) for document in documents],
@@ -196,15 +196,15 @@ def _conversion(name: str, annotation: Any, unit: str) -> tuple[Convert, Convert
     if unit in ("rad", "radps"):
         return (_compass_degrees if name in COMPASS else _degrees), radians
     if annotation is float:
-        return _finite, _same
+        return _expect_finite, _keep
     if annotation in (int, bool, str):
-        return annotation, _same  # also turns numpy's scalars into Python's
+        return annotation, _keep  # also turns numpy's scalars into Python's
     if get_origin(annotation) is tuple:
-        return _encode_all, _same
+        return _encode_all, _keep
     if is_dataclass(annotation) or get_origin(annotation) in (UnionType, Union):
-        return to_wire, _same
+        return to_wire, _keep
     if get_origin(annotation) is Literal or issubclass(annotation, Enum):
-        return str, _same
+        return str, _keep
     raise TypeError(f"{name}: the wire has no form for {annotation!r}.")
 
 
@@ -212,23 +212,23 @@ def _encode_all(members: Sequence[Any]) -> list[dict[str, Any]]:
     return [to_wire(member) for member in members]
 
 
-def _same(value: Any) -> Any:
+def _keep(value: Any) -> Any:
     return value
 
 
-def _finite(value: float) -> float:
+def _expect_finite(value: float) -> float:
     if not isfinite(value):
         raise ValueError(f"A document must hold finite numbers only, not {value}.")
     return float(value)
 
 
 def _degrees(value: float) -> float:
-    return degrees(_finite(value))
+    return degrees(_expect_finite(value))
 
 
 def _per_degree(value: float) -> float:
-    return radians(_finite(value))
+    return radians(_expect_finite(value))
 
 
 def _compass_degrees(value: float) -> float:
-    return compass(degrees(_finite(value)))
+    return compass(degrees(_expect_finite(value)))

@@ -84,7 +84,9 @@ def draw_areas(columns: Sequence[Column], tree: Tree, file: Path) -> None:
         most = parameters.horizon / MINUTE
         for axes, column in zip(grid.T, columns, strict=True):
             axes[0].set_title(_heading(column.tree.heading), color=INK, fontsize=10)
-            times = [_times(a, area, most) for a, area in zip(axes, _two(column), strict=False)]
+            times = [
+                _times(a, area, most) for a, area in zip(axes, _two_areas(column), strict=False)
+            ]
             lost = _losses(axes[2], column.loss)
             for a in axes:
                 _landmarks(a, parameters, column.tree.heading)
@@ -118,7 +120,7 @@ def _subtitle(tree: Tree) -> str:
 
 def _crop(axes: "Axes", columns: Sequence[Column]) -> None:
     """Leave out what no area reaches, for all panels."""
-    areas = [area for column in columns for area in _two(column)]
+    areas = [area for column in columns for area in _two_areas(column)]
     shown = np.logical_or.reduce([np.isfinite(area.time) for area in areas])
     if shown.any():
         for edges, along, limit in (
@@ -131,7 +133,7 @@ def _crop(axes: "Axes", columns: Sequence[Column]) -> None:
             limit(low - margin, high + margin)
 
 
-def _two(column: Column) -> tuple[Area, Area]:
+def _two_areas(column: Column) -> tuple[Area, Area]:
     return column.tree, column.exact
 
 

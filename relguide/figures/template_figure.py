@@ -35,10 +35,10 @@ def draw_template_audit(audit: TemplateAudit, folder: Path) -> list[Path]:
     Returns:
         the file written.
     """
-    return write_figures({FILE: partial(_named, audit)}, folder)
+    return write_figures({FILE: partial(_draw_naming, audit)}, folder)
 
 
-def _named(audit: TemplateAudit) -> "Figure":
+def _draw_naming(audit: TemplateAudit) -> "Figure":
     """How often the first choice is right, and whether it is as often wrong as it says."""
     figure, (left, right) = two_panels("Where the limit binds: the template network")
     groups = [

@@ -16,7 +16,7 @@ the same impact pressure at sea level in the standard atmosphere.
 from dataclasses import dataclass
 from math import exp, sqrt
 
-from relguide.planning.inputs import expect, within
+from relguide.planning.inputs import expect, expect_within
 from relguide.planning.reprs import as_code
 from relguide.planning.wind import CALM, Wind
 from relguide.units import G0, Metre, MetrePerSecond, Second
@@ -63,7 +63,7 @@ class Air:
     def __post_init__(self) -> None:
         """Refuse what no atmosphere has."""
         expect("wind", self.wind, Wind)
-        deviation = within(
+        deviation = expect_within(
             "isa_deviation", self.isa_deviation, -MAX_ISA_DEVIATION, MAX_ISA_DEVIATION, "K"
         )
         object.__setattr__(self, "isa_deviation", deviation)
@@ -134,7 +134,7 @@ def standard_temperature(altitude: Metre) -> float:
     Raises:
         ValueError: outside LOWEST_ALTITUDE … HIGHEST_ALTITUDE.
     """
-    altitude = within("altitude", altitude, LOWEST_ALTITUDE, HIGHEST_ALTITUDE, "m")
+    altitude = expect_within("altitude", altitude, LOWEST_ALTITUDE, HIGHEST_ALTITUDE, "m")
     return SEA_LEVEL_TEMPERATURE - LAPSE_RATE * min(altitude, TROPOPAUSE)
 
 
@@ -145,7 +145,9 @@ def pressure(altitude: Metre) -> float:
         ValueError: outside LOWEST_ALTITUDE … HIGHEST_ALTITUDE.
     """
     if altitude > TROPOPAUSE:
-        above = within("altitude", altitude, LOWEST_ALTITUDE, HIGHEST_ALTITUDE, "m") - TROPOPAUSE
+        above = (
+            expect_within("altitude", altitude, LOWEST_ALTITUDE, HIGHEST_ALTITUDE, "m") - TROPOPAUSE
+        )
         return _TROPOPAUSE_PRESSURE * exp(-G0 * above / (GAS_CONSTANT * _TROPOPAUSE_TEMPERATURE))
     ratio = standard_temperature(altitude) / SEA_LEVEL_TEMPERATURE
     return SEA_LEVEL_PRESSURE * float(ratio**_PRESSURE_EXPONENT)

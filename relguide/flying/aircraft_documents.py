@@ -175,7 +175,7 @@ class _HasIdent(Protocol):
 Member = TypeVar("Member", bound=_HasIdent)
 
 
-def by_ident(members: Iterable[Member], ident: str) -> Member:
+def find_by_ident(members: Iterable[Member], ident: str) -> Member:
     """The aircraft, guidance or result of that ident.
 
     Raises:

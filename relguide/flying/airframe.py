@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from relguide.flying.air import HIGHEST_ALTITUDE, STANDARD_AIR, Air
-from relguide.planning.inputs import text, within
+from relguide.planning.inputs import expect_within, text
 from relguide.units import (
     DEG,
     FT,
@@ -84,7 +84,7 @@ class Airframe:
         if not text("name", self.name).strip():
             raise ValueError("name must not be empty: give what the maker calls the type.")
         for quantity in QUANTITIES:
-            value = within(
+            value = expect_within(
                 quantity.field,
                 getattr(self, quantity.field),
                 quantity.low * quantity.scale,
@@ -220,12 +220,12 @@ def _parse_airframe(content: str, file: str) -> Airframe:
     _refuse_unknown(sources, f"{file}, in [sources]")
     for key, sentence in sources.items():
         text(f"{file}: sources.{key}", sentence)
-    designator, name = (text(f"{file}: {key}", _given(table, key, file)) for key in KEYS[:2])
+    designator, name = (text(f"{file}: {key}", _require(table, key, file)) for key in KEYS[:2])
     numbers = {
         quantity.field: quantity.scale
-        * within(
+        * expect_within(
             f"{file}: {quantity.key}",
-            _given(table, quantity.key, file),
+            _require(table, quantity.key, file),
             quantity.low,
             quantity.high,
             quantity.unit,
@@ -238,7 +238,7 @@ def _parse_airframe(content: str, file: str) -> Airframe:
         raise ValueError(f"{file}: {error}") from None
 
 
-def _given(table: Mapping[str, object], key: str, file: str) -> object:
+def _require(table: Mapping[str, object], key: str, file: str) -> object:
     """What a file says under a key that it must have."""
     if key in table:
         return table[key]

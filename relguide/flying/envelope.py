@@ -4,7 +4,7 @@ from math import ceil, floor
 
 from relguide.flying.air import Air
 from relguide.flying.airframe import Airframe
-from relguide.planning.inputs import within
+from relguide.planning.inputs import expect_within
 from relguide.planning.limits import TAS
 from relguide.units import DEG, FT, KT, Metre, MetrePerSecond, Radian
 
@@ -77,8 +77,8 @@ def level_for(
     Raises:
         ValueError: if there is no such level, with what would be right.
     """
-    slowest = within("slowest", slowest, *TAS)
-    fastest = within("fastest", fastest, slowest, TAS.high, TAS.unit)
+    slowest = expect_within("slowest", slowest, *TAS)
+    fastest = expect_within("fastest", fastest, slowest, TAS.high, TAS.unit)
     levels = _levels(airframe, preferred)
     slow = [level for level in levels if _slow_enough(airframe, level, air, slowest)]
     fast = [level for level in levels if _fast_enough(airframe, level, air, fastest)]

@@ -17,12 +17,12 @@ from relguide.flying.belief import SPARE, Belief, FlownTrack
 from relguide.flying.leaders.declared import (
     Program,
     TurnChoice,
-    heading_held,
     program_of,
     remaining,
+    straight_heading,
     turn_program,
 )
-from relguide.flying.leaders.recorded import Recording, recorded_steps
+from relguide.flying.leaders.recorded import Recording, steps_of_track
 from relguide.flying.world import Aircraft, Declared, Guided, Link, Recorded, World
 from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.flight.records import Body, Control, Drift, Limits, limits_at
@@ -95,7 +95,7 @@ class Fleet:
                     self.set_program(i, program_of(intent, heading, 0.0, aircraft.tas))
                 case Recorded(track=track):
                     self.pilots[i] = RECORDED
-                    self.recordings[i] = recording = recorded_steps(track, wind, step)
+                    self.recordings[i] = recording = steps_of_track(track, wind, step)
                     self.states[i] = recording.rows[0]
                     self.altitudes[i] = recording.altitude[0]
 
@@ -210,7 +210,7 @@ class Fleet:
             program=program.rows if known else NO_PROGRAM,
             cursor=cursor if known else 0,
             held=program.held if known else leader.heading,
-            holds=heading_held(program, cursor) if known else leader.heading,
+            holds=straight_heading(program, cursor) if known else leader.heading,
             leader_tas=leader.tas,
             track=track,
             wind=self.believed_air.wind_at(own.x, own.y, float(self.altitudes[i, -1]), t),

@@ -18,11 +18,19 @@ from relguide.flying.orders import IntentKnown as IntentKnown
 from relguide.flying.orders import LeaderHeading as LeaderHeading
 from relguide.flying.orders import LeaderSpeed as LeaderSpeed
 from relguide.flying.orders import no_commands as no_commands
-from relguide.flying.scatter import scattered
+from relguide.flying.scatter import scatter
 from relguide.flying.simulation import simulate, whole_steps
 from relguide.flying.tracks import RecordedTrack
 from relguide.flying.world import Aircraft, Declared, Guided, Link, Recorded, World
-from relguide.planning.inputs import expect, expect_function, number, text, truth, whole, within
+from relguide.planning.inputs import (
+    expect,
+    expect_function,
+    expect_whole,
+    expect_within,
+    number,
+    text,
+    truth,
+)
 from relguide.planning.plan import Plan, Planner
 from relguide.planning.situation import IntentPiece, Situation, TurnTo
 from relguide.units import DEG, Metre, Radian, Second
@@ -86,8 +94,8 @@ class Scenario:
             raise ValueError(
                 f"pursuer_ident and leader_ident must differ, not both be {self.leader_ident!r}."
             )
-        within("altitude", self.altitude, *ALTITUDES, "m")
-        within("spacing", self.spacing, 0.0, 600.0, "s")
+        expect_within("altitude", self.altitude, *ALTITUDES, "m")
+        expect_within("spacing", self.spacing, 0.0, 600.0, "s")
         if number("duration_limit", self.duration_limit) <= 0.0:
             raise ValueError(f"duration_limit must be above 0 s, not {self.duration_limit}.")
         if number("after_joining", self.after_joining) < 0.0:
@@ -139,7 +147,7 @@ def fly(
     expect_function("planner", planner)
     expect_function("commands", commands)
     expect("settings", settings, Settings)
-    seed, step = whole("seed", seed, 0), number("step", step)
+    seed, step = expect_whole("seed", seed, 0), number("step", step)
     whole_steps(1.0, step)
     whole_steps(number("sample_period", sample_period), step)
     return _fly(scenario, planner, commands, step, sample_period, seed, settings)
@@ -192,7 +200,7 @@ def world_of(scenario: Scenario, settings: Settings = DEFAULT, seed: int = 0) ->
         aircraft=(
             Aircraft(
                 ident=scenario.pursuer_ident,
-                airframe=scattered(can, seed),
+                airframe=scatter(can, seed),
                 believed=can,
                 aircraft_type=can.designator,
                 x=pursuer.x,

@@ -16,7 +16,7 @@ from relguide.flying.aircraft_documents import (
     Loss,
     ReferenceCard,
     TurnRateReference,
-    by_ident,
+    find_by_ident,
 )
 from relguide.flying.cards import no_plan_card, path_point, path_segments, plan_card
 from relguide.flying.documents import (
@@ -176,7 +176,7 @@ def _guidance_sample(
     since: Second,
     wind: Wind,
 ) -> GuidanceSample:
-    own, other = by_ident(samples, names.pursuer), by_ident(samples, names.leader)
+    own, other = find_by_ident(samples, names.pursuer), find_by_ident(samples, names.leader)
     east, north = other.x - own.x, other.y - own.y
     separation = hypot(east, north)
     closure = 0.0

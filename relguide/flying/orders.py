@@ -9,7 +9,7 @@ from relguide.flying.documents import LeaderChanged
 from relguide.flying.fleet import Fleet
 from relguide.flying.leaders.declared import TurnChoice
 from relguide.kernels.base.angles import wrap
-from relguide.planning.inputs import within
+from relguide.planning.inputs import expect_within
 from relguide.planning.limits import TAS
 from relguide.planning.phrases import compass
 from relguide.units import DEG, KT, MetrePerSecond, Radian, Second
@@ -44,7 +44,7 @@ class LeaderSpeed:
 
     def __post_init__(self) -> None:
         """Refuse a speed outside the accepted range."""
-        within("tas", self.tas, *TAS)
+        expect_within("tas", self.tas, *TAS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from relguide.flying.aircraft_documents import AircraftSample, LinkCard, by_ident
+from relguide.flying.aircraft_documents import AircraftSample, LinkCard, find_by_ident
 from relguide.flying.documents import FlightStarted, LeaderRoute, Sample
 from relguide.flying.plan_documents import StraightSegment, TurnSegment
 from relguide.kernels.base.angles import wrap
@@ -38,7 +38,10 @@ def situation_now(
     Raises:
         ValueError: if no plan can be made at such an instant, e.g. outside accepted speeds.
     """
-    pursuer, leader = by_ident(now.aircraft, link.pursuer), by_ident(now.aircraft, link.leader)
+    pursuer, leader = (
+        find_by_ident(now.aircraft, link.pursuer),
+        find_by_ident(now.aircraft, link.leader),
+    )
     expected = [r for r in routes if (r.expected_by, r.ident) == (link.pursuer, link.leader)]
     return Situation(
         pursuer=Pursuer(
@@ -46,7 +49,7 @@ def situation_now(
             y=pursuer.y,
             heading=pursuer.heading,
             tas=pursuer.tas,
-            max_bank=by_ident(started.aircraft, link.pursuer).max_bank,
+            max_bank=find_by_ident(started.aircraft, link.pursuer).max_bank,
         ),
         leader=Leader(
             x=leader.x,

@@ -31,7 +31,7 @@ SHARE = 0.1
 """By how much of themselves they do at most."""
 
 
-def scattered(airframe: Airframe, seed: int, share: float = SHARE) -> Airframe:
+def scatter(airframe: Airframe, seed: int, share: float = SHARE) -> Airframe:
     """An aircraft whose constants differ from its type's by chance.
 
     Args:

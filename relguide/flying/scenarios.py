@@ -188,7 +188,7 @@ def _level(situation: Situation) -> Metre:
         return level_for(can, air, slowest=own, fastest=own)
 
 
-def _nothing_missing() -> str:
+def _report_nothing() -> str:
     return ""
 
 
@@ -219,8 +219,8 @@ SCENARIOS: Mapping[str, NamedScenario] = {
         missing=missing,
     )
     for name, build, missing in (
-        ("fig_6a", lambda: fig_6(intent_known=False), _nothing_missing),
-        ("fig_6b", lambda: fig_6(intent_known=True), _nothing_missing),
+        ("fig_6a", lambda: fig_6(intent_known=False), _report_nothing),
+        ("fig_6b", lambda: fig_6(intent_known=True), _report_nothing),
         ("recorded_leader", lambda: scenario_behind(load_sample(DEFAULT_LEADER)), _samples_missing),
     )
 }

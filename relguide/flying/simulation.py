@@ -75,7 +75,7 @@ def simulate(
     a_sample = whole_steps(sample_period, step)
     whole_steps(1.0, step)
     fleet = Fleet(world, step)
-    yield _started(world, planner_name, scenario, title, step, seed)
+    yield _start_document(world, planner_name, scenario, title, step, seed)
     pursuits = [begin_pursuit(world, fleet, link) for link in world.links]
     for one in pursuits:
         yield expected_route(one, one.view.shown)
@@ -110,7 +110,7 @@ def whole_steps(duration: Second, step: Second) -> int:
     return steps
 
 
-def _started(
+def _start_document(
     world: World, planner: str, scenario: str, title: str, step: Second, seed: int
 ) -> FlightStarted:
     return FlightStarted(

@@ -76,7 +76,7 @@ def smooth_motion(
     """
     order = np.argsort(t, kind="stable")
     t, place, velocity, altitude = t[order], place[order], velocity[order], altitude[order]
-    at, heard = _chain(t, _without_repeats(place), MAX_SPEED, POSITION_SLACK)
+    at, heard = _chain(t, _drop_repeats(place), MAX_SPEED, POSITION_SLACK)
     if len(at) < MIN_POINTS:
         raise ValueError(
             f"has no stretch of {MIN_POINTS} positions without a gap of more than {MAX_GAP:g} s; "
@@ -130,7 +130,7 @@ def _chain(t: Array, values: Array, max_rate: float, slack: float) -> tuple[Arra
     return t[chain], values[chain]
 
 
-def _without_repeats(place: Array) -> Array:
+def _drop_repeats(place: Array) -> Array:
     """Places that are not held over from the row before; the others are missing."""
     held = np.all(np.diff(place, axis=0, prepend=np.nan) == 0.0, axis=1)
     return np.where(held[:, None], np.nan, place)

@@ -98,14 +98,14 @@ class LockedIndex(caching.IndexDataCacheFile):  # type: ignore[misc]
 
     def _alone(self) -> AbstractContextManager[None]:
         place = Path(self._cache_path)
-        return _alone(place) if place == folder() else nullcontext()
+        return _lock(place) if place == folder() else nullcontext()
 
 
 @cache
 def folder() -> Path:
     """Where kernels are kept."""
     for place in _places():
-        if _can_write(place) or filled(place):
+        if _can_write(place) or is_full(place):
             return place
     try:
         return Path(mkdtemp(prefix="relguide-"))  # compiled for this process alone
@@ -114,20 +114,20 @@ def folder() -> Path:
         raise OSError(sentence) from None
 
 
-def filled(place: Path) -> bool:
+def is_full(place: Path) -> bool:
     """Whether a folder holds every kernel, of these sources and for this machine."""
-    return warm(EVERYTHING, place)
+    return is_warm(EVERYTHING, place)
 
 
-def warm(step: str, place: Path) -> bool:
+def is_warm(step: str, place: Path) -> bool:
     """Whether a folder holds the kernels of a step, of these sources and for this machine."""
-    return _recorded(step, place) == _wanted()
+    return _read_record(step, place) == _expected_record()
 
 
 def record(steps: Iterable[str], place: Path) -> None:
     """Note that a folder holds the kernels of some steps."""
     for step in steps:
-        _write(_record(step, place), json.dumps(_wanted()).encode())
+        _write(_record(step, place), json.dumps(_expected_record()).encode())
 
 
 def adopt(shipped: Path = SHIPPED) -> None:
@@ -137,21 +137,21 @@ def adopt(shipped: Path = SHIPPED) -> None:
     is compiled for any CPU of this kind runs on this one, so it is filed under this one's name.
     All modules of kernels must be importable: their types are named in the index.
     """
-    offered, place = _recorded(EVERYTHING, shipped), folder()
-    if offered is None or shipped == place or _recorded(ADOPTED, place) == offered:
+    offered, place = _read_record(EVERYTHING, shipped), folder()
+    if offered is None or shipped == place or _read_record(ADOPTED, place) == offered:
         return
-    with _alone(place):
-        if offered == [*_wanted()[:-2], *ANY_CPU] and not filled(place):
+    with _lock(place):
+        if offered == [*_expected_record()[:-2], *ANY_CPU] and not is_full(place):
             for index in sorted(shipped.glob("*.nbi")):
                 _adopt_function(index, place)
             for file in shipped.glob(f"*{RECORD}"):
-                _write(place / file.name, json.dumps(_wanted()).encode())
+                _write(place / file.name, json.dumps(_expected_record()).encode())
         _write(_record(ADOPTED, place), json.dumps(offered).encode())
 
 
 def _adopt_function(index: Path, place: Path) -> None:
     """The machine code of one function, as numba's `IndexDataCacheFile` writes it."""
-    machine = tuple(_wanted()[-3:])
+    machine = tuple(_expected_record()[-3:])
     with index.open("rb") as file:
         version = pickle.load(file)
         stamp, overloads = pickle.load(file)
@@ -163,7 +163,7 @@ def _adopt_function(index: Path, place: Path) -> None:
 
 
 @cache
-def _wanted() -> list[str]:
+def _expected_record() -> list[str]:
     machine = cpu_target.target_context.codegen().magic_tuple()
     sources = _stamp(tuple(sorted(HERE.rglob("*.py"))))
     return [sources, numba_version, str(sys.implementation.cache_tag), *map(str, machine)]
@@ -173,7 +173,7 @@ def _record(step: str, place: Path) -> Path:
     return place / f"{step}{RECORD}"
 
 
-def _recorded(step: str, place: Path) -> object:
+def _read_record(step: str, place: Path) -> object:
     try:
         return json.loads(_record(step, place).read_text())
     except (OSError, ValueError):
@@ -189,15 +189,15 @@ def _stamp(files: tuple[Path, ...]) -> str:
         file = pending.pop()
         if file not in seen:
             seen.add(file)
-            pending += _made_of(file)[1]
+            pending += _digest_and_imports(file)[1]
     digest = sha256()
     for file in sorted(seen):
-        digest.update(_made_of(file)[0])
+        digest.update(_digest_and_imports(file)[0])
     return digest.hexdigest()
 
 
 @cache
-def _made_of(file: Path) -> tuple[bytes, tuple[Path, ...]]:
+def _digest_and_imports(file: Path) -> tuple[bytes, tuple[Path, ...]]:
     """The digest of one file, and the files of ours that it names."""
     text = file.read_bytes()
     names = {match[1].decode().replace(".", "/") for match in IMPORT.finditer(text)}
@@ -229,7 +229,7 @@ def _write(file: Path, content: bytes) -> None:
 
 
 @contextmanager
-def _alone(place: Path) -> Iterator[None]:
+def _lock(place: Path) -> Iterator[None]:
     """Keep other processes out of a folder meanwhile."""
     if fcntl is None:
         yield

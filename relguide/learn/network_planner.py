@@ -111,7 +111,7 @@ def propose(
     """
     radius = situation.pursuer.turn_radius
     if situation.leader.intent:
-        return _behind_turns(network, situation, radius)
+        return _propose_behind_turns(network, situation, radius)
     binds, place, free = view(situation, radius)
     if binds:
         if templates is None:
@@ -123,7 +123,9 @@ def propose(
     return None if first is None else _with_certificate(first[0], situation, radius, first[1])
 
 
-def _behind_turns(network: BranchNetwork, situation: Situation, radius: Metre) -> Proposal | None:
+def _propose_behind_turns(
+    network: BranchNetwork, situation: Situation, radius: Metre
+) -> Proposal | None:
     """The fastest path of the words that the network holds possible, if no extremal is faster."""
     frame = slot_frame(situation, situation.leader.trajectory)
     x, y, h, alpha, t_release = frame.x, frame.y, frame.h, frame.alpha, frame.t_release

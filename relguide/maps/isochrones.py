@@ -35,7 +35,14 @@ from relguide.kernels.separation.clearance import SLACK
 from relguide.kernels.words.extremals import WORDS
 from relguide.maps.constrained_times import CONSTRAINED, between_nodes, search_nodes
 from relguide.maps.contours import Contour, Evaluate, Field, Floats, Region, contours, regions
-from relguide.planning.inputs import expect, expect_function, number, truth, whole, within
+from relguide.planning.inputs import (
+    expect,
+    expect_function,
+    expect_whole,
+    expect_within,
+    number,
+    truth,
+)
 from relguide.planning.limits import POSITION
 from relguide.planning.situation import Situation
 from relguide.planning.slot import SlotFrame, slot_frame
@@ -93,7 +100,7 @@ class Grid:
                     f"{name} must be a whole number from 2 to {MAX_NODES}, not {count!r}."
                 )
         for name, value in (("width", self.width), ("height", self.height)):
-            within(f"grid.{name}", value, MIN_EXTENT, MAX_EXTENT, "m")
+            expect_within(f"grid.{name}", value, MIN_EXTENT, MAX_EXTENT, "m")
         for name, middle, extent in (("x", self.x, self.width), ("y", self.y, self.height)):
             if abs(number(f"grid.{name}", middle)) + 0.5 * extent > POSITION.high:
                 raise ValueError(
@@ -151,7 +158,7 @@ def isochrones(
     expect("situation", situation, Situation)
     exact = truth("exact", exact)
     if threads is not None:
-        threads = whole("threads", threads, 1)
+        threads = expect_whole("threads", threads, 1)
     if evaluate is not None:
         expect_function("evaluate", evaluate)
     expect_function("progress", progress)
@@ -209,7 +216,7 @@ def check_levels(levels: Sequence[Second]) -> tuple[Second, ...]:
     expect("levels", levels, tuple, list)
     if len(levels) > MAX_LEVELS:
         raise ValueError(f"There must be at most {MAX_LEVELS} levels, not {len(levels)}.")
-    return tuple(sorted({within("A level", level, 0.0, HORIZON, "s") for level in levels}))
+    return tuple(sorted({expect_within("A level", level, 0.0, HORIZON, "s") for level in levels}))
 
 
 def round_levels(field: Field) -> tuple[Second, ...]:

@@ -119,14 +119,14 @@ def alternatives(plan: Plan) -> tuple[AnyAlternative, ...]:
     expect("plan", plan, Plan)
     situation = plan.situation
     found = candidates(situation)
-    early = _first_times(found.frame)
+    early = _first_arrivals(found.frame)
     scale = found.frame.radius / situation.pursuer.tas
     release_time = found.frame.t_release * scale
     late = {WORDS[int(word)] for word in found.rows[:, 1]}
     around = surroundings(found)
     listed: list[Alternative | TooEarly] = [
-        *_at_release(plan, found, around),
-        *_later(plan, found, around),
+        *_release_alternatives(plan, found, around),
+        *_later_alternatives(plan, found, around),
     ]
     for word, first in early.items():
         time = first * scale
@@ -142,7 +142,7 @@ def alternatives(plan: Plan) -> tuple[AnyAlternative, ...]:
     )
 
 
-def _first_times(frame: SlotFrame) -> dict[str, float]:
+def _first_arrivals(frame: SlotFrame) -> dict[str, float]:
     """When each word that reaches the slot is first there, open or not [R/V_P]."""
     rows = np.empty((MAX_ROWS, 5))
     n = solve(frame.pose, frame.alpha, 0.0, rows)
@@ -152,7 +152,9 @@ def _first_times(frame: SlotFrame) -> dict[str, float]:
     return times
 
 
-def _later(plan: Plan, found: Candidates, around: Surroundings) -> Iterator[Alternative]:
+def _later_alternatives(
+    plan: Plan, found: Candidates, around: Surroundings
+) -> Iterator[Alternative]:
     """Extremals that arrive once the slot is open."""
     seen: set[tuple[str, bool, int]] = set()
     last: dict[str, Second] = {}
@@ -170,7 +172,9 @@ def _later(plan: Plan, found: Candidates, around: Surroundings) -> Iterator[Alte
             yield _compare(candidate, ours, plan)
 
 
-def _at_release(plan: Plan, found: Candidates, around: Surroundings) -> Iterator[Alternative]:
+def _release_alternatives(
+    plan: Plan, found: Candidates, around: Surroundings
+) -> Iterator[Alternative]:
     """For each passing, the path of fewest turns that arrives as the slot opens."""
     seen: set[int] = set()
     for candidate in islice(found.at_release, AT_RELEASE):

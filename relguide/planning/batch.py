@@ -22,7 +22,7 @@ from relguide.kernels.contact import time_rows as kernel
 from relguide.kernels.words.extremals import WORDS
 from relguide.planning import limits
 from relguide.planning.constrained_path import BEARINGS
-from relguide.planning.inputs import expect, expect_function, truth, whole
+from relguide.planning.inputs import expect, expect_function, expect_whole, truth
 from relguide.planning.situation import Leader, Pursuer, Situation, Wind
 from relguide.planning.words import HORIZON
 from relguide.units import DEG, Second
@@ -216,7 +216,7 @@ def plan_arrays(
     expect("situations", situations, Situations)
     limited = truth("limited", limited)
     if threads is not None:
-        threads = whole("threads", threads, 1)
+        threads = expect_whole("threads", threads, 1)
     if progress is not None:
         expect_function("progress", progress)
     chunk = LIMITED_CHUNK if limited else CHUNK
@@ -231,7 +231,7 @@ def plan_arrays(
     with ThreadPoolExecutor(threads or cpu_count() or 1) as pool:
         for start in range(0, size, BLOCK):
             block = slice(start, min(start + BLOCK, size))
-            rows, scale = _in_slot_frame(*(column[block] for column in columns))
+            rows, scale = _to_slot_frame(*(column[block] for column in columns))
             answers = np.empty((len(rows), 4))
 
             def work(first: int, rows: Floats = rows, answers: Floats = answers) -> int:
@@ -317,7 +317,7 @@ def _situation(
     )
 
 
-def _in_slot_frame(
+def _to_slot_frame(
     px: Floats, py: Floats, psi: Floats, tas: Floats, bank: Floats, lx: Floats, ly: Floats,
     leading: Floats, leader_tas: Floats, distance: Floats, nearest: Floats, east: Floats,
     north: Floats,

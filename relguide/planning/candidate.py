@@ -86,7 +86,7 @@ def segments_of(
     return tuple(segments)
 
 
-def segments_flown(radius: Metre, pieces: np.ndarray) -> tuple[Segment, ...]:
+def segments_of_pieces(radius: Metre, pieces: np.ndarray) -> tuple[Segment, ...]:
     """Pieces of a constrained path as segments.
 
     Args:

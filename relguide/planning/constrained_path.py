@@ -6,7 +6,7 @@ from relguide.kernels.contact.any_path import any_path
 from relguide.kernels.contact.chain import MAX_LEGS
 from relguide.kernels.contact.constrained_search import (
     best_constrained_path,
-    eased_to_start,
+    ease_to_start,
 )
 from relguide.kernels.contact.path_pieces import pieces_of
 from relguide.kernels.contact.tangent import tangents
@@ -15,7 +15,7 @@ from relguide.planning.candidate import (
     Candidate,
     assemble,
     candidate_of,
-    segments_flown,
+    segments_of_pieces,
 )
 from relguide.planning.tables import scene_of
 from relguide.planning.words import HORIZON, Candidates
@@ -43,7 +43,7 @@ def constrained_path(found: Candidates, *, beat: Second) -> Candidate | None:
         return None
     scale = frame.radius / situation.pursuer.tas
     start = frame.pose
-    scene = eased_to_start(start, scene_of(situation, frame))
+    scene = ease_to_start(start, scene_of(situation, frame))
     keeps_straight = len(scene.leader) == 1
     bearings = BEARINGS if keeps_straight else TURNING_BEARINGS
     legs, row = np.zeros((MAX_LEGS, 6)), np.zeros(5)
@@ -55,7 +55,7 @@ def constrained_path(found: Candidates, *, beat: Second) -> Candidate | None:
     if count > 0:
         pieces = pieces_of(start, scene, frame.radius, 1.0, time, legs[:count])
         if pieces.shape[1] > 0:
-            return candidate_of(situation.pursuer, segments_flown(frame.radius, pieces))
+            return candidate_of(situation.pursuer, segments_of_pieces(frame.radius, pieces))
     if beat < HORIZON:
         return None
     time, sign, turned, straight = any_path(start, scene, beat / scale, row)

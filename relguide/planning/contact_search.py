@@ -80,13 +80,13 @@ class Question:
             for low, high in windows if start < t_release < end == inf else ((start, end),):
                 high = min(high, self.horizon)
                 if low < high or low == 0.0:
-                    yield from _all_round(i, low, high)
+                    yield from _all_cells(i, low, high)
 
     def last_contacts(self) -> tuple[Cell, ...]:
         """All contacts of the final leg from which the slot is reached, in cells."""
         if self.goal.speed != self.scene.alpha:
             return ()
-        return tuple(_all_round(len(self.scene.leader) - 1, 0.0, inf))
+        return tuple(_all_cells(len(self.scene.leader) - 1, 0.0, inf))
 
     def warm_up(self) -> None:
         """Load the kernels."""
@@ -256,7 +256,7 @@ def halves(cell: Cell, d_min: float) -> tuple[Cell, Cell]:
     )
 
 
-def _all_round(piece: int, start: float, end: float) -> Iterator[Cell]:
+def _all_cells(piece: int, start: float, end: float) -> Iterator[Cell]:
     """Cells for all bearings and both sides; none may reach into two quadrants."""
     width = 0.5 * pi / _QUADRANT_CELLS
     for k in range(4 * _QUADRANT_CELLS):

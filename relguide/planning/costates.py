@@ -108,7 +108,7 @@ def _switching(x: float, y: float) -> FloatArray:
     return np.array((-y, x, 1.0))
 
 
-def _wide(part: int, row: FloatArray, n: int) -> FloatArray:
+def _wide_row(part: int, row: FloatArray, n: int) -> FloatArray:
     wide = np.zeros(n)
     wide[3 * part : 3 * part + 3] = row
     return wide
@@ -124,14 +124,14 @@ def _place(legs: tuple[Leg, ...], t: float) -> Vector:
 
 def _exact_rows(whole: Cut, legs: tuple[Leg, ...], n: int) -> FloatArray:
     parts, end = len(whole.touches), whole.end
-    rows = [_wide(parts, np.array((*end.passing, legs[-1].rate)), n)]
+    rows = [_wide_row(parts, np.array((*end.passing, legs[-1].rate)), n)]
     for i, touch in enumerate(whole.touches):
         before = np.array((*touch.entry.passing, 0.0))
         after = np.array((*touch.exit.passing, 0.0))
-        rows.append(_wide(i, before, n) - _wide(i + 1, after, n))
+        rows.append(_wide_row(i, before, n) - _wide_row(i + 1, after, n))
         if not touch.slides:
             unbroken = _switching(*_place(legs, touch.entry.time))
-            rows.append(_wide(i, unbroken, n) - _wide(i + 1, unbroken, n))
+            rows.append(_wide_row(i, unbroken, n) - _wide_row(i + 1, unbroken, n))
     return np.array(rows)
 
 
@@ -140,14 +140,16 @@ def _vanishing_rows(whole: Cut, legs: tuple[Leg, ...], n: int) -> FloatArray:
     last: Leg | None = None
     for leg in legs:
         if leg.rate == 0.0:
-            rows += [_wide(leg.part, _switching(*leg.at(t)[:2]), n) for t in (0.0, leg.duration)]
+            rows += [
+                _wide_row(leg.part, _switching(*leg.at(t)[:2]), n) for t in (0.0, leg.duration)
+            ]
         elif last is not None and _switches(last, leg):
-            rows.append(_wide(leg.part, _switching(leg.x, leg.y), n))
+            rows.append(_wide_row(leg.part, _switching(leg.x, leg.y), n))
         last = leg
     for i, touch in enumerate(whole.touches):
         if touch.slides:
-            rows.append(_wide(i, _switching(*_place(legs, touch.entry.time)), n))
-            rows.append(_wide(i + 1, _switching(*_place(legs, touch.exit.time)), n))
+            rows.append(_wide_row(i, _switching(*_place(legs, touch.entry.time)), n))
+            rows.append(_wide_row(i + 1, _switching(*_place(legs, touch.exit.time)), n))
     return np.array(rows).reshape(-1, n)
 
 
@@ -162,8 +164,8 @@ def _jump_rows(touches: tuple[Touch, ...], n: int) -> FloatArray:
     """λ_p before = λ_p after + ν e, with e the unit vector from pursuer to leader."""
     rows = np.zeros((2 * len(touches), n))
     for i, touch in enumerate(touches):
-        before = _wide(i, np.array((*touch.entry.toward, 0.0)), n)
-        after = _wide(i + 1, np.array((*touch.exit.toward, 0.0)), n)
+        before = _wide_row(i, np.array((*touch.entry.toward, 0.0)), n)
+        after = _wide_row(i + 1, np.array((*touch.exit.toward, 0.0)), n)
         if not touch.slides:
             rows[2 * i] = before - after
             continue
@@ -172,7 +174,7 @@ def _jump_rows(touches: tuple[Touch, ...], n: int) -> FloatArray:
             (2 * i + 1, touch.exit, i + 1, after, -1.0),
         ):
             share = dot(sliding_costate(1.0, at.course, at.leader_velocity), at.toward)
-            kappa = _wide(part, np.array((*at.passing, 0.0)), n)
+            kappa = _wide_row(part, np.array((*at.passing, 0.0)), n)
             rows[row] = sign * (whole_row - share * kappa)
     return rows
 
@@ -185,7 +187,7 @@ def _sign_rows(legs: tuple[Leg, ...], n: int) -> tuple[FloatArray, FloatArray]:
         if leg.rate != 0.0 and not leg.sliding:
             for k in range(PROBES + 1):
                 x, y, _ = leg.at(leg.duration * k / PROBES)
-                row = _wide(leg.part, -np.sign(leg.rate) * _switching(x, y), n)
+                row = _wide_row(leg.part, -np.sign(leg.rate) * _switching(x, y), n)
                 (between if 0 < k < PROBES else ends).append(row)
     return np.array(between).reshape(-1, n), np.array(ends).reshape(-1, n)
 

@@ -48,11 +48,11 @@ def need(*packages: str, extra: str = "") -> None:
         MissingExtra: naming the first package that is not installed.
     """
     for package in packages:
-        if not _installed(package):
+        if not _is_installed(package):
             raise MissingExtra(package, extra or EXTRAS[package])
 
 
-def with_command(error: ModuleNotFoundError) -> ModuleNotFoundError:
+def add_command(error: ModuleNotFoundError) -> ModuleNotFoundError:
     """The same error with the command that brings the package, if an extra does."""
     package = (error.name or "").partition(".")[0]
     if isinstance(error, MissingExtra) or package not in EXTRAS:
@@ -60,7 +60,7 @@ def with_command(error: ModuleNotFoundError) -> ModuleNotFoundError:
     return MissingExtra(package, EXTRAS[package])
 
 
-def _installed(package: str) -> bool:
+def _is_installed(package: str) -> bool:
     try:
         return find_spec(package) is not None
     except ModuleNotFoundError:

@@ -64,7 +64,7 @@ def number(name: str, value: object) -> float:
     return value + 0.0
 
 
-def within(name: str, value: object, low: float, high: float, unit: str) -> float:
+def expect_within(name: str, value: object, low: float, high: float, unit: str) -> float:
     """A float in [low, high], to rounding.
 
     Raises:
@@ -79,7 +79,7 @@ def within(name: str, value: object, low: float, high: float, unit: str) -> floa
     return value
 
 
-def whole(name: str, value: object, low: int) -> int:
+def expect_whole(name: str, value: object, low: int) -> int:
     """A whole number, `low` or more.
 
     Raises:

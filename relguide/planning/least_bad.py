@@ -5,7 +5,7 @@ from math import inf
 
 from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.motion import Motion
-from relguide.kernels.separation.least_bad_turn import soonest_apart, widest_miss
+from relguide.kernels.separation.least_bad_turn import soonest_clear_turn, widest_miss
 from relguide.planning.phrases import compass, distance
 from relguide.planning.situation import Situation
 from relguide.planning.slot import over_ground
@@ -38,15 +38,15 @@ class Recovery:
 
 def restore(situation: Situation) -> Recovery:
     """Inside d_min: the turn and straight that brings the aircraft d_min apart soonest."""
-    pursuer, rate, leader = _both(situation)
-    angle, time = soonest_apart(pursuer, rate, leader, situation.min_separation, HORIZON)
+    pursuer, rate, leader = _motions(situation)
+    angle, time = soonest_clear_turn(pursuer, rate, leader, situation.min_separation, HORIZON)
     _, now, _ = widest_miss(pursuer, rate, leader, 0.0)
     return _recovery(situation, angle, now, time)
 
 
 def least_bad(situation: Situation) -> Recovery:
     """Where d_min cannot be kept: the turn and straight whose least separation is largest."""
-    angle, least, at = widest_miss(*_both(situation), HORIZON)
+    angle, least, at = widest_miss(*_motions(situation), HORIZON)
     return _recovery(situation, angle, least, at)
 
 
@@ -90,7 +90,7 @@ def _recovery(situation: Situation, angle: float, least: float, at: float) -> Re
     )
 
 
-def _both(situation: Situation) -> tuple[Motion, float, Motion]:
+def _motions(situation: Situation) -> tuple[Motion, float, Motion]:
     """The pursuer, its turn rate at full bank [rad/s], and the leader."""
     pursuer = situation.pursuer
     rate = pursuer.tas / pursuer.turn_radius

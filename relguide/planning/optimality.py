@@ -16,7 +16,7 @@ from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.bounds.costate import least_switching
 from relguide.planning.adjoint import AdjointHistory, adjoint_history
 from relguide.planning.costates import Costates, dot, find_costates, multiplier
-from relguide.planning.inputs import expect, within
+from relguide.planning.inputs import expect, expect_within
 from relguide.planning.legs import ROUNDING, Cut, Leg, cut, is_partial, join_legs
 from relguide.planning.plan import Plan
 from relguide.planning.situation import Situation
@@ -135,8 +135,8 @@ def check(
     """
     expect("flown", flown, Plan, Trajectory)
     expect("situation", situation, Situation)
-    within("samples", samples, 1, MAX_SAMPLES, "")
-    within("arrives", arrives, 0.0, MAX_ARRIVES, "R")
+    expect_within("samples", samples, 1, MAX_SAMPLES, "")
+    expect_within("arrives", arrives, 0.0, MAX_ARRIVES, "R")
     trajectory = flown.trajectory if isinstance(flown, Plan) else flown
     if trajectory.duration > HORIZON:
         raise ValueError(

@@ -187,7 +187,7 @@ def plan(situation: Situation) -> Plan | NoPlan:
             f"than the minimum of {situation.min_separation:,.0f} m. "
             f"{restore_sentence(restore(situation))}",
         )
-    chosen = _at_once(situation, radius) or _search(situation, radius)
+    chosen = _plan_at_once(situation, radius) or _search(situation, radius)
     return chosen if isinstance(chosen, NoPlan) else _plan_of(chosen, situation, started)
 
 
@@ -199,7 +199,7 @@ def plan_at_once(situation: Situation) -> Plan | None:
     expect("situation", situation, Situation)
     started = perf_counter_ns()
     radius = situation.pursuer.turn_radius
-    chosen = _at_once(situation, radius)
+    chosen = _plan_at_once(situation, radius)
     if chosen is None:
         found = candidates(situation)
         if len(found) > 0 and found.bound <= HORIZON:
@@ -220,7 +220,7 @@ def _plan_of(chosen: _Chosen, situation: Situation, started: int) -> Plan:
     )
 
 
-def _at_once(situation: Situation, radius: Metre) -> _Chosen | None:
+def _plan_at_once(situation: Situation, radius: Metre) -> _Chosen | None:
     """The fastest extremal to a slot that is open, if it keeps d_min."""
     first = first_candidate(situation, radius)
     if first is None:
@@ -243,7 +243,7 @@ def _search(situation: Situation, radius: Metre) -> _Chosen | NoPlan:
             message=f"The slot is reached only after {found.bound / 3600.0:,.0f} h, beyond the "
             f"horizon of {HORIZON / 3600.0:.0f} h: a larger speed difference helps.",
         )
-    return _first_certified(found, situation, radius) or NoPlan(
+    return _find_certified(found, situation, radius) or NoPlan(
         reason=Reason.SEPARATION_UNAVOIDABLE,
         message=f"Each of the {len(found)} direct trajectories to the slot comes closer "
         f"than {distance(situation.min_separation)} to the leader, and "
@@ -272,7 +272,7 @@ def _why_none_round(situation: Situation) -> str:
     return "no path round it was found."
 
 
-def _first_certified(found: Candidates, situation: Situation, radius: Metre) -> _Chosen | None:
+def _find_certified(found: Candidates, situation: Situation, radius: Metre) -> _Chosen | None:
     bound, leading = found.bound, path_of(found.leader)
     fastest = _fastest_extremal(found, situation, radius, leading)
     if fastest is not None:

@@ -13,7 +13,7 @@ from time import perf_counter
 
 from relguide.kernels.bounds.contact_bound import Goal
 from relguide.planning.contact_search import Question
-from relguide.planning.inputs import expect, expect_function, within
+from relguide.planning.inputs import expect, expect_function, expect_within
 from relguide.planning.plan import Optimality, Plan
 from relguide.planning.tables import scene_of
 from relguide.planning.words import Candidates, candidates
@@ -75,7 +75,7 @@ def check_seconds(seconds: object) -> Second:
     Raises:
         ValueError: if it is out of range, naming the range.
     """
-    return within("The time for a proof", seconds, 0.0, MAX_SECONDS, "s")
+    return expect_within("The time for a proof", seconds, 0.0, MAX_SECONDS, "s")
 
 
 def bounds(plan: Plan, *, seconds: Second) -> Iterator[Bound]:
@@ -85,7 +85,7 @@ def bounds(plan: Plan, *, seconds: Second) -> Iterator[Bound]:
     time = plan.time_to_converge
     best = min(plan.optimality.lower_bound, time)
     yield Bound(elapsed=0.0, lower_bound=best, gap=time - best)
-    steps = _steps(plan, time / scale)
+    steps = _rising_bounds(plan, time / scale)
     next(steps)  # loads the kernels
     started = reported = perf_counter()
     for proved in steps:
@@ -101,7 +101,7 @@ def bounds(plan: Plan, *, seconds: Second) -> Iterator[Bound]:
     yield Bound(elapsed=perf_counter() - started, lower_bound=best, gap=time - best)
 
 
-def _steps(plan: Plan, time: float) -> Iterator[float]:
+def _rising_bounds(plan: Plan, time: float) -> Iterator[float]:
     """Bounds of the plan's time [R/V_P], round after round until there is no better one."""
     found = candidates(plan.situation)
     frame, slot = found.frame, question_of(found)

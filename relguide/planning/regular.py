@@ -92,10 +92,10 @@ def regular_from_trajectory(trajectory: Trajectory, *, turn_radius: Metre) -> Re
                         f"trajectory has a turn of {segment.radius:.1f} m."
                     )
                 if turning is not None:
-                    pairs.append(_pair(turning, 0.0))
+                    pairs.append(_triplet(turning, 0.0))
                 turning = segment
             case Straight():
-                pairs.append(_pair(turning, segment.length))
+                pairs.append(_triplet(turning, segment.length))
                 turning = None
             case BoundaryArc():
                 raise ValueError(
@@ -105,7 +105,7 @@ def regular_from_trajectory(trajectory: Trajectory, *, turn_radius: Metre) -> Re
             case _:
                 assert_never(segment)
     if turning is not None:
-        pairs.append(_pair(turning, 0.0))
+        pairs.append(_triplet(turning, 0.0))
     return RegularTrajectory(triplets=tuple(reversed(pairs)))
 
 
@@ -130,7 +130,7 @@ def trajectory_from_regular(regular: RegularTrajectory, situation: Situation) ->
     return pursuer.flying(tuple(segments))
 
 
-def _pair(turning: Arc | None, length: Metre) -> Triplet:
+def _triplet(turning: Arc | None, length: Metre) -> Triplet:
     if turning is None:
         return Triplet(turn=LEFT, turn_angle=0.0, length=length)
     return Triplet(turn=turning.turn, turn_angle=turning.turn_angle, length=length)

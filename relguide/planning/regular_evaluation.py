@@ -110,8 +110,8 @@ def evaluate(regular: RegularTrajectory, situation: Situation) -> RegularEvaluat
         length=length,
         duration=duration,
         nodes=tuple(reversed(nodes)),
-        initial=_off(start, present, slot.heading),
-        final=_off(nodes[-1], slot, slot.heading),
+        initial=_end_error(start, present, slot.heading),
+        final=_end_error(nodes[-1], slot, slot.heading),
         separations=tuple(reversed(separations)),
         keeps_separation=all(separation.holds for separation in separations),
     )
@@ -139,7 +139,7 @@ def _fly_back(pair: Triplet, pose: Pose, situation: Situation) -> Pose:
     return Pose(x=x, y=y, heading=wrap(heading))
 
 
-def _off(pose: Pose, due: Pose, leader_heading: Radian) -> EndError:
+def _end_error(pose: Pose, due: Pose, leader_heading: Radian) -> EndError:
     dx, dy = pose.x - due.x, pose.y - due.y
     along_x, along_y = sin(leader_heading), cos(leader_heading)
     return EndError(

@@ -12,7 +12,7 @@ from typing import Literal
 
 from relguide.kernels.base.angles import turn_to
 from relguide.kernels.base.turn import turn_radius
-from relguide.planning.inputs import expect, number, turn_sign, within
+from relguide.planning.inputs import expect, expect_within, number, turn_sign
 from relguide.planning.limits import (
     BANK,
     CLEARANCE,
@@ -40,15 +40,15 @@ def _settle(piece: object, name: str, value: object) -> None:
 
 
 def _settle_aircraft(name: str, aircraft: "Pursuer | Leader") -> None:
-    _settle(aircraft, "x", within(f"{name}.x", aircraft.x, *POSITION))
-    _settle(aircraft, "y", within(f"{name}.y", aircraft.y, *POSITION))
-    _settle(aircraft, "heading", within(f"{name}.heading", aircraft.heading, *HEADING))
-    _settle(aircraft, "tas", within(f"{name}.tas", aircraft.tas, *TAS))
+    _settle(aircraft, "x", expect_within(f"{name}.x", aircraft.x, *POSITION))
+    _settle(aircraft, "y", expect_within(f"{name}.y", aircraft.y, *POSITION))
+    _settle(aircraft, "heading", expect_within(f"{name}.heading", aircraft.heading, *HEADING))
+    _settle(aircraft, "tas", expect_within(f"{name}.tas", aircraft.tas, *TAS))
 
 
 def _bank(name: str, value: object) -> float:
     bank = number(name, value)
-    within(name, bank / DEG, *BANK)
+    expect_within(name, bank / DEG, *BANK)
     return bank
 
 
@@ -109,7 +109,7 @@ class FlyStraight:
 
     def __post_init__(self) -> None:
         """Refuse a duration that is not one."""
-        _settle(self, "duration", within("intent straight.duration", self.duration, *PIECE))
+        _settle(self, "duration", expect_within("intent straight.duration", self.duration, *PIECE))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
@@ -128,7 +128,7 @@ class TurnTo:
 
     def __post_init__(self) -> None:
         """Refuse a turn that cannot be flown."""
-        _settle(self, "heading", within("intent turn.heading", self.heading, *HEADING))
+        _settle(self, "heading", expect_within("intent turn.heading", self.heading, *HEADING))
         _settle(self, "turn", turn_sign("intent turn.turn", self.turn))
         _settle(self, "bank", _bank("intent turn.bank", self.bank))
 
@@ -252,7 +252,7 @@ class Situation:
         expect("leader", self.leader, Leader)
         expect("wind", self.wind, Wind)
         for name in ("slot_distance", "min_separation"):
-            _settle(self, name, within(name, getattr(self, name), *DISTANCE))
+            _settle(self, name, expect_within(name, getattr(self, name), *DISTANCE))
         if not CLEARANCE.admits(self.slot_distance - self.min_separation):
             wrong = too_close_a_slot(self.slot_distance, self.min_separation)
             raise ValueError(f"slot_distance {wrong}")

@@ -99,23 +99,6 @@ def heading_change(segment: Segment) -> Radian:
     return sum(length * curvature for length, curvature in segment.bends)
 
 
-def after(segment: Segment, flown: Metre) -> Segment:
-    """What is left of a segment once `flown` of it has been flown; `flown` < its length [m]."""
-    match segment:
-        case Straight():
-            return Straight(length=segment.length - flown)
-        case Arc():
-            angle = segment.turn_angle - flown / segment.radius
-            return Arc(turn=segment.turn, turn_angle=angle, radius=segment.radius)
-        case BoundaryArc():
-            bends: list[Bend] = []
-            for length, curvature in segment.bends:
-                if flown < length:
-                    bends.append((length - flown, curvature))
-                flown = max(flown - length, 0.0)
-            return BoundaryArc(side=segment.side, bends=tuple(bends))
-
-
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Trajectory:
     """Segments flown one after another at constant true airspeed, in the air mass.

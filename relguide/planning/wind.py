@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from math import cos, hypot, sin
 
-from relguide.planning.inputs import number, within
+from relguide.planning.inputs import expect_within, number
 from relguide.planning.limits import HEADING, WIND
 from relguide.planning.reprs import as_code
 from relguide.units import MetrePerSecond
@@ -24,7 +24,7 @@ class Wind:
         """Refuse a wind that no atmosphere has."""
         object.__setattr__(self, "east", number("wind.east", self.east))
         object.__setattr__(self, "north", number("wind.north", self.north))
-        within("wind.speed", hypot(self.east, self.north), *WIND)
+        expect_within("wind.speed", hypot(self.east, self.north), *WIND)
 
     @property
     def speed(self) -> float:
@@ -43,6 +43,6 @@ def wind_from(direction: float, speed: float) -> Wind:
         direction: where it comes from, clockwise from north [rad].
         speed: [m/s], ≥ 0.
     """
-    direction = within("wind direction", direction, *HEADING)
-    speed = within("wind speed", speed, *WIND)
+    direction = expect_within("wind direction", direction, *HEADING)
+    speed = expect_within("wind speed", speed, *WIND)
     return Wind(east=-speed * sin(direction), north=-speed * cos(direction))

@@ -70,7 +70,7 @@ def candidates(situation: Situation) -> Candidates:
     rows = np.empty((MAX_ROWS, 5))
     n, shortest = solve_and_measure(frame.x, frame.y, frame.h, frame.alpha, frame.t_release, rows)
     reachable = shortest <= frame.t_release + NO_TURN
-    at_release = _at_release(situation, frame) if reachable or _in_the_slot(frame) else ()
+    at_release = _release_candidates(situation, frame) if reachable or _is_in_slot(frame) else ()
     reachable = reachable or len(at_release) > 0
     within = HORIZON * situation.pursuer.tas / frame.radius
     while n > (0 if at_release else 1) and rows[n - 1, 0] > within:
@@ -85,13 +85,13 @@ def candidates(situation: Situation) -> Candidates:
     )
 
 
-def _in_the_slot(frame: SlotFrame) -> bool:
+def _is_in_slot(frame: SlotFrame) -> bool:
     """Whether going straight just reaches the slot as it opens: a pursuer in it, and as fast."""
     straight = hypot(frame.alpha * frame.t_release - frame.x, frame.y)
     return frame.t_release > 0.0 and abs(straight - frame.t_release) <= NO_TURN
 
 
-def _at_release(situation: Situation, frame: SlotFrame) -> tuple[Candidate, ...]:
+def _release_candidates(situation: Situation, frame: SlotFrame) -> tuple[Candidate, ...]:
     paths = np.empty((2, MAX_DELAYS, DELAY_PIECES))
     n = delay_paths(frame.pose, frame.alpha, frame.t_release, paths)
     signs, amounts = paths[:, :n].tolist()

@@ -86,7 +86,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def missing(wanted: Iterable[str]) -> tuple[str, ...]:
     """The steps of these that are still to be compiled, and can be."""
     place = cache.folder()
-    return tuple(name for name in wanted if _available(name) and not cache.warm(name, place))
+    return tuple(name for name in wanted if _available(name) and not cache.is_warm(name, place))
 
 
 def warm_up(wanted: Sequence[str], *, jobs: int) -> None:

@@ -41,7 +41,7 @@ class Step:
     """What it needs beside numpy and numba; without them it is left out."""
 
 
-def _flying() -> None:
+def _compile_flying() -> None:
     from relguide.flying.flight import IntentKnown, LeaderHeading, fly
     from relguide.flying.scenarios import scenario
     from relguide.planning.plan import plan
@@ -58,7 +58,7 @@ def _flying() -> None:
     plan(_situation(-20e3, 5e3, 0.0, intent=TURNING))
 
 
-def _limited() -> None:
+def _compile_limited() -> None:
     from relguide.flying.flight import fly
     from relguide.flying.scenarios import scenario
     from relguide.planning.alternatives import alternatives
@@ -75,7 +75,7 @@ def _limited() -> None:
         pass
 
 
-def _areas() -> None:
+def _compile_areas() -> None:
     from relguide.learn.words.area_words import area_words
     from relguide.learn.words.branch_network import load_network
     from relguide.maps.isochrones import Grid, isochrones
@@ -85,7 +85,7 @@ def _areas() -> None:
     area_words(load_network(), LIMITED[1], grid)
 
 
-def _proofs() -> None:
+def _compile_proofs() -> None:
     from relguide.planning.optimality import check
     from relguide.planning.plan import Plan, plan
     from relguide.planning.prove import prove
@@ -103,7 +103,7 @@ def _proofs() -> None:
                 evaluate(regular, situation)
 
 
-def _bulk() -> None:
+def _compile_bulk() -> None:
     from relguide.maps.isochrones import Grid, isochrones
     from relguide.planning.batch import Situations, plan_arrays
 
@@ -116,7 +116,7 @@ def _bulk() -> None:
     isochrones(LIMITED[0], Grid(x=0.0, y=0.0, columns=3, rows=3), exact=True)
 
 
-def _networks() -> None:
+def _compile_networks() -> None:
     from relguide.learn.planners import make_planner
 
     planner = make_planner("network")
@@ -124,7 +124,7 @@ def _networks() -> None:
         planner(situation)
 
 
-def _tree() -> None:
+def _compile_tree() -> None:
     from relguide.learn.tree.regular_planner import regular_planner
     from relguide.learn.tree.reverse_dp import reverse_tree
     from relguide.learn.tree.tree import TreeParameters
@@ -144,7 +144,7 @@ def _tree() -> None:
     regular_planner(_situation(0.0, 30e3, 180.0))
 
 
-def _learning() -> None:
+def _compile_learning() -> None:
     from numpy.random import default_rng
 
     from relguide.learn.audits.branch_judging import branch_audit_request, judge_chunk, latencies
@@ -222,13 +222,13 @@ LIMITED = (
 opens.
 """
 STEPS = {
-    "flying": Step("flights and plans without the limit", 17.0, _flying),
-    "limited": Step("the limited search", 53.0, _limited, after=("flying",)),
-    "areas": Step("areas", 10.0, _areas, after=("flying",), packages=("contourpy",)),
-    "proofs": Step("proofs of optimality", 7.0, _proofs, after=("limited",)),
-    "bulk": Step("plans in bulk", 9.0, _bulk, after=("limited",), packages=("contourpy",)),
-    "networks": Step("networks", 30.0, _networks, after=("limited",)),
-    "tree": Step("the tree", 2.0, _tree, after=("flying",)),
-    "learning": Step("learning", 20.0, _learning, after=("networks",), packages=("torch",)),
+    "flying": Step("flights and plans without the limit", 17.0, _compile_flying),
+    "limited": Step("the limited search", 53.0, _compile_limited, after=("flying",)),
+    "areas": Step("areas", 10.0, _compile_areas, after=("flying",), packages=("contourpy",)),
+    "proofs": Step("proofs of optimality", 7.0, _compile_proofs, after=("limited",)),
+    "bulk": Step("plans in bulk", 9.0, _compile_bulk, after=("limited",), packages=("contourpy",)),
+    "networks": Step("networks", 30.0, _compile_networks, after=("limited",)),
+    "tree": Step("the tree", 2.0, _compile_tree, after=("flying",)),
+    "learning": Step("learning", 20.0, _compile_learning, after=("networks",), packages=("torch",)),
 }
 """All of them, by name."""

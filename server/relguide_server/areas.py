@@ -120,7 +120,7 @@ async def draw_area(
     The pursuer is put on every node of a grid; everything else stays as in the situation.
     """
     preparation.require("areas", *(["bulk"] if exact else []))
-    asked, anchor = _situation_asked(fleet, flight, situation)
+    asked, anchor = _situation_of(fleet, flight, situation)
     try:
         grid = Grid(
             x=asked.leader.x if x_m is None else x_m,
@@ -141,7 +141,7 @@ async def draw_area(
     )
 
 
-def _situation_asked(
+def _situation_of(
     fleet: Fleet, flight: str | None, situation: str | None
 ) -> tuple[Situation, Anchor]:
     if flight is not None and situation is None:

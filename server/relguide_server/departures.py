@@ -68,9 +68,9 @@ def library_departures(planner: Planner) -> Departures:
     def find(wanted: FlightRequest) -> Departure:
         match wanted:
             case ScenarioFlightRequest():
-                name, found = wanted.scenario, _named(wanted.scenario)
+                name, found = wanted.scenario, _find_scenario(wanted.scenario)
             case SituationFlightRequest():
-                name, found = "", _own(wanted)
+                name, found = "", _own_scenario(wanted)
         if wanted.intent_known is not None:
             found = replace(found, intent_known=wanted.intent_known)
         seed = wanted.seed
@@ -78,7 +78,7 @@ def library_departures(planner: Planner) -> Departures:
             scenario=name,
             title=found.title,
             source=lambda commands: fly(found, planner, commands=commands, seed=seed),
-            first=_first_planned(found),
+            first=_known_situation(found),
         )
 
     def rehearse() -> None:
@@ -88,7 +88,7 @@ def library_departures(planner: Planner) -> Departures:
     return Departures(scenarios=_scenarios, find=find, rehearse=rehearse)
 
 
-def _first_planned(flown: Scenario) -> Situation:
+def _known_situation(flown: Scenario) -> Situation:
     """Its situation, with as much of the leader's intent as the pursuer knows."""
     if flown.intent_known:
         return flown.situation
@@ -109,14 +109,14 @@ def _scenarios() -> ScenarioList:
     return ScenarioList(scenarios=infos)
 
 
-def _named(name: str) -> Scenario:
+def _find_scenario(name: str) -> Scenario:
     try:
         return scenario(name)
     except ValueError as error:  # unknown, or its data are not installed: the error says which
         raise ContractError([("scenario", str(error))]) from None
 
 
-def _own(wanted: SituationFlightRequest) -> Scenario:
+def _own_scenario(wanted: SituationFlightRequest) -> Scenario:
     try:
         situation, _ = situation_from_body(wanted.situation)
     except ContractError as error:

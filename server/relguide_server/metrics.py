@@ -68,30 +68,30 @@ class Metrics:
             f'relguide_plan_seconds_bucket{{le="+Inf"}} {total}',
             f"relguide_plan_seconds_sum {self.plan_seconds:.6f}",
             f"relguide_plan_seconds_count {total}",
-            *_single("relguide_network_plans_total", "counter", "Plans by network.",
+            *_metric("relguide_network_plans_total", "counter", "Plans by network.",
                      self.network_answers),
-            *_single("relguide_network_fallbacks_total", "counter",
+            *_metric("relguide_network_fallbacks_total", "counter",
                      "Plans by the exact planner in place of the network.", self.network_fallbacks),
             *_header("relguide_drift_audits_total", "counter",
                      "Plans by network that were planned again exactly."),
             *(f'relguide_drift_audits_total{{answer="{k}"}} {n}'
               for k, n in self.drift_answers.items()),
-            *_single("relguide_drift_dropped_total", "counter",
+            *_metric("relguide_drift_dropped_total", "counter",
                      "Plans by network not audited because too many waited.", self.drift_dropped),
-            *_single("relguide_drift_loss_seconds_total", "counter",
+            *_metric("relguide_drift_loss_seconds_total", "counter",
                      "Sum of the losses of audited plans by network.", f"{self.drift_loss:.6f}"),
-            *_single("relguide_drift_largest_loss_seconds", "gauge",
+            *_metric("relguide_drift_largest_loss_seconds", "gauge",
                      "Largest loss of an audited plan by network.",
                      f"{self.drift_largest_loss:.6f}"),
-            *_single("relguide_flights_started_total", "counter", "Flights started.",
+            *_metric("relguide_flights_started_total", "counter", "Flights started.",
                      self.flights_started),
-            *_single("relguide_stream_ticks_sent_total", "counter", "Ticks sent to clients.",
+            *_metric("relguide_stream_ticks_sent_total", "counter", "Ticks sent to clients.",
                      self.ticks_sent),
-            *_single("relguide_stream_ticks_dropped_total", "counter",
+            *_metric("relguide_stream_ticks_dropped_total", "counter",
                      "Ticks that slow clients missed.", self.ticks_dropped),
-            *_single("relguide_flights_running", "gauge", "Flights in the air.", flights_running),
-            *_single("relguide_stream_clients", "gauge", "Browsers on a stream.", stream_clients),
-            *_single("relguide_scene_clients", "gauge", "Browsers on a 3D scene.", scene_clients),
+            *_metric("relguide_flights_running", "gauge", "Flights in the air.", flights_running),
+            *_metric("relguide_stream_clients", "gauge", "Browsers on a stream.", stream_clients),
+            *_metric("relguide_scene_clients", "gauge", "Browsers on a 3D scene.", scene_clients),
         ]  # fmt: skip
         return "\n".join(lines) + "\n"
 
@@ -100,5 +100,5 @@ def _header(name: str, kind: str, text: str) -> tuple[str, str]:
     return f"# HELP {name} {text}", f"# TYPE {name} {kind}"
 
 
-def _single(name: str, kind: str, text: str, value: int | str) -> tuple[str, str, str]:
+def _metric(name: str, kind: str, text: str, value: int | str) -> tuple[str, str, str]:
     return *_header(name, kind, text), f"{name} {value}"

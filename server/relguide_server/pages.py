@@ -139,9 +139,9 @@ async def docs_file(name: str) -> Response:
     if name not in _SWAGGER_FILES:
         raise Refusal(404, f"There is nothing at /docs/{name}. The API is described at /docs.")
     headers = {"Content-Encoding": "gzip", "Cache-Control": "public, max-age=86400"}
-    return Response(_packed_swagger(name), headers=headers, media_type=_SWAGGER_FILES[name])
+    return Response(_pack_swagger(name), headers=headers, media_type=_SWAGGER_FILES[name])
 
 
 @cache
-def _packed_swagger(name: str) -> bytes:
+def _pack_swagger(name: str) -> bytes:
     return gzip.compress((_SWAGGER / name).read_bytes(), 6)

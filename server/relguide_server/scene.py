@@ -17,7 +17,7 @@ from relguide.flying.aircraft_documents import (
     AircraftSample,
     GuidanceSample,
     LinkCard,
-    by_ident,
+    find_by_ident,
 )
 from relguide.flying.documents import (
     Alert,
@@ -114,8 +114,8 @@ class Scene:
         link = self._cast.link
         samples = [d for d in documents if isinstance(d, Sample)]
         if samples:
-            self._height = height_of(by_ident(samples[-1].aircraft, link.leader))
-            self._own_height = height_of(by_ident(samples[-1].aircraft, link.pursuer))
+            self._height = height_of(find_by_ident(samples[-1].aircraft, link.leader))
+            self._own_height = height_of(find_by_ident(samples[-1].aircraft, link.pursuer))
         with self._server.atomic():
             for document in documents:
                 self._draw_one(document, self._cast)
@@ -302,13 +302,15 @@ class Scene:
 def _cast(started: FlightStarted) -> _Cast:
     link = started.links[0]
     return _Cast(
-        link, by_ident(started.aircraft, link.pursuer), by_ident(started.aircraft, link.leader)
+        link,
+        find_by_ident(started.aircraft, link.pursuer),
+        find_by_ident(started.aircraft, link.leader),
     )
 
 
 def _pair(sample: Sample, link: LinkCard) -> _Pair:
     return _Pair(
-        by_ident(sample.aircraft, link.pursuer),
-        by_ident(sample.aircraft, link.leader),
-        by_ident(sample.guidance, link.pursuer),
+        find_by_ident(sample.aircraft, link.pursuer),
+        find_by_ident(sample.aircraft, link.leader),
+        find_by_ident(sample.guidance, link.pursuer),
     )

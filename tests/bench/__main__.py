@@ -39,7 +39,7 @@ def main(arguments: list[str] | None = None) -> int:
     console.print(inference.table(results.rates))
     console.print(simulators.table(simulators.measure(given.runs)))
     for contest in results.beaten:
-        console.print(_beaten(contest), soft_wrap=True, highlight=False)
+        console.print(_show_beaten(contest), soft_wrap=True, highlight=False)
     failures = _failures(results)
     for sentence in failures:
         console.print(sentence)
@@ -59,7 +59,7 @@ def counts_from(given: argparse.Namespace) -> Counts:
     return Counts(**{count.name: getattr(given, count.name) for count in fields(Counts)})
 
 
-def _beaten(contest: Contest) -> str:
+def _show_beaten(contest: Contest) -> str:
     """A situation in which IPOPT found something better, as code to paste."""
     return (
         f"IPOPT beats plan() by {contest.ours - contest.honest:.2f} s "

@@ -44,7 +44,7 @@ def unlimited_cases(fresh: int) -> list[Case]:
     """The golden situations, and as many drawn ones; optima are those without the limit."""
     cases = [
         _case(name, situation, answer["unlimited_time_s"])
-        for name, situation, answer in _golden()
+        for name, situation, answer in _golden_cases()
         if "unlimited_time_s" in answer
     ]
     rng = np.random.default_rng(SEED)
@@ -60,7 +60,7 @@ def limited_cases(drawn: int, *, tight: bool) -> list[Case]:
     """
     cases = [
         _case(name, situation, answer["time_to_converge_s"])
-        for name, situation, answer in _golden()
+        for name, situation, answer in _golden_cases()
         if answer["status"] in ("best_known", "optimal")
         and (situation.pursuer.turn_radius < situation.min_separation) == tight
         and draws.is_active(situation)
@@ -77,7 +77,7 @@ def equal_cases(drawn: int) -> list[Case]:
     return [_case(f"equal {i}", situation) for i, situation in enumerate(active)]
 
 
-def _golden() -> list[tuple[str, Situation, dict[str, Any]]]:
+def _golden_cases() -> list[tuple[str, Situation, dict[str, Any]]]:
     """Name, situation and answer of the golden cases that all contenders can be set."""
     return [
         (answer["id"], situation, answer)

@@ -10,8 +10,8 @@ from rich.table import Table
 from relguide import Plan, plan
 from relguide.planning.progress import show_progress
 from tests.bench.cases import Case
-from tests.bench.timing import timed
-from tests.bench.transcription import Answer, Transcription, flown, guesses
+from tests.bench.timing import time_call
+from tests.bench.transcription import Answer, Transcription, fly_path, guesses
 
 REPEATS = 3
 """plan() is timed this often, IPOPT once."""
@@ -66,11 +66,11 @@ def measure(cases: list[Case], title: str) -> list[Contest]:
 
 
 def _contest(programme: Transcription, case: Case) -> Contest:
-    our_cpu, answer = timed(lambda: plan(case.situation), REPEATS)
+    our_cpu, answer = time_call(lambda: plan(case.situation), REPEATS)
     ours = answer.time_to_converge if isinstance(answer, Plan) else inf
     starts = guesses(case)
-    their_cpu, paths = timed(lambda: [programme.solve(case, start) for start in starts], 1)
-    answers = sorted((flown(case, path) for path in paths), key=lambda answer: answer.time)
+    their_cpu, paths = time_call(lambda: [programme.solve(case, start) for start in starts], 1)
+    answers = sorted((fly_path(case, path) for path in paths), key=lambda answer: answer.time)
     counted = [answer for answer in answers if answer.arrives and answer.short < CUT]
     return Contest(
         case=case,
@@ -94,7 +94,7 @@ def _honest(programme: Transcription, case: Case, answer: Answer, beat: float) -
         if answer.short < KEPT:
             return answer.time
         margin += 1.1 * answer.short
-        answer = flown(case, programme.solve(case, answer.path, margin=margin))
+        answer = fly_path(case, programme.solve(case, answer.path, margin=margin))
     return inf
 
 

@@ -73,8 +73,8 @@ def seen_from_leader(axes: Axes, drawn: Sweep) -> None:
     axes.add_patch(Circle((0.0, 0.0), limit, facecolor="#f3ddd2", edgecolor=ORANGE, lw=1.0))
     axes.annotate("d < d_min", (-1.1 * limit, 0.0), ha="right", va="center", color=ORANGE)
     free = drawn.unlimited
-    axes.plot(*_seen(situation, free), color=ORANGE, dashes=(4, 2))
-    axes.plot(*_seen(situation, plan.trajectory), color=BLUE)
+    axes.plot(*_places_from_slot(situation, free), color=ORANGE, dashes=(4, 2))
+    axes.plot(*_places_from_slot(situation, plan.trajectory), color=BLUE)
     angle = radians(drawn.contact)
     axes.plot(limit * sin(angle), limit * cos(angle), "o", color=INK, ms=6, zorder=5)
     _aircraft(axes, 0.0, 0.0, 0.0, "leader", (7, -3))
@@ -156,7 +156,7 @@ def times(axes: Axes, ours: dict[str, Floats], theirs: dict[str, Floats]) -> Non
         axes.plot((low, high), (height, height), color=colour, lw=2.5)
         axes.plot(middle, height, "o", color=colour, ms=6, zorder=5)
         axes.annotate(
-            _spoken(middle), (middle, height), (0, 7), textcoords="offset points",
+            _time_in_words(middle), (middle, height), (0, 7), textcoords="offset points",
             ha="center", color=colour, fontsize=8,
         )  # fmt: skip
     axes.set_yticks(range(len(everybody)), [name for name, _ in reversed(everybody)])
@@ -172,7 +172,7 @@ def times(axes: Axes, ours: dict[str, Floats], theirs: dict[str, Floats]) -> Non
     axes.set_xlabel("CPU time")
 
 
-def _spoken(seconds: float) -> str:
+def _time_in_words(seconds: float) -> str:
     """A time with its unit, to two digits or so."""
     size, unit = (1.0, "s") if seconds >= 1.0 else (1e-3, "ms") if seconds >= 1e-3 else (1e-6, "µs")
     value = seconds / size
@@ -184,7 +184,9 @@ def _ticks(axes: Axes, ticks: dict[float, str]) -> None:
     axes.xaxis.set_minor_locator(NullLocator())
 
 
-def _seen(situation: Situation, trajectory: Trajectory) -> tuple[list[float], list[float]]:
+def _places_from_slot(
+    situation: Situation, trajectory: Trajectory
+) -> tuple[list[float], list[float]]:
     times = np.linspace(0.0, trajectory.duration, 200)
     points = [from_leader(situation, trajectory, float(t)) for t in times]
     return [x / NM for x, _ in points], [y / NM for _, y in points]

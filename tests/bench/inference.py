@@ -44,7 +44,7 @@ class Rate:
     """Share of what the device can multiply and add; `None` where that says nothing."""
 
 
-def drawn(count: int) -> np.ndarray:
+def draw_situations(count: int) -> np.ndarray:
     """Situations even in the box, left of the route."""
     rng = np.random.default_rng(30)
     low, high = (-40.0, 0.0, 0.0, 0.3), (40.0, 40.0, 2.0 * pi, 0.97)
@@ -53,7 +53,7 @@ def drawn(count: int) -> np.ndarray:
 
 def measure(count: int) -> list[Rate]:
     """Ask so many questions in each way; with a bar."""
-    network, situations = load_network(), drawn(count)
+    network, situations = load_network(), draw_situations(count)
     ways = [("cpu", 1), ("cpu", torch.get_num_threads())]
     if torch.cuda.is_available():
         ways.append(("cuda", 1))
@@ -65,7 +65,7 @@ def measure(count: int) -> list[Rate]:
         rates.append(_rate("features alone", "1", situations, lambda: features_of(situations)))
         done(1)
         for device, threads in ways:
-            least = _operations(network) / _bound(device, threads)
+            least = _operations(network) / _peak_rate(device, threads)
             for chunk in CHUNKS:
                 ask = _torch(network, situations, device, threads, chunk)
                 name = f"torch, {device}, {chunk:,} at once"
@@ -83,7 +83,7 @@ def _operations(network: BranchNetwork) -> float:
     )
 
 
-def _bound(device: str, threads: int) -> float:
+def _peak_rate(device: str, threads: int) -> float:
     """Multiplications and additions a second of large matrices, float32."""
     before = torch.get_num_threads()
     torch.set_num_threads(threads)

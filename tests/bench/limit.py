@@ -93,7 +93,7 @@ def main(arguments: list[str] | None = None) -> int:
         planner=_planner_digest(),
     )  # fmt: skip
     try:
-        done = _finished(wanted.resume, run) if wanted.resume else []
+        done = _read_outcomes(wanted.resume, run) if wanted.resume else []
     except ValueError as refusal:
         print(refusal, file=sys.stderr)
         return 2
@@ -114,7 +114,7 @@ def main(arguments: list[str] | None = None) -> int:
 def _outcomes(cases: list[int], run: Run, processes: int) -> Iterator[Outcome]:
     """Finished cases, as they come."""
     compare = partial(
-        compared, seed=run.seed, effort=run.effort, intent=run.intent, equal=run.equal
+        plan_twice, seed=run.seed, effort=run.effort, intent=run.intent, equal=run.equal
     )
     # Ctrl-C is ours to handle: the workers are told when they have finished a case
     pool = ProcessPoolExecutor(processes, initializer=signal, initargs=(SIGINT, SIG_IGN))
@@ -128,17 +128,17 @@ def _outcomes(cases: list[int], run: Run, processes: int) -> Iterator[Outcome]:
         pool.shutdown(cancel_futures=True)
 
 
-def compared(case: int, *, seed: int, effort: int, intent: float, equal: float = 0.0) -> Outcome:
+def plan_twice(case: int, *, seed: int, effort: int, intent: float, equal: float = 0.0) -> Outcome:
     """Draw a situation, which its number alone decides, and plan it twice."""
     rng = np.random.default_rng([seed, case])
     tight, turns = case % 2 == 0, bool(rng.random() < intent)
     slot_at_limit = bool(rng.random() < equal) if equal > 0.0 else False
     situation = draws.active(rng, tight=tight, intent=turns, slot_at_limit=slot_at_limit)
     usual = search.BEARINGS, search.TURNING_BEARINGS
-    ours, ours_cpu = _planned(situation)
+    ours, ours_cpu = _plan_timed(situation)
     try:
         search.BEARINGS, search.TURNING_BEARINGS = (effort * bearings for bearings in usual)
-        harder, harder_cpu = _planned(situation)
+        harder, harder_cpu = _plan_timed(situation)
     finally:
         search.BEARINGS, search.TURNING_BEARINGS = usual
     return Outcome(
@@ -147,7 +147,7 @@ def compared(case: int, *, seed: int, effort: int, intent: float, equal: float =
     )  # fmt: skip
 
 
-def _planned(situation: Situation) -> tuple[float | None, float]:
+def _plan_timed(situation: Situation) -> tuple[float | None, float]:
     started = thread_time()
     match plan(situation):
         case Plan(time_to_converge=time):
@@ -156,7 +156,7 @@ def _planned(situation: Situation) -> tuple[float | None, float]:
             return None, thread_time() - started
 
 
-def _finished(file: Path, run: Run) -> list[Outcome]:
+def _read_outcomes(file: Path, run: Run) -> list[Outcome]:
     """What a file holds; begins one if there is none.
 
     Raises:

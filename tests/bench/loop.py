@@ -87,11 +87,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     }
     names = (chosen.only,) if chosen.only else NAMES
     for name in names:  # compiled before it is measured
-        flown(0, planners[name], longest=5.0)
+        fly_measured(0, planners[name], longest=5.0)
     flights: dict[str, list[Flown]] = {name: [] for name in names}
     with suppress(KeyboardInterrupt), progress_bar("flying", total=chosen.flights) as count:
         for number in range(chosen.first, chosen.first + chosen.flights):
-            by_each = [flown(number, planners[name]) for name in names]
+            by_each = [fly_measured(number, planners[name]) for name in names]
             for name, one in zip(names, by_each, strict=True):
                 flights[name].append(one)
             count(1.0)
@@ -114,7 +114,7 @@ def flight(number: int, longest: float = LONGEST) -> Scenario:
     return replace(drawn, duration_limit=longest)
 
 
-def flown(number: int, planner: Planner, longest: float = LONGEST) -> Flown:
+def fly_measured(number: int, planner: Planner, longest: float = LONGEST) -> Flown:
     """Fly one of them, and measure its planner."""
     scenario = flight(number, longest)
     spent: list[float] = []

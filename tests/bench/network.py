@@ -22,7 +22,7 @@ from relguide.planning.progress import show_progress
 from tests.bench import network_batch
 from tests.bench.draws import active, anywhere, is_active
 from tests.bench.options import positive
-from tests.bench.timing import timed
+from tests.bench.timing import time_call
 
 REPEATS = 5
 LATER = 0.1
@@ -49,7 +49,7 @@ class Pair:
     """The same of `plan` [s]."""
 
 
-def drawn(count: int) -> dict[str, list[Situation]]:
+def draw_situations(count: int) -> dict[str, list[Situation]]:
     """So many situations each: where the limit does not bind, and where it does."""
     rng = np.random.default_rng(SEED)
     sources = {
@@ -58,7 +58,7 @@ def drawn(count: int) -> dict[str, list[Situation]]:
         "it binds, R < d_min": _active(rng, tight=True),
     }
     return {
-        name: list(_shown(islice(source, count), count, f"Drawing, {name}"))
+        name: list(_with_bar(islice(source, count), count, f"Drawing, {name}"))
         for name, source in sources.items()
     }
 
@@ -82,13 +82,13 @@ def measure(asked: dict[str, list[Situation]]) -> dict[str, list[Pair]]:
     ours = network_planner(load_network())
     measured: dict[str, list[Pair]] = {}
     for name, situations in asked.items():
-        shown = _shown(situations, len(situations), f"Networks, {name}")
+        shown = _with_bar(situations, len(situations), f"Networks, {name}")
         pairs = [_pair(situation, ours) for situation in shown]
         measured[name] = [pair for pair in pairs if pair is not None]
     return measured
 
 
-def _shown(situations: Iterable[Situation], count: int, title: str) -> Iterator[Situation]:
+def _with_bar(situations: Iterable[Situation], count: int, title: str) -> Iterator[Situation]:
     """One after the other, with a bar."""
     numbered = show_progress(
         enumerate(situations), title=title, total=count, done=lambda pair: pair[0]
@@ -98,8 +98,8 @@ def _shown(situations: Iterable[Situation], count: int, title: str) -> Iterator[
 
 def _pair(situation: Situation, ours: Planner) -> Pair | None:
     ours(situation), plan(situation)  # what was compiled is read from disk
-    network_cpu, found = timed(lambda: ours(situation), REPEATS)
-    plan_cpu, exact = timed(lambda: plan(situation), REPEATS)
+    network_cpu, found = time_call(lambda: ours(situation), REPEATS)
+    plan_cpu, exact = time_call(lambda: plan(situation), REPEATS)
     if not (isinstance(found, Plan) and isinstance(exact, Plan)):
         return None
     return Pair(
@@ -142,7 +142,7 @@ def main(arguments: list[str] | None = None) -> int:
     """Measure, and print the table."""
     parser = argparse.ArgumentParser(prog="python -m tests.bench.network", description=__doc__)
     parser.add_argument("--count", metavar="N", type=positive, default=400)
-    situations = drawn(parser.parse_args(arguments).count)
+    situations = draw_situations(parser.parse_args(arguments).count)
     console = Console(width=118)
     console.print(table(measure(situations)))
     console.print(network_batch.table(network_batch.measure(situations)))

@@ -64,7 +64,7 @@ def measure(counts: Counts) -> Results:
     groups["D = d_min"] = detours.measure(equal_cases(counts.limited), title="Limit, D = d_min")
     active = [contest.case for group in groups.values() for contest in group]
     batches = throughput.measure(counts.batch, counts.limited_batch, active)
-    asked = network.drawn(counts.asked)
+    asked = network.draw_situations(counts.asked)
     return Results(
         cases=cases,
         rows=rows,

@@ -8,7 +8,7 @@ from typing import TypeVar
 T = TypeVar("T")
 
 
-def timed(call: Callable[[], T], repeats: int) -> tuple[float, T]:
+def time_call(call: Callable[[], T], repeats: int) -> tuple[float, T]:
     """Call it a few times.
 
     Args:

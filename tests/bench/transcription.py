@@ -156,7 +156,7 @@ def guesses(case: Case, intervals: int = INTERVALS) -> list[Path]:
     """
     ways = [_pieces(_onward(case, 0.0, *_start(case)))]
     ways += [_past_leader(case, side) for side in (1.0, -1.0)]
-    return [_sampled(case, way, intervals) for way in ways]
+    return [_sample(case, way, intervals) for way in ways]
 
 
 def _start(case: Case) -> tuple[float, float, float]:
@@ -194,7 +194,7 @@ def _pieces(row: Floats) -> list[tuple[float, float]]:
     return list(zip(signs, row[2:].tolist(), strict=True))
 
 
-def _sampled(case: Case, pieces: list[tuple[float, float]], intervals: int) -> Path:
+def _sample(case: Case, pieces: list[tuple[float, float]], intervals: int) -> Path:
     """States at equally spaced times, seen from the slot, headings unwrapped."""
     ends = np.cumsum([amount for _, amount in pieces])
     at = np.linspace(0.0, ends[-1], intervals + 1)
@@ -211,7 +211,7 @@ def _sampled(case: Case, pieces: list[tuple[float, float]], intervals: int) -> P
     return Path(states=states, rates=rates, time=float(ends[-1]))
 
 
-def flown(case: Case, path: Path) -> Answer:
+def fly_path(case: Case, path: Path) -> Answer:
     """Fly the arcs again, in metres, and judge them as any trajectory is judged."""
     situation, radius = case.situation, case.frame.radius
     pursuer, length = situation.pursuer, path.time / len(path.rates)

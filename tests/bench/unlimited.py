@@ -16,7 +16,7 @@ from relguide.planning.progress import show_progress
 from tests.bench.cases import Case
 from tests.bench.dubins_curves import Length, meeting_time, shortest_length
 from tests.bench.exhaustive import least_time
-from tests.bench.timing import timed
+from tests.bench.timing import time_call
 from tests.bench.trochoids import Trochoids
 
 REPEATS = 5
@@ -76,7 +76,7 @@ def measure(cases: list[Case]) -> dict[str, Row]:
         for _, case in show_progress(
             enumerate(cases), title="Without the limit", total=len(cases), done=lambda n: n[0]
         ):
-            results = {name: timed(prepare(case), REPEATS) for name, prepare in contenders.items()}
+            results = {name: time_call(make(case), REPEATS) for name, make in contenders.items()}
             optimum = _best_known(case, length, {name: t for name, (_, t) in results.items()})
             for name, (cpu, answer) in results.items():
                 if answer is not None:

@@ -23,7 +23,7 @@ from relguide.planning.progress import show_progress
 from tests.bench.options import positive
 from tests.campaign import tables
 from tests.campaign.families import FAMILIES, draw
-from tests.campaign.flights import failed, fly_case
+from tests.campaign.flights import failed_row, fly_case
 from tests.campaign.row import Row, append_row, begin_file, read_rows
 
 FLIGHTS = 100
@@ -53,7 +53,7 @@ def _fly(given: argparse.Namespace) -> int:
     ]
     stopped = False
     try:
-        for row in flown(missing, given.processes):
+        for row in fly_flights(missing, given.processes):
             append_row(given.out, row)
     except KeyboardInterrupt:
         stopped = True
@@ -72,7 +72,7 @@ def _fly(given: argparse.Namespace) -> int:
     return 130 if stopped else 1 if errors else 0
 
 
-def flown(wanted: Sequence[tuple[str, int]], processes: int) -> Iterator[Row]:
+def fly_flights(wanted: Sequence[tuple[str, int]], processes: int) -> Iterator[Row]:
     """Rows of flights, as they are finished; an exception is a row that says so."""
     # Ctrl-C is ours to handle: the workers learn of it between two flights
     pool = ProcessPoolExecutor(processes, initializer=signal, initargs=(SIGINT, SIG_IGN))
@@ -83,7 +83,7 @@ def flown(wanted: Sequence[tuple[str, int]], processes: int) -> Iterator[Row]:
             finished, title="Flying", total=len(wanted), done=lambda pair: pair[0]
         ):
             error = future.exception()
-            yield failed(draw(*flights[future]), error) if error else future.result()
+            yield failed_row(draw(*flights[future]), error) if error else future.result()
     finally:
         pool.shutdown(cancel_futures=True)
 

@@ -26,11 +26,11 @@ def best_turn(situation: Situation) -> Metre:
     most = 0.0
     for side in (1.0, -1.0):
         for k in range(round(360.0 * DEG / EVERY) + 1):
-            most = max(most, _kept(situation, leader, side, k * EVERY, most))
+            most = max(most, _kept_separation(situation, leader, side, k * EVERY, most))
     return most
 
 
-def _kept(
+def _kept_separation(
     situation: Situation,
     leader: list[tuple[Metre, Metre]],
     side: float,

@@ -80,18 +80,18 @@ def draw(family: str, number: int) -> Case:
     return FAMILIES[family](rng, family, number)
 
 
-def _declared(rng: Draw, family: str, number: int) -> Case:
+def _draw_declared(rng: Draw, family: str, number: int) -> Case:
     """Intent known; straight and turning by turns."""
     intent = _turns(rng) if number % 2 else ()
     return _case(family, number, _situation(rng, intent))
 
 
-def _undeclared(rng: Draw, family: str, number: int) -> Case:
+def _draw_undeclared(rng: Draw, family: str, number: int) -> Case:
     """The leader turns once to three times without a word."""
     return _case(family, number, _situation(rng, _turns(rng)), intent_known=False)
 
 
-def _commands(rng: Draw, family: str, number: int) -> Case:
+def _draw_commands(rng: Draw, family: str, number: int) -> Case:
     """The leader is ordered about in flight: to turn, to turn back, to slow down, to go faster."""
     situation = _situation(rng, _turns(rng) if rng.random() < 0.5 else ())
     times = np.sort(rng.uniform(30.0, 1200.0, rng.integers(1, 5)))
@@ -100,7 +100,7 @@ def _commands(rng: Draw, family: str, number: int) -> Case:
     return replace(case, orders=orders, scenario=replace(case.scenario, after_joining=300.0))
 
 
-def _near_limit(rng: Draw, family: str, number: int) -> Case:
+def _draw_near_limit(rng: Draw, family: str, number: int) -> Case:
     """A plan that passes d_min closely, with a long first turn; half in calm, half turning."""
     while True:
         # D well beyond d_min: it is not the slot that is near the limit
@@ -116,7 +116,7 @@ def _near_limit(rng: Draw, family: str, number: int) -> Case:
             return _case(family, number, situation)
 
 
-def _aircraft(rng: Draw, family: str, number: int) -> Case:
+def _draw_aircraft(rng: Draw, family: str, number: int) -> Case:
     """An aircraft that guidance knows badly; intent known."""
     case = _case(family, number, _situation(rng, _turns(rng) if rng.random() < 0.5 else ()))
     factors = {name: float(rng.uniform(1.0 - SPREAD, 1.0 + SPREAD)) for name in CONSTANTS}
@@ -126,7 +126,7 @@ def _aircraft(rng: Draw, family: str, number: int) -> Case:
     return replace(case, factors=factors)
 
 
-def _follow(rng: Draw, family: str, number: int) -> Case:
+def _draw_follow(rng: Draw, family: str, number: int) -> Case:
     """On the route behind the leader, joined in a few minutes; then the leader does something."""
     situation = _situation(rng, ())
     leader, pursuer = situation.leader, situation.pursuer
@@ -149,7 +149,7 @@ def _follow(rng: Draw, family: str, number: int) -> Case:
     )
 
 
-def _full_turns(rng: Draw, family: str, number: int) -> Case:
+def _draw_full_turns(rng: Draw, family: str, number: int) -> Case:
     """A turn of 355° and more, as declared or as ordered."""
     turn = LEFT if rng.random() < 0.5 else RIGHT
     angle = float(rng.uniform(350.0, 359.5)) * DEG
@@ -167,7 +167,7 @@ def _full_turns(rng: Draw, family: str, number: int) -> Case:
     return _case(family, number, declared)
 
 
-def _recorded(rng: Draw, family: str, number: int) -> Case:
+def _draw_recorded(rng: Draw, family: str, number: int) -> Case:
     """Behind a recorded leader of the Paris area; over all of them, then over them again."""
     track = recordings.track(number)
     first = track.state_at(0.0)
@@ -197,14 +197,14 @@ def _recorded(rng: Draw, family: str, number: int) -> Case:
 
 
 FAMILIES: Mapping[str, Callable[[Draw, str, int], Case]] = {
-    "declared": _declared,
-    "undeclared": _undeclared,
-    "commands": _commands,
-    "near_limit": _near_limit,
-    "aircraft": _aircraft,
-    "recorded": _recorded,
-    "follow": _follow,
-    "full_turns": _full_turns,
+    "declared": _draw_declared,
+    "undeclared": _draw_undeclared,
+    "commands": _draw_commands,
+    "near_limit": _draw_near_limit,
+    "aircraft": _draw_aircraft,
+    "recorded": _draw_recorded,
+    "follow": _draw_follow,
+    "full_turns": _draw_full_turns,
 }
 """By name; their docstrings say what they are."""
 

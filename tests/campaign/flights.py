@@ -30,8 +30,8 @@ from tests.campaign.case import Case
 from tests.campaign.evasion import AHEAD, best_turn
 from tests.campaign.paths import (
     Floats,
-    circles_flown,
     circles_of,
+    count_circles,
     distance_from,
     path_in_air,
     reversals_of,
@@ -79,7 +79,7 @@ def _world(case: Case) -> World:
     return replace(world, aircraft=(replace(pursuer, airframe=true, believed=believed), leader))
 
 
-def failed(case: Case, error: BaseException) -> Row:
+def failed_row(case: Case, error: BaseException) -> Row:
     """The row of a flight that ended with an exception."""
     return Row(
         family=case.family, number=case.number, planned=False,
@@ -108,8 +108,8 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
     joined = end.join_time if end.joined else None
     warnings = tuple(_warnings(documents))
     losses = tuple(_losses(situation.min_separation, samples, end, warnings))
-    loops = circles_flown((s.pursuer.turn_rate for s in samples), EVERY) - max(
-        [circles_flown((s.leader.turn_rate for s in samples), EVERY)]
+    loops = count_circles((s.pursuer.turn_rate for s in samples), EVERY) - max(
+        [count_circles((s.leader.turn_rate for s in samples), EVERY)]
         + [circles_of(document.plan.segments) for document in changed]
     )
     return Row(

@@ -122,7 +122,7 @@ def margins(loop: control.StateSpace) -> Margins:
 
 def roll_loop(model: Airframe = A306, gains: RollGains = ROLL_GAINS) -> control.StateSpace:
     """From the bank asked for to bank, open at the ailerons."""
-    a, b = _held(*_roll_mode(model), STEP)
+    a, b = _hold_input(*_roll_mode(model), STEP)
     return control.StateSpace(a, b, [[gains.kp, gains.kd]], 0.0, STEP)
 
 
@@ -134,18 +134,18 @@ def heading_loop(
     roll_gains: RollGains = ROLL_GAINS,
 ) -> control.StateSpace:
     """From heading error to heading, the roll loop closed."""
-    a, b = _heading_open(model, tas, gains, roll_gains)
+    a, b = _open_heading_loop(model, tas, gains, roll_gains)
     return control.StateSpace(a, b, [[1.0, 0.0, 0.0, 0.0]], 0.0, STEP)
 
 
-def _heading_open(
+def _open_heading_loop(
     model: Airframe, tas: MetrePerSecond, gains: HeadingGains, roll_gains: RollGains
 ) -> tuple[Floats, Floats]:
     """Heading, bank, roll rate and the integral of the error, driven by the error."""
     a = np.zeros((3, 3))
     a[0, 1] = G0 / tas
     a[1:, 1:], input_ = _roll_mode(model)
-    a, b = _held(a, np.vstack([[0.0], input_]), STEP)
+    a, b = _hold_input(a, np.vstack([[0.0], input_]), STEP)
     to_bank = tas / G0
     inner = np.array([[0.0, roll_gains.kp * (1.0 + gains.kd), roll_gains.kd]])
     moved = np.zeros((4, 4))
@@ -155,11 +155,11 @@ def _heading_open(
     return moved, np.vstack([b * roll_gains.kp * to_bank * gains.kp, [[STEP]]])
 
 
-def _heading_closed(
+def _closed_heading_loop(
     model: Airframe, tas: MetrePerSecond, gains: HeadingGains, roll_gains: RollGains
 ) -> tuple[Floats, Floats]:
     """The same, driven by the heading asked for."""
-    a, b = _heading_open(model, tas, gains, roll_gains)
+    a, b = _open_heading_loop(model, tas, gains, roll_gains)
     return a - b @ np.array([[1.0, 0.0, 0.0, 0.0]]), b
 
 
@@ -174,7 +174,7 @@ def path_loop(
     a = np.zeros((4, 4))  # cross-track, heading error, bank, roll rate
     a[0, 1], a[1, 2] = tas, G0 / tas
     a[2:, 2:], input_ = _roll_mode(model)
-    a, b = _held(a, np.vstack([[0.0], [0.0], input_]), STEP)
+    a, b = _hold_input(a, np.vstack([[0.0], [0.0], input_]), STEP)
     closed = a - b @ np.array([[0.0, 0.0, roll_gains.kp, roll_gains.kd]])
     over_tick, drive = np.eye(4), np.zeros((4, 1))
     for _ in range(round(TICK / STEP)):
@@ -187,7 +187,7 @@ def straight_loop(
     model: Airframe = A306, *, tas: MetrePerSecond, gains: PathGains = PATH_GAINS
 ) -> control.StateSpace:
     """From the heading asked for back to it, held for a second each, the heading loop closed."""
-    closed, drive = _heading_closed(model, tas, HEADING_GAINS, ROLL_GAINS)
+    closed, drive = _closed_heading_loop(model, tas, HEADING_GAINS, ROLL_GAINS)
     a = np.zeros((5, 5))  # and the cross-track, by the heading at both ends of a step
     a[:4, :4], a[4, 4] = closed, 1.0
     a[4, :4] = 0.5 * tas * STEP * (np.eye(4)[0] + closed[0])
@@ -223,7 +223,7 @@ def _roll_mode(model: Airframe) -> tuple[Floats, Floats]:
     return np.array([[0.0, 1.0], [0.0, -rate]]), np.array([[0.0], [rate]])
 
 
-def _held(a: Floats, b: Floats, duration: Second) -> tuple[Floats, Floats]:
+def _hold_input(a: Floats, b: Floats, duration: Second) -> tuple[Floats, Floats]:
     """The same over a while in which the input is held."""
     n = len(a)
     whole = np.zeros((n + 1, n + 1))

@@ -73,10 +73,10 @@ def distance_from(path: Floats, x: Metre, y: Metre) -> Metre:
 
 def circles_of(segments: Sequence[PathSegment]) -> int:
     """Full circles of a plan."""
-    return circles((_turned(segment), segment.duration) for segment in segments)
+    return circles((_turn_angle(segment), segment.duration) for segment in segments)
 
 
-def circles_flown(rates: Iterable[float], every: Second) -> int:
+def count_circles(rates: Iterable[float], every: Second) -> int:
     """Full circles in a series of turn rates [rad/s]."""
     return circles((rate * every if abs(rate) > TURNING else 0.0, every) for rate in rates)
 
@@ -96,7 +96,7 @@ def circles(turns: Iterable[tuple[Radian, Second]]) -> int:
 
 def reversals_of(segments: Sequence[PathSegment]) -> int:
     """How often a plan changes from one side to the other."""
-    sides = [angle > 0.0 for angle in map(_turned, segments) if abs(angle) > 1.0 * DEG]
+    sides = [angle > 0.0 for angle in map(_turn_angle, segments) if abs(angle) > 1.0 * DEG]
     return sum(a != b for a, b in pairwise(sides))
 
 
@@ -104,7 +104,7 @@ def _whole(run: Radian) -> int:
     return int((abs(run) + 2.0 * pi - CIRCLE) / (2.0 * pi))
 
 
-def _turned(segment: PathSegment) -> Radian:
+def _turn_angle(segment: PathSegment) -> Radian:
     """Heading change, positive to the right [rad]."""
     match segment:
         case StraightSegment():

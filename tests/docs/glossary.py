@@ -67,7 +67,7 @@ def _situation(
 def _situation_drawing() -> str:
     situation = _situation(-22e3, -8e3, 40.0)
     pursuer = situation.pursuer
-    path = _planned(situation).trajectory
+    path = _plan(situation).trajectory
     meets = path.duration
     behind = -situation.slot_distance
     over_there = 200.0 * meets
@@ -77,7 +77,7 @@ def _situation_drawing() -> str:
     page.text((9.5e3, 3.4e3), "d = d_min", LIMIT)
     page.line([(pursuer.x, pursuer.y), (0.0, 0.0)], PALE, dashed=True)
     page.text((-15.0e3, -8.3e3), "d", PALE)
-    page.line(_flown(path), PURSUER, "plan", at=0.8, dx=-34)
+    page.line(_fly(path), PURSUER, "plan", at=0.8, dx=-34)
     page.aircraft((pursuer.x, pursuer.y), pursuer.heading, PURSUER)
     page.text((pursuer.x - 7e3, pursuer.y - 4.4e3), "pursuer P", PURSUER)
     page.aircraft((0.0, 0.0), 0.0, LEADER)
@@ -92,7 +92,7 @@ def _situation_drawing() -> str:
 def _branch_drawing(situation: Situation, title: str) -> str:
     """A path of the word LRL, as flown."""
     (path,) = [c.trajectory for c in candidates(situation).later if c.word == "LRL"]
-    flown = _flown(path)
+    flown = _fly(path)
     page = _Page.around(flown, width=240)
     first, middle, _ = path.durations()
     turned = degrees(abs(heading_change(path.segments[1])))
@@ -106,7 +106,7 @@ def _branch_drawing(situation: Situation, title: str) -> str:
 
 def _constrained_drawing() -> str:
     situation = _situation(-2800.0, 24.7e3, 310.0, tas=205.0, bank=60.0)
-    planned = _planned(situation)
+    planned = _plan(situation)
     path = _from_leader(planned.trajectory)
     page = _Page.around([*path, (-11e3, -13e3), (11e3, 11e3)], width=330)
     page.circle((0.0, 0.0), situation.min_separation, LIMIT)
@@ -115,7 +115,7 @@ def _constrained_drawing() -> str:
     t, flown = 0.0, planned.trajectory
     for segment, duration in zip(flown.segments, flown.durations(), strict=True):
         if isinstance(segment, BoundaryArc):
-            arc = [_seen(flown, t + duration * k / 60) for k in range(61)]
+            arc = [_place_from_leader(flown, t + duration * k / 60) for k in range(61)]
             page.line(arc, INK, "boundary arc", at=0.5, dx=10, wide=True)
             page.dot(arc[0], "contact")
         t += duration
@@ -129,11 +129,11 @@ def _delay_drawing() -> str:
     situation = _situation(-4.9e3, -11.3e3, 41.0, turn=90.0)
     found = candidates(situation)
     assert found.reachable_at_release
-    path = _planned(situation).trajectory
+    path = _plan(situation).trajectory
     leading = situation.leader.trajectory
     pose = leading.pose_at(path.duration)
     track = [(p.x, p.y) for p in map(leading.pose_at, _times(path.duration))]
-    flown = _flown(path)
+    flown = _fly(path)
     page = _Page.around([*track, *flown, (-9e3, 0.0)], width=330)
     page.line(track, LEADER, "leader's route", at=0.12, dx=-90)
     page.line(flown, PURSUER, "a delay, exactly as long as T", at=0.28, dx=-180)
@@ -145,7 +145,7 @@ def _delay_drawing() -> str:
     return page.svg("A delay: the slot opens later than it could be reached")
 
 
-def _planned(situation: Situation) -> Plan:
+def _plan(situation: Situation) -> Plan:
     planned = plan(situation)
     assert isinstance(planned, Plan)
     return planned
@@ -155,18 +155,18 @@ def _times(duration: float) -> list[float]:
     return [duration * k / 240 for k in range(241)]
 
 
-def _flown(path: Trajectory) -> list[Point]:
+def _fly(path: Trajectory) -> list[Point]:
     return [(p.x, p.y) for p in map(path.pose_at, _times(path.duration))]
 
 
-def _seen(path: Trajectory, t: float) -> Point:
+def _place_from_leader(path: Trajectory, t: float) -> Point:
     """From a leader that flies north at 200 m/s from the origin."""
     pose = path.pose_at(min(t, path.duration))
     return pose.x, pose.y - 200.0 * t
 
 
 def _from_leader(path: Trajectory) -> list[Point]:
-    return [_seen(path, t) for t in _times(path.duration)]
+    return [_place_from_leader(path, t) for t in _times(path.duration)]
 
 
 class _Page:

@@ -41,7 +41,7 @@ class Journal:
 
     def judged(self) -> dict[str, Outcome]:
         """By the key of the mutant."""
-        allowed = equivalent()
+        allowed = equivalent_faults()
         found: dict[str, Outcome] = {}
         for line in self.lines():
             if line["kind"] == "mutant":
@@ -92,7 +92,7 @@ class Journal:
             out.write(json.dumps(line, ensure_ascii=False) + "\n")
 
 
-def equivalent() -> set[tuple[str, tuple[str, ...]]]:
+def equivalent_faults() -> set[tuple[str, tuple[str, ...]]]:
     """The faults that may survive: file and changed lines."""
     listed = tomllib.loads(EQUIVALENT.read_text()).get("equivalent", [])
     return {(one["file"], tuple(one["changed"])) for one in listed}

@@ -158,8 +158,8 @@ def test_steps_run_in_processes_and_are_recorded(
     assert ("one", 0.25, 0.25, ()) in states
     assert ("two", 0.99, 1.99, ("first",)) in states  # slow, and not done for that
     assert states[-1] == ("", 1.0, 2.0, ("first", "second"))
-    assert cache.warm("first", tmp_path)
-    assert cache.filled(tmp_path)
+    assert cache.is_warm("first", tmp_path)
+    assert cache.is_full(tmp_path)
     assert warm_up.missing(["first", "second"]) == ()
 
 
@@ -178,7 +178,7 @@ def test_steps_are_ended_when_stopped(tmp_path: Path, monkeypatch: pytest.Monkey
     _workers(monkeypatch, "import time; time.sleep(60)")
     states = list(warm_up.prepare(["flying"], jobs=1, stopped=lambda: True))
     assert states == [(warm_up.STEPS["flying"].title, 0.0, 0.0, ())]
-    assert not cache.warm("flying", tmp_path)
+    assert not cache.is_warm("flying", tmp_path)
 
 
 def _workers(monkeypatch: pytest.MonkeyPatch, code: str) -> None:
@@ -218,18 +218,18 @@ def test_kernels_of_a_wheel_become_this_machines_own(
     shipped, place, other = tmp_path / "shipped", tmp_path / "place", tmp_path / "other"
     for each in (shipped, place, other):
         each.mkdir()
-    here = cache._wanted()
+    here = cache._expected_record()
     for_any = [*here[:-2], *cache.ANY_CPU]
     index = cache.LockedIndex(str(shipped), "f-1.py3", "stamp")
     index.save(("types", tuple(for_any[-3:]), "code"), "machine code")
-    monkeypatch.setattr(cache, "_wanted", lambda: for_any)
+    monkeypatch.setattr(cache, "_expected_record", lambda: for_any)
     cache.record(["flying", cache.EVERYTHING], shipped)
-    monkeypatch.setattr(cache, "_wanted", lambda: here)
+    monkeypatch.setattr(cache, "_expected_record", lambda: here)
 
     monkeypatch.setattr(cache, "folder", lambda: place)
     cache.adopt(shipped)
-    assert cache.filled(place)
-    assert cache.warm("flying", place)
+    assert cache.is_full(place)
+    assert cache.is_warm("flying", place)
     own = cache.LockedIndex(str(place), "f-1.py3", "stamp")
     assert own.load(("types", tuple(here[-3:]), "code")) == "machine code"
     (place / "f-1.py3.nbi").unlink()
@@ -237,7 +237,7 @@ def test_kernels_of_a_wheel_become_this_machines_own(
     assert not (place / "f-1.py3.nbi").exists()
 
     monkeypatch.setattr(cache, "folder", lambda: other)
-    monkeypatch.setattr(cache, "_wanted", lambda: ["other sources", *here[1:]])
+    monkeypatch.setattr(cache, "_expected_record", lambda: ["other sources", *here[1:]])
     cache.adopt(shipped)
     assert not list(other.glob("*.nbi"))
 
@@ -272,7 +272,7 @@ def test_a_stamp_changes_with_what_is_imported(
     monkeypatch.setattr(cache, "HERE", kernels)
 
     def stamps() -> dict[str, str]:
-        cache._made_of.cache_clear()
+        cache._digest_and_imports.cache_clear()
         cache._stamp.cache_clear()
         return {file.stem: cache._stamp((file,)) for file in kernels.rglob("*.py")}
 
@@ -289,13 +289,13 @@ def test_a_folder_that_can_only_be_read_serves_if_it_was_filled(
     read_only.mkdir()
     monkeypatch.setattr(cache, "_places", lambda: [empty, read_only])
     monkeypatch.setattr(cache, "_can_write", lambda place: False)
-    assert not cache.filled(read_only)
+    assert not cache.is_full(read_only)
     assert cache.folder.__wrapped__().name.startswith("relguide-")
     cache.record([cache.EVERYTHING], read_only)
-    assert cache.filled(read_only)
+    assert cache.is_full(read_only)
     assert cache.folder.__wrapped__() == read_only
     (read_only / f"{cache.EVERYTHING}{cache.RECORD}").write_text("{")
-    assert not cache.filled(read_only)
+    assert not cache.is_full(read_only)
 
 
 def test_kernels_are_kept_where_we_say() -> None:

@@ -51,7 +51,7 @@ def ideal_app(
 
 
 @contextmanager
-def served(app: FastAPI) -> Iterator[str]:
+def serve(app: FastAPI) -> Iterator[str]:
     """Serve an app on a free port of this machine; gives `127.0.0.1:port`."""
     options = uvicorn_options(host="127.0.0.1", port=0)
     server = uvicorn.Server(uvicorn.Config(app, **options))

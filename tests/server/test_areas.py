@@ -27,12 +27,12 @@ def client() -> Iterator[TestClient]:
         yield client
 
 
-def asked(situation: dict = STRAIGHT, **parameters: object) -> dict[str, object]:
+def ask(situation: dict = STRAIGHT, **parameters: object) -> dict[str, object]:
     return {"situation": json.dumps(situation), **SMALL, **parameters}
 
 
 def test_an_area_of_a_situation(client: TestClient) -> None:
-    answer = client.get(URL, params=asked(level_s=["300", "600"], times="true"))
+    answer = client.get(URL, params=ask(level_s=["300", "600"], times="true"))
     assert answer.status_code == 200
     area = answer.json()
     assert parse(AreaAnswer, area).grid.columns == 32
@@ -48,7 +48,7 @@ def test_an_area_of_a_situation(client: TestClient) -> None:
 
 
 def test_times_are_those_of_plans(client: TestClient) -> None:
-    area = client.get(URL, params=asked(times="true", columns="5", rows="4")).json()
+    area = client.get(URL, params=ask(times="true", columns="5", rows="4")).json()
     x = np.linspace(-80e3, 80e3, 5)
     y = np.linspace(-60e3, 60e3, 4)
     for row, north in enumerate(y.tolist()):
@@ -78,7 +78,7 @@ def test_with_latitudes_points_have_them(client: TestClient) -> None:
     for aircraft, lat, lon in (("pursuer", 48.0, 11.0), ("leader", 48.3, 11.5)):
         del body[aircraft]["x_m"], body[aircraft]["y_m"]
         body[aircraft] |= {"lat_deg": lat, "lon_deg": lon}
-    area = client.get(URL, params=asked(body, level_s="600")).json()
+    area = client.get(URL, params=ask(body, level_s="600")).json()
     ((line, *_),) = (contour["lines"] for contour in area["contours"])
     for x, y, lat, lon in line:
         assert lat == pytest.approx(48.3 + y / 111_200.0, abs=0.02)
@@ -98,8 +98,8 @@ def test_an_area_of_a_flight_is_that_of_now(client: TestClient) -> None:
 
 def test_exactly_is_never_slower(client: TestClient) -> None:
     few = {"columns": "12", "rows": "9", "times": "true", "width_m": "60000", "height_m": "45000"}
-    fast = client.get(URL, params=asked(**few)).json()
-    exact = client.get(URL, params=asked(**few, exact="true")).json()
+    fast = client.get(URL, params=ask(**few)).json()
+    exact = client.get(URL, params=ask(**few, exact="true")).json()
     assert fast["lower_bounds_s"] == exact["lower_bounds_s"]
     pairs = [
         (a, b)
@@ -114,8 +114,8 @@ def test_exactly_is_never_slower(client: TestClient) -> None:
 
 def test_by_network_times_are_the_exact_ones(client: TestClient) -> None:
     few = {"columns": "40", "rows": "30", "times": "true"}
-    exact = client.get(URL, params=asked(**few)).json()
-    answer = client.get(URL, params=asked(**few, planner="network"))
+    exact = client.get(URL, params=ask(**few)).json()
+    answer = client.get(URL, params=ask(**few, planner="network"))
     assert answer.status_code == 200
     area = answer.json()
     assert area["times_s"] == exact["times_s"]
@@ -132,22 +132,22 @@ def test_by_network_times_are_the_exact_ones(client: TestClient) -> None:
         ({"flight": "x", "situation": "{}"}, "and not both"),
         ({"situation": "{"}, "situation: This is not JSON"),
         ({"situation": "[]"}, "situation"),
-        (asked({**STRAIGHT, "slot_distance_m": 3.0}), "slot_distance_m: must be at least"),
-        (asked({**STRAIGHT, "wings": 2}), "situation.wings: is not a field"),
-        (asked(columns="1"), "columns"),
-        (asked(rows="513"), "rows"),
-        (asked(columns="many"), "columns"),
-        (asked(width_m="nan"), "width_m"),
-        (asked(height_m="1e9"), "height_m"),
-        (asked(x_m="inf"), "x_m"),
-        (asked(x_m="990000"), "The grid must lie within"),
-        (asked(level_s=["300", "-1"]), "level_s"),
-        (asked(level_s=["1"] * 65), "level_s"),
-        (asked(exact="perhaps"), "exact"),
-        (asked(planner="oracle"), "planner"),
-        (asked(exact="true", columns="60"), f"at most {MOST_SEARCHED:,} nodes"),
-        (asked(EXAMPLE, exact="true"), "leader without intent"),
-        (asked(levels="3"), "It has columns, exact, flight"),
+        (ask({**STRAIGHT, "slot_distance_m": 3.0}), "slot_distance_m: must be at least"),
+        (ask({**STRAIGHT, "wings": 2}), "situation.wings: is not a field"),
+        (ask(columns="1"), "columns"),
+        (ask(rows="513"), "rows"),
+        (ask(columns="many"), "columns"),
+        (ask(width_m="nan"), "width_m"),
+        (ask(height_m="1e9"), "height_m"),
+        (ask(x_m="inf"), "x_m"),
+        (ask(x_m="990000"), "The grid must lie within"),
+        (ask(level_s=["300", "-1"]), "level_s"),
+        (ask(level_s=["1"] * 65), "level_s"),
+        (ask(exact="perhaps"), "exact"),
+        (ask(planner="oracle"), "planner"),
+        (ask(exact="true", columns="60"), f"at most {MOST_SEARCHED:,} nodes"),
+        (ask(EXAMPLE, exact="true"), "leader without intent"),
+        (ask(levels="3"), "It has columns, exact, flight"),
     ],
 )
 def test_what_is_no_area_is_refused(

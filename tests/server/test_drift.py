@@ -18,7 +18,7 @@ from relguide import NoPlan, Plan, Planner, Situation, plan
 from relguide.kernels.words.branches import BRANCHES, SIZE
 from relguide.learn.network_planner import network_planner
 from relguide.learn.words.branch_network import BranchNetwork
-from tests.bodies import changed
+from tests.bodies import change
 from tests.relguide.learn.words.networks import network
 from tests.server.flown import SITUATION
 
@@ -49,11 +49,11 @@ def until(holds: Callable[[], bool]) -> None:
         time.sleep(0.01)
 
 
-def shown(planner: Planner, *, audits: int) -> dict[str, float]:
+def metrics_after(planner: Planner, *, audits: int) -> dict[str, float]:
     """What `/metrics` shows after so many audits of eight answers."""
     app = create_app(Settings(drift_check=2), planner=planner)
     metrics: Metrics = app.state.metrics
-    bodies = [changed("pursuer.heading_deg", 45.0 * k) for k in range(8)]
+    bodies = [change("pursuer.heading_deg", 45.0 * k) for k in range(8)]
     for body in bodies:
         body["leader"] = {**body["leader"], "intent": []}
     with TestClient(app) as client:
@@ -70,7 +70,7 @@ def shown(planner: Planner, *, audits: int) -> dict[str, float]:
 
 @pytest.mark.slow
 def test_a_bad_network_is_reported() -> None:
-    found = shown(network_planner(one_idea("LSL")), audits=1)
+    found = metrics_after(network_planner(one_idea("LSL")), audits=1)
     asked = found["network_plans_total"] + found["network_fallbacks_total"]
     assert asked >= 8.0  # the first flight of the rehearsal asks too
     assert found['drift_audits_total{answer="different"}'] >= 1.0
@@ -78,7 +78,7 @@ def test_a_bad_network_is_reported() -> None:
 
 
 def test_a_good_network_is_not() -> None:
-    found = shown(as_network, audits=4)
+    found = metrics_after(as_network, audits=4)
     assert found["network_plans_total"] >= 8.0
     assert found['drift_audits_total{answer="same"}'] >= 4.0
     assert found['drift_audits_total{answer="different"}'] == 0.0

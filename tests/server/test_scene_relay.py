@@ -18,7 +18,7 @@ from websockets.typing import Subprotocol
 from relguide.flying.documents import Document
 from relguide.flying.orders import Command
 from tests.server.flown import ideal_flight
-from tests.server.serving import ideal_app, served
+from tests.server.serving import ideal_app, serve
 
 VISER = Subprotocol(f"viser-v{viser.__version__}")
 
@@ -29,7 +29,7 @@ def long_flight(commands: Callable[[float], Iterable[Command]]) -> Iterator[Docu
 
 @pytest.fixture(scope="module")
 def address() -> Iterator[str]:
-    with served(ideal_app(long_flight)) as address:
+    with serve(ideal_app(long_flight)) as address:
         yield address
 
 

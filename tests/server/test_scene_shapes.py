@@ -12,7 +12,7 @@ from relguide.planning.plan import Plan, plan
 from tests.server.flown import SITUATION
 
 
-def turned(heading: float, bank: float, body: tuple[float, float, float]) -> list[float]:
+def turn(heading: float, bank: float, body: tuple[float, float, float]) -> list[float]:
     return list(np.round(SO3(np.array(shapes.attitude(heading, bank))).apply(np.array(body)), 9))
 
 
@@ -20,11 +20,11 @@ def turned(heading: float, bank: float, body: tuple[float, float, float]) -> lis
     ("heading", "nose"), [(0.0, (0, 1, 0)), (pi / 2, (1, 0, 0)), (pi, (0, -1, 0))]
 )
 def test_the_nose_points_along_the_heading(heading: float, nose: tuple[int, int, int]) -> None:
-    assert turned(heading, 0.3, (1, 0, 0)) == pytest.approx(list(nose), abs=1e-9)
+    assert turn(heading, 0.3, (1, 0, 0)) == pytest.approx(list(nose), abs=1e-9)
 
 
 def test_positive_bank_lowers_the_right_wing() -> None:
-    right_wing = turned(radians(70), radians(25), (0, -1, 0))
+    right_wing = turn(radians(70), radians(25), (0, -1, 0))
     assert right_wing[2] < -0.4
 
 

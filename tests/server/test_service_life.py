@@ -13,7 +13,7 @@ from websockets.typing import Subprotocol
 
 from relguide.contract.protocol import PROTOCOL
 from tests.server.flown import ideal_flight
-from tests.server.serving import ideal_app, served
+from tests.server.serving import ideal_app, serve
 
 
 def test_nothing_is_left_after_shutdown() -> None:
@@ -38,10 +38,10 @@ def test_nothing_is_left_after_shutdown() -> None:
     def flown(commands):
         return ideal_flight(commands, duration=3600.0)
 
-    with served(ideal_app(flown)) as address:  # once before counting: pools and caches stay
+    with serve(ideal_app(flown)) as address:  # once before counting: pools and caches stay
         asyncio.run(watch(address))
     threads, descriptors = threading.active_count(), len(os.listdir("/proc/self/fd"))
-    with served(ideal_app(flown)) as address:
+    with serve(ideal_app(flown)) as address:
         asyncio.run(watch(address))
         assert threading.active_count() > threads
         stopping = time.monotonic()
@@ -68,7 +68,7 @@ def test_it_stops_while_browsers_still_look() -> None:
 
     looking = threading.Event()
     codes: list[int | None] = []
-    with served(ideal_app()) as address:
+    with serve(ideal_app()) as address:
         browser = threading.Thread(target=lambda: codes.append(asyncio.run(look(address))))
         browser.start()
         assert looking.wait(10.0)

@@ -18,7 +18,7 @@ from relguide.contract.refusal import parse
 from relguide.flying.documents import Document
 from relguide.flying.orders import Command
 from tests.server.flown import ideal_flight
-from tests.server.serving import ideal_app, served
+from tests.server.serving import ideal_app, serve
 
 
 def long_flight(commands: Callable[[float], Iterable[Command]]) -> Iterator[Document]:
@@ -27,7 +27,7 @@ def long_flight(commands: Callable[[float], Iterable[Command]]) -> Iterator[Docu
 
 @pytest.fixture(scope="module")
 def address() -> Iterator[str]:
-    with served(ideal_app(long_flight)) as address:
+    with serve(ideal_app(long_flight)) as address:
         yield address
 
 
@@ -174,7 +174,7 @@ def test_an_ended_flight_is_still_sent_whole() -> None:
     def short(commands: Callable[[float], Iterable[Command]]) -> Iterator[Document]:
         return ideal_flight(commands, duration=1.0)
 
-    with served(ideal_app(short)) as address:
+    with serve(ideal_app(short)) as address:
         flight_id = start(address, rate=60.0)
         url = f"http://{address}/api/v1/flights/{flight_id}"
         while not httpx.get(url).json()["ended"]:
@@ -189,7 +189,7 @@ def test_an_ended_flight_refuses_commands_with_a_sentence() -> None:
     def short(commands: Callable[[float], Iterable[Command]]) -> Iterator[Document]:
         return ideal_flight(commands, duration=1.0)
 
-    with served(ideal_app(short)) as address:
+    with serve(ideal_app(short)) as address:
         url = f"http://{address}/api/v1/flights/{start(address, rate=60.0)}"
         while not httpx.get(url).json()["ended"]:
             time.sleep(0.02)
@@ -212,7 +212,7 @@ def test_a_flight_that_breaks_closes_its_streams_with_a_sentence() -> None:
                 await ticks(socket, 1000)
             return socket.close_code, socket.close_reason
 
-    with served(ideal_app(breaks)) as address:
+    with serve(ideal_app(breaks)) as address:
         flight_id = start(address, rate=20.0)
         code, reason = asyncio.run(watch())
         assert code == 4500
@@ -229,7 +229,7 @@ def test_who_is_watched_stays_and_who_is_not_is_removed() -> None:
                     return
             raise AssertionError("The forgotten flight was never removed.")
 
-    with served(ideal_app(long_flight, keep_unseen=0.5)) as address:
+    with serve(ideal_app(long_flight, keep_unseen=0.5)) as address:
         watched, forgotten = start(address), start(address)
         asyncio.run(watch())
 

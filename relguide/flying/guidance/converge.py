@@ -105,9 +105,9 @@ def propose(
             plan = _nearest(plan, committed, lead, assignment, stay)
         if isinstance(plan, NoPlan):
             if limits and wanted > assignment.min_separation:
-                return _without_buffer(belief, assignment, committed, planner, lead, answer)
+                return _propose_without_buffer(belief, assignment, committed, planner, lead, answer)
             if plan.reason == Reason.SEPARATION_ALREADY_LOST:
-                plan = _already_lost(plan, belief, assignment, planner, lead)
+                plan = _refuse_lost(plan, belief, assignment, planner, lead)
             return NoProposal(answer=plan, fell_back=fell_back, refusal=refusal)
         found = commit(plan, lead, belief, assignment, committed)
         least, _ = found.forecast.least(belief.t)
@@ -120,7 +120,7 @@ def propose(
     return NoProposal(answer=_too_close(closest, assignment), fell_back=fell_back, refusal=refusal)
 
 
-def _without_buffer(
+def _propose_without_buffer(
     belief: Belief,
     assignment: Assignment,
     committed: Committed | None,
@@ -143,7 +143,7 @@ def _without_buffer(
     return Proposal(committed=found, lead=lead, fell_back=fell_back, refusal=refusal)
 
 
-def _already_lost(
+def _refuse_lost(
     later: NoPlan, belief: Belief, assignment: Assignment, planner: Planner, lead: LeadIn
 ) -> NoPlan:
     """Why no plan can begin where the lead-in ends, in figures of now."""

@@ -81,7 +81,7 @@ def escape(
     return best
 
 
-def kept_on_heading(
+def separation_on_heading(
     belief: Belief,
     assignment: Assignment,
     heading: Radian,

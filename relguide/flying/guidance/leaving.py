@@ -3,7 +3,7 @@
 from relguide.flying.belief import Belief
 from relguide.flying.guidance.announcements import Event, UnableTo
 from relguide.flying.guidance.assignment import Assignment
-from relguide.flying.guidance.escape import escape, kept_on_heading
+from relguide.flying.guidance.escape import escape, separation_on_heading
 from relguide.flying.guidance.leader_news import turns_unannounced
 from relguide.flying.guidance.memory import Memory, enter
 from relguide.flying.guidance.monitor import Outlook
@@ -63,7 +63,7 @@ def keep_heading(
         return memory, []
     progress, turns_on = memory.progress, turns_unannounced(belief, assignment)
     other_tas = _other_tas(memory, belief)
-    kept = kept_on_heading(
+    kept = separation_on_heading(
         belief, assignment, progress.heading, turns_on=turns_on, other_tas=other_tas
     )
     if kept >= assignment.min_separation + OWN_TUBE:

@@ -71,13 +71,13 @@ def fly_proposal(
     if announced:
         begins = reason in ("engaged", "resumed")
         pause = 0.0 if begins else assignment.settings.announce_after
-        memory = _announced(memory, belief, shown, joins, pause)
+        memory = _announce(memory, belief, shown, joins, pause)
     elif fresh:
         memory = memory._replace(pending=reason)
     return memory, [*events, *news, said]
 
 
-def _announced(memory: Memory, belief: Belief, shown: Plan, joins: Second, pause: Second) -> Memory:
+def _announce(memory: Memory, belief: Belief, shown: Plan, joins: Second, pause: Second) -> Memory:
     said = Announced(belief.t, joins, shown.trajectory, belief.t + pause)
     return memory._replace(announced=said, pending=None, expected=expectation(belief))
 
@@ -150,7 +150,7 @@ def announce_pending(
     text = f"{reason_sentence(reason, belief)}: {summary(shown, joins - belief.t)}."
     said = NewPlan(committed=committed, shown=shown, reason=reason, message=text, announced=True)
     pause = assignment.settings.announce_after
-    return _announced(memory, belief, shown, joins, pause), [said]
+    return _announce(memory, belief, shown, joins, pause), [said]
 
 
 def count_refusal(

@@ -67,7 +67,7 @@ def turn_program(heading: Radian, to: Radian, direction: TurnChoice, bank: Radia
     return program_of((piece,), heading, 0.0, 1.0)
 
 
-def heading_held(program: Program, cursor: int) -> Radian:
+def straight_heading(program: Program, cursor: int) -> Radian:
     """The heading that is held on straights once the pieces before `cursor` are flown [rad]."""
     held = program.held
     for kind, end, _ in program.rows[:cursor].tolist():

@@ -19,7 +19,7 @@ class Recording(NamedTuple):
     """[m]. shape (n,)"""
 
 
-def recorded_steps(track: RecordedTrack, wind: Wind, step: Second) -> Recording:
+def steps_of_track(track: RecordedTrack, wind: Wind, step: Second) -> Recording:
     """Where a recorded leader is at each step, from its start to its end.
 
     Heading and airspeed follow from the wind, the bank from how fast the heading changes.

@@ -22,7 +22,7 @@ _DIGITS = 1e-15  # a root is right to this, or to what rounding leaves of f
 
 
 @njit(cache=True, nogil=True)
-def _at(k: FloatArray, u: float) -> tuple[float, float, float]:
+def _value_and_slopes(k: FloatArray, u: float) -> tuple[float, float, float]:
     """f, f′ and f″."""
     s, c = sin(u), cos(u)
     p = k[3] * u + k[4]
@@ -38,7 +38,7 @@ def _root_between(k: FloatArray, low: float, high: float, f_low: float) -> float
     """The one root of f in [low, high]: Newton kept inside a bracket."""
     u = 0.5 * (low + high)
     for _ in range(100):
-        value, slope, bend = _at(k, u)
+        value, slope, bend = _value_and_slopes(k, u)
         if value == 0.0:
             return u
         if (value < 0.0) == (f_low < 0.0):
@@ -62,7 +62,7 @@ def _extremum_between(k: FloatArray, low: float, high: float, slope_low: float) 
     """The one zero of f′ in [low, high], so right that f there is right to 1e-17."""
     u = 0.5 * (low + high)
     for _ in range(100):
-        _, slope, bend = _at(k, u)
+        _, slope, bend = _value_and_slopes(k, u)
         if slope == 0.0:
             return u
         if (slope < 0.0) == (slope_low < 0.0):
@@ -92,14 +92,14 @@ def all_roots(k: FloatArray, cuts: FloatArray, n_cuts: int, out: FloatArray) -> 
         how many roots.
     """
     low = cuts[0]
-    f_low, slope_low, _ = _at(k, low)
+    f_low, slope_low, _ = _value_and_slopes(k, low)
     n = 0
     if abs(f_low) <= TOUCH:
         out[n] = low
         n += 1
     for i in range(1, n_cuts):
         high = cuts[i]
-        f_high, slope_high, _ = _at(k, high)
+        f_high, slope_high, _ = _value_and_slopes(k, high)
         touched = abs(f_low) <= TOUCH or abs(f_high) <= TOUCH
         crossed = (f_low < 0.0) != (f_high < 0.0)
         if (slope_low < 0.0) == (slope_high < 0.0):
@@ -113,7 +113,7 @@ def all_roots(k: FloatArray, cuts: FloatArray, n_cuts: int, out: FloatArray) -> 
         elif touched or (f_low < 0.0) != (slope_low < 0.0):
             # toward zero and back: two roots, one, or none
             turn = _extremum_between(k, low, high, slope_low)
-            f_turn, _, _ = _at(k, turn)
+            f_turn, _, _ = _value_and_slopes(k, turn)
             if abs(f_turn) <= TOUCH:
                 out[n] = turn
                 n += 1

@@ -22,7 +22,7 @@ from relguide.kernels.base.records import Pose, Scene, Velocity, Window, with_li
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.breach import NearWord, Sieve, breaks_limit
 from relguide.kernels.bounds.word_bound import Blur, soonest
-from relguide.kernels.contact.contact import contact_heading, seen_from
+from relguide.kernels.contact.contact import contact_heading, to_frame_of
 from relguide.kernels.separation.clearance import leader_at, piece_at
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, fly_piece, solve
 
@@ -254,7 +254,7 @@ def word_between(scene: Scene, cell: Cell, other: Cell, beat: float) -> float:
     end_blur, differs = max(end.left, end.right), begin.differs + end.differs
     blur = Blur(begin.left + end_blur, begin.right + end_blur, differs, end.differs)
     return soonest(
-        seen_from(here, there),
+        to_frame_of(here, there),
         blur,
         Velocity(alpha * cos(there.h), -alpha * sin(there.h)),
         Window(0.0, beat),

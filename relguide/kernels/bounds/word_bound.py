@@ -258,7 +258,7 @@ def _bound_by_halves(three_turns: bool, side: _Side, window: Window, sieve: Siev
             elif three_turns:
                 if _is_possible(found, (-1.0, 1.0, -1.0), 2, half, side, sieve):
                     best = found.time
-            elif not _is_sifted(found, (1.0, 0.0, -1.0), found.first, side, sieve):
+            elif not _is_ruled_out(found, (1.0, 0.0, -1.0), found.first, side, sieve):
                 best = found.time
     return best
 
@@ -349,14 +349,14 @@ def _is_possible(
         if (
             -found.astray - side.end <= first <= TWO_PI + found.astray + side.end
             and -spare <= other <= TWO_PI + spare
-            and not _is_sifted(found, signs, first, side, sieve)
+            and not _is_ruled_out(found, signs, first, side, sieve)
         ):
             return True
     return False
 
 
 @njit(cache=True, nogil=True)
-def _is_sifted(
+def _is_ruled_out(
     found: _Interval, signs: tuple[float, float, float], first: float, side: _Side, sieve: Sieve
 ) -> bool:
     """Whether a word is left out, as every path of it certainly breaks the limit."""

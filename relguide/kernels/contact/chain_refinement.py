@@ -162,7 +162,7 @@ def refine_chain(
         before = here
         for k in range(len(contacts)):
             at, t = fly_links(start, 0.0, scene, chain, 0, k - 1, inf)
-            move = _Move(k, _last_moved(scene, t, contacts, k, 1), strides[k], finest)
+            move = _Move(k, _last_link_to_fly(scene, t, contacts, k, 1), strides[k], finest)
             here, strides[k] = _move_bearing(at, t, scene, chain, move, here)
         gain = before - here
         if here - 2.0 * gain > beat or (gain < GAIN and finest == FINEST):
@@ -184,7 +184,7 @@ def follow_edges(start: Pose, scene: Scene, chain: Chain, here: float, stride: f
         if contacts[k + 1, 3] != WORD:
             continue
         at, t = fly_links(start, 0.0, scene, chain, 0, k - 1, inf)
-        last = _last_moved(scene, t, contacts, k, 2)
+        last = _last_link_to_fly(scene, t, contacts, k, 2)
         _, begun = fly_links(at, t, scene, chain, k, last, inf)
         if _has_edge(at, t, scene, chain, _Move(k, last, _BESIDE, _BESIDE), begun):
             move = _Move(k, last, stride, _NARROW)
@@ -240,7 +240,7 @@ def _follow_edge(
 
 
 @njit(cache=True, nogil=True)
-def _last_moved(scene: Scene, t: float, contacts: FloatArray, k: int, moved: int) -> int:
+def _last_link_to_fly(scene: Scene, t: float, contacts: FloatArray, k: int, moved: int) -> int:
     """The last link that must be flown to compare chains alike but for contacts k … k + moved − 1.
 
     On the final leg nothing depends on time: past the next contact all stays as it is.

@@ -40,7 +40,7 @@ def word_clears(pose: Pose, t: float, row: FloatArray, scene: Scene) -> bool:
 
 
 @njit(cache=True, nogil=True)
-def seen_from_slot(pose: Pose, t: float, alpha: float) -> Pose:
+def to_slot_frame(pose: Pose, t: float, alpha: float) -> Pose:
     """A pose at time t in the slot's own frame of that time, its heading in [0, 2π)."""
     return Pose(pose.x - alpha * t, pose.y, wrap(pose.h))
 
@@ -71,7 +71,7 @@ def best_word(
 
     Infinite and −1 if none arrives before `beat`.
     """
-    seen, left = seen_from_slot(pose, t, scene.alpha), max(scene.t_release - t, 0.0)
+    seen, left = to_slot_frame(pose, t, scene.alpha), max(scene.t_release - t, 0.0)
     n = solve(seen, scene.alpha, left, rows)
     return first_clear(pose, t, rows[:n], scene, beat)
 
@@ -89,7 +89,7 @@ def best_word_near(pose: Pose, t: float, scene: Scene, row: FloatArray) -> bool:
     Returns:
         whether there is one.
     """
-    seen, left = seen_from_slot(pose, t, scene.alpha), max(scene.t_release - t, 0.0)
+    seen, left = to_slot_frame(pose, t, scene.alpha), max(scene.t_release - t, 0.0)
     # the fastest alone is found in a third of the time, and mostly keeps d_min
     if fastest(seen, scene.alpha, left, int(row[1]), make_scratch(), row) and word_clears(
         pose, t, row, scene

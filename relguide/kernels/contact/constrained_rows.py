@@ -64,7 +64,7 @@ def limit_binds_rows(situations: FloatArray, binds: FloatArray) -> None:
 
 
 @njit(cache=True, nogil=True)
-def exact_constrained(
+def solve_constrained_rows(
     situations: FloatArray, bearings: int, longest: float, times: FloatArray, counts: FloatArray,
     legs: FloatArray,
 ) -> None:  # fmt: skip

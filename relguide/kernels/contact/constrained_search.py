@@ -30,7 +30,7 @@ _NEARLY = 0.07  # how much a chain may fall below what the graph sees of it [R/V
 
 
 @njit(cache=True, nogil=True)
-def eased_to_start(start: Pose, scene: Scene) -> Scene:
+def ease_to_start(start: Pose, scene: Scene) -> Scene:
     """The same scene, with the limit that the start itself keeps.
 
     On a boundary arc a start lies on d_min but for rounding, and counts as keeping it to

@@ -80,7 +80,7 @@ def contact_at(scene: Scene, t: float, bearing: float, side: float) -> Pose:
 
 
 @njit(cache=True, nogil=True)
-def seen_from(pose: Pose, origin: Pose) -> Pose:
+def to_frame_of(pose: Pose, origin: Pose) -> Pose:
     """A pose in the frame of another; its heading not wrapped."""
     c, s = cos(origin.h), sin(origin.h)
     dx, dy = pose.x - origin.x, pose.y - origin.y

@@ -18,7 +18,7 @@ from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.base.records import Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain import BOUNDARY_ARC, MAX_CONTACTS, WORD, earliest_contact
-from relguide.kernels.contact.clear_words import first_clear, seen_from_slot
+from relguide.kernels.contact.clear_words import first_clear, to_slot_frame
 from relguide.kernels.contact.contact import (
     boundary_arc_sense,
     contact_at,
@@ -28,7 +28,7 @@ from relguide.kernels.contact.contact import (
 )
 from relguide.kernels.contact.delay_after_contact import delay_until_release
 from relguide.kernels.contact.nodes import Nodes, contact_of
-from relguide.kernels.contact.paths_to_contact import not_before, not_before_slot
+from relguide.kernels.contact.paths_to_contact import earliest_arrival, not_before_slot
 from relguide.kernels.separation.clearance import piece_at
 from relguide.kernels.words.delay import DELAY_PIECES
 from relguide.kernels.words.extremals import MAX_ROWS, solve
@@ -193,7 +193,7 @@ def _go_on(scene: Scene, nodes: Nodes, graph: _Graph, best: float, slack: float)
         graph.fresh[n] = 0.0
         t = nodes.time[n]
         pose = contact_at(scene, t, nodes.bearings[n], nodes.sides[n])
-        count = solve(seen_from_slot(pose, t, scene.alpha), scene.alpha, 0.0, graph.rows)
+        count = solve(to_slot_frame(pose, t, scene.alpha), scene.alpha, 0.0, graph.rows)
         nodes.lower[n], graph.arrival[n] = inf, inf
         if count > 0:
             nodes.lower[n] = max(t + graph.rows[0, 0], scene.t_release)
@@ -264,7 +264,7 @@ def _hop_from(scene: Scene, nodes: Nodes, graph: _Graph, n: int, best: float) ->
         contact = contact_of(nodes, m)
         if m == n or not contact_exists(contact.bearing, scene.alpha):
             continue
-        t = not_before(pose, left, scene, contact)
+        t = earliest_arrival(pose, left, scene, contact)
         if t >= time[m] - _BETTER or t + graph.onward[m] >= best:
             continue
         there = contact_at(scene, t, contact.bearing, contact.side)

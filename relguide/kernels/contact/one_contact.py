@@ -17,11 +17,11 @@ from numba import njit
 from relguide.kernels.base.records import Contact, Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain_refinement import FINEST, GAIN, vertex
-from relguide.kernels.contact.clear_words import first_clear, seen_from_slot, word_clears
+from relguide.kernels.contact.clear_words import first_clear, to_slot_frame, word_clears
 from relguide.kernels.contact.contact import contact_at, contact_exists, contact_on
 from relguide.kernels.contact.nodes import Nodes, contact_of
 from relguide.kernels.contact.paths_to_contact import (
-    not_before,
+    earliest_arrival,
     not_before_slot,
     paths_to_contact,
 )
@@ -91,7 +91,7 @@ def _soonest_arrivals(start: Pose, scene: Scene, nodes: Nodes) -> FloatArray:
     for n in range(count):
         contact = contact_of(nodes, n)
         if contact_exists(contact.bearing, scene.alpha):
-            t = not_before(start, 0.0, scene, contact)
+            t = earliest_arrival(start, 0.0, scene, contact)
             soonest[n] = max(t, scene.t_release)
             if contact.piece + 1 == len(scene.leader):
                 # on the final leg the contact keeps its place from the slot
@@ -267,7 +267,7 @@ def through_contact(
             continue
         if m < 0 or contact.piece + 1 < len(scene.leader):
             # on the final leg the paths on are the same at any time
-            m = solve(seen_from_slot(there, t, scene.alpha), scene.alpha, 0.0, onward)
+            m = solve(to_slot_frame(there, t, scene.alpha), scene.alpha, 0.0, onward)
         if m == 0:
             continue
         # the cheap test first: could it be in time at all? What is too early may be delayed

@@ -16,7 +16,7 @@ from numba import njit
 from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.base.records import Bracket, Contact, Pose, Scene, Velocity
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.contact.contact import contact_distance, contact_on, seen_from
+from relguide.kernels.contact.contact import contact_distance, contact_on, to_frame_of
 from relguide.kernels.words.branches import SIZE, TO_POINT, WORD_OF
 from relguide.kernels.words.delay import word_to_point
 from relguide.kernels.words.extremals import MAX_ROWS, solve_toward
@@ -47,7 +47,7 @@ def intercept(dx: float, dy: float, target: Velocity) -> float:
 
 
 @njit(cache=True, nogil=True)
-def not_before(pose: Pose, t: float, scene: Scene, contact: Contact) -> float:
+def earliest_arrival(pose: Pose, t: float, scene: Scene, contact: Contact) -> float:
     """No path from a pose at time t reaches the contact before this time."""
     start, rate = max(scene.leader[contact.piece, 0], t), scene.leader[contact.piece, 4]
     if rate != 0.0:
@@ -91,7 +91,7 @@ def paths_to_contact(pose: Pose, t: float, scene: Scene, contact: Contact, rows:
     ):
         return 0  # not even straight there
     toward = Velocity(scene.alpha * cos(lh - course), scene.alpha * sin(lh - course))
-    seen = seen_from(pose, Pose(cx, cy, course))
+    seen = to_frame_of(pose, Pose(cx, cy, course))
     n = solve_toward(Pose(seen.x, seen.y, wrap(seen.h)), toward, max(leader[i, 0] - t, 0.0), rows)
     while n > 0 and rows[n - 1, 0] > left:
         n -= 1
@@ -128,7 +128,7 @@ def _paths_while_turning(
             t = start + (end - start) * k / steps
             gap = _excess(passage, t, piece)
             turns[1, 0], turns[1, 1] = piece[0], piece[2]
-            if k > earliest and _unbroken(last, turns[0], gap, turns[1]):
+            if k > earliest and _is_smooth(last, turns[0], gap, turns[1]):
                 n = _append_root(passage, Bracket(last_t, t, last, gap), piece, rows, n)
             elif k > earliest and (abs(last) < _JUMP or abs(gap) < _JUMP):
                 # a turn passes 0, or the word ceases to exist: there may be a root on either side
@@ -137,7 +137,9 @@ def _paths_while_turning(
                     middle = 0.5 * (low + high)
                     value = _excess(passage, middle, piece)
                     turns[2, 0], turns[2, 1] = piece[0], piece[2]
-                    if (isnan(value) and isnan(last)) or _unbroken(last, turns[0], value, turns[2]):
+                    if (isnan(value) and isnan(last)) or _is_smooth(
+                        last, turns[0], value, turns[2]
+                    ):
                         low, at_low = middle, value
                     else:
                         high, at_high = middle, value
@@ -149,7 +151,7 @@ def _paths_while_turning(
 
 
 @njit(cache=True, nogil=True)
-def _unbroken(value: float, turns: FloatArray, other: float, others: FloatArray) -> bool:
+def _is_smooth(value: float, turns: FloatArray, other: float, others: FloatArray) -> bool:
     """Whether a word's length goes on smoothly: it exists at both times, and no turn jumps."""
     return bool(
         not isnan(value)
@@ -193,5 +195,5 @@ def _append_root(
 def _excess(passage: _Passage, t: float, piece: FloatArray) -> float:
     """Length of a word to where the contact is at t, less the time for it; NaN if out of reach."""
     there = contact_on(passage.scene, passage.contact, t)
-    length = word_to_point(seen_from(passage.start, there), 0.0, passage.branch, piece)
+    length = word_to_point(to_frame_of(passage.start, there), 0.0, passage.branch, piece)
     return length - (t - passage.t_start) if length >= 0.0 else np.nan

@@ -22,7 +22,7 @@ from numba import njit
 from relguide.kernels.base.angles import TWO_PI, wrap
 from relguide.kernels.base.records import Bracket, Pose, Scene
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.contact.contact import contact_distance, seen_from
+from relguide.kernels.contact.contact import contact_distance, to_frame_of
 from relguide.kernels.separation.clearance import leader_at
 from relguide.kernels.words.extremals import fly_piece
 
@@ -192,7 +192,7 @@ def tangents(start: Pose, scene: Scene) -> FloatArray:
         ):
             continue
         end = leader[i + 1, 0] if i + 1 < pieces else inf
-        m = tangent_contacts(seen_from(start, at), scene.alpha, distance, found)
+        m = tangent_contacts(to_frame_of(start, at), scene.alpha, distance, found)
         for j in range(m):
             if leader[i, 0] <= found[j, 2] <= end:
                 kept[n, :3] = found[j]

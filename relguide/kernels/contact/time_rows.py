@@ -17,7 +17,7 @@ from relguide.kernels.contact.chain import MAX_LEGS
 from relguide.kernels.contact.clear_words import word_clears
 from relguide.kernels.contact.constrained_search import (
     best_constrained_path,
-    eased_to_start,
+    ease_to_start,
 )
 from relguide.kernels.contact.tangent import tangents
 from relguide.kernels.separation.clearance import SLACK
@@ -79,7 +79,7 @@ def _plan_row(
             break
     if scene.d_min <= 0.0:
         return
-    met = eased_to_start(pose, scene)
+    met = ease_to_start(pose, scene)
     arrival, count = best_constrained_path(
         pose, met, bearings, tangents(pose, met), answer[0], legs
     )

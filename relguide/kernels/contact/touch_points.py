@@ -26,7 +26,7 @@ LONGEST_BOUNDARY_ARC = 1.5 * pi
 
 
 @njit(cache=True, nogil=True)
-def opposite(disc: Disc) -> Disc:
+def mirror_disc(disc: Disc) -> Disc:
     """The disc passed on its other side."""
     return Disc(disc.alpha, disc.distance, -disc.side, disc.turning)
 
@@ -227,7 +227,7 @@ def boundary_arc_end(slot: float, disc: Disc) -> tuple[float, float, float]:
         bearing, straight and turn; the soonest of them. NaN if there is none.
     """
     contacts = np.empty((4, 3))
-    n = straight_tangents(Pose(slot, 0.0, 0.0), opposite(disc), -disc.side, contacts)
+    n = straight_tangents(Pose(slot, 0.0, 0.0), mirror_disc(disc), -disc.side, contacts)
     best, at = inf, -1
     for k in range(n):
         if contacts[k, 1] + contacts[k, 2] < best:

@@ -32,7 +32,7 @@ from relguide.kernels.flight.records import (
     Control,
     Drift,
     Limits,
-    moved_to,
+    move_to,
 )
 from relguide.units import G0
 
@@ -138,13 +138,13 @@ def act(
         x, y = body.x - wind.east * since, body.y - wind.north * since
         s, right = project(course.path, x, y, progress.s + body.tas)
         to_slot = course.slot + course.slot_tas * since - s
-        if turning_after(course.path, s) > gate.capture_turn or not _beside(
+        if turning_after(course.path, s) > gate.capture_turn or not _is_near_marks(
             marks, body, task, gate, to_slot
         ):
             tas = task.tas
             if task.tas > course.slot_tas:
                 tas = closing_tas(to_slot, course.slot_tas, tas, limits.acceleration, gains)
-            aloft = moved_to(body, x, y)
+            aloft = move_to(body, x, y)
             control = _along_path(course.path, s, right, aloft, limits, gains, tas)
             return Act(control, Progress(CONVERGE, s, 0.0, 0.0), right, to_slot, False)
         mode = CAPTURE
@@ -184,7 +184,7 @@ def _slot_on(marks: FloatArray, task: Task) -> float:
 
 
 @njit(cache=True, nogil=True)
-def _beside(marks: FloatArray, body: Body, task: Task, gate: Gate, to_slot: float) -> bool:
+def _is_near_marks(marks: FloatArray, body: Body, task: Task, gate: Gate, to_slot: float) -> bool:
     """Whether the leader's flown path is near enough to be captured from here."""
     s, right = beside_marks(marks, body.x, body.y, _slot_on(marks, task) - to_slot)
     heading = mark_at(marks, at.S, s)[3]

@@ -75,7 +75,7 @@ def next_piece(program: FloatArray, cursor: int, body: Body, limits: Limits, t: 
 
 
 @njit(cache=True, nogil=True)
-def programmed(
+def program_control(
     program: FloatArray, cursor: int, held: float, body: Body, limits: Limits, t: float, tas: float
 ) -> Control:
     """What the program asks for now.
@@ -130,11 +130,11 @@ def fly_program(
     end = t + dt
     before = until_roll(program, cursor, body, limits, t)
     if 0.0 < before < dt:
-        asked = programmed(program, cursor, held, body, limits, t, tas)
+        asked = program_control(program, cursor, held, body, limits, t, tas)
         body = lateral_step(body, asked, limits, wind, before)
         t += before
         dt -= before
     # a nanosecond later: a time that is only just reached may be rounded down
-    asked = programmed(program, cursor, held, body, limits, t + 1e-9, tas)
+    asked = program_control(program, cursor, held, body, limits, t + 1e-9, tas)
     body = lateral_step(body, asked, limits, wind, dt)
     return body, next_piece(program, cursor, body, limits, end)

@@ -77,7 +77,7 @@ class Drift(NamedTuple):
 
 
 @njit(cache=True, nogil=True)
-def moved_to(body: Body, x: float, y: float) -> Body:
+def move_to(body: Body, x: float, y: float) -> Body:
     """The same aircraft at another place [m]."""
     return Body(x, y, body.heading, body.bank, body.roll_rate, body.tas, body.integral)
 

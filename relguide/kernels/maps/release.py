@@ -42,7 +42,10 @@ def reaches(start: Start, end_x: float, length: float, piece: FloatArray) -> boo
     if dx * dx + y * y > most * most:
         return False
     # no path is shorter than one that may end on any heading, or begin on any
-    if _to_point(dx * cos_h - y * sin_h, -dx * sin_h - y * cos_h) > most or _to_point(dx, y) > most:
+    if (
+        _time_to_point(dx * cos_h - y * sin_h, -dx * sin_h - y * cos_h) > most
+        or _time_to_point(dx, y) > most
+    ):
         return False
     for k in range(6):
         shortest = word_from(start, end_x, TO_POINT[k], piece)
@@ -52,7 +55,7 @@ def reaches(start: Start, end_x: float, length: float, piece: FloatArray) -> boo
 
 
 @njit(cache=True, nogil=True)
-def _to_point(along: float, across: float) -> float:
+def _time_to_point(along: float, across: float) -> float:
     """No path to a point is shorter: a turn to its side, then straight.
 
     Args:
@@ -95,7 +98,7 @@ def release_clears(start: Start, scene: Scene, piece: FloatArray, row: FloatArra
             row[2], row[3], row[4] = piece[0], piece[1], piece[2]
             if behind == 0:
                 if _straight_clears(start, 0.0, amount, scene) and keeps_clear(
-                    _ahead(start, amount), amount, row, end_x, scene, none
+                    _go_straight(start, amount), amount, row, end_x, scene, none
                 ):
                     return True
             else:
@@ -108,7 +111,7 @@ def release_clears(start: Start, scene: Scene, piece: FloatArray, row: FloatArra
 
 
 @njit(cache=True, nogil=True)
-def _ahead(start: Start, amount: float) -> Start:
+def _go_straight(start: Start, amount: float) -> Start:
     """The end of a straight."""
     x, y, h, sin_h, cos_h = start
     return Start(x + amount * cos_h, y + amount * sin_h, h, sin_h, cos_h)
@@ -142,7 +145,7 @@ def _straight_to_release(
         if behind:
             length = word_from(start, end_x - amount, branch, piece)
         else:
-            length = word_from(_ahead(start, amount), end_x, branch, piece)
+            length = word_from(_go_straight(start, amount), end_x, branch, piece)
         if length < 0.0:
             return -1.0
         gap = length + amount - t_release

@@ -17,7 +17,7 @@ from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain import BOUNDARY_ARC
 from relguide.kernels.contact.contact import contact_distance, contact_heading
 from relguide.kernels.contact.touch_points import slide_between
-from relguide.kernels.networks.network_view import on_left
+from relguide.kernels.networks.network_view import mirror_to_left
 from relguide.kernels.words.extremals import SIGNS, fly_piece
 
 
@@ -80,7 +80,7 @@ def along_rows(
         x, y, h, alpha, slot, d_min = situations[n]
         disc = Disc(alpha, contact_distance(d_min), 0.0, 0.0)
         x, y, h = pose_along(Pose(x, y, h), slot, disc, legs[n, : int(counts[n])], times[n])
-        pose, _ = on_left(Pose(x + off[n, 0], y + off[n, 1], wrap(h + off[n, 2])))
+        pose, _ = mirror_to_left(Pose(x + off[n, 0], y + off[n, 1], wrap(h + off[n, 2])))
         out[n, 0], out[n, 1], out[n, 2] = pose
         out[n, 3], out[n, 4], out[n, 5] = alpha, slot, d_min
 
@@ -108,7 +108,7 @@ def advance_rows(
         path[0, 1] -= turned
         path[0, 3] -= turned
         times[n] -= turned
-        pose, mirrored = on_left(Pose(x, y, wrap(h)))
+        pose, mirrored = mirror_to_left(Pose(x, y, wrap(h)))
         if mirrored:
             mirror_legs(path)
         situations[n, 0], situations[n, 1], situations[n, 2] = pose

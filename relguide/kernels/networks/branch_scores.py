@@ -15,7 +15,7 @@ from numba import njit
 from relguide.kernels.base.records import Pose, Velocity
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.networks.margins import INPUTS, inputs
-from relguide.kernels.networks.network_view import on_left
+from relguide.kernels.networks.network_view import mirror_to_left
 from relguide.kernels.words.branches import MIRROR_OF, SIZE, WORD_OF, branch_of
 from relguide.kernels.words.extremals import MAX_ROWS, solve_word
 
@@ -47,10 +47,10 @@ def evaluate(pose: Pose, alpha: float, layers: Layers, scores: FloatArray) -> No
         layers: the weights.
         scores: takes score, logit and log(1 + τ) of each branch. shape (3, SIZE)
     """
-    left, mirrored = on_left(pose)
+    left, mirrored = mirror_to_left(pose)
     numbers = np.empty(INPUTS)
     inputs(left, alpha, numbers)
-    a = last_hidden(numbers, layers)
+    a = last_hidden_layer(numbers, layers)
     out = layers.last_bias.copy()
     for i in range(len(a)):
         value = a[i]
@@ -62,7 +62,7 @@ def evaluate(pose: Pose, alpha: float, layers: Layers, scores: FloatArray) -> No
 
 
 @njit(cache=True, nogil=True)
-def last_hidden(numbers: FloatArray, layers: Layers) -> FloatArray:
+def last_hidden_layer(numbers: FloatArray, layers: Layers) -> FloatArray:
     """The layer before the outputs, float32.
 
     Args:

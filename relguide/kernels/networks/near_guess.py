@@ -25,7 +25,7 @@ from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.records import Disc, Pose, Scene, Velocity
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.contact import contact_heading
-from relguide.kernels.contact.touch_points import next_contact, opposite, slide_between
+from relguide.kernels.contact.touch_points import mirror_disc, next_contact, slide_between
 from relguide.kernels.words.extremals import MAX_ROWS, solve_word
 
 LS, RS, LR, RL = 8, 9, 10, 11
@@ -178,7 +178,7 @@ def _time_through_second(bearing: float, task: Task, fixed: FloatArray, room: Ro
         return inf
     # backward in time, with the world turned by π, the straight and the turn come after
     course = contact_heading(bearing, disc.side, disc.alpha)
-    if not next_contact(bearing + pi, opposite(disc), course, link):
+    if not next_contact(bearing + pi, mirror_disc(disc), course, link):
         return inf
     link[0] += pi
     link[3], link[4] = slide_between(fixed[0], link[0], disc)

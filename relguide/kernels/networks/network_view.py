@@ -23,7 +23,7 @@ Where = tuple[float, float, float, float, float, float]
 
 
 @njit(cache=True, nogil=True)
-def on_left(pose: Pose) -> tuple[Pose, bool]:
+def mirror_to_left(pose: Pose) -> tuple[Pose, bool]:
     """The pose on the left of the route that networks look at, and whether that is mirrored."""
     if needs_mirror(pose.y, pose.h):
         return Pose(pose.x, -pose.y, mirror_heading(pose.h)), True
@@ -65,6 +65,6 @@ def view(
     h, alpha, d_min = wrap(leader_heading - heading), leader_tas / tas, min_separation / radius
     binds = False
     if abs(aside) <= _ASIDE:
-        pose, _ = on_left(Pose(along, left, h))
+        pose, _ = mirror_to_left(Pose(along, left, h))
         binds = breaks_limit(pose, straight_scene(alpha, slot, d_min - SLACK), free)
     return binds, (along, left, h, slot, alpha, d_min)

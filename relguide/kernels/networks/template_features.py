@@ -16,7 +16,7 @@ from relguide.kernels.contact.contact import boundary_arc_rates
 from relguide.kernels.contact.touch_points import (
     LONGEST_BOUNDARY_ARC,
     boundary_arc_end,
-    opposite,
+    mirror_disc,
     straight_tangents,
 )
 from relguide.kernels.networks.near_guess import from_leader, slot_of
@@ -138,7 +138,7 @@ def _write_boundary_arcs(pose: Pose, scene: Scene, free: float, out: FloatArray)
     end, straight, turn = boundary_arc_end(slot_of(scene), left)
     for k in range(4):
         side, sign = 1.0 - 2.0 * (k // 2), 1.0 - 2.0 * (k % 2)
-        disc = left if side > 0.0 else opposite(left)
+        disc = left if side > 0.0 else mirror_disc(left)
         best = -1
         for i in range(straight_tangents(from_leader(pose, scene), disc, sign, contacts)):
             if best < 0 or contacts[i, 1] + contacts[i, 2] < contacts[best, 1] + contacts[best, 2]:

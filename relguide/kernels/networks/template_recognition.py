@@ -66,16 +66,16 @@ def template_of(start: Pose, scene: Scene, legs: FloatArray, guess: FloatArray) 
 def _through_contact(start: Pose, scene: Scene, legs: FloatArray, guess: FloatArray) -> int:
     """Two words that meet in a contact."""
     bearing, side = _touch_in_last_turn(start, scene, legs[0, 1:6], False)
-    entry, on = _touching_entry(legs[0, 1:6], guess), branch_of(legs[1, 1:6])
+    entry, on = _entry_of_turns(legs[0, 1:6], guess), branch_of(legs[1, 1:6])
     if entry < LS:
-        on = _touching_onward(legs[1, 1:6], guess)
+        on = _onward_of_turns(legs[1, 1:6], guess)
         if on < ON_B:
             guess[0], guess[1] = cos(bearing), sin(bearing)
     return template_number(entry, side, on)
 
 
 @njit(cache=True, nogil=True)
-def _touching_entry(row: FloatArray, guess: FloatArray) -> int:
+def _entry_of_turns(row: FloatArray, guess: FloatArray) -> int:
     """LR or RL if a first word is two turns that touch the disc by themselves; else its branch."""
     branch = branch_of(row)
     if 2 <= branch < 4 and row[3] < _ALMOST_NO_STRAIGHT:
@@ -91,7 +91,7 @@ def _touching_entry(row: FloatArray, guess: FloatArray) -> int:
 
 
 @njit(cache=True, nogil=True)
-def _touching_onward(row: FloatArray, guess: FloatArray) -> int:
+def _onward_of_turns(row: FloatArray, guess: FloatArray) -> int:
     """The same of a last word."""
     branch = branch_of(row)
     if branch >= 4 and row[2] < _NO_TURN:

@@ -18,8 +18,8 @@ from relguide.kernels.base.records import Pose, Scene, straight_scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain import MAX_CONTACTS
 from relguide.kernels.contact.path_pieces import pieces_of
-from relguide.kernels.networks.branch_scores import Layers, last_hidden
-from relguide.kernels.networks.network_view import Where, on_left
+from relguide.kernels.networks.branch_scores import Layers, last_hidden_layer
+from relguide.kernels.networks.network_view import Where, mirror_to_left
 from relguide.kernels.networks.template_features import FEATURES, template_features
 from relguide.kernels.networks.template_solutions import solve_template
 from relguide.kernels.networks.templates import NONE, SEVERAL, SIZE
@@ -79,7 +79,7 @@ def template_shares(
     # on the leader's own heading some features jump: labels lie on either side, and none there
     beside = Pose(pose.x, pose.y, max(pose.h, _BESIDE))
     template_features(beside, scene, free, numbers)
-    hidden = last_hidden(numbers, layers)
+    hidden = last_hidden_layer(numbers, layers)
     score = layers.last_bias[:SIZE].copy()
     for i in range(len(hidden)):
         value = hidden[i]
@@ -178,7 +178,7 @@ def constrained_pieces(
         as `path_pieces.pieces_of`; no columns if there is no path. shape (3, pieces)
     """
     x, y, h, slot, alpha, d_min = where
-    pose, mirrored = on_left(Pose(x, y, h))
+    pose, mirrored = mirror_to_left(Pose(x, y, h))
     scene = straight_scene(alpha, slot, d_min)
     legs = np.zeros((LEGS, 6))
     chosen = choose_template(pose, scene, free, Layers(*weights), Decision(*decision), legs)

@@ -17,7 +17,7 @@ from relguide.kernels.contact.clear_words import word_clears
 from relguide.kernels.contact.contact import GRAZE, disc_on
 from relguide.kernels.contact.touch_points import (
     boundary_arc_end,
-    opposite,
+    mirror_disc,
     slide_between,
     straight_tangents,
     turn_tangent,
@@ -161,7 +161,7 @@ def _solve_before_two_turns(task: Task, guess: FloatArray, room: Room) -> tuple[
     sign = 1.0 if task.on == ON_LR else -1.0
     bearing, last, middle = turn_tangent(
         Pose(slot_of(task.scene), 0.0, 0.0),
-        opposite(task.disc),
+        mirror_disc(task.disc),
         sign,
         pi * (guess[1] + 1.0),
         pi * (guess[0] + 1.0),
@@ -191,7 +191,7 @@ def _bearing_to_begin(task: Task, guess: FloatArray, room: Room) -> float:
     if n == 0:
         return guessed
     m = straight_tangents(
-        Pose(slot_of(task.scene), 0.0, 0.0), opposite(disc), -SIGNS[on, 2], on_from
+        Pose(slot_of(task.scene), 0.0, 0.0), mirror_disc(disc), -SIGNS[on, 2], on_from
     )
     best, start = inf, guessed
     for i in range(n):

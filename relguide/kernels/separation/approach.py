@@ -103,7 +103,7 @@ def least_by_squares(
 
 
 @njit(cache=True, nogil=True)
-def _flown(
+def _advance(
     x: float, y: float, s: float, c: float, speed: float, rate: float, t: float
 ) -> tuple[float, float, float, float]:
     """As `motion.advance`, with sine and cosine in place of the heading: a third of the work."""
@@ -159,8 +159,8 @@ def least_separation(
             n -= 1
             looked += 1
             mid, half = mids[n], halves[n]
-            ax, ay, ps, pc = _flown(px, py, psin, pcos, pv, p_rate, mid)
-            bx, by, ls, lc = _flown(lx, ly, lsin, lcos, lv, l_rate, mid)
+            ax, ay, ps, pc = _advance(px, py, psin, pcos, pv, p_rate, mid)
+            bx, by, ls, lc = _advance(lx, ly, lsin, lcos, lv, l_rate, mid)
             ps, pc, ls, lc = pv * ps, pv * pc, lv * ls, lv * lc
             dx, dy, dvx, dvy = ax - bx, ay - by, ps - ls, pc - lc
             tangent_at, tangent = closest_of_straights(dx, dy, dvx, dvy, -half, half)
@@ -174,8 +174,8 @@ def least_separation(
                 bound = max(bound, by_squares)
             if bound < best:
                 at = mid + tangent_at
-                ax, ay, _, _ = _flown(px, py, psin, pcos, pv, p_rate, at)
-                bx, by, _, _ = _flown(lx, ly, lsin, lcos, lv, l_rate, at)
+                ax, ay, _, _ = _advance(px, py, psin, pcos, pv, p_rate, at)
+                bx, by, _, _ = _advance(lx, ly, lsin, lcos, lv, l_rate, at)
                 reached = hypot(ax - bx, ay - by)
                 if reached < best:
                     best, best_at = reached, t + at
@@ -187,8 +187,8 @@ def least_separation(
                 mids[n], halves[n] = mid - near, 0.5 * half
                 mids[n + 1], halves[n + 1] = mid + near, 0.5 * half
                 n += 2
-        px, py, _, _ = _flown(px, py, psin, pcos, pv, p_rate, span)
-        lx, ly, _, _ = _flown(lx, ly, lsin, lcos, lv, l_rate, span)
+        px, py, _, _ = _advance(px, py, psin, pcos, pv, p_rate, span)
+        lx, ly, _, _ = _advance(lx, ly, lsin, lcos, lv, l_rate, span)
         # rounding must not add up from piece to piece
         if p_rate != 0.0:
             ppsi += p_rate * span

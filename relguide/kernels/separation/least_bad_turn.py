@@ -20,7 +20,7 @@ _STEP = 0.5  # s; separations change by V_P + V_L in a second, so times are righ
 
 
 @njit(cache=True, nogil=True)
-def soonest_apart(
+def soonest_clear_turn(
     pursuer: Motion, rate: float, leader: Motion, d_min: float, horizon: float
 ) -> tuple[float, float]:
     """The turn after which, going straight, the separation reaches d_min soonest.
@@ -70,8 +70,8 @@ def widest_miss(
 ) -> tuple[float, float, float]:
     """The turn after which, going straight, the least separation is largest.
 
-    Often it is least at once, whatever is turned later. Arguments as in `soonest_apart`; of turns
-    that are worth the same the smallest is given.
+    Often it is least at once, whatever is turned later. Arguments as in `soonest_clear_turn`; of
+    turns that are worth the same the smallest is given.
 
     Returns:
         signed turn angle [rad], positive to the right; that least separation [m]; when [s].

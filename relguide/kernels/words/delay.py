@@ -117,7 +117,7 @@ def delay_paths(pose: Pose, alpha: float, t_release: float, paths: FloatArray) -
     n, end_x = 0, alpha * t_release
     if hypot(end_x - pose.x, pose.y) > t_release + _SAME:
         return n
-    n = _exact_words(pose, end_x, t_release, paths)
+    n = _put_exact_words(pose, end_x, t_release, paths)
     for k in range(len(_FIRST) + _LEADS):
         if k < len(_FIRST):
             family = _Family(_FIRST[k], 0.0, False)
@@ -129,7 +129,7 @@ def delay_paths(pose: Pose, alpha: float, t_release: float, paths: FloatArray) -
 
 
 @njit(cache=True, nogil=True)
-def _exact_words(pose: Pose, end_x: float, length: float, paths: FloatArray) -> int:
+def _put_exact_words(pose: Pose, end_x: float, length: float, paths: FloatArray) -> int:
     """Put down the words that have this length as they are; how many.
 
     Of a pursuer that already is in the slot, and as fast, the last piece has no room for a delay.

@@ -141,7 +141,7 @@ def _lsr_within(centres: _Centres, t_from: float, t_to: float, scratch: Scratch,
     least_turn, low, width = min(h, TWO_PI - h) - _ROUNDING, 0.0, 0.0
     course_to = 0.0  # far ahead of the slot the straight leads along its route
     for step in range(_ROUNDS):
-        start = max(_not_before(centres, least_turn, t_from) - _ROUNDING, t_from)
+        start = max(_earliest_meeting(centres, least_turn, t_from) - _ROUNDING, t_from)
         if start > t_to + _ROUNDING:
             return n
         if step == 0 and t_to < inf:
@@ -179,7 +179,7 @@ def _inner_course(east: float, north: float) -> float:
 
 
 @njit(cache=True, nogil=True)
-def _not_before(centres: _Centres, turn: float, t_from: float) -> float:
+def _earliest_meeting(centres: _Centres, turn: float, t_from: float) -> float:
     """A time from t_from on, before which (τ − A₀)² < |d(τ)|² − 4 or τ < A₀."""
     east, north, _, alpha = centres
     start = max(turn, t_from)

@@ -15,7 +15,7 @@ from relguide.kernels.words.branches import BRANCHES
 from relguide.learn.audits.branch_judging import LEAST_SHARES, WORTH, BranchVerdicts
 from relguide.learn.audits.gaps import surfaces
 from relguide.learn.training.shares import Share, share_as_json
-from relguide.learn.words.branch_labels import SOURCES, Floats, held_out
+from relguide.learn.words.branch_labels import SOURCES, Floats, held_out_regions
 from relguide.learn.words.train_branches import NEAR
 
 GROUPS = {
@@ -139,7 +139,7 @@ def audit_of(
         _group(GROUPS[source], whole, seen & (whole.groups == number))
         for number, source in enumerate(SOURCES)
     ]
-    names = list(held_out(np.zeros((1, 4))))
+    names = list(held_out_regions(np.zeros((1, 4))))
     groups += [
         _group(f"unseen {name}", whole, drawn & whole.regions[:, region])
         for region, name in enumerate(names)

@@ -20,7 +20,13 @@ from relguide.kernels.networks.branch_scores import choose, judge_branches
 from relguide.kernels.words.branches import SIZE, WORD_OF
 from relguide.kernels.words.extremals import MAX_ROWS, solve
 from relguide.learn.training.chunks import gather
-from relguide.learn.words.branch_labels import SOURCES, Floats, LabelRequest, held_out, label_chunk
+from relguide.learn.words.branch_labels import (
+    SOURCES,
+    Floats,
+    LabelRequest,
+    held_out_regions,
+    label_chunk,
+)
 from relguide.learn.words.branch_network import BranchNetwork
 from relguide.learn.words.train_branches import NEAR
 
@@ -113,7 +119,7 @@ def judge_chunk(network: BranchNetwork, request: LabelRequest, number: int) -> B
         ranks=np.where(right, places, SIZE).min(axis=1).astype(np.int8),
         held=np.where(given, decoded[:, 0], 0).astype(np.int8),
         gap=gap,
-        regions=np.column_stack(list(held_out(labels.situations).values())),
+        regions=np.column_stack(list(held_out_regions(labels.situations).values())),
         doubt=(1.0 - share.max(axis=1)).astype(np.float32),
         missed=labels.situations[missed],
         answered=decoded[missed, 2].astype(np.int8),

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from relguide.kernels.base.records import Pose, straight_scene
-from relguide.kernels.contact.constrained_rows import exact_constrained
+from relguide.kernels.contact.constrained_rows import solve_constrained_rows
 from relguide.kernels.networks.template_rows import VERDICTS, judge_templates
 from relguide.kernels.networks.template_scores import LEGS, choose_template
 from relguide.kernels.networks.templates import NONE, SEVERAL
@@ -117,7 +117,7 @@ def template_latencies(
     def by_search(row: Floats) -> int:
         times, counts, found = np.empty((1, 3)), np.empty(1), np.zeros((1, LEGS, 6))
         begun = thread_time_ns()
-        exact_constrained(row[None], BEARINGS, LONGEST, times, counts, found)
+        solve_constrained_rows(row[None], BEARINGS, LONGEST, times, counts, found)
         return thread_time_ns() - begun
 
     found: dict[str, tuple[float, float]] = {}

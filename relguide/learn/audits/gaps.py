@@ -56,13 +56,13 @@ def surfaces(situations: Floats, progress: Callable[[float], object] = lambda _:
     birth, switch = np.empty(len(situations)), np.empty(len(situations))
     best = times_of(situations).argmin(axis=1).tolist()
     for i, (situation, branch) in enumerate(zip(situations, best, strict=True)):
-        birth[i] = _distance(situation, partial(_gone, branch))
+        birth[i] = _distance(situation, partial(_has_vanished, branch))
         switch[i] = _distance(situation, partial(_is_beaten, branch))
         progress(1.0)
     return Surfaces(birth=birth, switch=switch)
 
 
-def _gone(branch: int, times: Floats) -> NDArray[np.bool_]:
+def _has_vanished(branch: int, times: Floats) -> NDArray[np.bool_]:
     gone: NDArray[np.bool_] = ~np.isfinite(times[:, branch])
     return gone
 

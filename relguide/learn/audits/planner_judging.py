@@ -76,7 +76,7 @@ def judge_planner(
         rng: the source of chance.
         size: how many.
     """
-    box = _both(request.box, network)
+    box = _common_box(request.box, network)
     situations = np.empty((0, 6))
     while len(situations) < size:
         drawn = draw_situations(rng, box, FAR, DRAWN)
@@ -87,7 +87,7 @@ def judge_planner(
     limit_binds_rows(situations, answer)
     binds = answer == 1.0
     named, exact = np.empty(size, dtype=bool), np.empty(size)
-    named[~binds], exact[~binds] = _without_limit(network, situations[~binds, :4])
+    named[~binds], exact[~binds] = _judge_first_choice(network, situations[~binds, :4])
     times, counts, legs = answers_of(situations[binds])
     there = np.ascontiguousarray(times[:, 2])
     found = judge_constrained(
@@ -97,11 +97,13 @@ def judge_planner(
     )
     named[binds], exact[binds] = found.named, found.exact
     exact[exact * UNIT > HORIZON] = inf
-    given = np.array([_planned(templates, network, row) for row in situations])
+    given = np.array([_planned_time(templates, network, row) for row in situations])
     return PlannerVerdicts(binds=binds, named=named, exact=exact, given=given)
 
 
-def _without_limit(network: BranchNetwork, situations: Floats) -> tuple[NDArray[np.bool_], Floats]:
+def _judge_first_choice(
+    network: BranchNetwork, situations: Floats
+) -> tuple[NDArray[np.bool_], Floats]:
     """Whether the first choice is the fastest branch, and when that arrives [R/V_P]."""
     n = len(situations)
     rows = np.ascontiguousarray(situations)
@@ -112,7 +114,7 @@ def _without_limit(network: BranchNetwork, situations: Floats) -> tuple[NDArray[
     return first <= times.min(axis=1) * (1.0 + NEAR), times.min(axis=1)
 
 
-def _planned(templates: TemplateNetwork, network: BranchNetwork, row: Floats) -> float:
+def _planned_time(templates: TemplateNetwork, network: BranchNetwork, row: Floats) -> float:
     """When the path arrives that the networks lead to, if it is certified [R/V_P]."""
     proposal = propose(network, situation_of(row), templates)
     if proposal is None or not proposal.certificate.holds:
@@ -135,7 +137,7 @@ def situation_of(row: Floats) -> Situation:
     )  # fmt: skip
 
 
-def _both(box: TemplateBox, network: BranchNetwork) -> TemplateBox:
+def _common_box(box: TemplateBox, network: BranchNetwork) -> TemplateBox:
     """Speeds that both networks know."""
     return replace(
         box,

@@ -171,7 +171,7 @@ def side_by_side(
     def ours(x: float, y: float, h: float) -> object:
         return choose(x, y, h, alpha, network.layers, network.least_share, network.most, rows)
 
-    yield _method("ours", ground, _of_network(ground, network), ours)
+    yield _method("ours", ground, _judge_network(ground, network), ours)
     asked: list[tuple[str, Callable[[Floats, Floats, Floats], Floats]]] = [
         ("nearest in tree", lambda x, y, h: look_up_pairs(lookup, x, y, h))
     ]
@@ -188,7 +188,7 @@ def side_by_side(
             return n
 
         x, y, h, _ = ground.situations.T
-        yield _method(name, ground, _of_pairs(ground, give(x, y, h)), one)
+        yield _method(name, ground, _judge_pairs(ground, give(x, y, h)), one)
 
 
 def look_up_pairs(lookup: Lookup, x: Floats, y: Floats, h: Floats) -> Floats:
@@ -230,7 +230,7 @@ def ends_of(pairs: Floats, situations: Floats) -> Floats:
     return np.column_stack((np.hypot(x - alpha * spent, y), off))
 
 
-def _of_network(ground: Ground, network: BranchNetwork) -> Given:
+def _judge_network(ground: Ground, network: BranchNetwork) -> Given:
     n = len(ground)
     scores, decoded = np.empty((n, 3, SIZE)), np.empty((n, 3))
     judge_branches(
@@ -248,7 +248,7 @@ def _of_network(ground: Ground, network: BranchNetwork) -> Given:
     )
 
 
-def _of_pairs(ground: Ground, pairs: Floats) -> Given:
+def _judge_pairs(ground: Ground, pairs: Floats) -> Given:
     named = np.array([branches_like(pieces) for pieces in clear_pieces(pairs, ground.parameters)])
     radius = ground.parameters.encounter.turn_radius
     return Given(

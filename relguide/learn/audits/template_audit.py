@@ -164,7 +164,7 @@ def _gaps(exact: Floats, given: Floats) -> Floats:
     return gap
 
 
-def _late(exact: Floats, given: Floats) -> Late:
+def _count_late(exact: Floats, given: Floats) -> Late:
     gap = _gaps(exact, given)
     measured = gap[gap < inf]
     answered = given < inf
@@ -191,7 +191,7 @@ def _group(name: str, bound: ConstrainedVerdicts, chosen: NDArray[np.bool_]) -> 
         named=Share(hits=int(bound.named[chosen].sum()), of=size),
         covered=Share(hits=int(bound.inside[chosen][of_a_kind].sum()), of=int(of_a_kind.sum())),
         mean_set=float(bound.held[chosen].mean()) if size else 0.0,
-        late=_late(bound.exact[chosen], bound.given[chosen]),
+        late=_count_late(bound.exact[chosen], bound.given[chosen]),
     )
 
 
@@ -203,7 +203,7 @@ def _planner_group(
         name=name,
         size=size,
         named=Share(hits=int(everywhere.named[chosen].sum()), of=size),
-        late=_late(everywhere.exact[chosen], everywhere.given[chosen]),
+        late=_count_late(everywhere.exact[chosen], everywhere.given[chosen]),
     )
 
 

@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from relguide.kernels.contact.chain import MAX_LEGS
-from relguide.kernels.contact.constrained_rows import exact_constrained, limit_binds_rows
+from relguide.kernels.contact.constrained_rows import limit_binds_rows, solve_constrained_rows
 from relguide.kernels.networks.along_path import advance_rows, along_rows
 from relguide.learn.training.chunks import gather
 from relguide.learn.training.requests import (
@@ -208,7 +208,7 @@ def template_label_chunk(request: TemplateLabelRequest, number: int) -> Template
     first = _answer(np.concatenate(drawn), np.repeat(np.arange(3, dtype=np.int8), sizes[:3]))
     if sizes[3] == 0:
         return first
-    second = _along(rng, request.box, first, sizes[3])
+    second = _draw_along_paths(rng, request.box, first, sizes[3])
     return join_labels({0: first, 1: _answer(second, np.full(sizes[3], 3, dtype=np.int8))})
 
 
@@ -223,7 +223,7 @@ def answers_of(situations: Floats) -> tuple[Floats, NDArray[np.int8], Floats]:
     """Times, numbers of legs and legs of the fastest paths, as in `TemplateLabels`."""
     n = len(situations)
     times, counts, legs = np.empty((n, 3)), np.empty(n), np.zeros((n, MAX_LEGS, 6))
-    exact_constrained(situations, BEARINGS, LONGEST, times, counts, legs)
+    solve_constrained_rows(situations, BEARINGS, LONGEST, times, counts, legs)
     return times, counts.astype(np.int8), legs
 
 
@@ -238,7 +238,9 @@ def _draw(rng: np.random.Generator, box: TemplateBox, source: int, size: int) ->
     return found[:size]
 
 
-def _along(rng: np.random.Generator, box: TemplateBox, labels: TemplateLabels, size: int) -> Floats:
+def _draw_along_paths(
+    rng: np.random.Generator, box: TemplateBox, labels: TemplateLabels, size: int
+) -> Floats:
     """Situations on the paths of others, or a little off them, in which the limit binds."""
     parents = np.flatnonzero(labels.counts > 1)
     if len(parents) == 0:

@@ -24,8 +24,8 @@ from relguide.planning.candidate import (
     SIGN_ROWS,
     Candidate,
     candidate_of,
-    segments_flown,
     segments_of,
+    segments_of_pieces,
 )
 from relguide.planning.situation import Situation
 from relguide.planning.words import HORIZON
@@ -92,4 +92,4 @@ def solve_constrained(
     pieces = constrained_pieces(where, free, radius, longest, weights, decision)
     if pieces.shape[1] == 0:
         return None
-    return candidate_of(pursuer, segments_flown(radius, pieces))
+    return candidate_of(pursuer, segments_of_pieces(radius, pieces))

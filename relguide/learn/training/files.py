@@ -21,7 +21,7 @@ T = TypeVar("T")
 
 
 @contextmanager
-def whole(file: Path) -> Iterator[IO[bytes]]:
+def write_whole(file: Path) -> Iterator[IO[bytes]]:
     """A stream to write a file by, which has its name once all is written."""
     beside = file.with_name(file.name + ".new")
     with beside.open("wb") as stream:
@@ -32,7 +32,7 @@ def whole(file: Path) -> Iterator[IO[bytes]]:
 def save_columns(file: Path, about: Mapping[str, Any], columns: Mapping[str, NDArray[Any]]) -> None:
     """Write an .npz file: arrays, and a JSON text `about` that says the rest."""
     content: dict[str, Any] = {"about": np.array(json.dumps(about, ensure_ascii=False)), **columns}
-    with whole(file) as stream:
+    with write_whole(file) as stream:
         np.savez(stream, **content)
 
 
@@ -65,7 +65,7 @@ def load_columns(
 
 def save_weights(file: Path, about: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> None:
     """Write a .safetensors file: arrays, and a JSON text `about` in its header."""
-    with whole(file) as stream:
+    with write_whole(file) as stream:
         stream.write(pack(arrays, {"about": json.dumps(about, ensure_ascii=False)}))
 
 

@@ -196,7 +196,7 @@ def fit(
         )
 
 
-def reached_by(shares: NDArray[Any], coverage: float) -> float:
+def covering_share(shares: NDArray[Any], coverage: float) -> float:
     """A share that the right answer reaches this often (split conformal prediction).
 
     Args:

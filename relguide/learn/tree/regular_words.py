@@ -62,9 +62,9 @@ def words_like(pieces: Sequence[Piece]) -> tuple[int, ...]:
 @cache
 def words_within(letters: str) -> tuple[int, ...]:
     """Numbers of the words that letters fit into, in their order: of none, all."""
-    return tuple(number for number, word in enumerate(WORDS) if _within(letters, word))
+    return tuple(number for number, word in enumerate(WORDS) if _fits_into(letters, word))
 
 
-def _within(letters: str, word: str) -> bool:
+def _fits_into(letters: str, word: str) -> bool:
     rest = iter(word)
     return all(letter in rest for letter in letters)

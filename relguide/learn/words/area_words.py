@@ -37,8 +37,8 @@ def area_words(network: BranchNetwork, situation: Situation, grid: Grid) -> Word
         situation: all but the pursuer's place counts.
         grid: of the map.
     """
-    x, y = (_nodes_asked(axis) for axis in grid.axes)
-    blocks = _blocks(_at_nodes(network, situation, x, y))
+    x, y = (_sparse_nodes(axis) for axis in grid.axes)
+    blocks = _blocks(_words_at_nodes(network, situation, x, y))
 
     def words(east: Floats, north: Floats) -> Bytes:
         column = np.clip(np.searchsorted(x, east) - 1, 0, len(x) - 2)
@@ -49,12 +49,12 @@ def area_words(network: BranchNetwork, situation: Situation, grid: Grid) -> Word
     return words
 
 
-def _nodes_asked(axis: Floats) -> Floats:
+def _sparse_nodes(axis: Floats) -> Floats:
     """Every so many nodes of an axis, its two ends among them."""
     return np.linspace(axis[0], axis[-1], max(2, -(-(len(axis) - 1) // EVERY) + 1))
 
 
-def _at_nodes(network: BranchNetwork, situation: Situation, x: Floats, y: Floats) -> Bytes:
+def _words_at_nodes(network: BranchNetwork, situation: Situation, x: Floats, y: Floats) -> Bytes:
     """The only word at each of the nodes, −1 where there are more. (rows, columns)."""
     frame = slot_frame(situation, situation.leader.trajectory)
     east, north = (axis.ravel() for axis in np.meshgrid(x, y))

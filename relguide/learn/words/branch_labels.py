@@ -117,7 +117,7 @@ class Labels:
         return best
 
 
-def held_out(situations: Floats) -> dict[str, NDArray[np.bool_]]:
+def held_out_regions(situations: Floats) -> dict[str, NDArray[np.bool_]]:
     """The regions that no training has seen: a band of ratios, a sector of headings, a ring."""
     x, y, h, alpha = situations.T
     away = np.hypot(x, y)
@@ -154,10 +154,10 @@ def join_labels(chunks: dict[int, Labels]) -> Labels:
 def label_chunk(request: LabelRequest, number: int) -> Labels:
     """Make one chunk; a function of its arguments alone."""
     rng, (box, reverse, edge) = begin_chunk(request, number)
-    parts = [_in_box(rng, request.box, box), _lay_back(rng, request.box, reverse)]
-    parts.append(_at_edges(rng, request.box, edge))
+    parts = [_draw_in_box(rng, request.box, box), _lay_back(rng, request.box, reverse)]
+    parts.append(_draw_at_edges(rng, request.box, edge))
     # the last, so that those before are the same with and without them
-    parts.append(_in_flight(rng, request.box, round((box + reverse + edge) * request.loops)))
+    parts.append(_draw_in_flight(rng, request.box, round((box + reverse + edge) * request.loops)))
     situations = np.concatenate(parts)
     sources = np.repeat(np.arange(len(SOURCES), dtype=np.int8), [len(part) for part in parts])
     return Labels(situations=situations, times=times_of(situations), sources=sources)
@@ -175,17 +175,17 @@ def canonical(situations: Floats) -> Floats:
     x, y, h, alpha = situations.T
     h = wrap_each(h)
     mirrored = np.where(h > 0.0, 2.0 * pi - h, 0.0)
-    return np.column_stack((x, np.abs(y), np.where(on_the_right(situations), mirrored, h), alpha))
+    return np.column_stack((x, np.abs(y), np.where(lies_right(situations), mirrored, h), alpha))
 
 
-def on_the_right(situations: Floats) -> NDArray[np.bool_]:
+def lies_right(situations: Floats) -> NDArray[np.bool_]:
     """Which situations lie right of the route, or on it and lead there."""
     _, y, h, _ = situations.T
     right: NDArray[np.bool_] = (y < 0.0) | ((y == 0.0) & (wrap_each(h) > pi))
     return right
 
 
-def _in_box(rng: np.random.Generator, box: Box, size: int) -> Floats:
+def _draw_in_box(rng: np.random.Generator, box: Box, size: int) -> Floats:
     """Half of the ranges even in their logarithm, half even: both near and far are common."""
     share = rng.random(size)
     away = np.where(
@@ -225,12 +225,12 @@ def _lay_back(rng: np.random.Generator, box: Box, size: int) -> Floats:
     return found[rng.choice(len(found), size, replace=len(found) < size, p=weight / weight.sum())]
 
 
-def _at_edges(rng: np.random.Generator, box: Box, size: int) -> Floats:
+def _draw_at_edges(rng: np.random.Generator, box: Box, size: int) -> Floats:
     """Places next to where the fastest branch changes, at distances even in their logarithm."""
     if size == 0:
         return np.empty((0, 4))
     begun = max(size, FEWEST)
-    here = np.concatenate((_in_box(rng, box, begun), _lay_back(rng, box, begun)))
+    here = np.concatenate((_draw_in_box(rng, box, begun), _lay_back(rng, box, begun)))
     there = _move(rng, box, here, np.ones(len(here)))
     at_here = times_of(here).argmin(axis=1)
     between = at_here != times_of(there).argmin(axis=1)
@@ -243,7 +243,7 @@ def _at_edges(rng: np.random.Generator, box: Box, size: int) -> Floats:
     return _move(rng, box, chosen, 0.3 * 10.0 ** (-3.0 * rng.random(size)))
 
 
-def _in_flight(rng: np.random.Generator, box: Box, size: int) -> Floats:
+def _draw_in_flight(rng: np.random.Generator, box: Box, size: int) -> Floats:
     """What the exact planner was asked in flights."""
     met = draw_visited(
         rng,

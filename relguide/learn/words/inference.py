@@ -12,7 +12,7 @@ import numpy as np
 
 from relguide.kernels.words.branches import MIRROR_OF, SIZE
 from relguide.learn.training.checkpoint import device_of
-from relguide.learn.words.branch_labels import Floats, canonical, on_the_right
+from relguide.learn.words.branch_labels import Floats, canonical, lies_right
 from relguide.learn.words.branch_network import BranchNetwork, Singles, features_of
 from relguide.planning.extras import need
 from relguide.planning.inputs import expect
@@ -71,7 +71,7 @@ def branch_shares(
                 a = silu(a @ weights + bias)
             scores = a @ last[:, :SIZE] + last_bias[:SIZE]
             found = torch.softmax(scores, dim=1).cpu().numpy()
-            right = on_the_right(rows)
+            right = lies_right(rows)
             found[right] = found[right][:, MIRROR_OF]
             shares[start : start + chunk] = found
             if progress is not None:

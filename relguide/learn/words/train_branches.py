@@ -20,9 +20,9 @@ from relguide.learn.training.fitting import (
     Epoch,
     arrays_of,
     begin,
+    covering_share,
     digest_of,
     fit,
-    reached_by,
     run_training,
     scale,
     script,
@@ -30,7 +30,7 @@ from relguide.learn.training.fitting import (
     split,
 )
 from relguide.learn.training.options import TrainingOptions
-from relguide.learn.words.branch_labels import Box, Labels, held_out, load_labels
+from relguide.learn.words.branch_labels import Box, Labels, held_out_regions, load_labels
 from relguide.learn.words.branch_network import (
     BranchNetwork,
     features_of,
@@ -68,7 +68,7 @@ def train(
     """Train a network; yields after every epoch, the last is the end.
 
     Args:
-        labels: exact answers. Those in the regions of `held_out` are left out.
+        labels: exact answers. Those in the regions of `held_out_regions` are left out.
         options: how.
         box: of the labels.
         about: what is to be said of the weights' origin.
@@ -81,7 +81,7 @@ def train(
     device = begin(options)
 
     # What is learnt from, and what is kept to stop by.
-    regions = held_out(labels.situations)
+    regions = held_out_regions(labels.situations)
     outside = np.flatnonzero(~np.logical_or.reduce(list(regions.values())))
     rows, kept = parted = split(outside, options, of="labels outside the regions held out")
     inputs, mean, deviation = scale(features_of(labels.situations[rows]), kept)
@@ -122,7 +122,8 @@ def train(
         return BranchNetwork(
             layers=layers_of(arrays_of(model), mean, deviation),
             box=box,
-            least_share=reached_by(np.where(fastest, shares(), 0.0).max(axis=1), COVERAGE) / MARGIN,
+            least_share=covering_share(np.where(fastest, shares(), 0.0).max(axis=1), COVERAGE)
+            / MARGIN,
             most=SIZE,
             about={**about, **origin, "labels": len(labels), "held_out": sorted(regions)},
         )

@@ -76,7 +76,7 @@ def draw_visited(
                 f"{min_ratio:g} … {max_ratio:g}."
             )
         flight = draw_flight(rng, ratios=(min_ratio, max_ratio))
-        asked = situations_asked(flight, planner)
+        asked = collect_situations(flight, planner)
         rows = np.array([row_of(situation) for situation in asked])
         away, alpha = np.hypot(rows[:, 0], rows[:, 1]), rows[:, 3]
         rows = rows[(away <= max_range) & (alpha >= min_ratio) & (alpha <= max_ratio)]
@@ -141,7 +141,7 @@ def draw_flight(rng: np.random.Generator, *, ratios: tuple[float, float] = (0.6,
     )
 
 
-def situations_asked(scenario: Scenario, planner: Planner) -> list[Situation]:
+def collect_situations(scenario: Scenario, planner: Planner) -> list[Situation]:
     """Fly a scenario, and give what its planner was asked, in order."""
     asked: list[Situation] = []
     listening, each_second = listen_to(planner, asked.append), Settings(always_ask=True)

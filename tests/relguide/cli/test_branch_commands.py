@@ -12,7 +12,7 @@ from relguide.learn.words.branch_labels import LabelRequest, label_chunk, load_l
 from relguide.learn.words.branch_network import load_network
 from relguide.learn.words.train_branches import run as training
 from tests.command_line import Run
-from tests.relguide.learn.words.networks import chosen
+from tests.relguide.learn.words.networks import options
 
 EXACT = ("dataset", "--method", "exact", "--out", "labels.npz", "--count", "3000")
 
@@ -45,7 +45,7 @@ def test_labels_train_weights_and_audit(run: Run) -> None:
 def test_what_was_stopped_at_its_end_is_only_said_to_be_complete(run: Run) -> None:
     run(*EXACT)
     arguments = ("labels.npz", "w.safetensors", "--width", "8", "--epochs", "2", "--threads", "1")
-    list(islice(training(chosen(*arguments), "a test"), 2))  # all its epochs, but not its end
+    list(islice(training(options(*arguments), "a test"), 2))  # all its epochs, but not its end
     written, part = Path("w.safetensors").read_bytes(), Path("w.safetensors.part")
     assert part.exists()
     assert run("train", *arguments, "--resume") == (0, "w.safetensors is complete.\n", "")

@@ -41,7 +41,7 @@ def machines(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LocalCluster]
         yield found
 
 
-def signed(request: LabelRequest, number: int) -> tuple[int, Labels]:
+def sign(request: LabelRequest, number: int) -> tuple[int, Labels]:
     """A part, and the process that made it."""
     return os.getpid(), label_chunk(request, number)
 
@@ -63,7 +63,7 @@ def test_a_worker_killed_half_way_loses_nothing_and_doubles_nothing(
     with cluster(machines.address, told_nothing) as workers:
         assert isinstance(workers, Cluster)
         assert workers.cores == 2
-        for number, (maker, labels) in gather(partial(signed, REQUEST), REQUEST.chunks, workers):
+        for number, (maker, labels) in gather(partial(sign, REQUEST), REQUEST.chunks, workers):
             found.append((number, labels))
             makers.add(maker)
             if len(found) == REQUEST.chunks // 2:
@@ -128,10 +128,10 @@ def test_a_cluster_without_workers_is_waited_for_and_named(
         with monkeypatch.context() as patch, cluster(machines.address, said.append) as workers:
             patch.setattr(clusters, "NO_WORKERS", 0.5)
             with pytest.raises(TimeoutError, match=r"had no workers for 0\.5 s"):
-                list(gather(partial(signed, REQUEST), 2, workers))
+                list(gather(partial(sign, REQUEST), 2, workers))
         said.clear()
         with cluster(machines.address, add_one) as workers:
-            parts = dict(gather(partial(signed, REQUEST), 2, workers))
+            parts = dict(gather(partial(sign, REQUEST), 2, workers))
     assert sorted(parts) == [0, 1]
     assert said == [f"{machines.address} has no workers: waiting up to 120 s for one."]
 
@@ -146,7 +146,7 @@ def test_a_scheduler_that_is_gone_gives_a_sentence(
         address = machines.address
 
         with cluster(address, told_nothing) as workers:
-            stream = gather(partial(signed, REQUEST), REQUEST.chunks, workers)
+            stream = gather(partial(sign, REQUEST), REQUEST.chunks, workers)
             next(stream)
             machines.scheduler.kill()
             with pytest.raises(ConnectionError, match="scheduler is gone, and did not come back"):
@@ -164,7 +164,7 @@ def test_another_program_is_refused(
     with cluster(machines.address, told_nothing) as workers:
         monkeypatch.setattr(clusters, "program", lambda: tuple(asked.items()))
         with pytest.raises(ValueError, match=r"worker tcp\S+ has its code \w+, and here is anoth"):
-            list(gather(partial(signed, REQUEST), 3, workers))
+            list(gather(partial(sign, REQUEST), 3, workers))
 
 
 class OtherPackages:

@@ -7,14 +7,14 @@ from typing import Any
 
 import pytest
 
-from tests.bodies import BODY, changed
-from tests.command_line import NEAR, UNREACHABLE, Run, process, written
+from tests.bodies import BODY, change
+from tests.command_line import NEAR, UNREACHABLE, Run, process, write
 
 # --- plan ---------------------------------------------------------------------------------------
 
 
 def test_plan_prints_the_plan(run: Run) -> None:
-    code, out, err = run("plan", written(BODY))
+    code, out, err = run("plan", write(BODY))
     reply = json.loads(out)
     assert (code, err) == (0, "")
     assert (reply["status"], reply["planner"]) == ("planned", "exact")
@@ -29,16 +29,16 @@ def test_plan_reads_standard_input() -> None:
 
 
 def test_no_plan_is_an_answer_with_exit_1(run: Run) -> None:
-    code, out, _ = run("plan", written(UNREACHABLE))
+    code, out, _ = run("plan", write(UNREACHABLE))
     assert code == 1
     assert json.loads(out)["status"] == "no_plan"
-    code, out, _ = run("plan", written(UNREACHABLE), "--table")
+    code, out, _ = run("plan", write(UNREACHABLE), "--table")
     assert code == 1
     assert "No plan (slot_unreachable)" in out
 
 
 def test_the_table_is_for_people(run: Run) -> None:
-    code, out, _ = run("plan", written(BODY), "--table")
+    code, out, _ = run("plan", write(BODY), "--table")
     assert code == 0
     assert "Joins in 19:38.5 by RSR" in out
     assert "43.4°" in out
@@ -48,7 +48,7 @@ def test_the_table_is_for_people(run: Run) -> None:
 
 
 def test_the_table_says_why_each_other_way_lost(run: Run) -> None:
-    assert "instead" not in run("plan", written(BODY), "--table")[1]
+    assert "instead" not in run("plan", write(BODY), "--table")[1]
     _, out, _ = run("plan", "situation.json", "--table", "--include", "alternatives")
     lines = out.splitlines()
     (head,) = [line for line in lines if line.split()[:1] == ["instead"]]
@@ -61,7 +61,7 @@ def test_the_table_says_why_each_other_way_lost(run: Run) -> None:
 
 
 def test_optimality_is_printed_on_demand(run: Run) -> None:
-    code, out, _ = run("plan", written(BODY), "--include", "optimality")
+    code, out, _ = run("plan", write(BODY), "--include", "optimality")
     assert code == 0
     assert json.loads(out)["optimality"]["stationary"] is True
     assert len(json.loads(out)["optimality"]["costates"]["t_s"]) > 100
@@ -70,16 +70,16 @@ def test_optimality_is_printed_on_demand(run: Run) -> None:
     assert "Stationary, as eq. (16) asks: H is within " in out
     assert "Stationary" not in run("plan", "situation.json", "--table")[1]
     code, out, _ = run(
-        "plan", "--batch", written(json.dumps(BODY), "a.jsonl"), "--include", "optimality"
+        "plan", "--batch", write(json.dumps(BODY), "a.jsonl"), "--include", "optimality"
     )
     assert json.loads(out)["optimality"]["stationary"] is True
-    code, out, _ = run("plan", written(UNREACHABLE), "--include", "optimality")
+    code, out, _ = run("plan", write(UNREACHABLE), "--include", "optimality")
     assert (code, json.loads(out)["status"]) == (1, "no_plan")
 
 
 def test_the_papers_tree_plans_a_situation(run: Run) -> None:
-    code, out, err = run("plan", written(BODY), "--planner", "regular_dp")
-    by_tree, exact = json.loads(out), json.loads(run("plan", written(BODY))[1])
+    code, out, err = run("plan", write(BODY), "--planner", "regular_dp")
+    by_tree, exact = json.loads(out), json.loads(run("plan", write(BODY))[1])
     assert (code, err) == (0, "")
     assert by_tree["planner"] == "regular_dp"
     assert by_tree["time_to_converge_s"] >= exact["time_to_converge_s"]
@@ -87,16 +87,16 @@ def test_the_papers_tree_plans_a_situation(run: Run) -> None:
 
 
 def test_the_network_plans_a_situation_and_a_batch(run: Run) -> None:
-    code, out, err = run("plan", written(BODY), "--planner", "network")
-    by_network, exact = json.loads(out), json.loads(run("plan", written(BODY))[1])
+    code, out, err = run("plan", write(BODY), "--planner", "network")
+    by_network, exact = json.loads(out), json.loads(run("plan", write(BODY))[1])
     assert (code, err) == (0, "")
     assert (by_network["planner"], exact["planner"]) == ("network", "exact")
     assert by_network["time_to_converge_s"] == exact["time_to_converge_s"]
     assert by_network["optimality"]["proof"] == "bound"
     assert by_network["optimality"]["lower_bound_s"] < exact["time_to_converge_s"]
-    table = run("plan", written(BODY), "--planner", "network", "--table")[1]
+    table = run("plan", write(BODY), "--planner", "network", "--table")[1]
     assert "Planner network, " in table
-    out = run("plan", "--batch", written(json.dumps(BODY), "a.jsonl"), "--planner", "network")[1]
+    out = run("plan", "--batch", write(json.dumps(BODY), "a.jsonl"), "--planner", "network")[1]
     assert json.loads(out)["planner"] == "network"
 
 
@@ -106,15 +106,15 @@ def test_the_network_plans_a_situation_and_a_batch(run: Run) -> None:
         ("", "This is not JSON"),
         ("[", "This is not JSON"),
         (
-            changed("pursuer.tas_mps", "fast"),
+            change("pursuer.tas_mps", "fast"),
             'pursuer.tas_mps: must be a number, not the text "fast".',
         ),
-        (changed("pursuer.tas_mps", ...), "pursuer.tas_mps: is missing."),
+        (change("pursuer.tas_mps", ...), "pursuer.tas_mps: is missing."),
     ],
 )
 def test_a_bad_situation_is_misuse(run: Run, content: Any, sentence: str) -> None:
     for command in ("plan", "fly"):
-        code, out, err = run(command, written(content))
+        code, out, err = run(command, write(content))
         assert (code, out) == (2, "")
         assert err.startswith(f"relguide: {sentence}")
 
@@ -171,7 +171,7 @@ def test_help_has_examples(run: Run, command: str) -> None:
 
 def test_a_batch_is_answered_in_order(run: Run) -> None:
     lines = [{"id": n, **(UNREACHABLE if n == 2 else BODY)} for n in range(4)]
-    file = written("\n".join(map(json.dumps, lines)), "batch.jsonl")
+    file = write("\n".join(map(json.dumps, lines)), "batch.jsonl")
     code, out, err = run("plan", "--batch", file)
     replies = [json.loads(line) for line in out.splitlines()]
     assert (code, err) == (0, "")
@@ -181,7 +181,7 @@ def test_a_batch_is_answered_in_order(run: Run) -> None:
 
 def test_a_bad_line_is_answered_in_its_place(run: Run) -> None:
     lines = [json.dumps(BODY), "{", json.dumps({"id": "x"}), "", json.dumps({"id": "y", **BODY})]
-    code, out, err = run("plan", "--batch", written("\n".join(lines), "batch.jsonl"))
+    code, out, err = run("plan", "--batch", write("\n".join(lines), "batch.jsonl"))
     replies = [json.loads(line) for line in out.splitlines()]
     assert code == 1
     assert [reply["status"] for reply in replies] == ["planned", "invalid", "invalid", "planned"]
@@ -191,18 +191,18 @@ def test_a_bad_line_is_answered_in_its_place(run: Run) -> None:
 
 
 def test_an_empty_batch_has_no_answers(run: Run) -> None:
-    assert run("plan", "--batch", written("", "batch.jsonl")) == (0, "", "")
+    assert run("plan", "--batch", write("", "batch.jsonl")) == (0, "", "")
 
 
 # --- check --------------------------------------------------------------------------------------
 
 
 def test_check_judges_the_fastest_plan_and_what_is_entered(run: Run) -> None:
-    situation = written(NEAR)
+    situation = write(NEAR)
     code, out, err = run("check", situation)
     found = json.loads(out)
     assert (code, err, found["passed"]) == (0, "", True)
-    triplets = written({"triplets": found["triplets"]}, "triplets.json")
+    triplets = write({"triplets": found["triplets"]}, "triplets.json")
     code, out, _ = run("check", situation, triplets)
     assert (code, json.loads(out)["reaches_slot"]) == (0, True)
     code, out, _ = run("check", situation, triplets, "--table", "--figure", "plan.svg")
@@ -212,7 +212,7 @@ def test_check_judges_the_fastest_plan_and_what_is_entered(run: Run) -> None:
     assert "Stationary" in out
     assert Path("plan.svg").read_text("utf-8").startswith("<svg")
     found["triplets"][0]["theta_deg"] += 10.0
-    off = written({"triplets": found["triplets"]}, "off.json")
+    off = write({"triplets": found["triplets"]}, "off.json")
     code, out, _ = run("check", situation, off, "--table")
     assert code == 1
     assert "Misses the slot" in out
@@ -220,10 +220,10 @@ def test_check_judges_the_fastest_plan_and_what_is_entered(run: Run) -> None:
 
 
 def test_check_without_a_plan_and_with_a_leader_that_turns(run: Run) -> None:
-    code, out, err = run("check", written({**NEAR, "leader": {**NEAR["leader"], "tas_mps": 390}}))
+    code, out, err = run("check", write({**NEAR, "leader": {**NEAR["leader"], "tas_mps": 390}}))
     assert (code, out) == (1, "")
     assert "cannot be caught" in err
-    code, out, err = run("check", written(BODY))
+    code, out, err = run("check", write(BODY))
     assert (code, out) == (2, "")
     assert "the intent of this one turns" in err
 

@@ -9,7 +9,7 @@ import pytest
 
 from relguide.contract.recorder import replay
 from relguide.flying.documents import FlightStarted, LeaderChanged
-from tests.command_line import NEAR, UNREACHABLE, Run, process, written
+from tests.command_line import NEAR, UNREACHABLE, Run, process, write
 
 FIGURES = {
     "joined",
@@ -94,7 +94,7 @@ def test_the_good_part_of_a_damaged_recording_is_printed(
 
 @pytest.mark.slow
 def test_fly_without_a_plan_fails(run: Run) -> None:
-    code, out, err = run("fly", written(UNREACHABLE), "--json")
+    code, out, err = run("fly", write(UNREACHABLE), "--json")
     assert code == 1
     assert err == ("relguide: It did not join. The flight ends at its time limit of 3600 s.\n")
     assert json.loads(out)["joined"] is False
@@ -104,8 +104,8 @@ def test_fly_without_a_plan_fails(run: Run) -> None:
 def test_the_leader_does_as_ordered_and_is_followed_as_long_as_asked(run: Run) -> None:
     orders = [{"t_s": 20, "leader_tas_mps": 190}, {"t_s": 9_000, "intent_known": False}]
     lines = "".join(json.dumps(order) + "\n" for order in orders)
-    options = ("--orders", written(lines, "orders.jsonl"), "--after-joining", "30")
-    code, out, err = run("fly", written(NEAR), *options, "--record", "a.jsonl", "--json")
+    options = ("--orders", write(lines, "orders.jsonl"), "--after-joining", "30")
+    code, out, err = run("fly", write(NEAR), *options, "--record", "a.jsonl", "--json")
     figures = json.loads(out)
     assert (code, figures["joined"], figures["losses"]) == (0, True, [])
     assert figures["simulated_s"] == pytest.approx(figures["join_time_s"] + 30.0, abs=1.0)
@@ -117,7 +117,7 @@ def test_the_leader_does_as_ordered_and_is_followed_as_long_as_asked(run: Run) -
 
 @pytest.mark.slow
 def test_an_hour_of_following_makes_the_flight_longer_than_an_hour(run: Run) -> None:
-    code, out, _ = run("fly", written(NEAR), "--after-joining", "3600", "--json")
+    code, out, _ = run("fly", write(NEAR), "--after-joining", "3600", "--json")
     figures = json.loads(out)
     assert code == 0
     assert figures["simulated_s"] == pytest.approx(figures["join_time_s"] + 3600.0, abs=1.0)
@@ -136,7 +136,7 @@ def test_an_hour_of_following_makes_the_flight_longer_than_an_hour(run: Run) -> 
 def test_wrong_orders_and_times_are_misuse(
     run: Run, options: tuple[str, str], sentence: str
 ) -> None:
-    written('{"t_s": 5, "intent_known": true}\n{"t_s": 4, "intent_known": true}\n', "bad.jsonl")
+    write('{"t_s": 5, "intent_known": true}\n{"t_s": 4, "intent_known": true}\n', "bad.jsonl")
     code, out, err = run("fly", "fig_6b", *options)
     assert (code, out) == (2, "")
     assert sentence in err

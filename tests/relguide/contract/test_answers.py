@@ -13,7 +13,7 @@ from relguide.contract.bodies import situation_from_json
 from relguide.contract.messages import PlanAnswer
 from relguide.planning.plan import Plan
 from relguide.units import DEG
-from tests.bodies import BODY, changed
+from tests.bodies import BODY, change
 from tests.liars import LIARS, LIED_ABOUT, Liar
 
 
@@ -74,7 +74,7 @@ def test_what_to_include_is_read_from_words_with_commas() -> None:
 
 
 def test_no_plan_has_the_contracts_names() -> None:
-    situation, anchor = situation_from_json(changed("leader.tas_mps", 300))
+    situation, anchor = situation_from_json(change("leader.tas_mps", 300))
     reply = answer(situation, anchor, plan)
     assert set(reply) == {"status", "reason", "message"}
     assert reply["status"] == "no_plan"
@@ -162,7 +162,7 @@ def test_the_switching_function_is_per_degree_and_turns_as_eq_16_asks() -> None:
 
 def test_a_plan_that_is_not_stationary_says_so() -> None:
     """One that begins with a weave, and is the fastest after it."""
-    situation, anchor = situation_from_json(changed("leader.intent", []))
+    situation, anchor = situation_from_json(change("leader.intent", []))
     first = planned_for(situation)
     radius = situation.pursuer.turn_radius
     weave = tuple(Arc(turn=turn, turn_angle=0.3, radius=radius) for turn in (LEFT, RIGHT))
@@ -196,7 +196,7 @@ def test_a_batch_line_says_it_on_demand() -> None:
     reply = answer_line(json.dumps({"id": 1, **BODY}).encode(), plan, include=["optimality"])
     assert reply["optimality"]["stationary"] is True
     no_plan = answer_line(
-        json.dumps(changed("leader.tas_mps", 300)).encode(), plan, include=["optimality"]
+        json.dumps(change("leader.tas_mps", 300)).encode(), plan, include=["optimality"]
     )
     assert set(no_plan) == {"status", "reason", "message"}
 

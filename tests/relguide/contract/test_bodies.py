@@ -19,7 +19,7 @@ from relguide.flying.cards import plan_card
 from relguide.planning.frames import LocalPlane
 from relguide.planning.plan import Plan
 from relguide.units import DEG
-from tests.bodies import BODY, changed, on_earth
+from tests.bodies import BODY, change, on_earth
 
 
 def problem_of(body: Any) -> tuple[str, str]:
@@ -44,16 +44,16 @@ def test_the_contracts_example() -> None:
 
 
 def test_intent_and_wind_may_be_left_out() -> None:
-    body = changed("leader.intent", ...)
+    body = change("leader.intent", ...)
     del body["wind"]
     situation, _ = situation_from_json(body)
     assert situation.leader.intent == ()
     assert situation.wind.speed == 0.0
-    assert situation_from_json(changed("leader.intent", []))[0].leader.intent == ()
+    assert situation_from_json(change("leader.intent", []))[0].leader.intent == ()
 
 
 def test_a_left_turn_is_a_left_turn() -> None:
-    situation, _ = situation_from_json(changed("leader.intent.1.direction", "left"))
+    situation, _ = situation_from_json(change("leader.intent.1.direction", "left"))
     turn = situation.leader.intent[1]
     assert isinstance(turn, TurnTo)
     assert turn.turn == LEFT
@@ -101,19 +101,19 @@ def test_a_left_turn_is_a_left_turn() -> None:
     ],
 )
 def test_each_defect_is_named(path: str, value: Any, where: str, sentence: str) -> None:
-    found, message = problem_of(changed(path, value))
+    found, message = problem_of(change(path, value))
     assert found == where
     assert message.startswith(sentence)
 
 
 @pytest.mark.parametrize("bank", [1, 60, 60.0])
 def test_the_bounds_themselves_are_accepted(bank: float) -> None:
-    assert situation_from_json(changed("pursuer.max_bank_deg", bank))
+    assert situation_from_json(change("pursuer.max_bank_deg", bank))
 
 
 @pytest.mark.parametrize("heading", [-720.0, 450, 1e308])
 def test_any_finite_heading_is_accepted(heading: float) -> None:
-    situation, _ = situation_from_json(changed("pursuer.heading_deg", heading))
+    situation, _ = situation_from_json(change("pursuer.heading_deg", heading))
     assert 0.0 <= situation.pursuer.heading <= 2.0 * pi
 
 
@@ -149,7 +149,7 @@ def test_an_overflowing_number_is_refused() -> None:
 
 
 def test_all_defects_are_listed_but_not_endlessly() -> None:
-    body = changed("leader.intent", [{"straight_s": -1}] * 15)
+    body = change("leader.intent", [{"straight_s": -1}] * 15)
     with pytest.raises(ContractError) as caught:
         situation_from_json(body)
     assert len(caught.value.problems) == 15
@@ -182,9 +182,9 @@ PATHS = [
 @settings(max_examples=200)
 def test_garbage_is_planned_or_refused_in_a_sentence(path: str, value: Any) -> None:
     if path == "leader.intent.0":
-        body = changed("leader.intent", [value])
+        body = change("leader.intent", [value])
     else:
-        body = changed(path, value)
+        body = change(path, value)
     try:
         situation_from_json(body)
     except ContractError as error:
@@ -258,4 +258,4 @@ def test_both_aircraft_are_placed_alike() -> None:
 
 
 def test_both_ways_at_once_are_refused() -> None:
-    assert problem_of(changed("pursuer.lat_deg", 1.0))[0] == "pursuer.lon_deg"
+    assert problem_of(change("pursuer.lat_deg", 1.0))[0] == "pursuer.lon_deg"

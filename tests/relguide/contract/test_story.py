@@ -61,7 +61,7 @@ ENDED = FlightEnded(
 )
 
 
-def ended(*results: LinkResult) -> FlightEnded:
+def end_of_flight(*results: LinkResult) -> FlightEnded:
     return replace(ENDED, results=results)
 
 
@@ -74,13 +74,13 @@ def test_a_good_flight_has_no_failures() -> None:
 
 
 def test_a_lost_separation_is_a_failure() -> None:
-    lost = story_of([STARTED, ended(replace(RESULT, least_separation=4.0 * NM))])
+    lost = story_of([STARTED, end_of_flight(replace(RESULT, least_separation=4.0 * NM))])
     assert failures(lost) == ("The separation fell below 5.00 NM: they came within 4.00 NM.",)
 
 
 def test_not_joining_is_a_failure() -> None:
     last = replace(
-        ended(replace(RESULT, joined=False)),
+        end_of_flight(replace(RESULT, joined=False)),
         reason="recording_over",
         message="The leader's recording ends after 720 s.",
     )
@@ -94,7 +94,7 @@ def test_of_several_links_each_is_judged_by_its_own_limit() -> None:
     started = replace(STARTED, links=(LINK, wide))
     close = replace(RESULT, least_separation=5.5 * NM)
     second = replace(close, ident="C", leader="A", joined=False)
-    assert failures(story_of([started, ended(close, second)])) == (
+    assert failures(story_of([started, end_of_flight(close, second)])) == (
         f"C did not join. {ENDED.message}",
         "The separation fell below 6.00 NM: they came within 5.50 NM.",
     )
@@ -114,7 +114,7 @@ def test_alerts_and_losses_are_in_the_story_and_forecasts_are_not() -> None:
 def test_losses_are_given_with_when_they_were_announced() -> None:
     said = Loss(t=50.0, separation=9_000.0, cause="The leader slowed down.", announced=(20.0,))
     silent = replace(said, t=90.0, announced=())
-    assert figures(ended(replace(RESULT, losses=(said, silent))))["losses"] == [
+    assert figures(end_of_flight(replace(RESULT, losses=(said, silent))))["losses"] == [
         {
             "t_s": 50.0,
             "separation_m": 9_000.0,

@@ -14,7 +14,7 @@ from relguide.flying.regular_card import regular_check
 from relguide.flying.verdicts import NotChecked, OptimalityCheck
 from relguide.planning.regular import RegularTrajectory, Triplet, regular_from_trajectory
 from relguide.planning.trajectory import LEFT, RIGHT
-from tests.plans import golden_plan, planned, straight_behind, unlimited
+from tests.plans import find_plan, golden_plan, plan_unlimited, straight_behind
 from tests.situations import situations
 
 PAIR = {"epsilon": -1, "theta_deg": 90.0, "l_m": 1000}
@@ -52,7 +52,7 @@ def test_each_defect_is_named(body: dict[str, Any], path: str, sentence: str) ->
 @settings(max_examples=30)
 def test_a_plan_entered_as_triplets_passes(situation: Any) -> None:
     """There and back through JSON, in wind too."""
-    answer = unlimited(situation)
+    answer = plan_unlimited(situation)
     regular = regular_from_trajectory(answer.trajectory, turn_radius=situation.pursuer.turn_radius)
     first = to_wire(regular_check(regular, situation))
     again = regular_from_json({"triplets": first["triplets"]})
@@ -102,4 +102,4 @@ def test_a_full_circle_more_reaches_the_slot_and_so_does_order_1() -> None:
     circle = Triplet(turn=LEFT, turn_angle=2.0 * pi, length=onward)
     found = regular_check(RegularTrajectory(triplets=(circle,)), situation)
     assert found.passed
-    assert found.duration > planned(situation).time_to_converge
+    assert found.duration > find_plan(situation).time_to_converge

@@ -44,7 +44,7 @@ def world(*, pilot: Pilot | None = None, believed_air: Air | None = None) -> Wor
     )
 
 
-def after(
+def leader_after(
     seconds: int, *, known: bool = True, pilot: Pilot | None = None, air: Air | None = None
 ) -> Belief:
     """What is known after some seconds."""
@@ -57,25 +57,25 @@ def after(
 
 
 def test_a_known_intent_is_what_is_left_of_it() -> None:
-    assert after(0).intent == (STRAIGHT, TURN)
-    straight, turn = after(20).intent
+    assert leader_after(0).intent == (STRAIGHT, TURN)
+    straight, turn = leader_after(20).intent
     assert isinstance(straight, FlyStraight)
     assert (straight.duration, turn) == (pytest.approx(40.0), TURN)
-    assert after(90).intent == (TURN,)
-    assert after(200).intent == ()
+    assert leader_after(90).intent == (TURN,)
+    assert leader_after(200).intent == ()
 
 
 def test_the_turns_to_come_are_those_of_the_intent() -> None:
     for seconds, to_come in ((0, True), (90, True), (200, False)):
-        belief = after(seconds)
+        belief = leader_after(seconds)
         assert belief.turn_to_come == to_come
         assert belief.last_turn == 1
         assert (belief.cursor <= belief.last_turn) == to_come
-    assert after(0, pilot=Declared()).last_turn == -1
+    assert leader_after(0, pilot=Declared()).last_turn == -1
 
 
 def test_nothing_is_known_of_an_intent_that_was_not_declared() -> None:
-    belief = after(20, known=False)
+    belief = leader_after(20, known=False)
     assert (belief.intent, belief.intent_known, belief.last_turn) == ((), False, -1)
     assert len(belief.program) == 0
     assert belief.final_heading == pytest.approx(90.0 * DEG)
@@ -83,12 +83,12 @@ def test_nothing_is_known_of_an_intent_that_was_not_declared() -> None:
 
 
 def test_the_final_heading_is_that_of_the_last_turn() -> None:
-    assert after(0).final_heading == TURN.heading
-    assert after(200).final_heading == pytest.approx(150.0 * DEG, abs=1.0 * DEG)
+    assert leader_after(0).final_heading == TURN.heading
+    assert leader_after(200).final_heading == pytest.approx(150.0 * DEG, abs=1.0 * DEG)
 
 
 def test_a_leader_that_turns_unannounced_is_expected_to_roll_out_at_once() -> None:
-    belief = after(80, known=False)
+    belief = leader_after(80, known=False)
     lead = roll_lead(belief.leader_limits, belief.leader.bank, 0.0)
     assert belief.leader_turn_rate > 0.01
     wanted = belief.leader.heading + belief.leader_turn_rate * lead
@@ -99,19 +99,19 @@ def test_a_leader_that_turns_unannounced_is_expected_to_roll_out_at_once() -> No
 
 
 def test_the_slot_is_open_where_d_was_flown_since_the_last_turn() -> None:
-    assert not after(20).slot_open(D)
-    assert after(20, known=False).slot_open(D)
-    assert not after(130).slot_open(D)
-    assert after(220).slot_open(D)
+    assert not leader_after(20).slot_open(D)
+    assert leader_after(20, known=False).slot_open(D)
+    assert not leader_after(130).slot_open(D)
+    assert leader_after(220).slot_open(D)
 
 
 def test_the_leader_later_is_where_it_will_be_over_the_ground() -> None:
     """The whole flight against what was expected at its beginning: the roll costs metres."""
-    expected, then = after(0).leader_after(150.0), after(150).leader
+    expected, then = leader_after(0).leader_after(150.0), leader_after(150).leader
     assert (expected.x, expected.y) == pytest.approx((then.x, then.y), abs=40.0)
     assert expected.heading == pytest.approx(then.heading, abs=1.0 * DEG)
     assert expected.intent == ()
-    assert after(0).leader_after(70.0).intent == (TURN,)
+    assert leader_after(0).leader_after(70.0).intent == (TURN,)
 
 
 def test_of_an_intent_so_much_is_left_after_a_while() -> None:
@@ -129,8 +129,8 @@ def test_of_an_intent_so_much_is_left_after_a_while() -> None:
 
 
 def test_guidance_believes_its_own_air() -> None:
-    assert after(0).wind == WIND
-    wrong = after(10, air=Air(wind=CALM))
+    assert leader_after(0).wind == WIND
+    wrong = leader_after(10, air=Air(wind=CALM))
     assert wrong.wind == CALM
     assert wrong.drift == Drift(0.0, 0.0)
     # where it is, is seen; only the wind is believed
@@ -173,6 +173,6 @@ def test_a_track_grows_beyond_its_first_room_and_keeps_what_it_had() -> None:
 
 def test_headings_of_the_leader_are_counted_on() -> None:
     round_ = TurnTo(heading=85.0 * DEG, turn=RIGHT, bank=25.0 * DEG)
-    belief = after(310, pilot=Declared(intent=(round_,)))
+    belief = leader_after(310, pilot=Declared(intent=(round_,)))
     assert belief.leader.heading == pytest.approx((90.0 + 355.0) * DEG, abs=1.0 * DEG)
     assert 0.0 <= belief.leader_after(0.0).heading < 2.0 * pi

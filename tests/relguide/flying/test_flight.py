@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 from itertools import pairwise
-from math import hypot, pi
+from math import hypot
 
 import numpy as np
 import pytest
@@ -24,12 +24,13 @@ from relguide.flying.guidance.settings import DEFAULT
 from relguide.flying.plan_documents import TurnSegment
 from relguide.flying.scenarios import fig_6, own_scenario
 from relguide.flying.tracks import RecordedTrack
+from relguide.kernels.base.angles import wrap_signed
 from relguide.planning.frames import LocalPlane
 from relguide.planning.plan import NoPlan, Plan, Reason, plan
 from relguide.planning.situation import FlyStraight, Situation, TurnTo, wind_from
 from relguide.planning.trajectory import LEFT, RIGHT, Turn
 from relguide.units import DEG, NM
-from tests.flights import Flown, Instant, flown, instant, random_start
+from tests.flights import Flown, Instant, fly_whole, instant, random_start
 from tests.liars import LIED_ABOUT
 
 FIG_6B = fig_6(intent_known=True)
@@ -38,17 +39,13 @@ KEPT = 5.0 * NM - 1.0  # 1 m: what a step of 50 ms moves a grazing pass
 
 @pytest.fixture(scope="module")
 def fig_6b() -> Flown:
-    return flown(FIG_6B)
+    return fly_whole(FIG_6B)
 
 
 def scenario(situation: Situation, *, intent_known: bool = True) -> Scenario:
     """At a level where both speeds can be flown."""
     own = own_scenario(situation, intent_known=intent_known)
     return replace(own, duration_limit=3000.0, after_joining=60.0)
-
-
-def signed(angle: float) -> float:
-    return (angle + pi) % (2.0 * pi) - pi
 
 
 def test_fig_6b_joins_on_time_and_keeps_d_min(fig_6b: Flown) -> None:
@@ -65,7 +62,7 @@ def test_fig_6b_joins_on_time_and_keeps_d_min(fig_6b: Flown) -> None:
 
 
 def test_fig_6a_takes_longer_and_swings_more(fig_6b: Flown) -> None:
-    end = flown(fig_6(intent_known=False)).result
+    end = fly_whole(fig_6(intent_known=False)).result
     assert end.joined
     assert end.least_separation >= 5.0 * NM
     assert end.join_time > 1.05 * fig_6b.result.join_time
@@ -89,7 +86,7 @@ def test_joined_is_eq_7_within_tolerance(fig_6b: Flown) -> None:
     assert at.t == fig_6b.result.join_time
     assert abs(at.guidance.spacing_error) <= DEFAULT.joined_along
     assert abs(at.guidance.cross_track) <= DEFAULT.joined_across
-    assert abs(signed(at.pursuer.heading - at.leader.heading)) <= DEFAULT.joined_heading
+    assert abs(wrap_signed(at.pursuer.heading - at.leader.heading)) <= DEFAULT.joined_heading
     assert at.guidance.slot_open
 
 
@@ -134,7 +131,7 @@ def test_samples_glide_between_guidance_ticks() -> None:
 @pytest.mark.parametrize("wind", [(300.0, 25.0), (45.0, 15.0)])
 def test_wind_changes_nothing_that_matters(wind: tuple[float, float]) -> None:
     situation = replace(FIG_6B.situation, wind=wind_from(wind[0] * DEG, wind[1]))
-    end = flown(replace(FIG_6B, situation=situation)).result
+    end = fly_whole(replace(FIG_6B, situation=situation)).result
     assert end.joined
     assert end.join_time == pytest.approx(end.promised, abs=1.0)
     assert end.join_time == pytest.approx(end.planned_time, rel=0.03)
@@ -142,7 +139,7 @@ def test_wind_changes_nothing_that_matters(wind: tuple[float, float]) -> None:
 
 
 def test_leader_heading_makes_a_new_plan_at_once() -> None:
-    flight = flown(FIG_6B, (300.0, LeaderHeading(heading=60.0 * DEG)))
+    flight = fly_whole(FIG_6B, (300.0, LeaderHeading(heading=60.0 * DEG)))
     (said,) = flight.of(LeaderChanged)
     _, new = flight.of(PlanChanged)
     assert (said.t, said.change) == (300.0, "heading")
@@ -151,17 +148,19 @@ def test_leader_heading_makes_a_new_plan_at_once() -> None:
     assert flight.result.join_time == pytest.approx(300.0 + new.promised, abs=1.0)
     assert flight.result.joined
     assert flight.result.least_separation >= KEPT
-    assert signed(flight.samples[-1].pursuer.heading - 60.0 * DEG) == pytest.approx(0.0, abs=0.01)
+    assert wrap_signed(flight.samples[-1].pursuer.heading - 60.0 * DEG) == pytest.approx(
+        0.0, abs=0.01
+    )
 
 
 def test_the_leader_may_be_instructed_which_way_round() -> None:
-    flight = flown(FIG_6B, (10.0, LeaderHeading(heading=60.0 * DEG, direction="right")))
+    flight = fly_whole(FIG_6B, (10.0, LeaderHeading(heading=60.0 * DEG, direction="right")))
     early = [s.leader for s in flight.samples if 20.0 < s.t < 60.0]
     assert all(leader.bank > 20.0 * DEG for leader in early)
 
 
 def test_leader_speed_makes_a_new_plan() -> None:
-    flight = flown(FIG_6B, (300.0, LeaderSpeed(tas=180.0)))
+    flight = fly_whole(FIG_6B, (300.0, LeaderSpeed(tas=180.0)))
     reasons = {p.reason for p in flight.of(PlanChanged) if 300.0 < p.t < 310.0}
     assert "leader_changed_speed" in reasons
     assert flight.result.joined
@@ -172,7 +171,7 @@ def test_leader_speed_makes_a_new_plan() -> None:
 def test_a_leader_slows_down_without_brakes() -> None:
     """At most 0.5 m/s², half of what an A300 can do with them."""
     tas = FIG_6B.situation.leader.tas
-    flight = flown(FIG_6B, (100.0, LeaderSpeed(tas=tas - 40.0)))
+    flight = fly_whole(FIG_6B, (100.0, LeaderSpeed(tas=tas - 40.0)))
     speeds = [(sample.t, sample.leader.tas) for sample in flight.samples if 99.0 < sample.t < 160.0]
     falls = [(v - w) / (u - t) for (t, v), (u, w) in pairwise(speeds)]
     assert max(falls) == pytest.approx(0.5, abs=0.01)
@@ -180,7 +179,7 @@ def test_a_leader_slows_down_without_brakes() -> None:
 
 def test_intent_withdrawn_and_received() -> None:
     withdrawn, received = IntentKnown(known=False), IntentKnown(known=True)
-    flight = flown(FIG_6B, (100.0, withdrawn), (101.0, withdrawn), (200.0, received))
+    flight = fly_whole(FIG_6B, (100.0, withdrawn), (101.0, withdrawn), (200.0, received))
     assert [d.change for d in flight.of(LeaderChanged)] == ["intent_withdrawn", "intent_received"]
     reasons = [(p.t, p.reason) for p in flight.of(PlanChanged)]
     assert (100.0, "intent_withdrawn") in reasons
@@ -192,16 +191,18 @@ def test_intent_withdrawn_and_received() -> None:
 
 def test_leader_that_turns_in_follow_is_followed_where_it_turned() -> None:
     longer = replace(FIG_6B, after_joining=400.0)
-    flight = flown(longer, (950.0, LeaderHeading(heading=45.0 * DEG)))
+    flight = fly_whole(longer, (950.0, LeaderHeading(heading=45.0 * DEG)))
     assert flight.of(ModeChanged)[-1].mode == "follow"
     assert flight.result.least_separation >= KEPT
     assert max(abs(s.guidance.cross_track) for s in flight.samples if s.t > 950.0) < 150.0
-    assert signed(flight.samples[-1].pursuer.heading - 45.0 * DEG) == pytest.approx(0.0, abs=0.01)
+    assert wrap_signed(flight.samples[-1].pursuer.heading - 45.0 * DEG) == pytest.approx(
+        0.0, abs=0.01
+    )
 
 
 def test_leader_that_brakes_hard_while_being_captured_is_not_run_into(fig_6b: Flown) -> None:
     start = next(d.t for d in fig_6b.of(ModeChanged) if d.mode == "capture")
-    flight = flown(FIG_6B, (start + 10.0, LeaderSpeed(tas=165.0)))
+    flight = fly_whole(FIG_6B, (start + 10.0, LeaderSpeed(tas=165.0)))
     assert flight.result.joined
     assert flight.result.least_separation >= KEPT
 
@@ -219,7 +220,7 @@ def test_more_random_starts_in_wind(seed: int) -> None:
 
 def _check_random(seed: int, *, wind: float) -> None:
     situation = random_start(seed, wind=wind)
-    flight = flown(scenario(situation))
+    flight = fly_whole(scenario(situation))
     if isinstance(plan(situation), NoPlan):
         assert flight.of(PlanUnavailable)
         return
@@ -246,7 +247,7 @@ def _check_random(seed: int, *, wind: float) -> None:
 
 
 def test_unannounced_turns_do_not_stop_it() -> None:
-    flight = flown(scenario(random_start(4, wind=15.0), intent_known=False))
+    flight = fly_whole(scenario(random_start(4, wind=15.0), intent_known=False))
     assert flight.result.joined
 
 
@@ -276,7 +277,7 @@ def test_no_plan_is_said_and_a_safe_heading_held() -> None:
         FIG_6B.situation,
         pursuer=replace(FIG_6B.situation.pursuer, x=60e3, y=0.0, heading=270.0 * DEG),
     )
-    flight = flown(replace(FIG_6B, situation=head_on, duration_limit=200.0), planner=helpless)
+    flight = fly_whole(replace(FIG_6B, situation=head_on, duration_limit=200.0), planner=helpless)
     assert [d.answer.message for d in flight.of(PlanUnavailable)] == ["Nothing found."]
     assert {s.guidance.mode for s in flight.samples} == {"heading"}
     assert flight.result.least_separation >= KEPT
@@ -301,7 +302,7 @@ def track(duration: int) -> RecordedTrack:
     )
 
 
-def recorded(duration: int) -> Scenario:
+def recorded_leader(duration: int) -> Scenario:
     return replace(
         FIG_6B,
         situation=replace(
@@ -313,7 +314,7 @@ def recorded(duration: int) -> Scenario:
 
 
 def test_recorded_leader_is_followed_its_intent_unknown() -> None:
-    flight = flown(recorded(1500))
+    flight = fly_whole(recorded_leader(1500))
     assert not flight.of(LeaderRoute)[0].intent_known
     assert flight.result.joined
     assert flight.result.least_separation >= KEPT
@@ -322,9 +323,9 @@ def test_recorded_leader_is_followed_its_intent_unknown() -> None:
 
 
 def test_recording_ends_the_flight_and_a_command_takes_over_from_it() -> None:
-    assert flown(recorded(100)).end.t == pytest.approx(99.0)
-    taken_over = flown(
-        replace(recorded(100), duration_limit=150.0), (90.0, LeaderHeading(heading=0.0))
+    assert fly_whole(recorded_leader(100)).end.t == pytest.approx(99.0)
+    taken_over = fly_whole(
+        replace(recorded_leader(100), duration_limit=150.0), (90.0, LeaderHeading(heading=0.0))
     )
     assert taken_over.end.t == pytest.approx(150.0)
     assert taken_over.samples[120].leader.bank < -20.0 * DEG
@@ -359,7 +360,7 @@ def test_a_declared_turn_of_355_degrees_is_flown_as_declared(turn: Turn) -> None
         TurnTo(heading=(90.0 + 5.0 * turn) * DEG, turn=turn, bank=20.0 * DEG),
     )
     leader = replace(FIG_6B.situation.leader, intent=intent)
-    flight = flown(replace(FIG_6B, situation=replace(FIG_6B.situation, leader=leader)))
+    flight = fly_whole(replace(FIG_6B, situation=replace(FIG_6B.situation, leader=leader)))
     headings = np.unwrap([s.leader.heading for s in flight.samples])
     assert headings[-1] - headings[0] == pytest.approx(-turn * 355.0 * DEG, abs=0.5 * DEG)
     assert flight.result.joined
@@ -373,7 +374,7 @@ def test_a_time_behind_the_leader_is_kept(wind: tuple[float, float]) -> None:
     """60 s on its path, and through its turn; 12 km in still air."""
     situation = replace(FIG_6B.situation, wind=wind_from(wind[0] * DEG, wind[1]))
     apart = replace(FIG_6B, situation=situation, spacing=60.0, after_joining=600.0)
-    flight = flown(apart, (1_100.0, LeaderHeading(heading=90.0 * DEG)))
+    flight = fly_whole(apart, (1_100.0, LeaderHeading(heading=90.0 * DEG)))
     assert flight.result.joined
     assert flight.result.losses == ()
     assert flight.result.join_time == pytest.approx(flight.result.promised, abs=1.0)
@@ -389,7 +390,7 @@ def test_ground_track_and_speed_are_matched_in_a_cross_wind_through_a_turn() -> 
     """40 m/s across and a turn of 90° while followed: within 0.1 NM of the leader's path."""
     situation = replace(FIG_6B.situation, wind=wind_from(45.0 * DEG, 40.0))
     longer = replace(FIG_6B, situation=situation, after_joining=500.0)
-    flight = flown(longer, (1_100.0, LeaderHeading(heading=45.0 * DEG)))
+    flight = fly_whole(longer, (1_100.0, LeaderHeading(heading=45.0 * DEG)))
     followed = [s for s in flight.samples if s.guidance.mode == "follow"]
     assert followed[-1].t > 1_400.0
     assert max(abs(s.guidance.cross_track) for s in followed) < 0.1 * NM

@@ -12,7 +12,7 @@ from relguide.flying.documents import ForecastChanged
 from relguide.flying.scenarios import LEADER_TURNS_AT, fig_6, own_scenario
 from relguide.planning.situation import Leader, Pursuer, Situation, wind_from
 from relguide.units import DEG, KT, NM, Metre, Second
-from tests.flights import Flown, Instant, flown
+from tests.flights import Flown, Instant, fly_whole
 
 PIXEL: Metre = 50.0
 """A pixel at the navigation display's shortest range, and a third more [m]."""
@@ -37,7 +37,7 @@ FLIGHTS = {
 
 @cache
 def flight_of(name: str) -> Flown:
-    return flown(FLIGHTS[name][0])
+    return fly_whole(FLIGHTS[name][0])
 
 
 def standing(flight: Flown) -> Iterator[tuple[ForecastChanged, list[Instant]]]:

@@ -34,7 +34,7 @@ from tests.server.flown import ideal_flight
 NAMES = Names("A", "B")
 
 
-def counted(*documents: Document) -> Milestones:
+def count_milestones(*documents: Document) -> Milestones:
     milestones = Milestones()
     for document in documents:
         milestones = count_event(milestones, document)
@@ -61,7 +61,7 @@ def loss(t: float, separation: float) -> SeparationLost:
     )
 
 
-def ahead(headings: list[float], *, t: float = 100.0) -> Forecast:
+def forecast_of(headings: list[float], *, t: float = 100.0) -> Forecast:
     """A flight ahead with these headings, a second apart, at 200 m/s."""
     own = np.zeros((len(headings), 7))
     own[:, 2], own[:, 5] = headings, 200.0
@@ -77,7 +77,7 @@ def ahead(headings: list[float], *, t: float = 100.0) -> Forecast:
 def test_new_plans_are_counted_whether_announced_or_not() -> None:
     engaged = next(d for d in ideal_flight() if isinstance(d, PlanChanged))
     news = replace(engaged, t=1.0, reason="better_plan")
-    milestones = counted(engaged, news, replace(news, t=2.0, announced=False))
+    milestones = count_milestones(engaged, news, replace(news, t=2.0, announced=False))
     assert (milestones.replans, milestones.replans_announced) == (2, 1)
     assert milestones.promised == engaged.promised
     assert milestones.planned_time == engaged.plan.time_to_converge
@@ -85,33 +85,33 @@ def test_new_plans_are_counted_whether_announced_or_not() -> None:
 
 def test_only_the_plan_at_engagement_promises() -> None:
     engaged = next(d for d in ideal_flight() if isinstance(d, PlanChanged))
-    late = counted(replace(engaged, t=5.0))
+    late = count_milestones(replace(engaged, t=5.0))
     assert (late.planned_time, late.promised, late.replans) == (0.0, 0.0, 0)
 
 
 def test_an_alert_counts_from_its_first_word_until_it_is_cleared() -> None:
-    assert counted(alert(10.0), alert(13.0, level="warning")).alerted == (10.0,)
-    assert counted(alert(10.0), alert(20.0, cleared=True)).alerted == ()
-    assert counted(alert(10.0, level="advisory")).alerted == ()
+    assert count_milestones(alert(10.0), alert(13.0, level="warning")).alerted == (10.0,)
+    assert count_milestones(alert(10.0), alert(20.0, cleared=True)).alerted == ()
+    assert count_milestones(alert(10.0, level="advisory")).alerted == ()
 
 
 def test_unable_counts_from_its_first_word_until_there_is_a_plan() -> None:
     engaged = next(d for d in ideal_flight() if isinstance(d, PlanChanged))
     unable = Unable(t=12.0, ident="A", reason="separation", message="")
-    assert counted(unable, replace(unable, t=14.0)).unable == (12.0,)
-    assert counted(unable, alert(20.0, cleared=True)).unable == (12.0,)
+    assert count_milestones(unable, replace(unable, t=14.0)).unable == (12.0,)
+    assert count_milestones(unable, alert(20.0, cleared=True)).unable == (12.0,)
     for reason in ("engaged", "better_plan"):
-        assert counted(unable, replace(engaged, t=15.0, reason=reason)).unable == ()
+        assert count_milestones(unable, replace(engaged, t=15.0, reason=reason)).unable == ()
 
 
 def test_following_counts_from_when_it_last_began() -> None:
     mode = ModeChanged(t=50.0, ident="A", mode="follow", previous="capture", message="")
     away = replace(mode, t=60.0, mode="converge", previous="follow")
-    assert counted(mode, away, replace(mode, t=90.0)).following_since == 90.0
+    assert count_milestones(mode, away, replace(mode, t=90.0)).following_since == 90.0
 
 
 def test_a_loss_keeps_its_least_separation() -> None:
-    milestones = counted(loss(10.0, 9_250.0))
+    milestones = count_milestones(loss(10.0, 9_250.0))
     milestones = count_loss(count_loss(milestones, 9_100.0), 9_200.0)
     assert milestones.losses == (Loss(t=10.0, separation=9_100.0, cause="why", announced=()),)
     again = count_loss(count_event(milestones, loss(50.0, 9_255.0)), 9_000.0)
@@ -119,7 +119,7 @@ def test_a_loss_keeps_its_least_separation() -> None:
 
 
 def test_a_straight_forecast_is_a_point_every_half_minute() -> None:
-    document = forecast_document(100.0, "A", ahead([0.5] * 121))
+    document = forecast_document(100.0, "A", forecast_of([0.5] * 121))
     assert isinstance(document, ForecastChanged)
     assert document.times == (100.0, 130.0, 160.0, 190.0, 220.0)
     assert len(document.x) == len(document.y) == len(document.heading) == 5
@@ -128,7 +128,7 @@ def test_a_straight_forecast_is_a_point_every_half_minute() -> None:
 
 def test_a_turning_forecast_strays_little_from_its_chords() -> None:
     headings = list(np.radians(np.linspace(0.0, 150.0, 101)))
-    document = forecast_document(100.0, "A", ahead(headings))
+    document = forecast_document(100.0, "A", forecast_of(headings))
     steps = np.diff(document.heading)
     assert steps.max() <= BENT + 1.5 * DEG  # and what it turns in the second after
     assert len(document.times) > 30
@@ -136,13 +136,13 @@ def test_a_turning_forecast_strays_little_from_its_chords() -> None:
 
 
 def test_a_forecast_that_began_before_is_told_from_now_on() -> None:
-    document = forecast_document(130.0, "A", ahead([0.0] * 61))
+    document = forecast_document(130.0, "A", forecast_of([0.0] * 61))
     assert (document.times[0], document.times[-1]) == (130.0, 160.0)
     assert document.y[0] == pytest.approx(30 * 200.0)
 
 
 def test_a_forecast_says_where_both_will_be_when_they_are_closest() -> None:
-    flown = ahead([0.0] * 61)
+    flown = forecast_of([0.0] * 61)
     flown.account[40, 0] = 8_000.0
     document = forecast_document(110.0, "A", flown)
     assert document.least_separation == 8_000.0
@@ -153,7 +153,7 @@ def test_a_forecast_says_where_both_will_be_when_they_are_closest() -> None:
 
 
 def test_a_forecast_at_its_end_is_closest_there() -> None:
-    document = forecast_document(160.0, "A", ahead([0.0] * 61))
+    document = forecast_document(160.0, "A", forecast_of([0.0] * 61))
     assert document.least_separation == pytest.approx(9_000.0)
     assert document.pursuer_at_closest.y == pytest.approx(60 * 200.0)
 
@@ -166,5 +166,5 @@ def test_the_result_of_a_pursuer_that_has_not_joined_ends_with_the_flight() -> N
 
 
 def test_headings_of_a_forecast_are_those_of_a_compass() -> None:
-    document = forecast_document(100.0, "A", ahead([7.0] * 31))
+    document = forecast_document(100.0, "A", forecast_of([7.0] * 31))
     assert document.heading[0] == pytest.approx(7.0 - 2.0 * np.pi)

@@ -7,7 +7,7 @@ from relguide.flying.flight import Command, IntentKnown, LeaderHeading, LeaderSp
 from relguide.flying.modes import MAY_FOLLOW, NAMES, NUMBERS, Mode, change
 from relguide.flying.scenarios import fig_6, own_scenario
 from relguide.units import DEG
-from tests.flights import flown, random_start
+from tests.flights import fly_whole, random_start
 
 MODES: tuple[Mode, ...] = ("heading", "converge", "capture", "follow", "escape")
 
@@ -39,8 +39,10 @@ def test_flights_of_every_kind_go_by_the_table_from_mode_to_mode() -> None:
         ((880.0, IntentKnown(known=False)), (1_000.0, LeaderHeading(heading=270.0 * DEG))),
     )
     figures = (fig_6(intent_known=True), fig_6(intent_known=False))
-    flights = [flown(figure, *said) for figure in figures for said in orders]
-    flights += [flown(own_scenario(random_start(seed), intent_known=False)) for seed in (12, 21)]
+    flights = [fly_whole(figure, *said) for figure in figures for said in orders]
+    flights += [
+        fly_whole(own_scenario(random_start(seed), intent_known=False)) for seed in (12, 21)
+    ]
     entered = set()
     for flight in flights:
         mode: Mode = "heading"

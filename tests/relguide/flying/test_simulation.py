@@ -36,7 +36,7 @@ from relguide.flying.world import Aircraft, Declared, Guided, Link, World
 from relguide.planning.plan import plan
 from relguide.planning.situation import Leader, Pursuer, Situation
 from relguide.units import DEG, NM
-from tests.flights import Flown, flown, random_start, saying
+from tests.flights import Flown, fly_whole, random_start, saying
 from tests.recording import recording
 
 FIG_6B = fig_6(intent_known=True)
@@ -45,7 +45,7 @@ LIMIT = 5.0 * NM
 
 @pytest.fixture(scope="module")
 def fig_6b() -> Flown:
-    return flown(FIG_6B)
+    return fly_whole(FIG_6B)
 
 
 def head_on(*, apart: float = 11_000.0) -> Scenario:
@@ -116,7 +116,7 @@ def test_whom_a_forecast_is_of_is_said() -> None:
 
 
 def test_a_loss_is_a_document_with_its_place_cause_and_announcement() -> None:
-    flight = flown(head_on())
+    flight = fly_whole(head_on())
     (lost,) = flight.of(SeparationLost)
     (loss,) = flight.result.losses
     near = next(s for s in flight.samples if s.t == np.floor(lost.t))
@@ -133,7 +133,7 @@ def test_a_loss_is_a_document_with_its_place_cause_and_announcement() -> None:
 
 def test_a_loss_goes_on_until_the_separation_is_back() -> None:
     """Once below d_min is one loss, however long."""
-    flight = flown(head_on())
+    flight = fly_whole(head_on())
     below = [s.t for s in flight.samples if s.guidance.separation < LIMIT]
     assert len(below) > 20
     assert len(flight.of(SeparationLost)) == 1
@@ -149,7 +149,7 @@ def test_what_the_leader_was_ordered_is_the_cause_for_a_while() -> None:
         (LeaderSpeed(tas=210.0), "The leader was ordered to another speed."),
         (LeaderHeading(heading=180.5 * DEG), "The leader was ordered to turn."),
     ):
-        (loss,) = flown(head_on(), (1.0, order)).result.losses
+        (loss,) = fly_whole(head_on(), (1.0, order)).result.losses
         assert loss.cause == cause
         assert loss.t - 1.0 < RECENT
         assert loss.announced == (0.0,)
@@ -162,7 +162,7 @@ def test_orders_are_carried_out_at_whole_seconds_and_said_once() -> None:
         (30.0, IntentKnown(known=False)),
         (30.0, IntentKnown(known=False)),
     )
-    flight = flown(replace(FIG_6B, duration_limit=40.0), *orders)
+    flight = fly_whole(replace(FIG_6B, duration_limit=40.0), *orders)
     said = [(d.t, d.change) for d in flight.of(LeaderChanged)]
     assert said[:3] == [(10.0, "speed"), (21.0, "heading"), (30.0, "intent_withdrawn")]
     assert [c for _, c in said].count("intent_withdrawn") == 1
@@ -210,7 +210,7 @@ def test_each_document_says_whom_it_is_about(chained: list[Document]) -> None:
 
 
 def test_a_flight_ends_at_its_limit_or_once_followed_for_long_enough(fig_6b: Flown) -> None:
-    assert flown(replace(FIG_6B, duration_limit=77.0)).end.t == 77.0
+    assert fly_whole(replace(FIG_6B, duration_limit=77.0)).end.t == 77.0
     follow = next(d.t for d in fig_6b.of(ModeChanged) if d.mode == "follow")
     assert fig_6b.end.t == follow + FIG_6B.after_joining
 
@@ -220,12 +220,12 @@ def test_its_end_is_explained(fig_6b: Flown) -> None:
     ends = [
         (fig_6b.end, "joined", "Joined, and followed for 120 s."),
         (
-            flown(replace(FIG_6B, duration_limit=77.0)).end,
+            fly_whole(replace(FIG_6B, duration_limit=77.0)).end,
             "time_over",
             "The flight ends at its time limit of 77 s.",
         ),
         (
-            flown(replace(FIG_6B, leader_source=track)).end,
+            fly_whole(replace(FIG_6B, leader_source=track)).end,
             "recording_over",
             "The leader's recording ends after 90 s.",
         ),
@@ -236,7 +236,7 @@ def test_its_end_is_explained(fig_6b: Flown) -> None:
 
 def test_a_recorded_leader_is_shown_at_the_altitude_that_was_recorded() -> None:
     track = replace(recording(90, turns_at=1e9), altitude=np.linspace(9_000.0, 8_000.0, 91))
-    flight = flown(replace(FIG_6B, leader_source=track), (60.0, LeaderSpeed(tas=180.0)))
+    flight = fly_whole(replace(FIG_6B, leader_source=track), (60.0, LeaderSpeed(tas=180.0)))
     altitudes = {d.t: [a.altitude for a in d.aircraft] for d in flight.of(Sample)}
     assert altitudes[0.0] == [FIG_6B.altitude, 9_000.0]
     assert altitudes[45.0] == pytest.approx([FIG_6B.altitude, 8_500.0])
@@ -254,7 +254,7 @@ def test_aircraft_that_join_nobody_fly_until_the_end() -> None:
 def test_a_turn_that_was_ordered_is_said_once() -> None:
     scenario = replace(FIG_6B, intent_known=False, duration_limit=220.0)
     orders = (10.0, LeaderHeading(heading=90.0 * DEG)), (150.0, LeaderHeading(heading=0.0))
-    said = [d.message for d in flown(scenario, *orders).of(LeaderChanged)]
+    said = [d.message for d in fly_whole(scenario, *orders).of(LeaderChanged)]
     assert said == [
         "The leader is instructed to turn to 090°.",
         "The leader is instructed to turn to 000°.",
@@ -271,7 +271,7 @@ def test_a_world_is_flown_by_the_exact_planner_where_none_is_given() -> None:
 
 def test_the_same_flight_is_flown_again() -> None:
     scenario = replace(own_scenario(random_start(3), intent_known=False), duration_limit=400.0)
-    one, other = flown(scenario), flown(scenario)
+    one, other = fly_whole(scenario), fly_whole(scenario)
     assert one.samples == other.samples
     assert one.result == other.result
 

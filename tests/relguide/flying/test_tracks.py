@@ -36,7 +36,7 @@ PLANE = LocalPlane(49.0, 2.0)
 SPEED = 150.0
 
 
-def flown(t: float) -> tuple[float, float, float]:
+def truth(t: float) -> tuple[float, float, float]:
     """A truth to record: 200 s straight, a right turn of 90° at 1.5°/s, straight: x, y, track."""
     rate = 1.5 * DEG
     turned = min(max(t - 200.0, 0.0), 60.0) * rate
@@ -51,7 +51,7 @@ Row = dict[str, Any]
 
 
 def row(t: float) -> Row:
-    x, y, track = flown(t)
+    x, y, track = truth(t)
     lat, lon = PLANE.to_geodetic(x, y)
     return {
         "timestamp": f"2021-10-07 12:{int(t) // 60:02d}:{t % 60:06.3f}+00:00",
@@ -70,7 +70,7 @@ def rows(until: int = 600) -> list[Row]:
     return [row(float(t)) for t in range(until)]
 
 
-def written(file: Path, content: Iterable[Row], columns: tuple[str, ...] = COLUMNS) -> Path:
+def write_csv(file: Path, content: Iterable[Row], columns: tuple[str, ...] = COLUMNS) -> Path:
     with file.open("w", newline="") as stream:
         writer = csv.DictWriter(stream, columns, extrasaction="ignore")
         writer.writeheader()
@@ -89,13 +89,13 @@ def worst(track: RecordedTrack, *, start: float = 0.0) -> float:
     for t in np.arange(0.0, track.duration, 0.7):
         state = track.state_at(float(t))
         x, y = PLANE.to_local(*track.origin.to_geodetic(state.x, state.y))
-        true_x, true_y, _ = flown(start + float(t))
+        true_x, true_y, _ = truth(start + float(t))
         distance = max(distance, math.hypot(x - true_x, y - true_y))
     return distance
 
 
 def test_a_csv_is_read_as_it_was_flown(file: Path) -> None:
-    track = load_track(written(file, rows()))
+    track = load_track(write_csv(file, rows()))
     assert (track.ident, track.aircraft_type) == ("TEST12", "")
     assert track.duration == 599.0
     assert worst(track) < 20.0
@@ -106,14 +106,14 @@ def test_a_csv_is_read_as_it_was_flown(file: Path) -> None:
 
 
 def test_positions_alone_will_do(file: Path) -> None:
-    track = load_track(written(file, rows(), ("timestamp", "latitude", "longitude", "altitude")))
+    track = load_track(write_csv(file, rows(), ("timestamp", "latitude", "longitude", "altitude")))
     assert track.ident == ""
     assert worst(track) < 60.0  # 8 s of smoothing cut the corner of a turn begun at once
     assert track.state_at(230.0).track / DEG == pytest.approx(45.0, abs=2.0)
 
 
 def test_position_and_velocity_are_continuous_and_agree(file: Path) -> None:
-    track = load_track(written(file, rows()))
+    track = load_track(write_csv(file, rows()))
     dt = 1e-3
     for t in np.arange(190.0, 275.0, 0.31):
         before, after = track.state_at(float(t)), track.state_at(float(t) + dt)
@@ -126,7 +126,7 @@ def test_position_and_velocity_are_continuous_and_agree(file: Path) -> None:
 
 
 def test_beyond_its_ends_it_flies_straight_on(file: Path) -> None:
-    track = load_track(written(file, rows()))
+    track = load_track(write_csv(file, rows()))
     end, later = track.state_at(track.duration), track.state_at(track.duration + 10.0)
     assert later.track == end.track
     assert math.hypot(later.x - end.x, later.y - end.y) == pytest.approx(10.0 * end.ground_speed)
@@ -154,7 +154,7 @@ def test_held_missing_and_wrong_values_do_no_harm(file: Path) -> None:
     dirty[350]["altitude"] = 123_100.0
     dirty[400]["groundspeed"], dirty[400]["track"] = 9000.0, 180.0
     dirty.append(dirty[50])
-    track = load_track(written(file, reversed(dirty)))
+    track = load_track(write_csv(file, reversed(dirty)))
     assert track.duration >= 598.0
     assert worst(track, start=599.0 - track.duration) < 30.0
     top = max(track.altitude)
@@ -163,24 +163,24 @@ def test_held_missing_and_wrong_values_do_no_harm(file: Path) -> None:
 
 def test_a_gap_of_more_than_30_s_cuts(file: Path) -> None:
     short_gap = [r for n, r in enumerate(rows()) if not 100 <= n < 129]
-    assert load_track(written(file, short_gap)).duration == 599.0
+    assert load_track(write_csv(file, short_gap)).duration == 599.0
     long_gap = [r for n, r in enumerate(rows()) if not 100 <= n < 131]
-    assert load_track(written(file, long_gap)).duration == 599.0 - 131.0
+    assert load_track(write_csv(file, long_gap)).duration == 599.0 - 131.0
 
 
 def test_what_sways_faster_than_any_aircraft_is_refused(file: Path) -> None:
     swaying = rows()
     for n, r in enumerate(swaying):
-        x, y, _ = flown(float(n))
+        x, y, _ = truth(float(n))
         r["latitude"], r["longitude"] = PLANE.to_geodetic(x + 4000.0 * math.sin(n / 12.0), y)
     sentence = r"has only \d+ positions near a smooth path; 30 are needed\.$"
     with pytest.raises(ValueError, match=sentence):
-        load_track(written(file, swaying[:120]))
+        load_track(write_csv(file, swaying[:120]))
 
 
 def test_what_is_not_airborne_is_left_out(file: Path) -> None:
     landed = rows(500)
-    x, y, _ = flown(499.0)
+    x, y, _ = truth(499.0)
     for n in range(200):  # brakes to taxi speed at the end
         x += 5.0
         r = row(499.0)
@@ -188,7 +188,7 @@ def test_what_is_not_airborne_is_left_out(file: Path) -> None:
         r["timestamp"] = row(500.0 + n)["timestamp"]
         r["groundspeed"] = round(5.0 / KT)
         landed.append(r)
-    track = load_track(written(file, landed))
+    track = load_track(write_csv(file, landed))
     assert track.duration == pytest.approx(499.0, abs=6.0)
     assert min(track.ground_speed) >= tracks.AIRBORNE
 
@@ -230,7 +230,7 @@ def test_a_bad_cell_is_named(file: Path, column: str, text: str, sentence: str) 
     bad = rows(100)
     bad[2][column] = text
     with pytest.raises(ValueError, match=sentence):
-        load_track(written(file, bad))
+        load_track(write_csv(file, bad))
 
 
 @pytest.mark.parametrize(
@@ -243,7 +243,7 @@ def test_times_may_be_written_in_several_ways(file: Path, form: str) -> None:
             r["timestamp"] = form.format(1633608000 + n)
     else:
         good[0]["timestamp"] = form
-    assert load_track(written(file, good)).duration == 99.0
+    assert load_track(write_csv(file, good)).duration == 99.0
 
 
 @pytest.mark.parametrize(
@@ -268,7 +268,7 @@ def test_a_file_that_is_no_track_is_refused(file: Path, content: bytes, sentence
 
 def test_no_altitudes_no_track(file: Path) -> None:
     with pytest.raises(ValueError, match="has only 0 believable altitudes"):
-        load_track(written(file, [{**r, "altitude": ""} for r in rows(100)]))
+        load_track(write_csv(file, [{**r, "altitude": ""} for r in rows(100)]))
 
 
 def test_a_parked_aircraft_is_no_leader(file: Path) -> None:
@@ -276,12 +276,12 @@ def test_a_parked_aircraft_is_no_leader(file: Path) -> None:
     for r in parked:
         r["longitude"], r["groundspeed"], r["track"] = 2.0, "", ""
     with pytest.raises(ValueError, match="never flies 30 s faster"):
-        load_track(written(file, parked))
+        load_track(write_csv(file, parked))
 
 
 def test_of_several_flights_one_must_be_chosen(file: Path) -> None:
     other = [{**r, "callsign": "OTHER"} for r in rows(100)]
-    written(file, rows(200) + other)
+    write_csv(file, rows(200) + other)
     with pytest.raises(ValueError, match=r"choose one\. It has 2, for example OTHER, TEST12\."):
         load_track(file)
     with pytest.raises(ValueError, match="has no flight 'NONE'"):
@@ -302,7 +302,7 @@ def test_noise_is_refused_in_a_sentence(
 
 
 def test_a_track_checks_itself(file: Path) -> None:
-    track = load_track(written(file, rows(100)))
+    track = load_track(write_csv(file, rows(100)))
     for bad in (
         {"x": track.x[:-1]},
         {"x": np.where(track.t == 3.0, math.nan, track.x)},

@@ -59,7 +59,7 @@ def chain(*, wind: Wind | None = None) -> World:
     )
 
 
-def flown(fleet: Fleet, seconds: int, begin: int = 0) -> np.ndarray:
+def fly_seconds(fleet: Fleet, seconds: int, begin: int = 0) -> np.ndarray:
     """All states each second. shape (seconds + 1, n, 7)"""
     rows = [fleet.states.copy()]
     for second in range(begin, begin + seconds):
@@ -77,7 +77,7 @@ def test_a_leader_turns_as_declared_while_the_others_hold_on() -> None:
         ),
         0.05,
     )
-    rows = flown(fleet, 150)
+    rows = fly_seconds(fleet, 150)
     assert rows[-1, 0, :3] == pytest.approx([150.0 * 180.0, 150.0 * 5.0, 90.0 * DEG])
     assert rows[-1, 1, 2] == pytest.approx(180.0 * DEG, abs=0.2 * DEG)
     assert fleet.cursors[1] == 2
@@ -88,7 +88,7 @@ def test_a_leader_turns_as_declared_while_the_others_hold_on() -> None:
 def test_guided_aircraft_fly_what_is_asked_and_documents_wrap_headings() -> None:
     fleet = Fleet(World(aircraft=(aircraft("P", heading=350.0),), links=()), 0.05)
     fleet.control(0, Control(HOLD_HEADING, 10.0 * DEG, 210.0))
-    flown(fleet, 120)
+    fly_seconds(fleet, 120)
     assert fleet.body(0).heading == pytest.approx(370.0 * DEG, abs=0.1 * DEG)
     state = fleet.state(0)
     assert state.heading == pytest.approx(10.0 * DEG, abs=0.1 * DEG)
@@ -100,7 +100,7 @@ def test_a_recorded_leader_is_where_it_was_recorded() -> None:
     track = recording(90, turns_at=30.0)
     fleet = Fleet(World(aircraft=(aircraft("R", pilot=Recorded(track=track)),), links=()), 0.05)
     assert fleet.recorded_until() == 90.0
-    for t, row in enumerate(flown(fleet, 90)):
+    for t, row in enumerate(fly_seconds(fleet, 90)):
         there = track.state_at(float(t))
         assert tuple(row[0, :2]) == pytest.approx((there.x, there.y))
     assert fleet.state(0, 10).x == pytest.approx(track.state_at(89.5).x)
@@ -110,14 +110,14 @@ def test_a_recorded_leader_is_where_it_was_recorded() -> None:
 def test_an_ordered_leader_leaves_its_recording(order: str) -> None:
     track = recording(200, turns_at=30.0)
     fleet = Fleet(World(aircraft=(aircraft("R", pilot=Recorded(track=track)),), links=()), 0.05)
-    flown(fleet, 60)
+    fly_seconds(fleet, 60)
     before = fleet.body(0)
     if order == "turn":
         fleet.turn(0, 350.0 * DEG, "left", 25.0 * DEG)
     else:
         fleet.set_speed(0, 160.0)
     assert fleet.recorded_until() == np.inf
-    after = flown(fleet, 120, begin=60)[:, 0]
+    after = fly_seconds(fleet, 120, begin=60)[:, 0]
     # on from where it was: nothing jumps
     assert np.max(np.hypot(*np.diff(after[:, :2], axis=0).T)) < SPEED + 1.0
     assert np.max(np.abs(np.diff(after[:, 2]))) < 3.0 * DEG
@@ -139,14 +139,14 @@ def test_an_ordered_turn_goes_the_way_round_that_was_said(
 ) -> None:
     fleet = Fleet(World(aircraft=(aircraft("L", pilot=Declared()),), links=()), 0.05)
     fleet.turn(0, heading * DEG, direction, 25.0 * DEG)  # type: ignore[arg-type]
-    rows = flown(fleet, 340)
+    rows = fly_seconds(fleet, 340)
     assert rows[-1, 0, 2] == pytest.approx((90.0 + turned) * DEG, abs=0.2 * DEG)
 
 
 def test_a_speed_is_taken_up_and_the_intent_kept() -> None:
     fleet = Fleet(World(aircraft=(aircraft("L", pilot=TURNING),), links=()), 0.05)
     fleet.set_speed(0, 170.0)
-    rows = flown(fleet, 200)
+    rows = fly_seconds(fleet, 200)
     assert rows[-1, 0, 5] == pytest.approx(170.0, abs=0.1)
     assert rows[-1, 0, 2] == pytest.approx(180.0 * DEG, abs=0.2 * DEG)
     slowest = np.min(np.diff(rows[:, 0, 5]))
@@ -183,7 +183,7 @@ def test_least_distances_are_those_within_the_second() -> None:
         links=(),
     )
     fleet = Fleet(world, 0.05)
-    flown(fleet, 12)
+    fly_seconds(fleet, 12)
     assert fleet.apart(0, 1) > 90.0
     fleet.fly_second(12.0)
     assert fleet.least_apart(0, 1) == pytest.approx(30.0, abs=0.01)
@@ -194,7 +194,7 @@ def test_the_edge_of_the_plane_is_noticed_before_plans_are_refused_for_it() -> N
     x = POSITION.high - EDGE - 500.0
     fleet = Fleet(World(aircraft=(aircraft("A"), aircraft("B", x)), links=()), 0.05)
     assert fleet.beyond_edge() == ""
-    flown(fleet, 3)
+    fly_seconds(fleet, 3)
     assert fleet.beyond_edge() == "B"
     assert np.max(np.abs(fleet.states[:, :2])) < POSITION.high
 

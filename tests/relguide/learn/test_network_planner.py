@@ -36,7 +36,7 @@ from tests.relguide.learn.words.networks import network
 from tests.situations import coincidences, golden, situations
 
 
-def asked(situation: Situation) -> Plan | NoPlan:
+def ask(situation: Situation) -> Plan | NoPlan:
     return network_planner(network())(situation)
 
 
@@ -73,7 +73,7 @@ def test_where_the_limit_does_not_bind_its_answers_are_proved_optimal(situation:
     exact = plan(situation)
     assume(isinstance(exact, Plan) and exact.optimality.proof == "relaxation")
     assert isinstance(exact, Plan)
-    planned = asked(situation)
+    planned = ask(situation)
     assert isinstance(planned, Plan)
     assert planned.certificate.holds
     assert planned.arrival.holds
@@ -90,7 +90,7 @@ def test_where_the_limit_does_not_bind_its_answers_are_proved_optimal(situation:
 def test_what_it_says_is_proved_is_no_more_than_the_exact_planner_proves(
     situation: Situation,
 ) -> None:
-    planned, exact = asked(situation), plan(situation)
+    planned, exact = ask(situation), plan(situation)
     assert isinstance(planned, Plan) == isinstance(exact, Plan)
     if isinstance(planned, Plan) and isinstance(exact, Plan):
         assert certify(planned.trajectory, situation).holds
@@ -107,7 +107,7 @@ def test_on_the_leaders_own_heading_it_is_as_soon_as_beside_it() -> None:
         situation = draws.active(rng, tight=k % 2 == 0)
         heading = situation.leader.heading
         same, beside = (
-            asked(replace(situation, pursuer=replace(situation.pursuer, heading=heading + by)))
+            ask(replace(situation, pursuer=replace(situation.pursuer, heading=heading + by)))
             for by in (0.0, 1e-9)
         )
         assert isinstance(same, Plan) == isinstance(beside, Plan)
@@ -121,7 +121,7 @@ def test_on_the_slot_it_is_there_at_once() -> None:
     leader = replace(FREE.leader, x=0.0, y=0.0, heading=0.0)
     for behind in (FREE.slot_distance, FREE.slot_distance + 1e-9):
         pursuer = replace(FREE.pursuer, x=0.0, y=-behind, heading=0.0)
-        planned = asked(replace(FREE, pursuer=pursuer, leader=leader))
+        planned = ask(replace(FREE, pursuer=pursuer, leader=leader))
         assert isinstance(planned, Plan)
         assert planned.time_to_converge == pytest.approx(0.0, abs=1e-6)
         assert planned.optimality.proof == "relaxation"
@@ -134,7 +134,7 @@ def test_behind_a_leader_who_turns_it_mostly_finds_the_fastest() -> None:
         x, y = rng.uniform(-200e3, 200e3, 2)
         pursuer = replace(TURNING.pursuer, x=x, y=y, heading=rng.uniform(0.0, 2.0 * pi))
         situation = replace(TURNING, pursuer=pursuer, min_separation=0.0)
-        planned = asked(situation)
+        planned = ask(situation)
         assert isinstance(planned, Plan)
         assert planned.time_to_converge <= candidates(situation).bound + 1e-6
         assert planned.optimality.proof == "relaxation"
@@ -143,13 +143,13 @@ def test_behind_a_leader_who_turns_it_mostly_finds_the_fastest() -> None:
 
 
 def test_out_of_the_box_the_exact_planner_answers() -> None:
-    assert asked(TURNING).planner == "network"  # type: ignore[union-attr]
+    assert ask(TURNING).planner == "network"  # type: ignore[union-attr]
     far = replace(TURNING, pursuer=replace(TURNING.pursuer, x=-990e3))
     slow = replace(TURNING, leader=replace(TURNING.leader, tas=0.2 * TURNING.pursuer.tas))
     fast = replace(TURNING, leader=replace(TURNING.leader, tas=1.5 * TURNING.pursuer.tas))
     for situation in (far, slow, fast):
         assert propose(network(), situation) is None
-        planned, exact = asked(situation), plan(situation)
+        planned, exact = ask(situation), plan(situation)
         if isinstance(exact, Plan):
             assert isinstance(planned, Plan)
             assert (planned.planner, planned.fell_back) == ("exact", True)
@@ -176,8 +176,8 @@ def test_where_the_limit_binds_and_no_way_is_known_the_exact_planner_answers() -
 
 def test_lost_separation_is_said_as_the_exact_planner_says_it() -> None:
     inside = replace(FREE, pursuer=replace(FREE.pursuer, x=FREE.leader.x + 100.0, y=FREE.leader.y))
-    assert isinstance(asked(inside), NoPlan)
-    assert asked(inside) == plan(inside)
+    assert isinstance(ask(inside), NoPlan)
+    assert ask(inside) == plan(inside)
 
 
 def with_score(found: BranchNetwork, *, bias: float, share: float, most: int) -> BranchNetwork:
@@ -212,7 +212,7 @@ def test_a_wrong_network_passes_on_what_is_not_the_fastest() -> None:
 
 
 def test_a_turning_leader_is_met_on_the_final_leg() -> None:
-    planned, exact = asked(TURNING), plan(TURNING)
+    planned, exact = ask(TURNING), plan(TURNING)
     assert isinstance(planned, Plan)
     assert isinstance(exact, Plan)
     assert (planned.planner, planned.fell_back) == ("network", False)
@@ -267,4 +267,4 @@ def test_what_is_no_network_is_refused() -> None:
     with pytest.raises(ValueError, match="network must be a BranchNetwork"):
         network_planner(None)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="situation must be a Situation"):
-        asked(None)  # type: ignore[arg-type]
+        ask(None)  # type: ignore[arg-type]

@@ -42,7 +42,7 @@ GRID = Grid(x=0.0, y=0.0, columns=64, rows=48)
 CASES = pytest.mark.parametrize("situation", [STRAIGHT, TURNING], ids=["straight", "turning"])
 
 
-def moved(situation: Situation, x: float, y: float) -> Situation:
+def move(situation: Situation, x: float, y: float) -> Situation:
     return replace(situation, pursuer=replace(situation.pursuer, x=float(x), y=float(y)))
 
 
@@ -65,7 +65,7 @@ def test_times_are_those_of_plan(situation: Situation, drawn: dict[Situation, Is
     for nodes_of, most in ((free, 60), (limited, 6), (field.words == DELAY, 6)):
         chosen = np.flatnonzero(nodes_of)
         for i in rng.choice(chosen, min(most, len(chosen)), replace=False):
-            answer = plan(moved(situation, x[i], y[i]))
+            answer = plan(move(situation, x[i], y[i]))
             if not isinstance(answer, Plan):
                 assert field.time[i] == inf
                 continue
@@ -201,7 +201,7 @@ def test_an_exact_area_is_that_of_plan_where_the_limit_binds() -> None:
     binding = np.flatnonzero(fast.limited)
     assert sum(counted) == len(binding) > 0
     for i in binding.tolist():
-        answer = plan(moved(STRAIGHT, x[i], y[i]))
+        answer = plan(move(STRAIGHT, x[i], y[i]))
         expected = answer.time_to_converge if isinstance(answer, Plan) else inf
         assert exact.field.time[i] == pytest.approx(expected, abs=1e-2)
     better = exact.field.time < fast.time

@@ -7,7 +7,7 @@ import pytest
 from relguide import Certificate, NoPlan, Plan, Reason, Situation, certify, plan
 from relguide.planning.acceptance import ask, judge_answer
 from tests.liars import LIARS, LIED_ABOUT, Liar
-from tests.plans import planned
+from tests.plans import find_plan
 
 
 def name(liar: object) -> str:
@@ -27,7 +27,7 @@ def test_the_exact_plan_stands_in_for_a_lie(liar: Liar) -> None:
 def test_a_plan_for_more_separation_will_do_for_less() -> None:
     """Its situation and its certificate become those of what was asked."""
     wide = replace(LIED_ABOUT, min_separation=LIED_ABOUT.min_separation + 100.0)
-    answer = ask(lambda situation: replace(planned(wide), planner="careful"), LIED_ABOUT)
+    answer = ask(lambda situation: replace(find_plan(wide), planner="careful"), LIED_ABOUT)
     assert answer.refusal is None
     assert isinstance(answer.plan, Plan)
     assert (answer.plan.planner, answer.plan.situation) == ("careful", LIED_ABOUT)
@@ -36,8 +36,8 @@ def test_a_plan_for_more_separation_will_do_for_less() -> None:
 
 def test_what_a_plan_says_of_itself_is_not_believed() -> None:
     modest = Certificate(least_separation=0.0, at_time=0.0, lower_bound=0.0, holds=False)
-    answer = judge_answer(replace(planned(LIED_ABOUT), certificate=modest), LIED_ABOUT)
-    assert answer.plan == planned(LIED_ABOUT)
+    answer = judge_answer(replace(find_plan(LIED_ABOUT), certificate=modest), LIED_ABOUT)
+    assert answer.plan == find_plan(LIED_ABOUT)
     assert not answer.fell_back
 
 
@@ -47,7 +47,7 @@ def test_a_planner_may_say_that_there_is_none() -> None:
 
 
 def test_that_a_planner_fell_back_itself_is_kept() -> None:
-    assert ask(lambda s: replace(planned(s), fell_back=True), LIED_ABOUT).fell_back
+    assert ask(lambda s: replace(find_plan(s), fell_back=True), LIED_ABOUT).fell_back
 
 
 def test_what_a_planner_raises_is_its_callers_to_see() -> None:

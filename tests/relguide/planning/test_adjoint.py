@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 
 from relguide import Leader, Pursuer, Situation, Trajectory
 from relguide.planning.optimality import OptimalityReport, check
-from tests.plans import golden_plan, planned, unlimited
+from tests.plans import find_plan, golden_plan, plan_unlimited
 from tests.situations import situations
 
 RIDING = Situation(
@@ -92,7 +92,7 @@ def test_costates_are_the_slope_of_the_time_to_converge(ident: str) -> None:
             y=leader.y - far * cos(there),
             heading=pursuer.heading + more_psi,
         )
-        answer = planned(replace(situation, pursuer=moved))
+        answer = find_plan(replace(situation, pursuer=moved))
         return answer.time_to_converge
 
     for lam, step in (
@@ -108,7 +108,7 @@ def test_costates_are_the_slope_of_the_time_to_converge(ident: str) -> None:
 
 @given(situation=situations(reach=80_000.0))
 def test_h_changes_only_while_the_leader_turns_and_is_0_after(situation: Situation) -> None:
-    answer = unlimited(situation)
+    answer = plan_unlimited(situation)
     report = check(answer, situation, samples=60)
     assume(report.arrival == "free" and report.holds)
     leader = situation.leader.trajectory
@@ -130,7 +130,7 @@ def test_h_changes_only_while_the_leader_turns_and_is_0_after(situation: Situati
 
 def test_a_boundary_arc_has_a_multiplier_above_0() -> None:
     """λ_ψ ≡ 0 and H = 0 on it, and what (11) is short of without μ is that μ, above 0."""
-    answer = planned(RIDING)
+    answer = find_plan(RIDING)
     assert "B" in answer.word
     report = check(answer, RIDING, samples=2_000)
     assert report.holds

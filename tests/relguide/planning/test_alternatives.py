@@ -37,8 +37,8 @@ from relguide.planning.plan import AS_FAST
 from relguide.planning.slot import slot_frame
 from relguide.units import DEG
 from tests.flights import random_start
-from tests.plans import golden_plan, planned, straight_behind, unlimited
-from tests.relguide.planning.test_plan import mirrored
+from tests.plans import find_plan, golden_plan, plan_unlimited, straight_behind
+from tests.relguide.planning.test_plan import mirror
 from tests.situations import situations
 
 Listed = Sequence[Alternative | TooEarly | NoRoot]
@@ -47,7 +47,7 @@ ROUNDING = 1e-6
 """Seconds by which the same path differs as two solvers find it."""
 
 
-def told(listed: Listed) -> list[tuple[str, str]]:
+def words_and_reasons(listed: Listed) -> list[tuple[str, str]]:
     return [(type(other).__name__, f"{other.word}: {other.why}") for other in listed]
 
 
@@ -106,8 +106,8 @@ def test_each_word_is_there_and_the_order_is_that_of_time(situation: Situation) 
 @given(situation=situations(reach=60_000.0))
 @settings(max_examples=40)
 def test_the_mirrored_situation_has_mirrored_alternatives(situation: Situation) -> None:
-    answer = unlimited(situation)
-    other = plan(mirrored(situation))
+    answer = plan_unlimited(situation)
+    other = plan(mirror(situation))
     assert isinstance(other, Plan)
     # of the many ways to an opening slot some are found, and their images need not be
     assume(not candidates(situation).reachable_at_release)
@@ -158,7 +158,7 @@ def test_how_the_leader_is_passed_is_what_small_steps_show(situation: Situation)
 
 def test_a_golden_case_whose_limit_binds() -> None:
     listed = alternatives(golden_plan("R061"))
-    assert told(listed) == [
+    assert words_and_reasons(listed) == [
         ("Alternative", "RLR: comes within 0.21 NM at 160 s"),
         ("Alternative", "LRL: 60 s slower"),
         ("Alternative", "RSL: 569 s slower, and comes within 2.06 NM at 155 s"),
@@ -171,7 +171,7 @@ def test_a_golden_case_whose_limit_binds() -> None:
 def test_a_golden_case_with_intent_whose_slot_opens_later() -> None:
     answer = golden_plan("R104")
     listed = alternatives(answer)
-    assert told(listed) == [
+    assert words_and_reasons(listed) == [
         ("TooEarly", "RSR: reaches the slot 254 s before it opens"),
         ("TooEarly", "RLR: reaches the slot 232 s before it opens"),
         ("Alternative", "LSR: 348 s slower"),
@@ -195,10 +195,10 @@ def test_of_a_word_with_two_paths_both_are_listed_if_both_are_faster() -> None:
         slot_distance=9_000.0,
         min_separation=8_500.0,
     )
-    answer = planned(situation)
+    answer = find_plan(situation)
     assert answer.word == "RSLSR"
     listed = alternatives(answer)
-    assert told(listed) == [
+    assert words_and_reasons(listed) == [
         ("Alternative", "LSR: comes within 3.80 NM at 87 s"),
         ("Alternative", "LRL: comes within 3.80 NM at 87 s"),
         ("Alternative", "LRL: comes within 3.80 NM at 87 s"),
@@ -239,7 +239,7 @@ def test_of_slower_paths_only_the_fastest_of_each_branch_is_listed() -> None:
 
 
 def test_straight_behind_four_words_are_one_path() -> None:
-    listed = alternatives(planned(straight_behind()))
+    listed = alternatives(find_plan(straight_behind()))
     same = [other.word for other in listed if other.why == "as fast: the same path"]
     assert sorted(same) == ["LSR", "RSL", "RSR"]
 
@@ -252,7 +252,7 @@ def test_paths_round_the_leader_are_distinguished() -> None:
         slot_distance=9_000.0,
         min_separation=2_000.0,
     )
-    answer = planned(situation)
+    answer = find_plan(situation)
     behind = passing(answer.trajectory, surroundings(candidates(situation)))
     assert (behind.where, behind.side, behind.laps) == ("behind", LEFT, 0)
     ahead = [
@@ -262,15 +262,15 @@ def test_paths_round_the_leader_are_distinguished() -> None:
     ]
     assert ahead
     assert {(way.side, way.laps) for way in ahead} == {(RIGHT, 1)}
-    image = mirrored(situation)
-    other_side = passing(planned(image).trajectory, surroundings(candidates(image)))
+    image = mirror(situation)
+    other_side = passing(find_plan(image).trajectory, surroundings(candidates(image)))
     assert (other_side.where, other_side.side) == ("behind", RIGHT)
 
 
 def test_of_a_plan_that_is_not_the_fastest_it_is_said() -> None:
     """As a planner that is not exact may give: never hidden."""
     situation = straight_behind()
-    answer = planned(replace(situation, pursuer=replace(situation.pursuer, heading=1.0)))
+    answer = find_plan(replace(situation, pursuer=replace(situation.pursuer, heading=1.0)))
     slow = list(candidates(answer.situation))[1]
     worse = replace(answer, trajectory=slow.trajectory, word=slow.word, planner="network")
     first = alternatives(worse)[0]
@@ -283,9 +283,9 @@ def test_of_a_plan_that_is_not_the_fastest_it_is_said() -> None:
 def test_in_the_slot_already() -> None:
     situation = straight_behind()
     there = replace(situation, pursuer=replace(situation.pursuer, y=-9_000.0))
-    assert alternatives(planned(there))
+    assert alternatives(find_plan(there))
 
 
 def test_a_slot_at_the_leaders_own_place() -> None:
     situation = replace(straight_behind(d_min=0.0), slot_distance=0.0)
-    assert {o.word for o in alternatives(planned(situation))} >= {"LRL", "RLR"}
+    assert {o.word for o in alternatives(find_plan(situation))} >= {"LRL", "RLR"}

@@ -237,10 +237,10 @@ def anything(draw: st.DrawFn) -> Situation:
 @settings(max_examples=300)
 @given(situation=anything())
 def test_all_that_is_accepted_is_answered(situation: Situation) -> None:
-    answered(situation)
+    clear_answer(situation)
 
 
-def answered(situation: Situation) -> Plan | NoPlan:
+def clear_answer(situation: Situation) -> Plan | NoPlan:
     """The answer, which must be clear."""
     answer = plan(situation)
     match answer:
@@ -326,7 +326,7 @@ HARDEST = {
 
 @pytest.mark.parametrize("name", HARDEST)
 def test_the_hardest_are_answered(name: str) -> None:
-    answer = answered(HARDEST[name])
+    answer = clear_answer(HARDEST[name])
     if isinstance(answer, Plan):
         alternatives(answer)
         check(answer, HARDEST[name])

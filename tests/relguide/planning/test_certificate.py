@@ -27,7 +27,7 @@ segments = st.lists(
 ).map(tuple)
 
 
-def sampled(trajectory: Trajectory, leader: Trajectory, n: int) -> float:
+def least_sampled(trajectory: Trajectory, leader: Trajectory, n: int) -> float:
     least = inf
     for t in np.linspace(0.0, trajectory.duration, n):
         ours, theirs = trajectory.pose_at(t), leader.pose_at(t)
@@ -45,7 +45,7 @@ def test_dense_sampling_never_goes_below_the_proof(
     )
     certificate = certify(trajectory, situation)
     leader = situation.leader.trajectory
-    seen = sampled(trajectory, leader, 400)
+    seen = least_sampled(trajectory, leader, 400)
     assert seen >= certificate.lower_bound
     # the separation found is reached: it is a value of the function, at its time
     ours, theirs = trajectory.pose_at(certificate.at_time), leader.pose_at(certificate.at_time)

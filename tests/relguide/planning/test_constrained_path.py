@@ -220,7 +220,7 @@ def test_two_contacts_move_along_an_edge_together(monkeypatch: pytest.MonkeyPatc
     assert answer.time_to_converge == pytest.approx(655.925, abs=2e-3)
 
 
-def searched(situation: Situation, effort: int = 1) -> float:
+def search(situation: Situation, effort: int = 1) -> float:
     """Arrival by the search with the limit alone [s], with so many times the usual bearings."""
     frame = candidates(situation).frame
     scene = scene_of(situation, frame)
@@ -230,7 +230,7 @@ def searched(situation: Situation, effort: int = 1) -> float:
     return time * frame.radius / situation.pursuer.tas
 
 
-def drawn(rng: np.random.Generator, *, tight: bool) -> Situation:
+def draw(rng: np.random.Generator, *, tight: bool) -> Situation:
     """A situation near the leader, where the limit tends to be active."""
     tas, bank = rng.uniform(90.0, 260.0), radians(rng.uniform(15.0, 35.0))
     limit = turn_radius(tas, bank) * (rng.uniform(1.0, 4.0) if tight else rng.uniform(0.3, 1.0))
@@ -258,8 +258,8 @@ def test_eight_times_the_effort_finds_nothing_much_better(tight: bool) -> None:
     rng = np.random.default_rng(7)
     worse = []
     for _ in range(60):
-        situation = drawn(rng, tight=tight)
-        ours, harder = searched(situation), searched(situation, 8)
+        situation = draw(rng, tight=tight)
+        ours, harder = search(situation), search(situation, 8)
         if not ours <= harder + 0.1:
             worse.append((situation, ours, harder))
     assert not worse, worse

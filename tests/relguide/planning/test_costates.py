@@ -8,7 +8,7 @@ from hypothesis import given
 
 from relguide import LEFT, RIGHT, Arc, Leader, Situation, candidates
 from relguide.planning.optimality import check
-from tests.plans import EXACT, assert_exact, flown, planned, straight_behind
+from tests.plans import EXACT, assert_exact, find_plan, fly_planned, straight_behind
 from tests.situations import golden, situations
 
 
@@ -55,7 +55,7 @@ def test_a_delay_with_a_short_middle_arc_may_hold() -> None:
 
 def test_a_straight_alone_fixes_its_costates() -> None:
     situation = straight_behind()
-    report = check(planned(situation), situation)
+    report = check(find_plan(situation), situation)
     assert_exact(report, situation)
     assert report.history.separation[0] == pytest.approx(1.0 / 40.0)  # ∂T/∂d dead astern
     assert max(map(abs, report.history.switching)) < 1e-9
@@ -73,7 +73,7 @@ def test_one_turn_or_two_leave_a_choice_that_meets_eq_16(
         Arc(turn=turn, turn_angle=angle, radius=radius)
         for turn, angle in zip((LEFT, RIGHT), angles, strict=False)
     ]
-    turned = flown(situation, *arcs)
+    turned = fly_planned(situation, *arcs)
     end = turned.pose_at(turned.duration)
     back = 9_000.0 - leader_tas * turned.duration
     joins = Leader(

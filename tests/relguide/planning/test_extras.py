@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from relguide.planning.extras import EXTRAS, MissingExtra, need, with_command
+from relguide.planning.extras import EXTRAS, MissingExtra, add_command, need
 
 PROJECT = tomllib.loads((Path(__file__).parents[3] / "pyproject.toml").read_text())["project"]
 BROUGHT = {
@@ -53,9 +53,9 @@ def test_what_is_missing_is_named_with_its_command(monkeypatch: pytest.MonkeyPat
 
 
 def test_an_import_that_fails_is_given_the_command() -> None:
-    found = with_command(ModuleNotFoundError("No module named 'pydantic.v1'", name="pydantic.v1"))
+    found = add_command(ModuleNotFoundError("No module named 'pydantic.v1'", name="pydantic.v1"))
     assert isinstance(found, MissingExtra)
     assert "pip install 'relguide[serve]'" in str(found)
     other = ModuleNotFoundError("No module named 'nothing'", name="nothing")
-    assert with_command(other) is other
-    assert with_command(found) is found
+    assert add_command(other) is other
+    assert add_command(found) is found

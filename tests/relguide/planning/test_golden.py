@@ -25,7 +25,7 @@ def cases(name: str, *statuses: str) -> list[Any]:
     ]
 
 
-def flown(situation: Situation) -> Plan:
+def fly_plan(situation: Situation) -> Plan:
     answer = plan(situation)
     assert isinstance(answer, Plan), answer
     return answer
@@ -34,7 +34,7 @@ def flown(situation: Situation) -> Plan:
 @pytest.mark.parametrize(("name", "i"), cases("reference", "optimal") + cases("wind", "optimal"))
 def test_a_proven_time_is_met_and_proved(name: str, i: int) -> None:
     situation, expected = golden(name)[i]
-    answer = flown(situation)
+    answer = fly_plan(situation)
     if expected["id"] in BEATEN:
         assert answer.time_to_converge < expected["time_to_converge_s"] - 1.0
     else:
@@ -53,7 +53,7 @@ def test_a_proven_time_is_met_and_proved(name: str, i: int) -> None:
 )
 def test_a_plan_flown_by_scipy_arrives_at_the_slot(name: str, i: int) -> None:
     situation, _ = golden(name)[i]
-    answer = flown(situation)
+    answer = fly_plan(situation)
     distance, heading_error, least = arrival_error(situation, answer.trajectory)
     assert distance < 0.02  # the golden plans themselves end within 2 cm
     assert heading_error < 1e-6
@@ -64,7 +64,7 @@ def test_a_plan_flown_by_scipy_arrives_at_the_slot(name: str, i: int) -> None:
 @pytest.mark.parametrize(("name", "i"), cases("reference", "best_known"))
 def test_with_the_limit_active_the_best_known_time_is_met_or_beaten(name: str, i: int) -> None:
     situation, expected = golden(name)[i]
-    answer = flown(situation)
+    answer = fly_plan(situation)
     assert answer.certificate.holds
     assert answer.time_to_converge <= expected["time_to_converge_s"] + 0.05
     assert answer.optimality.proof == "bound"
@@ -77,7 +77,7 @@ def test_with_the_limit_active_the_best_known_time_is_met_or_beaten(name: str, i
 )
 def test_numbers_that_are_equal_to_the_last_digit_cost_nothing(name: str, i: int) -> None:
     situation, expected = golden(name)[i]
-    answer = flown(situation)
+    answer = fly_plan(situation)
     assert answer.certificate.holds
     assert answer.arrival.holds
     proved = expected["status"] == "optimal"
@@ -96,7 +96,7 @@ def test_a_constrained_path_flown_by_scipy_arrives_and_keeps_its_distance(
     name: str, i: int
 ) -> None:
     situation, _ = golden(name)[i]
-    answer = flown(situation)
+    answer = fly_plan(situation)
     distance, heading_error, least = arrival_error(situation, answer.trajectory)
     assert distance < 0.02
     assert heading_error < 1e-6

@@ -24,7 +24,9 @@ from relguide.units import DEG
 from tests.situations import golden, numbers, situations
 
 
-def flown(situation: Situation, turn_angle: float, duration: float) -> tuple[float, float, float]:
+def fly_turn(
+    situation: Situation, turn_angle: float, duration: float
+) -> tuple[float, float, float]:
     """Separation at the end, least on the way and when, sampled ten times a second."""
     pursuer = situation.pursuer
     arc = Arc(
@@ -58,11 +60,11 @@ def test_no_other_turn_restores_separation_sooner(situation: Situation, angle: f
     assert 0.0 <= found.heading < 2.0 * pi
     turned = situation.pursuer.heading + found.turn_angle
     assert cos(found.heading - turned) == pytest.approx(1.0, abs=1e-12)
-    at_end, _, _ = flown(situation, found.turn_angle, found.at_time)
+    at_end, _, _ = fly_turn(situation, found.turn_angle, found.at_time)
     assert at_end >= situation.min_separation - 1.0
     # half a second of both aircraft: how late the time may be
     reach = 0.5 * (situation.pursuer.tas + situation.leader.tas) + 0.02 * gap
-    other, _, _ = flown(situation, angle, max(found.at_time - 1.0, 0.0))
+    other, _, _ = fly_turn(situation, angle, max(found.at_time - 1.0, 0.0))
     assert other < situation.min_separation + reach
 
 
@@ -70,12 +72,12 @@ def test_no_other_turn_restores_separation_sooner(situation: Situation, angle: f
 def test_the_least_bad_turn_keeps_what_it_says(case: str) -> None:
     situation, _ = next(pair for pair in golden("reference") if pair[1]["id"] == case)
     found = least_bad(situation)
-    _, least, at = flown(situation, found.turn_angle, 300.0)
+    _, least, at = fly_turn(situation, found.turn_angle, 300.0)
     assert least == pytest.approx(found.least_separation, abs=20.0)
     assert at == pytest.approx(found.at_time, abs=1.0)
     assert least < situation.min_separation
     for angle in np.linspace(-2.0 * pi, 2.0 * pi, 41):
-        assert flown(situation, float(angle), 300.0)[1] <= found.least_separation + 100.0
+        assert fly_turn(situation, float(angle), 300.0)[1] <= found.least_separation + 100.0
 
 
 def test_a_leader_that_never_stops_closing_is_no_matter_of_infinite_seconds() -> None:

@@ -10,7 +10,7 @@ from relguide.planning.linear_program import highest_corner
 BOX = 10.0
 
 
-def boxed(rows: np.ndarray, due: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def box(rows: np.ndarray, due: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Inequalities within a box, and the numbers of those that make its first corner."""
     m = rows.shape[1]
     walls = np.vstack((np.eye(m), -np.eye(m)))
@@ -32,7 +32,7 @@ def test_the_highest_corner_is_as_high_as_scipys(
     due = rows @ inside + rng.exponential(size=n) if met else rng.normal(size=n)
     if alike:  # many through one point, and each of them twice
         rows, due = np.vstack((rows, rows)), np.tile(rows @ inside, 2)
-    rows, due, start = boxed(rows, due)
+    rows, due, start = box(rows, due)
     found = highest_corner(rows, due, start)
     goal = np.zeros(m)
     goal[-1] = -1.0
@@ -45,4 +45,4 @@ def test_the_highest_corner_is_as_high_as_scipys(
 
 def test_what_contradicts_itself_has_no_corner() -> None:
     rows, due = np.array([[1.0, 0.0], [-1.0, 0.0]]), np.array([1.0, -2.0])
-    assert highest_corner(*boxed(rows, due)) is None
+    assert highest_corner(*box(rows, due)) is None

@@ -27,7 +27,14 @@ from relguide.planning.candidate import SIGN_ROWS, assemble
 from relguide.planning.optimality import check
 from relguide.planning.tables import scene_of
 from relguide.units import DEG
-from tests.plans import assert_exact, flown, golden_plan, planned, straight_behind, unlimited
+from tests.plans import (
+    assert_exact,
+    find_plan,
+    fly_planned,
+    golden_plan,
+    plan_unlimited,
+    straight_behind,
+)
 from tests.situations import golden, situations
 
 
@@ -36,7 +43,7 @@ def test_every_proven_optimum_meets_the_conditions() -> None:
     for situation, expected in (*golden("reference"), *golden("wind")):
         if expected["status"] != "optimal":
             continue
-        answer = planned(situation)
+        answer = find_plan(situation)
         report = check(answer, situation, samples=1)
         assert_exact(report, situation)
         free += report.arrival == "free"
@@ -45,13 +52,13 @@ def test_every_proven_optimum_meets_the_conditions() -> None:
 
 @given(situation=situations())
 def test_an_optimum_without_the_limit_meets_the_conditions(situation: Situation) -> None:
-    answer = unlimited(situation)
+    answer = plan_unlimited(situation)
     assert_exact(check(answer, situation, samples=1), situation)
 
 
 @given(situation=situations(speed_ratio=(1.0, 1.3), reach=60_000.0))
 def test_so_does_one_that_joins_a_faster_leader(situation: Situation) -> None:
-    answer = unlimited(situation)
+    answer = plan_unlimited(situation)
     assert_exact(check(answer, situation, samples=1), situation)
 
 
@@ -61,7 +68,7 @@ def test_constrained_paths_meet_the_conditions_with_a_jump_that_is_not_negative(
     for situation, expected in golden("reference"):
         if expected["status"] != "best_known":
             continue
-        answer = planned(situation)
+        answer = find_plan(situation)
         report = check(answer, situation, samples=1)
         held += report.holds
         touching += len(report.contacts) > 0
@@ -123,7 +130,7 @@ def test_contacts_close_together_share_their_jumps(monkeypatch: pytest.MonkeyPat
         slot_distance=8609.995676130982,
         min_separation=8500.767075644066,
     )
-    report = check(planned(situation), situation, samples=1)
+    report = check(find_plan(situation), situation, samples=1)
     before, entry, *_ = report.contacts
     assert entry.time == report.boundary_arcs[0].start
     assert entry.time - before.time < 1.0
@@ -138,18 +145,18 @@ def test_a_full_circle_meets_every_condition_and_is_not_optimal() -> None:
     circle = Arc(turn=LEFT, turn_angle=2.0 * pi, radius=radius)
     time = (31_000.0 + circle.length) / 40.0
     onward = Straight(length=time * 220.0 - circle.length)
-    assert_exact(check(flown(situation, circle, onward), situation), situation)
+    assert_exact(check(fly_planned(situation, circle, onward), situation), situation)
 
 
 def test_a_weave_fails() -> None:
     situation = straight_behind()
     radius = situation.pursuer.turn_radius
     weave = [Arc(turn=t, turn_angle=0.3, radius=radius) for t in (LEFT, RIGHT, RIGHT, LEFT)]
-    woven = flown(situation, *weave)
+    woven = fly_planned(situation, *weave)
     ahead = woven.pose_at(woven.duration).y - situation.pursuer.y
     time = (31_000.0 + woven.length - ahead) / 40.0
     onward = Straight(length=time * 220.0 - woven.length)
-    report = check(flown(situation, *weave, onward), situation)
+    report = check(fly_planned(situation, *weave, onward), situation)
     assert not report.holds
     assert report.switching_residual > 1.0
 
@@ -158,7 +165,7 @@ def test_less_bank_than_there_is_fails_eq_16() -> None:
     situation = golden_plan("R001").situation
     pursuer = situation.pursuer
     gentle = replace(situation, pursuer=replace(pursuer, max_bank=0.8 * pursuer.max_bank))
-    answer = planned(gentle)
+    answer = find_plan(gentle)
     assert check(answer, gentle).switching_ok
     report = check(answer, situation)
     assert not report.switching_ok
@@ -212,14 +219,14 @@ def test_a_plan_that_waits_for_the_opening_is_said_to_be_one() -> None:
 def test_of_a_pursuer_in_the_slot_nothing_is_asked() -> None:
     situation = straight_behind()
     there = replace(situation, pursuer=replace(situation.pursuer, y=-9_000.0))
-    report = check(planned(there), there)
+    report = check(find_plan(there), there)
     assert (report.arrival, report.holds, report.history.times) == ("at_once", True, ())
 
 
 def test_aircraft_in_one_place_do_not_disturb() -> None:
     situation = straight_behind(d_min=0.0)
     there = replace(situation, pursuer=replace(situation.pursuer, y=0.0))
-    report = check(planned(there), there)
+    report = check(find_plan(there), there)
     assert report.holds
     assert max(map(abs, report.history.hamiltonian)) <= 1e-7
 
@@ -227,7 +234,7 @@ def test_aircraft_in_one_place_do_not_disturb() -> None:
 def test_what_does_not_reach_the_slot_is_refused() -> None:
     situation = straight_behind()
     with pytest.raises(ValueError, match=r"ends \d+\.\d m from the slot"):
-        check(flown(situation, Straight(length=1_000.0)), situation)
+        check(fly_planned(situation, Straight(length=1_000.0)), situation)
 
 
 def test_so_is_what_comes_before_the_slot_opens() -> None:

@@ -27,14 +27,14 @@ from relguide.planning.situation import IntentPiece
 from relguide.units import DEG
 from tests.flights import random_start
 from tests.oracle import arrival_error
-from tests.plans import planned, straight_behind
+from tests.plans import find_plan, straight_behind
 from tests.situations import headings, numbers, situations
 
 TIME = 1e-5
 """Seconds by which equal plans may differ: rounding of 150 km over the least closure."""
 
 
-def turned(x: float, y: float, angle: float) -> tuple[float, float]:
+def turn(x: float, y: float, angle: float) -> tuple[float, float]:
     """A point turned clockwise about the origin."""
     return x * cos(angle) + y * sin(angle), y * cos(angle) - x * sin(angle)
 
@@ -52,7 +52,7 @@ def map_intent(intent: tuple[IntentPiece, ...], sign: int, angle: float) -> tupl
     )
 
 
-def mirrored(situation: Situation) -> Situation:
+def mirror(situation: Situation) -> Situation:
     """West for east."""
     p, l = situation.pursuer, situation.leader
     return replace(
@@ -63,12 +63,12 @@ def mirrored(situation: Situation) -> Situation:
     )
 
 
-def moved(situation: Situation, angle: float, dx: float, dy: float) -> Situation:
+def move(situation: Situation, angle: float, dx: float, dy: float) -> Situation:
     """Turned clockwise about the origin, then shifted."""
     p, l, w = situation.pursuer, situation.leader, situation.wind
-    px, py = turned(p.x, p.y, angle)
-    lx, ly = turned(l.x, l.y, angle)
-    east, north = turned(w.east, w.north, angle)
+    px, py = turn(p.x, p.y, angle)
+    lx, ly = turn(l.x, l.y, angle)
+    east, north = turn(w.east, w.north, angle)
     return replace(
         situation,
         pursuer=replace(p, x=px + dx, y=py + dy, heading=p.heading + angle),
@@ -83,7 +83,7 @@ def moved(situation: Situation, angle: float, dx: float, dy: float) -> Situation
     )
 
 
-def scaled(situation: Situation, k: float) -> Situation:
+def scale(situation: Situation, k: float) -> Situation:
     """Lengths times k², speeds times k: the same picture, since R = V²/(g tan φ)."""
     p, l, w = situation.pursuer, situation.leader, situation.wind
     return Situation(
@@ -115,19 +115,19 @@ def same(first: Plan | NoPlan, second: Plan | NoPlan, factor: float = 1.0) -> No
 
 @given(situation=situations())
 def test_the_mirrored_situation_takes_as_long(situation: Situation) -> None:
-    same(plan(situation), plan(mirrored(situation)))
+    same(plan(situation), plan(mirror(situation)))
 
 
 @given(situation=situations(), angle=headings, dx=numbers(-1e5, 1e5), dy=numbers(-1e5, 1e5))
 def test_turning_and_shifting_the_world_changes_nothing(
     situation: Situation, angle: float, dx: float, dy: float
 ) -> None:
-    same(plan(situation), plan(moved(situation, angle, dx, dy)))
+    same(plan(situation), plan(move(situation, angle, dx, dy)))
 
 
 @given(situation=situations(), k=st.sampled_from([0.5, 0.8, 1.25, 1.5]))
 def test_scaled_lengths_and_speeds_scale_the_plan(situation: Situation, k: float) -> None:
-    same(plan(situation), plan(scaled(situation, k)), k)
+    same(plan(situation), plan(scale(situation, k)), k)
 
 
 @given(situation=situations())
@@ -233,13 +233,13 @@ def test_a_slot_that_opens_later_is_taken_the_moment_it_opens() -> None:
 
 
 def test_the_same_plan_twice_is_one() -> None:
-    first, second = planned(straight_behind()), planned(straight_behind())
+    first, second = find_plan(straight_behind()), find_plan(straight_behind())
     assert first.compute_time != second.compute_time
     assert first == second
 
 
 def test_a_plan_prints_in_three_lines() -> None:
-    answer = planned(straight_behind())
+    answer = find_plan(straight_behind())
     lines = repr(answer).splitlines()
     assert lines[0] == "Plan(LSL by exact: joins in 775.0 s, S 170.50 km,"
     assert lines[1] == "     least separation 9000.0 m at 775.0 s, proved above 9000.0 m,"
@@ -251,11 +251,11 @@ def test_a_plan_prints_in_three_lines() -> None:
 @pytest.mark.parametrize("name", ["", " ", "a" * 41, "two\nlines", None, 7])
 def test_a_planner_must_have_a_name_to_show(name: object) -> None:
     with pytest.raises(ValueError, match="planner must be a name of 1 to 40 printable characters"):
-        replace(planned(straight_behind()), planner=name)  # type: ignore[arg-type]
+        replace(find_plan(straight_behind()), planner=name)  # type: ignore[arg-type]
 
 
 def test_from_a_trajectory_of_ones_own_comes_a_plan_with_its_certificate() -> None:
-    exact = planned(straight_behind())
+    exact = find_plan(straight_behind())
     own = Plan.from_trajectory(exact.trajectory, exact.situation, planner="own", lower_bound=700.0)
     assert (own.planner, own.word) == ("own", "S")
     assert own.certificate == exact.certificate
@@ -296,7 +296,7 @@ def test_a_plan_most_of_a_second_slower_than_the_bound_is_not_proved_the_fastest
         slot_distance=9_000.0,
         min_separation=6_000.0,
     )
-    answer = planned(situation)
+    answer = find_plan(situation)
     assert answer.time_to_converge - answer.optimality.lower_bound == pytest.approx(0.86, abs=0.01)
     assert answer.optimality.lower_bound == candidates(situation).bound
     assert answer.optimality.proof == "bound"

@@ -134,7 +134,7 @@ def plan_of(situation: Situation) -> Plan:
 # --- the command --------------------------------------------------------------------------------
 
 
-def written(tmp_path: Path, ident: str) -> str:
+def write_situation(tmp_path: Path, ident: str) -> str:
     lines = (GOLDEN / "reference.situations.jsonl").read_text().splitlines()
     file = tmp_path / "situation.json"
     file.write_text(next(line for line in lines if json.loads(line)["id"] == ident))
@@ -143,7 +143,7 @@ def written(tmp_path: Path, ident: str) -> str:
 
 def test_the_command_proves(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for options in ((), ("--batch",)):
-        assert main(["plan", written(tmp_path, QUICK), "--prove", "5", *options]) == 0
+        assert main(["plan", write_situation(tmp_path, QUICK), "--prove", "5", *options]) == 0
         reply = json.loads(capsys.readouterr().out)
         assert reply["optimality"]["proof"] == "bound"
         gap = reply["time_to_converge_s"] - reply["optimality"]["lower_bound_s"]
@@ -165,7 +165,7 @@ def test_the_command_refuses_times_that_make_no_sense(
     seconds: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     with pytest.raises(SystemExit) as end:
-        main(["plan", written(tmp_path, QUICK), f"--prove={seconds}"])
+        main(["plan", write_situation(tmp_path, QUICK), f"--prove={seconds}"])
     assert end.value.code == 2
     said = capsys.readouterr().err
     assert "--prove" in said
@@ -178,5 +178,5 @@ def test_the_bar_shows_the_gap(
     monkeypatch.setattr("relguide.planning.progress.PATIENCE", 0.05)
     monkeypatch.setattr("relguide.planning.prove.TOLERANCE", -1.0)  # so that it goes on
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
-    assert main(["plan", written(tmp_path, "R101"), "--prove", "1.5"]) == 0
+    assert main(["plan", write_situation(tmp_path, "R101"), "--prove", "1.5"]) == 0
     assert "proving gap" in capsys.readouterr().err

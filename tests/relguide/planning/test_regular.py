@@ -14,7 +14,7 @@ from relguide.planning.regular import (
     trajectory_from_regular,
 )
 from relguide.planning.trajectory import Segment
-from tests.plans import flown, straight_behind
+from tests.plans import fly_planned, straight_behind
 from tests.situations import numbers, situations
 
 RADIUS = straight_behind().pursuer.turn_radius
@@ -69,7 +69,7 @@ S = Straight(length=7_000.0)
 def test_pairs_count_backward_from_the_slot_and_may_be_halves(
     word: tuple[Segment, ...], order: int, triplets: tuple[Triplet, ...]
 ) -> None:
-    regular = regular_from_trajectory(flown(straight_behind(), *word), turn_radius=RADIUS)
+    regular = regular_from_trajectory(fly_planned(straight_behind(), *word), turn_radius=RADIUS)
     assert regular.triplets == triplets
     assert regular.order == order
     assert trajectory_from_regular(regular, straight_behind()).segments == word
@@ -77,7 +77,7 @@ def test_pairs_count_backward_from_the_slot_and_may_be_halves(
 
 def test_other_radii_and_boundary_arcs_are_not_regular() -> None:
     with pytest.raises(ValueError, match="turns at one radius"):
-        regular_from_trajectory(flown(straight_behind(), L), turn_radius=2.0 * RADIUS)
+        regular_from_trajectory(fly_planned(straight_behind(), L), turn_radius=2.0 * RADIUS)
     boundary_arc = BoundaryArc(side=LEFT, bends=((100.0, -1e-5),))
     pursuer = straight_behind().pursuer
     sliding = Trajectory(

@@ -8,7 +8,7 @@ from hypothesis import assume, given
 
 from relguide import CALM, LEFT, Arc, Plan, Situation, Straight, Trajectory, Wind, plan
 from relguide.planning.slot import over_ground
-from tests.plans import planned, straight_behind
+from tests.plans import find_plan, straight_behind
 from tests.situations import golden, situations
 
 
@@ -30,14 +30,14 @@ def test_samples_are_the_poses_one_by_one(situation: Situation) -> None:
 
 def test_over_the_ground_track_and_speed_are_those_of_the_motion() -> None:
     situation, _ = golden("wind")[0]
-    found = planned(situation).over_ground()
+    found = find_plan(situation).over_ground()
     assert situation.wind != CALM
     step = np.diff(found.t)
     east, north = np.diff(found.x) / step, np.diff(found.y) / step
     assert np.hypot(east, north) == pytest.approx(found.speed[:-1], rel=0.02)
     off = np.arctan2(east, north) - found.track[:-1]
     assert np.abs((off + pi) % (2.0 * pi) - pi).max() < 0.03
-    assert found.t[-1] == planned(situation).time_to_converge
+    assert found.t[-1] == find_plan(situation).time_to_converge
 
 
 def test_a_turn_has_its_rate_and_the_straight_after_it_none() -> None:
@@ -50,12 +50,12 @@ def test_a_turn_has_its_rate_and_the_straight_after_it_none() -> None:
 
 
 def test_columns_have_names_and_one_length() -> None:
-    found = planned(straight_behind()).sample(np.arange(5.0))
+    found = find_plan(straight_behind()).sample(np.arange(5.0))
     assert list(found.to_dict()) == ["t", "x", "y", "heading", "turn_rate", "track", "speed"]
     assert {column.shape for column in found.to_dict().values()} == {(5,)}
     assert len(found) == 5
     assert repr(found) == "Samples(5 times: t, x, y, heading, turn_rate, track, speed)"
-    assert len(planned(straight_behind()).sample(3.0)) == 1
+    assert len(find_plan(straight_behind()).sample(3.0)) == 1
 
 
 def test_in_a_wind_the_air_mass_is_the_world_at_first() -> None:
@@ -70,4 +70,4 @@ def test_in_a_wind_the_air_mass_is_the_world_at_first() -> None:
 @pytest.mark.parametrize("times", [-1.0, float("nan"), float("inf"), [[1.0]], ["1"], [1.0, -1e-9]])
 def test_what_is_no_time_is_refused(times: object) -> None:
     with pytest.raises(ValueError, match=r"^times must"):
-        planned(straight_behind()).sample(times)  # type: ignore[arg-type]
+        find_plan(straight_behind()).sample(times)  # type: ignore[arg-type]

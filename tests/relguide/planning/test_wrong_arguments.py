@@ -73,13 +73,13 @@ COLUMNS = {
 }
 
 
-def planned() -> Plan:
+def find_plan() -> Plan:
     answer = plan(SITUATION)
     assert isinstance(answer, Plan)
     return answer
 
 
-PLAN = planned()
+PLAN = find_plan()
 PATH = PLAN.trajectory
 SECONDS = np.arange(200.0)
 TRACK = RecordedTrack(
@@ -178,7 +178,7 @@ CALLS: dict[str, tuple[Callable[..., object], dict[str, Any]]] = {
     "own_scenario": (own_scenario, {"situation": SITUATION, "intent_known": False}),
     "scenario_behind": (scenario_behind, {"track": TRACK, "behind": 3e4, "abeam": 2e4}),
     "record": (record, {"documents": (), "file": "flight.jsonl"}),
-    "progress_bar": (lambda title, total: list(shown(title, total)), {"title": "", "total": 1.0}),
+    "progress_bar": (lambda title, total: list(show(title, total)), {"title": "", "total": 1.0}),
     "prove": (prove, {"plan": PLAN, "seconds": 0.0, "progress": iter}),
     "wind_from": (wind_from, {"direction": 1.0, "speed": 10.0}),
 }
@@ -241,7 +241,7 @@ junk = st.one_of(
 )
 
 
-def shown(title: Any, total: Any) -> Any:
+def show(title: Any, total: Any) -> Any:
     with progress_bar(title, total=total) as count:
         yield count(0.0)
 
@@ -313,7 +313,7 @@ def test_a_wrong_segment_is_refused_with_a_sentence(
         (lambda: alternatives(SITUATION), "plan must be a Plan"),  # type: ignore[arg-type]
         (lambda: check(None, SITUATION), "must be a Plan or a Trajectory"),  # type: ignore[arg-type]
         (lambda: check(PLAN, SITUATION, arrives=nan), "arrives must be a finite number"),
-        (lambda: list(shown("", "ten")), "total must be a number, not 'ten'"),
+        (lambda: list(show("", "ten")), "total must be a number, not 'ten'"),
         (lambda: Situations(**{**COLUMNS, "leader_x": [[1.0], []]}).columns(), "leader_x must be"),
         (lambda: plan_arrays(Situations(**COLUMNS), threads=True), "a whole number of 1 or more"),
         (lambda: plan_arrays(Situations(**COLUMNS), limited=None), "limited must be True or"),  # type: ignore[arg-type]

@@ -42,7 +42,7 @@ class Watched:
         self.track.add(self.fleet.body(1), self.fleet.drift, self.t)
 
 
-def seen(scenario: Scenario, settings: Settings = DEFAULT) -> tuple[Belief, Assignment]:
+def observe(scenario: Scenario, settings: Settings = DEFAULT) -> tuple[Belief, Assignment]:
     watched = Watched(scenario, settings)
     return watched.belief, watched.assignment
 

@@ -25,7 +25,7 @@ from relguide.planning.plan import plan
 from relguide.planning.situation import wind_from
 from relguide.planning.trajectory import LEFT, RIGHT, Arc, Straight
 from relguide.units import DEG
-from tests.relguide.flying.guidance.beliefs import FIG_6B, Watched, behind, seen
+from tests.relguide.flying.guidance.beliefs import FIG_6B, Watched, behind, observe
 
 WINDY = replace(FIG_6B, situation=replace(FIG_6B.situation, wind=wind_from(300.0 * DEG, 30.0)))
 
@@ -37,7 +37,7 @@ def committed_at(watched: Watched, committed: Committed | None = None) -> Propos
 
 
 def test_the_lead_in_lasts_until_a_turn_can_be_half_rolled_into() -> None:
-    belief, assignment = seen(FIG_6B)
+    belief, assignment = observe(FIG_6B)
     rate = belief.limits.max_roll_rate
     seconds = lead_time(assignment, rate)
     assert seconds == 6.0  # 22.5° at two thirds of 3.75°/s, half of it, and the lag
@@ -65,7 +65,7 @@ def test_it_ends_where_the_aircraft_then_is(scenario: Scenario, rate: float) -> 
 
 
 def test_nearly_level_it_leads_straight_on() -> None:
-    belief, assignment = seen(FIG_6B)
+    belief, assignment = observe(FIG_6B)
     slight = belief.own._replace(bank=0.9 * DEG)
     lead = lead_in(replace(belief, own=slight), assignment, None)
     assert lead.pieces.tolist() == [[6.0 * assignment.tas, 0.0]]
@@ -75,7 +75,7 @@ def test_nearly_level_it_leads_straight_on() -> None:
 
 
 def test_the_course_of_a_first_plan_begins_where_the_aircraft_is() -> None:
-    belief, _ = seen(WINDY)
+    belief, _ = observe(WINDY)
     committed = committed_at(Watched(WINDY)).committed
     x, y, heading = on.pose_on(committed.course.path, 0.0)
     assert (x, y, heading) == (belief.own.x, belief.own.y, belief.own.heading)

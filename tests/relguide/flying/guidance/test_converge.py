@@ -20,9 +20,9 @@ from relguide.planning.plan import NoPlan, Optimality, Plan, Planner, Reason, pl
 from relguide.planning.situation import Situation
 from relguide.planning.words import candidates
 from relguide.units import NM
-from tests.flights import flown, random_start
+from tests.flights import fly_whole, random_start
 from tests.liars import ends_beside
-from tests.relguide.flying.guidance.beliefs import FIG_6B, Watched, behind, seen
+from tests.relguide.flying.guidance.beliefs import FIG_6B, Watched, behind, observe
 
 GRAZING = own_scenario(random_start(12))
 """Planned for d_min alone, its path is flown within 5.7 m less than that."""
@@ -30,15 +30,15 @@ BARE = replace(DEFAULT, separation_buffer=1.0)
 """As good as no buffer."""
 
 
-def proposed(planner: Planner = plan) -> Proposal:
-    found = propose(*seen(FIG_6B), None, planner)
+def propose_with(planner: Planner = plan) -> Proposal:
+    found = propose(*observe(FIG_6B), None, planner)
     assert isinstance(found, Proposal)
     return found
 
 
 def test_a_proposal_promises_what_is_flown() -> None:
-    committed = proposed().committed
-    flight = flown(FIG_6B)
+    committed = propose_with().committed
+    flight = fly_whole(FIG_6B)
     assert flight.result.join_time == pytest.approx(committed.forecast.join_time, abs=1.0)
     assert committed.forecast.join_time > committed.due  # braking comes on top
     least, _ = committed.forecast.least(0.0)
@@ -46,7 +46,7 @@ def test_a_proposal_promises_what_is_flown() -> None:
 
 
 def test_plans_keep_d_min_and_the_buffer() -> None:
-    belief, assignment = seen(GRAZING)
+    belief, assignment = observe(GRAZING)
     found = propose(belief, assignment, None, plan)
     assert isinstance(found, Proposal)
     wanted = assignment.min_separation + DEFAULT.separation_buffer
@@ -56,7 +56,7 @@ def test_plans_keep_d_min_and_the_buffer() -> None:
 
 
 def test_what_is_flown_too_close_is_planned_with_a_wider_berth() -> None:
-    belief, assignment = seen(GRAZING, BARE)
+    belief, assignment = observe(GRAZING, BARE)
     asked = list[float]()
 
     def planner(situation: Situation) -> Plan | NoPlan:
@@ -72,7 +72,7 @@ def test_what_is_flown_too_close_is_planned_with_a_wider_berth() -> None:
 
 
 def test_where_no_wider_berth_is_found_it_is_not_flown_at_all() -> None:
-    belief, assignment = seen(GRAZING, BARE)
+    belief, assignment = observe(GRAZING, BARE)
 
     def planner(situation: Situation) -> Plan | NoPlan:
         if situation.min_separation > assignment.min_separation + 1.0:
@@ -87,7 +87,7 @@ def test_where_no_wider_berth_is_found_it_is_not_flown_at_all() -> None:
 
 
 def test_where_nothing_keeps_the_buffer_d_min_alone_is_kept() -> None:
-    belief, assignment = seen(FIG_6B)
+    belief, assignment = observe(FIG_6B)
 
     def planner(situation: Situation) -> Plan | NoPlan:
         if situation.min_separation > assignment.min_separation:
@@ -101,13 +101,13 @@ def test_where_nothing_keeps_the_buffer_d_min_alone_is_kept() -> None:
 
 def test_why_there_is_no_plan_is_passed_on() -> None:
     answer = NoPlan(reason=Reason.SLOT_UNREACHABLE, message="Too slow.")
-    found = propose(*seen(FIG_6B), None, lambda situation: answer)
+    found = propose(*observe(FIG_6B), None, lambda situation: answer)
     assert isinstance(found, NoProposal)
     assert found.answer == answer
 
 
 def test_a_lie_gives_way_to_the_exact_plan_and_is_passed_on() -> None:
-    found = proposed(ends_beside)
+    found = propose_with(ends_beside)
     assert found.fell_back
     assert found.refusal is not None
     assert found.refusal.fault == "slot"
@@ -120,10 +120,10 @@ def test_with_d_at_d_min_it_goes_to_a_place_within_the_gate(slot_distance: float
     near = behind(along=30_000.0, abeam=8_000.0)
     situation = replace(near.situation, slot_distance=slot_distance)
     tight = replace(near, situation=situation)
-    _, assignment = seen(tight)
+    _, assignment = observe(tight)
     assert assignment.aim == situation.min_separation + DEFAULT.separation_buffer
     assert assignment.aim <= slot_distance + IN_GATE * DEFAULT.joined_along
-    end = flown(tight).result
+    end = fly_whole(tight).result
     assert end.joined
     assert end.losses == ()
     assert end.join_time == pytest.approx(end.promised, abs=1.0)
@@ -134,7 +134,7 @@ def test_a_large_buffer_does_not_lead_out_of_the_gate() -> None:
     near = behind(along=30_000.0)
     situation = replace(near.situation, slot_distance=near.situation.min_separation)
     tight = replace(near, situation=situation)
-    _, assignment = seen(tight, replace(DEFAULT, separation_buffer=2_000.0))
+    _, assignment = observe(tight, replace(DEFAULT, separation_buffer=2_000.0))
     assert assignment.aim == situation.slot_distance + IN_GATE * DEFAULT.joined_along
     assert assignment.buffered_separation == assignment.aim
 
@@ -184,14 +184,14 @@ def test_a_path_that_is_faster_by_less_than_the_margin_is_not(
 
 
 def test_the_same_path_is_not_better_than_itself() -> None:
-    committed = proposed().committed
-    found = better(*seen(FIG_6B), committed, plan)
+    committed = propose_with().committed
+    found = better(*observe(FIG_6B), committed, plan)
     assert found == NotBetter(fell_back=False, refusal=None)
-    assert not may_be_improved(committed, 0.0, seen(FIG_6B)[1])  # it is proved the fastest
+    assert not may_be_improved(committed, 0.0, observe(FIG_6B)[1])  # it is proved the fastest
 
 
 def test_a_lie_that_is_not_better_is_passed_on_as_well() -> None:
-    found = better(*seen(FIG_6B), proposed().committed, ends_beside)
+    found = better(*observe(FIG_6B), propose_with().committed, ends_beside)
     assert isinstance(found, NotBetter)
     assert found.fell_back
     assert found.refusal is not None

@@ -16,8 +16,8 @@ from relguide.kernels.flight.guide import HOLD, Progress
 from relguide.kernels.flight.records import TURN_RATE, Control
 from relguide.planning.plan import NoPlan, plan
 from relguide.units import DEG
-from tests.flights import flown, random_start
-from tests.relguide.flying.guidance.beliefs import FIG_6B, Watched, behind, seen
+from tests.flights import fly_whole, random_start
+from tests.relguide.flying.guidance.beliefs import FIG_6B, Watched, behind, observe
 
 SEEDS = [seed for seed in range(50, 62) if not isinstance(plan(random_start(seed)), NoPlan)]
 
@@ -25,7 +25,7 @@ SEEDS = [seed for seed in range(50, 62) if not isinstance(plan(random_start(seed
 @pytest.mark.parametrize("seed", SEEDS)
 def test_a_leader_that_keeps_his_word_is_joined_when_promised(seed: int) -> None:
     """To a second, braking included, from the last plan that was made; and as drawn, to 80 m."""
-    flight = flown(replace(own_scenario(random_start(seed)), after_joining=0.0))
+    flight = fly_whole(replace(own_scenario(random_start(seed)), after_joining=0.0))
     last = flight.of(PlanChanged)[-1]
     assert flight.result.join_time == pytest.approx(last.t + last.promised, abs=1.0)
     drawn = flight.of(ForecastChanged)[-1]
@@ -40,14 +40,14 @@ def test_a_leader_that_keeps_his_word_is_joined_when_promised(seed: int) -> None
 
 
 def test_the_tube_is_how_far_the_flight_comes_off_its_path() -> None:
-    found = propose(*seen(FIG_6B), None, plan)
+    found = propose(*observe(FIG_6B), None, plan)
     assert isinstance(found, Proposal)
     ahead = found.committed.forecast
     assert 0.0 < ahead.tube < 60.0
     assert ahead.tube == np.abs(ahead.account[:, RIGHT]).max()
 
 
-def made(separations: list[float], *, t: float = 100.0) -> Forecast:
+def make_forecast(separations: list[float], *, t: float = 100.0) -> Forecast:
     """A flight ahead with these separations, the pursuer going north at 200 m/s."""
     n = len(separations)
     own = np.zeros((n + 1, 7))
@@ -61,7 +61,7 @@ def made(separations: list[float], *, t: float = 100.0) -> Forecast:
 
 
 def test_it_says_how_close_it_comes_from_any_second_on() -> None:
-    ahead = made([9_000.0, 8_000.0, 8_500.0, 9_500.0])
+    ahead = make_forecast([9_000.0, 8_000.0, 8_500.0, 9_500.0])
     assert ahead.until == 104.0
     assert ahead.least(100.0) == (8_000.0, 101.25)
     assert ahead.least(102.0) == (8_500.0, 102.25)
@@ -74,8 +74,8 @@ def test_it_says_how_close_it_comes_from_any_second_on() -> None:
 
 
 def test_it_says_how_far_both_are_from_where_it_has_them() -> None:
-    ahead = made([9_000.0] * 4)
-    own, leader = seen(FIG_6B)[0].own, seen(FIG_6B)[0].leader
+    ahead = make_forecast([9_000.0] * 4)
+    own, leader = observe(FIG_6B)[0].own, observe(FIG_6B)[0].leader
     beside = own._replace(x=30.0, y=440.0)
     assert ahead.own_off(102.0, beside) == pytest.approx(50.0)
     assert ahead.own_off(105.0, beside) == ahead.own_off(99.0, beside) == inf
@@ -84,7 +84,7 @@ def test_it_says_how_far_both_are_from_where_it_has_them() -> None:
     assert ahead.leader_off(105.0, other) == (inf, inf, inf)
 
 
-def held(scenario: Scenario, *, seconds: int = 0, rate: float = 0.0) -> Watched:
+def hold_heading(scenario: Scenario, *, seconds: int = 0, rate: float = 0.0) -> Watched:
     """A flight in which nothing is planned, and the leader has turned for a while."""
     watched = Watched(replace(scenario, intent_known=False))
     for _ in range(seconds):
@@ -110,7 +110,7 @@ def ahead_of(
 def test_a_leader_that_turns_unannounced_stops_or_goes_on_for_half_a_turn() -> None:
     """Both are reckoned with: it rolls out now, or turns back."""
     turning = replace(FIG_6B, situation=random_start(4))
-    watched = held(turning)
+    watched = hold_heading(turning)
     watched.fleet.turn(1, watched.belief.leader.heading + 2.0, "right", 25.0 * DEG)
     for _ in range(12):
         watched.fly(Control(TURN_RATE, 0.0, 230.0))
@@ -123,14 +123,14 @@ def test_a_leader_that_turns_unannounced_stops_or_goes_on_for_half_a_turn() -> N
 
 
 def test_a_leader_that_slows_down_goes_for_the_speed_it_is_given() -> None:
-    watched = held(behind(along=30_000.0))
+    watched = hold_heading(behind(along=30_000.0))
     slower = ahead_of(watched, leader_tas=150.0)
     assert slower.leader[-1, 5] == pytest.approx(150.0, abs=0.5)
     assert ahead_of(watched).leader[-1, 5] == pytest.approx(200.0)
 
 
 def test_an_intent_that_is_known_is_flown_in_it() -> None:
-    known, unknown = Watched(FIG_6B), held(FIG_6B)
+    known, unknown = Watched(FIG_6B), hold_heading(FIG_6B)
     for watched, heading in ((known, 135.0 * DEG), (unknown, 90.0 * DEG)):
         belief = watched.belief
         progress = Progress(HOLD, 0.0, belief.own.heading, belief.own.tas)

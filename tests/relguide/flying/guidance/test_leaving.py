@@ -13,7 +13,7 @@ from relguide.flying.scenarios import own_scenario
 from relguide.kernels.base.angles import wrap_signed
 from relguide.planning.plan import NoPlan, Reason
 from relguide.units import DEG, KT
-from tests.flights import Flown, flown, random_start
+from tests.flights import Flown, fly_whole, random_start
 from tests.relguide.flying.guidance.beliefs import FIG_6B
 
 FOLLOWED = replace(FIG_6B, after_joining=600.0)
@@ -40,14 +40,14 @@ def assert_steady(flight: Flown) -> None:
     assert all(later - before > 10.0 for (before, _), (later, _) in pairwise(jumps))
 
 
-def untold(seed: int) -> Scenario:
+def unannounced_turns(seed: int) -> Scenario:
     scenario = own_scenario(random_start(seed), intent_known=False)
     return replace(scenario, duration_limit=3_000.0, after_joining=60.0)
 
 
 @pytest.fixture(scope="module")
 def slowed() -> Flown:
-    return flown(FOLLOWED, (JOINED, LeaderSpeed(tas=100.0)))
+    return fly_whole(FOLLOWED, (JOINED, LeaderSpeed(tas=100.0)))
 
 
 def test_a_leader_ordered_to_100_mps_is_left_before_d_min(slowed: Flown) -> None:
@@ -74,7 +74,7 @@ def test_it_stays_away_on_one_heading(slowed: Flown) -> None:
 
 def test_it_comes_back_when_the_leader_is_fast_enough_again() -> None:
     back = (JOINED + 150.0, LeaderSpeed(tas=200.0))
-    flight = flown(FOLLOWED, (JOINED, LeaderSpeed(tas=100.0)), back)
+    flight = fly_whole(FOLLOWED, (JOINED, LeaderSpeed(tas=100.0)), back)
     assert [d.mode for d in flight.of(ModeChanged)] == [
         "converge", "capture", "follow", "escape", "converge", "capture", "follow",
     ]  # fmt: skip
@@ -95,7 +95,7 @@ def test_a_leader_that_turns_back_while_followed_is_not_met(
     orders: list[tuple[float, Command]] = [(JOINED, order)]
     if not known:
         orders.insert(0, (JOINED - 20.0, IntentKnown(known=False)))
-    flight = flown(replace(FOLLOWED, after_joining=300.0), *orders)
+    flight = fly_whole(replace(FOLLOWED, after_joining=300.0), *orders)
     assert all(loss.announced for loss in flight.result.losses)
     if turned <= 180.0:
         assert flight.result.losses == ()
@@ -104,7 +104,7 @@ def test_a_leader_that_turns_back_while_followed_is_not_met(
 
 @pytest.mark.parametrize("seed", [12, 21])
 def test_an_unannounced_turn_towards_it_is_left_before_there_is_no_way_out(seed: int) -> None:
-    flight = flown(untold(seed))
+    flight = fly_whole(unannounced_turns(seed))
     assert flight.result.joined
     assert flight.result.losses == ()
     (left,) = [d for d in flight.of(ModeChanged) if d.mode == "escape"]
@@ -120,7 +120,7 @@ def test_an_unannounced_turn_towards_it_is_left_before_there_is_no_way_out(seed:
 
 def test_a_loss_that_cannot_be_helped_is_announced_first_and_left_the_shortest_way() -> None:
     """Two aircraft 11 km apart, nearly head-on: nothing keeps d_min."""
-    flight = flown(untold(9))
+    flight = fly_whole(unannounced_turns(9))
     (loss,) = flight.result.losses
     assert loss.announced == (0.0,)
     assert loss.t > 10.0
@@ -132,7 +132,7 @@ def test_a_loss_that_cannot_be_helped_is_announced_first_and_left_the_shortest_w
 
 
 def test_what_is_said_of_the_separation_is_true_of_that_second() -> None:
-    flight = flown(untold(9))
+    flight = fly_whole(unannounced_turns(9))
     lost = [
         d for d in flight.of(PlanUnavailable) if d.answer.reason == Reason.SEPARATION_ALREADY_LOST
     ]
@@ -146,7 +146,7 @@ def test_without_a_plan_one_heading_is_held_that_keeps_clear() -> None:
     nothing = NoPlan(reason=Reason.SEPARATION_UNAVOIDABLE, message="Nothing found.")
     own = replace(FIG_6B.situation.pursuer, x=60e3, y=0.0, heading=270.0 * DEG)
     head_on = replace(FIG_6B, situation=replace(FIG_6B.situation, pursuer=own))
-    flight = flown(replace(head_on, duration_limit=400.0), planner=lambda situation: nothing)
+    flight = fly_whole(replace(head_on, duration_limit=400.0), planner=lambda situation: nothing)
     assert flight.result.losses == ()
     assert_steady(flight)
     (turning,) = [d for d in flight.of(Unable) if "Turning to" in d.message]

@@ -17,15 +17,15 @@ from relguide.flying.guidance.monitor import (
 from relguide.flying.guidance.settings import DEFAULT
 from relguide.kernels.flight.guide import HOLD, Progress
 from relguide.units import DEG, NM
-from tests.relguide.flying.guidance.beliefs import Watched, behind, seen
-from tests.relguide.flying.guidance.test_forecast import made
+from tests.relguide.flying.guidance.beliefs import Watched, behind, observe
+from tests.relguide.flying.guidance.test_forecast import make_forecast
 
 LIMIT = 5.0 * NM
-BELIEF, ASSIGNMENT = seen(behind(along=30_000.0))
-NOTHING_AHEAD = made([])
+BELIEF, ASSIGNMENT = observe(behind(along=30_000.0))
+NOTHING_AHEAD = make_forecast([])
 
 
-def judged(*seconds: tuple[float, float, float]) -> list[tuple[float, Alerted]]:
+def judge_seconds(*seconds: tuple[float, float, float]) -> list[tuple[float, Alerted]]:
     """What is said, second by second: separation now, least separation ahead, and in what time."""
     alert, said = Alert(), list[tuple[float, Alerted]]()
     for t, (apart, least, in_seconds) in enumerate(seconds):
@@ -49,12 +49,12 @@ def levels(said: list[tuple[float, Alerted]]) -> list[tuple[float, str, bool]]:
 
 
 def test_nothing_is_said_while_separation_is_kept() -> None:
-    assert judged(*[CLEAR] * 10) == []
-    assert judged((LIMIT, LIMIT, 0.0)) == []
+    assert judge_seconds(*[CLEAR] * 10) == []
+    assert judge_seconds((LIMIT, LIMIT, 0.0)) == []
 
 
 def test_a_caution_comes_before_the_loss_and_a_warning_with_it() -> None:
-    said = judged(CLEAR, *[SOON] * 5, *[LOST] * 5)
+    said = judge_seconds(CLEAR, *[SOON] * 5, *[LOST] * 5)
     assert levels(said) == [(1.0, "caution", False), (6.0, "warning", False)]
     caution, warning = (event for _, event in said)
     assert caution.message == "Separation in 40 s: 4.86 NM, less than 5.00 NM."
@@ -64,25 +64,27 @@ def test_a_caution_comes_before_the_loss_and_a_warning_with_it() -> None:
 
 def test_what_is_farther_ahead_than_a_minute_is_not_yet_said() -> None:
     late = (12_000.0, 9_000.0, DEFAULT.caution + 1.0)
-    assert judged(*[late] * 5) == []
-    assert levels(judged(late, (12_000.0, 9_000.0, DEFAULT.caution))) == [(1.0, "caution", False)]
+    assert judge_seconds(*[late] * 5) == []
+    assert levels(judge_seconds(late, (12_000.0, 9_000.0, DEFAULT.caution))) == [
+        (1.0, "caution", False)
+    ]
 
 
 def test_it_is_cleared_once_some_seconds_after_its_cause() -> None:
-    said = judged(SOON, *[CLEAR] * 10)
+    said = judge_seconds(SOON, *[CLEAR] * 10)
     assert levels(said) == [(0.0, "caution", False), (DEFAULT.clears_after, "caution", True)]
     assert said[-1][1].message == "Separation is kept again."
-    assert levels(judged(LOST, *[CLEAR] * 10))[-1] == (DEFAULT.clears_after, "warning", True)
+    assert levels(judge_seconds(LOST, *[CLEAR] * 10))[-1] == (DEFAULT.clears_after, "warning", True)
 
 
 def test_a_forecast_that_wavers_says_nothing_twice() -> None:
-    said = judged(*[SOON, CLEAR, CLEAR] * 6, *[CLEAR] * 5)
+    said = judge_seconds(*[SOON, CLEAR, CLEAR] * 6, *[CLEAR] * 5)
     assert levels(said) == [(0.0, "caution", False), (18.0, "caution", True)]
 
 
 def test_a_warning_falls_back_to_a_caution_only_after_a_while() -> None:
-    assert levels(judged(LOST, SOON, LOST, SOON)) == [(0.0, "warning", False)]
-    said = judged(LOST, *[SOON] * 6, *[CLEAR] * 6)
+    assert levels(judge_seconds(LOST, SOON, LOST, SOON)) == [(0.0, "warning", False)]
+    said = judge_seconds(LOST, *[SOON] * 6, *[CLEAR] * 6)
     assert levels(said) == [
         (0.0, "warning", False), (DEFAULT.clears_after, "caution", False), (9.0, "caution", True),
     ]  # fmt: skip
@@ -118,14 +120,14 @@ def test_a_leader_that_slows_down_is_expected_to_go_on() -> None:
 
 
 def test_a_forecast_that_holds_is_not_flown_again() -> None:
-    trusted = made([11_000.0] * 200, t=0.0)
+    trusted = make_forecast([11_000.0] * 200, t=0.0)
     seen_ahead = outlook(Watched(behind(along=12_000.0)), trusted)
     assert seen_ahead.forecast is trusted
     assert seen_ahead.least == 11_000.0
 
 
 def test_a_forecast_holds_while_both_are_where_it_has_them() -> None:
-    ahead = made([9_500.0] * 200, t=0.0)
+    ahead = make_forecast([9_500.0] * 200, t=0.0)
     own = BELIEF.own._replace(x=0.0, y=2_000.0)
     leader = BELIEF.leader._replace(x=9_000.0, y=2_000.0, heading=0.0, tas=200.0)
     there = replace(BELIEF, t=10.0, own=own, leader=leader)
@@ -142,4 +144,4 @@ def test_a_forecast_holds_while_both_are_where_it_has_them() -> None:
         assert not leader_is_as_forecast(ahead, other, ASSIGNMENT)
         assert not is_as_forecast(ahead, other, ASSIGNMENT)
     # near its end it says too little of what comes
-    assert not is_as_forecast(made([9_500.0] * 60, t=0.0), there, ASSIGNMENT)
+    assert not is_as_forecast(make_forecast([9_500.0] * 60, t=0.0), there, ASSIGNMENT)

@@ -18,8 +18,8 @@ from relguide.flying.guidance.settings import DEFAULT
 from relguide.flying.scenarios import fig_6, own_scenario
 from relguide.planning.plan import plan
 from relguide.units import DEG, KT
-from tests.flights import Flown, flown, random_start
-from tests.relguide.flying.guidance.beliefs import FIG_6B, behind, seen
+from tests.flights import Flown, fly_whole, random_start
+from tests.relguide.flying.guidance.beliefs import FIG_6B, behind, observe
 
 TURNED_AT = 820.0
 """The leader of Fig. 6 turns 45° to the right there, for some 35 s, rolling included [s]."""
@@ -27,14 +27,14 @@ TURNED_AT = 820.0
 
 @pytest.fixture(scope="module")
 def fig_6a() -> Flown:
-    return flown(fig_6(intent_known=False))
+    return fly_whole(fig_6(intent_known=False))
 
 
-def untold(seed: int) -> Scenario:
+def unannounced_turns(seed: int) -> Scenario:
     return replace(own_scenario(random_start(seed), intent_known=False), duration_limit=3_000.0)
 
 
-def announced(flight: Flown) -> list[PlanChanged]:
+def announcements(flight: Flown) -> list[PlanChanged]:
     return [d for d in flight.of(PlanChanged) if d.announced]
 
 
@@ -42,7 +42,7 @@ def test_an_untold_turn_is_announced_once_when_it_is_over(fig_6a: Flown) -> None
     (turning,) = fig_6a.of(LeaderChanged)
     assert turning.t == pytest.approx(TURNED_AT, abs=2.0)
     assert turning.message == "The leader turns right."
-    engaged, over = announced(fig_6a)
+    engaged, over = announcements(fig_6a)
     assert engaged.t == 0.0
     assert over.reason == "leader_turned"
     assert over.message.startswith("The leader's heading is 135°: ")
@@ -64,8 +64,8 @@ def test_every_plan_flown_is_kept_whether_announced_or_not(fig_6a: Flown) -> Non
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", [2, 3, 5, 6, 12, 13, 21, 27, 40, 43, 46, 49])
 def test_plans_are_announced_no_more_often_than_the_settings_say(seed: int) -> None:
-    flight = flown(untold(seed))
-    told = announced(flight)
+    flight = fly_whole(unannounced_turns(seed))
+    told = announcements(flight)
     followed = [d for d in told if d.reason not in ("engaged", "separation")]
     assert all(b.t - a.t >= DEFAULT.announce_after for a, b in pairwise(followed))
     assert flight.result.replans_announced == len(told) - 1 <= 5
@@ -75,7 +75,7 @@ def test_plans_are_announced_no_more_often_than_the_settings_say(seed: int) -> N
 
 
 def test_a_leader_that_keeps_his_word_gives_nothing_to_announce() -> None:
-    flight = flown(FIG_6B)
+    flight = fly_whole(FIG_6B)
     assert [(d.t, d.reason, d.announced) for d in flight.of(PlanChanged)] == [
         (0.0, "engaged", True)
     ]
@@ -84,8 +84,8 @@ def test_a_leader_that_keeps_his_word_gives_nothing_to_announce() -> None:
 
 def test_a_new_speed_is_announced_once() -> None:
     """It takes 10 s and more to be reached; what is announced joins when it does."""
-    flight = flown(FIG_6B, (300.0, LeaderSpeed(tas=190.0)))
-    _, over = announced(flight)
+    flight = fly_whole(FIG_6B, (300.0, LeaderSpeed(tas=190.0)))
+    _, over = announcements(flight)
     assert over.reason == "leader_changed_speed"
     speed = next(s.leader.tas for s in flight.samples if s.t == over.t)
     assert speed == pytest.approx(190.0, abs=0.6)
@@ -98,24 +98,24 @@ def test_a_new_speed_is_announced_once() -> None:
 
 def test_a_small_change_is_kept_but_not_announced() -> None:
     """A knot and a half: the path stays where it was, and joins some seconds sooner."""
-    flight = flown(FIG_6B, (300.0, LeaderSpeed(tas=200.0 - 1.5 * KT)))
+    flight = fly_whole(FIG_6B, (300.0, LeaderSpeed(tas=200.0 - 1.5 * KT)))
     assert [d.t for d in flight.of(PlanChanged) if d.announced] == [0.0]
     assert flight.result.join_time == pytest.approx(flight.result.promised, abs=15.0)
 
 
 def test_orders_known_at_once_are_announced_at_once_and_with_a_pause_between() -> None:
     orders = [(300.0 + 10.0 * k, LeaderHeading(heading=(100.0 + 20.0 * k) * DEG)) for k in range(4)]
-    flight = flown(FIG_6B, *orders)
-    told = [d.t for d in announced(flight)]
+    flight = fly_whole(FIG_6B, *orders)
+    told = [d.t for d in announcements(flight)]
     assert told[:2] == [0.0, 300.0]
     assert told[2] == 300.0 + DEFAULT.announce_after  # all that came between, in one
     assert len(told) == 3
-    assert "160°" in announced(flight)[-1].message
+    assert "160°" in announcements(flight)[-1].message
 
 
 def test_what_was_withdrawn_and_given_back_is_said_of_both() -> None:
-    flight = flown(FIG_6B, (100.0, IntentKnown(known=False)), (200.0, IntentKnown(known=True)))
-    told = [(d.t, d.reason) for d in announced(flight)]
+    flight = fly_whole(FIG_6B, (100.0, IntentKnown(known=False)), (200.0, IntentKnown(known=True)))
+    told = [(d.t, d.reason) for d in announcements(flight)]
     assert told == [
         (0.0, "engaged"),
         (100.0 + DEFAULT.settled_for, "intent_withdrawn"),
@@ -125,8 +125,8 @@ def test_what_was_withdrawn_and_given_back_is_said_of_both() -> None:
 
 def test_what_is_announced_can_be_drawn() -> None:
     """From where the aircraft is, to the slot, and with a word of its own."""
-    flight = flown(FIG_6B, (100.0, IntentKnown(known=False)))
-    last = announced(flight)[-1]
+    flight = fly_whole(FIG_6B, (100.0, IntentKnown(known=False)))
+    last = announcements(flight)[-1]
     own = next(s.pursuer for s in flight.samples if s.t == last.t)
     start = last.plan.segments[0].start
     assert (start.x, start.y) == pytest.approx((own.x, own.y), abs=60.0)  # the tube
@@ -161,9 +161,9 @@ def test_a_heading_across_north_is_a_small_change() -> None:
 
 
 def test_sentences_say_why_and_what_comes() -> None:
-    belief, _ = seen(FIG_6B)
+    belief, _ = observe(FIG_6B)
     assert reason_sentence("leader_turned", belief) == "The leader will turn to 135°"
-    straight, assignment = seen(behind(along=30_000.0, abeam=10_000.0))
+    straight, assignment = observe(behind(along=30_000.0, abeam=10_000.0))
     assert reason_sentence("leader_turned", straight) == "The leader's heading is 000°"
     assert reason_sentence("leader_changed_speed", straight) == "The leader flies 389 kt"
     found = propose(straight, assignment, None, plan)

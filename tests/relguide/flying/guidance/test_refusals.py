@@ -9,7 +9,7 @@ from relguide.flying.flight import Scenario
 from relguide.flying.scenarios import own_scenario
 from relguide.planning.plan import NoPlan, Optimality, Plan, plan
 from relguide.planning.situation import Situation
-from tests.flights import Flown, flown
+from tests.flights import Flown, fly_whole
 from tests.liars import LIARS, LIED_ABOUT, Liar, comes_too_early, ends_beside
 
 SHORT: Scenario = replace(own_scenario(LIED_ABOUT), duration_limit=20.0)
@@ -17,7 +17,7 @@ SHORT: Scenario = replace(own_scenario(LIED_ABOUT), duration_limit=20.0)
 
 @pytest.fixture(scope="module")
 def honest() -> Flown:
-    return flown(SHORT)
+    return fly_whole(SHORT)
 
 
 @pytest.mark.parametrize("liar", LIARS, ids=lambda liar: liar.__name__)
@@ -28,7 +28,7 @@ def test_a_lie_is_said_counted_and_not_flown(liar: Liar, honest: Flown) -> None:
         asked.append(situation)
         return liar(situation)
 
-    flight = flown(SHORT, planner=planner)
+    flight = fly_whole(SHORT, planner=planner)
     assert flight.samples == honest.samples
     # once before the flight, for its name; then at engagement, and every 10 s for a faster path
     assert flight.result.fallbacks == len(asked) - 1 == 3
@@ -47,10 +47,10 @@ def test_a_lie_told_on_the_way_is_not_flown_either(liar: Liar) -> None:
     asked = iter(range(1_000_000))
 
     def planner(situation: Situation) -> Plan | NoPlan:
-        return liar(situation) if next(asked) > 6 else unproved(situation)
+        return liar(situation) if next(asked) > 6 else plan_unproved(situation)
 
-    flight = flown(SHORT, planner=planner)
-    honest = flown(SHORT, planner=unproved)
+    flight = fly_whole(SHORT, planner=planner)
+    honest = fly_whole(SHORT, planner=plan_unproved)
     assert flight.samples == honest.samples
     assert [d.t for d in flight.of(PlanChanged)] == [0.0]
     fault = "separation" if liar is comes_too_early else LIARS[liar]
@@ -58,7 +58,7 @@ def test_a_lie_told_on_the_way_is_not_flown_either(liar: Liar) -> None:
     assert flight.result.fallbacks == 15
 
 
-def unproved(situation: Situation) -> Plan | NoPlan:
+def plan_unproved(situation: Situation) -> Plan | NoPlan:
     """The fastest path, of which its planner cannot say so."""
     answer = plan(situation)
     if isinstance(answer, NoPlan):
@@ -70,8 +70,8 @@ def test_a_lie_repeated_for_a_while_is_said_again() -> None:
     asked = iter(range(1_000_000))
 
     def sometimes(situation: Situation) -> Plan | NoPlan:
-        return ends_beside(situation) if next(asked) // 5 % 2 else unproved(situation)
+        return ends_beside(situation) if next(asked) // 5 % 2 else plan_unproved(situation)
 
-    flight = flown(SHORT, planner=sometimes)
+    flight = fly_whole(SHORT, planner=sometimes)
     assert len(flight.of(PlanRefused)) == 2
     assert flight.result.fallbacks == 10

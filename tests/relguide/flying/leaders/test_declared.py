@@ -94,7 +94,7 @@ def test_an_order_turns_the_way_round_that_it_says(
     assert np.sign(program.rows[0, 2]) == np.sign(turned)
 
 
-def flown(program: Program, seconds: int) -> list[tuple[float, Body, int]]:
+def fly_seconds(program: Program, seconds: int) -> list[tuple[float, Body, int]]:
     """Flight time, the aircraft and its piece, each second."""
     body, cursor = level(heading=program.held / DEG, tas=TAS), 0
     rows = [(0.0, body, cursor)]
@@ -111,7 +111,7 @@ def test_what_is_left_of_an_intent_shrinks_to_nothing() -> None:
     first, turn_right = straight(60.0), turn_to(135.0, RIGHT)
     pieces = (first, turn_right)
     program = program_of(pieces, 90.0 * DEG, 0.0, TAS)
-    rows = flown(program, 160)
+    rows = fly_seconds(program, 160)
 
     def left(t: int) -> tuple[IntentPiece, ...]:
         when, body, cursor = rows[t]
@@ -144,7 +144,7 @@ def test_what_is_left_leads_to_where_the_leader_will_be(
 ) -> None:
     """400 s after the start, seen from any time; 0.2 km off while it rolls in ahead of a turn."""
     program = program_of(pieces, 90.0 * DEG, 0.0, TAS)
-    rows = flown(program, 400)
+    rows = fly_seconds(program, 400)
     _, end, _ = rows[-1]
     for t, body, cursor in rows[:400]:
         intent = remaining(program, cursor, body, LIMITS, t)

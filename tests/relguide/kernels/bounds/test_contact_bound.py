@@ -23,7 +23,7 @@ from relguide.kernels.bounds.contact_bound import (
     untouched_bound,
     word_between,
 )
-from relguide.kernels.contact.contact import contact_exists, contact_heading, seen_from
+from relguide.kernels.contact.contact import contact_exists, contact_heading, to_frame_of
 from relguide.kernels.separation.clearance import leader_at, piece_at
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, fly_piece, solve, solve_toward
 from tests.situations import numbers
@@ -53,7 +53,7 @@ def straight(alpha: float, d_min: float, ahead: float) -> Scene:
 
 def words_to(pose: Pose, to: Pose, alpha: float) -> np.ndarray:
     """Words from a pose to one that moves along the x axis."""
-    seen, rows = seen_from(pose, to), np.empty((MAX_ROWS, 5))
+    seen, rows = to_frame_of(pose, to), np.empty((MAX_ROWS, 5))
     toward = Velocity(alpha * cos(to.h), -alpha * sin(to.h))
     return rows[: solve_toward(seen._replace(h=seen.h % (2.0 * pi)), toward, 0.0, rows)]
 

@@ -19,7 +19,7 @@ ALPHA, DISTANCE = 0.8, 2.0
 SAME = 1e-9  # ≈ 1e-5 m at R = 12 km
 
 
-def drawn(rng: np.random.Generator) -> Pose:
+def draw_pose(rng: np.random.Generator) -> Pose:
     """Somewhere outside of the disc, seen from the leader."""
     away, bearing, h = rng.uniform(2.1, 9.0), rng.uniform(0.0, 2 * pi), rng.uniform(0.0, 2 * pi)
     return Pose(away * cos(bearing), away * sin(bearing), float(h))
@@ -30,7 +30,7 @@ def disc(side: float) -> Disc:
     return Disc(ALPHA, DISTANCE, side, 0.0)
 
 
-def flown(start: Pose, *pieces: tuple[float, float]) -> np.ndarray:
+def fly_pieces(start: Pose, *pieces: tuple[float, float]) -> np.ndarray:
     """Where pieces of a sign and an amount end, seen from the leader, and the heading there."""
     end = start
     for sign, amount in pieces:
@@ -51,10 +51,10 @@ def test_a_turn_and_a_straight_end_in_the_contact(sign: float, side: float) -> N
     rng = np.random.default_rng(1)
     contacts, seen = np.empty((4, 3)), 0
     for _ in range(200):
-        start = drawn(rng)
+        start = draw_pose(rng)
         for k in range(straight_tangents(start, disc(side), sign, contacts)):
             bearing, turn, straight = contacts[k].tolist()
-            touches(flown(start, (sign, turn), (0.0, straight)), bearing, side)
+            touches(fly_pieces(start, (sign, turn), (0.0, straight)), bearing, side)
             seen += 1
     assert seen > 150
 
@@ -91,12 +91,12 @@ def test_two_turns_end_in_the_contact(sign: float, side: float) -> None:
     rng = np.random.default_rng(2)
     seen = 0
     for _ in range(300):
-        start = drawn(rng)
+        start = draw_pose(rng)
         guess = rng.uniform(0.3, 5.0, 2).tolist()
         bearing, first, second = turn_tangent(start, disc(side), sign, *guess)
         if isnan(first):
             continue
-        touches(flown(start, (sign, first), (-sign, second)), bearing, side)
+        touches(fly_pieces(start, (sign, first), (-sign, second)), bearing, side)
         seen += 1
     assert seen > 15
 
@@ -107,7 +107,7 @@ def test_where_a_boundary_arc_ends_a_straight_and_a_turn_lead_to_the_slot(side: 
     bearing, straight, turn = boundary_arc_end(slot, disc(side))
     course = contact_heading(bearing, side, ALPHA)
     start = Pose(DISTANCE * cos(bearing), DISTANCE * sin(bearing), course)
-    x, y, h = flown(start, (0.0, straight), (side, turn))
+    x, y, h = fly_pieces(start, (0.0, straight), (side, turn))
     assert hypot(x + slot, y) < SAME
     assert cos(h) == pytest.approx(1.0, abs=SAME)
 
@@ -121,7 +121,7 @@ def test_the_next_contact_is_another_on_the_same_side(side: float) -> None:
             continue
         there, turn, straight = contact.tolist()
         start = Pose(DISTANCE * cos(bearing), DISTANCE * sin(bearing), course)
-        touches(flown(start, (side, turn), (0.0, straight)), there, side)
+        touches(fly_pieces(start, (side, turn), (0.0, straight)), there, side)
         assert turn > 0.01
         seen += 1
     assert seen > 3

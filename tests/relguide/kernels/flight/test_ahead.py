@@ -54,7 +54,7 @@ def turning_leader(*, turns_at: float = 300.0) -> Scenario:
     return replace(known, situation=situation)
 
 
-def engaged(flight: Scenario) -> tuple[Fleet, FlownTrack, Proposal]:
+def engage(flight: Scenario) -> tuple[Fleet, FlownTrack, Proposal]:
     """A world as it begins, and the path that its pursuer commits to."""
     world = world_of(flight)
     fleet, link = Fleet(world, 1.0 / STEPS), world.links[0]
@@ -93,7 +93,7 @@ def flown_by_seconds(
     return own, leader, least, joined
 
 
-def flown_ahead(
+def fly_compiled(
     fleet: Fleet, track: FlownTrack, progress: Progress, course: Course, *, steps: int = STEPS,
     seconds: int = SECONDS, after_joining: int = 200,
 ) -> tuple[FloatArray, FloatArray, FloatArray, float]:  # fmt: skip
@@ -109,9 +109,9 @@ def flown_ahead(
 
 @pytest.mark.parametrize("turns_at", [300.0, 820.0])
 def test_what_is_flown_ahead_is_what_the_world_flies(turns_at: float) -> None:
-    fleet, track, found = engaged(turning_leader(turns_at=turns_at))
+    fleet, track, found = engage(turning_leader(turns_at=turns_at))
     progress, course = Progress(CONVERGE, 0.0, 0.0, 0.0), found.committed.course
-    own, leader, account, join_time = flown_ahead(fleet, track, progress, course)
+    own, leader, account, join_time = fly_compiled(fleet, track, progress, course)
     known = len(track.marks)
     flown, led, least, joined = flown_by_seconds(fleet, track, progress, course, len(account))
     assert own == pytest.approx(flown, abs=1e-9)
@@ -132,10 +132,10 @@ def test_what_is_flown_ahead_is_what_the_world_flies(turns_at: float) -> None:
 
 
 def test_a_forecast_in_quarters_of_a_second_is_the_flight_to_a_few_metres() -> None:
-    fleet, track, found = engaged(turning_leader())
+    fleet, track, found = engage(turning_leader())
     progress, course = Progress(CONVERGE, 0.0, 0.0, 0.0), found.committed.course
-    fine = flown_ahead(fleet, track, progress, course, steps=20)
-    rough = flown_ahead(fleet, track, progress, course, steps=4)
+    fine = fly_compiled(fleet, track, progress, course, steps=20)
+    rough = fly_compiled(fleet, track, progress, course, steps=4)
     n = min(len(fine[0]), len(rough[0]))
     for k in (0, 1):
         apart = np.hypot(*(fine[k][:n, :2] - rough[k][:n, :2]).T)
@@ -144,8 +144,8 @@ def test_a_forecast_in_quarters_of_a_second_is_the_flight_to_a_few_metres() -> N
 
 
 def test_the_account_says_when_they_are_nearest() -> None:
-    fleet, track, found = engaged(turning_leader())
-    own, leader, account, _ = flown_ahead(
+    fleet, track, found = engage(turning_leader())
+    own, leader, account, _ = fly_compiled(
         fleet, track, Progress(CONVERGE, 0.0, 0.0, 0.0), found.committed.course
     )
     k = int(np.argmin(account[:, LEAST]))
@@ -157,9 +157,9 @@ def test_the_account_says_when_they_are_nearest() -> None:
 
 
 def test_what_does_not_join_is_flown_to_the_end() -> None:
-    fleet, track, _ = engaged(turning_leader())
+    fleet, track, _ = engage(turning_leader())
     held = Progress(HOLD, 0.0, 0.5, 230.0)
-    own, leader, account, join_time = flown_ahead(fleet, track, held, NO_COURSE, seconds=300)
+    own, leader, account, join_time = fly_compiled(fleet, track, held, NO_COURSE, seconds=300)
     assert join_time == NEVER
     assert len(own) == len(leader) == len(account) + 1 == 301
     assert own[-1, 2] == pytest.approx(0.5, abs=0.1 * DEG)
@@ -174,7 +174,7 @@ def test_a_mark_is_where_the_leader_is_and_how_it_moves_over_the_ground() -> Non
     assert marks[1] == pytest.approx([500.0, 400.0, 300.0, body.heading, direction, speed, 7.0])
 
 
-def followed(
+def follow(
     wind: Drift, turn: float, bank: float, *, spacing: float = 0.0
 ) -> tuple[FloatArray, FloatArray]:
     """Joined at 10 km or so many seconds behind a leader of 200 m/s that turns by 90° after a
@@ -209,7 +209,7 @@ def test_a_turn_is_followed_over_the_ground_in_a_storm(
     """40 m/s, across or from anywhere: within 0.1 NM of where the leader turned; measured 31 m."""
     wind = Drift(40.0 * sin(toward * DEG), 40.0 * cos(toward * DEG))
     for bank in (15.0, 25.0):
-        beside, speeds = followed(wind, turn, bank, spacing=spacing)
+        beside, speeds = follow(wind, turn, bank, spacing=spacing)
         assert np.max(np.abs(beside)) < 50.0 < 0.1 * NM
         assert abs(beside[-1]) < 10.0
         assert speeds[-1] == pytest.approx(200.0, abs=5.0)

@@ -51,7 +51,7 @@ STRAIGHT = leader_marks(120)
 TASK = Task(240.0, D, D, 0.0, 8_000.0)
 
 
-def asked(
+def act_on(
     body: Body, mode: int = FOLLOW, *, marks: FloatArray = STRAIGHT, course: Course = NO_COURSE,
     task: Task = TASK, turn_to_come: bool = False, wind: Drift = STILL, s: float | None = None,
     t: float = 120.0,
@@ -70,7 +70,7 @@ def test_joined_is_the_gate_at_this_second(
     ahead: float, right: float, heading: float, turn_to_come: bool
 ) -> None:
     """Within 0.2 NM along, 0.1 NM across and 2° of heading, with the slot open."""
-    done = asked(level(right, -D + ahead, heading, tas=V), CAPTURE, turn_to_come=turn_to_come)
+    done = act_on(level(right, -D + ahead, heading, tas=V), CAPTURE, turn_to_come=turn_to_come)
     inside = abs(ahead) <= GATE.along and abs(right) <= GATE.across
     joined = inside and abs(heading) * DEG <= GATE.heading and not turn_to_come
     assert done.joined == joined
@@ -82,36 +82,36 @@ def test_joined_is_the_gate_at_this_second(
 def test_the_slot_is_closed_until_the_leader_has_flown_d_on_its_heading() -> None:
     for since, joined in ((49, False), (51, True)):
         marks = leader_marks(120, turned=90.0, at_second=120 - since)
-        assert asked(level(0.0, -D, tas=V), marks=marks).joined == joined
+        assert act_on(level(0.0, -D, tas=V), marks=marks).joined == joined
 
 
 def test_follow_stays_follow_out_of_the_gate_and_then_has_not_joined() -> None:
-    done = asked(level(900.0, -D, tas=V), FOLLOW)
+    done = act_on(level(900.0, -D, tas=V), FOLLOW)
     assert (done.progress.mode, done.joined) == (FOLLOW, False)
 
 
 @pytest.mark.parametrize("mode", [HOLD, ESCAPE])
 def test_where_a_heading_is_held_nothing_else_is_looked_at(mode: int) -> None:
-    done = asked(level(1e5, 1e5), mode)
+    done = act_on(level(1e5, 1e5), mode)
     assert done.control == Control(HOLD_HEADING, 0.7, 231.0)
     assert done.progress.mode == mode
     assert not done.joined
 
 
 def test_on_the_slot_nothing_is_asked_for() -> None:
-    control = asked(level(0.0, -D, tas=V)).control
+    control = act_on(level(0.0, -D, tas=V)).control
     assert control == (HOLD_HEADING, pytest.approx(0.0, abs=1e-9), pytest.approx(V))
 
 
 @pytest.mark.parametrize("right", [-300.0, 300.0])
 def test_off_the_leaders_path_it_is_turned_back_to(right: float) -> None:
-    control = asked(level(right, -D, tas=V)).control
+    control = act_on(level(right, -D, tas=V)).control
     assert control.value * right < 0.0
 
 
 def test_speed_closes_what_is_left_to_the_slot() -> None:
     far, near, past = (
-        asked(level(0.0, -D - error, tas=V)).control.tas for error in (9_000.0, 500.0, -500.0)
+        act_on(level(0.0, -D - error, tas=V)).control.tas for error in (9_000.0, 500.0, -500.0)
     )
     assert far == TASK.tas
     assert V < near < far
@@ -125,7 +125,7 @@ def test_in_wind_the_ground_speed_is_matched(speed: float, toward: float) -> Non
     track = FlownTrack(level(tas=V), wind, 0.0, 30_000.0)
     direction = track.marks[-1, 4]
     body = level(-D * sin(direction), -D * cos(direction), tas=V)
-    control = asked(body, marks=track.marks, wind=wind, s=-D).control
+    control = act_on(body, marks=track.marks, wind=wind, s=-D).control
     assert control.tas == pytest.approx(V, abs=1e-6)
     assert control.value == pytest.approx(0.0, abs=1e-6)
 
@@ -133,10 +133,10 @@ def test_in_wind_the_ground_speed_is_matched(speed: float, toward: float) -> Non
 def test_a_time_is_kept_as_well_as_a_distance() -> None:
     """45 s behind a leader of 200 m/s is 9 km; the speed of the leader then does not matter."""
     behind = TASK._replace(spacing=45.0)
-    assert asked(level(0.0, -9_000.0, tas=V), task=behind).to_slot == pytest.approx(0.0, abs=1e-6)
-    assert asked(level(0.0, -9_000.0, tas=V), task=behind).joined
-    assert asked(level(0.0, -D, tas=V), task=behind).to_slot == pytest.approx(1_000.0)
-    assert not asked(level(0.0, -D, tas=V), task=behind).joined
+    assert act_on(level(0.0, -9_000.0, tas=V), task=behind).to_slot == pytest.approx(0.0, abs=1e-6)
+    assert act_on(level(0.0, -9_000.0, tas=V), task=behind).joined
+    assert act_on(level(0.0, -D, tas=V), task=behind).to_slot == pytest.approx(1_000.0)
+    assert not act_on(level(0.0, -D, tas=V), task=behind).joined
 
 
 def test_too_near_the_leader_the_shorter_distance_sets_the_speed() -> None:
@@ -144,7 +144,7 @@ def test_too_near_the_leader_the_shorter_distance_sets_the_speed() -> None:
     marks = leader_marks(120, turned=150.0, at_second=100)
     leader = marks[-1]
     body = level(leader[1], leader[2] - 6_000.0, tas=V)
-    done = asked(body, marks=marks, s=float(marks[-1, 0]) - D)
+    done = act_on(body, marks=marks, s=float(marks[-1, 0]) - D)
     assert hypot(body.x - leader[1], body.y - leader[2]) < TASK.min_separation
     assert done.control.tas < V
 
@@ -163,7 +163,7 @@ def test_a_path_that_still_turns_is_tracked_in_the_air_mass() -> None:
     flown, _ = course(*TURNING)
     wind, t = Drift(20.0, -5.0), 10.0
     body = level(wind.east * t + 70.0, -40_000.0 + 2_400.0 + wind.north * t)
-    done = asked(body, CONVERGE, marks=FAR_AWAY, course=flown, wind=wind, s=2_400.0, t=t)
+    done = act_on(body, CONVERGE, marks=FAR_AWAY, course=flown, wind=wind, s=2_400.0, t=t)
     assert (done.progress.mode, done.joined) == (CONVERGE, False)
     assert done.progress.s == pytest.approx(2_400.0)
     assert done.right == pytest.approx(70.0)
@@ -179,7 +179,7 @@ def test_capture_begins_where_nothing_turns_any_more_beside_the_leaders_path() -
         (turning, STRAIGHT, CONVERGE),
         (straight, FAR_AWAY, CONVERGE),
     ):
-        done = asked(body, CONVERGE, marks=marks, course=flown, s=25_000.0, t=0.0)
+        done = act_on(body, CONVERGE, marks=marks, course=flown, s=25_000.0, t=0.0)
         assert done.progress.mode == mode
         assert not done.joined
 
@@ -188,7 +188,7 @@ def test_a_faster_slot_is_not_braked_for() -> None:
     """Where the leader is faster than V_P, the pursuer goes for V_P all the way."""
     flown, _ = course(*TURNING, slot_tas=245.0)
     body = level(0.0, -30_000.0)
-    done = asked(body, CONVERGE, marks=FAR_AWAY, course=flown, s=10_000.0, t=0.0)
+    done = act_on(body, CONVERGE, marks=FAR_AWAY, course=flown, s=10_000.0, t=0.0)
     assert done.control.tas == TASK.tas
 
 
@@ -198,8 +198,8 @@ def test_braking_begins_on_the_path() -> None:
     s = 9_000.0
     near = flown._replace(slot=s + 1_000.0)
     body = level()._replace(x=float(path[1, 1]) + 570.0, y=-40_000.0 + 8_970.0, heading=0.286)
-    assert asked(body, CONVERGE, marks=FAR_AWAY, course=near, s=s, t=0.0).control.tas < 239.0
-    assert asked(body, CONVERGE, marks=FAR_AWAY, course=flown, s=s, t=0.0).control.tas == 240.0
+    assert act_on(body, CONVERGE, marks=FAR_AWAY, course=near, s=s, t=0.0).control.tas < 239.0
+    assert act_on(body, CONVERGE, marks=FAR_AWAY, course=flown, s=s, t=0.0).control.tas == 240.0
 
 
 def test_a_bend_ahead_is_slowed_down_for_where_it_needs_more_than_the_bank() -> None:
@@ -218,10 +218,10 @@ def test_a_bend_ahead_is_slowed_down_for_where_it_needs_more_than_the_bank() -> 
     for t, row in enumerate(rows[1:], 1):
         track.add(row, STILL, float(t))
     behind = Task(240.0, 9_000.0, 9_000.0, 0.0, 500.0)
-    done = asked(level(0.0, -1_000.0, tas=V), marks=track.marks, task=behind, s=-1_000.0)
+    done = act_on(level(0.0, -1_000.0, tas=V), marks=track.marks, task=behind, s=-1_000.0)
     assert done.control.tas == pytest.approx(
         0.9**0.5 * (G0 * tan(LIMITS.max_bank) * radius) ** 0.5, rel=0.02
     )
     wide = leader_marks(120)
-    done = asked(level(0.0, -9_000.0, tas=V), marks=wide, task=behind)
+    done = act_on(level(0.0, -9_000.0, tas=V), marks=wide, task=behind)
     assert done.control.tas == pytest.approx(V)

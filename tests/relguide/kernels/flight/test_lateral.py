@@ -91,7 +91,7 @@ def autopilot(state: np.ndarray, control: Control) -> tuple[float, float]:
     return min(max(roll, -limit), limit), growth
 
 
-def exact_flight(legs: list[tuple[float, Control]], begun: Body, wind: Drift) -> np.ndarray:
+def fly_exactly(legs: list[tuple[float, Control]], begun: Body, wind: Drift) -> np.ndarray:
     """Where legs end that an autopilot flies which acts all the time."""
     state = np.array(begun)
     for duration, control in legs:
@@ -117,7 +117,7 @@ LEGS = [
 """19 minutes with rolls, a reversal, captures, braking and speeding up."""
 
 
-def stepped_flight(step: float) -> Body:
+def fly_stepped(step: float) -> Body:
     now = level()
     for duration, control in LEGS:
         now = Body(*fly(control, now, duration, wind=WIND, step=step)[-1])
@@ -128,7 +128,7 @@ def stepped_flight(step: float) -> Body:
 @pytest.mark.parametrize(("step", "off"), [(0.05, 5.0), (0.01, 1.0)])
 def test_whole_flights_end_where_the_differential_equations_do(step: float, off: float) -> None:
     """Off in proportion to the step: the autopilot acts on what was half a step ago."""
-    exact, stepped = exact_flight(LEGS, level(), WIND), stepped_flight(step)
+    exact, stepped = fly_exactly(LEGS, level(), WIND), fly_stepped(step)
     assert hypot(stepped.x - exact[0], stepped.y - exact[1]) < off
     assert stepped.heading == pytest.approx(exact[2], abs=1e-4)
     assert stepped.tas == pytest.approx(exact[5], abs=1e-4)

@@ -30,7 +30,7 @@ DRIFT = 8.0 * DEG
 """The track is so much to the right of the heading."""
 
 
-def flown(seconds: int, *, turn_at: int = 10_000, turn_until: int = 10_000) -> FloatArray:
+def fly_marks(seconds: int, *, turn_at: int = 10_000, turn_until: int = 10_000) -> FloatArray:
     """North at 200 m/s; between two times, right on a circle of 9 km. A mark a second, and one D
     behind the first.
     """
@@ -46,7 +46,7 @@ def flown(seconds: int, *, turn_at: int = 10_000, turn_until: int = 10_000) -> F
     return rows
 
 
-TURNED = flown(250, turn_at=100, turn_until=150)
+TURNED = fly_marks(250, turn_at=100, turn_until=150)
 
 
 @given(st.floats(0.0, 50_000.0))
@@ -101,7 +101,7 @@ def test_offsets_in_the_turn_are_those_of_the_circle() -> None:
 def test_of_a_path_that_comes_back_the_part_expected_is_meant() -> None:
     """Round a full circle: 40 m beside it, a length is that of the lap expected."""
     lap = 2.0 * pi * RADIUS
-    circling = flown(700, turn_at=0, turn_until=700)
+    circling = fly_marks(700, turn_at=0, turn_until=700)
     for laps in (0, 1):
         s, right = beside_marks(circling, 40.0, 0.0, 300.0 + laps * lap)
         assert s == pytest.approx(laps * lap, abs=5.0)
@@ -118,7 +118,7 @@ def test_a_place_far_from_all_marks_is_taken_where_it_is_expected() -> None:
 def test_straight_is_what_has_been_flown_on_the_present_heading(distance: float) -> None:
     """From the mark at which it is within 2° of it: 314 m of the turn are, and a mark a second."""
     for after in range(100):
-        marks = flown(150 + after, turn_at=100, turn_until=150)
+        marks = fly_marks(150 + after, turn_at=100, turn_until=150)
         flown_straight = SPEED_FLOWN * after
         if straight_for(marks, distance):
             assert flown_straight > distance - 2.0 * DEG * RADIUS - 1e-6
@@ -127,9 +127,9 @@ def test_straight_is_what_has_been_flown_on_the_present_heading(distance: float)
 
 
 def test_one_that_never_turned_has_flown_straight() -> None:
-    assert straight_for(flown(0), 25_000.0)
-    assert straight_for(flown(30), 1e9)
-    assert not straight_for(flown(120, turn_at=100, turn_until=120), 1_000.0)
+    assert straight_for(fly_marks(0), 25_000.0)
+    assert straight_for(fly_marks(30), 1e9)
+    assert not straight_for(fly_marks(120, turn_at=100, turn_until=120), 1_000.0)
 
 
 def test_the_sharpest_bend_is_that_of_the_turn() -> None:

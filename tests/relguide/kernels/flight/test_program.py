@@ -11,7 +11,7 @@ from relguide.kernels.base.turn import turn_rate
 from relguide.kernels.flight.program import (
     fly_program,
     next_piece,
-    programmed,
+    program_control,
     roll_lead,
     until_roll,
 )
@@ -35,7 +35,7 @@ def straight(duration: float) -> FlyStraight:
     return FlyStraight(duration=duration)
 
 
-def flown(
+def fly(
     pieces: tuple[IntentPiece, ...], duration: float, *, step: float = STEP
 ) -> tuple[FloatArray, int]:
     """A program from its start on: rows at each step, and the piece that is then flown."""
@@ -54,7 +54,7 @@ def flown(
     return np.vstack(rows), int(cursors[0])
 
 
-def declared(pieces: tuple[IntentPiece, ...]) -> Leader:
+def leader_with(pieces: tuple[IntentPiece, ...]) -> Leader:
     return Leader(x=0.0, y=0.0, heading=STARTS * DEG, tas=TAS, intent=pieces)
 
 
@@ -72,7 +72,7 @@ def declared(pieces: tuple[IntentPiece, ...]) -> Leader:
     ],
 )
 def test_what_is_flown_is_what_was_declared(pieces: tuple[IntentPiece, ...], off: float) -> None:
-    meant, (rows, cursor) = declared(pieces).trajectory, flown(pieces, 450.0)
+    meant, (rows, cursor) = leader_with(pieces).trajectory, fly(pieces, 450.0)
     for t in (50, 150, 450):
         pose = meant.pose_at(float(t))
         at = rows[round(t / STEP)]
@@ -91,7 +91,7 @@ def test_what_is_flown_is_what_was_declared(pieces: tuple[IntentPiece, ...], off
 def test_any_turn_is_flown_as_declared(angle: float, turn: Turn) -> None:
     side = -turn
     pieces = (straight(20.0), turn_to(STARTS + side * angle, turn))
-    rows, _ = flown(pieces, 320.0)
+    rows, _ = fly(pieces, 320.0)
     headings = rows[:, 2]
     assert headings[-1] == pytest.approx((STARTS + side * angle) * DEG, abs=0.1 * DEG)
     # continuous: no faster than at full bank, and no way back
@@ -108,7 +108,7 @@ def test_a_turn_begins_half_a_roll_early(bank: float) -> None:
     body = level(heading=STARTS, tas=TAS)
 
     def asked(t: float) -> Control:
-        return programmed(program, 0, STARTS * DEG, body, LIMITS, t, TAS)
+        return program_control(program, 0, STARTS * DEG, body, LIMITS, t, TAS)
 
     assert asked(60.0 - lead - 0.1) == Control(HOLD_HEADING, STARTS * DEG, TAS)
     early = asked(60.0 - lead + 0.1)
@@ -140,7 +140,7 @@ def test_turns_in_a_row_are_rolled_from_bank_to_bank(
     pieces: tuple[IntentPiece, ...], off: float
 ) -> None:
     """Rolled out of the first and settled before the second, it would come 2 km off."""
-    meant, (rows, cursor) = declared(pieces).trajectory, flown(pieces, 240.0)
+    meant, (rows, cursor) = leader_with(pieces).trajectory, fly(pieces, 240.0)
     apart = [
         hypot(rows[20 * t, 0] - pose.x, rows[20 * t, 1] - pose.y)
         for t in range(241)
@@ -157,7 +157,7 @@ def test_a_turn_is_rolled_out_of_half_a_roll_early() -> None:
     rate, lead = turn_rate(TAS, bank), roll_lead(LIMITS, bank, 0.0)
     for left, kind in ((1.05, TURN_RATE), (0.95, HOLD_HEADING)):
         body = level(heading=(end - left * rate * lead) / DEG, bank=20.0, tas=TAS)
-        asked = programmed(program, 0, 0.0, body, LIMITS, 30.0, TAS)
+        asked = program_control(program, 0, 0.0, body, LIMITS, 30.0, TAS)
         assert asked.kind == kind
         assert asked.value == pytest.approx(rate if kind == TURN_RATE else end)
 
@@ -165,9 +165,9 @@ def test_a_turn_is_rolled_out_of_half_a_roll_early() -> None:
 def test_after_the_last_piece_its_heading_is_held() -> None:
     program = np.array([[1.0, 2.0, 0.4], [0.0, 90.0, 0.0]])
     body = level(heading=2.0 / DEG)
-    assert programmed(program, 2, 0.0, body, LIMITS, 99.0, TAS).value == 2.0
-    assert programmed(program, 1, 0.0, body, LIMITS, 99.0, TAS).value == 2.0
-    assert programmed(np.zeros((0, 3)), 0, 0.7, body, LIMITS, 99.0, TAS).value == 0.7
+    assert program_control(program, 2, 0.0, body, LIMITS, 99.0, TAS).value == 2.0
+    assert program_control(program, 1, 0.0, body, LIMITS, 99.0, TAS).value == 2.0
+    assert program_control(np.zeros((0, 3)), 0, 0.7, body, LIMITS, 99.0, TAS).value == 0.7
 
 
 def test_lead_is_half_the_roll_and_the_lag() -> None:
@@ -180,9 +180,9 @@ def test_lead_is_half_the_roll_and_the_lag() -> None:
 def test_what_is_flown_hardly_depends_on_the_step(first: float) -> None:
     """Rolls begin when they are due, within a step: else 0.25 s would be worth 60 m in a turn."""
     pieces = (straight(first), turn_to(180.0, RIGHT), straight(40.0), turn_to(90.0, LEFT))
-    fine, _ = flown(pieces, 240.0, step=0.01)
+    fine, _ = fly(pieces, 240.0, step=0.01)
     for step, off in ((0.05, 1.5), (0.25, 8.0)):
-        rows, _ = flown(pieces, 240.0, step=step)
+        rows, _ = fly(pieces, 240.0, step=step)
         apart = rows[:: round(1.0 / step), :2] - fine[::100, :2]
         assert np.max(np.hypot(*apart.T)) < off
 

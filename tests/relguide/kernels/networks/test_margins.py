@@ -17,7 +17,7 @@ BOTH_BEGIN = (9, 10, 11, 12)
 DRAWN = 200
 
 
-def told(x: float, y: float, h: float, alpha: float) -> np.ndarray:
+def margins_of(x: float, y: float, h: float, alpha: float) -> np.ndarray:
     out = np.full(INPUTS, np.nan)
     inputs(Pose(x, y, h), alpha, out)
     return out
@@ -54,8 +54,8 @@ def test_on_a_surface_its_margin_is_none(
             for sign, amount in shape
         ]
         here = laid_back(alpha, *pieces)
-        on = told(*here, alpha)
-        off = told(here[0] + 0.01, here[1] + 0.01, here[2], alpha)
+        on = margins_of(*here, alpha)
+        off = margins_of(here[0] + 0.01, here[1] + 0.01, here[2], alpha)
         assert min(abs(on[begin + at]) for at in places) < 1e-9
         # the smaller scale beside it has the same zero, and tells more of what is near
         for at in places[:1] if len(places) == 1 else ():
@@ -75,7 +75,7 @@ def test_where_roots_of_three_turns_begin_in_pairs_a_margin_is_none() -> None:
         w = 2.0 * pi - h
         cx, cy = alpha * (2.0 * middle + w) - ahead, 1.0 + rng.choice((-1.0, 1.0)) * sqrt(beside)
         x, y = cx + sin(h), cy - cos(h)
-        at_begin = told(x, y, h, alpha)[FEATURES : FEATURES + SIDE]
+        at_begin = margins_of(x, y, h, alpha)[FEATURES : FEATURES + SIDE]
         assert min(abs(at_begin[at]) for at in BOTH_BEGIN) < 1e-9
         either = [lrl(Pose(x + by, y, h), Velocity(alpha, 0.0), rows, 0) for by in (-1e-5, 1e-5)]
         # the turns do not add up for each pair; those that do come and go by twos
@@ -86,7 +86,7 @@ def test_where_roots_of_three_turns_begin_in_pairs_a_margin_is_none() -> None:
 def test_two_turns_the_same_way_are_as_fast_where_their_margin_is_none() -> None:
     """Behind the slot, and along the route, left and right are one."""
     for h in (0.0, pi):
-        assert told(-8.0, 0.0, h, 0.7)[-2:] == pytest.approx((0.0, 0.0), abs=1e-12)
+        assert margins_of(-8.0, 0.0, h, 0.7)[-2:] == pytest.approx((0.0, 0.0), abs=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -101,7 +101,7 @@ def test_two_turns_the_same_way_are_as_fast_where_their_margin_is_none() -> None
     ],
 )
 def test_no_situation_is_a_trap(situation: tuple[float, float, float, float]) -> None:
-    out = told(*situation)
+    out = margins_of(*situation)
     assert np.isfinite(out).all()
     plain = np.empty(FEATURES)
     features(*situation, plain)

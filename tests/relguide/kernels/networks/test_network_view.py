@@ -16,7 +16,7 @@ from tests.bench import draws
 from tests.situations import situations
 
 
-def told(situation: Situation, free: np.ndarray) -> tuple[bool, Where]:
+def view_of(situation: Situation, free: np.ndarray) -> tuple[bool, Where]:
     pursuer, leader, wind = situation.pursuer, situation.leader, situation.wind
     return view(
         pursuer.x, pursuer.y, pursuer.heading, pursuer.tas, pursuer.turn_radius,
@@ -29,7 +29,7 @@ def told(situation: Situation, free: np.ndarray) -> tuple[bool, Where]:
 def test_it_is_the_slot_frame_and_the_limit_binds_where_it_does(situation: Situation) -> None:
     frame = slot_frame(situation, situation.leader.trajectory)
     free = np.empty(5)
-    binds, (x, y, h, slot, alpha, limit) = told(situation, free)
+    binds, (x, y, h, slot, alpha, limit) = view_of(situation, free)
     assert (x, y) == pytest.approx((frame.x, frame.y), rel=1e-9, abs=1e-9)
     assert (np.cos(h), np.sin(h)) == pytest.approx((np.cos(frame.h), np.sin(frame.h)), abs=1e-9)
     along, aside = frame.to_slot(situation.leader.x, situation.leader.y)
@@ -58,8 +58,8 @@ def test_mirror_images_are_looked_at_from_one_side() -> None:
             leader=replace(leader, x=-leader.x, heading=-leader.heading),
         )
         free, other = np.empty(5), np.empty(5)
-        binds, (x, y, *_) = told(situation, free)
-        there, (along, left, *_) = told(image, other)
+        binds, (x, y, *_) = view_of(situation, free)
+        there, (along, left, *_) = view_of(image, other)
         assert there == binds
         assert (along, left) == pytest.approx((x, -y), abs=1e-9)
         assert other == pytest.approx(free, rel=1e-6, abs=1e-6)

@@ -8,7 +8,7 @@ import pytest
 
 from relguide.kernels.base.records import Disc, Pose, straight_scene
 from relguide.kernels.contact.chain import BOUNDARY_ARC
-from relguide.kernels.contact.constrained_rows import exact_constrained
+from relguide.kernels.contact.constrained_rows import solve_constrained_rows
 from relguide.kernels.contact.contact import contact_heading, slide_within
 from relguide.kernels.networks.template_recognition import template_of
 from relguide.kernels.networks.template_solutions import solve_template
@@ -21,7 +21,7 @@ FOUND = labels()
 SLACK = 1e-6  # what the certificate allows, too [R]
 
 
-def solved(n: int, off: float = 0.0) -> tuple[int, float, np.ndarray]:
+def solve_answer(n: int, off: float = 0.0) -> tuple[int, float, np.ndarray]:
     """Kind, time and legs of answer n, solved again from its guess, which is put off by so much."""
     x, y, h, alpha, slot, limit = FOUND.situations[n].tolist()
     guess, legs = np.zeros(2), np.zeros((9, 6))
@@ -37,7 +37,7 @@ def test_exact_answers_lead_back_to_themselves() -> None:
     templates: Counter[str] = Counter()
     missed, late = 0, []
     for n in range(len(FOUND)):
-        template, time, legs = solved(n)
+        template, time, legs = solve_answer(n)
         templates[TEMPLATES[template]] += 1
         if template in (SEVERAL, NONE):
             continue
@@ -62,9 +62,9 @@ def test_exact_answers_lead_back_to_themselves() -> None:
 def test_a_guess_that_is_off_leads_to_the_same_path() -> None:
     same = total = 0
     for n in range(0, len(FOUND), 2):
-        _, time, legs = solved(n)
+        _, time, legs = solve_answer(n)
         if len(legs) > 1:
-            _, again, _ = solved(n, off=0.02)
+            _, again, _ = solve_answer(n, off=0.02)
             same += abs(again - time) < 1e-5
             total += 1
     assert total > 200
@@ -85,7 +85,7 @@ def test_a_straight_way_bent_a_little_is_found_from_a_guess_beside(
 ) -> None:
     x, y, h, alpha, slot, limit = situation
     times, counts, legs = np.empty((1, 3)), np.empty(1), np.zeros((1, 9, 6))
-    exact_constrained(np.array([situation]), BEARINGS, 2000.0, times, counts, legs)
+    solve_constrained_rows(np.array([situation]), BEARINGS, 2000.0, times, counts, legs)
     guess, found = np.empty(2), np.zeros((9, 6))
     start, scene = Pose(x, y, h), straight_scene(alpha, slot, limit)
     template = template_of(start, scene, legs[0, : int(counts[0])], guess)
@@ -101,7 +101,7 @@ def test_a_straight_way_bent_a_little_is_found_from_a_guess_beside(
 def test_ways_arrive_and_keep_the_limit() -> None:
     seen = 0
     for n in range(0, len(FOUND), 3):
-        _, time, legs = solved(n)
+        _, time, legs = solve_answer(n)
         if len(legs) < 2:
             continue
         seen += 1

@@ -11,7 +11,7 @@ from relguide.kernels.separation.approach import least_by_squares, least_separat
 TOLERANCE = 1e-3  # [m]
 
 
-def sampled(motion: Motion, times: np.ndarray) -> np.ndarray:
+def sample(motion: Motion, times: np.ndarray) -> np.ndarray:
     """Where an aircraft is at ascending times."""
     x, y, heading, speed, pieces = motion
     begun, places = 0.0, []
@@ -36,11 +36,11 @@ def test_no_sample_lies_below_the_bound_and_the_bound_is_close() -> None:
         horizon = 600.0
         least, at, bound = least_separation(*both, horizon, TOLERANCE)
         times = np.linspace(0.0, horizon, 6001)
-        away = np.hypot(*(sampled(both[0], times) - sampled(both[1], times)).T)
+        away = np.hypot(*(sample(both[0], times) - sample(both[1], times)).T)
         assert away.min() >= bound
         assert least - TOLERANCE - 1e-4 <= bound <= least
         assert least <= away.min() + TOLERANCE
-        place, other = (sampled(one, np.array([at]))[0] for one in both)
+        place, other = (sample(one, np.array([at]))[0] for one in both)
         assert hypot(*(place - other)) == pytest.approx(least, abs=1e-6)
 
 

@@ -24,7 +24,7 @@ from relguide.learn.words.branch_network import load_network
 from tests.relguide.learn.words.networks import REQUEST, network
 
 
-def audited(count: int, seed: int = 1, *, least_share: float | None = None) -> Audit:
+def audit(count: int, seed: int = 1, *, least_share: float | None = None) -> Audit:
     asked = network() if least_share is None else replace(network(), least_share=least_share)
     request = replace(branch_audit_request(asked, count, seed), chunk=1000)
     with ThreadPoolExecutor(1) as executor:
@@ -40,7 +40,7 @@ def test_shares_come_with_wilsons_interval() -> None:
 
 
 def test_what_it_counts_adds_up() -> None:
-    found = audited(3000)
+    found = audit(3000)
     groups = {group.name: group for group in found.groups}
     held_out = [group for name, group in groups.items() if name.startswith("unseen ")]
     assert len(held_out) == 3
@@ -65,9 +65,9 @@ def test_what_it_counts_adds_up() -> None:
 
 
 def test_it_is_the_same_each_time_and_sees_other_situations_than_the_training() -> None:
-    assert audited(1000) == audited(1000)
+    assert audit(1000) == audit(1000)
     with pytest.raises(ValueError, match="has seen the situations of seed 5"):
-        audited(10, seed=REQUEST.seed)
+        audit(10, seed=REQUEST.seed)
 
 
 def test_a_network_that_knows_nothing_is_found_out() -> None:
@@ -96,7 +96,7 @@ def test_the_gap_is_that_of_what_would_be_flown() -> None:
 
 
 def test_a_larger_set_loses_less() -> None:
-    sizes = audited(3000).sets
+    sizes = audit(3000).sets
     assert [size.mean_set for size in sizes] == sorted((s.mean_set for s in sizes), reverse=True)
     assert [size.lost.hits for size in sizes] == sorted(size.lost.hits for size in sizes)
     assert sizes[0].lost.hits < sizes[-1].lost.hits
@@ -104,7 +104,7 @@ def test_a_larger_set_loses_less() -> None:
 
 
 def test_every_gap_comes_with_what_explains_it() -> None:
-    found = audited(3000, least_share=0.1)
+    found = audit(3000, least_share=0.1)
     gaps = [miss.gap for miss in found.misses]
     assert gaps == sorted(gaps, reverse=True)
     assert 3 < len(gaps) == found.worth.hits

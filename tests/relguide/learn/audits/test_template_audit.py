@@ -50,7 +50,7 @@ def audit() -> TemplateAudit:
     return template_audit_of(chunks())
 
 
-def made(*rows: tuple[int, int, float, float, bool, bool]) -> TemplateVerdicts:
+def make_verdicts(*rows: tuple[int, int, float, float, bool, bool]) -> TemplateVerdicts:
     """As judged: template, that answered, exact and given time, whether named, whether held."""
     columns = (np.array(column) for column in zip(*rows, strict=True))
     templates, answered, exact, given, named, inside = columns
@@ -80,7 +80,7 @@ def test_delays_and_their_reasons_are_counted() -> None:
     late = 0.1 / UNIT
     found = template_audit_of(
         {
-            0: made(
+            0: make_verdicts(
                 (TOUCH, TOUCH, 10.0, 10.0, True, True),
                 (TOUCH, BOUNDARY_ARC, 10.0, 11.0, False, False),  # left out of the set
                 (BOUNDARY_ARC, TOUCH, 10.0, 10.5, False, True),  # held, not solved

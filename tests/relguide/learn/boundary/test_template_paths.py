@@ -42,14 +42,14 @@ def constrained_path(network: TemplateNetwork, situation: Situation) -> Candidat
     return solve_constrained(network, situation, radius, where, free) if binds else None
 
 
-def asked(situation: Situation, network: TemplateNetwork = SHIPPED) -> Plan | NoPlan:
+def ask(situation: Situation, network: TemplateNetwork = SHIPPED) -> Plan | NoPlan:
     return network_planner(load_network(), network)(situation)
 
 
 @cache
-def answered() -> list[tuple[Situation, Plan]]:
+def answers() -> list[tuple[Situation, Plan]]:
     """Those that the network that comes along answers, with its plans."""
-    plans = [(situation, asked(situation)) for situation in UNSEEN]
+    plans = [(situation, ask(situation)) for situation in UNSEEN]
     return [
         (situation, planned)
         for situation, planned in plans
@@ -60,9 +60,9 @@ def answered() -> list[tuple[Situation, Plan]]:
 def test_it_answers_nearly_all_and_hardly_ever_loses_time() -> None:
     exact = {id(situation): plan(situation) for situation in UNSEEN}
     there = sum(isinstance(answer, Plan) for answer in exact.values())
-    assert len(answered()) > 0.9 * there
+    assert len(answers()) > 0.9 * there
     late = []
-    for situation, planned in answered():
+    for situation, planned in answers():
         best = exact[id(situation)]
         assert isinstance(best, Plan)  # where nobody finds a way, the network does not either
         late.append(planned.time_to_converge - best.time_to_converge)
@@ -71,7 +71,7 @@ def test_it_answers_nearly_all_and_hardly_ever_loses_time() -> None:
 
 
 def test_every_answer_is_certified_and_none_beats_the_bound() -> None:
-    for situation, planned in answered():
+    for situation, planned in answers():
         assert certify(planned.trajectory, situation).holds
         assert planned.certificate.holds
         assert not planned.fell_back
@@ -79,18 +79,18 @@ def test_every_answer_is_certified_and_none_beats_the_bound() -> None:
 
 
 def test_a_tiny_network_flies_too() -> None:
-    flown = [asked(situation, ways()) for situation in UNSEEN[:100]]
+    flown = [ask(situation, ways()) for situation in UNSEEN[:100]]
     plans = [planned for planned in flown if isinstance(planned, Plan)]
     assert all(planned.certificate.holds for planned in plans)
     assert sum(planned.planner == "network" for planned in plans) > 0.2 * len(plans)
 
 
 def test_mirror_images_get_mirrored_answers() -> None:
-    for situation, planned in answered()[:60]:
+    for situation, planned in answers()[:60]:
         pursuer = replace(
             situation.pursuer, x=-situation.pursuer.x, heading=-situation.pursuer.heading
         )
-        mirrored = asked(replace(situation, pursuer=pursuer))
+        mirrored = ask(replace(situation, pursuer=pursuer))
         assert isinstance(mirrored, Plan)
         assert mirrored.planner == "network"
         assert mirrored.time_to_converge == pytest.approx(planned.time_to_converge, abs=1e-6)
@@ -100,7 +100,7 @@ def test_mirror_images_get_mirrored_answers() -> None:
 
 def fell_back(situation: Situation) -> bool:
     """Whether the exact planner answered, with what it says itself."""
-    planned, exact = asked(situation), plan(situation)
+    planned, exact = ask(situation), plan(situation)
     if isinstance(exact, NoPlan):
         return planned == exact
     assert isinstance(planned, Plan)
@@ -108,7 +108,7 @@ def fell_back(situation: Situation) -> bool:
 
 
 def test_out_of_the_box_the_exact_planner_answers() -> None:
-    situation, _ = answered()[0]
+    situation, _ = answers()[0]
     assert constrained_path(SHIPPED, situation) is not None
     box = SHIPPED.box
     for outside in (
@@ -130,19 +130,19 @@ def test_out_of_the_box_the_exact_planner_answers() -> None:
 
 
 def test_in_a_cross_wind_the_exact_planner_answers() -> None:
-    situation, _ = answered()[0]
+    situation, _ = answers()[0]
     assert fell_back(replace(situation, wind=wind_from(90 * DEG, 20.0)))
     for other in UNSEEN[:60]:
         across = replace(other, wind=wind_from(90 * DEG, 20.0))
         assert constrained_path(SHIPPED, across) is None
     along = replace(situation, wind=wind_from(180 * DEG, 20.0))
-    planned = asked(along)
+    planned = ask(along)
     assert isinstance(planned, Plan)
     assert planned.planner == "network"
 
 
 def test_inside_the_limit_and_without_a_way_it_says_what_the_exact_planner_says() -> None:
-    situation, _ = answered()[0]
+    situation, _ = answers()[0]
     inside = replace(
         situation,
         pursuer=replace(situation.pursuer, x=0.5 * situation.min_separation, y=0.0),

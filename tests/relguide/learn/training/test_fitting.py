@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from relguide.learn.training.fitting import reached_by, scale, split
+from relguide.learn.training.fitting import covering_share, scale, split
 from relguide.learn.training.options import TrainingOptions
 from relguide.learn.words.branch_labels import Box
 from relguide.learn.words.branch_network import BranchNetwork
@@ -39,10 +39,10 @@ def test_a_share_is_kept_and_the_rest_is_scaled() -> None:
 def test_a_set_is_calibrated_to_hold_what_is_right_as_often_as_asked() -> None:
     shares = np.random.default_rng(3).random(9999)
     for coverage in (0.9, 0.99, 0.999):
-        least = reached_by(shares, coverage)
+        least = covering_share(shares, coverage)
         assert np.mean(shares >= least) == pytest.approx(coverage, abs=2e-4)
         assert np.mean(shares >= least) >= coverage
-    assert reached_by(shares, 1.0) == shares.min()
+    assert covering_share(shares, 1.0) == shares.min()
 
 
 def test_too_few_rows_are_refused() -> None:

@@ -18,7 +18,7 @@ from tests.situations import numbers
 LOOKUP = lookup_in(tree())
 
 
-def turned(regular: RegularTrajectory) -> RegularTrajectory:
+def turn(regular: RegularTrajectory) -> RegularTrajectory:
     return replace(
         regular,
         triplets=tuple(
@@ -37,7 +37,7 @@ def test_a_state_of_the_tree_is_its_own_nearest() -> None:
 @given(x=numbers(-20e3, 120e3), y=numbers(1.0, 80e3), heading=numbers(-pi, pi))
 def test_mirrored_situations_get_mirrored_paths(x: float, y: float, heading: float) -> None:
     left = nearest(LOOKUP, A300.situation(x, y, heading))
-    assert nearest(LOOKUP, A300.situation(x, -y, -heading)) == turned(left)
+    assert nearest(LOOKUP, A300.situation(x, -y, -heading)) == turn(left)
 
 
 def test_it_is_the_nearest_of_all() -> None:

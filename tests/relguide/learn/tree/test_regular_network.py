@@ -35,7 +35,7 @@ OPTIONS = TrainingOptions(
 
 
 @cache
-def trained(method: Method = "paper") -> RegularNetwork:
+def train(method: Method = "paper") -> RegularNetwork:
     *_, last = train_regular(tree(), OPTIONS, method=method, about={})
     return last.network
 
@@ -48,7 +48,7 @@ def test_it_learns_the_tree() -> None:
 
 def test_the_same_options_give_the_same_weights() -> None:
     *_, again = train_regular(tree(), OPTIONS, method="paper", about={})
-    for here, there in zip(trained().weights, again.network.weights, strict=True):
+    for here, there in zip(train().weights, again.network.weights, strict=True):
         assert np.array_equal(here, there)
 
 
@@ -63,7 +63,7 @@ def test_what_it_gives_flies_nearly_to_the_slot() -> None:
     rng = np.random.default_rng(3)
     nodes = rng.permutation(tree().minima)[:200]
     x, y, h = tree().x[nodes] / RADIUS, tree().y[nodes] / RADIUS, tree().heading[nodes]
-    pairs = regress_pairs(trained(), x, y, h)
+    pairs = regress_pairs(train(), x, y, h)
     pairs[:, :, 2] *= RADIUS
     missed = []
     for i, node in enumerate(nodes.tolist()):
@@ -78,7 +78,7 @@ def test_what_it_gives_flies_nearly_to_the_slot() -> None:
 def test_mirrored_situations_get_mirrored_paths() -> None:
     rng = np.random.default_rng(4)
     x, y, h = rng.uniform(-5.0, 10.0, 50), rng.uniform(0.1, 8.0, 50), rng.uniform(0.1, 6.0, 50)
-    here, there = regress_pairs(trained(), x, y, h), regress_pairs(trained(), x, -y, -h)
+    here, there = regress_pairs(train(), x, y, h), regress_pairs(train(), x, -y, -h)
     assert np.array_equal(here[:, :, 1:], there[:, :, 1:])
     assert np.array_equal(here[:, :, 0], -there[:, :, 0])
 
@@ -98,11 +98,11 @@ def test_exact_ways_are_those_of_the_planner() -> None:
 
 def test_it_is_read_as_it_was_written(tmp_path: Path) -> None:
     file = tmp_path / "paper.safetensors"
-    save_regular(trained(), file)
+    save_regular(train(), file)
     read = load_regular(file)
     assert (read.method, read.parameters) == ("paper", tree().parameters)
     x = np.array([3.0])
-    assert np.array_equal(regress_pairs(read, x, x, x), regress_pairs(trained(), x, x, x))
+    assert np.array_equal(regress_pairs(read, x, x, x), regress_pairs(train(), x, x, x))
     for content in (b"PK", file.read_bytes()[:-100]):
         file.write_bytes(content)
         with pytest.raises(ValueError, match="holds no network of relguide train --method paper"):

@@ -29,7 +29,7 @@ def a300(x: float, y: float, heading: float, leader_tas: float = 200.0) -> Situa
     )
 
 
-def drawn(count: int) -> list[Situation]:
+def draw(count: int) -> list[Situation]:
     rng = np.random.default_rng(4)
     found = []
     while len(found) < count:
@@ -79,7 +79,7 @@ def test_every_answer_is_certified_and_none_beats_the_bound(situation: Situation
 
 def test_its_paths_end_in_the_slot_and_most_are_the_fastest() -> None:
     gaps = []
-    for situation in drawn(150):
+    for situation in draw(150):
         planned, exact = regular_planner(situation), plan(situation)
         assert isinstance(planned, Plan)
         assert isinstance(exact, Plan)

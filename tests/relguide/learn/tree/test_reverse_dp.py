@@ -24,7 +24,7 @@ from relguide.learn.tree.tree import (
 )
 from relguide.maps.area import exact_times
 from relguide.planning.regular import trajectory_from_regular
-from tests.plans import flown
+from tests.plans import fly_planned
 from tests.relguide.learn.tree.trees import A300, parameters, tree
 
 COLUMNS = (
@@ -40,7 +40,7 @@ def same(one: Tree, other: Tree) -> bool:
     )
 
 
-def grown(growth: Growth, *, threads: int | None = None) -> Tree:
+def grow(growth: Growth, *, threads: int | None = None) -> Tree:
     while not growth.finished:
         *_, growth = grow_order(growth, threads=threads)
     return tree_from(growth, {})
@@ -82,7 +82,7 @@ def test_every_way_flown_forward_reaches_the_slot_and_keeps_d_min(
 
 
 def test_the_separation_matters() -> None:
-    free = grown(plant(parameters(encounter=replace(A300, min_separation=0.0))))
+    free = grow(plant(parameters(encounter=replace(A300, min_separation=0.0))))
     assert free.close == 0
     assert tree().close > 50
     broken = sum(
@@ -127,7 +127,7 @@ def test_order_2_is_all_that_fig_3_lays_from_the_slot() -> None:
         if not at_slot and time <= small.horizon and time < least.get(cell, inf):
             arc, straight = Arc(turn=LEFT, turn_angle=angle, radius=radius), Straight(length=length)
             situation = A300.situation(x, y, -angle)
-            if certify(flown(situation, arc, straight), situation).holds:
+            if certify(fly_planned(situation, arc, straight), situation).holds:
                 least[cell] = time
     cells = [tuple(map(int, cell)) for cell in np.argwhere(tree(2).best > 0)]
     assert least == pytest.approx({cell: tree(2).time[tree(2).best[cell]] for cell in cells})
@@ -214,12 +214,12 @@ def test_the_compass_is_symmetric_to_the_last_digit() -> None:
 
 
 def test_threads_change_nothing() -> None:
-    assert same(grown(plant(parameters()), threads=1), grown(plant(parameters()), threads=2))
+    assert same(grow(plant(parameters()), threads=1), grow(plant(parameters()), threads=2))
 
 
 def test_blocks_change_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(reverse_dp, "BLOCK", 13)
-    assert same(grown(plant(parameters())), tree())
+    assert same(grow(plant(parameters())), tree())
 
 
 @pytest.mark.parametrize("stop_after", [1, 3, 9])
@@ -230,7 +230,7 @@ def test_growing_on_from_a_stop_gives_the_same_tree(
     *_, growth = grow_order(plant(parameters()))
     *_, growth = islice(grow_order(growth), stop_after)
     assert 0 < growth.next < len(growth.latest)
-    assert same(grown(growth), tree())
+    assert same(grow(growth), tree())
 
 
 # --- misuse -------------------------------------------------------------------------------------

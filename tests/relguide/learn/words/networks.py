@@ -26,7 +26,7 @@ def network() -> BranchNetwork:
     return last.network
 
 
-def chosen(*arguments: str) -> argparse.Namespace:
+def options(*arguments: str) -> argparse.Namespace:
     """Options as the command line gives them."""
     parser = argparse.ArgumentParser()
     add_options(parser)

@@ -31,7 +31,7 @@ def places(grid: Grid) -> tuple[np.ndarray, np.ndarray]:
     return x.ravel(), y.ravel()
 
 
-def headed(heading: float, ratio: float) -> Situation:
+def situation_on(heading: float, ratio: float) -> Situation:
     return replace(
         SITUATION,
         pursuer=replace(SITUATION.pursuer, heading=heading),
@@ -44,7 +44,7 @@ def test_times_are_the_exact_ones_and_seldom_later(network: BranchNetwork) -> No
     x, y = places(GRID)
     late = sure = 0
     for heading, ratio in rng.uniform((0.0, 0.3), (2.0 * pi, 0.97), (8, 2)).tolist():
-        situation = headed(heading, ratio)
+        situation = situation_on(heading, ratio)
         exact = times_around(situation)(x, y)
         words = area_words(network, situation, GRID)
         found = times_around(situation, words=words)(x, y)
@@ -64,7 +64,7 @@ def test_times_are_the_exact_ones_and_seldom_later(network: BranchNetwork) -> No
 
 
 def test_lines_and_regions_are_those_of_the_exact_area(network: BranchNetwork) -> None:
-    situation = headed(100 * DEG, 0.83)
+    situation = situation_on(100 * DEG, 0.83)
     words = area_words(network, situation, GRID)
     exact = isochrones(situation, GRID)
     found = isochrones(situation, GRID, evaluate=times_around(situation, words=words))
@@ -80,17 +80,17 @@ def test_lines_and_regions_are_those_of_the_exact_area(network: BranchNetwork) -
 
 @pytest.mark.parametrize("ratio", [0.29, 0.98])
 def test_outside_its_box_the_network_is_not_asked(network: BranchNetwork, ratio: float) -> None:
-    situation = headed(100 * DEG, ratio)
+    situation = situation_on(100 * DEG, ratio)
     assert np.all(area_words(network, situation, GRID)(*places(GRID)) == -1)
 
 
 def test_beyond_its_range_neither(network: BranchNetwork) -> None:
     wide = Grid(x=0.0, y=0.0, width=1.9e6, height=1.9e6, columns=64, rows=64)
     x, y = places(wide)
-    words = area_words(network, headed(100 * DEG, 0.83), wide)(x, y)
+    words = area_words(network, situation_on(100 * DEG, 0.83), wide)(x, y)
     assert np.all(words[np.hypot(x, y) > 42 * 12.7e3] == -1)
 
 
 def test_a_grid_of_few_nodes_will_do(network: BranchNetwork) -> None:
     small = Grid(x=0.0, y=0.0, columns=2, rows=3)
-    assert len(area_words(network, headed(1.0, 0.5), small)(*places(small))) == 6
+    assert len(area_words(network, situation_on(1.0, 0.5), small)(*places(small))) == 6

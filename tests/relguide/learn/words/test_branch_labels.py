@@ -17,7 +17,7 @@ from relguide.learn.words.branch_labels import (
     LabelRequest,
     Labels,
     canonical,
-    held_out,
+    held_out_regions,
     join_labels,
     label_chunk,
     load_labels,
@@ -96,7 +96,7 @@ def test_labels_are_in_the_box_and_on_the_left() -> None:
     assert box.min_ratio <= alpha.min() <= alpha.max() <= box.max_ratio
     assert y.min() >= 0.0
     assert 0.0 <= h.min() <= h.max() < 2.0 * pi
-    assert all(inside.sum() > 50 for inside in held_out(labels().situations).values())
+    assert all(inside.sum() > 50 for inside in held_out_regions(labels().situations).values())
 
 
 def test_a_mirror_image_is_looked_at_from_the_left() -> None:

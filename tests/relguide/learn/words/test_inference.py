@@ -14,7 +14,7 @@ from relguide.learn.words.inference import branch_shares
 from tests.relguide.learn.words.networks import network
 
 
-def drawn(count: int) -> np.ndarray:
+def draw(count: int) -> np.ndarray:
     rng = np.random.default_rng(4)
     return np.column_stack(
         (
@@ -28,7 +28,7 @@ def drawn(count: int) -> np.ndarray:
 
 def test_torch_says_what_the_kernel_says(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(inference, "CHUNK", 128)
-    situations = drawn(1000)
+    situations = draw(1000)
     situations[:4, 1] = 0.0
     scores, one = np.empty((3, SIZE)), np.empty(SIZE)
     counted: list[int] = []
@@ -42,7 +42,7 @@ def test_torch_says_what_the_kernel_says(monkeypatch: pytest.MonkeyPatch) -> Non
 
 
 def test_mirror_images_get_mirrored_shares() -> None:
-    situations = drawn(300)
+    situations = draw(300)
     found = branch_shares(network(), situations)
     mirrored = branch_shares(network(), situations * (1.0, -1.0, -1.0, 1.0))
     assert np.abs(found - mirrored[:, MIRROR_OF]).max() < 1e-5
@@ -50,7 +50,7 @@ def test_mirror_images_get_mirrored_shares() -> None:
 
 def test_torch_keeps_its_threads() -> None:
     before = torch.get_num_threads()
-    branch_shares(network(), drawn(3), threads=before + 1)
+    branch_shares(network(), draw(3), threads=before + 1)
     assert torch.get_num_threads() == before
 
 

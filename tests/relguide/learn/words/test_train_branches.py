@@ -15,7 +15,7 @@ from relguide.learn.training.options import TrainingOptions, command_of, options
 from relguide.learn.words.branch_labels import Box, save_labels
 from relguide.learn.words.branch_network import BranchNetwork, load_network
 from relguide.learn.words.train_branches import run, train
-from tests.relguide.learn.words.networks import OPTIONS, REQUEST, chosen, labels
+from tests.relguide.learn.words.networks import OPTIONS, REQUEST, labels, options
 
 SHORT = replace(OPTIONS, epochs=3)
 
@@ -74,7 +74,7 @@ def test_the_script_writes_weights_with_their_origin(
     assert about["dataset"]["seed"] == REQUEST.seed
     assert about["trained_on"] < about["labels"] == REQUEST.count
     assert sorted(path.name for path in Path().iterdir()) == ["labels.npz", "w.safetensors"]
-    next(run(chosen(*arguments), "test"))
+    next(run(options(*arguments), "test"))
     with pytest.raises(SystemExit, match=r"left from a run that was stopped: --resume goes on"):
         script("relguide.learn.words.train_branches", run)
     monkeypatch.setattr(sys, "argv", ["train", "labels.npz", "none/w.safetensors"])
@@ -96,10 +96,10 @@ def test_options_that_cannot_be_are_refused(wrong: dict[str, Any], sentence: str
 
 
 def test_the_command_is_kept_as_it_was_typed() -> None:
-    typed = chosen("folder/labels.npz", "w.safetensors", "--learning-rate", "0.001")
+    typed = options("folder/labels.npz", "w.safetensors", "--learning-rate", "0.001")
     assert command_of(typed) == "relguide train labels.npz w.safetensors --learning-rate 0.001"
     assert options_of(typed).learning_rate == 0.001
-    assert options_of(chosen("a", "b")) == TrainingOptions()
+    assert options_of(options("a", "b")) == TrainingOptions()
 
 
 def test_too_few_labels_and_a_missing_gpu_are_said() -> None:

@@ -14,11 +14,11 @@ from relguide.learn.words.visited import (
     KEPT,
     STEP,
     Floats,
+    collect_situations,
     draw_flight,
     draw_visited,
     listen_to,
     row_of,
-    situations_asked,
 )
 from tests.relguide.learn.words.networks import network
 
@@ -50,7 +50,7 @@ def test_a_row_is_the_situation_that_was_asked() -> None:
     asked = [
         situation
         for seed in range(4)
-        for situation in situations_asked(draw_flight(np.random.default_rng(seed)), plan)
+        for situation in collect_situations(draw_flight(np.random.default_rng(seed)), plan)
         if not situation.leader.intent
     ]
     assert len(asked) > 50
@@ -75,7 +75,7 @@ def test_flights_are_of_every_kind_and_arrive() -> None:
             assert end.results[0].least_separation > 0.99 * flight.situation.min_separation
         known.add(flight.intent_known)
         joined += end.results[0].joined
-        headings = [s.leader.heading for s in situations_asked(flight, plan)]
+        headings = [s.leader.heading for s in collect_situations(flight, plan)]
         turned += np.ptp(np.unwrap(headings)) > 0.1
     assert known == {True, False}
     assert joined > 3
