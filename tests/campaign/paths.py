@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from relguide.flying.plan_documents import (
     BoundarySegment,
+    PathPoint,
     PathSegment,
     StraightSegment,
     TurnSegment,
@@ -30,36 +31,33 @@ EVERY: Second = 1.0
 
 def path_in_air(segments: Sequence[PathSegment], wind: Wind) -> Floats:
     """Points of a plan's path in the air mass of its start: x, y. shape (n, 2)"""
-    points = [point for segment in segments for point in _points(segment, wind)]
     end = segments[-1].end
-    points.append((end.x - wind.east * end.t, end.y - wind.north * end.t))
-    return np.array(points)
+    return np.vstack([*(_points(segment, wind) for segment in segments), _in_air(end, wind)])
 
 
-def _points(segment: PathSegment, wind: Wind) -> Iterable[tuple[float, float]]:
+def _points(segment: PathSegment, wind: Wind) -> Floats:
+    """From the start of a segment on; its end is the start of the next. shape (n, 2)"""
     start = segment.start
-    x, y = start.x - wind.east * start.t, start.y - wind.north * start.t
-    times = np.arange(0.0, max(segment.duration, EVERY), EVERY)
     match segment:
         case StraightSegment():
-            speed = segment.length / segment.duration if segment.duration > 0.0 else 0.0
-            for t in times:
-                yield x + speed * t * sin(start.heading), y + speed * t * cos(start.heading)
+            return _in_air(start, wind)
         case TurnSegment():
             side = 1.0 if segment.direction == "right" else -1.0
-            rate = side * segment.angle / segment.duration if segment.duration > 0.0 else 0.0
+            count = int(segment.duration / EVERY) + 1
+            headings = start.heading + side * np.linspace(0.0, segment.angle, count, endpoint=False)
             radius = side * segment.radius
-            for t in times:
-                heading = start.heading + rate * t
-                yield (
-                    x + radius * (cos(start.heading) - cos(heading)),
-                    y + radius * (sin(heading) - sin(start.heading)),
-                )
+            east = radius * (cos(start.heading) - np.cos(headings))
+            north = radius * (np.sin(headings) - sin(start.heading))
+            return _in_air(start, wind) + np.column_stack([east, north])
         case BoundarySegment():
-            for point in (start, *segment.via):
-                yield point.x - wind.east * point.t, point.y - wind.north * point.t
+            return np.vstack([_in_air(point, wind) for point in (start, *segment.via)])
         case _:
             assert_never(segment)
+
+
+def _in_air(point: PathPoint, wind: Wind) -> Floats:
+    """Where a place of a path is in the air mass. shape (1, 2)"""
+    return np.array([[point.x - wind.east * point.t, point.y - wind.north * point.t]])
 
 
 def distance_from(path: Floats, x: Metre, y: Metre) -> Metre:
