@@ -40,6 +40,8 @@ REACH: Metre = 60_000.0
 """The pursuer begins no farther away."""
 ALTITUDE: Metre = 7_500.0
 """Of both, but behind a recorded leader [m]: FL246, where an A300 flies 124 … 244 m/s."""
+LONGEST: Second = 7_200.0
+"""A slow gain on a fast leader takes an hour and a half; then a flight has had its chance."""
 FASTEST: MetrePerSecond = 244.0
 LEAST_FOLLOWED: MetrePerSecond = 127.0
 """Leaders begin no slower; on command they do slow down below what a pursuer can fly [m/s]."""
@@ -221,6 +223,7 @@ def _case(family: str, number: int, situation: Situation, *, intent_known: bool 
             situation=situation,
             intent_known=intent_known,
             altitude=ALTITUDE,
+            duration_limit=LONGEST,
         ),
     )
 

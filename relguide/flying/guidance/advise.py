@@ -6,7 +6,7 @@ nothing here changes in place.
 """
 
 from dataclasses import replace
-from math import cos, sin
+from math import cos, hypot, sin
 
 from relguide.flying.belief import Belief
 from relguide.flying.guidance import converge
@@ -108,7 +108,8 @@ def _try_to_plan(
 ) -> tuple[Memory, list[Event]]:
     """From a held heading: converge as soon as there is a path that keeps d_min."""
     settings, t = assignment.settings, belief.t
-    if t - memory.asked < settings.retry:
+    quiet = settings.retry_share * (t - max(memory.changed, memory.since))
+    if t - memory.asked < min(max(settings.retry, quiet), settings.retry_longest):
         return memory, []
     if memory.mode == "escape":
         rested = t - memory.since >= ESCAPES_FOR and is_steady(memory, belief, assignment)
@@ -208,9 +209,8 @@ def _has_left_capture(memory: Memory, belief: Belief, assignment: Assignment) ->
     """Whether the pursuer is no longer near the leader's flown path, or the slot is far off it."""
     settings, s = assignment.settings, memory.progress.s
     marks = belief.track.marks
-    _, x, y, heading, track = mark_at(marks, at.S, s + belief.own.tas)
-    right = (belief.own.x - x) * cos(track) - (belief.own.y - y) * sin(track)
-    if abs(right) > settings.lost_across:
+    _, x, y, heading, _ = mark_at(marks, at.S, s + belief.own.tas)
+    if hypot(belief.own.x - x, belief.own.y - y) > settings.lost_across:
         return True
     if abs(wrap_signed(belief.own.heading - heading)) > settings.lost_heading:
         return True

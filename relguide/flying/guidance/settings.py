@@ -122,7 +122,11 @@ class Settings:
     shown_share: float = 0.05
     """… and by this much of the length or the time to go."""
     retry: Second = 5.0
-    """Without a plan, one is asked for this often."""
+    """Without a plan, one is asked for this often, and less often …"""
+    retry_share: float = 0.2
+    """… once the leader has done nothing new for five times as long,"""
+    retry_longest: Second = 60.0
+    """… but never after a longer pause than this."""
     look_out: Second = 180.0
     """How long an escape must keep clear: DAIDALUS looks as far."""
 

@@ -186,10 +186,12 @@ def _slot_on(marks: FloatArray, task: Task) -> float:
 @njit(cache=True, nogil=True)
 def _is_near_marks(marks: FloatArray, body: Body, task: Task, gate: Gate, to_slot: float) -> bool:
     """Whether the leader's flown path is near enough to be captured from here."""
-    s, right = beside_marks(marks, body.x, body.y, _slot_on(marks, task) - to_slot)
-    heading = mark_at(marks, at.S, s)[3]
+    s, _ = beside_marks(marks, body.x, body.y, _slot_on(marks, task) - to_slot)
+    _, x, y, heading, _ = mark_at(marks, at.S, s)
+    # far from the path no place is next to it, and the nearest may lie ahead or behind
+    across = hypot(body.x - x, body.y - y)
     off = abs(wrap_signed(body.heading - heading))
-    return abs(right) < gate.capture_across and off < gate.capture_turn + 4.0 * gate.heading
+    return across < gate.capture_across and off < gate.capture_turn + 4.0 * gate.heading
 
 
 @njit(cache=True, nogil=True)

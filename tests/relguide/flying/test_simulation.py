@@ -33,7 +33,7 @@ from relguide.flying.losses import RECENT
 from relguide.flying.scenarios import fig_6, own_scenario
 from relguide.flying.simulation import simulate, whole_steps
 from relguide.flying.world import Aircraft, Declared, Guided, Link, World
-from relguide.planning.plan import plan
+from relguide.planning.plan import NoPlan, Plan, plan
 from relguide.planning.situation import Leader, Pursuer, Situation
 from relguide.units import DEG, NM
 from tests.flights import Flown, fly_whole, random_start, saying
@@ -249,6 +249,31 @@ def test_aircraft_that_join_nobody_fly_until_the_end() -> None:
     assert isinstance(last, Sample)
     assert isinstance(end, FlightEnded)
     assert (last.t, last.aircraft[0].y, end.results) == (10.0, pytest.approx(2_000.0), ())
+
+
+def test_without_a_plan_one_is_asked_for_ever_more_seldom_until_the_leader_moves() -> None:
+    asked = list[float]()
+
+    def counting(situation: Situation) -> Plan | NoPlan:
+        asked.append(situation.leader.tas)
+        return plan(situation)
+
+    faster = Situation(
+        pursuer=Pursuer(x=0.0, y=-20_000.0, heading=0.0, tas=200.0, max_bank=25.0 * DEG),
+        leader=Leader(x=0.0, y=0.0, heading=0.0, tas=220.0),
+        slot_distance=10_000.0,
+        min_separation=LIMIT,
+    )
+    scenario = replace(own_scenario(faster), duration_limit=700.0)
+    counts, begun = list[int](), list[float]()
+    for settings in (DEFAULT, replace(DEFAULT, retry_longest=DEFAULT.retry)):
+        asked.clear()
+        slower = saying((600.0, LeaderSpeed(tas=180.0)))
+        flight = fly(scenario, counting, commands=slower, sample_period=1.0, settings=settings)
+        begun.append(next(d.t for d in flight if isinstance(d, PlanChanged)))
+        counts.append(len([tas for tas in asked if tas == 220.0]))
+    assert counts[0] < counts[1] / 3
+    assert abs(begun[0] - begun[1]) <= DEFAULT.retry  # as soon as it has slowed down
 
 
 def test_a_turn_that_was_ordered_is_said_once() -> None:

@@ -4,6 +4,8 @@ from dataclasses import replace
 
 import pytest
 
+from relguide.flying.fleet import Fleet
+from relguide.flying.flight import world_of
 from relguide.flying.guidance.assignment import IN_GATE
 from relguide.flying.guidance.committed import Committed
 from relguide.flying.guidance.converge import (
@@ -15,11 +17,22 @@ from relguide.flying.guidance.converge import (
     propose,
 )
 from relguide.flying.guidance.settings import DEFAULT
+from relguide.flying.pursuit import begin_pursuit
 from relguide.flying.scenarios import own_scenario
+from relguide.kernels.flight.ahead import MODE
+from relguide.kernels.flight.guide import CONVERGE
 from relguide.planning.plan import NoPlan, Optimality, Plan, Planner, Reason, plan
-from relguide.planning.situation import Situation
+from relguide.planning.situation import (
+    FlyStraight,
+    Leader,
+    Pursuer,
+    Situation,
+    TurnTo,
+    Wind,
+)
+from relguide.planning.trajectory import LEFT, RIGHT
 from relguide.planning.words import candidates
-from relguide.units import NM
+from relguide.units import DEG, NM
 from tests.flights import fly_whole, random_start
 from tests.liars import ends_beside
 from tests.relguide.flying.guidance.beliefs import FIG_6B, Watched, behind, observe
@@ -43,6 +56,45 @@ def test_a_proposal_promises_what_is_flown() -> None:
     assert committed.forecast.join_time > committed.due  # braking comes on top
     least, _ = committed.forecast.least(0.0)
     assert flight.result.least_separation == pytest.approx(least, abs=1.0)
+
+
+def test_a_path_far_from_the_leaders_is_not_left_for_it() -> None:
+    """In line with a piece of the leader's path, 60 km from it, and pointing the same way."""
+    intent = (
+        FlyStraight(duration=283.36550760514945),
+        TurnTo(heading=5.583534337214632, turn=RIGHT, bank=0.2999313218701669),
+        FlyStraight(duration=513.9957729660855),
+        TurnTo(heading=4.070729323640768, turn=RIGHT, bank=0.4161859928167952),
+        FlyStraight(duration=547.4762239247898),
+        TurnTo(heading=3.9702299961192646, turn=LEFT, bank=0.40307321269826096),
+    )
+    situation = Situation(
+        pursuer=Pursuer(
+            x=-40_300.92781480177,
+            y=18_177.16285078416,
+            heading=4.4671182951359665,
+            tas=240.32350060217098,
+            max_bank=25.0 * DEG,
+        ),
+        leader=Leader(
+            x=0.0, y=0.0, heading=3.1933427559437537, tas=151.03640149653864, intent=intent
+        ),
+        slot_distance=11_466.21554566015,
+        min_separation=9_583.241282706625,
+        wind=Wind(east=8.745426093515643, north=-9.80802859323714),
+    )
+    scenario = replace(own_scenario(situation), altitude=7_500.0)
+    world = world_of(scenario, seed=53)
+    pursuer, other = world.aircraft
+    world = replace(world, aircraft=(replace(pursuer, believed=pursuer.airframe), other))
+    fleet = Fleet(world, 0.05)
+    pursuit = begin_pursuit(world, fleet, world.links[0])
+    found = propose(pursuit.belief(fleet, 0.0), pursuit.assignment, None, plan)
+    assert isinstance(found, Proposal)
+    ahead, due = found.committed.forecast, found.committed.due
+    modes = ahead.account[: int(due), MODE]
+    assert set(modes[: int(due - 100.0)]) == {CONVERGE}
+    assert due < ahead.join_time < due + 120.0  # never, while it chased the wrong piece
 
 
 def test_plans_keep_d_min_and_the_buffer() -> None:
