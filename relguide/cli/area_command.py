@@ -73,7 +73,7 @@ def _number(heading: float, parameters: "TreeParameters") -> int:
     if abs(number - round(number)) > 1e-6:
         raise ValueError(
             f"The tree has headings every {parameters.delta_theta / DEG:g}°; "
-            f"{heading / DEG:g}° is none of them."
+            f"{heading / DEG:g}° is not one of them."
         )
     return round(number) % parameters.headings
 

@@ -45,8 +45,8 @@ def cluster(address: str, say: Callable[[str], None]) -> Iterator["ClusterExecut
 
     Raises:
         MissingExtra: if Dask is not installed here.
-        ValueError: if the address is none of a scheduler, or a machine of the cluster has another
-            program.
+        ValueError: if there is no scheduler at the address, or a machine of the cluster has
+            another program.
         OSError: if nobody answers there.
     """
     need("distributed")

@@ -45,7 +45,7 @@ def check_figure(file: Path) -> None:
     """Refuse a figure that could not be drawn, before anything is computed.
 
     Raises:
-        ValueError: if the file's format is none of ours.
+        ValueError: if the file's format is unknown.
         MissingExtra: if matplotlib is missing.
         OSError: if its folder does not exist.
     """

@@ -57,7 +57,7 @@ def shares_across(
     axes: "Axes", shares: Sequence[Share], at: Sequence[float], colour: str, mark: str,
     name: str = "",
 ) -> None:  # fmt: skip
-    """Shares [%] along x with their intervals, a line each; of nothing, none."""
+    """Shares [%] along x with their intervals, a line each; a share of nothing has no line."""
     there = [(share, y) for share, y in zip(shares, at, strict=True) if share.of]
     middle = np.array([share.value for share, _ in there])
     axes.errorbar(
@@ -67,7 +67,7 @@ def shares_across(
 
 
 def rates_over(axes: "Axes", x: Sequence[float], shares: Sequence[Share], name: str) -> None:
-    """Small shares [%] over x, with intervals; where none was met, the bound of it."""
+    """Small shares [%] over x, with intervals; the upper bound where nothing was met."""
     across, middle, bars = np.array(x), np.array([share.value for share in shares]), _bars(shares)
     met = middle > 0.0
     axes.errorbar(

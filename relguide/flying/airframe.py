@@ -79,7 +79,7 @@ class Airframe:
         if not re.fullmatch("[A-Z][A-Z0-9]{1,3}", text("designator", self.designator)):
             raise ValueError(
                 "designator must be the ICAO type designator, 2 to 4 capital letters and digits"
-                f" such as A306, not {self.designator!r}."
+                f" (A306), not {self.designator!r}."
             )
         if not text("name", self.name).strip():
             raise ValueError("name must not be empty: give what the maker calls the type.")

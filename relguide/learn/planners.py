@@ -29,7 +29,7 @@ def make_planner(name: str) -> "Planner":
     """The planner of that name.
 
     Raises:
-        ValueError: if there is none.
+        ValueError: if there is no planner of that name.
     """
     if name not in PLANNERS:
         raise ValueError(f"The planner must be {' or '.join(PLANNERS)}, not {name!r}.")

@@ -49,7 +49,7 @@ def number(name: str, value: object) -> float:
     """A finite float; −0 becomes 0.
 
     Raises:
-        ValueError: for what is no real number (a truth value is none), or is not finite.
+        ValueError: for what is not a finite real number; a truth value is not one.
     """
     # isinstance of `Real` takes half a microsecond, and nearly all are floats
     if type(value) is not float:

@@ -116,13 +116,13 @@ def expectation(belief: Belief) -> Expectation:
 def leader_change(
     was: Expectation, now: Expectation, turned: Radian, speed: MetrePerSecond
 ) -> PlanReason | None:
-    """What the leader does that was not expected; `None` if nothing.
+    """What the leader does that was not expected; `None` if there is nothing.
 
     Args:
         was: what was expected.
         now: what is known now.
-        turned: a smaller change of its final heading is none [rad].
-        speed: a smaller change of its speed is none [m/s].
+        turned: a smaller change of its final heading does not count [rad].
+        speed: a smaller change of its speed does not count [m/s].
     """
     if now.intent_known != was.intent_known:
         return "intent_received" if now.intent_known else "intent_withdrawn"

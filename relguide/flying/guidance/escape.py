@@ -28,7 +28,7 @@ ENDS_EVERY: Radian = 30.0 * DEG
 TURNS_ON: Radian = 180.0 * DEG
 """A leader that turned farther would fly back to where it came from [rad]."""
 FAINT: Radian = 2.0 * DEG
-"""An escape's heading is found to 10°; differences below this are none [rad]."""
+"""An escape's heading is found to 10°; smaller differences do not count [rad]."""
 
 
 class Escape(NamedTuple):

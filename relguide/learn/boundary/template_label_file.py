@@ -46,7 +46,7 @@ def load_template_labels(file: Path) -> tuple[TemplateLabels, dict[str, Any]]:
     """Read labels, and what the file says of itself.
 
     Raises:
-        ValueError: if the file is none of labels.
+        ValueError: if the file does not hold labels.
     """
     about, columns = load_columns(file, FILE, COLUMNS, NONE)
     labels = from_columns(*(columns[name] for name in COLUMNS))

@@ -73,7 +73,7 @@ def load_checkpoint(
         epochs done, the best of them and how good that is.
 
     Raises:
-        ValueError: if there is none, or it is of another training.
+        ValueError: if there is no checkpoint, or it is of another training.
     """
     import torch
 

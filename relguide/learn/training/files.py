@@ -45,10 +45,10 @@ def load_columns(
         file: to read.
         kind: what it must say it is, by `file` in its text.
         names: of the arrays wanted.
-        refusal: what to say of a file that is none, behind its name.
+        refusal: what to say, behind its name, of a file that is not of this kind.
 
     Raises:
-        ValueError: if it is none, or one of another kind.
+        ValueError: if it is not an .npz file, or of another kind.
     """
     try:
         with file.open("rb") as stream, np.load(stream, allow_pickle=False) as content:
@@ -92,7 +92,7 @@ def load_weights(
 
 
 def expect_part(part: Path, *, resume: bool) -> None:
-    """Refuse to begin where a stopped run has left something, and to resume where none has.
+    """Refuse to begin where a stopped run has left something, and to resume where nothing was left.
 
     Raises:
         ValueError: saying what to do instead.

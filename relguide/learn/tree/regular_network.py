@@ -101,7 +101,7 @@ def load_regular(file: Path) -> RegularNetwork:
     """Read a network.
 
     Raises:
-        ValueError: if the file is none.
+        ValueError: if the file does not hold such a network.
     """
 
     def network(about: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> RegularNetwork:

@@ -142,7 +142,7 @@ class Tree:
     mirrored: Ints
     """1 where this node is the mirror image of what its parent continues."""
     best: Ints
-    """Node of least time of each cell, −1 if none. shape (headings, cells_x, cells_y)"""
+    """Node of least time of each cell, −1 if there is none. shape (headings, cells_x, cells_y)"""
 
     def __len__(self) -> int:
         return len(self.x)

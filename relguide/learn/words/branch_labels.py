@@ -290,7 +290,7 @@ def load_labels(file: Path) -> tuple[Labels, dict[str, Any]]:
     """Read labels, and what the file says of itself.
 
     Raises:
-        ValueError: if the file is none of labels.
+        ValueError: if the file does not hold labels.
     """
     about, columns = load_columns(file, FILE, COLUMNS, NONE)
     situations, times, sources = (columns[name] for name in COLUMNS)

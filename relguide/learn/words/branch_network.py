@@ -122,7 +122,7 @@ def load_network(file: Path = SHIPPED) -> BranchNetwork:
     """Read a network.
 
     Raises:
-        ValueError: if the file is none, or does not fit this version.
+        ValueError: if the file holds no network, or one that does not fit this version.
     """
 
     def network(about: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> BranchNetwork:

@@ -104,7 +104,7 @@ def test_ctrl_c_leaves_what_resume_goes_on_with(run: Run, monkeypatch: pytest.Mo
         (("area", "--figure", "area.txt"), "must end in .svg, .png, .pdf, not area.txt"),
         (("area", "--figure", "no/area.svg"), "No such file"),
         (("area", "--figure", "area.svg", "--tree", "none.npz"), "none.npz: No such file"),
-        (("area", "--figure", "area.svg", "--headings-deg", "45"), "45° is none of them"),
+        (("area", "--figure", "area.svg", "--headings-deg", "45"), "45° is not one of them"),
     ],
 )
 def test_misuse_gives_a_sentence(run: Run, arguments: tuple[str, ...], sentence: str) -> None:
