@@ -153,6 +153,13 @@ def test_a_speed_is_taken_up_and_the_intent_kept() -> None:
     assert slowest >= -DECLARED_DECELERATION * A306.max_deceleration - 1e-9
 
 
+def test_a_leader_slows_down_nearly_as_fast_as_it_can_without_brakes() -> None:
+    fleet = Fleet(World(aircraft=(aircraft("L", pilot=Declared()),), links=()), 0.05)
+    fleet.set_speed(0, 150.0)
+    fastest = -np.min(np.diff(fly_seconds(fleet, 60)[:, 0, 5]))
+    assert 0.8 * A306.idle_deceleration < fastest <= A306.idle_deceleration
+
+
 def test_leaders_fly_any_speed_and_pursuers_only_what_their_type_can() -> None:
     fleet = Fleet(World(aircraft=(aircraft("P"), aircraft("L", pilot=Declared())), links=()), 0.05)
     envelope = A306.tas_range(9449.0, Air())

@@ -7,11 +7,13 @@ import pytest
 
 from relguide.flying.documents import PlanChanged
 from relguide.flying.flight import fly
+from relguide.flying.guidance.converge import Proposal, may_be_improved, propose
 from relguide.flying.guidance.settings import DEFAULT, FLAGS, Settings, load_settings
 from relguide.flying.plan_documents import TurnSegment
 from relguide.flying.scenarios import fig_6
 from relguide.planning.plan import plan
 from relguide.units import DEG, KT, NM
+from tests.relguide.flying.guidance.beliefs import observe
 
 
 @pytest.fixture
@@ -103,6 +105,21 @@ def test_every_number_must_be_above_zero(name: str) -> None:
 def test_plans_leave_bank_in_hand(most: float, planned: float) -> None:
     """2.5°, or a tenth where the bank is gentle."""
     assert DEFAULT.planned_bank(most * DEG) == pytest.approx(planned * DEG)
+
+
+@pytest.mark.parametrize(("seconds", "worth"), [(3.0, False), (8.0, True)])
+def test_far_ahead_half_a_percent_of_the_time_left_is_worth_a_change(
+    seconds: float, worth: bool
+) -> None:
+    found = propose(*observe(fig_6(intent_known=True)), None, plan)
+    assert isinstance(found, Proposal)
+    planned = found.committed.plan
+    bound = planned.time_to_converge - seconds
+    loose = replace(planned.optimality, lower_bound=bound)
+    committed = found.committed._replace(plan=replace(planned, optimality=loose))
+    assert committed.due == pytest.approx(917.0, abs=20.0)
+    _, assignment = observe(fig_6(intent_known=True))
+    assert may_be_improved(committed, 0.0, assignment) == worth
 
 
 def test_flights_are_flown_with_the_settings_given() -> None:

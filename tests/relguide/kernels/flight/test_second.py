@@ -79,6 +79,10 @@ def test_swing_track_and_reversals_are_counted() -> None:
     assert tallies[REVERSALS] == 2.0
 
 
+def test_four_degrees_of_bank_are_a_turn() -> None:
+    assert flown_tallies(level(), (4.0, -4.0, 4.0))[REVERSALS] == 2.0
+
+
 def test_a_full_turn_swings_through_a_full_turn() -> None:
     seconds = 2.0 * pi / turn_rate(240.0, 25.0 * DEG)
     tallies = flown_tallies(level(bank=25.0), (25.0,) * 4)
