@@ -4,6 +4,10 @@ In a call from compiled code numba gives a constant a type of its own, `Literal[
 compiles what is called for it again. That makes nothing faster, since LLVM knows the constants of
 what it inlines, and takes a tenth of the time that the first flight waits for. So our kernels are
 looked up by plain types.
+
+numba offers no option for that. Explicit signatures would, but such kernels are compiled, or read
+from disk, when they are imported: all of them, whatever is wanted. So its lookup is wrapped; the
+versions of numba for which that is tested are those of `pyproject.toml`.
 """
 
 from typing import Any
