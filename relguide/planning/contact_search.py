@@ -172,7 +172,7 @@ class _Search:
             heappush(self.bundles, _Bundle(bound, next(self.numbers), first, last, eased=False))
 
     def needs_last_contact(self, bundle: _Bundle) -> bool:
-        """Whether the way on from the first contact breaks the limit, so that a last one is needed."""
+        """Whether what follows the first contact breaks the limit, so that there is a last one."""
         first, last = bundle.first, bundle.last
         if last is not None or first.piece != self.final or not self.last_contacts:
             return False

@@ -189,7 +189,7 @@ def ground_track(body: Body, wind: Drift) -> tuple[float, float]:
 
 @njit(cache=True, nogil=True)
 def tas_for_ground_speed(heading: float, speed: float, wind: Drift) -> float:
-    """The true airspeed that moves along a heading's track at a ground speed [m/s]; 0 if there is none.
+    """The true airspeed for a ground speed along a heading's track [m/s]; 0 if there is none.
 
     Args:
         heading: ψ [rad].

@@ -55,8 +55,8 @@ def unpack(content: bytes) -> tuple[dict[str, str], Arrays]:
     """The metadata and the arrays of a file.
 
     Raises:
-        ValueError: if it is no such file, or is cut short; LookupError or TypeError if its header is not
-            of this format.
+        ValueError: if it is no such file, or is cut short; LookupError or TypeError if its header
+            is not of this format.
     """
     end = _LENGTH + int.from_bytes(content[:_LENGTH], "little")
     if len(content) < _LENGTH or end > len(content):
