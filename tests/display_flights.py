@@ -10,10 +10,7 @@ from pathlib import Path
 import orjson
 
 from relguide.contract.wire import to_wire
-from relguide.flying.aircraft_documents import AircraftCard, LinkCard
-from relguide.flying.cards import path_point, path_segments, plan_card, wind_card
-from relguide.flying.documents import Document, FlightStarted, LeaderRoute, PlanChanged
-from relguide.planning.alternatives import alternatives
+from relguide.flying.documents import Document
 from relguide.planning.plan import Plan, plan
 from relguide.planning.situation import (
     CALM,
@@ -27,6 +24,7 @@ from relguide.planning.situation import (
     wind_from,
 )
 from relguide.planning.trajectory import LEFT, RIGHT, Turn
+from tests.openings import opening_of
 
 FOLDER = Path(__file__).parents[1] / "web" / "test" / "nd" / "flights"
 OWN, LEADER = "RG456", "AF123"
@@ -44,52 +42,15 @@ def display_flight(name: str) -> tuple[Document, ...]:
     title, situation = SITUATIONS[name]
     answer = plan(situation)
     assert isinstance(answer, Plan)
-    wind, route = situation.wind, situation.leader.trajectory
-    at = answer.certificate.at_time
-    started = FlightStarted(
-        t=0.0,
-        scenario=name,
+    started, expected, engaged = opening_of(
+        answer,
+        own=OWN,
+        leader=LEADER,
+        name=name,
         title=title,
-        planner="exact",
-        aircraft=(
-            AircraftCard(ident=OWN, aircraft_type="A300", max_bank=radians(25.0)),
-            AircraftCard(ident=LEADER, aircraft_type="A300", max_bank=radians(20.0)),
-        ),
-        links=(
-            LinkCard(
-                pursuer=OWN,
-                leader=LEADER,
-                slot_distance=situation.slot_distance,
-                min_separation=situation.min_separation,
-                spacing="distance",
-                spacing_time=0.0,
-            ),
-        ),
-        wind=wind_card(wind),
-        step=0.05,
-        seed=0,
+        shown_for=answer.time_to_converge + 600.0,
     )
-    expected = LeaderRoute(
-        t=0.0,
-        ident=LEADER,
-        expected_by=OWN,
-        intent_known=bool(situation.leader.intent),
-        segments=path_segments(route, wind=wind, horizon=answer.time_to_converge + 600.0),
-    )
-    changed = PlanChanged(
-        t=0.0,
-        ident=OWN,
-        reason="engaged",
-        message="Converging.",
-        plan=replace(plan_card(answer, alternatives(answer)), compute=0.0),
-        leader_at_closest=path_point(route.pose_at(at), at, wind),
-        pursuer_at_closest=path_point(answer.trajectory.pose_at(at), at, wind),
-        announced=True,
-        promised=answer.time_to_converge,
-        tube=0.0,
-        flown_least=answer.certificate.least_separation,
-    )
-    return started, expected, changed
+    return started, expected, replace(engaged, plan=replace(engaged.plan, compute=0.0))
 
 
 def _situation(

@@ -4,8 +4,8 @@ import numpy as np
 
 from relguide.flying.documents import SeparationLost
 from relguide.flying.fleet import Fleet
-from relguide.flying.logbook import Milestones, count_event, count_loss
 from relguide.flying.pursuit import Pursuit
+from relguide.flying.tally import Milestones, count_event, count_loss
 from relguide.kernels.flight.second import REVERSALS, SWING, TRACK
 from relguide.units import Metre, Second
 

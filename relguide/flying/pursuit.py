@@ -8,7 +8,8 @@ from relguide.flying.fleet import Fleet
 from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.forecast import Forecast
 from relguide.flying.guidance.memory import LONG_AGO, Advice, Memory, begin
-from relguide.flying.logbook import Milestones, Names, Tally
+from relguide.flying.logbook import Names
+from relguide.flying.tally import Milestones, Tally
 from relguide.flying.world import Link, World
 from relguide.units import Second
 

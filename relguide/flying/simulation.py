@@ -25,16 +25,11 @@ from relguide.flying.leader_watch import (
     note_command,
     watch_leader,
 )
-from relguide.flying.logbook import (
-    count_event,
-    event_document,
-    forecast_document,
-    link_result,
-    sample,
-)
+from relguide.flying.logbook import event_document, forecast_document, sample
 from relguide.flying.losses import count_second
 from relguide.flying.orders import Command, no_commands, obey
 from relguide.flying.pursuit import Pursuit, begin_pursuit
+from relguide.flying.tally import count_event, link_result
 from relguide.flying.world import World
 from relguide.planning.plan import Planner, plan
 from relguide.units import Second

@@ -1,29 +1,24 @@
 """A short flight without a closed loop: both aircraft on their exact trajectories."""
 
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 from math import hypot
 
 from relguide.flying.aircraft_documents import (
-    AircraftCard,
     AircraftSample,
     GuidanceSample,
     HeadingReference,
-    LinkCard,
     LinkResult,
 )
-from relguide.flying.cards import path_point, path_segments, plan_card, wind_card
+from relguide.flying.cards import path_point
 from relguide.flying.documents import (
     Document,
     FlightEnded,
-    FlightStarted,
     LeaderChanged,
-    LeaderRoute,
     ModeChanged,
-    PlanChanged,
     Sample,
 )
 from relguide.flying.plan_documents import PathPoint
-from relguide.planning.alternatives import alternatives
 from relguide.planning.plan import Plan, plan
 from relguide.planning.situation import (
     FlyStraight,
@@ -36,6 +31,7 @@ from relguide.planning.situation import (
 )
 from relguide.planning.trajectory import RIGHT, Trajectory
 from relguide.units import DEG, FT
+from tests.openings import opening_of
 
 SITUATION = Situation(
     pursuer=Pursuer(x=-40_000.0, y=40_000.0, heading=90 * DEG, tas=240.0, max_bank=25 * DEG),
@@ -68,51 +64,18 @@ def ideal_flight(
     """Documents of a flight that follows its first plan exactly; a command is only reported."""
     answer = plan(situation)
     assert isinstance(answer, Plan)
-    yield FlightStarted(
-        t=0.0,
-        scenario="ideal",
+    opening = opening_of(
+        answer,
+        own=OWN,
+        leader=LEADER,
+        name="ideal",
         title="Two aircraft on their exact trajectories",
-        planner="exact",
-        aircraft=(
-            AircraftCard(ident=OWN, aircraft_type="A300", max_bank=25 * DEG),
-            AircraftCard(ident=LEADER, aircraft_type="A300", max_bank=20 * DEG),
-        ),
-        links=(
-            LinkCard(
-                pursuer=OWN,
-                leader=LEADER,
-                slot_distance=situation.slot_distance,
-                min_separation=situation.min_separation,
-                spacing="distance",
-                spacing_time=0.0,
-            ),
-        ),
-        wind=wind_card(situation.wind),
-        step=step,
-        seed=0,
+        shown_for=900.0,
     )
+    yield replace(opening.started, step=step)
+    yield opening.route
+    yield opening.plan
     wind, route = situation.wind, situation.leader.trajectory
-    yield LeaderRoute(
-        t=0.0,
-        ident=LEADER,
-        expected_by=OWN,
-        intent_known=True,
-        segments=path_segments(route, wind=wind, horizon=900.0),
-    )
-    at = answer.certificate.at_time
-    yield PlanChanged(
-        t=0.0,
-        ident=OWN,
-        reason="engaged",
-        message="Engaged.",
-        plan=plan_card(answer, alternatives(answer)),
-        leader_at_closest=path_point(route.pose_at(at), at, wind),
-        pursuer_at_closest=path_point(answer.trajectory.pose_at(at), at, wind),
-        announced=True,
-        promised=answer.time_to_converge,
-        tube=0.0,
-        flown_least=answer.certificate.least_separation,
-    )
     yield ModeChanged(t=0.0, ident=OWN, mode="converge", previous="heading", message="Converging.")
     for k in range(round(duration / step) + 1):
         t = k * step

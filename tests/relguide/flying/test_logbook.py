@@ -17,17 +17,8 @@ from relguide.flying.documents import (
     Unable,
 )
 from relguide.flying.guidance.forecast import NEVER, Forecast
-from relguide.flying.logbook import (
-    BENT,
-    STRAIGHT_FOR,
-    Milestones,
-    Names,
-    Tally,
-    count_event,
-    count_loss,
-    forecast_document,
-    link_result,
-)
+from relguide.flying.logbook import BENT, STRAIGHT_FOR, Names, forecast_document
+from relguide.flying.tally import Milestones, Tally, count_event, count_loss, link_result
 from relguide.units import DEG
 from tests.server.flown import ideal_flight
 
