@@ -29,6 +29,8 @@ def print_flight(flight: Story, figures: Mapping[str, Any]) -> None:
         console.print(Text(started.title or started.scenario, style="bold"))
         for link in started.links:
             limits = f"D {miles(link.slot_distance)}, d_min {miles(link.min_separation)}"
+            if link.spacing == "time":
+                limits += f", once joined {link.spacing_time:.0f} s behind"
             console.print(Text(f"{link.pursuer} behind {link.leader}, {limits}"))
     table = Table(box=SIMPLE_HEAD, pad_edge=False)
     table.add_column("at", justify="right")
@@ -36,6 +38,8 @@ def print_flight(flight: Story, figures: Mapping[str, Any]) -> None:
     table.add_column("why", overflow="fold")
     for event in flight.events:
         table.add_row(*_event(event))
+    for ended in flight.ended:
+        table.add_row(clock(ended.t), "end", ended.message)
     console.print(table)
     summary = Table(box=None, show_header=False, pad_edge=False)
     summary.add_column(style="dim")

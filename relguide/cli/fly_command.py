@@ -12,6 +12,7 @@ from relguide.cli.shared_options import add_planner
 from relguide.cli.situation_file import open_input, read_situation
 from relguide.learn.planners import make_planner
 from relguide.planning.extras import need
+from relguide.planning.limits import SPACING
 
 if TYPE_CHECKING:
     from relguide.contract.orders import Order
@@ -28,6 +29,7 @@ EXAMPLES = """
         {"t_s": 60, "intent_known": false}
         {"t_s": 300, "leader_heading_deg": 180, "direction": "left"}
         {"t_s": 950, "leader_tas_mps": 100}
+  relguide fly fig_6b --spacing 60             once joined, a minute behind
     """
 MAX_FOLLOWING = 36_000.0
 """Longest time to follow [s]."""
@@ -63,6 +65,15 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         default=120.0,
         help="how long to go on once joined; default: 120",
     )
+    parser.add_argument(
+        "--spacing",
+        metavar="SECONDS",
+        type=_spacing,
+        help="once joined, keep this time behind the leader; default: keep D",
+    )
+    parser.add_argument(
+        "--settings", metavar="FILE", help="constants of guidance, a TOML table [guidance]"
+    )
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     add_planner(parser)
 
@@ -74,10 +85,14 @@ def run(chosen: argparse.Namespace) -> int:
     from relguide.contract.recorder import record
     from relguide.contract.story import failures, figures, story_of
     from relguide.flying.flight import fly
+    from relguide.flying.guidance.settings import DEFAULT, load_settings
     from relguide.planning.progress import show_progress
 
     orders = _orders(chosen)
     scenario = _following_for(_scenario(chosen.scenario, chosen.seed), chosen.after_joining)
+    if chosen.spacing is not None:
+        scenario = replace(scenario, spacing=chosen.spacing)
+    settings = DEFAULT if chosen.settings is None else load_settings(chosen.settings)
     planner = make_planner(chosen.planner)
     for _ in islice(fly(scenario, planner, sample_period=1.0), LOADING):
         pass
@@ -85,10 +100,14 @@ def run(chosen: argparse.Namespace) -> int:
     started = perf_counter()
     if chosen.record is None:
         # nobody looks at the samples: one a second is enough for the progress bar
-        documents = fly(scenario, planner, commands=commands, seed=chosen.seed, sample_period=1.0)
+        documents = fly(
+            scenario, planner, commands=commands, seed=chosen.seed, sample_period=1.0,
+            settings=settings,
+        )  # fmt: skip
     else:
         documents = record(
-            fly(scenario, planner, commands=commands, seed=chosen.seed), chosen.record
+            fly(scenario, planner, commands=commands, seed=chosen.seed, settings=settings),
+            chosen.record,
         )
     flight = story_of(
         show_progress(
@@ -164,12 +183,20 @@ def _seed(text: str) -> int:
 
 
 def _following(text: str) -> float:
+    return _seconds(text, 0.0, MAX_FOLLOWING)
+
+
+def _spacing(text: str) -> float:
+    return _seconds(text, 1.0, SPACING.high)
+
+
+def _seconds(text: str, low: float, high: float) -> float:
     try:
         seconds = float(text)
     except ValueError:
         seconds = -1.0
-    if not 0.0 <= seconds <= MAX_FOLLOWING:
-        bounds = f"0 to {MAX_FOLLOWING:g}"
+    if not low <= seconds <= high:
+        bounds = f"{low:g} to {high:g}"
         raise argparse.ArgumentTypeError(f"must be a number of seconds from {bounds}, not {text}")
     return seconds
 

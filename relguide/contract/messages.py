@@ -37,6 +37,7 @@ from relguide.flying.plan_documents import (
     PlanCard,
 )
 from relguide.flying.verdicts import OptimalityCheck
+from relguide.planning.limits import SPACING
 
 _TAGS = ("kind", "status", "rejected")
 
@@ -135,6 +136,8 @@ Rate = Annotated[float, Field(ge=1.0, le=60.0)]
 """Accepted simulated seconds per second."""
 Seed = Annotated[int, Field(ge=0, le=2**32 - 1)]
 """Accepted seeds of a flight's random numbers."""
+SpacingTime = Annotated[float, Field(gt=0.0, le=SPACING.high)]
+"""Accepted times behind the leader [s]."""
 
 
 def from_wire(source: bytes | str | Mapping[str, object]) -> Document:
@@ -203,31 +206,33 @@ class ScenarioList(Strict):
     scenarios: list[ScenarioInfo]
 
 
-class ScenarioFlightRequest(Strict):
+class _HowToFly(Strict):
+    """What may be asked of any flight."""
+
+    rate: Rate = 1.0
+    """Simulated seconds per second."""
+    paused: bool = False
+    """Whether it waits for the command `play`."""
+    intent_known: bool | None = None
+    """Whether the pursuer knows the leader's intent; if left out, as the scenario says. Of a
+    situation of your own it does."""
+    seed: Seed = 0
+    """0 flies the type as its data say; any other draws its constants, unknown to its guidance."""
+    spacing_time_s: SpacingTime | None = None
+    """Time behind the leader to keep once joined; if left out, D is kept."""
+
+
+class ScenarioFlightRequest(_HowToFly):
     """Start a flight of a scenario."""
 
     scenario: Annotated[str, Field(max_length=100)]
     """Its name."""
-    rate: Rate = 1.0
-    """Simulated seconds per second."""
-    paused: bool = False
-    """Whether it waits for the command `play`."""
-    intent_known: bool | None = None
-    """Whether the pursuer knows the leader's intent; if left out, as the scenario says."""
-    seed: Seed = 0
 
 
-class SituationFlightRequest(Strict):
+class SituationFlightRequest(_HowToFly):
     """Start a flight from a situation of your own."""
 
     situation: SituationBody
-    rate: Rate = 1.0
-    """Simulated seconds per second."""
-    paused: bool = False
-    """Whether it waits for the command `play`."""
-    intent_known: bool | None = None
-    """Whether the pursuer knows the leader's intent; if left out, it does."""
-    seed: Seed = 0
 
 
 def _which_request(value: Any) -> str:

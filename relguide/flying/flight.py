@@ -31,6 +31,7 @@ from relguide.planning.inputs import (
     text,
     truth,
 )
+from relguide.planning.limits import SPACING
 from relguide.planning.plan import Plan, Planner
 from relguide.planning.situation import IntentPiece, Situation, TurnTo
 from relguide.units import DEG, Metre, Radian, Second
@@ -95,7 +96,7 @@ class Scenario:
                 f"pursuer_ident and leader_ident must differ, not both be {self.leader_ident!r}."
             )
         expect_within("altitude", self.altitude, *ALTITUDES, "m")
-        expect_within("spacing", self.spacing, 0.0, 600.0, "s")
+        expect_within("spacing", self.spacing, *SPACING)
         if number("duration_limit", self.duration_limit) <= 0.0:
             raise ValueError(f"duration_limit must be above 0 s, not {self.duration_limit}.")
         if number("after_joining", self.after_joining) < 0.0:

@@ -22,6 +22,8 @@ WIND = Range(0.0, 150.0, "m/s")
 """Wind speeds: the strongest jet streams on record are slower."""
 PIECE = Range(0.0, 86_400.0, "s")
 """Straight pieces of an intent."""
+SPACING = Range(0.0, 600.0, "s")
+"""Times behind the leader to keep once joined; 0 keeps D."""
 MAX_PIECES = 20
 """Most pieces an intent may have."""
 CLEARANCE = Range(0.0, inf, "m")

@@ -73,6 +73,8 @@ def library_departures(planner: Planner) -> Departures:
                 name, found = "", _own_scenario(wanted)
         if wanted.intent_known is not None:
             found = replace(found, intent_known=wanted.intent_known)
+        if wanted.spacing_time_s is not None:
+            found = replace(found, spacing=wanted.spacing_time_s)
         seed = wanted.seed
         return Departure(
             scenario=name,

@@ -63,3 +63,18 @@ def test_scenarios_say_whether_they_can_be_flown() -> None:
     assert {"fig_6a", "fig_6b", "recorded_leader"} <= {s["name"] for s in scenarios}
     for scenario in scenarios:
         assert scenario["available"] == (scenario["message"] == "")
+
+
+def test_a_time_to_keep_behind_the_leader_can_be_asked_for() -> None:
+    with TestClient(create_app(Settings())) as client:
+        body = {"scenario": "fig_6b", "paused": True, "spacing_time_s": 75.0}
+        started = client.post("/api/v1/flights", json=body)
+        assert started.status_code == 201, started.text
+        with client.websocket_connect(
+            started.json()["stream_url"], subprotocols=[PROTOCOL]
+        ) as socket:
+            (link,) = socket.receive_json()["documents"][0]["links"]
+        assert (link["spacing"], link["spacing_time_s"]) == ("time", 75.0)
+        refused = client.post("/api/v1/flights", json={**body, "spacing_time_s": 0.0})
+        assert refused.status_code == 422
+        assert refused.json()["errors"][0]["path"] == "spacing_time_s"

@@ -1,7 +1,7 @@
 // Made by `python -m relguide_server.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-334a5729979c";
+export const PROTOCOL = "relguide-4fcff3611b86";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -750,15 +750,21 @@ export interface Sample {
 
 /** Start a flight of a scenario. */
 export interface ScenarioFlightRequest {
-  /** Its name. */
-  scenario: string;
   /** Simulated seconds per second. */
   rate?: number;
   /** Whether it waits for the command `play`. */
   paused?: boolean;
-  /** Whether the pursuer knows the leader's intent; if left out, as the scenario says. */
+  /**
+   * Whether the pursuer knows the leader's intent; if left out, as the scenario says. Of a
+   * situation of your own it does.
+   */
   intent_known?: boolean | null;
+  /** 0 flies the type as its data say; any other draws its constants, unknown to its guidance. */
   seed?: number;
+  /** Time behind the leader to keep once joined; if left out, D is kept. */
+  spacing_time_s?: number | null;
+  /** Its name. */
+  scenario: string;
 }
 
 /** A scenario that can be flown. */
@@ -825,14 +831,20 @@ export interface SituationBody {
 
 /** Start a flight from a situation of your own. */
 export interface SituationFlightRequest {
-  situation: SituationBody;
   /** Simulated seconds per second. */
   rate?: number;
   /** Whether it waits for the command `play`. */
   paused?: boolean;
-  /** Whether the pursuer knows the leader's intent; if left out, it does. */
+  /**
+   * Whether the pursuer knows the leader's intent; if left out, as the scenario says. Of a
+   * situation of your own it does.
+   */
   intent_known?: boolean | null;
+  /** 0 flies the type as its data say; any other draws its constants, unknown to its guidance. */
   seed?: number;
+  /** Time behind the leader to keep once joined; if left out, D is kept. */
+  spacing_time_s?: number | null;
+  situation: SituationBody;
 }
 
 /** A piece of intent: keep the heading. */

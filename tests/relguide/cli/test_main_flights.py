@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from relguide.contract.recorder import replay
-from relguide.flying.documents import FlightStarted, LeaderChanged
+from relguide.flying.documents import FlightStarted, LeaderChanged, Sample
 from tests.command_line import NEAR, UNREACHABLE, Run, process, write
 
 FIGURES = {
@@ -113,6 +113,41 @@ def test_the_leader_does_as_ordered_and_is_followed_as_long_as_asked(run: Run) -
     assert "before 1 of 2 orders" in err
     changes = [d for d in replay("a.jsonl") if isinstance(d, LeaderChanged)]
     assert [(change.t, change.change) for change in changes] == [(20.0, "speed")]
+
+
+@pytest.mark.slow
+def test_a_time_is_kept_and_guidance_flies_by_the_settings_given(run: Run) -> None:
+    settings = write("[guidance]\njoined_along_nm = 0.1\nalways_ask = true\n", "own.toml")
+    options = ("--spacing", "60", "--settings", settings, "--record", "s.jsonl.gz", "--json")
+    code, out, _ = run("fly", write(NEAR), *options)
+    assert (code, json.loads(out)["joined"]) == (0, True)
+    documents = list(replay("s.jsonl.gz"))
+    (started,) = [d for d in documents if isinstance(d, FlightStarted)]
+    (link,) = started.links
+    assert (link.spacing, link.spacing_time) == ("time", 60.0)
+    last = [d for d in documents if isinstance(d, Sample)][-1]
+    (guidance,), leader = last.guidance, last.aircraft[1]
+    assert guidance.separation == pytest.approx(60.0 * leader.ground_speed, abs=200.0)
+    _, out, _ = run("replay", "s.jsonl.gz")
+    assert "once joined 60 s behind" in out
+    assert "Joined, and followed for 120 s." in out
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        (("--spacing", "0"), "must be a number of seconds from 1 to 600, not 0"),
+        (("--spacing", "soon"), "must be a number of seconds from 1 to 600, not soon"),
+        (("--settings", "none.toml"), "none.toml"),
+    ],
+)
+def test_a_spacing_that_cannot_be_kept_and_settings_that_are_not_there_are_refused(
+    run: Run, options: tuple[str, ...], sentence: str
+) -> None:
+    code, _, err = run("fly", "fig_6b", *options)
+    assert code == 2
+    assert sentence in err
+    assert "Traceback" not in err
 
 
 @pytest.mark.slow
