@@ -12,6 +12,7 @@ from relguide.flying.airframe import Airframe
 from relguide.kernels.base.turn import turn_rate
 from relguide.units import DEG
 from tests.campaign import pictures, report, responses
+from tests.campaign.constants import constants_cells
 from tests.campaign.loops import (
     FOLLOW_GAINS,
     PATH_GAINS,
@@ -157,7 +158,7 @@ def test_the_page_has_its_blocks_and_pictures() -> None:
     for name in (AUTOPILOT, PATH, CAMPAIGN):
         assert f"]({FOLDER.name}/{name})" in page
         assert "</svg>" in (FOLDER / name).read_text()
-    for name in ("margins", "gains", "responses", "tube", "campaign"):
+    for name in ("margins", "gains", "responses", "tube", "constants", "campaign"):
         again = with_named_block(with_named_block(page, name, "old"), name, "| new |")
         assert "| new |" in again
         assert len(again) < len(page)
@@ -167,5 +168,5 @@ def test_the_page_has_its_blocks_and_pictures() -> None:
 
 def test_the_page_shows_what_is_computed() -> None:
     page = PAGE.read_text()
-    for cells in (*report.margins_cells(), *report.gains_cells()):
+    for cells in (*report.margins_cells(), *report.gains_cells(), *constants_cells()):
         assert f"| {' | '.join(cells)} |" in page

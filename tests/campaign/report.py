@@ -16,6 +16,7 @@ from relguide.units import DEG
 from tests.aloft import A306
 from tests.bench.page import DOCS, FOLDER
 from tests.campaign import pictures, responses, tables
+from tests.campaign.constants import CONSTANTS, constants_cells
 from tests.campaign.loops import (
     FOLLOW_GAINS,
     PATH_GAINS,
@@ -55,6 +56,8 @@ def write_loops(page: Path = PAGE, folder: Path = FOLDER) -> None:
     text = with_named_block(text, "gains", markdown(GAINS, gains_cells()))
     text = with_named_block(text, "responses", markdown(RESPONSES, responses_cells()))
     text = with_named_block(text, "tube", markdown(TUBE, tube_cells()))
+    constants = markdown(CONSTANTS, constants_cells(), prose=True)
+    text = with_named_block(text, "constants", constants)
     page.write_text(text)
 
 

@@ -118,9 +118,12 @@ def text(headings: Sequence[str], cells: Cells) -> str:
     )
 
 
-def markdown(headings: Sequence[str], cells: Cells) -> str:
-    """A table for a page."""
-    lines = [list(headings), ["---", *("---:" for _ in headings[1:])], *cells]
+def markdown(headings: Sequence[str], cells: Cells, *, prose: bool = False) -> str:
+    """A table for a page; its last column is of figures, or of prose."""
+    sides = ["---", *("---:" for _ in headings[1:])]
+    if prose:
+        sides[-1] = "---"
+    lines = [list(headings), sides, *cells]
     return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 

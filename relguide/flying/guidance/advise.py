@@ -55,15 +55,7 @@ from relguide.kernels.flight.marks import mark_at
 from relguide.planning.phrases import distance
 from relguide.planning.plan import Planner
 from relguide.planning.slot import slot_frame
-from relguide.units import DEG, Metre, Second
-
-TURNED: float = 3.0 * DEG
-"""A leader that has turned so far since capture began has left the route that was captured [rad].
-It moves the slot by 0.5 km, which capture takes up."""
-ESCAPES_FOR: Second = 10.0
-"""An escape is flown for so long at least: nothing is gained by wavering [s]."""
-ROOM: Metre = 400.0
-"""So much more than d_min is wanted before an escape is left [m]."""
+from relguide.units import Second
 
 
 def advise(
@@ -112,8 +104,9 @@ def _try_to_plan(
     if t - memory.asked < min(max(settings.retry, quiet), settings.retry_longest):
         return memory, []
     if memory.mode == "escape":
-        rested = t - memory.since >= ESCAPES_FOR and is_steady(memory, belief, assignment)
-        if not rested or belief.separation < min(assignment.min_separation + ROOM, assignment.aim):
+        rested = t - memory.since >= settings.escapes_for and is_steady(memory, belief, assignment)
+        clear = min(assignment.min_separation + settings.escape_room, assignment.aim)
+        if not rested or belief.separation < clear:
             return memory, []
     found = converge.propose(belief, assignment, None, planner)
     memory = memory._replace(asked=t)
@@ -218,7 +211,7 @@ def _has_left_capture(memory: Memory, belief: Belief, assignment: Assignment) ->
         return False
     turned = abs(wrap_signed(belief.leader_rolled_out - memory.captured))
     to_slot = marks[-1, at.S] - assignment.aim - s
-    return bool(turned > TURNED and abs(to_slot) > settings.too_far)
+    return bool(turned > settings.route_left and abs(to_slot) > settings.too_far)
 
 
 def _act(memory: Memory, belief: Belief, assignment: Assignment) -> Act:

@@ -11,16 +11,7 @@ from relguide.flying.modes import NUMBERS
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.flight.guide import Progress
 from relguide.planning.phrases import compass
-from relguide.units import DEG, Metre, MetrePerSecond, Radian, Second
-
-GOES_ON: Second = 20.0
-"""A leader that changes its speed may go on for so long while one turns away from it [s]."""
-SLOWER = 0.6
-"""A leader too slow to be followed may slow down to this share of its speed."""
-NEWS: Radian = 15.0 * DEG
-"""A held heading that changes by more is announced [rad]."""
-OWN_TUBE: Metre = 60.0
-"""What an escape must keep beyond d_min: its turn is planned without the roll's soft ends [m]."""
+from relguide.units import MetrePerSecond, Radian
 
 
 def turn_away(
@@ -45,7 +36,9 @@ def clear_heading(
     memory: Memory, belief: Belief, assignment: Assignment, *, slower: bool = False
 ) -> Radian:
     """The heading nearest to the present one that keeps clear of the leader [rad]."""
-    other_tas = SLOWER * belief.leader.tas if slower else _other_tas(memory, belief)
+    other_tas = _other_tas(memory, belief, assignment)
+    if slower:
+        other_tas = assignment.settings.slows_to_share * belief.leader.tas
     return escape(
         belief,
         assignment,
@@ -61,12 +54,13 @@ def keep_heading(
     """Keep the heading held for as long as it keeps clear; a new one does not come in silence."""
     if memory.mode not in ("heading", "escape"):
         return memory, []
-    progress, turns_on = memory.progress, turns_unannounced(belief, assignment)
-    other_tas = _other_tas(memory, belief)
+    settings, progress = assignment.settings, memory.progress
+    turns_on = turns_unannounced(belief, assignment)
+    other_tas = _other_tas(memory, belief, assignment)
     kept = separation_on_heading(
         belief, assignment, progress.heading, turns_on=turns_on, other_tas=other_tas
     )
-    if kept >= assignment.min_separation + OWN_TUBE:
+    if kept >= assignment.min_separation + settings.escape_tube:
         return memory, []
     out = escape(
         belief,
@@ -75,10 +69,10 @@ def keep_heading(
         turns_on=turns_on,
         other_tas=other_tas,
     )
-    if out.least_separation < kept + OWN_TUBE:
+    if out.least_separation < kept + settings.escape_tube:
         return memory, []
     said: list[Event] = []
-    if abs(wrap_signed(out.heading - progress.heading)) > NEWS:
+    if abs(wrap_signed(out.heading - progress.heading)) > settings.heading_news:
         message = f"Turning to {compass(out.heading)}, to keep clear of the leader."
         said.append(UnableTo(reason="separation", message=message))
     return memory._replace(progress=progress._replace(heading=out.heading)), said
@@ -93,15 +87,14 @@ def must_leave(memory: Memory, belief: Belief, assignment: Assignment, outlook: 
     turns_on = turns_unannounced(belief, assignment)
     if not turns_on and outlook.least >= limit:
         return False  # a change of speed is answered by speed, as the outlook has it
-    apart = belief.separation
-    wanted = min(limit + OWN_TUBE, apart)
-    other_tas = _other_tas(memory, belief)
+    wanted = min(limit + assignment.settings.escape_tube, belief.separation)
+    other_tas = _other_tas(memory, belief, assignment)
     later = escape(belief, assignment, wanted, turns_on=turns_on, other_tas=other_tas, delay=1.0)
     return later.least_separation < wanted
 
 
-def _other_tas(memory: Memory, belief: Belief) -> MetrePerSecond | None:
+def _other_tas(memory: Memory, belief: Belief, assignment: Assignment) -> MetrePerSecond | None:
     """The speed that the leader comes to if it goes on changing it; `None` if it does not."""
     if memory.leader_trend == 0.0:
         return None
-    return belief.leader.tas + memory.leader_trend * GOES_ON
+    return belief.leader.tas + memory.leader_trend * assignment.settings.speed_goes_on_escaping

@@ -18,8 +18,6 @@ from relguide.kernels.flight.guide import Course, Progress
 from relguide.planning.phrases import distance
 from relguide.units import Metre, MetrePerSecond, Second
 
-GOES_ON: Second = 30.0
-"""A leader that changes its speed is taken to go on for so long [s]."""
 URGENCY: dict[AlertState, int] = {"none": 0, "advisory": 1, "caution": 2, "warning": 3}
 """Levels in order."""
 
@@ -92,7 +90,7 @@ def look_out(
             course,
             until=belief.t + settings.caution,
             turns_on=turns_on,
-            leader_tas=max(belief.leader.tas + trend * GOES_ON, 1.0),
+            leader_tas=max(belief.leader.tas + trend * settings.speed_goes_on, 1.0),
         )
         other, when = worse.least(belief.t)
         if other < least:

@@ -81,8 +81,11 @@ class Settings:
     """So far beside the leader's path, capture and follow give way to a plan."""
     lost_heading: Radian = 100.0 * DEG
     """… or so far off its direction."""
+    route_left: Radian = 3.0 * DEG
+    """A leader that has turned so far since capture began has left the route that was captured:
+    the slot has moved by 0.5 km, which capture takes up, and …"""
     too_far: Metre = 2_000.0
-    """A leader that turns in capture is planned for anew if the slot is farther off than this."""
+    """… a new plan is made if the slot is farther off than this."""
     leader_off: Metre = 30.0
     """The leader is as expected while nearer than this to where it was expected."""
     leader_turned: Radian = 1.0 * DEG
@@ -129,6 +132,20 @@ class Settings:
     """… but never after a longer pause than this."""
     look_out: Second = 180.0
     """How long an escape must keep clear: DAIDALUS looks as far."""
+    escape_tube: Metre = 60.0
+    """What an escape keeps beyond d_min: its turn is planned without the soft ends of the roll."""
+    escapes_for: Second = 10.0
+    """An escape is flown for so long at least: nothing is gained by wavering."""
+    escape_room: Metre = 400.0
+    """It is left only with so much more than d_min, or where the slot itself has less."""
+    heading_news: Radian = 15.0 * DEG
+    """A held heading that changes by more is announced."""
+    speed_goes_on: Second = 30.0
+    """A leader that changes its speed is taken to go on for so long by the monitor, …"""
+    speed_goes_on_escaping: Second = 20.0
+    """… and for so long by an escape, which ends sooner."""
+    slows_to_share: float = 0.6
+    """A leader too slow to be followed may slow down to this share of its speed."""
 
     def __post_init__(self) -> None:
         """Refuse what is not a positive number, and a flag that is neither true nor false."""
