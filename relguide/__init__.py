@@ -24,6 +24,7 @@ if typing.TYPE_CHECKING:
     from relguide.contract.recorder import replay as replay
     from relguide.flying.documents import Alert as Alert
     from relguide.flying.documents import Document as Document
+    from relguide.flying.documents import EngagementChanged as EngagementChanged
     from relguide.flying.documents import FlightEnded as FlightEnded
     from relguide.flying.documents import FlightStarted as FlightStarted
     from relguide.flying.documents import ForecastChanged as ForecastChanged
@@ -31,6 +32,7 @@ if typing.TYPE_CHECKING:
     from relguide.flying.documents import LeaderRoute as LeaderRoute
     from relguide.flying.documents import ModeChanged as ModeChanged
     from relguide.flying.documents import PlanChanged as PlanChanged
+    from relguide.flying.documents import PlanProposed as PlanProposed
     from relguide.flying.documents import PlanRefused as PlanRefused
     from relguide.flying.documents import PlanUnavailable as PlanUnavailable
     from relguide.flying.documents import Sample as Sample
@@ -92,6 +94,7 @@ _HOMES = {
     "replay": "relguide.contract.recorder",
     "Alert": "relguide.flying.documents",
     "Document": "relguide.flying.documents",
+    "EngagementChanged": "relguide.flying.documents",
     "FlightEnded": "relguide.flying.documents",
     "FlightStarted": "relguide.flying.documents",
     "ForecastChanged": "relguide.flying.documents",
@@ -99,6 +102,7 @@ _HOMES = {
     "LeaderRoute": "relguide.flying.documents",
     "ModeChanged": "relguide.flying.documents",
     "PlanChanged": "relguide.flying.documents",
+    "PlanProposed": "relguide.flying.documents",
     "PlanRefused": "relguide.flying.documents",
     "PlanUnavailable": "relguide.flying.documents",
     "Sample": "relguide.flying.documents",
@@ -168,6 +172,7 @@ __all__ = [
     "Certificate",
     "DeclaredLeader",
     "Document",
+    "EngagementChanged",
     "FlightEnded",
     "FlightStarted",
     "FlyStraight",
@@ -183,6 +188,7 @@ __all__ = [
     "OptimalityReport",
     "Plan",
     "PlanChanged",
+    "PlanProposed",
     "PlanRefused",
     "PlanUnavailable",
     "Planner",

@@ -12,6 +12,7 @@ from relguide.cli.shared_tables import clock, miles
 from relguide.contract.story import Event, Story
 from relguide.flying.documents import (
     Alert,
+    EngagementChanged,
     LeaderChanged,
     ModeChanged,
     PlanChanged,
@@ -55,6 +56,8 @@ def _event(event: Event) -> tuple[str, str, str]:
             what = f"plan: {reason.replace('_', ' ')}"
         case PlanUnavailable(answer=answer):
             return clock(event.t), "no plan", answer.message
+        case EngagementChanged(engagement=engagement):
+            what = engagement
         case PlanRefused():
             what = "plan refused"
         case ModeChanged(mode=mode):

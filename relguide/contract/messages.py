@@ -26,7 +26,7 @@ from relguide.contract.bodies import SituationBody, Tas
 from relguide.contract.refusal import Strict, loads, refusal
 from relguide.contract.wire import WireField, wire_fields
 from relguide.flying.aircraft_documents import ReferenceCard
-from relguide.flying.documents import Document, Mode
+from relguide.flying.documents import Document, Engagement, Mode
 from relguide.flying.plan_documents import (
     AnyAlternativeCard,
     Direction,
@@ -216,6 +216,8 @@ class _HowToFly(Strict):
     intent_known: bool | None = None
     """Whether the pursuer knows the leader's intent; if left out, as the scenario says. Of a
     situation of your own it does."""
+    engagement: Engagement = "engaged"
+    """How far guidance is engaged at the start."""
     seed: Seed = 0
     """0 flies the type as its data say; any other draws its constants, unknown to its guidance."""
     spacing_time_s: SpacingTime | None = None
@@ -264,6 +266,8 @@ class FlightStatus(Strict):
     paused: bool
     ended: bool
     mode: Mode
+    engagement: Engagement
+    """How far the crew has engaged guidance."""
     joined: bool
     separation_m: float
     stream_url: str
@@ -323,13 +327,38 @@ class IntentKnownCommand(Strict):
     known: bool
 
 
+class LeaderDataCommand(Strict):
+    """Let the leader's reports be received, or not."""
+
+    command: Literal["leader_data"]
+    received: bool
+
+
+class PursuerHeadingCommand(Strict):
+    """Select a heading for the pursuer, while guidance is not engaged."""
+
+    command: Literal["pursuer_heading"]
+    heading_deg: float
+    """Clockwise from true north."""
+
+
+class SetEngagementCommand(Strict):
+    """Designate the leader, accept what is proposed, engage it, or disconnect."""
+
+    command: Literal["set_engagement"]
+    engagement: Engagement
+
+
 Command = Annotated[
     PlayCommand
     | PauseCommand
     | SetRateCommand
     | LeaderHeadingCommand
     | LeaderSpeedCommand
-    | IntentKnownCommand,
+    | IntentKnownCommand
+    | LeaderDataCommand
+    | PursuerHeadingCommand
+    | SetEngagementCommand,
     Field(discriminator="command"),
 ]
 """A command to a flight."""

@@ -21,6 +21,7 @@ from relguide.contract.typescript import typescript
 from relguide.flying.aircraft_documents import AlertLevel, AlertState, Spacing
 from relguide.flying.documents import (
     AlertSubject,
+    Engagement,
     Fault,
     LeaderChange,
     Mode,
@@ -37,6 +38,11 @@ _ALIASES: dict[str, tuple[Any, str]] = {
         "heading: no plan, a heading is held; converge: the plan is flown; capture: closes onto\n"
         "the leader's route under speed control; follow: on the route D behind the leader, at\n"
         "its speed; escape: turns away, as the separation would be lost on what was flown.",
+    ),
+    "Engagement": (
+        Engagement,
+        "off: nobody is to be joined; designated: paths to the leader's slot are proposed; armed:\n"
+        "the proposal is accepted, and waits; engaged: guidance flies.",
     ),
     "Proof": (Proof, "Why a plan is optimal."),
     "PlanReason": (PlanReason, "Why a new plan was made."),

@@ -9,6 +9,7 @@ from relguide.flying.aircraft_documents import LinkResult
 from relguide.flying.documents import (
     Alert,
     Document,
+    EngagementChanged,
     FlightEnded,
     FlightStarted,
     ForecastChanged,
@@ -16,6 +17,7 @@ from relguide.flying.documents import (
     LeaderRoute,
     ModeChanged,
     PlanChanged,
+    PlanProposed,
     PlanRefused,
     PlanUnavailable,
     Sample,
@@ -28,6 +30,7 @@ from relguide.units import NM, Metre
 Event = (
     LeaderChanged
     | PlanChanged
+    | EngagementChanged
     | PlanUnavailable
     | PlanRefused
     | ModeChanged
@@ -66,11 +69,18 @@ def story_of(documents: Iterable[Document]) -> Story:
             match document:
                 case FlightStarted():
                     started.append(document)
-                case PlanChanged(announced=False) | LeaderRoute() | ForecastChanged() | Sample():
+                case (
+                    PlanChanged(announced=False)
+                    | PlanProposed()
+                    | LeaderRoute()
+                    | ForecastChanged()
+                    | Sample()
+                ):
                     pass  # nothing that is said to anybody
                 case (
                     LeaderChanged()
                     | PlanChanged()
+                    | EngagementChanged()
                     | PlanUnavailable()
                     | PlanRefused()
                     | ModeChanged()

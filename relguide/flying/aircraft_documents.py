@@ -9,6 +9,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal, Protocol, TypeVar
 
+from relguide.flying.engagement import Engagement as Engagement
 from relguide.flying.guidance.announcements import AlertLevel as AlertLevel
 from relguide.flying.guidance.announcements import AlertState as AlertState
 from relguide.flying.modes import Mode as Mode
@@ -121,6 +122,10 @@ class GuidanceSample:
     """Until the slot is reached by the plan flown; 0 when there is none or it is joined."""
     joined: bool
     alert: AlertState
+    leader_age: Second = 0.0
+    """How long ago the leader was last heard of."""
+    engagement: Engagement = "engaged"
+    """How far the crew has engaged it."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -3,13 +3,13 @@
 Surveillance will stand between the two: guidance reads this and nothing else.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import hypot
 
 import numpy as np
 
-from relguide.kernels.base.angles import wrap
+from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.base.motion import advance
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.base.turn import turn_rate
@@ -98,6 +98,8 @@ class Belief:
     """The leader's flown path."""
     wind: Wind
     """As it is believed."""
+    leader_age: Second = 0.0
+    """How long ago the leader was last heard of; since then it is expected to fly on [s]."""
 
     @cached_property
     def drift(self) -> Drift:
@@ -168,6 +170,23 @@ class Belief:
             x, y, heading = advance(x, y, heading, tas, 0.0, seconds)
         x, y = x + self.wind.east * seconds, y + self.wind.north * seconds
         return Leader(x=x, y=y, heading=heading, tas=tas, intent=intent)
+
+
+def coasting(heard: Belief, t: Second, own: Body) -> Belief:
+    """What is believed of a leader that is no longer heard of: it flies on as was expected.
+
+    Args:
+        heard: when it was last heard of.
+        t: flight time now [s].
+        own: the pursuer now.
+    """
+    age = t - heard.t
+    then = heard.leader_after(age)
+    turned = wrap_signed(then.heading - heard.leader.heading)
+    leader = heard.leader._replace(
+        x=then.x, y=then.y, heading=heard.leader.heading + turned, bank=0.0, roll_rate=0.0
+    )
+    return replace(heard, t=t, own=own, leader=leader, intent=then.intent, leader_age=age)
 
 
 def intent_after(leader: Leader, seconds: Second) -> tuple[IntentPiece, ...]:

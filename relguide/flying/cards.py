@@ -1,6 +1,6 @@
 """Plans and trajectories as outsiders read them: over the ground, piece by piece."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from math import atan2, ceil, pi
 from typing import assert_never
@@ -16,6 +16,7 @@ from relguide.flying.plan_documents import (
     MissingAlternativeCard,
     NoPlanCard,
     OptimalityCard,
+    OtherPathCard,
     PathPoint,
     PathSegment,
     PlanCard,
@@ -81,6 +82,29 @@ def plan_card(
         optimality=OptimalityCard(proof=optimality.proof, lower_bound=optimality.lower_bound),
         alternatives=tuple(_alternative_card(other, later) for other in others),
         compute=plan.compute_time,
+    )
+
+
+def other_path_cards(
+    others: Iterable[AnyAlternative], wind: Wind, *, later: Second, most: int
+) -> tuple[OtherPathCard, ...]:
+    """The fastest of the other paths, over the ground.
+
+    Args:
+        others: the `alternatives` of a plan.
+        wind: moves them.
+        later: when they begin, after a lead-in [s].
+        most: how many at most.
+    """
+    paths = [other for other in others if isinstance(other, Alternative)]
+    return tuple(
+        OtherPathCard(
+            word=path.word,
+            time_to_converge=path.time_to_converge + later,
+            segments=path_segments(path.candidate.trajectory, wind=wind, start_time=later),
+            why=path.why,
+        )
+        for path in paths[:most]
     )
 
 

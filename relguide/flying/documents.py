@@ -21,10 +21,17 @@ from relguide.flying.aircraft_documents import (
     LinkResult,
     WindCard,
 )
+from relguide.flying.engagement import Engagement as Engagement
 from relguide.flying.guidance.announcements import PlanReason as PlanReason
 from relguide.flying.guidance.announcements import UnableReason as UnableReason
 from relguide.flying.modes import Mode as Mode
-from relguide.flying.plan_documents import NoPlanCard, PathPoint, PathSegment, PlanCard
+from relguide.flying.plan_documents import (
+    NoPlanCard,
+    OtherPathCard,
+    PathPoint,
+    PathSegment,
+    PlanCard,
+)
 from relguide.planning.acceptance import Fault as Fault
 from relguide.units import Metre, Radian, Second
 
@@ -111,6 +118,42 @@ class PlanChanged:
     flown_least: Metre
     """Least separation of that forecast, which is what must keep d_min."""
     kind: Literal["plan_changed"] = "plan_changed"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlanProposed:
+    """A path that could be flown from now on, if the crew accepts it. It is not flown."""
+
+    t: Second
+    ident: str
+    """The pursuer's."""
+    message: str
+    plan: PlanCard
+    leader_at_closest: PathPoint
+    """Where the leader is when the separation is least; its t counts from the plan's start."""
+    pursuer_at_closest: PathPoint
+    """Where the pursuer is then."""
+    promised: Second
+    """How long until joined, braking included: as forecast by flying the closed loop ahead."""
+    flown_least: Metre
+    """Least separation of that forecast, which is what must keep d_min."""
+    others: tuple[OtherPathCard, ...]
+    """Other paths to the slot that could be flown, fastest first: at most three."""
+    kind: Literal["plan_proposed"] = "plan_proposed"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EngagementChanged:
+    """The crew has engaged guidance further, or less far; or what it ordered could not be done."""
+
+    t: Second
+    ident: str
+    """The pursuer's."""
+    engagement: Engagement
+    previous: Engagement
+    """The same, if the order was refused."""
+    message: str
+    kind: Literal["engagement_changed"] = "engagement_changed"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -266,6 +309,8 @@ Document = (
     | LeaderRoute
     | LeaderChanged
     | PlanChanged
+    | PlanProposed
+    | EngagementChanged
     | PlanUnavailable
     | PlanRefused
     | ModeChanged

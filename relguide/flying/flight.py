@@ -11,12 +11,16 @@ from typing import Literal, assert_never
 from relguide.flying.air import Air
 from relguide.flying.airframe import Airframe, airframe, known_airframes
 from relguide.flying.documents import Document
+from relguide.flying.engagement import Engagement
 from relguide.flying.envelope import envelope_fault
 from relguide.flying.guidance.settings import DEFAULT, Settings
 from relguide.flying.orders import Command
 from relguide.flying.orders import IntentKnown as IntentKnown
+from relguide.flying.orders import LeaderData as LeaderData
 from relguide.flying.orders import LeaderHeading as LeaderHeading
 from relguide.flying.orders import LeaderSpeed as LeaderSpeed
+from relguide.flying.orders import PursuerHeading as PursuerHeading
+from relguide.flying.orders import SetEngagement as SetEngagement
 from relguide.flying.orders import no_commands as no_commands
 from relguide.flying.scatter import scatter
 from relguide.flying.simulation import simulate, whole_steps
@@ -127,6 +131,7 @@ def fly(
     sample_period: Second = 0.05,
     seed: int = 0,
     settings: Settings = DEFAULT,
+    engagement: Engagement = "engaged",
 ) -> Iterator[Document]:
     """Fly a scenario and say what happens, in order of time.
 
@@ -140,6 +145,7 @@ def fly(
         seed: 0 flies the types as their data say; any other draws the pursuer's constants within
             10 % of them, unknown to its guidance.
         settings: of guidance.
+        engagement: how far guidance is engaged at the start; commands change it.
 
     Yields:
         `FlightStarted` first, `FlightEnded` last. What the planner raises is passed on as it is.
@@ -151,7 +157,7 @@ def fly(
     seed, step = expect_whole("seed", seed, 0), number("step", step)
     whole_steps(1.0, step)
     whole_steps(number("sample_period", sample_period), step)
-    return _fly(scenario, planner, commands, step, sample_period, seed, settings)
+    return _fly(scenario, planner, commands, step, sample_period, seed, settings, engagement)
 
 
 def _fly(
@@ -162,6 +168,7 @@ def _fly(
     sample_period: Second,
     seed: int,
     settings: Settings,
+    engagement: Engagement,
 ) -> Iterator[Document]:
     answer = planner(scenario.situation)
     yield from simulate(
@@ -176,6 +183,7 @@ def _fly(
         seed=seed,
         until=scenario.duration_limit,
         after_joining=scenario.after_joining,
+        engagement=engagement,
     )
 
 

@@ -9,7 +9,7 @@ from relguide.flying.belief import Belief
 from relguide.flying.documents import LeaderChanged, LeaderRoute
 from relguide.flying.fleet import Fleet
 from relguide.flying.logbook import leader_route
-from relguide.flying.orders import Command, IntentKnown, LeaderHeading, LeaderSpeed
+from relguide.flying.orders import IntentKnown, LeaderCommand, LeaderHeading, LeaderSpeed
 from relguide.flying.pursuit import Pursuit
 from relguide.kernels.base.angles import wrap_signed
 from relguide.units import DEG, KT, MetrePerSecond, Radian, RadianPerSecond, Second
@@ -24,7 +24,7 @@ DOUBTED_FOR = 5
 """So many seconds off its intent, a leader is no longer relied on."""
 
 
-def note_command(one: Pursuit, command: Command, t: Second) -> None:
+def note_command(one: Pursuit, command: LeaderCommand, t: Second) -> None:
     """A command was given to the leader, and announced."""
     match command:
         case LeaderHeading():

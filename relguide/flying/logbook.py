@@ -15,14 +15,22 @@ from relguide.flying.aircraft_documents import (
     TurnRateReference,
     find_by_ident,
 )
-from relguide.flying.cards import no_plan_card, path_point, path_segments, plan_card
+from relguide.flying.cards import (
+    no_plan_card,
+    other_path_cards,
+    path_point,
+    path_segments,
+    plan_card,
+)
 from relguide.flying.documents import (
     Alert,
     Document,
+    EngagementChanged,
     ForecastChanged,
     LeaderRoute,
     ModeChanged,
     PlanChanged,
+    PlanProposed,
     PlanRefused,
     PlanUnavailable,
     Sample,
@@ -30,10 +38,12 @@ from relguide.flying.documents import (
 )
 from relguide.flying.guidance.announcements import (
     Alerted,
+    EngagementChange,
     Event,
     ModeChange,
     NewPlan,
     PlanMissing,
+    ProposedPlan,
     Refused,
     UnableTo,
 )
@@ -50,6 +60,8 @@ from relguide.units import DEG, Metre, Radian, Second
 
 FINAL_LEG: Second = 1200.0
 """How much of the leader's endless final leg is shown [s]: as much as a pursuer needs at 100 km."""
+GHOSTS = 3
+"""So many other paths are drawn beside a proposal."""
 BENT: Radian = 3.0 * DEG
 """A forecast's points are no farther apart than this in heading: the chord strays by 4 m [rad]."""
 STRAIGHT_FOR = 30
@@ -130,6 +142,8 @@ def _guidance_sample(
         time_to_go=max(advice.time_to_go - since, 0.0),
         joined=advice.joined,
         alert=advice.alert,
+        leader_age=advice.leader_age + since if advice.leader_age > 0.0 else 0.0,
+        engagement=advice.engagement,
     )
 
 
@@ -170,6 +184,30 @@ def event_document(t: Second, names: Names, event: Event) -> Document:
                 promised=committed.joins_at(ahead) - t,
                 tube=ahead.tube,
                 flown_least=least,
+            )
+        case ProposedPlan(shown=plan, committed=committed):
+            at, wind = plan.certificate.at_time, plan.situation.wind
+            leader, ahead = plan.situation.leader.trajectory, committed.forecast
+            least, _ = ahead.least(t)
+            others, later = alternatives(committed.plan), committed.begins - t
+            return PlanProposed(
+                t=t,
+                ident=ident,
+                message=event.message,
+                plan=plan_card(plan, others, later=later),
+                leader_at_closest=path_point(leader.pose_at(at), at, wind),
+                pursuer_at_closest=path_point(plan.trajectory.pose_at(at), at, wind),
+                promised=(ahead.join_time if ahead.joins else committed.due) - t,
+                flown_least=least,
+                others=other_path_cards(others, wind, later=later, most=GHOSTS),
+            )
+        case EngagementChange():
+            return EngagementChanged(
+                t=t,
+                ident=ident,
+                engagement=event.engagement,
+                previous=event.previous,
+                message=event.message,
             )
         case PlanMissing(answer=answer):
             return PlanUnavailable(t=t, ident=ident, answer=no_plan_card(answer))

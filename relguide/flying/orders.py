@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import Literal, assert_never
 
-from relguide.flying.documents import LeaderChanged
+from relguide.flying.documents import Engagement, LeaderChanged
 from relguide.flying.fleet import Fleet
 from relguide.flying.leaders.declared import TurnChoice
 from relguide.kernels.base.angles import wrap
@@ -55,7 +55,41 @@ class IntentKnown:
     kind: Literal["intent_known"] = "intent_known"
 
 
-Command = LeaderHeading | LeaderSpeed | IntentKnown
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LeaderData:
+    """The leader's reports are received (`True`) or not (`False`)."""
+
+    received: bool
+    kind: Literal["leader_data"] = "leader_data"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PursuerHeading:
+    """The crew selects a heading, which is flown until guidance is engaged."""
+
+    heading: Radian
+    """Clockwise from north [rad]."""
+    kind: Literal["pursuer_heading"] = "pursuer_heading"
+
+    def __post_init__(self) -> None:
+        """Refuse a heading that is no number."""
+        if not isfinite(self.heading):
+            raise ValueError(f"heading must be a finite number, not {self.heading}.")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SetEngagement:
+    """The crew engages guidance further, or less far."""
+
+    engagement: Engagement
+    kind: Literal["set_engagement"] = "set_engagement"
+
+
+LeaderCommand = LeaderHeading | LeaderSpeed | IntentKnown
+"""What the leader does."""
+CrewCommand = LeaderData | PursuerHeading | SetEngagement
+"""What the pursuer's crew does, and what it receives."""
+Command = LeaderCommand | CrewCommand
 
 
 def no_commands(t: Second) -> Iterable[Command]:
@@ -64,7 +98,7 @@ def no_commands(t: Second) -> Iterable[Command]:
 
 
 def obey(
-    command: Command, fleet: Fleet, i: int, known: bool, t: Second
+    command: LeaderCommand, fleet: Fleet, i: int, known: bool, t: Second
 ) -> tuple[bool, tuple[LeaderChanged, ...]]:
     """Carry out a command: whether the leader's intent is known then, and what is said of it.
 

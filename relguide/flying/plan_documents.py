@@ -163,6 +163,18 @@ AnyAlternativeCard = (
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class OtherPathCard:
+    """Another path to the slot, to be drawn beside a proposal."""
+
+    word: str
+    time_to_converge: Second
+    segments: tuple[PathSegment, ...]
+    """Times count from the instant of the proposal."""
+    why: str
+    """Why it is not proposed, e.g. `38 s slower`."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class PlanCard:
     """A plan as outsiders read it: the answer of REST, of the command line, and of the display."""
 

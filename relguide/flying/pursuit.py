@@ -3,7 +3,8 @@
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from relguide.flying.belief import Belief, FlownTrack
+from relguide.flying.belief import Belief, FlownTrack, coasting
+from relguide.flying.engagement import Engagement
 from relguide.flying.fleet import Fleet
 from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.forecast import Forecast
@@ -58,12 +59,19 @@ class Pursuit:
     doubted: int = 0
     """For how many seconds the leader has not flown what it declared."""
 
+    heard: Belief | None = None
+    """What was last heard of the leader; `None` while its reports are received."""
+
     def belief(self, fleet: Fleet, t: Second) -> Belief:
         """What the pursuer knows now."""
+        if self.heard is not None:
+            return coasting(self.heard, t, fleet.body(self.pursuer))
         return fleet.belief(self.pursuer, self.leader, self.track, t, self.known, self.declared)
 
 
-def begin_pursuit(world: World, fleet: Fleet, link: Link) -> Pursuit:
+def begin_pursuit(
+    world: World, fleet: Fleet, link: Link, engagement: Engagement = "engaged"
+) -> Pursuit:
     """A link at the start of a flight."""
     i, j = world.index(link.pursuer), world.index(link.leader)
     intent, track = link.declared_intent, fleet.begin_track(link)
@@ -79,7 +87,7 @@ def begin_pursuit(world: World, fleet: Fleet, link: Link) -> Pursuit:
         known=belief.intent_known,
         declared=declared,
         view=LeaderView(belief),
-        memory=begin(belief),
+        memory=begin(belief, engagement),
         tally=Tally(fleet.apart(i, j)),
     )
 

@@ -10,9 +10,11 @@ from itertools import count
 
 from relguide.flying.aircraft_documents import AircraftCard, LinkCard
 from relguide.flying.cards import wind_card
+from relguide.flying.crew import obey_crew
 from relguide.flying.documents import (
     Document,
     EndReason,
+    Engagement,
     FlightEnded,
     FlightStarted,
     Unable,
@@ -27,7 +29,14 @@ from relguide.flying.leader_watch import (
 )
 from relguide.flying.logbook import event_document, forecast_document, sample
 from relguide.flying.losses import count_second
-from relguide.flying.orders import Command, no_commands, obey
+from relguide.flying.orders import (
+    Command,
+    LeaderData,
+    PursuerHeading,
+    SetEngagement,
+    no_commands,
+    obey,
+)
 from relguide.flying.pursuit import Pursuit, begin_pursuit
 from relguide.flying.tally import count_event, link_result
 from relguide.flying.world import World
@@ -48,6 +57,7 @@ def simulate(
     seed: int = 0,
     until: Second = 3600.0,
     after_joining: Second = 120.0,
+    engagement: Engagement = "engaged",
 ) -> Iterator[Document]:
     """Fly a world and say what happens, in order of time.
 
@@ -57,12 +67,13 @@ def simulate(
         scenario: the flight's name.
         title: the same for people.
         planner_name: who makes the plans, as their cards say.
-        commands: polled once a second with the flight time; they are for the first link's leader.
+        commands: polled once a second with the flight time; they are for the first link.
         step: integration step [s]; a whole number of steps makes a second.
         sample_period: between samples [s]; a whole number of steps.
         seed: from which the world was drawn; written into the first document.
         until: the flight ends here at the latest [s].
         after_joining: how long it goes on once all pursuers have joined [s].
+        engagement: how far guidance is engaged at the start.
 
     Yields:
         `FlightStarted` first, `FlightEnded` last. What the planner raises is passed on as it is.
@@ -71,7 +82,7 @@ def simulate(
     whole_steps(1.0, step)
     fleet = Fleet(world, step)
     yield _start_document(world, planner_name, scenario, title, step, seed)
-    pursuits = [begin_pursuit(world, fleet, link) for link in world.links]
+    pursuits = [begin_pursuit(world, fleet, link, engagement) for link in world.links]
     for one in pursuits:
         yield expected_route(one, one.view.shown)
     for second in count():
@@ -139,10 +150,13 @@ def _start_document(
 
 
 def _obey(command: Command, fleet: Fleet, pursuits: list[Pursuit], t: Second) -> Iterator[Document]:
-    """The first link's leader does as it is ordered, and all its pursuers hear of it."""
+    """The first link's leader, or its pursuer, does as it is ordered; all pursuers hear of it."""
     if not pursuits:
         return
     first = pursuits[0]
+    if isinstance(command, LeaderData | PursuerHeading | SetEngagement):
+        yield from obey_crew(first, command, fleet, t)
+        return
     known, said = obey(command, fleet, first.leader, first.known, t)
     for one in pursuits:
         if one.leader == first.leader:
@@ -153,9 +167,12 @@ def _obey(command: Command, fleet: Fleet, pursuits: list[Pursuit], t: Second) ->
 
 def _guide(one: Pursuit, fleet: Fleet, planner: Planner, t: Second) -> Iterator[Document]:
     """One act of guidance, and what is new of the leader."""
-    one.track.add(fleet.body(one.leader), fleet.drift, t)
+    if one.heard is None:
+        one.track.add(fleet.body(one.leader), fleet.drift, t)
     yield from doubt_leader(one, fleet, t)
     belief = one.belief(fleet, t)
+    if one.heard is not None:
+        one.track.add(belief.leader, fleet.drift, t)
     yield from watch_leader(one, belief)
     one.memory, advice = advise(one.memory, belief, one.assignment, planner)
     for event in advice.events:

@@ -23,6 +23,8 @@ from relguide.planning.plan import Planner
 from relguide.planning.situation import Situation
 from relguide_server.live_flight import Source
 
+ENDLESS = 1e9
+"""A flight goes on until somebody ends it, or nobody watches it any more [s]."""
 REHEARSED = "fig_6b"
 """The scenario that is flown for a while at the start, so that its kernels are compiled."""
 REHEARSAL = 400
@@ -75,11 +77,14 @@ def library_departures(planner: Planner) -> Departures:
             found = replace(found, intent_known=wanted.intent_known)
         if wanted.spacing_time_s is not None:
             found = replace(found, spacing=wanted.spacing_time_s)
-        seed = wanted.seed
+        found = replace(found, duration_limit=ENDLESS, after_joining=ENDLESS)
+        seed, engagement = wanted.seed, wanted.engagement
         return Departure(
             scenario=name,
             title=found.title,
-            source=lambda commands: fly(found, planner, commands=commands, seed=seed),
+            source=lambda commands: fly(
+                found, planner, commands=commands, seed=seed, engagement=engagement
+            ),
             first=_known_situation(found),
         )
 

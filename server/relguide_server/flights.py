@@ -13,16 +13,28 @@ from relguide.contract.messages import (
     FlightRequest,
     FlightStatus,
     IntentKnownCommand,
+    LeaderDataCommand,
     LeaderHeadingCommand,
     LeaderSpeedCommand,
     PauseCommand,
     PlayCommand,
+    PursuerHeadingCommand,
     ScenarioList,
+    SetEngagementCommand,
     SetRateCommand,
 )
 from relguide.contract.protocol import PROTOCOL
 from relguide.contract.refusal import ContractError, parse
-from relguide.flying.orders import IntentKnown, LeaderHeading, LeaderSpeed
+from relguide.flying.aircraft_documents import GuidanceSample
+from relguide.flying.engagement import Engagement, refusal
+from relguide.flying.orders import (
+    IntentKnown,
+    LeaderData,
+    LeaderHeading,
+    LeaderSpeed,
+    PursuerHeading,
+    SetEngagement,
+)
 from relguide_server.departures import DeparturesOf
 from relguide_server.errors import Refusal
 from relguide_server.fleet import FleetOf
@@ -78,7 +90,10 @@ async def list_scenarios(departures: DeparturesOf) -> Response:
 async def start_flight(
     request: Request, fleet: FleetOf, departures: DeparturesOf, preparation: PreparationOf
 ) -> Response:
-    """It flies at `rate` simulated seconds per second, until it is ended or no longer watched."""
+    """It flies at `rate` simulated seconds per second, until it is ended or no longer watched.
+
+    Guidance is engaged unless `engagement` says otherwise.
+    """
     try:
         wanted = parse(NewFlight, _content(await read_json(request))).root
         # A recorded leader is read from a file: not on the event loop.
@@ -147,9 +162,9 @@ async def end_flight(flight_id: str, fleet: FleetOf) -> Response:
     ),
 )
 async def command_flight(flight_id: str, request: Request, fleet: FleetOf) -> Response:
-    """Pause, go on, another rate; or the leader's heading, speed, and whether its intent is known.
+    """Pause, go on, another rate; what the leader flies and tells; and what the crew engages.
 
-    Commands to the leader of a paused flight take effect when the flight continues.
+    Commands to a paused flight take effect when it continues, within a second of flight.
     """
     flight = fleet.find(flight_id)
     try:
@@ -184,7 +199,7 @@ async def stream(websocket: WebSocket, flight_id: str, fleet: FleetOf) -> None:
 
 def status_of(flight: LiveFlight) -> FlightStatus:
     """Where a flight stands."""
-    guidance = flight.history.newest[0].guidance[0]
+    guidance = _guidance(flight)
     label, pace = flight.label, flight.pace
     return FlightStatus(
         id=label.id,
@@ -195,6 +210,7 @@ def status_of(flight: LiveFlight) -> FlightStatus:
         paused=pace.paused,
         ended=flight.over,
         mode=guidance.mode,
+        engagement=guidance.engagement,
         joined=guidance.joined,
         separation_m=guidance.separation,
         stream_url=f"/api/v1/flights/{label.id}/stream",
@@ -216,6 +232,27 @@ def _command(flight: LiveFlight, command: Command) -> None:
             flight.command(LeaderSpeed(tas=tas))
         case IntentKnownCommand(known=known):
             flight.command(IntentKnown(known=known))
+        case LeaderDataCommand(received=received):
+            flight.command(LeaderData(received=received))
+        case PursuerHeadingCommand(heading_deg=heading):
+            if _guidance(flight).engagement == "engaged":
+                raise Refusal(409, "Relative guidance flies: disconnect it to select a heading.")
+            flight.command(PursuerHeading(heading=heading_of(heading)))
+        case SetEngagementCommand(engagement=engagement):
+            _refuse_engagement(flight, engagement)
+            flight.command(SetEngagement(engagement=engagement))
+
+
+def _guidance(flight: LiveFlight) -> GuidanceSample:
+    """What the guidance of the first link did last."""
+    return flight.history.newest[0].guidance[0]
+
+
+def _refuse_engagement(flight: LiveFlight, engagement: Engagement) -> None:
+    """Refuse what may not follow the present engagement; what is proposed, guidance knows."""
+    why = refusal(_guidance(flight).engagement, engagement, proposed=True)
+    if why:
+        raise Refusal(409, why)
 
 
 def _leader_heading(command: LeaderHeadingCommand) -> LeaderHeading:

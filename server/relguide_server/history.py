@@ -8,6 +8,7 @@ from typing import assert_never
 from relguide.flying.documents import (
     Alert,
     Document,
+    EngagementChanged,
     FlightEnded,
     FlightStarted,
     ForecastChanged,
@@ -15,6 +16,7 @@ from relguide.flying.documents import (
     LeaderRoute,
     ModeChanged,
     PlanChanged,
+    PlanProposed,
     PlanRefused,
     PlanUnavailable,
     Sample,
@@ -59,7 +61,14 @@ class History:
                 self._hold(document, "route", document.expected_by, document.ident)
             case PlanChanged() | PlanUnavailable():
                 self._hold(document, "plan", document.ident)
-            case PlanRefused() | ModeChanged() | Unable() | ForecastChanged():
+            case (
+                PlanProposed()
+                | EngagementChanged()
+                | PlanRefused()
+                | ModeChanged()
+                | Unable()
+                | ForecastChanged()
+            ):
                 self._hold(document, document.kind, document.ident)
             case Alert():
                 self._hold(document, "alert", document.ident, document.other, document.subject)

@@ -22,6 +22,7 @@ from relguide.flying.aircraft_documents import (
 from relguide.flying.documents import (
     Alert,
     Document,
+    EngagementChanged,
     FlightEnded,
     FlightStarted,
     ForecastChanged,
@@ -29,6 +30,7 @@ from relguide.flying.documents import (
     LeaderRoute,
     ModeChanged,
     PlanChanged,
+    PlanProposed,
     PlanRefused,
     PlanUnavailable,
     Sample,
@@ -146,7 +148,7 @@ class Scene:
                 self._sample(document.t, _pair(document, link), cast)
             case LeaderChanged() | ModeChanged() | SeparationLost() | FlightEnded():
                 pass  # what they change is seen in the samples
-            case PlanRefused() | Alert() | Unable():
+            case PlanProposed() | EngagementChanged() | PlanRefused() | Alert() | Unable():
                 pass  # for the navigation display
             case _:
                 assert_never(document)

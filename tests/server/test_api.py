@@ -4,6 +4,7 @@ import threading
 import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
+from typing import Any
 
 import pytest
 from relguide_server.app import create_app
@@ -291,3 +292,22 @@ def test_a_plan_that_takes_long_keeps_nobody_waiting() -> None:
         assert client.get("/healthz").status_code == 200
         go_on.set()
         assert planned.result().json()["status"] == "planned"
+
+
+def test_a_crew_engages_step_by_step_and_what_may_not_follow_is_refused(
+    client: TestClient,
+) -> None:
+    started = client.post("/api/v1/flights", json={"scenario": "ideal"})
+    where = f"{started.headers['location']}/commands"
+    assert started.json()["engagement"] == "engaged"
+
+    def order(**command: object) -> Any:
+        return client.post(where, json=command)
+
+    for wrong in ("armed", "engaged"):
+        is_problem(order(command="set_engagement", engagement=wrong), 409, where)
+    is_problem(order(command="pursuer_heading", heading_deg=90.0), 409, where)
+    is_problem(order(command="set_engagement", engagement="on"), 422, where)
+    assert order(command="set_engagement", engagement="off").status_code == 202
+    assert order(command="leader_data", received=False).status_code == 202
+    client.delete(started.headers["location"])

@@ -1,7 +1,7 @@
 // Made by `python -m relguide_server.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-4fcff3611b86";
+export const PROTOCOL = "relguide-08a552a066b4";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -12,6 +12,12 @@ export type Direction = "left" | "right";
  * its speed; escape: turns away, as the separation would be lost on what was flown.
  */
 export type Mode = "heading" | "converge" | "capture" | "follow" | "escape";
+
+/**
+ * off: nobody is to be joined; designated: paths to the leader's slot are proposed; armed:
+ * the proposal is accepted, and waits; engaged: guidance flies.
+ */
+export type Engagement = "off" | "designated" | "armed" | "engaged";
 
 /** Why a plan is optimal. */
 export type Proof = "relaxation" | "bound" | "none";
@@ -88,6 +94,8 @@ export type Document =
   | LeaderRoute
   | LeaderChanged
   | PlanChanged
+  | PlanProposed
+  | EngagementChanged
   | PlanUnavailable
   | PlanRefused
   | ModeChanged
@@ -114,7 +122,10 @@ export type Command =
   | SetRateCommand
   | LeaderHeadingCommand
   | LeaderSpeedCommand
-  | IntentKnownCommand;
+  | IntentKnownCommand
+  | LeaderDataCommand
+  | PursuerHeadingCommand
+  | SetEngagementCommand;
 
 /** Who an aircraft is. */
 export interface AircraftCard {
@@ -325,6 +336,18 @@ export interface EarlyAlternativeCard {
   rejected: "not_open";
 }
 
+/** The crew has engaged guidance further, or less far; or what it ordered could not be done. */
+export interface EngagementChanged {
+  kind: "engagement_changed";
+  t_s: number;
+  /** The pursuer's. */
+  ident: string;
+  engagement: Engagement;
+  /** The same, if the order was refused. */
+  previous: Engagement;
+  message: string;
+}
+
 /** How the flight went: the last document. */
 export interface FlightEnded {
   kind: "flight_ended";
@@ -372,6 +395,8 @@ export interface FlightStatus {
   paused: boolean;
   ended: boolean;
   mode: Mode;
+  /** How far the crew has engaged guidance. */
+  engagement: Engagement;
   joined: boolean;
   separation_m: number;
   /** Path of its WebSocket. */
@@ -452,6 +477,10 @@ export interface GuidanceSample {
   time_to_go_s: number;
   joined: boolean;
   alert: AlertState;
+  /** How long ago the leader was last heard of. */
+  leader_age_s: number;
+  /** How far the crew has engaged it. */
+  engagement: Engagement;
 }
 
 /** Guidance asks the autopilot to hold a heading. */
@@ -474,6 +503,12 @@ export interface LeaderChanged {
   ident: string;
   change: LeaderChange;
   message: string;
+}
+
+/** Let the leader's reports be received, or not. */
+export interface LeaderDataCommand {
+  command: "leader_data";
+  received: boolean;
 }
 
 /** Instruct the leader to turn to a heading. */
@@ -650,6 +685,16 @@ export interface OptimalityCard {
   costates?: CostatesCard;
 }
 
+/** Another path to the slot, to be drawn beside a proposal. */
+export interface OtherPathCard {
+  word: string;
+  time_to_converge_s: number;
+  /** Times count from the instant of the proposal. */
+  segments: PathSegment[];
+  /** Why it is not proposed, e.g. `38 s slower`. */
+  why: string;
+}
+
 /** A place and a heading along a path, over the ground. */
 export interface PathPoint {
   t_s: number;
@@ -708,6 +753,26 @@ export interface PlanChanged {
   flown_least_m: number;
 }
 
+/** A path that could be flown from now on, if the crew accepts it. It is not flown. */
+export interface PlanProposed {
+  kind: "plan_proposed";
+  t_s: number;
+  /** The pursuer's. */
+  ident: string;
+  message: string;
+  plan: PlanCard;
+  /** Where the leader is when the separation is least; its t counts from the plan's start. */
+  leader_at_closest: PathPoint;
+  /** Where the pursuer is then. */
+  pursuer_at_closest: PathPoint;
+  /** How long until joined, braking included: as forecast by flying the closed loop ahead. */
+  promised_s: number;
+  /** Least separation of that forecast, which is what must keep d_min. */
+  flown_least_m: number;
+  /** Other paths to the slot that could be flown, fastest first: at most three. */
+  others: OtherPathCard[];
+}
+
 /**
  * The planner's own plan may not be flown; the exact plan, if there is one, takes its place.
  *
@@ -738,6 +803,13 @@ export interface PlayCommand {
   command: "play";
 }
 
+/** Select a heading for the pursuer, while guidance is not engaged. */
+export interface PursuerHeadingCommand {
+  command: "pursuer_heading";
+  /** Clockwise from true north. */
+  heading_deg: number;
+}
+
 /** The flight at one instant. */
 export interface Sample {
   kind: "sample";
@@ -759,6 +831,8 @@ export interface ScenarioFlightRequest {
    * situation of your own it does.
    */
   intent_known?: boolean | null;
+  /** How far guidance is engaged at the start. */
+  engagement?: Engagement;
   /** 0 flies the type as its data say; any other draws its constants, unknown to its guidance. */
   seed?: number;
   /** Time behind the leader to keep once joined; if left out, D is kept. */
@@ -810,6 +884,12 @@ export interface SeparationLost {
   announced_s: number[];
 }
 
+/** Designate the leader, accept what is proposed, engage it, or disconnect. */
+export interface SetEngagementCommand {
+  command: "set_engagement";
+  engagement: Engagement;
+}
+
 /** Change how fast simulated time runs. */
 export interface SetRateCommand {
   command: "set_rate";
@@ -840,6 +920,8 @@ export interface SituationFlightRequest {
    * situation of your own it does.
    */
   intent_known?: boolean | null;
+  /** How far guidance is engaged at the start. */
+  engagement?: Engagement;
   /** 0 flies the type as its data say; any other draws its constants, unknown to its guidance. */
   seed?: number;
   /** Time behind the leader to keep once joined; if left out, D is kept. */

@@ -1,8 +1,8 @@
 """advise(memory, belief): what to fly for the next second, and what to say of it.
 
-Each second: what is new of the leader → which path to fly → one act of the laws → the monitor, and
-an escape if what is flown now would lose d_min. Every answer is a new memory and an `Advice`:
-nothing here changes in place.
+Each second: what is new of the leader → which path to fly, or to propose where guidance is not
+engaged → one act of the laws → the monitor, and an escape if what is flown now would lose d_min.
+Every answer is a new memory and an `Advice`: nothing here changes in place.
 """
 
 from dataclasses import replace
@@ -46,6 +46,7 @@ from relguide.flying.guidance.plan_news import (
     fly_proposal,
     say_no_plan,
 )
+from relguide.flying.guidance.stand_by import give_up_old_data, stand_by
 from relguide.flying.modes import NAMES, NUMBERS
 from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.flight import marks as at
@@ -63,9 +64,15 @@ def advise(
 ) -> tuple[Memory, Advice]:
     """What to fly for the next second."""
     memory = notice_leader(memory, belief, assignment)
-    memory, unfit = judge_speed(memory, belief, assignment)
-    events: list[Event] = [*unfit]
-    if memory.unable == "speed":
+    memory, events = give_up_old_data(memory, belief)
+    if memory.engagement != "off":
+        memory, unfit = judge_speed(memory, belief, assignment)
+        events += unfit
+    engaged = memory.engagement == "engaged"
+    if not engaged:
+        memory, news = stand_by(memory, belief, assignment, planner)
+        events += news
+    elif memory.unable == "speed":
         if memory.mode not in ("heading", "escape"):
             why = "The leader cannot be followed."
             memory, news = turn_away(memory, belief, assignment, why, slower=True)
@@ -79,8 +86,9 @@ def advise(
     elif _has_left_capture(memory, belief, assignment):
         memory, news = _plan_again(memory, belief, assignment, planner)
         events += news
-    memory, news = keep_heading(memory, belief, assignment)
-    events += news
+    if engaged:
+        memory, news = keep_heading(memory, belief, assignment)
+        events += news
     done = _act(memory, belief, assignment)
     outlook = _outlook(memory, belief, assignment)
     if memory.mode not in ("heading", "escape") and must_leave(memory, belief, assignment, outlook):
@@ -302,6 +310,8 @@ def _advice(
     tas = min(max(control.tas, belief.limits.min_tas), belief.limits.max_tas)
     return Advice(
         control=control if tas == control.tas else control._replace(tas=tas),
+        engagement=memory.engagement,
+        leader_age=belief.leader_age,
         mode=memory.mode,
         slot=_slot(memory, belief, assignment),
         slot_open=belief.slot_open(assignment.slot_distance),

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from relguide.flying.belief import Belief
+from relguide.flying.engagement import Engagement
 from relguide.flying.guidance.committed import Committed
 from relguide.flying.modes import Mode
 from relguide.kernels.base.angles import wrap_signed
@@ -46,6 +47,26 @@ class NewPlan:
     message: str
     announced: bool
     """Whether it is news for a crew; if not, it is kept in the record."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ProposedPlan:
+    """A path that could be flown from now on."""
+
+    committed: Committed
+    shown: Plan
+    """The plan with its lead-in, from where it begins."""
+    message: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EngagementChange:
+    """The crew has engaged guidance further, or less far; or what it ordered could not be done."""
+
+    engagement: Engagement
+    previous: Engagement
+    """The same, if the order was refused."""
+    message: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -92,7 +113,16 @@ class UnableTo:
     message: str
 
 
-Event = NewPlan | PlanMissing | Refused | ModeChange | Alerted | UnableTo
+Event = (
+    NewPlan
+    | ProposedPlan
+    | EngagementChange
+    | PlanMissing
+    | Refused
+    | ModeChange
+    | Alerted
+    | UnableTo
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from relguide.flying.belief import Belief
+from relguide.flying.engagement import Engagement
 from relguide.flying.guidance.announcements import (
     AlertState,
     Event,
@@ -65,6 +66,8 @@ class Alert(NamedTuple):
 class Memory(NamedTuple):
     """What guidance remembers from one second to the next: some are made in each."""
 
+    engagement: Engagement
+    """How far the crew has engaged guidance."""
     mode: Mode
     since: Second
     """When the mode was entered [s]."""
@@ -85,6 +88,8 @@ class Memory(NamedTuple):
     """When the leader last did something new, flight time [s]."""
     announced: Announced | None
     """`None` before the first plan."""
+    proposed: Announced | None
+    """The proposal that stands; `None` if there is none, or guidance is engaged."""
     pending: PlanReason | None
     """Why there is a plan that was not announced yet; `None` if there is none."""
     asked: Second
@@ -105,6 +110,9 @@ class Advice:
     """What guidance asks for during the next second."""
 
     control: Control
+    engagement: Engagement
+    leader_age: Second
+    """How old what is known of the leader is [s]."""
     mode: Mode
     slot: Slot
     """Over the ground, now."""
@@ -121,10 +129,11 @@ class Advice:
     events: tuple[Event, ...]
 
 
-def begin(belief: Belief) -> Memory:
-    """The memory at engagement."""
+def begin(belief: Belief, engagement: Engagement = "engaged") -> Memory:
+    """The memory at the start of a flight."""
     known = expectation(belief)
     return Memory(
+        engagement=engagement,
         mode="heading",
         since=belief.t,
         progress=Progress(HOLD, 0.0, belief.own.heading, belief.own.tas),
@@ -136,6 +145,7 @@ def begin(belief: Belief) -> Memory:
         captured=belief.leader.heading,
         changed=LONG_AGO,
         announced=None,
+        proposed=None,
         pending="engaged",
         asked=LONG_AGO,
         missing=None,

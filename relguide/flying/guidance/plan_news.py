@@ -107,10 +107,10 @@ def is_news(
     left = joins - belief.t
     if abs(joins - last.joins) > max(settings.shown_time, settings.shown_share * left):
         return True
-    return _leads_elsewhere(last, path, belief, settings)
+    return leads_elsewhere(last, path, belief, settings)
 
 
-def _leads_elsewhere(last: Announced, path: Trajectory, belief: Belief, settings: Settings) -> bool:
+def leads_elsewhere(last: Announced, path: Trajectory, belief: Belief, settings: Settings) -> bool:
     """Whether a path is at other places than the announced one has it at the same times."""
     elapsed, wind = belief.t - last.t, belief.wind
     for share in SHARES:

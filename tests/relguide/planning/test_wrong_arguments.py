@@ -184,11 +184,11 @@ CALLS: dict[str, tuple[Callable[..., object], dict[str, Any]]] = {
 }
 """What may be called, with arguments that are right."""
 ANSWERS = {
-    "Alert", "Alternative", "Arrival", "Candidate", "Certificate", "Document", "FlightEnded",
-    "FlightStarted", "ForecastChanged", "Isochrones", "LeaderChanged", "LeaderRoute",
-    "ModeChanged", "NoPlan", "Optimality", "OptimalityReport", "Plan", "PlanChanged",
-    "PlanRefused", "PlanUnavailable", "Planner", "Pose", "Reason", "Sample", "Samples",
-    "SeparationLost", "TimeRow", "Times", "Unable",
+    "Alert", "Alternative", "Arrival", "Candidate", "Certificate", "Document",
+    "EngagementChanged", "FlightEnded", "FlightStarted", "ForecastChanged", "Isochrones",
+    "LeaderChanged", "LeaderRoute", "ModeChanged", "NoPlan", "Optimality", "OptimalityReport",
+    "Plan", "PlanChanged", "PlanProposed", "PlanRefused", "PlanUnavailable", "Planner", "Pose",
+    "Reason", "Sample", "Samples", "SeparationLost", "TimeRow", "Times", "Unable",
 }  # fmt: skip
 """What calls give back, and is not asked for."""
 PARTS = {"Arc", "BoundaryArc", "DeclaredLeader", "RecordedTrack", "Straight"}

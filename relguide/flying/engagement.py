@@ -1,0 +1,49 @@
+"""How far a crew has engaged relative guidance, and the one table that says what may follow what.
+
+off: nobody is to be joined; designated: the leader is chosen, and paths to its slot are proposed;
+armed: the proposal is accepted, and waits for the order to be flown; engaged: guidance flies.
+"""
+
+from collections.abc import Mapping
+from typing import Literal
+
+Engagement = Literal["off", "designated", "armed", "engaged"]
+
+MAY_BECOME: Mapping[Engagement, frozenset[Engagement]] = {
+    "off": frozenset({"designated"}),
+    "designated": frozenset({"off", "armed"}),
+    "armed": frozenset({"off", "designated", "engaged"}),
+    "engaged": frozenset({"off", "designated"}),
+}
+"""What each may be followed by. Nothing that was not accepted is ever flown."""
+
+
+def refusal(now: Engagement, to: Engagement, *, proposed: bool) -> str:
+    """Why an engagement may not follow the present one, in a sentence; empty if it may.
+
+    Args:
+        now: the present one.
+        to: what is asked for.
+        proposed: whether there is a path to accept.
+    """
+    if to == now:
+        return f"Relative guidance is {_WORDS[now]} already."
+    if to == "armed" and now == "designated" and not proposed:
+        return "There is no proposal to accept."
+    if to in MAY_BECOME[now]:
+        return ""
+    return f"Relative guidance is {_WORDS[now]}: {_NEXT[now]}"
+
+
+_WORDS: Mapping[Engagement, str] = {
+    "off": "off",
+    "designated": "waiting for a proposal to be accepted",
+    "armed": "armed",
+    "engaged": "engaged",
+}
+_NEXT: Mapping[Engagement, str] = {
+    "off": "designate the leader first.",
+    "designated": "accept the proposal first.",
+    "armed": "engage it, or cancel.",
+    "engaged": "disconnect it first.",
+}

@@ -1,0 +1,144 @@
+"""Standing by: the crew flies a heading; where a leader is designated, guidance proposes paths."""
+
+from relguide.flying.belief import Belief
+from relguide.flying.engagement import Engagement, refusal
+from relguide.flying.guidance.announcements import (
+    EngagementChange,
+    Event,
+    ProposedPlan,
+    UnableTo,
+    summary,
+)
+from relguide.flying.guidance.assignment import Assignment
+from relguide.flying.guidance.committed import shown_plan
+from relguide.flying.guidance.converge import NoProposal, Proposal, propose
+from relguide.flying.guidance.memory import LONG_AGO, Announced, Memory, enter
+from relguide.flying.guidance.plan_news import count_refusal, leads_elsewhere, say_no_plan
+from relguide.flying.modes import NUMBERS
+from relguide.kernels.flight.guide import Progress
+from relguide.planning.phrases import compass
+from relguide.planning.plan import Planner
+from relguide.units import MetrePerSecond, Radian, Second
+
+PROPOSE_EVERY: Second = 2.0
+"""A proposal begins where the aircraft is: it is made anew so often [s]."""
+TOO_OLD_TO_PROPOSE: Second = 5.0
+"""With data of the leader older than this no path is proposed [s]."""
+TOO_OLD_TO_FLY: Second = 10.0
+"""With data of the leader older than this no path is flown [s]."""
+
+
+def order_engagement(memory: Memory, belief: Belief, to: Engagement) -> tuple[Memory, list[Event]]:
+    """Do what the crew orders, or say why not."""
+    now = memory.engagement
+    why = refusal(now, to, proposed=memory.proposed is not None)
+    if why:
+        return memory, [EngagementChange(engagement=now, previous=now, message=why)]
+    message = {
+        "off": "Relative guidance is off.",
+        "designated": "The leader is designated: a path is looked for.",
+        "armed": "The proposal is accepted. Engage when ready.",
+        "engaged": "Relative guidance is engaged.",
+    }[to]
+    if now == "engaged":
+        return stop(memory, belief, to, "Relative guidance is disconnected")
+    said = EngagementChange(engagement=to, previous=now, message=message)
+    if to == "engaged":
+        return memory._replace(engagement=to, proposed=None, asked=LONG_AGO), [said]
+    proposed = memory.proposed if to == "armed" else None
+    asked = memory.asked if to == "armed" else LONG_AGO
+    memory = memory._replace(engagement=to, proposed=proposed, asked=asked, missing=None)
+    return memory, [said]
+
+
+def stop(memory: Memory, belief: Belief, to: Engagement, why: str) -> tuple[Memory, list[Event]]:
+    """Hand the aircraft back: its present heading and speed are held."""
+    heading = belief.own.heading
+    message = f"{why}: holding {compass(heading)}."
+    said = EngagementChange(engagement=to, previous=memory.engagement, message=message)
+    memory, news = enter(memory, belief, "heading", message)
+    memory = memory._replace(
+        engagement=to,
+        progress=Progress(NUMBERS["heading"], 0.0, heading, belief.own.tas),
+        committed=None,
+        forecast=None,
+        announced=None,
+        pending="engaged",
+        asked=LONG_AGO,
+        missing=None,
+        unable=None,
+    )
+    return memory, [said, *news]
+
+
+def hold_heading(memory: Memory, heading: Radian, tas: MetrePerSecond) -> Memory:
+    """Fly a heading that the crew selects [rad], at a speed [m/s], until guidance is engaged."""
+    progress = Progress(NUMBERS["heading"], 0.0, heading, tas)
+    return memory._replace(progress=progress, forecast=None, proposed=None)
+
+
+def give_up_old_data(memory: Memory, belief: Belief) -> tuple[Memory, list[Event]]:
+    """Stop flying where the leader was heard of too long ago."""
+    if memory.engagement in ("off", "designated") or belief.leader_age <= TOO_OLD_TO_FLY:
+        return memory, []
+    message = f"Unable: nothing was heard of the leader for {belief.leader_age:.0f} s."
+    memory, events = stop(memory, belief, "designated", "The leader's data are lost")
+    return memory._replace(proposed=None), [UnableTo(reason="data", message=message), *events]
+
+
+def stand_by(
+    memory: Memory, belief: Belief, assignment: Assignment, planner: Planner
+) -> tuple[Memory, list[Event]]:
+    """Propose a path, if a leader is designated and it is time for a new proposal."""
+    if memory.engagement == "off" or belief.leader_age > TOO_OLD_TO_PROPOSE:
+        return memory._replace(proposed=None), []
+    if memory.unable == "speed":
+        return _without_proposal(memory)
+    settings, wait = assignment.settings, PROPOSE_EVERY
+    if memory.missing is not None:  # the longer nothing is new, the more seldom it is tried again
+        quiet = settings.retry_share * (belief.t - max(memory.changed, memory.since))
+        wait = min(max(settings.retry, quiet), settings.retry_longest)
+    if belief.t - memory.asked < wait:
+        return memory, []
+    found = propose(belief, assignment, None, planner)
+    memory, events = count_refusal(memory._replace(asked=belief.t), found)
+    if isinstance(found, NoProposal):
+        memory, events = say_no_plan(memory, belief, assignment, found.answer, events)
+        memory, news = _without_proposal(memory)
+        return memory, [*events, *news]
+    memory, news = _say_proposal(memory, belief, assignment, found)
+    return memory, [*events, *news]
+
+
+def _say_proposal(
+    memory: Memory, belief: Belief, assignment: Assignment, found: Proposal
+) -> tuple[Memory, list[Event]]:
+    """The path proposed now; one that was accepted is not exchanged for another in silence."""
+    committed, before = found.committed, memory.proposed
+    shown = shown_plan(committed.plan, found.lead, belief, assignment)
+    joins = committed.forecast.join_time if committed.forecast.joins else committed.due
+    said = ProposedPlan(
+        committed=committed,
+        shown=shown,
+        message=f"Proposed: {summary(shown, joins - belief.t)}.",
+    )
+    proposed = Announced(belief.t, joins, shown.trajectory, belief.t)
+    memory = memory._replace(proposed=proposed, missing=None)
+    if memory.engagement != "armed" or before is None:
+        return memory, [said]
+    settings = assignment.settings
+    later = joins - before.joins > settings.shown_time
+    if not later and not leads_elsewhere(before, shown.trajectory, belief, settings):
+        return memory, [said]
+    message = "The proposal is another one now: accept it again."
+    change = EngagementChange(engagement="designated", previous="armed", message=message)
+    return memory._replace(engagement="designated"), [said, change]
+
+
+def _without_proposal(memory: Memory) -> tuple[Memory, list[Event]]:
+    memory = memory._replace(proposed=None)
+    if memory.engagement != "armed":
+        return memory, []
+    message = "The proposal that was accepted can no longer be flown."
+    change = EngagementChange(engagement="designated", previous="armed", message=message)
+    return memory._replace(engagement="designated"), [change]

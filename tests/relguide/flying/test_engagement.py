@@ -1,0 +1,165 @@
+"""A crew designates, accepts, engages and disconnects; nothing is flown that was not accepted."""
+
+from collections.abc import Iterable
+from math import hypot
+from typing import TypeVar
+
+import pytest
+
+from relguide.flying.documents import (
+    Document,
+    EngagementChanged,
+    ModeChanged,
+    PlanChanged,
+    PlanProposed,
+    PlanUnavailable,
+    Sample,
+    Unable,
+)
+from relguide.flying.engagement import MAY_BECOME, Engagement, refusal
+from relguide.flying.flight import fly
+from relguide.flying.orders import (
+    Command,
+    LeaderData,
+    LeaderSpeed,
+    PursuerHeading,
+    SetEngagement,
+)
+from relguide.flying.scenarios import scenario
+from relguide.planning.plan import plan
+from relguide.units import DEG
+
+T = TypeVar("T")
+Orders = dict[float, Command]
+
+
+def flown(
+    orders: Orders, until: float, *, name: str = "fig_6b", engagement: Engagement = "off"
+) -> list[Document]:
+    """A flight that begins at OFF, up to a time [s], with orders at their times."""
+    documents = []
+
+    def commands(t: float) -> Iterable[Command]:
+        return [orders[t]] if t in orders else []
+
+    found = fly(scenario(name), plan, commands=commands, sample_period=1.0, engagement=engagement)
+    for document in found:
+        if document.t > until:
+            break
+        documents.append(document)
+    return documents
+
+
+def of(documents: list[Document], kind: type[T]) -> list[T]:
+    return [each for each in documents if isinstance(each, kind)]
+
+
+def to(engagement: Engagement) -> SetEngagement:
+    return SetEngagement(engagement=engagement)
+
+
+def engagements(documents: list[Document]) -> list[Engagement]:
+    return [each.guidance[0].engagement for each in of(documents, Sample)]
+
+
+def test_at_off_a_heading_is_held_and_nothing_is_proposed() -> None:
+    documents = flown({}, 60.0)
+    assert not of(documents, PlanProposed)
+    assert not of(documents, PlanChanged)
+    assert {each.guidance[0].mode for each in of(documents, Sample)} == {"heading"}
+    own = [each.aircraft[0] for each in of(documents, Sample)]
+    assert own[0].heading == pytest.approx(own[-1].heading, abs=0.1 * DEG)
+
+
+def test_from_off_to_engaged_and_back() -> None:
+    orders: Orders = {
+        5.0: to("designated"),
+        12.0: to("armed"),
+        20.0: to("engaged"),
+        60.0: to("off"),
+    }
+    documents = flown(orders, 90.0)
+    changes = [each.engagement for each in of(documents, EngagementChanged)]
+    assert changes == ["designated", "armed", "engaged", "off"]
+    proposed = of(documents, PlanProposed)
+    assert [each.t for each in proposed][:3] == [5.0, 7.0, 9.0]
+    assert proposed[-1].t < 20.0
+    (first, *_) = of(documents, PlanChanged)
+    assert (first.t, first.reason) == (20.0, "engaged")
+    assert [each.mode for each in of(documents, ModeChanged)] == ["converge", "heading"]
+    assert "holding" in of(documents, ModeChanged)[-1].message
+
+
+def test_a_proposal_is_what_would_be_flown_and_begins_at_the_aircraft() -> None:
+    documents = flown({5.0: to("designated"), 9.0: to("armed"), 11.0: to("engaged")}, 12.0)
+    proposed, engaged = of(documents, PlanProposed)[-1], of(documents, PlanChanged)[0]
+    assert engaged.t - proposed.t <= 2.0
+    assert proposed.promised == pytest.approx(engaged.promised, abs=10.0)
+    (at,) = [each for each in of(documents, Sample) if each.t == proposed.t]
+    start = proposed.plan.segments[0].start
+    assert hypot(start.x - at.aircraft[0].x, start.y - at.aircraft[0].y) < 30.0
+    assert proposed.others
+    assert all(each.segments for each in proposed.others)
+    times = [proposed.plan.time_to_converge, *(o.time_to_converge for o in proposed.others)]
+    assert times[1:] == sorted(times[1:])
+
+
+def test_what_may_not_follow_is_refused_with_a_sentence_and_changes_nothing() -> None:
+    documents = flown({5.0: to("engaged"), 8.0: to("armed"), 9.0: to("off")}, 12.0)
+    said = of(documents, EngagementChanged)
+    assert [(each.previous, each.engagement) for each in said] == [("off", "off")] * 3
+    assert all(each.message.endswith(".") for each in said)
+    assert set(engagements(documents)) == {"off"}
+
+
+def test_without_a_proposal_there_is_nothing_to_accept() -> None:
+    orders: Orders = {
+        0.0: LeaderSpeed(tas=400.0),
+        1.0: PursuerHeading(heading=315.0 * DEG),
+        300.0: to("designated"),
+        310.0: to("armed"),
+    }
+    documents = flown(orders, 315.0)
+    assert len(of(documents, PlanUnavailable)) == 1
+    assert "no proposal" in of(documents, EngagementChanged)[-1].message
+    assert engagements(documents)[-1] == "designated"
+
+
+def test_an_accepted_proposal_that_can_no_longer_be_flown_disarms() -> None:
+    orders: Orders = {2.0: to("designated"), 6.0: to("armed"), 8.0: LeaderSpeed(tas=300.0)}
+    documents = flown(orders, 120.0)
+    assert engagements(documents)[-1] == "designated"
+    assert not of(documents, PlanChanged)
+
+
+def test_a_crew_flies_headings_until_it_engages() -> None:
+    orders: Orders = {5.0: PursuerHeading(heading=180.0 * DEG), 100.0: to("designated")}
+    own = of(flown(orders, 110.0), Sample)[-1].aircraft[0]
+    assert own.heading == pytest.approx(180.0 * DEG, abs=1.0 * DEG)
+
+
+@pytest.mark.parametrize("begins", ["engaged", "armed"])
+def test_old_data_of_the_leader_give_the_aircraft_back(begins: Engagement) -> None:
+    orders: Orders = {30.0: LeaderData(received=False), 60.0: LeaderData(received=True)}
+    if begins == "armed":
+        orders |= {2.0: to("designated"), 6.0: to("armed")}
+    start: Engagement = "engaged" if begins == "engaged" else "off"
+    documents = flown(orders, 70.0, engagement=start)
+    ages = {each.t: each.guidance[0].leader_age for each in of(documents, Sample)}
+    assert (ages[29.0], ages[35.0], ages[59.0]) == pytest.approx((0.0, 5.0, 29.0))
+    assert ages[62.0] == 0.0
+    (unable,) = of(documents, Unable)
+    assert (unable.reason, unable.t) == ("data", 41.0)
+    assert engagements(documents)[-1] == "designated"
+    again = [each.t for each in of(documents, PlanProposed) if each.t > 35.0]
+    assert min(again) >= 60.0
+
+
+def test_no_step_of_the_table_leads_to_a_flight_that_was_not_accepted() -> None:
+    before = {now for now, then in MAY_BECOME.items() if "engaged" in then}
+    assert before == {"armed"}
+    for now in MAY_BECOME:
+        for then in MAY_BECOME:
+            allowed = not refusal(now, then, proposed=True)
+            assert allowed == (then in MAY_BECOME[now])
+    assert refusal("designated", "armed", proposed=False)
