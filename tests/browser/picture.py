@@ -20,7 +20,7 @@ def main(file: Path) -> None:
     with TemporaryDirectory() as folder, running_service(Path(folder)) as service:
         with running_chromium() as browser:
             page = browser.new_page(viewport={"width": 1440, "height": 900})
-            page.goto(service.url)
+            page.goto(f"{service.url}/?engaged")
             expect(page.locator(".connection")).to_have_text("Live", timeout=20_000)
             page.get_by_role("button", name=RANGE, exact=True).click()
             fly_until(page, SIMULATED)

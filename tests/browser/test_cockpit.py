@@ -19,13 +19,13 @@ MOVED = 700
 
 @pytest.fixture(autouse=True)
 def _opened(page: Page, watched: Watch, sky: Service) -> None:
-    page.goto(sky.url)
+    page.goto(f"{sky.url}/?engaged")
     expect(page.locator(".connection")).to_have_text("Live")
     expect(page.locator("g.nd-map")).to_be_attached()
 
 
 def test_both_pictures_fly(page: Page, watched: Watch) -> None:
-    """The page that opens already flies Fig. 6b, on the ND and in the scene."""
+    """The page that opens engaged flies Fig. 6b, on the ND and in the scene."""
     expect(page.get_by_role("combobox", name="Scenario")).to_have_value("fig_6b")
     assert changes(page, lambda: map_transform(page))
     scene = page.locator("iframe")

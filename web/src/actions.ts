@@ -1,41 +1,62 @@
 /** What the buttons do: the one place where the page talks to the server. */
 
-import { type Answer, commandFlight, createFlight, listScenarios, readFlight } from "./api";
+import {
+  type Answer,
+  commandFlight,
+  createFlight,
+  endFlight,
+  listScenarios,
+  readFlight,
+} from "./api";
 import type { Actions, Session } from "./session";
 import type { FlightStore } from "./store/flight";
 import { OTHER_VERSION, openStream, type Stream } from "./stream";
 import { formatHeading, formatKnots, inPageUnits, wrap360 } from "./units";
-import { type Command, type FlightStatus, PROTOCOL } from "./wire";
+import { type Command, type Engagement, type FlightStatus, PROTOCOL } from "./wire";
 
-/** What a page that is opened without a flight shows: the paper's figure, soon over. */
+/** What a page that is opened without a flight shows: the paper's figure, nobody designated yet. */
 const FIRST_SCENARIO = "fig_6b";
-const FIRST_RATE = 10;
+/** A crew decides at the pace of life; who opens a flight that is engaged wants to see it join. */
+const RATE = { off: 1, engaged: 10 } as const;
 /** A server that does not answer is asked again this often [ms]. */
 const ASK_AGAIN = 3000;
 
-/** The actions of a page, and `open`, which begins: joins the flight of the address or starts one. */
+/** What is said when the crew engages further, or less far. */
+const ENGAGING: Record<Engagement, { doing: string; done: string }> = {
+  off: { doing: "Disconnecting…", done: "Relative guidance is off." },
+  designated: { doing: "Designating the leader…", done: "The leader is designated." },
+  armed: { doing: "Accepting…", done: "Accepted: engage when ready." },
+  engaged: { doing: "Engaging…", done: "Relative guidance is engaged." },
+};
+
+/** The actions of a page, and `open`, which begins: joins the flight of the address, or starts one. */
 export function createActions(
   session: Session,
   store: FlightStore,
-): Actions & { open(joined: string | null): Promise<void> } {
+): Actions & { open(address: URLSearchParams): Promise<void> } {
   let stream: Stream | null = null;
   let again: ReturnType<typeof setTimeout> | null = null;
   let attempt: () => void = () => undefined;
 
-  async function open(joined: string | null): Promise<void> {
+  /** How far new flights are engaged: `engaged` in the address says so from the start. */
+  let engagement: keyof typeof RATE = "off";
+
+  async function open(address: URLSearchParams): Promise<void> {
+    engagement = address.has("engaged") ? "engaged" : "off";
+    const joined = address.get("flight");
     void loadScenarios();
     if (joined === null) {
-      await begin(FIRST_SCENARIO, FIRST_RATE);
+      await begin(address.get("scenario") ?? FIRST_SCENARIO, RATE[engagement]);
       return;
     }
     const answer = await readFlight(joined);
     if (answer.kind === "done") {
       show(answer.value);
     } else if (answer.status === 404) {
-      await begin(FIRST_SCENARIO, FIRST_RATE);
+      await begin(FIRST_SCENARIO, RATE[engagement]);
       say("done", `Flight ${joined} is no longer flown here, so a new one was started.`);
     } else {
-      fail(answer, () => void open(joined));
+      fail(answer, () => void open(address));
     }
   }
 
@@ -48,7 +69,7 @@ export function createActions(
   async function begin(scenario: string, rate: number): Promise<void> {
     if (again !== null) clearTimeout(again);
     say("sending", "Starting the flight…");
-    const answer = await createFlight({ scenario, rate });
+    const answer = await createFlight({ scenario, rate, engagement });
     if (answer.kind === "done") {
       show(answer.value);
       say("done", `New flight: ${answer.value.title}.`);
@@ -113,6 +134,15 @@ export function createActions(
     session.feedback.value = { kind, text };
   }
 
+  async function end(): Promise<void> {
+    const status = session.status.value;
+    if (status === null) return;
+    say("sending", "Ending the flight…");
+    const answer = await endFlight(status.id);
+    if (answer.kind === "done") say("done", "The flight is ended.");
+    else say("refused", answer.sentence);
+  }
+
   async function command(body: Command, doing: string, done: string): Promise<void> {
     const status = session.status.value;
     if (status === null) {
@@ -127,7 +157,25 @@ export function createActions(
 
   return {
     open,
-    start: (scenario) => void begin(scenario, session.flight.clock.value.rate || FIRST_RATE),
+    start: (scenario) => void begin(scenario, RATE[engagement]),
+    end: () => void end(),
+    engage(engagement) {
+      const { doing, done } = ENGAGING[engagement];
+      void command({ command: "set_engagement", engagement }, doing, done);
+    },
+    ownHeading(heading) {
+      if (heading < 0 || heading > 360) {
+        say("refused", `A heading is 0 to 360°, not ${heading}°.`);
+        return;
+      }
+      const text = `Own heading ${formatHeading(heading)} selected`;
+      const body = { command: "pursuer_heading", heading_deg: wrap360(heading) } as const;
+      void command(body, `${text}…`, `${text}.`);
+    },
+    setLeaderData(received) {
+      const text = received ? "Leader's reports received" : "Leader's reports lost";
+      void command({ command: "leader_data", received }, `${text}…`, `${text}.`);
+    },
     play: () => void command({ command: "play" }, "Playing…", "Playing."),
     pause: () => void command({ command: "pause" }, "Pausing…", "Paused."),
     setRate: (rate) =>

@@ -43,6 +43,10 @@ export function commandFlight(id: string, command: Command): Promise<Answer<Flig
   return request("POST", `${ROOT}/flights/${encodeURIComponent(id)}/commands`, command);
 }
 
+export function endFlight(id: string): Promise<Answer<null>> {
+  return request("DELETE", `${ROOT}/flights/${encodeURIComponent(id)}`);
+}
+
 /** Null if the server does not say. */
 export async function readReadiness(): Promise<Readiness | null> {
   try {
@@ -84,6 +88,7 @@ async function request<T>(
 }
 
 function parse(text: string): unknown {
+  if (text === "") return null;
   try {
     return JSON.parse(text);
   } catch {

@@ -6,6 +6,7 @@ import { NavigationDisplay } from "./nd/nd";
 import { Aircraft } from "./panels/aircraft";
 import { Alternatives } from "./panels/alternatives";
 import { Efis } from "./panels/efis";
+import { Engage } from "./panels/engage";
 import { Announcer, Events } from "./panels/events";
 import { FirstStart } from "./panels/first-start";
 import { FlightControls } from "./panels/flight-controls";
@@ -39,12 +40,13 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
                 shown={session.shown}
                 mode={session.ndMode}
                 range={session.ndRange}
+                designate={() => actions.engage("designated")}
               />
             </div>
           </div>
           <div class="below">
             <Events session={session} />
-            {narrow.value && <Aircraft session={session} />}
+            {narrow.value && <Aircraft session={session} actions={actions} />}
           </div>
         </div>
         <div class="workstation">
@@ -58,12 +60,13 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
               <LeaderControls key={session.status.value?.id} session={session} actions={actions} />
             </div>
             <div class="column numbers">
+              <Engage session={session} actions={actions} />
               <PlanNumbers session={session} />
               {narrow.value && <Alternatives session={session} />}
             </div>
             {!narrow.value && (
               <div class="column lists">
-                <Aircraft session={session} />
+                <Aircraft session={session} actions={actions} />
                 <Alternatives session={session} />
               </div>
             )}

@@ -4,6 +4,7 @@ import { type Actions, type Session, stepRange } from "./session";
 
 /** What a key does, or null if it is not ours. */
 export function keyAction(key: string, session: Session, actions: Actions): (() => void) | null {
+  if (!session.letterKeys.value && /^[a-z]$/i.test(key)) return null;
   const { flight, ndMode, ndRange, sceneMaximised, helpOpen } = session;
   switch (key) {
     case " ":
@@ -28,6 +29,18 @@ export function keyAction(key: string, session: Session, actions: Actions): (() 
       return () => {
         ndRange.value = stepRange(ndRange.value, -1);
       };
+    case "d":
+    case "D":
+      return () => actions.engage("designated");
+    case "c":
+    case "C":
+      return () => actions.engage("armed");
+    case "e":
+    case "E":
+      return () => actions.engage("engaged");
+    case "x":
+    case "X":
+      return () => actions.engage("off");
     case "m":
     case "M":
       return () => {

@@ -14,11 +14,13 @@ import { Cockpit } from "./cockpit";
 import { followFirstStart } from "./first-start";
 import { isTaken, keyAction } from "./keyboard";
 import { createSession } from "./session";
+import { soundAlerts } from "./sound";
 import { createFlightStore } from "./store/flight";
 
 const store = createFlightStore();
 const session = createSession(store.flight, followFirstStart());
 const actions = createActions(session, store);
+soundAlerts(session);
 
 const place = document.querySelector("#cockpit");
 if (place === null) throw new Error("The page has no place for the cockpit.");
@@ -38,4 +40,4 @@ function animate(wall: number): void {
 }
 requestAnimationFrame(animate);
 
-void actions.open(new URL(location.href).searchParams.get("flight"));
+void actions.open(new URL(location.href).searchParams);

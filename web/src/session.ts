@@ -4,7 +4,7 @@ import { type Signal, signal } from "@preact/signals";
 import type { Readiness } from "./api";
 import type { Flight } from "./store/flight";
 import { createShown, type Shown } from "./store/picture";
-import type { Direction, FlightStatus, ScenarioInfo } from "./wire";
+import type { Direction, Engagement, FlightStatus, ScenarioInfo } from "./wire";
 
 export type NdMode = "ROSE" | "ARC";
 export const ND_RANGES = [10, 20, 40, 80, 160, 320] as const;
@@ -39,6 +39,10 @@ export interface Session {
   readonly ndRange: Signal<NdRange>;
   readonly sceneMaximised: Signal<boolean>;
   readonly helpOpen: Signal<boolean>;
+  /** Whether single letters are keys. */
+  readonly letterKeys: Signal<boolean>;
+  /** Whether alerts are heard. */
+  readonly sound: Signal<boolean>;
   /** What a first start has yet to prepare; null when that is done. */
   readonly firstStart: Signal<Readiness | null>;
 }
@@ -47,6 +51,14 @@ export interface Session {
 export interface Actions {
   /** Starts a new flight of a scenario and shows it. */
   start(scenario: string): void;
+  /** Ends the flight, for all who watch it. */
+  end(): void;
+  /** Designates the leader, accepts what is proposed, engages it, or disconnects. */
+  engage(engagement: Engagement): void;
+  /** Selects a heading for own ship [deg], while guidance is not engaged. */
+  ownHeading(heading: number): void;
+  /** Lets the leader's reports be received, or not. */
+  setLeaderData(received: boolean): void;
   play(): void;
   pause(): void;
   setRate(rate: number): void;
@@ -76,6 +88,8 @@ export function createSession(
     ndRange: signal(40),
     sceneMaximised: signal(false),
     helpOpen: signal(false),
+    letterKeys: signal(true),
+    sound: signal(true),
     firstStart,
   };
 }

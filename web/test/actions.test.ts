@@ -19,6 +19,7 @@ function flying(answer: Response) {
     paused: false,
     ended: false,
     mode: "converge",
+    engagement: "engaged",
     joined: false,
     separation_m: 20000,
     stream_url: "",

@@ -31,7 +31,30 @@ describe("the keys", () => {
     press("?");
     press("Escape");
     expect([session.sceneMaximised.value, session.helpOpen.value]).toEqual([false, false]);
-    expect(keyAction("x", session, silentActions())).toBeNull();
+    expect(keyAction("q", session, silentActions())).toBeNull();
+  });
+
+  test("a crew designates, confirms, engages and disconnects by keys", () => {
+    const session = createSession(createFlightStore().flight);
+    const actions = silentActions();
+    for (const [key, engagement] of [
+      ["d", "designated"],
+      ["C", "armed"],
+      ["e", "engaged"],
+      ["X", "off"],
+    ] as const) {
+      keyAction(key, session, actions)?.();
+      expect(actions.engage).toHaveBeenLastCalledWith(engagement);
+    }
+  });
+
+  test("single letters can be switched off; the other keys stay", () => {
+    const session = createSession(createFlightStore().flight);
+    session.letterKeys.value = false;
+    for (const key of ["d", "C", "r", "m", "x"])
+      expect(keyAction(key, session, silentActions()), key).toBeNull();
+    for (const key of [" ", "+", "?", "Escape"])
+      expect(keyAction(key, session, silentActions()), key).not.toBeNull();
   });
 
   test("the range stops at its ends", () => {

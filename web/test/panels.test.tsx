@@ -56,6 +56,7 @@ function flying() {
     paused: false,
     ended: false,
     mode: "converge",
+    engagement: "engaged",
     joined: false,
     separation_m: 20000,
     stream_url: "/api/v1/flights/one/stream",
@@ -79,7 +80,7 @@ describe("panels", () => {
       <>
         <Header session={session} />
         <PlanNumbers session={session} />
-        <Aircraft session={session} />
+        <Aircraft session={session} actions={silentActions()} />
         <Alternatives session={session} />
         <Events session={session} />
         <Scene session={session} />
@@ -113,7 +114,7 @@ describe("panels", () => {
       );
       expect(place.textContent).not.toMatch(/flown$|Least proved|Least forecast|Optimal|joins at/);
       expect(place.querySelector(".flown")).toBeNull();
-      expect(place.textContent).toContain("No plan is flown now.");
+      expect(place.textContent).toContain("No path is proposed or flown now.");
     },
   );
 
@@ -175,7 +176,7 @@ describe("panels", () => {
       <>
         <Header session={session} />
         <PlanNumbers session={session} />
-        <Aircraft session={session} />
+        <Aircraft session={session} actions={silentActions()} />
       </>,
       place,
     );

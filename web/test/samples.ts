@@ -66,6 +66,8 @@ export function pairAt(t: number, changes: Partial<PairSample> = {}): PairSample
     time_to_go_s: Math.max(0, 250 - t),
     joined: false,
     alert: "none",
+    leader_age_s: 0,
+    engagement: "engaged",
     ...changes,
   };
 }

@@ -6,6 +6,10 @@ import type { Actions } from "../src/session";
 export function silentActions(): Actions {
   return {
     start: vi.fn(),
+    end: vi.fn(),
+    engage: vi.fn(),
+    ownHeading: vi.fn(),
+    setLeaderData: vi.fn(),
     play: vi.fn(),
     pause: vi.fn(),
     setRate: vi.fn(),

@@ -19,6 +19,7 @@ import {
   straight,
   tick,
 } from "./samples";
+import { silentActions } from "./silence";
 
 const FRAMES = 1000;
 
@@ -105,7 +106,7 @@ test(`numbers that stand twice, in ${FRAMES} frames`, { timeout: 120_000 }, () =
       <>
         <NavigationDisplay shown={session.shown} mode={signal("ROSE")} range={signal(40)} />
         <PlanNumbers session={session} />
-        <Aircraft session={session} />
+        <Aircraft session={session} actions={silentActions()} />
       </>,
       place,
     ),

@@ -92,6 +92,8 @@ def test_a_sample_in_full() -> None:
                 "time_to_go_s": 500.0,
                 "joined": False,
                 "alert": "caution",
+                "leader_age_s": 0.0,
+                "engagement": "engaged",
             }
         ],
     }

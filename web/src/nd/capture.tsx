@@ -6,6 +6,7 @@ import { offNose, onMap, placeAt, project, toMap } from "./view";
 
 /** Where and when own ship reaches the slot. */
 export function CapturePoint({ shown, view }: LayerProps) {
+  const colour = usePart(shown, ({ look }) => ink(look?.pathColour ?? "plan"));
   const join = usePart(shown, (picture) => picture.join);
   const isShown = useComputed(() => join.value !== null);
   const place = useComputed(() =>
@@ -15,15 +16,18 @@ export function CapturePoint({ shown, view }: LayerProps) {
   return (
     <g class="nd-capture" transform={place}>
       <circle class="nd-halo" r={8} stroke-width={6} />
-      <circle class="nd-stroke" r={8} stroke={ink("plan")} stroke-width={2.5} />
-      <circle class="nd-solid" r={3} fill={ink("plan")} />
+      <circle class="nd-stroke" r={8} stroke={colour} stroke-width={2.5} />
+      <circle class="nd-solid" r={3} fill={colour} />
     </g>
   );
 }
 
 /** "CNV mm:ss", the time still to fly. */
 export function captureLabel({ shown, view }: LayerProps): Label | null {
-  const [{ join, closestAtJoin }, { toJoin, least }] = [shown.picture.value, shown.numbers.value];
+  const [{ join, closestAtJoin, look }, { toJoin, least }] = [
+    shown.picture.value,
+    shown.numbers.value,
+  ];
   const pose = view.pose.value;
   if (toJoin === "" || join === null || pose === null) return null;
   const at = project(view.layout.value, pose, join);
@@ -33,7 +37,7 @@ export function captureLabel({ shown, view }: LayerProps): Label | null {
     id: "capture",
     at,
     lines: [
-      { text: `CNV ${toJoin}`, colour: "plan" },
+      { text: `CNV ${toJoin}`, colour: look?.pathColour ?? "plan" },
       ...(isClosest ? [{ text: `${least.miles} NM`, colour: "label" as const }] : []),
     ],
     side: offNose(pose, join.heading_deg + 90),

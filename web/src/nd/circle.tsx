@@ -1,4 +1,5 @@
 import { useComputed } from "@preact/signals";
+import type { Picture } from "../store/picture";
 import { DEG } from "../units";
 import type { Label } from "./labels";
 import { type LayerProps, usePart } from "./layer";
@@ -9,12 +10,12 @@ import { onMap, placeAt, project, toMap } from "./view";
 export function SeparationCircle({ shown, view }: LayerProps) {
   const { picture } = shown;
   const place = useComputed(() => {
-    const { now } = picture.value;
-    return now === null ? "" : placeAt(toMap(view.layout.value, now.leader));
+    const { leader } = picture.value;
+    return leader === null || !isRound(picture.value)
+      ? ""
+      : placeAt(toMap(view.layout.value, leader));
   });
-  const radius = useComputed(
-    () => (picture.value.started?.min_separation_m ?? 0) * view.layout.value.scale,
-  );
+  const radius = useComputed(() => picture.value.keepOut * view.layout.value.scale);
   const isShown = useComputed(() => place.value !== "" && radius.value > 0);
   const look = usePart(shown, ({ separation }) => SEPARATION[separation.state]);
   if (!isShown.value) return null;
@@ -33,15 +34,21 @@ export function SeparationCircle({ shown, view }: LayerProps) {
   );
 }
 
+/** Whether it is drawn: round a designated leader, and wherever the minimum is or will be lost. */
+function isRound({ designated, separation }: Picture): boolean {
+  return designated || separation.state !== "kept";
+}
+
 /** The size of the circle, on its side away from the own ship. */
 export function circleLabel({ shown, view }: LayerProps): Label | null {
-  const { now, started, separation } = shown.picture.value;
+  const { leader, started, separation } = shown.picture.value;
   const pose = view.pose.value;
   const minSeparation = started?.min_separation_m;
-  if (now === null || pose === null || minSeparation === undefined) return null;
+  if (leader === null || pose === null || minSeparation === undefined) return null;
+  if (!isRound(shown.picture.value)) return null;
   const layout = view.layout.value;
-  const centre = project(layout, pose, now.leader);
-  const radius = minSeparation * layout.scale;
+  const centre = project(layout, pose, leader);
+  const radius = shown.picture.value.keepOut * layout.scale;
   const { colour } = SEPARATION[separation.state];
   for (const turn of [0, 45, -45, 90, -90, 135, -135, 180]) {
     const side = away(layout.centre, centre) + turn;

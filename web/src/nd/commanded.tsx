@@ -10,7 +10,7 @@ const ARROW_TIME = 10;
 /** Length of its head [px]. */
 const HEAD = 14;
 
-/** What guidance asks for: a pip on the tape at the commanded heading, or a curved arrow into the turn. */
+/** What the crew selected, a hollow bug; or what guidance asks for: a pip on the tape at the commanded heading, or a curved arrow into the turn. */
 export function Commanded({ shown, view }: LayerProps) {
   const guided = usePart(shown, (picture) => picture.guided);
   const pip = useComputed(() => {
@@ -38,12 +38,18 @@ export function Commanded({ shown, view }: LayerProps) {
       `L${round(inner.x)} ${round(inner.y)}Z`
     );
   });
+  const isFlown = usePart(shown, (picture) => picture.guided?.engagement === "engaged");
   const pipShown = useComputed(() => pip.value !== "");
   return (
     <g class="nd-commanded">
-      {pipShown.value && (
-        <path class="nd-solid" d="M0 2L-11 -16H11Z" fill={ink("managed")} transform={pip} />
-      )}
+      {pipShown.value &&
+        (isFlown.value ? (
+          <path class="nd-solid" d="M0 2L-11 -16H11Z" fill={ink("managed")} transform={pip} />
+        ) : (
+          <g class="nd-bug" transform={pip}>
+            <Stroke d="M0 2L-12 -18H12Z" line={LINES.bug} />
+          </g>
+        ))}
       <Stroke d={arrow} line={LINES.turn} />
     </g>
   );

@@ -1,7 +1,7 @@
 import { useComputed } from "@preact/signals";
 import { NM } from "../units";
 import type { LeaderRoute } from "../wire";
-import type { LayerProps } from "./layer";
+import { type LayerProps, usePart } from "./layer";
 import { line } from "./path";
 import { Stroke } from "./stroke";
 import { LINES } from "./style";
@@ -18,7 +18,8 @@ export function FinalTrack({ shown, view }: LayerProps) {
     const lead = onwards(join, slotTrack, -0.15 * view.layout.value.range * NM);
     return line(view.layout.value, lead, onwards(join, slotTrack, Math.max(0, along)));
   });
-  return <Stroke d={d} line={LINES.final} />;
+  const colour = usePart(shown, ({ look }) => look?.pathColour ?? "plan");
+  return <Stroke d={d} line={{ ...LINES.final, colour: colour.value }} />;
 }
 
 /** Where the leader's last turn ends; null if it has none to come. */

@@ -5,7 +5,7 @@ import { flagPoint } from "./view";
 
 /** What is missing, in large letters over the map. */
 export function Flags({ shown, view }: LayerProps) {
-  const flag = usePart(shown, (picture) => picture.age.flag);
+  const flag = usePart(shown, (picture) => picture.flag);
   const layout = view.layout.value;
   if (flag.value === "") return null;
   const map = flag.value === "MAP NOT AVAIL";

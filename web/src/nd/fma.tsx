@@ -9,7 +9,7 @@ const ROW = { now: 23, next: 48 } as const;
 /** The mode strip: what is engaged (upper row, green) and what comes next (lower row, cyan). */
 export function ModeStrip({ shown }: LayerProps) {
   const { numbers } = shown;
-  const modes = usePart(shown, (picture) => picture.modes);
+  const modes = usePart(shown, (picture) => picture.look);
   const lateral = useComputed(() => modes.value?.lateral.now ?? "");
   const lateralNext = useComputed(() => modes.value?.lateral.next ?? "");
   const speed = useComputed(() =>
@@ -18,7 +18,7 @@ export function ModeStrip({ shown }: LayerProps) {
   const speedNext = useComputed(() => modes.value?.speed.next ?? "");
   const level = useComputed(() => (modes.value === null ? "" : "ALT"));
   const spacing = useComputed(() =>
-    modes.value === null ? "" : `D ${numbers.value.slotDistance}`,
+    numbers.value.isSpacing ? `D ${numbers.value.slotDistance}` : "",
   );
   const pilot = useComputed(() => (modes.value === null ? "" : "AP1"));
   const boxed = usePart(shown, (picture) => picture.boxed);

@@ -11,6 +11,7 @@ import { type LayerProps, usePart } from "./layer";
 import { leaderOnMap, leaderTag } from "./leader";
 import { minuteLabels } from "./minutes";
 import { offScaleTag } from "./offscale";
+import { proposalLabel } from "./proposal";
 import { ringLabelPoints } from "./rings";
 import { ink } from "./style";
 import { turnLabels } from "./turns";
@@ -22,6 +23,7 @@ function labelsOf(props: LayerProps): Label[] {
     leaderTag(props),
     offScaleTag(props),
     captureLabel(props),
+    proposalLabel(props),
     closestLabel(props),
     circleLabel(props),
     ...turnLabels(props),
@@ -35,12 +37,13 @@ const IDS = [
   "leader",
   "offscale",
   "capture",
+  "proposal",
   "closest",
   "circle",
   ...[1, 2, 3, 4, 5, 6, 7, 8].map((i) => `T${i}`),
   "intent",
   ...[0, 1, 2].map((i) => `leg ${i}`),
-  ...[5, 10, 15, 20, 25, 30, 35, 40].flatMap((i) => [`minute ${i} plan`, `minute ${i} leader`]),
+  ...[5, 10, 15, 20, 25, 30, 35, 40].flatMap((i) => [`minute ${i} own`, `minute ${i} leader`]),
 ];
 
 /** The map's labels, clear of each other. They stand upright: outside the turning map. */
@@ -133,10 +136,15 @@ function choose(props: LayerProps, labels: Label[], before: ReadonlyMap<string, 
 
 /** The symbols that no label may cover. */
 function symbols({ shown, view }: LayerProps): Box[] {
-  const [{ now, closest, closestAtJoin, join }, pose] = [shown.picture.value, view.pose.value];
+  const [{ now, look, closest, closestAtJoin, join }, pose] = [
+    shown.picture.value,
+    view.pose.value,
+  ];
   const layout = view.layout.value;
   if (now === null || pose === null) return [];
-  const boxes = [square(layout.centre, 28), square(project(layout, pose, now.slot), 20)];
+  const boxes = [square(layout.centre, 28)];
+  if (look !== null && look.slot !== "none")
+    boxes.push(square(project(layout, pose, now.slot), 20));
   if (leaderOnMap({ shown, view }) !== null)
     boxes.push(square(project(layout, pose, now.leader), 24));
   const pair = closest ?? closestAtJoin;
@@ -156,10 +164,12 @@ function linePoints({ shown, view }: LayerProps): Point[] {
   const pose = view.pose.value;
   if (pose === null) return [];
   const layout = view.layout.value;
-  const { t, flown, forecast, route, until, wind } = shown.picture.value;
+  const { t, flown, proposed, forecast, route, until, wind } = shown.picture.value;
   const planned = flown === null ? [] : samplePath(flown.plan.segments, wind, t - flown.t_s);
   const own =
-    forecast === null ? planned : pointsAfter(forecast, forecastIndex(forecast, t), until);
+    forecast === null || proposed !== null
+      ? planned
+      : pointsAfter(forecast, forecastIndex(forecast, t), until);
   const leader = route === null ? [] : samplePath(route.segments, wind, t);
   return [own, leader].flatMap((path) => dense(path.map((point) => project(layout, pose, point))));
 }

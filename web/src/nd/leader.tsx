@@ -9,6 +9,8 @@ const CHEVRON = "M0 -14L11 12L0 5L-11 12Z";
 /** A broken ring has four gaps. */
 export const BROKEN = "10 7";
 export const RINGS = [18, 23] as const;
+/** What may be clicked on: 24 px of the page, however small the glass. */
+const TOUCH = 32;
 
 /** The leader: a chevron along its heading in a double ring, since it is the one we join. */
 export function Leader({ shown, view }: LayerProps) {
@@ -18,14 +20,15 @@ export function Leader({ shown, view }: LayerProps) {
   });
   const isShown = useComputed(() => place.value !== null);
   const at = useComputed(() => place.value ?? "");
-  const look = usePart(shown, (picture) => picture.age);
+  const look = usePart(shown, (picture) => picture.leaderAge);
+  const designated = usePart(shown, (picture) => picture.designated);
   const isLost = usePart(shown, ({ separation }) => separation.state === "lost");
   const fill = useComputed(() => ink(isLost.value ? "alert" : look.value.colour));
   if (!isShown.value) return null;
   const broken = look.value.ring === "broken";
   return (
     <g class="nd-leader" transform={at}>
-      {RINGS.map((radius) => (
+      {(designated.value ? RINGS : []).map((radius) => (
         <circle
           key={radius}
           class="nd-stroke"
@@ -35,32 +38,38 @@ export function Leader({ shown, view }: LayerProps) {
           stroke-dasharray={broken ? BROKEN : ""}
         />
       ))}
-      <path class="nd-solid" d={CHEVRON} fill={fill} />
+      {designated.value ? (
+        <path class="nd-solid" d={CHEVRON} fill={fill} />
+      ) : (
+        <path class="nd-hollow" d={CHEVRON} stroke={fill} stroke-width={2.5} />
+      )}
+      <circle class="nd-touch" r={TOUCH} />
     </g>
   );
 }
 
 /** The leader when its symbol can be seen whole, else null. */
 export function leaderOnMap({ shown, view }: LayerProps) {
-  const [{ now }, pose] = [shown.picture.value, view.pose.value];
-  if (now === null || pose === null) return null;
-  const point = project(view.layout.value, pose, now.leader);
-  return onMap(view.layout.value, point) ? now.leader : null;
+  const [{ leader }, pose] = [shown.picture.value, view.pose.value];
+  if (leader === null || pose === null) return null;
+  const point = project(view.layout.value, pose, leader);
+  return onMap(view.layout.value, point) ? leader : null;
 }
 
 /** Who the leader is, how much higher or lower [hundreds of feet], its ground speed [kt], its data's age. */
 export function leaderTag({ shown, view }: LayerProps): Label | null {
-  const [{ now, age, ageSeconds, ident }, pose] = [shown.picture.value, view.pose.value];
+  const [{ now, leaderAge, ageSeconds, ident, designated }, pose] = [
+    shown.picture.value,
+    view.pose.value,
+  ];
   const leader = leaderOnMap({ shown, view });
   if (leader === null || now === null || pose === null) return null;
   const at = project(view.layout.value, pose, leader);
   const height = relativeAltitude(leader.altitude_m - now.pursuer.altitude_m);
-  const { colour } = age;
-  const lines = [
-    { text: ident, colour },
-    { text: `${height} ${shown.numbers.value.leaderSpeed}`, colour },
-  ];
-  if (age.showsAge) lines.push({ text: `${ageSeconds} S`, colour });
+  const { colour } = leaderAge;
+  const lines = [{ text: ident, colour }];
+  if (designated) lines.push({ text: `${height} ${shown.numbers.value.leaderSpeed}`, colour });
+  if (leaderAge.showsAge) lines.push({ text: `${ageSeconds} S`, colour });
   return {
     id: "leader",
     at,

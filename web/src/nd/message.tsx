@@ -14,7 +14,8 @@ export function MessageLine({ shown }: LayerProps) {
   const more = useComputed(() => notices.value.length > 1);
   if (level.value === null) return null;
   const { x, y, width, height } = READOUTS.message;
-  const flashing = level.value === "advice" ? "" : " nd-flash";
+  const isUrgent = level.value === "warning" || level.value === "caution";
+  const flashing = isUrgent ? " nd-flash" : "";
   return (
     <g class={`nd-message${flashing}`} key={level.value} transform={placeAt({ x, y })}>
       <rect

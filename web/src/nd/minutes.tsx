@@ -19,10 +19,11 @@ export function TimeTicks({ shown, view }: LayerProps) {
   const isWide = useComputed(() => view.layout.value.range > TICKS_TO);
   const own = useComputed(() => ticks(view.layout.value, shown.picture.value.minutes, "own"));
   const leader = useComputed(() => ticks(view.layout.value, shown.picture.value.minutes, "leader"));
+  const colour = usePart(shown, ({ look }) => look?.pathColour ?? "plan");
   if (!isPlanned.value || isWide.value) return null;
   return (
     <g class="nd-minutes">
-      <Stroke d={own} line={thin(LINES.mark)} />
+      <Stroke d={own} line={{ ...thin(LINES.mark), colour: colour.value }} />
       <Stroke d={leader} line={thin(LINES.leaderMark)} />
     </g>
   );
@@ -56,6 +57,7 @@ export function minuteLabels({ shown, view }: LayerProps): Label[] {
   const pose = view.pose.value;
   const layout = view.layout.value;
   if (pose === null || layout.range > TICKS_TO) return [];
+  const path = shown.picture.value.look?.pathColour ?? "plan";
   const labels: Label[] = [];
   for (const each of shown.picture.value.minutes.filter(({ minute }) => minute % 5 === 0)) {
     for (const who of ["own", "leader"] as const) {
@@ -63,10 +65,11 @@ export function minuteLabels({ shown, view }: LayerProps): Label[] {
       if (point === null) continue;
       const at = project(layout, pose, point);
       if (!onMap(layout, at)) continue;
-      const colour = who === "own" ? "plan" : "leader";
-      const lines = [{ text: String(each.minute), colour }] as const;
+      const lines = [
+        { text: String(each.minute), colour: who === "own" ? path : "leader" },
+      ] as const;
       const side = offNose(pose, point.heading_deg + 90);
-      const id = `minute ${each.minute} ${colour}`;
+      const id = `minute ${each.minute} ${who}`;
       labels.push({ id, at, lines, side, gap: 8, size: 18, optional: true });
     }
   }

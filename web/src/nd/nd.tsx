@@ -1,7 +1,7 @@
 /** The navigation display: all layers, bottom to top, round one projection. */
 
 import { type Signal, useComputed } from "@preact/signals";
-import { useId, useMemo } from "preact/hooks";
+import { useEffect, useId, useMemo, useRef } from "preact/hooks";
 import type { Shown } from "../store/picture";
 import { AirData } from "./air";
 import { CapturePoint } from "./capture";
@@ -23,6 +23,7 @@ import { NextPoint } from "./next";
 import { OffScaleLeader } from "./offscale";
 import { OwnShip } from "./ownship";
 import { ActivePath, SupersededPath } from "./plan";
+import { OtherPaths, ProposedPath } from "./proposal";
 import { RangeRings } from "./rings";
 import { Slot } from "./slot";
 import { Spacing } from "./spacing";
@@ -42,7 +43,9 @@ export const MAP_LAYERS = [
   LeaderHistory,
   SeparationCircle,
   FinalTrack,
+  OtherPaths,
   SupersededPath,
+  ProposedPath,
   ActivePath,
   TimeTicks,
   TurnPoints,
@@ -75,17 +78,31 @@ interface Props {
   readonly mode: Signal<DisplayMode>;
   /** NM. */
   readonly range: Signal<number>;
+  /** Designates the leader, when its symbol is clicked on. */
+  readonly designate?: () => void;
 }
 
-export function NavigationDisplay({ shown, mode, range }: Props) {
+export function NavigationDisplay({ shown, mode, range, designate }: Props) {
   const view = useMemo(() => createView(shown, mode, range), [shown, mode, range]);
   const label = useComputed(() => {
     const { mode, range } = view.layout.value;
     const head = `Navigation display, ${mode}, range ${range} nautical miles.`;
     return `${head} ${shown.words.value}`;
   });
+  const glass = useRef<SVGSVGElement>(null);
+  // The keyboard designates by a button beside the glass, or by a key.
+  useEffect(() => {
+    const click = (event: MouseEvent) => {
+      const target = event.target;
+      if (target instanceof Element && target.closest(".nd-leader, .nd-offscale") !== null)
+        designate?.();
+    };
+    const { current } = glass;
+    current?.addEventListener("click", click);
+    return () => current?.removeEventListener("click", click);
+  }, [designate]);
   return (
-    <svg class="nd" viewBox={`0 0 ${SIZE} ${SIZE}`} role="img" aria-label={label}>
+    <svg ref={glass} class="nd" viewBox={`0 0 ${SIZE} ${SIZE}`} role="img" aria-label={label}>
       {GROUND_LAYERS.map((Layer) => (
         <Layer key={Layer.name} shown={shown} view={view} />
       ))}

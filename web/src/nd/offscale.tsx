@@ -14,7 +14,7 @@ export function OffScaleLeader({ shown, view }: LayerProps) {
   });
   const isShown = useComputed(() => place.value !== null);
   const at = useComputed(() => place.value ?? "");
-  const look = usePart(shown, (picture) => picture.age);
+  const look = usePart(shown, (picture) => picture.leaderAge);
   if (!isShown.value) return null;
   const colour = ink(look.value.colour === "leader" ? "leader-ring" : look.value.colour);
   return (
@@ -36,18 +36,18 @@ export function OffScaleLeader({ shown, view }: LayerProps) {
 
 /** Right of the nose [deg], when the leader is off the map. */
 export function offScaleDirection({ shown, view }: LayerProps): number | null {
-  const [{ now }, pose] = [shown.picture.value, view.pose.value];
-  if (now === null || pose === null || leaderOnMap({ shown, view }) !== null) return null;
-  return offNose(pose, bearing(pose, now.leader));
+  const [{ leader }, pose] = [shown.picture.value, view.pose.value];
+  if (leader === null || pose === null || leaderOnMap({ shown, view }) !== null) return null;
+  return offNose(pose, bearing(pose, leader));
 }
 
 /** Who it is, its bearing and distance, and what to select to see it. */
 export function offScaleTag({ shown, view }: LayerProps): Label | null {
-  const [{ now, age, ident }, pose] = [shown.picture.value, view.pose.value];
+  const [{ now, leaderAge, ident }, pose] = [shown.picture.value, view.pose.value];
   const direction = offScaleDirection({ shown, view });
   if (direction === null || now === null || pose === null) return null;
   const layout = view.layout.value;
-  const { colour } = age;
+  const { colour } = leaderAge;
   const { leaderBearing, separation } = shown.numbers.value;
   const hint = remedy(layout, pose, now.leader);
   return {

@@ -27,6 +27,8 @@ export function ActivePath({ shown, view }: LayerProps) {
   const isPlanned = usePart(shown, (picture) => picture.flown !== null);
   switch (kind.value) {
     case "none":
+    case "proposed":
+    case "armed":
       return null;
     case "old_plan":
       return <PathAhead shown={shown} view={view} path={path} line={LINES.superseded} />;

@@ -19,6 +19,7 @@ export function Slot({ shown, view }: LayerProps) {
   const joined = useComputed(() => guided.value?.joined ?? false);
   const open = useComputed(() => guided.value?.slot_open ?? false);
   if (look.value === null) return null;
+  if (look.value.slot === "none") return null;
   const colour = look.value.slotColour;
   // Until the leader is on its final leg the slot is only a place in the making: broken lines.
   const strokeLine = { colour, width: 2.5, dash: open.value ? "" : "5 4" };

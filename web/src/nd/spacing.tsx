@@ -5,7 +5,7 @@ import { placeAt, READOUTS } from "./view";
 
 /** Spacing to the leader: D asked, d now, closure, offset from its final route, time to converge. */
 export function Spacing({ shown: { numbers } }: LayerProps) {
-  const isShown = useComputed(() => numbers.value.guided !== null);
+  const isShown = useComputed(() => numbers.value.isSpacing);
   const asked = useComputed(() => numbers.value.slotDistance);
   const separation = useComputed(() => numbers.value.separation);
   const closure = useComputed(() => numbers.value.closure);

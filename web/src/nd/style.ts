@@ -18,6 +18,9 @@ export interface Line {
 export const LINES = {
   active: { colour: "plan", width: 3, dash: "" },
   ideal: { colour: "plan", width: 1, dash: "" },
+  proposed: { colour: "proposed", width: 3, dash: "15 12" },
+  armed: { colour: "armed", width: 3, dash: "15 12" },
+  ghost: { colour: "superseded", width: 1.5, dash: "3 6" },
   superseded: { colour: "superseded", width: 2.5, dash: "2 11" },
   final: { colour: "plan", width: 1.75, dash: "20 9" },
   declared: { colour: "leader", width: 2, dash: "12 4 2 4" },
@@ -29,6 +32,7 @@ export const LINES = {
   trend: { colour: "label", width: 2, dash: "" },
   track: { colour: "value", width: 1.75, dash: "" },
   turn: { colour: "managed", width: 3, dash: "" },
+  bug: { colour: "selected", width: 2.5, dash: "" },
   mark: { colour: "plan", width: 2.5, dash: "" },
   leaderMark: { colour: "leader", width: 2, dash: "" },
 } as const satisfies Record<string, Line>;

@@ -1,4 +1,5 @@
 import { type ReadonlySignal, useComputed } from "@preact/signals";
+import type { Colour } from "../store/colours";
 import type { PathPoint } from "../wire";
 import type { Label } from "./labels";
 import { type LayerProps, usePart } from "./layer";
@@ -25,14 +26,15 @@ export function TurnPoints({ shown, view }: LayerProps) {
 
 function Turn({ shown, view, name }: LayerProps & { name: string }) {
   const turn = usePart(shown, ({ turns }) => turns.find((each) => each.name === name) ?? null);
+  const colour = usePart(shown, ({ look }) => look?.pathColour ?? "plan");
   const from = useComputed(() => turn.value?.from ?? null);
   const to = useComputed(() => turn.value?.to ?? null);
   const hasBegun = useComputed(() => turn.value?.hasBegun ?? true);
   const isRollIn = useComputed(() => turn.value?.isRollIn ?? false);
   return (
     <g>
-      {!hasBegun.value && <Mark view={view} point={from} half={9} />}
-      <Mark view={view} point={to} half={6} />
+      {!hasBegun.value && <Mark view={view} point={from} half={9} colour={colour.value} />}
+      <Mark view={view} point={to} half={6} colour={colour.value} />
       {isRollIn.value && <RollIn view={view} point={from} />}
     </g>
   );
@@ -52,10 +54,10 @@ function usePlace({ view, point }: MarkProps): ReadonlySignal<string> {
   );
 }
 
-function Mark({ half, ...mark }: MarkProps & { half: number }) {
+function Mark({ half, colour, ...mark }: MarkProps & { half: number; colour: Colour }) {
   return (
     <g transform={usePlace(mark)}>
-      <Stroke d={`M${-half} 0H${half}`} line={LINES.mark} />
+      <Stroke d={`M${-half} 0H${half}`} line={{ ...LINES.mark, colour }} />
     </g>
   );
 }
@@ -73,14 +75,18 @@ export function turnLabels({ shown, view }: LayerProps): Label[] {
   const pose = view.pose.value;
   const layout = view.layout.value;
   if (pose === null || layout.range > NAMES_TO) return [];
-  return shown.picture.value.turns
+  const { look, turns } = shown.picture.value;
+  return turns
     .filter(({ hasBegun }) => !hasBegun)
     .slice(0, 6)
     .map(({ name, size, from }) => ({
       id: name,
       at: project(layout, pose, from),
       lines: [
-        { text: layout.range <= SIZES_TO ? `${name} ${size}` : name, colour: "plan" as const },
+        {
+          text: layout.range <= SIZES_TO ? `${name} ${size}` : name,
+          colour: look?.pathColour ?? "plan",
+        },
       ],
       side: offNose(pose, from.heading_deg + (size[0] === "R" ? -90 : 90)),
       gap: 13,

@@ -1,9 +1,11 @@
 /** Both aircraft side by side, and what guidance asks of the own one. */
 
+import { useSignal } from "@preact/signals";
+import { Dial } from "../dial";
 import { Panel } from "../parts";
-import type { Session } from "../session";
+import type { Actions, Session } from "../session";
 import { referenceText } from "../store/reading";
-import { formatBank, formatHeading, formatKnots, formatLevel } from "../units";
+import { formatBank, formatHeading, formatKnots, formatLevel, wrap360 } from "../units";
 import type { AircraftSample } from "../wire";
 
 const ROWS: readonly (readonly [string, string, (aircraft: AircraftSample) => string])[] = [
@@ -15,7 +17,9 @@ const ROWS: readonly (readonly [string, string, (aircraft: AircraftSample) => st
   ["Level", "", (aircraft) => formatLevel(aircraft.altitude_m)],
 ];
 
-export function Aircraft(props: { session: Session }) {
+export function Aircraft(props: { session: Session; actions: Actions }) {
+  // The dial shows what is flown until it is used.
+  const heading = useSignal<number | null>(null);
   const { sample, commandedSpeed } = props.session.shown.numbers.value;
   const started = props.session.flight.started.value;
   const idents = [started?.pursuer.ident ?? "Own", started?.leader.ident ?? "Leader"] as const;
@@ -49,10 +53,27 @@ export function Aircraft(props: { session: Session }) {
         </tbody>
       </table>
       <p class="commanded">
-        <span>Guidance</span>
+        <span>{sample?.engagement === "engaged" ? "Guidance" : "Selected"}</span>
         <b>{sample === null ? "––" : referenceText(sample.reference)}</b>
         <b>{sample === null ? "" : `${commandedSpeed} kt`}</b>
       </p>
+      {sample !== null && sample.engagement !== "engaged" && (
+        <Dial
+          label="Own heading"
+          unit="°"
+          value={heading.value ?? Number(formatHeading(sample.pursuer.heading_deg))}
+          digits={3}
+          correct={(value) => Number(formatHeading(wrap360(value)))}
+          change={(value) => {
+            heading.value = value;
+          }}
+          most={360}
+          commit={(value) => {
+            props.actions.ownHeading(value);
+            heading.value = null;
+          }}
+        />
+      )}
     </Panel>
   );
 }

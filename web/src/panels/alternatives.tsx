@@ -3,18 +3,21 @@
 import { Panel } from "../parts";
 import type { Session } from "../session";
 import { alternativeSentence, alternativeTime } from "../store/reading";
+import type { Guidance } from "../store/states";
 import { formatClock } from "../units";
 import type { Alternative } from "../wire";
 
+/** What becomes of the path that is shown, where it is not flown. */
+const STATE: Partial<Record<Guidance, string>> = { proposed: "proposed", armed: "accepted" };
+
 export function Alternatives(props: { session: Session }) {
-  const { flight, shown } = props.session;
-  const plan = shown.numbers.value.plan?.plan;
+  const { shown } = props.session;
+  const { plan: shownPlan, state } = shown.numbers.value;
+  const plan = shownPlan?.plan;
   return (
     <Panel name="alternatives" title="Alternatives">
       {plan === undefined ? (
-        <p class="hint">
-          {flight.plan.value === null ? "They come with the first plan." : "No plan is flown now."}
-        </p>
+        <p class="hint">No path is proposed or flown now.</p>
       ) : (
         <table class="list">
           <caption class="visually-hidden">Paths considered, fastest first</caption>
@@ -26,10 +29,10 @@ export function Alternatives(props: { session: Session }) {
             </tr>
           </thead>
           <tbody>
-            <tr class="flown">
+            <tr class={STATE[state] ?? "flown"}>
               <th scope="row">{plan.word}</th>
               <td>{formatClock(plan.time_to_converge_s)}</td>
-              <td>flown</td>
+              <td>{STATE[state] ?? "flown"}</td>
             </tr>
             {(plan.alternatives ?? []).map((alternative) => (
               <tr key={alternativeKey(alternative)}>

@@ -3,7 +3,7 @@
 import { Panel } from "../parts";
 import type { Session } from "../session";
 import type { Message } from "../store/flight";
-import { MODE_NAMES } from "../store/reading";
+import { MODE_NAMES, STATE_NAMES } from "../store/reading";
 import { formatClock } from "../units";
 
 const KIND_NAMES: Record<Message["kind"], string> = {
@@ -12,6 +12,7 @@ const KIND_NAMES: Record<Message["kind"], string> = {
   refused: "REFUSED",
   leader: "LEADER",
   mode: "MODE",
+  engagement: "CREW",
   advisory: "ADVICE",
   caution: "CAUTION",
   warning: "WARNING",
@@ -40,8 +41,11 @@ export function Events(props: { session: Session }) {
 
 /** Mode changes, alerts and the loss of a plan, spoken without taking the focus. */
 export function Announcer(props: { session: Session }) {
-  const { mode, unavailable, unable, alerts, lost } = props.session.flight;
+  const { engagement, mode, unavailable, unable, alerts, lost } = props.session.flight;
+  const { state } = props.session.shown.numbers.value;
   const polite: string[] = [];
+  if (state !== "off") polite.push(`${STATE_NAMES[state]}.`);
+  if (engagement.value !== null) polite.push(engagement.value.message);
   const urgent: string[] = [];
   if (mode.value !== null)
     polite.push(`Mode ${MODE_NAMES[mode.value.mode]}. ${mode.value.message}`);
@@ -49,6 +53,7 @@ export function Announcer(props: { session: Session }) {
   for (const alert of alerts.value)
     (alert.level === "advisory" ? polite : urgent).push(alert.message);
   if (unable.value !== null) urgent.push(`Unable. ${unable.value.message}`);
+  if (state === "data_lost") urgent.push("Nothing is heard of the leader.");
   if (lost.value !== null)
     urgent.push(`Separation lost at ${formatClock(lost.value.t_s)}. ${lost.value.cause}`);
   return (

@@ -32,6 +32,9 @@ export function FlightControls(props: { session: Session; actions: Actions }) {
           <Icon name="restart" />
           Restart
         </button>
+        <button type="button" disabled={ended || status.value === null} onClick={actions.end}>
+          End
+        </button>
       </div>
       <Choice
         label="Simulated seconds per second"

@@ -13,7 +13,7 @@ const CONNECTION_TEXT: Record<Connection, string> = {
 };
 
 export function Header(props: { session: Session; children?: ComponentChildren }) {
-  const { helpOpen } = props.session;
+  const { helpOpen, sound } = props.session;
   return (
     <header class="top">
       <h1>
@@ -23,6 +23,17 @@ export function Header(props: { session: Session; children?: ComponentChildren }
       <div class="top-middle">{props.children}</div>
       <SimClock session={props.session} />
       <ConnectionState session={props.session} />
+      <button
+        type="button"
+        class="quiet"
+        aria-pressed={sound.value}
+        onClick={() => {
+          sound.value = !sound.value;
+        }}
+      >
+        <Icon name={sound.value ? "sound" : "silence"} />
+        Sound
+      </button>
       <button
         type="button"
         class="quiet"

@@ -4,6 +4,10 @@ import type { Session } from "../session";
 
 const KEYS: readonly (readonly [string, string])[] = [
   ["Space", "play or pause"],
+  ["D", "designate the leader, or click on it"],
+  ["C", "confirm the proposed path"],
+  ["E", "engage what was accepted"],
+  ["X", "disconnect, or cancel"],
   ["R  A", "ROSE or ARC"],
   ["+  −", "range outward or inward"],
   ["M", "maximise or restore the 3D scene"],
@@ -13,7 +17,7 @@ const KEYS: readonly (readonly [string, string])[] = [
 
 const LINES: readonly (readonly [string, string])[] = [
   ["key-plan", "solid: the path being flown"],
-  ["key-proposed", "dashed: a proposed path"],
+  ["key-proposed", "dashed: a proposed path; cyan once accepted"],
   ["key-leader", "dash-dot: the leader's declared route"],
   ["key-dotted", "dotted: no intent, straight ahead assumed"],
   ["key-slot", "pennant: the slot, D behind the leader"],
@@ -21,7 +25,7 @@ const LINES: readonly (readonly [string, string])[] = [
 ];
 
 export function Help(props: { session: Session }) {
-  const { helpOpen } = props.session;
+  const { helpOpen, letterKeys } = props.session;
   if (!helpOpen.value) return null;
   return (
     <aside id="help" class="help" aria-labelledby="help-title">
@@ -46,6 +50,16 @@ export function Help(props: { session: Session }) {
           </li>
         ))}
       </ul>
+      <label class="switch">
+        <input
+          type="checkbox"
+          checked={letterKeys.value}
+          onChange={(event) => {
+            letterKeys.value = event.currentTarget.checked;
+          }}
+        />
+        Single letters are keys
+      </label>
       <p>
         Headings are true, in degrees; a dial takes digits, arrow keys or the wheel, Enter sends.
         The address of this page names the flight: all who open it see the same.

@@ -23,6 +23,7 @@ export function LeaderControls(props: { session: Session; actions: Actions }) {
   const selectedKnots = knots.value ?? knotsNow;
   const known = session.flight.route.value?.intent_known ?? null;
   const absent = leader === undefined;
+  const isHeard = session.shown.numbers.value.sample?.leader_age_s === 0;
   return (
     <Panel name="leader" title="Leader" {...named}>
       <p class="caption">
@@ -92,6 +93,15 @@ export function LeaderControls(props: { session: Session; actions: Actions }) {
         }}
         commit={(value) => actions.leaderSpeed(value * KT)}
       />
+      <div class="row labelled">
+        <span>Reports</span>
+        <Choice
+          label="Leader's reports"
+          options={["received", "lost"]}
+          chosen={leader === undefined ? null : isHeard ? "received" : "lost"}
+          choose={(choice) => actions.setLeaderData(choice === "received")}
+        />
+      </div>
       <div class="row labelled">
         <span>Intent</span>
         <Choice

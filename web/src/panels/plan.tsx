@@ -3,9 +3,9 @@
 import { Panel, Reading } from "../parts";
 import type { Session } from "../session";
 import type { LeastAhead, Numbers } from "../store/numbers";
-import { countTurns, MODE_NAMES, plannerName, proofSentence } from "../store/reading";
+import { countTurns, plannerName, proofSentence, STATE_NAMES } from "../store/reading";
 import { formatClock, formatMiles } from "../units";
-import type { LinkResult, PlanChanged } from "../wire";
+import type { LinkResult } from "../wire";
 
 export function PlanNumbers(props: { session: Session }) {
   const { flight, shown } = props.session;
@@ -20,12 +20,12 @@ export function PlanNumbers(props: { session: Session }) {
       </Panel>
     );
   }
-  const engaged = sample.mode === "converge" && plan !== null;
+  const isClose = sample.mode === "capture" || sample.mode === "follow";
   return (
     <Panel
       name="plan"
       title="Convergence"
-      aside={<span class={`mode-name ${sample.mode}`}>{MODE_NAMES[sample.mode]}</span>}
+      aside={<span class={`mode-name ${numbers.state}`}>{STATE_NAMES[numbers.state]}</span>}
     >
       {flight.ended.value !== null ? (
         <Outcome ended={flight.ended.value} />
@@ -33,8 +33,8 @@ export function PlanNumbers(props: { session: Session }) {
         <Headline numbers={numbers} isJoined={sample.joined} />
       )}
       <dl class="readings">
-        {plan !== null && engaged && <PathReadings plan={plan} numbers={numbers} />}
-        <SpacingReadings numbers={numbers} engaged={engaged} />
+        {plan !== null && !isClose && <PathReadings plan={plan} numbers={numbers} />}
+        <SpacingReadings numbers={numbers} isClose={isClose} />
         <SafetyReadings
           numbers={numbers}
           isIntentKnown={flight.route.value?.intent_known ?? null}
@@ -47,9 +47,14 @@ export function PlanNumbers(props: { session: Session }) {
   );
 }
 
+const HEADLINES: Partial<Record<Numbers["state"], string>> = {
+  proposed: "Proposed",
+  armed: "Accepted",
+};
+
 /** The one number that matters now. */
 function Headline(props: { numbers: Numbers; isJoined: boolean }) {
-  const { trouble, toJoin, joinsAt, separation } = props.numbers;
+  const { trouble, toJoin, joinsAt, separation, state } = props.numbers;
   if (trouble !== null) {
     return (
       <div class="headline caution">
@@ -61,7 +66,7 @@ function Headline(props: { numbers: Numbers; isJoined: boolean }) {
   if (toJoin !== "") {
     return (
       <div class="headline">
-        <span class="headline-label">Time to converge</span>
+        <span class="headline-label">{HEADLINES[state] ?? "Time to converge"}</span>
         <span class="headline-figure">{toJoin}</span>
         <span class="headline-note">joins at {joinsAt}</span>
       </div>
@@ -89,7 +94,7 @@ function Outcome(props: { ended: LinkResult }) {
   );
 }
 
-function PathReadings(props: { plan: PlanChanged; numbers: Numbers }) {
+function PathReadings(props: { plan: NonNullable<Numbers["plan"]>; numbers: Numbers }) {
   const { plan } = props.plan;
   const { nextTurn } = props.numbers;
   const turns = countTurns(plan);
@@ -109,14 +114,14 @@ function PathReadings(props: { plan: PlanChanged; numbers: Numbers }) {
   );
 }
 
-function SpacingReadings(props: { numbers: Numbers; engaged: boolean }) {
+function SpacingReadings(props: { numbers: Numbers; isClose: boolean }) {
   const { slotDistance, separation, closureWords, spacingWords, crossTrackWords } = props.numbers;
   return (
     <>
       <Reading label="D required" value={slotDistance} unit="NM" />
       <Reading label="d now" value={separation} unit="NM" note={closureWords} />
-      {!props.engaged && <Reading label="Spacing error" value={spacingWords} />}
-      {!props.engaged && <Reading label="Cross-track" value={crossTrackWords} />}
+      {props.isClose && <Reading label="Spacing error" value={spacingWords} />}
+      {props.isClose && <Reading label="Cross-track" value={crossTrackWords} />}
     </>
   );
 }

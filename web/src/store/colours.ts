@@ -4,6 +4,8 @@ export type Colour =
   | "scale"
   | "ownship"
   | "plan"
+  | "proposed"
+  | "armed"
   | "selected"
   | "leader"
   | "leader-ring"

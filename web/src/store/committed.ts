@@ -4,16 +4,33 @@
  */
 
 import { pathPointAt, windVector } from "../geometry";
-import type { ForecastChanged, PathPoint, PlanChanged, TurnSegment } from "../wire";
+import type { ForecastChanged, PathPoint, PlanChanged, PlanProposed, TurnSegment } from "../wire";
 import type { Flight } from "./flight";
 import { forecastPoint } from "./forecast";
-import { GRAZE } from "./states";
+import { GRAZE, guidance } from "./states";
+
+/** A plan that is flown, or that could be, and when it was made. */
+export type Planned = Pick<
+  PlanChanged,
+  "t_s" | "plan" | "leader_at_closest" | "pursuer_at_closest"
+>;
 
 /** The plan, while it is flown: not once it is over, and not once guidance has given it up. */
 export function flownPlan(flight: Flight): PlanChanged | null {
   if (!isOnItsWay(flight)) return null;
   if (flight.unavailable.value !== null || flight.unable.value !== null) return null;
   return flight.plan.value;
+}
+
+/** The path that is proposed, accepted or not; null when there is none, or guidance is engaged. */
+export function proposedPlan(flight: Flight): PlanProposed | null {
+  const state = guidance(flight);
+  return state === "proposed" || state === "armed" ? flight.proposal.value : null;
+}
+
+/** The plan that is shown: flown or proposed. */
+export function shownPlan(flight: Flight): Planned | null {
+  return proposedPlan(flight) ?? flownPlan(flight);
 }
 
 function isOnItsWay(flight: Flight): boolean {
@@ -28,9 +45,10 @@ function reaches(forecast: ForecastChanged | null, t: number): forecast is Forec
 
 /** The aircraft on its committed path at flight time `t` [s]; null if nobody knows. */
 export function committedPoint(flight: Flight, t: number): PathPoint | null {
-  const forecast = flight.forecast.value;
+  const proposed = proposedPlan(flight);
+  const forecast = proposed === null ? flight.forecast.value : null;
   if (reaches(forecast, t)) return forecastPoint(forecast, t);
-  const [plan, started] = [flownPlan(flight), flight.started.value];
+  const [plan, started] = [proposed ?? flownPlan(flight), flight.started.value];
   if (plan === null || started === null) return null;
   return pathPointAt(plan.plan.segments, t - plan.t_s, windVector(started.wind));
 }
@@ -38,13 +56,18 @@ export function committedPoint(flight: Flight, t: number): PathPoint | null {
 /** How long until it joins [s], as read five times a second; null when there is no way or it is over. */
 export function timeToJoin(flight: Flight): number | null {
   const reading = flight.reading.value;
-  if (reading === null || !isOnItsWay(flight) || reading.joined) return null;
+  const proposed = proposedPlan(flight);
+  if (reading === null) return null;
+  if (proposed !== null) return Math.max(0, proposed.t_s + proposed.promised_s - reading.t_s);
+  if (!isOnItsWay(flight) || reading.joined) return null;
   return reading.time_to_go_s > 0 ? reading.time_to_go_s : null;
 }
 
 /** When it joins [s, flight time]; null as above. To a hundredth, so that it stands still. */
 export function joinTime(flight: Flight): number | null {
   const sample = flight.sample.value;
+  const proposed = proposedPlan(flight);
+  if (proposed !== null) return proposed.t_s + proposed.promised_s;
   if (sample === null || !isOnItsWay(flight) || sample.joined || sample.time_to_go_s <= 0)
     return null;
   return Math.round(100 * (sample.t_s + sample.time_to_go_s)) / 100;
@@ -70,9 +93,18 @@ export interface Closest {
 
 /** The closest approach on the committed path, past or to come; null if none is flown. */
 export function closestApproach(flight: Flight): Closest | null {
-  const plan = flownPlan(flight);
+  const proposed = proposedPlan(flight);
+  const plan = proposed ?? flownPlan(flight);
   if (plan === null) return null;
   const tooClose = (flight.started.value?.min_separation_m ?? 0) - GRAZE;
+  if (proposed !== null)
+    return {
+      least: proposed.flown_least_m,
+      at: proposed.t_s + proposed.plan.separation.at_s,
+      pursuer: proposed.pursuer_at_closest,
+      leader: proposed.leader_at_closest,
+      isTooClose: proposed.flown_least_m < tooClose,
+    };
   const at = plan.t_s + plan.plan.separation.at_s;
   const forecast = flight.forecast.value;
   if (reaches(forecast, joinTime(flight) ?? at)) {
@@ -112,7 +144,7 @@ export interface Turn {
 const SMALLEST_TURN = 1;
 
 /** The turns of a plan, corrections left out. */
-export function turnsOf(plan: PlanChanged): Turn[] {
+export function turnsOf(plan: Planned): Turn[] {
   return plan.plan.segments
     .filter((segment) => segment.kind === "turn")
     .filter((segment) => segment.angle_deg >= SMALLEST_TURN)
@@ -132,7 +164,7 @@ export interface NextTurn extends Turn {
 }
 
 /** The turn of a plan that begins next after flight time `t` [s]; null when none is left. */
-export function nextTurn(plan: PlanChanged, t: number): NextTurn | null {
+export function nextTurn(plan: Planned, t: number): NextTurn | null {
   const turn = turnsOf(plan).find(({ segment }) => t < plan.t_s + segment.start.t_s);
   if (turn === undefined) return null;
   const at = plan.t_s + turn.segment.start.t_s;
@@ -140,7 +172,7 @@ export function nextTurn(plan: PlanChanged, t: number): NextTurn | null {
 }
 
 /** The minutes of a plan still to come, and when they are over [s, flight time]. */
-export function minutesToCome(flight: Flight, plan: PlanChanged): { minute: number; t: number }[] {
+export function minutesToCome(flight: Flight, plan: Planned): { minute: number; t: number }[] {
   const join = joinTime(flight);
   if (join === null) return [];
   const last = Math.floor((join - plan.t_s - 1) / 60);

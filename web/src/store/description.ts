@@ -2,9 +2,18 @@
 
 import { formatHeading } from "../units";
 import type { Flight } from "./flight";
-import { AGE, GUIDANCE } from "./looks";
+import { AGE } from "./looks";
 import type { Numbers } from "./numbers";
-import { age, guidance, separation } from "./states";
+import { age, type Guidance, guidance, separation } from "./states";
+
+const STATE_WORDS: Partial<Record<Guidance, string>> = {
+  designated: "Leader designated, a path is looked for.",
+  proposed: "A path is proposed: accept it to arm it.",
+  armed: "The path is accepted: engage it to fly it.",
+  infeasible: "There is no path to propose.",
+  unable: "No plan available.",
+  data_lost: "The leader's data are lost.",
+};
 
 const MODE_WORDS = {
   heading: "holding heading",
@@ -28,7 +37,8 @@ export function describe(flight: Flight, numbers: Numbers): string {
     );
   if (numbers.toJoin !== "" && numbers.least !== null)
     parts.push(`Slot in ${numbers.toJoin}, least separation ${numbers.least.miles}.`);
-  if (GUIDANCE[guidance(flight)].path === "old_plan") parts.push("No plan available.");
+  const state = STATE_WORDS[guidance(flight)];
+  if (state !== undefined) parts.push(state);
   if (flight.route.value?.intent_known === false) parts.push("Leader's intent unknown.");
   if (now.joined) parts.push("Joined.");
   const outlook = separation(flight).state;

@@ -7,11 +7,13 @@
 import { batch, type Signal, signal } from "@preact/signals";
 import type {
   Alert,
+  EngagementChanged,
   ForecastChanged,
   LeaderRoute,
   LinkResult,
   ModeChanged,
   PlanChanged,
+  PlanProposed,
   PlanUnavailable,
   SeparationLost,
   Tick,
@@ -40,6 +42,7 @@ export interface Message {
     | "refused"
     | "leader"
     | "mode"
+    | "engagement"
     | "advisory"
     | "caution"
     | "warning"
@@ -57,6 +60,8 @@ export interface Flight {
   readonly route: Signal<LeaderRoute | null>;
   /** The last plan that was flown: `flownPlan` says whether it still is. */
   readonly plan: Signal<PlanChanged | null>;
+  /** The path that could be flown; null when guidance is engaged, or there is none. */
+  readonly proposal: Signal<PlanProposed | null>;
   /** The path that own ship will really fly, whatever its mode. */
   readonly forecast: Signal<ForecastChanged | null>;
   /** The plan before, shown until `until` [ms]. */
@@ -78,7 +83,11 @@ export interface Flight {
   readonly joinedSince: Signal<number>;
   /** When the separation was last seen below the minimum [ms]. */
   readonly belowSince: Signal<number>;
-  /** The newest sample, as it came. */
+  /** What the crew last ordered, and what became of it. */
+  readonly engagement: Signal<EngagementChanged | null>;
+  /** The newest sample that heard of the leader: it is expected to fly on from there. */
+  readonly heard: Signal<PairSample | null>;
+  /** The newest sample, as it came; of a leader that is not heard of, what is expected. */
   readonly sample: Signal<PairSample | null>;
   /** The newest sample carried on to this animation frame, at most 2 s of wall time ahead. */
   readonly now: Signal<PairSample | null>;
@@ -193,6 +202,7 @@ function emptyFlight(): Flight {
     started: signal(null),
     route: signal(null),
     plan: signal(null),
+    proposal: signal(null),
     forecast: signal(null),
     superseded: signal(null),
     unavailable: signal(null),
@@ -205,6 +215,8 @@ function emptyFlight(): Flight {
     lostSince: signal(-Infinity),
     joinedSince: signal(-Infinity),
     belowSince: signal(-Infinity),
+    engagement: signal(null),
+    heard: signal(null),
     sample: signal(null),
     now: signal(null),
     reading: signal(null),
@@ -224,6 +236,7 @@ function clear(flight: Flight): void {
   flight.started.value = null;
   flight.route.value = null;
   flight.plan.value = null;
+  flight.proposal.value = null;
   flight.forecast.value = null;
   flight.superseded.value = null;
   flight.unavailable.value = null;
@@ -236,6 +249,8 @@ function clear(flight: Flight): void {
   flight.lostSince.value = -Infinity;
   flight.joinedSince.value = -Infinity;
   flight.belowSince.value = -Infinity;
+  flight.engagement.value = null;
+  flight.heard.value = null;
   flight.sample.value = null;
   flight.now.value = null;
   flight.reading.value = null;

@@ -5,81 +5,91 @@ import type { Age, Guidance } from "./states";
 
 /** What the picture shows of guidance. */
 export interface GuidanceLook {
-  /** The path own ship flies, or the plan that it can no longer fly. */
-  readonly path: "none" | "committed" | "old_plan";
-  /** Turn points, final track and time ticks belong to a plan being flown. */
+  /** The path own ship flies, the one that is proposed or armed, or the plan it can no longer fly. */
+  readonly path: "none" | "proposed" | "armed" | "committed" | "old_plan";
+  /** Turn points, final track and time ticks belong to a plan that is shown. */
   readonly points: boolean;
+  /** Their colour, and that of the join. */
+  readonly pathColour: Colour;
   /** Nothing but the present track says where own ship goes. */
   readonly trackLine: boolean;
-  readonly slot: "open" | "crossed";
+  /** Whether the leader is designated: ringed, its route, its past and the minimum round it shown. */
+  readonly designated: boolean;
+  readonly slot: "none" | "open" | "crossed";
   readonly slotColour: Colour;
   /** Offset from the leader's route, beside the own ship. */
   readonly crossTrack: boolean;
+  /** D, d and what else belongs to a leader that is to be joined. */
+  readonly spacing: boolean;
   readonly lateral: { readonly now: string; readonly next: string };
   readonly speed: { readonly now: string; readonly next: string };
 }
 
+const NOTHING = {
+  path: "none",
+  points: false,
+  pathColour: "plan",
+  trackLine: true,
+  designated: true,
+  slot: "open",
+  slotColour: "selected",
+  crossTrack: false,
+  spacing: true,
+  lateral: { now: "HDG", next: "" },
+  speed: { now: "SPD", next: "" },
+} as const satisfies GuidanceLook;
+
+const FLOWN = {
+  ...NOTHING,
+  path: "committed",
+  trackLine: false,
+  slotColour: "plan",
+} as const satisfies GuidanceLook;
+
 export const GUIDANCE: Record<Guidance, GuidanceLook> = {
-  off: {
-    path: "none",
-    points: false,
-    trackLine: true,
-    slot: "open",
-    slotColour: "selected",
-    crossTrack: false,
+  off: { ...NOTHING, designated: false, slot: "none", spacing: false },
+  designated: NOTHING,
+  proposed: { ...NOTHING, path: "proposed", points: true, pathColour: "proposed" },
+  armed: {
+    ...NOTHING,
+    path: "armed",
+    points: true,
+    pathColour: "armed",
     lateral: { now: "HDG", next: "RG" },
-    speed: { now: "SPD", next: "" },
   },
   converge: {
-    path: "committed",
+    ...FLOWN,
     points: true,
-    trackLine: false,
-    slot: "open",
-    slotColour: "plan",
-    crossTrack: false,
     lateral: { now: "RG CNV", next: "RG CAP" },
     speed: { now: "SPD", next: "RG SPD" },
   },
   capture: {
-    path: "committed",
-    points: false,
-    trackLine: false,
-    slot: "open",
-    slotColour: "plan",
+    ...FLOWN,
     crossTrack: true,
     lateral: { now: "RG CAP", next: "RG TRK" },
-    speed: { now: "SPD", next: "RG SPD" },
+    speed: { now: "RG SPD", next: "" },
   },
   follow: {
-    path: "committed",
-    points: false,
-    trackLine: false,
-    slot: "open",
-    slotColour: "plan",
+    ...FLOWN,
     crossTrack: true,
     lateral: { now: "RG TRK", next: "" },
     speed: { now: "RG SPD", next: "" },
   },
   escape: {
-    path: "committed",
-    points: false,
-    trackLine: false,
+    ...FLOWN,
     slot: "crossed",
     slotColour: "caution",
-    crossTrack: false,
-    lateral: { now: "RG ESC", next: "" },
-    speed: { now: "SPD", next: "" },
+    lateral: { now: "RG ESC", next: "RG" },
   },
+  infeasible: { ...NOTHING, path: "old_plan", slot: "crossed", slotColour: "caution" },
   unable: {
+    ...NOTHING,
     path: "old_plan",
-    points: false,
-    trackLine: true,
     slot: "crossed",
     slotColour: "caution",
-    crossTrack: false,
-    lateral: { now: "HDG", next: "" },
-    speed: { now: "SPD", next: "" },
+    lateral: { now: "HDG", next: "RG" },
   },
+  data_lost: { ...NOTHING, slot: "none", spacing: false },
 };
 
 /** What the age of the data leaves of the picture. */

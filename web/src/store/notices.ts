@@ -4,17 +4,18 @@ import { formatMiles } from "../units";
 import type { Alert, AlertSubject, Mode, PlanReason, Reason, UnableReason } from "../wire";
 import type { Colour } from "./colours";
 import type { Flight } from "./flight";
-import { AGE } from "./looks";
-import { age, separation } from "./states";
+import { AGE, GUIDANCE } from "./looks";
+import { age, type Guidance, guidance, leaderAge, separation } from "./states";
 
 export interface Notice {
-  readonly level: "warning" | "caution" | "advice";
+  readonly level: "warning" | "caution" | "prompt" | "advice";
   readonly text: string;
 }
 
 export const NOTICE_COLOUR: Record<Notice["level"], Colour> = {
   warning: "alert",
   caution: "caution",
+  prompt: "selected",
   advice: "label",
 };
 
@@ -49,7 +50,7 @@ const ALERT_NOTICE: Record<Alert["level"], Notice["level"]> = {
   warning: "warning",
 };
 /** The most urgent first. */
-const URGENCY: readonly Notice["level"][] = ["warning", "caution", "advice"];
+const URGENCY: readonly Notice["level"][] = ["warning", "caution", "prompt", "advice"];
 
 export const REPLANNED: Record<PlanReason, string> = {
   engaged: "CONV ACTIVE",
@@ -87,16 +88,21 @@ export function noticesOf(flight: Flight): readonly Notice[] {
     notices.push({ level: "warning", text: "SEPARATION" });
   else if (flight.lost.value !== null && isRecent(flight.lostSince.value))
     notices.push({ level: "warning", text: "SEPARATION" });
-  const old = age(flight);
-  if (old === "old" || old === "dropped")
-    notices.push({ level: "caution", text: `LDR DATA ${Math.floor(flight.dataAge.value)} S` });
+  const seconds = leaderAge(flight);
+  const state = guidance(flight);
+  if (state === "data_lost") notices.push({ level: "caution", text: "LDR DATA LOST" });
+  else if (seen.map && seconds > 5 && seconds <= 24 && GUIDANCE[state].designated)
+    notices.push({ level: "caution", text: `LDR DATA ${Math.floor(seconds)} S` });
   if (!seen.guidance || flight.now.value === null) return notices;
   for (const alert of flight.alerts.value)
     notices.push({ level: ALERT_NOTICE[alert.level], text: alertText(flight, alert) });
+  const prompt = promptOf(flight, state);
+  if (prompt !== null) notices.push(prompt);
   const [unavailable, unable] = [flight.unavailable.value, flight.unable.value];
-  if (unable !== null)
+  const isAsked = state !== "off" && state !== "data_lost";
+  if (isAsked && unable !== null)
     notices.push({ level: "caution", text: `RG UNABLE: ${UNABLE_TO[unable.reason]}` });
-  else if (unavailable !== null)
+  else if (isAsked && unavailable !== null)
     notices.push({ level: "caution", text: `RG UNABLE: ${UNABLE[unavailable.answer.reason]}` });
   if (flight.sample.value?.joined === true) {
     const spacing = formatMiles(flight.started.value?.slot_distance_m ?? 0);
@@ -107,10 +113,28 @@ export function noticesOf(flight: Flight): readonly Notice[] {
   if (plan?.announced === true && unavailable === null && isRecent(flight.planSince.value))
     notices.push({ level: "advice", text: REPLANNED[plan.reason] });
   const mode = flight.mode.value;
-  const isNew = mode !== null && isRecent(flight.modeSince.value);
+  const isNew = mode !== null && state !== "data_lost" && isRecent(flight.modeSince.value);
   if (isNew && !(mode.mode === "converge" && notices.length > 0))
     notices.push({ level: "advice", text: ENTERED[mode.mode] });
   return notices.sort((a, b) => URGENCY.indexOf(a.level) - URGENCY.indexOf(b.level));
+}
+
+/** What the crew can do next. */
+function promptOf(flight: Flight, state: Guidance): Notice | null {
+  switch (state) {
+    case "designated": {
+      const ident = flight.started.value?.leader.ident ?? "";
+      const reading = flight.reading.value;
+      const apart = reading === null ? "" : formatMiles(reading.separation_m);
+      return { level: "advice", text: `LDR ${ident} ${apart} NM` };
+    }
+    case "proposed":
+      return { level: "prompt", text: "CONV PROPOSED – CONFIRM" };
+    case "armed":
+      return { level: "prompt", text: "CONV ACCEPTED – ENGAGE" };
+    default:
+      return null;
+  }
 }
 
 /** Whether the separation was lost a moment ago. */

@@ -12,21 +12,22 @@ import {
   KT,
   NM,
 } from "../units";
-import type { PathPoint, PlanChanged } from "../wire";
+import type { PathPoint } from "../wire";
 import {
   closestApproach,
   committedPoint,
-  flownPlan,
   isClosestAtJoin,
   joinPoint,
   nextTurn,
+  type Planned,
+  shownPlan,
   timeToJoin,
 } from "./committed";
 import type { Flight } from "./flight";
 import { AGE, GUIDANCE } from "./looks";
 import type { PairSample } from "./pair";
 import { closureText, crossTrackText, spacingText } from "./reading";
-import { age, guidance } from "./states";
+import { age, ageOf, type Guidance, guidance, leaderAge } from "./states";
 
 /** The next turn, or the join: bearing, distance and how long until then. */
 export interface NextPoint {
@@ -68,6 +69,8 @@ export interface Numbers {
   readonly sample: PairSample | null;
   /** The same, while what guidance says may be shown. */
   readonly guided: PairSample | null;
+  /** Whether D, d and what else belongs to a leader to be joined is shown. */
+  readonly isSpacing: boolean;
   readonly gs: string;
   readonly tas: string;
   /** Where the wind comes from, and its speed. */
@@ -90,7 +93,8 @@ export interface Numbers {
   readonly nextTurn: NextTurnText | null;
   readonly least: LeastAhead | null;
   /** The plan that is flown, and what became of it when there is none. */
-  readonly plan: PlanChanged | null;
+  readonly plan: Planned | null;
+  readonly state: Guidance;
   readonly trouble: Trouble | null;
   /** Least separation so far, and whether that is less than the minimum. */
   readonly leastSoFar: string;
@@ -118,28 +122,32 @@ export function numbersOf(flight: Flight): Numbers {
   const seen = AGE[age(flight)];
   const sample = seen.numbers ? flight.reading.value : null;
   const guided = seen.guidance ? sample : null;
+  const look = GUIDANCE[guidance(flight)];
+  const leader = AGE[ageOf(leaderAge(flight))].numbers;
   const left = guided === null ? null : timeToJoin(flight);
   const started = flight.started.value;
-  const shown = guided ?? sample;
+  const shown = leader ? (guided ?? sample) : null;
   return {
     readAt: flight.reading.value?.t_s ?? null,
     sample,
     guided,
+    isSpacing: guided !== null && look.spacing,
     ...airTexts(flight, guided),
     slotDistance: started === null ? NOTHING : formatMiles(started.slot_distance_m),
     minSeparation: started === null ? NOTHING : formatMiles(started.min_separation_m),
     separation: shown === null ? NOTHING : formatMiles(shown.separation_m),
     closure: shown === null ? NOTHING : formatSignedKnots(shown.closure_mps),
-    crossTrack: shown === null ? "" : formatSide(shown.cross_track_m),
+    crossTrack: shown === null ? NOTHING : formatSide(shown.cross_track_m),
     toJoin: left === null ? "" : formatClock(left),
     joinsAt: left === null || guided === null ? "" : formatClock(guided.t_s + left),
     next: guided === null ? null : nextPoint(flight, guided),
     nextTurn: guided === null ? null : nextTurnText(flight, guided),
     least: guided === null ? null : leastAhead(flight, guided),
-    plan: guided === null ? null : flownPlan(flight),
+    plan: guided === null ? null : shownPlan(flight),
+    state: guidance(flight),
     trouble: guided === null ? null : troubleOf(flight),
-    leastSoFar: shown === null ? NOTHING : formatMiles(shown.least_separation_m),
-    wasLost: shown !== null && shown.least_separation_m < (started?.min_separation_m ?? 0),
+    leastSoFar: sample === null ? NOTHING : formatMiles(sample.least_separation_m),
+    wasLost: sample !== null && sample.least_separation_m < (started?.min_separation_m ?? 0),
     closureWords: shown === null ? "" : closureText(shown.closure_mps),
     spacingWords: shown === null ? "" : spacingText(shown.spacing_error_m),
     crossTrackWords: shown === null ? "" : crossTrackText(shown.cross_track_m),
@@ -176,7 +184,7 @@ function formatSide(offset: number): string {
 
 function nextPoint(flight: Flight, reading: PairSample): NextPoint | null {
   const look = GUIDANCE[guidance(flight)];
-  const plan = look.points ? flownPlan(flight) : null;
+  const plan = look.points ? shownPlan(flight) : null;
   if (plan === null) {
     if (!look.crossTrack) return null;
     const name = flight.started.value?.leader.ident ?? "LEADER";
@@ -195,7 +203,7 @@ function nextPoint(flight: Flight, reading: PairSample): NextPoint | null {
 }
 
 function nextTurnText(flight: Flight, reading: PairSample): NextTurnText | null {
-  const plan = flownPlan(flight);
+  const plan = shownPlan(flight);
   const turn = plan === null ? null : nextTurn(plan, reading.t_s);
   if (turn === null) return null;
   return { size: `${turn.size[0]} ${turn.size.slice(1)}°`, left: formatClock(turn.in) };

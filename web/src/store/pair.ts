@@ -69,6 +69,8 @@ export function isAbout(document: Document, pair: PairCard): boolean {
     case "leader_changed":
       return document.ident === pair.leader.ident;
     case "plan_changed":
+    case "plan_proposed":
+    case "engagement_changed":
     case "plan_unavailable":
     case "plan_refused":
     case "mode_changed":

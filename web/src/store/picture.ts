@@ -6,27 +6,36 @@
 import { computed, type ReadonlySignal } from "@preact/signals";
 import { CALM, pathPointAt, type Vector, velocity, windVector } from "../geometry";
 import { KT } from "../units";
-import type { AircraftSample, ForecastChanged, LeaderRoute, PathPoint, PlanChanged } from "../wire";
+import type {
+  AircraftSample,
+  ForecastChanged,
+  LeaderRoute,
+  PathPoint,
+  PlanChanged,
+  PlanProposed,
+} from "../wire";
 import {
   type Closest,
   closestApproach,
   committedPoint,
-  flownPlan,
   isClosestAtJoin,
   joinPoint,
   joinTime,
   minutesToCome,
+  type Planned,
+  proposedPlan,
+  shownPlan,
   type Turn,
   turnsOf,
 } from "./committed";
 import { describe } from "./description";
-import type { Flight } from "./flight";
+import { type Flight, STALE_AGE } from "./flight";
 import { AGE, type AgeLook, GUIDANCE, type GuidanceLook } from "./looks";
 import { moveAircraft } from "./motion";
 import { type Notice, noticesOf } from "./notices";
 import { type Numbers, numbersOf, ROLL_IN } from "./numbers";
 import type { PairCard, PairSample } from "./pair";
-import { age, type Guidance, guidance, type Outlook, separation } from "./states";
+import { age, ageOf, type Guidance, guidance, leaderAge, type Outlook, separation } from "./states";
 import type { TrailPoint } from "./trail";
 
 /** A turn to come, and where own ship will be when it begins and ends. */
@@ -62,8 +71,18 @@ export interface Picture {
   readonly t: number;
   readonly look: GuidanceLook | null;
   readonly age: AgeLook;
-  /** How old the data are, in whole seconds. */
+  /** The same for what is known of the leader, and how old that is in whole seconds. */
+  readonly leaderAge: AgeLook;
   readonly ageSeconds: number;
+  /** What is missing, in large letters. */
+  readonly flag: AgeLook["flag"];
+  readonly state: Guidance;
+  /** The leader, while it may be shown. */
+  readonly leader: AircraftSample | null;
+  /** Least separation, and as much more as the leader may be away from where it is drawn [m]. */
+  readonly keepOut: number;
+  /** Whether it is designated: the one that is to be joined. */
+  readonly designated: boolean;
   readonly separation: Outlook;
   /** Own ship, whatever the age of its data; null before the first. */
   readonly pose: AircraftSample | null;
@@ -81,8 +100,10 @@ export interface Picture {
   readonly trail: readonly TrailPoint[];
   /** The last plan, flown or not. */
   readonly plan: PlanChanged | null;
-  /** The plan that is flown and whose points are shown. */
-  readonly flown: PlanChanged | null;
+  /** The plan whose points are shown: flown, or proposed. */
+  readonly flown: Planned | null;
+  /** The path that is proposed, accepted or not. */
+  readonly proposed: PlanProposed | null;
   readonly superseded: PlanChanged | null;
   readonly forecast: ForecastChanged | null;
   /** Up to when the path is drawn [s, flight time]. */
@@ -97,8 +118,6 @@ export interface Picture {
   readonly closestAtJoin: Closest | null;
   /** The direction in which the slot moves over the ground, as a unit vector. */
   readonly slotTrack: Vector;
-  /** The modes of the mode strip, by what is engaged, whatever guidance is able to do. */
-  readonly modes: Pick<GuidanceLook, "lateral" | "speed"> | null;
   /** A new mode is boxed for a while. */
   readonly boxed: boolean;
   readonly notices: readonly Notice[];
@@ -127,19 +146,29 @@ export function createShown(flight: Flight): Shown {
 
 export function pictureOf(flight: Flight): Picture {
   const seen = AGE[age(flight)];
+  const seconds = leaderAge(flight);
+  const known = seen.map ? AGE[ageOf(seconds)] : seen;
   const now = seen.map ? flight.now.value : null;
   const guided = seen.guidance ? flight.now.value : null;
-  const look = guided === null ? null : GUIDANCE[guidance(flight)];
-  const flown = look?.points === true ? flownPlan(flight) : null;
-  const isCommitted = look?.path === "committed";
-  const pair = isCommitted ? closestApproach(flight) : null;
+  const state = guidance(flight);
+  const look = guided === null ? null : GUIDANCE[state];
+  const designated = GUIDANCE[state].designated;
+  const flown = look?.points === true ? shownPlan(flight) : null;
+  const isAhead = look !== null && AHEAD.includes(look.path);
+  const pair = isAhead ? closestApproach(flight) : null;
   const isAtJoin = pair !== null && isClosestAtJoin(flight, pair);
   const t = flight.simTime.value;
   return {
     t,
     look,
     age: seen,
-    ageSeconds: Math.floor(flight.dataAge.value),
+    leaderAge: known,
+    ageSeconds: Math.floor(seconds),
+    flag: flagOf(seen, known, state),
+    state,
+    leader: known.map ? (now?.leader ?? null) : null,
+    keepOut: keepOut(flight, seconds),
+    designated,
     separation: separation(flight),
     pose: flight.now.value?.pursuer ?? null,
     now,
@@ -147,9 +176,9 @@ export function pictureOf(flight: Flight): Picture {
     started: flight.started.value,
     ident: flight.started.value?.leader.ident ?? "LEADER",
     trend: now === null ? [] : trendOf(now),
-    route: now === null ? null : flight.route.value,
+    route: now === null || !designated || !known.guidance ? null : flight.route.value,
     wind: windOver(flight),
-    trail: now === null ? NO_TRAIL : flight.trail.leader.value,
+    trail: now === null || !designated ? NO_TRAIL : flight.trail.leader.value,
     plan: guided === null ? null : flight.plan.value,
     flown,
     superseded: guided === null ? null : (flight.superseded.value?.plan ?? null),
@@ -157,22 +186,34 @@ export function pictureOf(flight: Flight): Picture {
     until: shownUntil(flight, guided),
     turns: flown === null ? [] : turnsAhead(flight, flown),
     minutes: flown === null ? [] : minutesAhead(flight, flown),
-    join: isCommitted ? joinPoint(flight) : null,
+    proposed: guided === null ? null : proposedPlan(flight),
+    join: isAhead ? joinPoint(flight) : null,
     closest: pair !== null && !isAtJoin && t < pair.at ? pair : null,
     closestAtJoin: isAtJoin ? pair : null,
     slotTrack: slotTrack(flight),
-    modes: guided === null ? null : GUIDANCE[engaged(flight, guided)],
     boxed: look !== null && flight.wall.value - flight.modeSince.value < BOXED,
     notices: noticesOf(flight),
     ended: flight.clock.value.ended,
   };
 }
 
-function engaged(flight: Flight, guided: PairSample): Guidance {
-  if (guided.mode !== "heading") return guided.mode;
-  return flight.unavailable.value === null ? "off" : "unable";
+/** What is missing; the message line says by itself that guidance has lost its leader. */
+function flagOf(seen: AgeLook, known: AgeLook, state: Guidance): AgeLook["flag"] {
+  if (!seen.map) return seen.flag;
+  if (state === "data_lost") return "";
+  return known.map ? known.flag : "LDR DATA LOST";
 }
 
+/** How far a leader can be from where it is expected: as if it turned since, at 25° of bank [m/s²]. */
+const ASTRAY = 0.5 * 9.81 * Math.tan((25 * Math.PI) / 180);
+
+function keepOut(flight: Flight, seconds: number): number {
+  const least = flight.started.value?.min_separation_m ?? 0;
+  return least > 0 && seconds > STALE_AGE ? least + ASTRAY * seconds ** 2 : least;
+}
+
+/** The paths that lead somewhere. */
+const AHEAD: readonly GuidanceLook["path"][] = ["proposed", "armed", "committed"];
 const NO_TRAIL: readonly TrailPoint[] = [];
 
 function windOver(flight: Flight): Vector {
@@ -203,7 +244,7 @@ function shownUntil(flight: Flight, guided: PairSample | null): number {
   return Math.ceil(flight.simTime.value) + length / Math.max(1, guided.leader.ground_speed_mps);
 }
 
-function turnsAhead(flight: Flight, plan: PlanChanged): TurnAhead[] {
+function turnsAhead(flight: Flight, plan: Planned): TurnAhead[] {
   return turnsOf(plan)
     .map((turn) => ({
       ...turn,
@@ -224,7 +265,7 @@ function isSoon(left: number): boolean {
   return left > 0 && left <= ROLL_IN;
 }
 
-function minutesAhead(flight: Flight, plan: PlanChanged): MinuteAhead[] {
+function minutesAhead(flight: Flight, plan: Planned): MinuteAhead[] {
   return minutesToCome(flight, plan).map(({ minute, t }) => ({
     minute,
     own: committedPoint(flight, t),

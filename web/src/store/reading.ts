@@ -2,6 +2,7 @@
 
 import { formatClock, formatHeading, formatKnots, formatMiles, NM } from "../units";
 import type { Alternative, Mode, OptimalityCard, PlanCard, ReferenceCard } from "../wire";
+import type { Guidance } from "./states";
 
 export function countTurns(plan: PlanCard): number {
   return plan.segments.filter((segment) => segment.kind === "turn").length;
@@ -13,6 +14,20 @@ export const MODE_NAMES: Record<Mode, string> = {
   capture: "Capture",
   follow: "Follow",
   escape: "Escape",
+};
+
+export const STATE_NAMES: Record<Guidance, string> = {
+  off: "Off",
+  designated: "Leader designated",
+  proposed: "Proposed",
+  armed: "Armed",
+  converge: "Converge",
+  capture: "Capture",
+  follow: "Follow",
+  escape: "Escape",
+  infeasible: "Not feasible",
+  unable: "Unable",
+  data_lost: "Leader data lost",
 };
 
 const PLANNER_NAMES: Readonly<Record<string, string>> = {

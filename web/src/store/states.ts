@@ -1,9 +1,25 @@
-/** The states of the picture: what guidance does, how old the data are, whether the separation holds. */
+/** The states of the picture: how far guidance is engaged, how old the data are, whether the separation holds. */
 
 import type { Flight } from "./flight";
 
-/** off: holds its heading; unable: there is no plan; the others are the modes of guidance. */
-export const GUIDANCES = ["off", "converge", "capture", "follow", "escape", "unable"] as const;
+/**
+ * off: nobody is to be joined; designated: a path is looked for; proposed, armed: there is one, accepted
+ * or not; converge, capture, follow, escape: guidance flies; infeasible: there is no path to propose;
+ * unable: … nor one to fly; data_lost: nothing was heard of the leader for too long.
+ */
+export const GUIDANCES = [
+  "off",
+  "designated",
+  "proposed",
+  "armed",
+  "converge",
+  "capture",
+  "follow",
+  "escape",
+  "infeasible",
+  "unable",
+  "data_lost",
+] as const;
 export type Guidance = (typeof GUIDANCES)[number];
 
 /** fresh ≤ 2 s < coasting ≤ 5 s < old ≤ 10 s < dropped ≤ 24 s < gone; none: never any data. */
@@ -14,17 +30,40 @@ export type Age = (typeof AGES)[number];
 export const SEPARATIONS = ["kept", "predicted", "lost"] as const;
 export type Separation = (typeof SEPARATIONS)[number];
 
+/** Data of the leader older than this are flown no more [s]. */
+export const LEADER_LOST = 10;
+
 export function guidance(flight: Flight): Guidance {
-  const mode = flight.sample.value?.mode ?? "heading";
+  const sample = flight.sample.value;
+  if (sample === null || sample.engagement === "off") return "off";
+  if (sample.leader_age_s > LEADER_LOST) return "data_lost";
+  const { mode } = sample;
   if (mode === "capture" || mode === "follow" || mode === "escape") return mode;
-  if (flight.unavailable.value !== null) return "unable";
-  return mode === "converge" ? "converge" : "off";
+  const isMissing = flight.unavailable.value !== null || flight.unable.value !== null;
+  if (sample.engagement === "engaged") {
+    if (flight.unavailable.value !== null) return "unable";
+    return mode === "converge" ? "converge" : "unable";
+  }
+  if (flight.proposal.value === null) return isMissing ? "infeasible" : "designated";
+  return sample.engagement === "armed" ? "armed" : "proposed";
 }
 
+/** How old all that is shown is. */
 export function age(flight: Flight): Age {
   if (flight.now.value === null) return "none";
   if (flight.clock.value.ended) return "fresh"; // nothing moves any more, so no data grow old
-  const seconds = flight.dataAge.value;
+  return ageOf(flight.dataAge.value);
+}
+
+/** How old what is known of the leader is [s]. */
+export function leaderAge(flight: Flight): number {
+  const sample = flight.sample.value;
+  if (sample === null || flight.clock.value.ended) return 0;
+  const since = sample.leader_age_s > 0 ? flight.simTime.value - sample.t_s : 0;
+  return Math.max(flight.dataAge.value, sample.leader_age_s + since);
+}
+
+export function ageOf(seconds: number): Age {
   if (seconds <= 2) return "fresh";
   if (seconds <= 5) return "coasting";
   if (seconds <= 10) return "old";

@@ -1,8 +1,16 @@
 /** What one document changes of what the display knows. */
 
 import { formatClock } from "../units";
-import type { Alert, Document, FlightStarted, LinkResult, PlanChanged } from "../wire";
+import type {
+  Alert,
+  Document,
+  EngagementChanged,
+  FlightStarted,
+  LinkResult,
+  PlanChanged,
+} from "../wire";
 import type { Flight, Message } from "./flight";
+import { moveAircraft } from "./motion";
 import { isAbout, type PairSample, pairCard, pairResult, pairSample } from "./pair";
 import { appendTrail } from "./trail";
 
@@ -41,7 +49,16 @@ export function take(flight: Flight, document: Document, arrival: Arrival): void
       return;
     case "plan_unavailable":
       flight.unavailable.value = document;
+      flight.proposal.value = null;
       log(flight, { t, kind: "no_plan", text: document.answer.message });
+      return;
+    case "plan_proposed":
+      flight.proposal.value = document;
+      flight.unavailable.value = null;
+      flight.unable.value = null;
+      return;
+    case "engagement_changed":
+      takeEngagement(flight, document);
       return;
     case "plan_refused":
       log(flight, { t, kind: "refused", text: document.message });
@@ -104,6 +121,23 @@ function takePlan(flight: Flight, changed: PlanChanged, { joining, wall, since }
   if (changed.announced) log(flight, { t: changed.t_s, kind: "plan", text: changed.message });
 }
 
+function takeEngagement(flight: Flight, changed: EngagementChanged): void {
+  flight.engagement.value = changed;
+  const isRefused = changed.engagement === changed.previous;
+  const kind = isRefused ? "refused" : "engagement";
+  log(flight, { t: changed.t_s, kind, text: changed.message });
+  if (isRefused) return;
+  const steps = [changed.previous, changed.engagement];
+  if (steps.includes("armed") && steps.includes("designated")) return; // the proposal stands
+  flight.proposal.value = null;
+  flight.unavailable.value = null;
+  if (changed.previous !== "engaged") return;
+  // What was flown is over, and what stood in its way with it.
+  flight.plan.value = null;
+  flight.superseded.value = null;
+  if (flight.unable.value?.reason !== "data") flight.unable.value = null;
+}
+
 function takeAlert(flight: Flight, alert: Alert): void {
   const others = flight.alerts.value.filter(
     (each) => each.subject !== alert.subject || each.other !== alert.other,
@@ -116,9 +150,22 @@ function takeAlert(flight: Flight, alert: Alert): void {
 function takeSample(flight: Flight, sample: PairSample, { since }: Arrival): void {
   const { pursuer, leader } = flight.trail;
   if (sample.joined && flight.sample.value?.joined !== true) flight.joinedSince.value = since;
-  flight.sample.value = sample;
+  if (sample.leader_age_s === 0) flight.heard.value = sample;
+  const known = expected(sample, flight.heard.value);
+  flight.sample.value = known;
   pursuer.value = appendTrail(pursuer.value, sample.t_s, sample.pursuer);
-  leader.value = appendTrail(leader.value, sample.t_s, sample.leader);
+  if (sample.leader_age_s === 0)
+    leader.value = appendTrail(leader.value, sample.t_s, sample.leader);
+}
+
+/** A sample with the leader where it is expected, if nothing was heard of it since `heard`. */
+function expected(sample: PairSample, heard: PairSample | null): PairSample {
+  if (sample.leader_age_s === 0 || heard === null) return sample;
+  const straight = { ...heard.leader, bank_deg: 0, turn_rate_degps: 0 };
+  const leader = moveAircraft(straight, sample.t_s - heard.t_s);
+  const { pursuer } = sample;
+  const separation = Math.hypot(pursuer.x_m - leader.x_m, pursuer.y_m - leader.y_m);
+  return { ...sample, leader, separation_m: separation };
 }
 
 function endSentence(result: LinkResult): string {

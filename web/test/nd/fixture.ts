@@ -73,6 +73,9 @@ export function emptyFlight(): Flight {
     started: signal(null),
     route: signal(null),
     plan: signal(null),
+    proposal: signal(null),
+    engagement: signal(null),
+    heard: signal(null),
     forecast: signal(null),
     superseded: signal(null),
     unavailable: signal(null),
@@ -188,6 +191,8 @@ function sampleAt({ started, route, plan }: Documents, t: number, mode: Mode): P
     time_to_go_s: Math.max(0, end - t),
     joined: t >= end,
     alert: "none",
+    leader_age_s: 0,
+    engagement: "engaged",
   };
 }
 

@@ -84,7 +84,8 @@ test.each([
   const flight = flightAt("fig_6b", 600);
   flight.dataAge.value = age;
   const root = show(flight, "ARC", 40);
-  const ring = root.querySelector(".nd-leader circle")?.getAttribute("stroke-dasharray") ?? null;
+  const ring =
+    root.querySelector(".nd-leader circle.nd-stroke")?.getAttribute("stroke-dasharray") ?? null;
   expect(ring).toBe(expected.ring);
   expect(root.querySelector(".nd-flag")?.textContent ?? "").toBe(expected.flag);
   expect(has(root, "slot")).toBe(expected.slot);

@@ -1,5 +1,6 @@
 import { describe, expect, test } from "vitest";
 import { createFlightStore } from "../../src/store/flight";
+import type { Engagement, EngagementChanged, PlanProposed } from "../../src/wire";
 import {
   aircraft,
   alert,
@@ -7,6 +8,7 @@ import {
   modeChanged,
   noPlan,
   OWN,
+  pairAt,
   planChanged,
   STARTED,
   sample,
@@ -248,5 +250,80 @@ describe("the age of the data", () => {
     expect(store.flight.connection.value).toBe("lost");
     store.link("connecting");
     expect(store.flight.connection.value).toBe("connecting");
+  });
+});
+
+describe("engagement", () => {
+  const changed = (t: number, previous: Engagement, engagement: Engagement): EngagementChanged => ({
+    kind: "engagement_changed",
+    t_s: t,
+    ident: OWN,
+    engagement,
+    previous,
+    message: `From ${previous} to ${engagement}.`,
+  });
+
+  function proposing() {
+    const store = createFlightStore();
+    const {
+      kind: _kind,
+      reason: _reason,
+      announced: _announced,
+      tube_m: _tube,
+      ...plan
+    } = planChanged(1);
+    const proposed: PlanProposed = { ...plan, kind: "plan_proposed", others: [] };
+    const engagement = "designated";
+    store.receive(
+      tick(1, [
+        STARTED,
+        changed(1, "off", "designated"),
+        proposed,
+        sample(1, { mode: "heading", engagement }),
+      ]),
+      1000,
+    );
+    return store;
+  }
+
+  test("a proposal stands until it is engaged or given up, not when it is accepted", () => {
+    const store = proposing();
+    expect(store.flight.proposal.value?.t_s).toBe(1);
+    store.receive(tick(2, [changed(2, "designated", "armed")]), 2000);
+    expect(store.flight.proposal.value?.t_s).toBe(1);
+    store.receive(tick(3, [changed(3, "armed", "engaged")]), 3000);
+    expect(store.flight.proposal.value).toBeNull();
+  });
+
+  test("without a path there is no proposal, and with one no reason against it", () => {
+    const store = proposing();
+    store.receive(tick(2, [noPlan(2)]), 2000);
+    expect(store.flight.proposal.value).toBeNull();
+    expect(store.flight.unavailable.value).not.toBeNull();
+  });
+
+  test("what was flown is gone when it is disconnected", () => {
+    const store = createFlightStore();
+    store.receive(tick(0, [STARTED, modeChanged(0), planChanged(0), sample(0)]), 0);
+    store.receive(tick(1, [changed(1, "engaged", "off"), modeChanged(1, "heading")]), 1000);
+    expect(store.flight.plan.value).toBeNull();
+  });
+
+  test("an order that was refused is logged as that and changes nothing", () => {
+    const store = proposing();
+    store.receive(tick(2, [changed(2, "designated", "designated")]), 2000);
+    expect(store.flight.messages.value[0]?.kind).toBe("refused");
+    expect(store.flight.proposal.value).not.toBeNull();
+  });
+
+  test("a leader that is not heard of flies straight on from where it was, and leaves no trail", () => {
+    const store = proposing();
+    const turned = { ...pairAt(1).leader, x_m: 0, y_m: 9e4, heading_deg: 0 };
+    store.receive(tick(21, [sample(21, { leader: turned, leader_age_s: 20 })]), 21_000);
+    const known = store.flight.sample.value;
+    expect(known?.leader.x_m).toBeCloseTo(20_000 + 200 * 21, 3);
+    expect(known?.leader.y_m).toBeCloseTo(0, 3);
+    expect(known?.separation_m).toBeCloseTo((known?.leader.x_m ?? 0) - 240 * 21, 3);
+    expect(store.flight.trail.leader.value.at(-1)?.t).toBe(1);
   });
 });

@@ -1,0 +1,69 @@
+/** What the crew does with relative guidance: designate, accept, engage, disconnect; one step a button. */
+
+import { Panel } from "../parts";
+import type { Actions, Session } from "../session";
+import type { Guidance } from "../store/states";
+import type { Engagement } from "../wire";
+
+/** What can be done in a state: the next step, and the way back. */
+interface Steps {
+  readonly says: string;
+  readonly next: { readonly text: string; readonly to: Engagement } | null;
+  readonly back: string;
+}
+
+const STEPS: Record<Guidance, Steps> = {
+  off: {
+    says: "Designate the leader: here, or by a click on it.",
+    next: { text: "Designate", to: "designated" },
+    back: "",
+  },
+  designated: { says: "Looking for a path to its slot.", next: null, back: "Cancel" },
+  proposed: {
+    says: "A path is proposed, dashed yellow. Nothing is flown yet.",
+    next: { text: "Accept", to: "armed" },
+    back: "Cancel",
+  },
+  armed: {
+    says: "Accepted, dashed cyan. It waits for you.",
+    next: { text: "Engage", to: "engaged" },
+    back: "Cancel",
+  },
+  converge: { says: "Guidance flies the path.", next: null, back: "Disconnect" },
+  capture: { says: "Guidance closes onto the leader's route.", next: null, back: "Disconnect" },
+  follow: { says: "Guidance keeps the spacing.", next: null, back: "Disconnect" },
+  escape: { says: "Guidance turns away from the leader.", next: null, back: "Disconnect" },
+  infeasible: { says: "No path to its slot now; it is tried again.", next: null, back: "Cancel" },
+  unable: { says: "No path to fly now; it is tried again.", next: null, back: "Disconnect" },
+  data_lost: { says: "Nothing is heard of the leader. You fly.", next: null, back: "Cancel" },
+};
+
+export function Engage(props: { session: Session; actions: Actions }) {
+  const { session, actions } = props;
+  const { state, readAt } = session.shown.numbers.value;
+  const { says, next, back } = STEPS[state];
+  const absent = readAt === null || session.flight.ended.value !== null;
+  return (
+    <Panel name="engage" title="Relative guidance">
+      <p class="hint">{says}</p>
+      <div class="row">
+        <button
+          type="button"
+          class="primary grow"
+          disabled={absent || next === null}
+          onClick={() => next !== null && actions.engage(next.to)}
+        >
+          {next?.text ?? "Engage"}
+        </button>
+        <button
+          type="button"
+          class="grow"
+          disabled={absent || back === ""}
+          onClick={() => actions.engage("off")}
+        >
+          {back === "" ? "Cancel" : back}
+        </button>
+      </div>
+    </Panel>
+  );
+}
