@@ -52,7 +52,7 @@ export function Aircraft(props: { session: Session; actions: Actions }) {
           ))}
         </tbody>
       </table>
-      <p class="commanded">
+      <p class={`commanded ${sample?.engagement === "engaged" ? "" : "selected"}`}>
         <span>{sample?.engagement === "engaged" ? "Guidance" : "Selected"}</span>
         <b>{sample === null ? "––" : referenceText(sample.reference)}</b>
         <b>{sample === null ? "" : `${commandedSpeed} kt`}</b>
