@@ -1,4 +1,4 @@
-"""A crew's story in a real browser: designate, accept, engage, the data lost and back, disconnect."""
+"""A crew in a real browser: designates, accepts, engages, loses its leader, disconnects."""
 
 import pytest
 from playwright.sync_api import Page, expect
