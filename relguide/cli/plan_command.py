@@ -3,8 +3,8 @@
 import argparse
 import os
 import sys
-from collections.abc import Collection, Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Collection, Iterator
+from typing import TYPE_CHECKING, NamedTuple
 
 from relguide.cli.output import DONE, FAILED, say, write_json
 from relguide.cli.shared_options import add_planner
@@ -26,6 +26,8 @@ EXAMPLES = """
     relguide plan situation.json --include alternatives,optimality
                                               with what else there was, H and λ
     relguide plan situation.json --prove 10   with a better lower bound of its time
+    relguide plan --batch all.jsonl --deadline 0.25
+                                              the best found in 0.25 s each
     """
 
 
@@ -41,6 +43,14 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         default=0.0,
         help="where d_min makes the plan longer, look this long for a better lower bound of its "
         "time",
+    )
+    parser.add_argument(
+        "--deadline",
+        metavar="SECONDS",
+        type=_deadline,
+        help="answer by then, with the best plan found and its bound, or with no_plan and the "
+        "reason deadline; of a batch, each line; what --prove and --include ask for has what is "
+        "left; the planners exact and network",
     )
     parser.add_argument(
         "--include",
@@ -59,51 +69,64 @@ def run(chosen: argparse.Namespace) -> int:
     if chosen.batch and chosen.table:
         raise ValueError("A batch is answered in JSON, one plan a line: leave out --table.")
     planner = make_planner(chosen.planner)
+    asked = Asked(chosen.prove, chosen.include, chosen.deadline)
+    if asked.deadline is not None:
+        from relguide.planning.acceptance import takes_deadline
+
+        if not takes_deadline(planner):
+            raise ValueError(
+                f"The planner {chosen.planner} keeps no deadline: choose exact or network."
+            )
     if chosen.batch:
-        return _plan_batch(chosen.file, planner, chosen.prove, chosen.include)
-    return _plan_one(chosen.file, planner, chosen.prove, chosen.include, table=chosen.table)
+        return _plan_batch(chosen.file, planner, asked)
+    return _plan_one(chosen.file, planner, asked, table=chosen.table)
 
 
-def _plan_one(
-    file: str,
-    planner: "Planner",
-    prove_for: float,
-    include: "Collection[Include]",
-    *,
-    table: bool,
-) -> int:
+class Asked(NamedTuple):
+    """What is asked for beside the plan, and by when."""
+
+    prove: float
+    """How long to look for a better lower bound [s]."""
+    include: "Collection[Include]"
+    deadline: float | None
+    """Of each answer [s]."""
+
+
+def _plan_one(file: str, planner: "Planner", asked: Asked, *, table: bool) -> int:
     from relguide.contract.answers import answer, check_optimality
     from relguide.flying.cards import no_plan_card, plan_card
     from relguide.planning.plan import NoPlan, Plan
 
     situation, anchor, body = read_situation(file)
-    # loads the compiled kernels: that takes seconds, planning a tenth of a millisecond, and the
-    # time measured is that of planning
-    planner(situation)
-    proving = _prove_after(planner, prove_for)
+    if asked.deadline is None:
+        # loads the compiled kernels: that takes seconds, planning a tenth of a millisecond, and the
+        # time measured is that of planning
+        planner(situation)
+    proving = _prove_after(planner, asked.prove)
     if table:
         from relguide.cli.plan_tables import print_no_plan, print_optimality, print_plan
         from relguide.planning.acceptance import ask
         from relguide.planning.alternatives import alternatives
+        from relguide.planning.deadline import end_of, left_until
 
-        match planned := ask(proving, situation).plan:
+        until = end_of(asked.deadline)
+        match planned := ask(proving, situation, deadline=left_until(until)).plan:
             case NoPlan():
                 print_no_plan(no_plan_card(planned))
             case Plan():
-                others = alternatives(planned) if "alternatives" in include else ()
+                wanted, left = "alternatives" in asked.include, left_until(until)
+                others = alternatives(planned, deadline=left) if wanted else ()
                 print_plan(plan_card(planned, others), min_separation=situation.min_separation)
-                if "optimality" in include:
+                if "optimality" in asked.include:
                     print_optimality(check_optimality(planned))
         return DONE if isinstance(planned, Plan) else FAILED
-    reply = answer(situation, anchor, proving, include=include)
+    reply = answer(situation, anchor, proving, include=asked.include, deadline=asked.deadline)
     name = {"id": body.id} if "id" in body.model_fields_set else {}
     write_json(name | reply)
     return DONE if reply["status"] == "planned" else FAILED
 
 
-def _plan_batch(
-    file: str, planner: "Planner", prove_for: float, include: "Collection[Include]"
-) -> int:
+def _plan_batch(file: str, planner: "Planner", asked: Asked) -> int:
     """Answer one line after another; those that are no situations are counted."""
     import orjson
 
@@ -113,7 +136,7 @@ def _plan_batch(
     invalid: list[int] = []
     read = 0
     # no bar of its own: that of the batch goes on
-    proving = _prove_after(planner, prove_for, shown=False)
+    proving = _prove_after(planner, asked.prove, shown=False)
     with open_input(file) as stream:
         size = os.fstat(stream.fileno()).st_size if file != "-" else 0
         lines = show_progress(
@@ -123,7 +146,7 @@ def _plan_batch(
             read += len(line)
             if not line.strip():
                 continue
-            reply = answer_line(line, proving, include=include)
+            reply = answer_line(line, proving, include=asked.include, deadline=asked.deadline)
             if reply["status"] == "invalid":
                 invalid.append(number)
             sys.stdout.write(orjson.dumps(reply).decode() + "\n")
@@ -137,6 +160,8 @@ def _prove_after(planner: "Planner", seconds: float, *, shown: bool = True) -> "
     """A planner which then looks this long for a better lower bound."""
     if seconds == 0.0:
         return planner
+    from relguide.planning.acceptance import with_deadline
+    from relguide.planning.deadline import end_of, left_until
     from relguide.planning.plan import NoPlan
     from relguide.planning.progress import show_progress
     from relguide.planning.prove import Bound, prove
@@ -150,11 +175,14 @@ def _prove_after(planner: "Planner", seconds: float, *, shown: bool = True) -> "
             state=lambda bound: f"gap {bound.gap:.3f} s",
         )
 
-    def plan_and_prove(situation: "Situation") -> "Plan | NoPlan":
-        planned = planner(situation)
+    def plan_and_prove(situation: "Situation", *, deadline: float | None = None) -> "Plan | NoPlan":
+        until = end_of(deadline)
+        planned = with_deadline(planner, left_until(until))(situation)
         if isinstance(planned, NoPlan):
             return planned
-        return prove(planned, seconds=seconds, progress=progress if shown else iter)
+        left = left_until(until)
+        longest = seconds if left is None else min(seconds, left)
+        return prove(planned, seconds=longest, progress=progress if shown else iter)
 
     return plan_and_prove
 
@@ -171,12 +199,22 @@ def _parse_include(text: str) -> "tuple[Include, ...]":
 def _proof_time(text: str) -> float:
     from relguide.planning.prove import check_seconds
 
+    return _seconds(text, check_seconds)
+
+
+def _deadline(text: str) -> float:
+    from relguide.planning.deadline import check_deadline
+
+    return _seconds(text, check_deadline)
+
+
+def _seconds(text: str, check: "Callable[[object], float]") -> float:
     try:
         seconds = float(text)
     except ValueError:
         raise argparse.ArgumentTypeError(f"must be a number of seconds, not {text}") from None
     try:
-        check_seconds(seconds)
+        check(seconds)
     except ValueError as error:
         raise argparse.ArgumentTypeError(str(error)) from None
     return seconds

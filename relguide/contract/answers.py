@@ -17,9 +17,11 @@ from relguide.flying.cards import no_plan_card, optimality_check, plan_card
 from relguide.flying.verdicts import OptimalityCheck
 from relguide.planning.acceptance import ask
 from relguide.planning.alternatives import alternatives
+from relguide.planning.deadline import end_of, left_until
 from relguide.planning.optimality import check
 from relguide.planning.plan import NoPlan, Plan, Planner
 from relguide.planning.situation import Situation
+from relguide.units import Second
 
 Include = Literal["alternatives", "optimality"]
 """What an answer contains only if asked for: the other paths to the slot, and how the plan meets
@@ -47,7 +49,12 @@ def read_include(text: str) -> tuple[Include, ...]:
 
 
 def answer(
-    situation: Situation, anchor: Anchor, planner: Planner, *, include: Collection[Include] = ()
+    situation: Situation,
+    anchor: Anchor,
+    planner: Planner,
+    *,
+    include: Collection[Include] = (),
+    deadline: Second | None = None,
 ) -> dict[str, Any]:
     """A plan, or why there is none, as a JSON object.
 
@@ -57,10 +64,16 @@ def answer(
         planner: who plans; its plan is checked as in flight, and if it may not be flown the exact
             plan takes its place.
         include: what to add to the plan.
+        deadline: how long planner and alternatives may take, as in `ask` [s].
+
+    Raises:
+        ValueError: if the deadline is out of range.
     """
-    match planned := ask(planner, situation).plan:
+    until = end_of(deadline)
+    match planned := ask(planner, situation, deadline=left_until(until)).plan:
         case Plan():
-            others = alternatives(planned) if "alternatives" in include else ()
+            left = left_until(until)
+            others = alternatives(planned, deadline=left) if "alternatives" in include else ()
             reply = plan_to_wire(plan_card(planned, others), anchor)
             if "alternatives" not in include:
                 del reply["alternatives"]
@@ -77,7 +90,11 @@ def check_optimality(plan: Plan) -> OptimalityCheck:
 
 
 def answer_line(
-    line: bytes, planner: Planner, *, include: Collection[Include] = ()
+    line: bytes,
+    planner: Planner,
+    *,
+    include: Collection[Include] = (),
+    deadline: Second | None = None,
 ) -> dict[str, Any]:
     """The answer to a line of a batch, with the situation's `id` if it has one.
 
@@ -87,6 +104,7 @@ def answer_line(
         line: a situation in JSON.
         planner: who plans.
         include: as in `answer`.
+        deadline: as in `answer`, of this line [s].
     """
     name: dict[str, Any] = {}
     try:
@@ -94,7 +112,7 @@ def answer_line(
         if isinstance(content, dict):
             name = _name(content)
             situation, anchor = situation_from_body(parse(NamedSituationBody, content))
-            return name | answer(situation, anchor, planner, include=include)
+            return name | answer(situation, anchor, planner, include=include, deadline=deadline)
         raise ContractError([("", "A line must be an object with fields: a situation.")])
     except ContractError as error:
         return name | {"status": "invalid", "message": str(error)}

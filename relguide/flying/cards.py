@@ -156,7 +156,7 @@ def optimality_check(report: OptimalityReport) -> OptimalityCheck:
 
 def no_plan_card(answer: NoPlan) -> NoPlanCard:
     """Why there is no plan."""
-    return NoPlanCard(reason=answer.reason, message=answer.message)
+    return NoPlanCard(reason=answer.reason, message=answer.message, lower_bound=answer.lower_bound)
 
 
 def path_point(pose: Pose, t: float, wind: Wind, start_time: float = 0.0) -> PathPoint:

@@ -200,4 +200,6 @@ class NoPlanCard:
 
     reason: Reason
     message: str
+    lower_bound: Second = 0.0
+    """No plan that keeps d_min is faster than this [s]; 0 where nothing is known."""
     status: Literal["no_plan"] = "no_plan"

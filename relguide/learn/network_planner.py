@@ -15,6 +15,7 @@ that does not keep d_min. So every answer is certified, whoever gave it.
 """
 
 from dataclasses import dataclass, replace
+from functools import cache
 from math import hypot
 from time import perf_counter_ns
 
@@ -28,6 +29,7 @@ from relguide.learn.boundary.template_paths import free_path, solve_constrained,
 from relguide.learn.words.branch_network import BranchNetwork
 from relguide.planning.candidate import SIGN_ROWS, Candidate, candidate_of, segments_of
 from relguide.planning.certificate import Certificate, judge
+from relguide.planning.deadline import LOADING, end_of, left_until
 from relguide.planning.inputs import expect
 from relguide.planning.plan import AS_FAST, NoPlan, Optimality, Plan, Planner, plan
 from relguide.planning.situation import Situation
@@ -70,19 +72,27 @@ def network_planner(network: BranchNetwork, templates: TemplateNetwork | None = 
             comes with the program.
 
     Returns:
-        a `Planner`; its plans say by `network_planner` who gave them, and by `fell_back` if the
-        networks could not.
+        a `Planner` that takes a `deadline` as `plan` does; its plans say by `planner` who gave
+        them, and by `fell_back` if the networks could not.
     """
     expect("network", network, BranchNetwork)
     template_network = load_template_network() if templates is None else templates
     expect("templates", template_network, TemplateNetwork)
 
-    def planner(situation: Situation) -> Plan | NoPlan:
+    @cache
+    def load() -> None:
+        for situation in LOADING:
+            planner(situation)
+
+    def planner(situation: Situation, *, deadline: Second | None = None) -> Plan | NoPlan:
         expect("situation", situation, Situation)
+        if deadline is not None:
+            load()
+        until = end_of(deadline)
         started = perf_counter_ns()
         proposal = propose(network, situation, template_network)
         if proposal is None or not proposal.certificate.holds:
-            exact = plan(situation)
+            exact = plan(situation, deadline=left_until(until))
             if isinstance(exact, NoPlan):
                 return exact
             spent = (perf_counter_ns() - started) * 1e-6

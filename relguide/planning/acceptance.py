@@ -5,8 +5,11 @@ steeper than it may, joins (eq. 7), and keeps d_min. What a planner says of its 
 nothing: the certificate is made anew, for the situation that was asked about.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from math import hypot
+from functools import partial
+from inspect import signature
+from math import hypot, inf
 from typing import Literal, NamedTuple
 
 from relguide.kernels.base.angles import wrap_signed
@@ -17,12 +20,13 @@ from relguide.planning.arrival import (
     arrival,
 )
 from relguide.planning.certificate import certify
+from relguide.planning.deadline import end_of, left_until
 from relguide.planning.phrases import distance, duration, too_close
 from relguide.planning.plan import NoPlan, Plan, Planner
 from relguide.planning.plan import plan as exact_plan
 from relguide.planning.situation import Pursuer, Situation
 from relguide.planning.trajectory import Trajectory
-from relguide.units import DEG
+from relguide.units import DEG, Second
 
 STEEPER = 1e-3
 """By so much of itself a turn's curvature may exceed the tightest: 0.02° of bank at 25°."""
@@ -54,18 +58,43 @@ class Answer(NamedTuple):
     """Why the planner's own answer is not flown; `None` if it is."""
 
 
-def ask(planner: Planner, situation: Situation) -> Answer:
+def ask(planner: Planner, situation: Situation, *, deadline: Second | None = None) -> Answer:
     """A planner's answer if it may be flown; if not, the exact plan and why.
 
     What a planner raises is not caught: that is its caller's to see.
+
+    Args:
+        planner: who is asked.
+        situation: what to plan.
+        deadline: as in `plan`, for a planner that takes one: any other is let finish, and the exact
+            plan has what is left [s].
     """
+    if deadline is None:
+        answer = planner(situation)
+        until = inf
+    else:
+        until = end_of(deadline)
+        answer = with_deadline(planner, left_until(until))(situation)
     if planner is exact_plan:
-        return Answer(planner(situation), fell_back=False, refusal=None)
-    return judge_answer(planner(situation), situation)
+        return Answer(answer, fell_back=False, refusal=None)
+    return judge_answer(answer, situation, until)
 
 
-def judge_answer(answer: object, situation: Situation) -> Answer:
-    """As `ask`, of an answer that has been given."""
+def with_deadline(planner: Planner, deadline: Second | None) -> Planner:
+    """A planner that answers by a deadline [s], if it is one that takes `deadline`."""
+    if deadline is None or not takes_deadline(planner):
+        return planner
+    timed: Callable[..., Plan | NoPlan] = planner
+    return partial(timed, deadline=deadline)
+
+
+def takes_deadline(planner: Planner) -> bool:
+    """Whether a planner can be given a `deadline`, as `plan` can."""
+    return "deadline" in signature(planner).parameters
+
+
+def judge_answer(answer: object, situation: Situation, until: float = inf) -> Answer:
+    """As `ask`, of an answer that has been given; an exact plan is made by then, of `clock.now`."""
     match answer:
         case NoPlan():
             return Answer(answer, fell_back=False, refusal=None)
@@ -86,7 +115,8 @@ def judge_answer(answer: object, situation: Situation) -> Answer:
             kind = type(answer).__name__
             message = f"The planner answered with neither a Plan nor a NoPlan, but with {kind}."
             refusal = Refusal(planner="", fault="no_answer", message=message)
-    return Answer(exact_plan(situation), fell_back=True, refusal=refusal)
+    instead = exact_plan(situation, deadline=left_until(until))
+    return Answer(instead, fell_back=True, refusal=refusal)
 
 
 def find_fault(trajectory: Trajectory, situation: Situation) -> tuple[Fault, str] | None:

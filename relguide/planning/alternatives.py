@@ -6,15 +6,17 @@ a turn), or how they pass the leader. The last is a matter of topology, see `pas
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import islice
+from itertools import islice, takewhile
 from math import pi
 from typing import Literal
 
 import numpy as np
 
+from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.words.extremals import MAX_ROWS, WORDS, solve
 from relguide.planning.candidate import Candidate
 from relguide.planning.certificate import certify
+from relguide.planning.deadline import end_of
 from relguide.planning.inputs import expect
 from relguide.planning.passing import Passing, Surroundings, passing, surroundings
 from relguide.planning.phrases import duration, too_close
@@ -109,14 +111,23 @@ AnyAlternative = Alternative | TooEarly | NoRoot
 """What `alternatives` lists."""
 
 
-def alternatives(plan: Plan) -> tuple[AnyAlternative, ...]:
+def alternatives(plan: Plan, *, deadline: Second | None = None) -> tuple[AnyAlternative, ...]:
     """Every other path to the slot and why it is not flown, by time; words without any come last.
 
     These are all faster paths, and the fastest for each word, middle arc and passing of the leader.
     Where the slot opens later, also the words that would be there before, and one path for each
     passing of the many that arrive just as it opens.
+
+    Args:
+        plan: made by any planner.
+        deadline: how long it may take, 0 to `MAX_DEADLINE` [s]: then the list ends early. Loading
+            the kernels, once in a process, does not count.
+
+    Raises:
+        ValueError: if the deadline is out of range, or `plan` is not a plan.
     """
     expect("plan", plan, Plan)
+    until = end_of(deadline)
     situation = plan.situation
     found = candidates(situation)
     early = _first_arrivals(found.frame)
@@ -125,8 +136,8 @@ def alternatives(plan: Plan) -> tuple[AnyAlternative, ...]:
     late = {WORDS[int(word)] for word in found.rows[:, 1]}
     around = surroundings(found)
     listed: list[Alternative | TooEarly] = [
-        *_release_alternatives(plan, found, around),
-        *_later_alternatives(plan, found, around),
+        *takewhile(lambda _: not time_is_up(until), _release_alternatives(plan, found, around)),
+        *takewhile(lambda _: not time_is_up(until), _later_alternatives(plan, found, around)),
     ]
     for word, first in early.items():
         time = first * scale

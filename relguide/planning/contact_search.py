@@ -91,7 +91,7 @@ class Question:
     def warm_up(self) -> None:
         """Load the kernels."""
         cell = next(self.first_contacts())[:]
-        untouched_bound(self.start, self.scene, self.goal)
+        untouched_bound(self.start, self.scene, self.goal, 0.0)
         asked, leader = question_row(self.start, self.scene, self.goal), self.scene.leader
         reach_cell(asked, leader, cell, 0.0)
         leave_cell(asked, leader, cell, 0.0)
@@ -102,7 +102,7 @@ class Question:
     def bounds(self, beat: float) -> Iterator[float]:
         """Ever better bounds of the time of all paths, up to `beat`, where they end."""
         # no path that nowhere touches d_min arrives sooner than the first of these
-        beat = min(beat, untouched_bound(self.start, self.scene, self.goal))
+        beat = untouched_bound(self.start, self.scene, self.goal, beat)
         yield from _Search(self, beat).bounds()
 
 

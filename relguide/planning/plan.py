@@ -1,21 +1,23 @@
 """plan(situation) → Plan | NoPlan: the fastest candidate that certifies, and what is proved."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from enum import StrEnum
 from itertools import islice
-from math import hypot
+from math import hypot, inf
 from time import perf_counter_ns
 from typing import Literal
 
 from numpy.typing import ArrayLike
 
+from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.separation.clearance import SLACK
 from relguide.planning.arrival import Arrival, arrival
 from relguide.planning.candidate import Candidate
 from relguide.planning.certificate import Certificate, certify, judge
 from relguide.planning.constrained_path import constrained_path
+from relguide.planning.deadline import TO_LOOK_ROUND, TO_PUT_DOWN, end_of
 from relguide.planning.inputs import expect, number
 from relguide.planning.least_bad import (
     least_bad,
@@ -45,6 +47,7 @@ class Reason(StrEnum):
     SEPARATION_ALREADY_LOST = "separation_already_lost"
     SEPARATION_UNAVOIDABLE = "separation_unavoidable"
     BEYOND_HORIZON = "beyond_horizon"
+    DEADLINE = "deadline"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -152,6 +155,8 @@ class NoPlan:
     reason: Reason
     message: str
     """A sentence for people."""
+    lower_bound: Second = 0.0
+    """No plan that keeps d_min is faster than this [s]; 0 where nothing is known."""
     status: Literal["no_plan"] = "no_plan"
 
 
@@ -162,7 +167,7 @@ Planner = Callable[[Situation], Plan | NoPlan]
 _Chosen = tuple[Candidate, Certificate, Optimality]
 
 
-def plan(situation: Situation) -> Plan | NoPlan:
+def plan(situation: Situation, *, deadline: Second | None = None) -> Plan | NoPlan:
     """The fastest candidate that keeps d_min, with what is proved of it.
 
     Without the limit the candidates are all the extremals there are, so if the fastest of them
@@ -174,20 +179,32 @@ def plan(situation: Situation) -> Plan | NoPlan:
     for each piece of the leader's intent, a word has at most 96 roots, a certificate takes at most
     131,072 windows, and nothing beyond 12 hours is considered. The slowest case found takes some
     seconds: twenty turns, some of them at 1° of bank, and no path to the slot.
+
+    Args:
+        situation: what to plan.
+        deadline: how long it may take, 0 to `MAX_DEADLINE` [s]. The search then ends early, with
+            the fastest path found by then and its bound; with `NoPlan` and the reason `deadline`
+            if there is none yet. Loading the kernels, once in a process, does not count. Without a
+            deadline the answer depends on the situation alone.
+
+    Raises:
+        ValueError: if the deadline is out of range, or `situation` is no situation.
     """
     expect("situation", situation, Situation)
+    until = end_of(deadline)
     started = perf_counter_ns()
     radius = situation.pursuer.turn_radius
     pursuer, leader = situation.pursuer, situation.leader
     separation = hypot(pursuer.x - leader.x, pursuer.y - leader.y)
     if separation < situation.min_separation - SLACK * radius:
-        return NoPlan(
-            reason=Reason.SEPARATION_ALREADY_LOST,
-            message=f"The aircraft are {separation:,.0f} m ({distance(separation)}) apart, closer "
-            f"than the minimum of {situation.min_separation:,.0f} m. "
-            f"{restore_sentence(restore(situation))}",
+        lost = (
+            f"The aircraft are {separation:,.0f} m ({distance(separation)}) apart, closer "
+            f"than the minimum of {situation.min_separation:,.0f} m."
         )
-    chosen = _plan_at_once(situation, radius) or _search(situation, radius)
+        if not time_is_up(until - TO_LOOK_ROUND):
+            lost += f" {restore_sentence(restore(situation))}"
+        return NoPlan(reason=Reason.SEPARATION_ALREADY_LOST, message=lost)
+    chosen = _plan_at_once(situation, radius) or _search(situation, radius, until)
     return chosen if isinstance(chosen, NoPlan) else _plan_of(chosen, situation, started)
 
 
@@ -203,7 +220,7 @@ def plan_at_once(situation: Situation) -> Plan | None:
     if chosen is None:
         found = candidates(situation)
         if len(found) > 0 and found.bound <= HORIZON:
-            chosen = _fastest_extremal(found, situation, radius, path_of(found.leader))
+            chosen = _fastest_extremal(found, situation, radius, path_of(found.leader), inf)
     return None if chosen is None else _plan_of(chosen, situation, started)
 
 
@@ -232,7 +249,7 @@ def _plan_at_once(situation: Situation, radius: Metre) -> _Chosen | None:
     return candidate, certificate, Optimality(proof="relaxation", lower_bound=time)
 
 
-def _search(situation: Situation, radius: Metre) -> _Chosen | NoPlan:
+def _search(situation: Situation, radius: Metre, until: float) -> _Chosen | NoPlan:
     """The fastest of all extremals and of all paths that touch d_min, or why there is none."""
     found = candidates(situation)
     if len(found) == 0:
@@ -242,12 +259,24 @@ def _search(situation: Situation, radius: Metre) -> _Chosen | NoPlan:
             reason=Reason.BEYOND_HORIZON,
             message=f"The slot is reached only after {found.bound / 3600.0:,.0f} h, beyond the "
             f"horizon of {HORIZON / 3600.0:.0f} h: a larger speed difference helps.",
+            lower_bound=found.bound,
         )
-    return _find_certified(found, situation, radius) or NoPlan(
+    chosen, cut_short = _find_certified(found, situation, radius, until)
+    if chosen is not None:
+        return chosen
+    if cut_short:
+        return NoPlan(
+            reason=Reason.DEADLINE,
+            message="No path that keeps the minimum separation was found by the deadline; none is "
+            f"faster than {found.bound:.0f} s. A later deadline may help.",
+            lower_bound=found.bound,
+        )
+    return NoPlan(
         reason=Reason.SEPARATION_UNAVOIDABLE,
         message=f"Each of the {len(found)} direct trajectories to the slot comes closer "
         f"than {distance(situation.min_separation)} to the leader, and "
         f"{_why_none_round(situation)} {least_bad_sentence(least_bad(situation))}",
+        lower_bound=found.bound,
     )
 
 
@@ -272,52 +301,61 @@ def _why_none_round(situation: Situation) -> str:
     return "no path round it was found."
 
 
-def _find_certified(found: Candidates, situation: Situation, radius: Metre) -> _Chosen | None:
+def _find_certified(
+    found: Candidates, situation: Situation, radius: Metre, until: float
+) -> tuple[_Chosen | None, bool]:
+    """The fastest candidate that certifies, and whether the search was cut short."""
     bound, leading = found.bound, path_of(found.leader)
-    fastest = _fastest_extremal(found, situation, radius, leading)
+    fastest = _fastest_extremal(found, situation, radius, leading, until)
     if fastest is not None:
-        return fastest
+        return fastest, False
     chosen: tuple[Candidate, Certificate] | None = None
     refused = 0 if found.reachable_at_release else 1
     for candidate in islice(found.later, refused, None):
+        if time_is_up(until):
+            break
         certificate = judge(candidate.trajectory, situation, radius, leading)
         if certificate.holds:
             chosen = candidate, certificate
             break
-    around = constrained_path(found, beat=chosen[0].time_to_converge if chosen else HORIZON)
+    beat = chosen[0].time_to_converge if chosen else HORIZON
+    around, cut_short = constrained_path(found, beat=beat, until=until - TO_PUT_DOWN)
     if around is not None:
         certificate = judge(around.trajectory, situation, radius, leading)
         if certificate.holds:
             chosen = around, certificate
     if chosen is None:
-        return None
+        return None, cut_short
     time = chosen[0].time_to_converge
     # a path that touches d_min and arrives as the slot opens is as fast as any without the limit
     proof: Proof = "relaxation" if time <= bound + AS_FAST else "bound"
-    return *chosen, Optimality(proof=proof, lower_bound=min(bound, time))
+    return (*chosen, Optimality(proof=proof, lower_bound=min(bound, time))), cut_short
 
 
 def _fastest_extremal(
-    found: Candidates, situation: Situation, radius: Metre, leading: FloatArray
+    found: Candidates, situation: Situation, radius: Metre, leading: FloatArray, until: float
 ) -> _Chosen | None:
     """The fastest of all extremals, if it keeps d_min."""
-    fastest = found.at_release if found.reachable_at_release else tuple(islice(found.later, 1))
-    best = _canonical(fastest, situation, radius, leading)
+    fastest = found.at_release if found.reachable_at_release else islice(found.later, 1)
+    best = _canonical(fastest, situation, radius, leading, until)
     if best is None:
         return None
     return *best, Optimality(proof="relaxation", lower_bound=found.bound)
 
 
 def _canonical(
-    equally_fast: tuple[Candidate, ...],
+    equally_fast: Iterator[Candidate],
     situation: Situation,
     radius: Metre,
     leading: FloatArray,
+    until: float,
 ) -> tuple[Candidate, Certificate] | None:
     """The best of equally fast candidates: fewest turns, then separation, then least turning."""
     best: tuple[Candidate, Certificate] | None = None
     for candidate in equally_fast:
         if best is not None and candidate.trajectory.turns > best[0].trajectory.turns:
+            break
+        if time_is_up(until):
             break
         certificate = judge(candidate.trajectory, situation, radius, leading)
         # 1 m: separations this close count as equal, and the one with less turning stays

@@ -13,12 +13,14 @@ from relguide.planning.candidate import SIGN_ROWS, Candidate, assemble
 from relguide.planning.inputs import expect
 from relguide.planning.situation import Situation
 from relguide.planning.slot import SlotFrame, slot_frame
-from relguide.planning.trajectory import Arc, Trajectory
+from relguide.planning.trajectory import Trajectory
 from relguide.units import Second
 
 HORIZON: Second = 43_200.0
 """Plans longer than this are not given: 12 hours, longer than any aircraft's fuel lasts [s]. At
 nearly equal speeds paths last up to 10¹⁸ s, and their lengths are nothing but rounding."""
+_Pieces = tuple[list[float], list[float]]
+"""ε, and turn angle [rad] or length [R], of each piece of a path."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -32,8 +34,8 @@ class Candidates:
     rows: np.ndarray
     """The extremals that arrive after the slot opens, fastest first, as `solve` gives them: those
     within the horizon; if no other path is known, the first even if it is beyond."""
-    at_release: tuple[Candidate, ...]
-    """Paths that arrive exactly when the slot opens, all equally fast; fewest turns first."""
+    release_paths: list[_Pieces]
+    """The pieces of `at_release`."""
     reachable_at_release: bool
     """Whether the shortest path to where the slot opens is short enough to be there in time."""
 
@@ -44,6 +46,15 @@ class Candidates:
         return float(time) * self.frame.radius / self.situation.pursuer.tas
 
     @property
+    def at_release(self) -> Iterator[Candidate]:
+        """Paths that arrive exactly when the slot opens, all equally fast; fewest turns first.
+
+        Each is made when asked for: there may be hundreds.
+        """
+        for signs, amounts in self.release_paths:
+            yield assemble(self.situation, self.frame, signs, amounts, "")
+
+    @property
     def later(self) -> Iterator[Candidate]:
         """Extremals that arrive after the slot opens, fastest first, each made when asked for."""
         for _, word, *amounts in self.rows.tolist():
@@ -51,7 +62,7 @@ class Candidates:
             yield assemble(self.situation, self.frame, signs, amounts, WORDS[int(word)])
 
     def __len__(self) -> int:
-        return len(self.at_release) + len(self.rows)
+        return len(self.release_paths) + len(self.rows)
 
     def __iter__(self) -> Iterator[Candidate]:
         yield from self.at_release
@@ -70,17 +81,17 @@ def candidates(situation: Situation) -> Candidates:
     rows = np.empty((MAX_ROWS, 5))
     n, shortest = solve_and_measure(frame.x, frame.y, frame.h, frame.alpha, frame.t_release, rows)
     reachable = shortest <= frame.t_release + NO_TURN
-    at_release = _release_candidates(situation, frame) if reachable or _is_in_slot(frame) else ()
-    reachable = reachable or len(at_release) > 0
+    release_paths = _release_paths(frame) if reachable or _is_in_slot(frame) else []
+    reachable = reachable or len(release_paths) > 0
     within = HORIZON * situation.pursuer.tas / frame.radius
-    while n > (0 if at_release else 1) and rows[n - 1, 0] > within:
+    while n > (0 if release_paths else 1) and rows[n - 1, 0] > within:
         n -= 1
     return Candidates(
         situation=situation,
         leader=leader,
         frame=frame,
         rows=rows[:n],
-        at_release=at_release,
+        release_paths=release_paths,
         reachable_at_release=reachable,
     )
 
@@ -91,16 +102,20 @@ def _is_in_slot(frame: SlotFrame) -> bool:
     return frame.t_release > 0.0 and abs(straight - frame.t_release) <= NO_TURN
 
 
-def _release_candidates(situation: Situation, frame: SlotFrame) -> tuple[Candidate, ...]:
+def _release_paths(frame: SlotFrame) -> list[_Pieces]:
     paths = np.empty((2, MAX_DELAYS, DELAY_PIECES))
     n = delay_paths(frame.pose, frame.alpha, frame.t_release, paths)
     signs, amounts = paths[:, :n].tolist()
-    found = [assemble(situation, frame, *pieces, "") for pieces in zip(signs, amounts, strict=True)]
-    return tuple(sorted(found, key=_canonical_order))
+    return sorted(zip(signs, amounts, strict=True), key=_canonical_order)
 
 
-def _canonical_order(candidate: Candidate) -> tuple[int, float]:
-    """Fewest turns, then least turning."""
-    trajectory = candidate.trajectory
-    turning = sum(s.turn_angle for s in trajectory.segments if isinstance(s, Arc))
-    return trajectory.turns, turning
+def _canonical_order(pieces: _Pieces) -> tuple[int, float]:
+    """Fewest turns, then least turning; counted as `segments_of` makes them."""
+    turns, turning, last = 0, 0.0, 2.0
+    for sign, amount in zip(*pieces, strict=True):
+        if amount > NO_TURN:
+            if sign != 0.0:
+                turns += sign != last
+                turning += amount
+            last = sign
+    return turns, turning

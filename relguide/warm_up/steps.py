@@ -62,8 +62,10 @@ def _compile_limited() -> None:
     from relguide.flying.flight import fly
     from relguide.flying.scenarios import scenario
     from relguide.planning.alternatives import alternatives
+    from relguide.planning.deadline import load_kernels
     from relguide.planning.plan import Plan, plan
 
+    load_kernels()
     for situation in LIMITED:
         planned = plan(situation)
         if isinstance(planned, Plan):

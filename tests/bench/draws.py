@@ -102,7 +102,7 @@ def is_active(situation: Situation) -> bool:
     """
     found = candidates(situation)
     if found.reachable_at_release:
-        fastest = found.at_release
+        fastest = tuple(found.at_release)
     elif len(found.rows) > 0:
         fastest = (next(found.later),)
     else:

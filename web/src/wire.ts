@@ -1,7 +1,7 @@
 // Made by `python -m relguide_server.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-08a552a066b4";
+export const PROTOCOL = "relguide-190bb762a501";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -73,7 +73,8 @@ export type Reason =
   | "slot_unreachable"
   | "separation_already_lost"
   | "separation_unavoidable"
-  | "beyond_horizon";
+  | "beyond_horizon"
+  | "deadline";
 
 /** A piece of a path over the ground. */
 export type PathSegment = TurnSegment | StraightSegment | BoundarySegment;
@@ -649,6 +650,8 @@ export interface NoPlanCard {
   status: "no_plan";
   reason: Reason;
   message: string;
+  /** No plan that keeps d_min is faster than this [s]; 0 where nothing is known. */
+  lower_bound_s: number;
 }
 
 /** What is proved of a plan's time; and, if asked for, how it meets Pontryagin's conditions. */

@@ -3,7 +3,7 @@
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
-from math import cos, sin
+from math import cos, inf, sin
 from typing import NamedTuple
 
 import numpy as np
@@ -68,6 +68,8 @@ class Scene(NamedTuple):
     """Least allowed separation [R]."""
     t_release: float
     """Release time: when the slot opens [R/V_P]."""
+    until: float = inf
+    """When a search must have ended, by `clock.now` [s]: it then gives the best it has found."""
 
 
 class Contact(NamedTuple):
@@ -120,10 +122,16 @@ def straight_scene(alpha: float, slot: float, d_min: float) -> Scene:
     """
     leader = np.zeros((1, 5))
     leader[0, 1] = slot
-    return Scene(leader, alpha, d_min, 0.0)
+    return Scene(leader, alpha, d_min, 0.0, inf)
 
 
 @njit(cache=True, nogil=True)
 def with_limit(scene: Scene, d_min: float) -> Scene:
     """The same scene with another limit [R]."""
-    return Scene(scene.leader, scene.alpha, d_min, scene.t_release)
+    return Scene(scene.leader, scene.alpha, d_min, scene.t_release, scene.until)
+
+
+@njit(cache=True, nogil=True)
+def with_time(scene: Scene, until: float) -> Scene:
+    """The same scene with another time at which a search must have ended."""
+    return Scene(scene.leader, scene.alpha, scene.d_min, scene.t_release, until)

@@ -15,6 +15,9 @@ from relguide.kernels.words.extremals import fly_piece
 ROUNDING = 2e-7
 """Added to every blur: twice what an accepted path may miss its end by, `extremals.CLOSURE` [R]."""
 
+MOST_LOOKS = 20_000
+"""At a path that follows the leader for hours, hardly outside the limit: some milliseconds."""
+
 
 class Sieve(NamedTuple):
     """Which words are left out: those that certainly break the limit, read backward."""
@@ -58,7 +61,7 @@ def breaks_limit(start: Pose, word: NearWord, scene: Scene, stride: float) -> bo
     """
     if word.middle_blur == inf:
         return False
-    leader = scene.leader
+    leader, looks = scene.leader, 0
     # headings differ by no more than this in the second piece and in the third
     slow = word.first_blur if word.signs[1] == 0.0 else 2.0 * word.first_blur
     fast = 2.0 * (word.first_blur + word.middle_blur)
@@ -69,7 +72,8 @@ def breaks_limit(start: Pose, word: NearWord, scene: Scene, stride: float) -> bo
     third = fly_piece(second, word.signs[1], middle)
     i = 0
     t = 0.0
-    while t < word.until:
+    while t < word.until and looks < MOST_LOOKS:
+        looks += 1
         while i + 1 < len(leader) and leader[i + 1, 0] <= t:
             i += 1
         if t <= first:

@@ -20,7 +20,7 @@ from numba import njit
 from relguide.kernels.base.angles import TWO_PI, wrap
 from relguide.kernels.base.records import Pose, Scene, Velocity, Window, with_limit
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.bounds.breach import NearWord, Sieve, breaks_limit
+from relguide.kernels.bounds.breach import MOST_LOOKS, NearWord, Sieve, breaks_limit
 from relguide.kernels.bounds.word_bound import Blur, soonest
 from relguide.kernels.contact.contact import contact_heading, to_frame_of
 from relguide.kernels.separation.clearance import leader_at, piece_at
@@ -212,7 +212,7 @@ def leaving_bound(scene: Scene, cell: Cell, beat: float) -> float:
         return inf
     lx, ly, lh = leader_at(scene, len(scene.leader) - 1, 0.0)
     # read backward from the slot, the leader flies backward too
-    astern = Scene(np.array([[0.0, lx, ly, lh + pi, 0.0]]), alpha, d_min - _INSIDE, 0.0)
+    astern = Scene(np.array([[0.0, lx, ly, lh + pi, 0.0]]), alpha, d_min - _INSIDE, 0.0, inf)
     at = lh + cell.bearing
     cx, cy = lx + d_min * cos(at), ly + d_min * sin(at)
     blur = Blur(spread.left, spread.right, spread.differs, 0.0)
@@ -324,18 +324,21 @@ def round_bound(table: FloatArray, way: int, cell: Cell, other: Cell) -> float:
 
 
 @njit(cache=True, nogil=True)
-def untouched_bound(start: Pose, scene: Scene, goal: Goal) -> float:
+def untouched_bound(start: Pose, scene: Scene, goal: Goal, beat: float) -> float:
     """No path that nowhere touches the limit arrives sooner than this. Arguments as `cell_bound`.
 
-    It is an extremal that keeps the limit, or has a full loop in it.
+    It is an extremal that keeps the limit, or has a full loop in it. Nothing later than `beat` is
+    looked at.
     """
     rows = np.empty((MAX_ROWS, 5))
     inside = with_limit(scene, scene.d_min - _INSIDE)
     seen = Pose(start.x - goal.x, start.y, wrap(start.h))
-    best = inf
+    best = beat
     after_loop = Pose(seen.x - goal.speed * TWO_PI, seen.y, seen.h)
     n = solve(after_loop, goal.speed, scene.t_release - TWO_PI, rows)
     for k in range(n):
+        if TWO_PI + rows[k, 0] >= best:
+            break
         if not _breaks_with_loop(start, rows[k], inside):
             best = TWO_PI + rows[k, 0]
             break
@@ -363,11 +366,11 @@ def _breaks_with_loop(start: Pose, row: FloatArray, scene: Scene) -> bool:
     Up to the loop it is flown as it is, and then 2π later. So it does if it breaks the limit as it
     is no later along the path than it does when flown 2π later.
     """
-    word = int(row[1])
-    steps = int(row[0] / _LOOP_STRIDE)
+    word, looks, along = int(row[1]), 0, 0.0
     soonest_breach, last_breach = inf, -inf
-    for k in range(steps + 1):
-        along = k * _LOOP_STRIDE
+    while along <= row[0] and looks < MOST_LOOKS:
+        looks += 1
+        nearest = inf
         at, left = start, along
         for piece in range(3):
             amount = min(left, row[piece + 2])
@@ -376,9 +379,13 @@ def _breaks_with_loop(start: Pose, row: FloatArray, scene: Scene) -> bool:
         for late in range(2):
             t = along + late * TWO_PI
             there = leader_at(scene, piece_at(scene.leader, t), t)
-            if hypot(at.x - there.x, at.y - there.y) < scene.d_min:
+            gap = hypot(at.x - there.x, at.y - there.y) - scene.d_min
+            nearest = min(nearest, abs(gap))
+            if gap < 0.0:
                 if late == 0:
                     soonest_breach = min(soonest_breach, along)
                 else:
                     last_breach = along
+        # before that neither can begin to break the limit, or cease to
+        along += max(nearest / (1.0 + scene.alpha), _LOOP_STRIDE)
     return soonest_breach <= last_breach

@@ -3,6 +3,8 @@
 Calls from Python pay for every record: numba knows a plain array or tuple four times as fast.
 """
 
+from math import inf
+
 import numpy as np
 from numba import njit
 
@@ -27,7 +29,7 @@ def question_row(start: Pose, scene: Scene, goal: Goal) -> FloatArray:
 
 @njit(cache=True, nogil=True)
 def _scene_of(question: FloatArray, leader: FloatArray) -> Scene:
-    return Scene(leader, question[3], question[4], question[5])
+    return Scene(leader, question[3], question[4], question[5], inf)
 
 
 @njit(cache=True, nogil=True)

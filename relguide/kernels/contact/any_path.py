@@ -8,6 +8,7 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI
+from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.clear_words import best_word, pieces_clear
@@ -40,6 +41,8 @@ def any_path(
         for j in range(_FIRST_TURNS + 1):
             amounts[0], amounts[1] = TWO_PI * j / _FIRST_TURNS, 0.0
             while amounts[1] <= _LONGEST and pieces_clear(start, 0.0, signs, amounts, scene):
+                if time_is_up(scene.until):
+                    return best, best_sign, best_turn, best_straight
                 pose = fly_piece(fly_piece(start, signs[0], amounts[0]), 0.0, amounts[1])
                 arrival, i = best_word(pose, amounts.sum(), scene, best, rows)
                 if arrival < best:

@@ -13,7 +13,8 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from relguide.kernels.base.records import Contact, Pose, Scene
+from relguide.kernels.base.clock import time_is_up
+from relguide.kernels.base.records import Contact, Pose, Scene, with_time
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.boundary_arc import boundary_arc_arrival
 from relguide.kernels.contact.chain import (
@@ -71,7 +72,7 @@ def refine_chains(
     Returns:
         the least arrival [R/V_P] and the number of its legs; `best` and 0 if none is earlier.
     """
-    tried = np.empty((MAX_LEGS, 6))
+    tried, given = np.empty((MAX_LEGS, 6)), best
     won = -1
     for k in range(len(chains)):
         chain = chain_of(chains[k, 1 : int(chains[k, 0, 1]) + 1], tried)
@@ -88,9 +89,13 @@ def refine_chains(
     chain = chain_of(chains[won, 1 : contacts + 1], tried)
     if contacts > 2:
         best, contacts = simplify_chain(start, scene, chain, best, stride)
-    shortest = with_contacts(chain_of(chain.contacts, legs), chain.contacts[:contacts])
-    _, best = fly_links(start, 0.0, scene, shortest, 0, contacts, inf)
-    return best, contacts + 1
+    shortest = with_contacts(chain, chain.contacts[:contacts])
+    # what was found is put down, whatever the time
+    _, time = fly_links(start, 0.0, with_time(scene, inf), shortest, 0, contacts, inf)
+    if time == inf:
+        return given, 0
+    legs[: contacts + 1] = tried[: contacts + 1]
+    return time, contacts + 1
 
 
 @njit(cache=True, nogil=True)
@@ -110,9 +115,11 @@ def fly_links(
 
     Returns:
         where the last link ends, and when; the time is infinite if it cannot be flown before
-        `beat`.
+        `beat`, or the time for the search is up.
     """
     contacts, legs, rows = chain
+    if time_is_up(scene.until):
+        return pose, inf
     for k in range(first, min(last + 1, len(contacts))):
         side, bearing = contacts[k, 1], contacts[k, 2]
         legs[k, 0] = contacts[k, 3]

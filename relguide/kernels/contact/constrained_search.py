@@ -5,7 +5,8 @@ joined by words and boundary arcs (see `contact_graph`); and the refinement of t
 (see `chain_refinement`).
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise. The work is bounded: pieces × 2
-× bearings contacts, each a few words, and a fixed number of basins, hops and sweeps.
+× bearings contacts, each a few words, and a fixed number of basins, hops and sweeps. If the scene
+says until when, all of it ends by then, with the best path so far.
 """
 
 from math import hypot, inf
@@ -14,7 +15,7 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI
-from relguide.kernels.base.records import Pose, Scene, with_limit
+from relguide.kernels.base.records import Pose, Scene, with_limit, with_time
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain import DELAY, MAX_CONTACTS, WORD, chain_of
 from relguide.kernels.contact.chain_refinement import fly_links, refine_chains
@@ -76,7 +77,7 @@ def best_constrained_path(
     if kept > 0 and chains[0, 0, 0] == scene.t_release:
         contacts = int(chains[0, 0, 1])
         chain = chain_of(chains[0, 1 : contacts + 1], legs)
-        fly_links(start, 0.0, scene, chain, 0, contacts - 1, inf)
+        fly_links(start, 0.0, with_time(scene, inf), chain, 0, contacts - 1, inf)
         legs[contacts, 0] = DELAY
         return scene.t_release, contacts + 1
     time, count = refine_chains(start, scene, chains[:kept], 0.5 * TWO_PI / bearings, best, legs)

@@ -15,6 +15,7 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import wrap, wrap_signed
+from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.records import Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain import BOUNDARY_ARC, MAX_CONTACTS, WORD, earliest_contact
@@ -95,7 +96,7 @@ def best_chains(
                 graph.arrival[:] = inf
                 graph.arrival[end] = best = scene.t_release
                 break
-        if turn == _ROUNDS - 1:
+        if turn == _ROUNDS - 1 or time_is_up(scene.until):
             break
         _hop(scene, nodes, graph, best, hops)
         graph.pending[:] = graph.fresh
@@ -138,7 +139,7 @@ def _slide_on(scene: Scene, nodes: Nodes, graph: _Graph, beat: float) -> None:
         for m in range(len(time)):
             if pending[m] == 1.0 and (n < 0 or time[m] < time[n]):
                 n = m
-        if n < 0:
+        if n < 0 or time_is_up(scene.until):
             break
         pending[n] = 0.0
         m, t, goal = _slide_to_next(scene, nodes, n)
@@ -190,6 +191,8 @@ def _go_on(scene: Scene, nodes: Nodes, graph: _Graph, best: float, slack: float)
     for n in range(len(nodes.time)):
         if graph.fresh[n] == 0.0:
             continue
+        if time_is_up(scene.until):
+            break
         graph.fresh[n] = 0.0
         t = nodes.time[n]
         pose = contact_at(scene, t, nodes.bearings[n], nodes.sides[n])
@@ -220,7 +223,7 @@ def _delay(scene: Scene, nodes: Nodes, graph: _Graph, tries: int) -> tuple[int, 
                 and (n < 0 or time[m] < time[n])
             ):
                 n = m
-        if n < 0:
+        if n < 0 or time_is_up(scene.until):
             break
         delayed[n] = time[n]
         tries -= 1
@@ -245,7 +248,7 @@ def _hop(scene: Scene, nodes: Nodes, graph: _Graph, best: float, hops: int) -> N
                 and (n < 0 or lower[m] < lower[n])
             ):
                 n = m
-        if n < 0:
+        if n < 0 or time_is_up(scene.until):
             break
         ring = n // nodes.size * nodes.size
         for m in range(ring, ring + nodes.size):
@@ -270,6 +273,8 @@ def _hop_from(scene: Scene, nodes: Nodes, graph: _Graph, n: int, best: float) ->
         there = contact_at(scene, t, contact.bearing, contact.side)
         if not_before_slot(there, t, scene) >= best:
             continue
+        if time_is_up(scene.until):
+            break
         t, _ = earliest_contact(pose, left, scene, contact, time[m] - _BETTER, graph.rows)
         if t < inf:
             time[m], graph.before[m], graph.link[m], graph.fresh[m] = t, n, WORD, 1.0

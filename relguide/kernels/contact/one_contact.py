@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.records import Contact, Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain_refinement import FINEST, GAIN, vertex
@@ -72,7 +73,7 @@ def scan_contacts(start: Pose, scene: Scene, nodes: Nodes, beat: float, path: Fl
     soonest = _soonest_arrivals(start, scene, nodes)
     best = beat
     for n in np.argsort(soonest):
-        if soonest[n] >= best + _HIDDEN:
+        if soonest[n] >= best + _HIDDEN or time_is_up(scene.until):
             break
         arrival = through_contact(start, scene, contact_of(nodes, n), best + _HIDDEN, room)
         nodes.time[n], nodes.lower[n] = room.reached[0], room.reached[1]
@@ -250,12 +251,15 @@ def through_contact(
         room: to work in; takes the path, and when it is at the contact.
 
     Returns:
-        arrival time; infinite if there is no contact, `beat` if no path arrives before.
+        arrival time; infinite if there is no contact, `beat` if no path arrives before, or the
+        time for the search is up.
     """
     reached, onward = room.reached, room.onward
     reached[:] = inf
     if not contact_exists(contact.bearing, scene.alpha):
         return inf
+    if time_is_up(scene.until):
+        return beat
     n = paths_to_contact(start, 0.0, scene, contact, room.rows)
     m = -1
     for k in range(n):

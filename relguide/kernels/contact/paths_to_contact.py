@@ -14,6 +14,7 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import wrap, wrap_signed
+from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.records import Bracket, Contact, Pose, Scene, Velocity
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.contact import contact_distance, contact_on, to_frame_of
@@ -72,7 +73,7 @@ def paths_to_contact(pose: Pose, t: float, scene: Scene, contact: Contact, rows:
 
     Returns:
         how many rows, with the time of arrival in place of how long they take; those of a straight
-        piece come in order of time.
+        piece come in order of time. Fewer if the time for the search is up.
     """
     leader, i = scene.leader, contact.piece
     end = leader[i + 1, 0] if i + 1 < len(leader) else inf
@@ -122,6 +123,8 @@ def _paths_while_turning(
     turns = np.empty((3, 2))  # first and last turn at the last time, at this one, and between
     n = 0
     for j in range(SIZE):
+        if time_is_up(scene.until):
+            break
         passage = _Passage(pose, t_start, scene, contact, TO_POINT[j])
         last, last_t = np.nan, start
         for k in range(earliest, latest + 1):

@@ -20,6 +20,7 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, wrap
+from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.records import Bracket, Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.contact import contact_distance, to_frame_of
@@ -186,6 +187,8 @@ def tangents(start: Pose, scene: Scene) -> FloatArray:
     found = np.empty((MAX_TANGENTS, 3))
     n = 0
     for i in range(pieces):
+        if time_is_up(scene.until):
+            return kept[:n]
         at = leader_at(scene, i, 0.0)
         if leader[i, 4] != 0.0 or (
             pieces == 1 and hypot(start.x - at.x, start.y - at.y) > distance + NEAR

@@ -57,7 +57,7 @@ def plan_rows(
         elif not fastest(pose, alpha, 0.0, 0, scratch, rows[0]):
             answer[2] = UNREACHABLE
         else:
-            scene = Scene(leader, alpha, d_min, 0.0)
+            scene = Scene(leader, alpha, d_min, 0.0, inf)
             _plan_row(pose, scene, bearings, limited, rows, legs, answer)
 
 

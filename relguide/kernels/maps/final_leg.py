@@ -49,7 +49,7 @@ def last_turns(scene: Scene) -> FloatArray:
     final = scene.leader[i:].copy()
     final[0, 0] = 0.0
     final[0, 1] -= alpha * scene.leader[i, 0]
-    straight = Scene(final, alpha, scene.d_min, 0.0)
+    straight = Scene(final, alpha, scene.d_min, 0.0, inf)
     for side in range(2):
         sign = 2.0 * side - 1.0
         low, high = 0.0, TWO_PI

@@ -76,7 +76,7 @@ def test_what_to_include_is_read_from_words_with_commas() -> None:
 def test_no_plan_has_the_contracts_names() -> None:
     situation, anchor = situation_from_json(change("leader.tas_mps", 300))
     reply = answer(situation, anchor, plan)
-    assert set(reply) == {"status", "reason", "message"}
+    assert set(reply) == {"status", "reason", "message", "lower_bound_s"}
     assert reply["status"] == "no_plan"
     TypeAdapter(PlanAnswer).validate_python(reply)
 
@@ -198,7 +198,7 @@ def test_a_batch_line_says_it_on_demand() -> None:
     no_plan = answer_line(
         json.dumps(change("leader.tas_mps", 300)).encode(), plan, include=["optimality"]
     )
-    assert set(no_plan) == {"status", "reason", "message"}
+    assert set(no_plan) == {"status", "reason", "message", "lower_bound_s"}
 
 
 @pytest.mark.parametrize("liar", LIARS, ids=lambda liar: liar.__name__)

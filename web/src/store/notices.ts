@@ -25,6 +25,7 @@ export const UNABLE: Record<Reason, string> = {
   separation_already_lost: "SEP",
   separation_unavoidable: "SEP",
   beyond_horizon: "TIME",
+  deadline: "TIME",
 };
 
 /** … and in those of `Unable`. */

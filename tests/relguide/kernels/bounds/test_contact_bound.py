@@ -173,7 +173,7 @@ def test_who_touches_nothing_is_as_fast_as_an_extremal_that_keeps_clear() -> Non
         start = Pose(x, y, h)
         n = solve(start, 0.8, 0.0, rows)
         clear = [row[0] for row in rows[:n] if keeps(start, row, scene)]
-        lowest = untouched_bound(start, scene, Goal(0.0, 0.8))
+        lowest = untouched_bound(start, scene, Goal(0.0, 0.8), inf)
         assert lowest <= min(clear, default=inf) + SLACK
         # or it has a full loop
         assert lowest == pytest.approx(min(clear, default=inf)) or lowest > 2.0 * pi
