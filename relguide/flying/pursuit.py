@@ -12,7 +12,7 @@ from relguide.flying.guidance.memory import LONG_AGO, Advice, Memory, begin
 from relguide.flying.logbook import Names
 from relguide.flying.tally import Milestones, Tally
 from relguide.flying.world import Link, World
-from relguide.units import Second
+from relguide.units import MetrePerSecond, Second
 
 
 class LeaderView(NamedTuple):
@@ -51,11 +51,15 @@ class Pursuit:
     view: LeaderView
     memory: Memory
     tally: Tally
+    tas: MetrePerSecond
+    """The pursuer's a second ago [m/s]."""
     advice: Advice | None = None
     milestones: Milestones = field(default_factory=Milestones)
     shown_forecast: Forecast | None = None
     lost: bool = False
     """Whether the separation is below d_min."""
+    braked: tuple[MetrePerSecond, ...] = ()
+    """What was lost in each of the last seconds in which it braked less than was asked [m/s]."""
     doubted: int = 0
     """For how many seconds the leader has not flown what it declared."""
 
@@ -89,6 +93,7 @@ def begin_pursuit(
         view=LeaderView(belief),
         memory=begin(belief, engagement),
         tally=Tally(fleet.apart(i, j)),
+        tas=belief.own.tas,
     )
 
 

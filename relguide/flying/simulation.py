@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable, Iterator
 from itertools import count
 
 from relguide.flying.aircraft_documents import AircraftCard, LinkCard
+from relguide.flying.braking import learn_braking
 from relguide.flying.cards import wind_card
 from relguide.flying.crew import obey_crew
 from relguide.flying.documents import (
@@ -169,6 +170,7 @@ def _guide(one: Pursuit, fleet: Fleet, planner: Planner, t: Second) -> Iterator[
     """One act of guidance, and what is new of the leader."""
     if one.heard is None:
         one.track.add(fleet.body(one.leader), fleet.drift, t)
+    learn_braking(one, fleet)
     yield from doubt_leader(one, fleet, t)
     belief = one.belief(fleet, t)
     if one.heard is not None:
