@@ -115,6 +115,35 @@ def test_nothing_is_cut(page: Page, watched: Watch, size: tuple[int, int]) -> No
     assert watched.complaints == []
 
 
+@pytest.mark.parametrize(
+    "size", [(820, 1180), (390, 844), (720, 450)], ids=["tablet", "phone", "zoomed to 200 %"]
+)
+def test_any_screen_is_read_without_scrolling_sideways(
+    page: Page, watched: Watch, size: tuple[int, int]
+) -> None:
+    page.set_viewport_size({"width": size[0], "height": size[1]})
+    expect(page.locator(".below .engage")).to_be_visible()
+    wide = page.evaluate(
+        """() => [...document.querySelectorAll("main *, header *")]
+          .filter((each) => !each.closest("svg, iframe, .visually-hidden, .log, table"))
+          .filter((each) => each.getBoundingClientRect().right > innerWidth + 1)
+          .map((each) => `${each.tagName}.${each.className}`)"""
+    )
+    assert wide == []
+    assert page.evaluate("document.documentElement.scrollWidth") <= size[0]
+    assert watched.complaints == []
+
+
+def test_help_takes_the_focus_and_gives_it_back(page: Page, watched: Watch) -> None:
+    button = page.get_by_role("button", name="Help")
+    button.click()
+    expect(page.get_by_role("dialog", name="Keys")).to_be_focused()
+    page.keyboard.press("Escape")
+    expect(page.get_by_role("dialog")).to_have_count(0)
+    expect(button).to_be_focused()
+    assert watched.complaints == []
+
+
 def test_the_api_has_its_page(page: Page, watched: Watch, service: Service) -> None:
     page.goto(f"{service.url}/docs")
     expect(page.get_by_text("/api/v1/plans", exact=True).first).to_be_visible()

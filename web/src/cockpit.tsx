@@ -5,6 +5,7 @@ import { useEffect } from "preact/hooks";
 import { NavigationDisplay } from "./nd/nd";
 import { Aircraft } from "./panels/aircraft";
 import { Alternatives } from "./panels/alternatives";
+import { Captioned } from "./panels/caption";
 import { Efis } from "./panels/efis";
 import { Engage } from "./panels/engage";
 import { Announcer, Events } from "./panels/events";
@@ -21,10 +22,13 @@ import type { Actions, Session } from "./session";
 
 /** Where the panels stand in two columns instead of three: as in styles/layout.css. */
 const NARROW = "(max-width: 1279px)";
+/** Where all stand in one column. */
+const SMALL = "(max-width: 999px)";
 
 export function Cockpit(props: { session: Session; actions: Actions }) {
   const { session, actions } = props;
   const narrow = useMedia(NARROW);
+  const small = useMedia(SMALL);
   return (
     <>
       <Header session={session}>
@@ -32,24 +36,25 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
         <FirstStart readiness={session.firstStart} />
       </Header>
       <main class={session.sceneMaximised.value ? "maximised" : ""}>
-        <div class="instrument">
+        <section class="instrument" aria-label="Navigation display and its controls">
           <Efis session={session} />
           <div class="bezel">
-            <div class="glass">
+            <Captioned>
               <NavigationDisplay
                 shown={session.shown}
                 mode={session.ndMode}
                 range={session.ndRange}
                 designate={() => actions.engage("designated")}
               />
-            </div>
+            </Captioned>
           </div>
           <div class="below">
+            {small.value && <Engage session={session} actions={actions} />}
             <Events session={session} />
             {narrow.value && <Aircraft session={session} actions={actions} />}
           </div>
-        </div>
-        <div class="workstation">
+        </section>
+        <section class="workstation" aria-label="Scene and panels">
           <div class="beside">
             <Scene session={session} />
             <OutageNotice session={session} actions={actions} />
@@ -60,7 +65,7 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
               <LeaderControls key={session.status.value?.id} session={session} actions={actions} />
             </div>
             <div class="column numbers">
-              <Engage session={session} actions={actions} />
+              {!small.value && <Engage session={session} actions={actions} />}
               <PlanNumbers session={session} />
               {narrow.value && <Alternatives session={session} />}
             </div>
@@ -71,7 +76,7 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
               </div>
             )}
           </div>
-        </div>
+        </section>
       </main>
       <Help session={session} />
       <Announcer session={session} />

@@ -22,11 +22,13 @@ export function keyAction(key: string, session: Session, actions: Actions): (() 
     case "+":
     case "=":
       return () => {
+        session.ndAuto.value = false;
         ndRange.value = stepRange(ndRange.value, 1);
       };
     case "-":
     case "−":
       return () => {
+        session.ndAuto.value = false;
         ndRange.value = stepRange(ndRange.value, -1);
       };
     case "d":

@@ -8,8 +8,10 @@ import "./styles/layout.css";
 import "./styles/panels.css";
 import "./styles/controls.css";
 import "./styles/numbers.css";
+import "./styles/small.css";
 import { render } from "preact";
 import { createActions } from "./actions";
+import { followRange } from "./auto-range";
 import { Cockpit } from "./cockpit";
 import { followFirstStart } from "./first-start";
 import { isTaken, keyAction } from "./keyboard";
@@ -21,6 +23,7 @@ const store = createFlightStore();
 const session = createSession(store.flight, followFirstStart());
 const actions = createActions(session, store);
 soundAlerts(session);
+followRange(session);
 
 const place = document.querySelector("#cockpit");
 if (place === null) throw new Error("The page has no place for the cockpit.");

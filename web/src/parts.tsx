@@ -46,6 +46,8 @@ export function Choice<T extends string | number>(props: {
   label: string;
   options: readonly T[];
   chosen: T | null;
+  /** What holds now without having been chosen. */
+  current?: T;
   text?: (option: T) => string;
   choose: (option: T) => void;
 }) {
@@ -57,6 +59,7 @@ export function Choice<T extends string | number>(props: {
           type="button"
           key={option}
           aria-pressed={option === props.chosen}
+          {...(option === props.current && option !== props.chosen && { "aria-current": true })}
           onClick={() => props.choose(option)}
         >
           {props.text?.(option) ?? option}

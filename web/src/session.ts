@@ -36,7 +36,10 @@ export interface Session {
   readonly feedback: Signal<Feedback>;
   readonly outage: Signal<Outage | null>;
   readonly ndMode: Signal<NdMode>;
+  /** The range of the navigation display: what was selected, or fits. */
   readonly ndRange: Signal<NdRange>;
+  /** Whether the range is the one that fits, until one is selected. */
+  readonly ndAuto: Signal<boolean>;
   readonly sceneMaximised: Signal<boolean>;
   readonly helpOpen: Signal<boolean>;
   /** Whether single letters are keys. */
@@ -86,6 +89,7 @@ export function createSession(
     outage: signal(null),
     ndMode: signal("ARC"),
     ndRange: signal(40),
+    ndAuto: signal(true),
     sceneMaximised: signal(false),
     helpOpen: signal(false),
     letterKeys: signal(true),

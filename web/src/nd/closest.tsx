@@ -6,15 +6,23 @@ import type { Label } from "./labels";
 import { type LayerProps, usePart } from "./layer";
 import { line } from "./path";
 import { Stroke } from "./stroke";
-import { LINES } from "./style";
+import { ink, LINES } from "./style";
 import { offNose, onMap, placeAt, project, toMap } from "./view";
 
 const GHOST = { pursuer: "M0 -9V10M-10 0H10M-4 8H4", leader: "M0 -10L8 9L0 4L-8 9Z" } as const;
 
-/** Where both will be when they are closest, tied together. */
+/** Where both will be when they are closest, tied together, and the minimum round the leader then. */
 export function ClosestApproach({ shown, view }: LayerProps) {
   const pair = usePart(shown, (picture) => picture.closest);
-  const isShown = useComputed(() => pair.value !== null);
+  const ring = usePart(shown, ({ closest, closestAtJoin }) => closest ?? closestAtJoin);
+  const isShown = useComputed(() => ring.value !== null);
+  const isTied = useComputed(() => pair.value !== null);
+  const radius = useComputed(
+    () => (shown.picture.value.started?.min_separation_m ?? 0) * view.layout.value.scale,
+  );
+  const ringPlace = useComputed(() =>
+    ring.value === null ? "" : placeAt(toMap(view.layout.value, ring.value.leader)),
+  );
   const colour = useComputed(() => closestColour(shown.picture.value));
   const tie = useComputed(() =>
     pair.value === null ? "" : line(view.layout.value, pair.value.pursuer, pair.value.leader),
@@ -24,9 +32,21 @@ export function ClosestApproach({ shown, view }: LayerProps) {
   if (!isShown.value) return null;
   return (
     <g class="nd-closest">
-      <Stroke d={tie} line={{ ...LINES.closest, colour: colour.value }} />
-      <Ghost view={view} point={pursuer} shape={GHOST.pursuer} colour={colour.value} />
-      <Ghost view={view} point={leader} shape={GHOST.leader} colour={colour.value} />
+      <circle
+        class="nd-stroke"
+        r={radius}
+        transform={ringPlace}
+        stroke={ink(colour.value)}
+        stroke-width={LINES.ghostRing.width}
+        stroke-dasharray={LINES.ghostRing.dash}
+      />
+      {isTied.value && (
+        <>
+          <Stroke d={tie} line={{ ...LINES.closest, colour: colour.value }} />
+          <Ghost view={view} point={pursuer} shape={GHOST.pursuer} colour={colour.value} />
+          <Ghost view={view} point={leader} shape={GHOST.leader} colour={colour.value} />
+        </>
+      )}
     </g>
   );
 }
@@ -51,8 +71,8 @@ function Ghost({ view, point, shape, colour }: GhostProps) {
   );
 }
 
-function closestColour({ closest }: Picture): Colour {
-  return closest?.isTooClose === true ? "caution" : "label";
+function closestColour({ closest, closestAtJoin }: Picture): Colour {
+  return (closest ?? closestAtJoin)?.isTooClose === true ? "caution" : "label";
 }
 
 /** How close, and how long until then. */

@@ -19,7 +19,11 @@ export function FinalTrack({ shown, view }: LayerProps) {
     return line(view.layout.value, lead, onwards(join, slotTrack, Math.max(0, along)));
   });
   const colour = usePart(shown, ({ look }) => look?.pathColour ?? "plan");
-  return <Stroke d={d} line={{ ...LINES.final, colour: colour.value }} />;
+  return (
+    <g class="nd-final">
+      <Stroke d={d} line={{ ...LINES.final, colour: colour.value }} />
+    </g>
+  );
 }
 
 /** Where the leader's last turn ends; null if it has none to come. */

@@ -28,6 +28,7 @@ import { RangeRings } from "./rings";
 import { Slot } from "./slot";
 import { Spacing } from "./spacing";
 import { HeadingTape, LubberLine } from "./tape";
+import { TimingScale } from "./timing";
 import { TrackDiamond, TrackLine } from "./track";
 import { TrendVector } from "./trend";
 import { TurnPoints } from "./turns";
@@ -68,6 +69,7 @@ export const GLASS_LAYERS = [
   AirData,
   NextPoint,
   Spacing,
+  TimingScale,
   ModeStrip,
   Flags,
   MessageLine,

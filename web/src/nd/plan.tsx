@@ -31,19 +31,25 @@ export function ActivePath({ shown, view }: LayerProps) {
     case "armed":
       return null;
     case "old_plan":
-      return <PathAhead shown={shown} view={view} path={path} line={LINES.superseded} />;
-    case "committed":
-      if (!isForecast.value) {
-        if (!isPlanned.value) return <Stroke d={route} line={LINES.active} />;
-        return <PathAhead shown={shown} view={view} path={path} line={LINES.active} />;
-      }
       return (
-        <>
-          {isPlanned.value && (
+        <g class="nd-old">
+          <PathAhead shown={shown} view={view} path={path} line={LINES.superseded} />
+        </g>
+      );
+    case "committed":
+      return (
+        <g class="nd-active">
+          {isForecast.value && isPlanned.value && (
             <PathAhead shown={shown} view={view} path={path} line={LINES.ideal} />
           )}
-          <ForecastAhead shown={shown} view={view} forecast={forecast} line={LINES.active} />
-        </>
+          {isForecast.value ? (
+            <ForecastAhead shown={shown} view={view} forecast={forecast} line={LINES.active} />
+          ) : isPlanned.value ? (
+            <PathAhead shown={shown} view={view} path={path} line={LINES.active} />
+          ) : (
+            <Stroke d={route} line={LINES.active} />
+          )}
+        </g>
       );
   }
 }

@@ -27,6 +27,7 @@ export const LINES = {
   extrapolated: { colour: "leader", width: 2, dash: "2 6" },
   circle: { colour: "label", width: 2, dash: "7 5" },
   closest: { colour: "label", width: 1.75, dash: "4 3" },
+  ghostRing: { colour: "label", width: 1.5, dash: "2 7" },
   ring: { colour: "scale", width: 1.5, dash: "15 10" },
   tape: { colour: "scale", width: 2, dash: "" },
   trend: { colour: "label", width: 2, dash: "" },

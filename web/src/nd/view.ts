@@ -78,6 +78,7 @@ export const READOUTS = {
   air: { x: 10, y: 66, width: 212, height: 62 },
   next: { x: 596, y: 66, width: 164, height: 88 },
   spacing: { x: 10, y: 582, width: 150, height: 138 },
+  timing: { x: 650, y: 580, width: 112, height: 146 },
   flag: { x: 234, y: 690, width: 300, height: 32 },
   message: { x: 184, y: 728, width: 400, height: 34 },
 } as const satisfies Record<string, Box>;

@@ -4,7 +4,7 @@ import { Choice } from "../parts";
 import { ND_RANGES, type Session } from "../session";
 
 export function Efis(props: { session: Session }) {
-  const { ndMode, ndRange } = props.session;
+  const { ndMode, ndRange, ndAuto } = props.session;
   return (
     <div class="efis">
       <span class="efis-label" aria-hidden="true">
@@ -22,11 +22,13 @@ export function Efis(props: { session: Session }) {
         RANGE
       </span>
       <Choice
-        label="Range of the navigation display in nautical miles"
-        options={ND_RANGES}
-        chosen={ndRange.value}
-        choose={(range) => {
-          ndRange.value = range;
+        label="Range of the navigation display in nautical miles; AUTO fits it to the path"
+        options={["AUTO", ...ND_RANGES]}
+        chosen={ndAuto.value ? "AUTO" : ndRange.value}
+        current={ndRange.value}
+        choose={(choice) => {
+          ndAuto.value = choice === "AUTO";
+          if (choice !== "AUTO") ndRange.value = choice;
         }}
       />
       <span class="efis-unit" aria-hidden="true">

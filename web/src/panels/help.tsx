@@ -1,6 +1,8 @@
 /** The keys, and how to read the picture. */
 
+import { useEffect, useRef } from "preact/hooks";
 import type { Session } from "../session";
+import { ELEMENTS } from "../words";
 
 const KEYS: readonly (readonly [string, string])[] = [
   ["Space", "play or pause"],
@@ -15,20 +17,29 @@ const KEYS: readonly (readonly [string, string])[] = [
   ["Esc", "close, restore"],
 ];
 
-const LINES: readonly (readonly [string, string])[] = [
-  ["key-plan", "solid: the path being flown"],
-  ["key-proposed", "dashed: a proposed path; cyan once accepted"],
-  ["key-leader", "dash-dot: the leader's declared route"],
-  ["key-dotted", "dotted: no intent, straight ahead assumed"],
-  ["key-slot", "pennant: the slot, D behind the leader"],
-  ["key-min", "circle: the minimum separation"],
-];
-
 export function Help(props: { session: Session }) {
   const { helpOpen, letterKeys } = props.session;
-  if (!helpOpen.value) return null;
+  const dialog = useRef<HTMLDivElement>(null);
+  const isOpen = helpOpen.value;
+  // The focus goes into the dialog, and back to where it was.
+  useEffect(() => {
+    if (!isOpen) return;
+    const before = document.activeElement;
+    dialog.current?.focus();
+    return () => {
+      if (before instanceof HTMLElement) before.focus();
+    };
+  }, [isOpen]);
+  if (!isOpen) return null;
   return (
-    <aside id="help" class="help" aria-labelledby="help-title">
+    <div
+      id="help"
+      class="help"
+      role="dialog"
+      aria-labelledby="help-title"
+      tabIndex={-1}
+      ref={dialog}
+    >
       <h2 id="help-title">Keys</h2>
       <dl>
         {KEYS.map(([keys, what]) => (
@@ -42,11 +53,12 @@ export function Help(props: { session: Session }) {
           </div>
         ))}
       </dl>
-      <h2>Lines</h2>
+      <h2>On the display</h2>
+      <p>Point at anything on it, or tap it, to read what it is.</p>
       <ul class="legend">
-        {LINES.map(([name, what]) => (
-          <li key={name} class={name}>
-            {what}
+        {ELEMENTS.map(({ name, title, what, key }) => (
+          <li key={name} class={key}>
+            <b>{title}</b> {what}
           </li>
         ))}
       </ul>
@@ -75,6 +87,6 @@ export function Help(props: { session: Session }) {
       >
         Close
       </button>
-    </aside>
+    </div>
   );
 }

@@ -127,6 +127,9 @@ export function closestApproach(flight: Flight): Closest | null {
 
 /** Whether they are closest when they join, or after: then that is no point of its own. */
 export function isClosestAtJoin(flight: Flight, closest: Closest): boolean {
+  const proposed = proposedPlan(flight);
+  // What is proposed joins when its ideal path ends, but for braking.
+  if (proposed !== null) return closest.at > proposed.t_s + proposed.plan.time_to_converge_s - 1;
   const join = joinTime(flight);
   return join !== null && closest.at > join - 1;
 }

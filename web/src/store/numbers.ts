@@ -56,6 +56,14 @@ export interface LeastAhead {
   readonly when: "ahead" | "passed" | "at_join";
 }
 
+/** Own ship against the slot: late when it is behind. */
+export interface Timing {
+  /** Where the pointer stands: 1 is as late as the scale goes, 0 in the gate. */
+  readonly offset: number;
+  /** "12 S LATE"; "ON TIME" in the gate. */
+  readonly text: string;
+}
+
 /** Why there is no plan. */
 export interface Trouble {
   readonly label: "No plan" | "Unable";
@@ -105,6 +113,8 @@ export interface Numbers {
   readonly spacingWords: string;
   /** "0.10 NM R". */
   readonly crossTrackWords: string;
+  /** How early or late own ship is at the slot, once it closes on it. */
+  readonly timing: Timing | null;
   readonly clock: string;
   readonly commandedSpeed: string;
   /** Bearing and distance to the leader. */
@@ -151,10 +161,26 @@ export function numbersOf(flight: Flight): Numbers {
     closureWords: shown === null ? "" : closureText(shown.closure_mps),
     spacingWords: shown === null ? "" : spacingText(shown.spacing_error_m),
     crossTrackWords: shown === null ? "" : crossTrackText(shown.cross_track_m),
+    timing: shown === null ? null : timingOf(shown),
     clock: sample === null ? "––:––" : formatClock(sample.t_s),
     commandedSpeed: guided === null ? "" : formatKnots(guided.commanded_tas_mps),
     leaderBearing: shown === null ? "" : formatHeading(bearingTo(shown.pursuer, shown.leader)),
     leaderSpeed: shown === null ? "" : formatKnots(shown.leader.ground_speed_mps),
+  };
+}
+
+/** In the gate so near the slot, and off the scale so far from it [m]. */
+const IN_GATE = 0.2 * NM;
+const SCALE_END = 2 * NM;
+
+function timingOf({ mode, spacing_error_m: error, leader }: PairSample): Timing | null {
+  if (mode !== "capture" && mode !== "follow") return null;
+  // Inside the tolerance nothing moves: there is nothing to correct.
+  if (Math.abs(error) <= IN_GATE) return { offset: 0, text: "ON TIME" };
+  const seconds = Math.round(Math.abs(error) / Math.max(1, leader.ground_speed_mps));
+  return {
+    offset: Math.max(-1, Math.min(1, error / SCALE_END)),
+    text: `${seconds} S ${error > 0 ? "LATE" : "EARLY"}`,
   };
 }
 

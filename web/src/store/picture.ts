@@ -5,7 +5,7 @@
 
 import { computed, type ReadonlySignal } from "@preact/signals";
 import { CALM, pathPointAt, type Vector, velocity, windVector } from "../geometry";
-import { KT } from "../units";
+import { KT, NM } from "../units";
 import type {
   AircraftSample,
   ForecastChanged,
@@ -116,6 +116,10 @@ export interface Picture {
   readonly closest: Closest | null;
   /** The closest approach, when it is at the join. */
   readonly closestAtJoin: Closest | null;
+  /** How far from the slot own ship has joined [m]. */
+  readonly gate: { readonly along: number; readonly across: number };
+  /** What belongs in sight: the path ahead, the leader, the slot. */
+  readonly places: readonly Place[];
   /** The direction in which the slot moves over the ground, as a unit vector. */
   readonly slotTrack: Vector;
   /** A new mode is boxed for a while. */
@@ -190,11 +194,35 @@ export function pictureOf(flight: Flight): Picture {
     join: isAhead ? joinPoint(flight) : null,
     closest: pair !== null && !isAtJoin && t < pair.at ? pair : null,
     closestAtJoin: isAtJoin ? pair : null,
+    gate: GATE,
+    places: placesOf(flight, now, look),
     slotTrack: slotTrack(flight),
     boxed: look !== null && flight.wall.value - flight.modeSince.value < BOXED,
     notices: noticesOf(flight),
     ended: flight.clock.value.ended,
   };
+}
+
+/** Within so much of the slot, along and across the leader's route, own ship has joined [m]. */
+const GATE = { along: 0.2 * NM, across: 0.1 * NM };
+/** Between two places of the path that are kept in sight [s]. */
+const SEEN_EVERY = 30;
+
+type Place = Pick<PathPoint, "x_m" | "y_m">;
+
+function placesOf(flight: Flight, now: PairSample | null, look: GuidanceLook | null): Place[] {
+  if (now === null) return [];
+  const places: Place[] = [now.leader];
+  if (look === null || !look.designated) return places;
+  if (!AHEAD.includes(look.path)) return look.slot === "none" ? places : [...places, now.slot];
+  const join = joinTime(flight);
+  if (join === null) return [...places, now.slot];
+  const count = Math.max(1, Math.ceil((join - now.t_s) / SEEN_EVERY));
+  for (let k = 1; k <= count; k += 1) {
+    const point = committedPoint(flight, Math.min(join, now.t_s + k * SEEN_EVERY));
+    if (point !== null) places.push(point);
+  }
+  return places;
 }
 
 /** What is missing; the message line says by itself that guidance has lost its leader. */

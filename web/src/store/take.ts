@@ -1,14 +1,6 @@
 /** What one document changes of what the display knows. */
 
-import { formatClock } from "../units";
-import type {
-  Alert,
-  Document,
-  EngagementChanged,
-  FlightStarted,
-  LinkResult,
-  PlanChanged,
-} from "../wire";
+import type { Alert, Document, EngagementChanged, FlightStarted, PlanChanged } from "../wire";
 import type { Flight, Message } from "./flight";
 import { moveAircraft } from "./motion";
 import { isAbout, type PairSample, pairCard, pairResult, pairSample } from "./pair";
@@ -91,7 +83,7 @@ export function take(flight: Flight, document: Document, arrival: Arrival): void
     case "flight_ended": {
       const result = pairResult(document, pair);
       flight.ended.value = result;
-      if (result !== null) log(flight, { t, kind: "end", text: endSentence(result) });
+      if (result !== null) log(flight, { t, kind: "end", text: document.message });
       return;
     }
   }
@@ -166,12 +158,6 @@ function expected(sample: PairSample, heard: PairSample | null): PairSample {
   const { pursuer } = sample;
   const separation = Math.hypot(pursuer.x_m - leader.x_m, pursuer.y_m - leader.y_m);
   return { ...sample, leader, separation_m: separation };
-}
-
-function endSentence(result: LinkResult): string {
-  return result.joined
-    ? `Flight ended: joined at ${formatClock(result.join_time_s)}.`
-    : "Flight ended without joining.";
 }
 
 function log(flight: Flight, message: Message): void {

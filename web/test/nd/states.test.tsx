@@ -168,8 +168,8 @@ function colour(element: Element | null): string {
 function pathOf(root: Element): readonly [string, string] | null {
   const map = [...(root.querySelector(".nd-map")?.children ?? [])];
   const strokes = map.flatMap((each) =>
-    each.matches("path, g.nd-proposed, g.nd-armed, g[stroke-dashoffset]")
-      ? [...(each.matches("path") ? [each] : each.querySelectorAll("path"))]
+    each.matches("g.nd-proposed, g.nd-armed, g.nd-active, g.nd-old")
+      ? [...each.querySelectorAll("path")]
       : [],
   );
   const drawn = strokes.filter(
@@ -186,7 +186,7 @@ function read(root: Element): Shown {
   const cells = [...root.querySelectorAll(".nd-fma text")].map((each) => each.textContent ?? "");
   const slot = root.querySelector(".nd-slot");
   const crossed = [...(slot?.querySelectorAll("path") ?? [])].some(
-    (each) => each.getAttribute("d") === "M-28 -15L28 15M28 -15L-28 15",
+    (each) => each.getAttribute("d") === "M-15 -15L15 15M15 -15L-15 15",
   );
   return {
     modes: [cells[2] ?? "", cells[6] ?? ""],

@@ -1,0 +1,51 @@
+/** The range that has all in sight that belongs there: the path ahead, the leader, the slot. */
+
+import {
+  bearing,
+  type DisplayMode,
+  layoutOf,
+  offNose,
+  onMap,
+  type Place,
+  type Pose,
+  project,
+  RANGES,
+} from "./view";
+
+export type Range = (typeof RANGES)[number];
+
+/** How far from the edge all must be [px]: more before a smaller range is taken, so that it stays. */
+const MARGIN = 24;
+const ROOM = 64;
+/** What is farther than this off the nose is behind: in ARC, no range shows much of it [deg]. */
+const BEHIND = 100;
+
+/** The smallest range with all places on the map; the present one as long as it is nearly that. */
+export function fittingRange(
+  mode: DisplayMode,
+  pose: Pose,
+  places: readonly Place[],
+  present: Range,
+): Range {
+  const wanted = places.filter(
+    (place, i) =>
+      i === 0 || mode === "ROSE" || Math.abs(offNose(pose, bearing(pose, place))) < BEHIND,
+  );
+  const fits = (range: Range, margin: number) => {
+    const layout = layoutOf(mode, range);
+    return wanted.every((place) => onMap(layout, project(layout, pose, place), margin));
+  };
+  const enough = RANGES.find((range) => fits(range, MARGIN)) ?? largestUseful(mode, pose, places);
+  if (enough >= present) return enough;
+  return RANGES.find((range) => range >= enough && fits(range, ROOM)) ?? enough;
+}
+
+/** Where no range shows all: the smallest one that shows as many as the largest does. */
+function largestUseful(mode: DisplayMode, pose: Pose, places: readonly Place[]): Range {
+  const seen = (range: Range) => {
+    const layout = layoutOf(mode, range);
+    return places.filter((place) => onMap(layout, project(layout, pose, place), MARGIN)).length;
+  };
+  const most = Math.max(...RANGES.map(seen));
+  return RANGES.find((range) => seen(range) === most) ?? 40;
+}
