@@ -13,9 +13,9 @@ MAY_BECOME: Mapping[Engagement, frozenset[Engagement]] = {
     "off": frozenset({"designated"}),
     "designated": frozenset({"off", "armed"}),
     "armed": frozenset({"off", "designated", "engaged"}),
-    "engaged": frozenset({"off", "designated"}),
+    "engaged": frozenset({"off"}),
 }
-"""What each may be followed by. Nothing that was not accepted is ever flown."""
+"""What a crew may order after each. Nothing that was not accepted is ever flown."""
 
 
 def refusal(now: Engagement, to: Engagement, *, proposed: bool) -> str:

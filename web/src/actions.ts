@@ -160,6 +160,8 @@ export function createActions(
     start: (scenario) => void begin(scenario, RATE[engagement]),
     end: () => void end(),
     engage(engagement) {
+      // A click on a leader that is designated already takes nothing back.
+      if (engagement === "designated" && session.shown.numbers.value.state !== "off") return;
       const { doing, done } = ENGAGING[engagement];
       void command({ command: "set_engagement", engagement }, doing, done);
     },

@@ -2,6 +2,8 @@ import { afterEach, expect, test, vi } from "vitest";
 import { createActions } from "../src/actions";
 import { createSession } from "../src/session";
 import { createFlightStore } from "../src/store/flight";
+import { pairCard } from "../src/store/pair";
+import { pairAt, STARTED } from "./samples";
 
 afterEach(() => vi.unstubAllGlobals());
 
@@ -40,6 +42,18 @@ test("a heading beyond 360° is refused with a sentence, and nobody is asked", (
     text: "A heading is 0 to 360°, not 400°.",
   });
   expect(asked).not.toHaveBeenCalled();
+});
+
+test("a click on a leader that is designated already takes nothing back", () => {
+  const { asked, session, actions } = flying(problem(500, ""));
+  const store = session.flight;
+  store.started.value = pairCard(STARTED);
+  store.sample.value = pairAt(0);
+  actions.engage("designated");
+  expect(asked).not.toHaveBeenCalled();
+  store.sample.value = pairAt(0, { engagement: "off" });
+  actions.engage("designated");
+  expect(asked).toHaveBeenCalledOnce();
 });
 
 test("a refused speed is refused in knots", async () => {

@@ -155,7 +155,12 @@ export function noPlan(t: number): PlanUnavailable {
     kind: "plan_unavailable",
     t_s: t,
     ident: OWN,
-    answer: { status: "no_plan", reason: "slot_unreachable", message: "The leader is faster." },
+    answer: {
+      status: "no_plan",
+      reason: "slot_unreachable",
+      message: "The leader is faster.",
+      lower_bound_s: 0,
+    },
   };
 }
 

@@ -76,11 +76,12 @@ def test_from_off_to_engaged_and_back() -> None:
         5.0: to("designated"),
         12.0: to("armed"),
         20.0: to("engaged"),
+        40.0: to("designated"),  # refused: what is flown is disconnected, not designated anew
         60.0: to("off"),
     }
     documents = flown(orders, 90.0)
     changes = [each.engagement for each in of(documents, EngagementChanged)]
-    assert changes == ["designated", "armed", "engaged", "off"]
+    assert changes == ["designated", "armed", "engaged", "engaged", "off"]
     proposed = of(documents, PlanProposed)
     assert [each.t for each in proposed][:3] == [5.0, 7.0, 9.0]
     assert proposed[-1].t < 20.0

@@ -144,7 +144,7 @@ function symbols({ shown, view }: LayerProps): Box[] {
   if (now === null || pose === null) return [];
   const boxes = [square(layout.centre, 28)];
   if (look !== null && look.slot !== "none")
-    boxes.push(square(project(layout, pose, now.slot), 34));
+    boxes.push(square(project(layout, pose, now.slot), 22));
   if (leaderOnMap({ shown, view }) !== null)
     boxes.push(square(project(layout, pose, now.leader), 24));
   const pair = closest ?? closestAtJoin;

@@ -220,7 +220,7 @@ test("no plan: the slot is crossed, the reason is in the message line", () => {
     kind: "plan_unavailable",
     t_s: 300,
     ident: "RG456",
-    answer: { status: "no_plan", reason: "slot_unreachable", message: "" },
+    answer: { status: "no_plan", reason: "slot_unreachable", message: "", lower_bound_s: 0 },
   };
   const root = show(flight, "ARC", 80);
   expect(words(root)).toContain("RG UNABLE: SPEED");
