@@ -81,7 +81,8 @@ class Fleet:
         wind = world.air.wind_at(0.0, 0.0, 0.0, 0.0)
         self.wind, self.drift = wind, Drift(wind.east, wind.north)
         for i, aircraft in enumerate(world.aircraft):
-            self.limits[i] = limits_of(aircraft, aircraft.airframe, world.air)
+            can = limits_of(aircraft, aircraft.airframe, world.air)
+            self.limits[i] = can
             heading = wrap(aircraft.heading)
             self.states[i] = aircraft.x, aircraft.y, heading, 0.0, 0.0, aircraft.tas, 0.0
             self.controls[i] = 0.0, heading, aircraft.tas
@@ -92,7 +93,8 @@ class Fleet:
                 case Guided():
                     self.pilots[i] = GUIDED
                 case Declared(intent=intent):
-                    self.set_program(i, program_of(intent, heading, 0.0, aircraft.tas))
+                    rate = can.max_roll_rate
+                    self.set_program(i, program_of(intent, heading, 0.0, aircraft.tas, rate))
                 case Recorded(track=track):
                     self.pilots[i] = RECORDED
                     self.recordings[i] = recording = steps_of_track(track, wind, step)

@@ -1,6 +1,7 @@
 """A leader that flies its intent: the pieces as the kernels fly them, and what is left of them."""
 
-from math import pi
+from dataclasses import replace
+from math import inf, pi
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -13,7 +14,7 @@ from relguide.kernels.flight.records import Body, Limits
 from relguide.planning.limits import MAX_PIECES
 from relguide.planning.situation import FlyStraight, IntentPiece, TurnTo
 from relguide.planning.trajectory import LEFT, RIGHT, Turn
-from relguide.units import DEG, Radian, Second
+from relguide.units import DEG, Radian, RadianPerSecond, Second
 
 TurnChoice = Literal["left", "right", "shorter"]
 """Which way round to turn to a heading."""
@@ -33,15 +34,26 @@ class Program(NamedTuple):
     """Heading before the first piece, continuous [rad]."""
 
 
-def program_of(pieces: tuple[IntentPiece, ...], heading: Radian, t: Second, tas: float) -> Program:
-    """An intent from a time on.
+def program_of(
+    pieces: tuple[IntentPiece, ...],
+    heading: Radian,
+    t: Second,
+    tas: float,
+    max_roll_rate: RadianPerSecond = inf,
+) -> Program:
+    """An intent from a time on, as it is flown.
+
+    Between opposite turns a straight may be too short to roll out of the one and into the other.
+    Then the aircraft rolls from bank to bank, at the time at which it turns as much as declared.
 
     Args:
         pieces: in the order they are flown.
         heading: before the first, continuous [rad].
         t: flight time at which the first begins [s].
         tas: true airspeed, which with the bank makes the turns take their time [m/s].
+        max_roll_rate: of the aircraft [rad/s]; infinite if it need not roll.
     """
+    flown: list[IntentPiece] = []
     rows: list[tuple[float, float, float]] = []
     now = heading
     for piece in pieces:
@@ -52,10 +64,24 @@ def program_of(pieces: tuple[IntentPiece, ...], heading: Radian, t: Second, tas:
             case TurnTo(heading=to, turn=turn, bank=bank):
                 angle = wrap(-turn * (to - now))
                 angle = 0.0 if angle > 2.0 * pi - NO_TURN else angle
+                rate = turn_rate(tas, bank)
+                match flown[-2:]:
+                    case [TurnTo() as before, FlyStraight(duration=pause)] if (
+                        before.turn != turn and pause < 0.5 * (before.bank + bank) / max_roll_rate
+                    ):
+                        del flown[-2:], rows[-1]
+                        _, end, before_bank = rows.pop()
+                        other = turn_rate(tas, before.bank)
+                        end -= before.turn * other * pause * rate / (other + rate)
+                        flown.append(replace(before, heading=wrap(end)))
+                        rows.append((TURN, end, before_bank))
+                    case _:
+                        pass
                 now -= turn * angle
-                t += angle / turn_rate(tas, bank)
+                t += angle / rate
                 rows.append((TURN, now, -turn * bank))
-    return Program(pieces, np.array(rows).reshape(-1, 3), heading)
+        flown.append(piece)
+    return Program(tuple(flown), np.array(rows).reshape(-1, 3), heading)
 
 
 def turn_program(heading: Radian, to: Radian, direction: TurnChoice, bank: Radian) -> Program:

@@ -196,3 +196,22 @@ def test_the_short_straight_never_makes_an_intent_too_long() -> None:
     pieces = tuple(turn_to(60.0 * k, RIGHT) for k in range(2, 2 + MAX_PIECES))
     program = program_of(pieces, 90.0 * DEG, 0.0, TAS)
     assert remaining(program, 0, level(heading=90.0, tas=TAS), LIMITS, 0.0) == pieces
+
+
+@pytest.mark.parametrize("pause", [0.01, 2.0, 3.0])
+@pytest.mark.parametrize("banks", [(25.0, 25.0), (25.0, 15.0), (15.0, 25.0)])
+def test_across_a_straight_too_short_to_roll_out_it_rolls_from_bank_to_bank(
+    pause: float, banks: tuple[float, float]
+) -> None:
+    one, other = banks
+    turns = turn_to(180.0, RIGHT, one), straight(pause), turn_to(80.0, LEFT, other)
+    intent = (straight(30.0), *turns)
+    declared = Leader(x=0.0, y=0.0, heading=90.0 * DEG, tas=TAS, intent=intent)
+    there = declared.trajectory.pose_at(400.0)
+    program = program_of(intent, 90.0 * DEG, 0.0, TAS, LIMITS.max_roll_rate)
+    assert [type(piece) for piece in program.pieces] == [FlyStraight, TurnTo, TurnTo]
+    _, end, cursor = fly_seconds(program, 400)[-1]
+    assert cursor == 3
+    assert hypot(end.x - there.x, end.y - there.y) < 220.0  # a roll across costs so much
+    _, late, _ = fly_seconds(program_of(intent, 90.0 * DEG, 0.0, TAS), 400)[-1]
+    assert hypot(late.x - there.x, late.y - there.y) > 500.0  # late by up to 10 s
