@@ -1,8 +1,11 @@
 """Leaving: when what is flown would lose d_min, and on what heading the aircraft turns away."""
 
+from math import cos, hypot, inf, sin, sqrt
+
 from relguide.flying.belief import Belief
 from relguide.flying.guidance.announcements import Event, UnableTo
 from relguide.flying.guidance.assignment import Assignment
+from relguide.flying.guidance.committed import situation_now
 from relguide.flying.guidance.escape import escape, separation_on_heading
 from relguide.flying.guidance.leader_news import turns_unannounced
 from relguide.flying.guidance.memory import Memory, enter
@@ -10,8 +13,9 @@ from relguide.flying.guidance.monitor import Outlook
 from relguide.flying.modes import NUMBERS
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.flight.guide import Progress
+from relguide.planning.least_bad import restore
 from relguide.planning.phrases import compass
-from relguide.units import MetrePerSecond, Radian
+from relguide.units import MetrePerSecond, Radian, Second
 
 
 def turn_away(
@@ -62,20 +66,42 @@ def keep_heading(
     )
     if kept >= assignment.min_separation + settings.escape_tube:
         return memory, []
-    out = escape(
-        belief,
-        assignment,
-        assignment.buffered_separation,
-        turns_on=turns_on,
-        other_tas=other_tas,
-    )
-    if out.least_separation < kept + settings.escape_tube:
-        return memory, []
+    if belief.separation < min(assignment.min_separation, kept + settings.escape_tube):
+        # already lost, and at its least: nothing is to be kept, but d_min regained soonest
+        soonest = restore(situation_now(belief, assignment))
+        gained = _regained_in(belief, progress.heading, assignment) - soonest.at_time
+        if soonest.at_time == inf or gained < settings.escapes_for:
+            return memory, []
+        heading, purpose = soonest.heading, "to regain the separation soonest"
+    else:
+        out = escape(
+            belief,
+            assignment,
+            assignment.buffered_separation,
+            turns_on=turns_on,
+            other_tas=other_tas,
+        )
+        if out.least_separation < kept + settings.escape_tube:
+            return memory, []
+        heading, purpose = out.heading, "to keep clear of the leader"
     said: list[Event] = []
-    if abs(wrap_signed(out.heading - progress.heading)) > settings.heading_news:
-        message = f"Turning to {compass(out.heading)}, to keep clear of the leader."
+    if abs(wrap_signed(heading - progress.heading)) > settings.heading_news:
+        message = f"Turning to {compass(heading)}, {purpose}."
         said.append(UnableTo(reason="separation", message=message))
-    return memory._replace(progress=progress._replace(heading=out.heading)), said
+    return memory._replace(progress=progress._replace(heading=heading)), said
+
+
+def _regained_in(belief: Belief, heading: Radian, assignment: Assignment) -> Second:
+    """When d_min is regained on a heading, the leader flying on as it points [s]."""
+    own, other = belief.own, belief.leader
+    x, y = own.x - other.x, own.y - other.y
+    east = own.tas * sin(heading) - other.tas * sin(other.heading)
+    north = own.tas * cos(heading) - other.tas * cos(other.heading)
+    speed = max(hypot(east, north), 1e-3)
+    # |p + w t| = d_min: the later of its two times, as they are inside it now
+    along = (x * east + y * north) / speed
+    inside = assignment.min_separation**2 - x * x - y * y
+    return (sqrt(along * along + max(inside, 0.0)) - along) / speed
 
 
 def must_leave(memory: Memory, belief: Belief, assignment: Assignment, outlook: Outlook) -> bool:

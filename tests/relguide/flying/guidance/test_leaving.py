@@ -12,7 +12,8 @@ from relguide.flying.orders import Command, IntentKnown
 from relguide.flying.scenarios import own_scenario
 from relguide.kernels.base.angles import wrap_signed
 from relguide.planning.plan import NoPlan, Reason
-from relguide.units import DEG, KT
+from relguide.planning.situation import Leader, Pursuer, Situation
+from relguide.units import DEG, KT, NM
 from tests.flights import Flown, fly_whole, random_start
 from tests.relguide.flying.guidance.beliefs import FIG_6B
 
@@ -152,3 +153,23 @@ def test_without_a_plan_one_heading_is_held_that_keeps_clear() -> None:
     (turning,) = [d for d in flight.of(Unable) if "Turning to" in d.message]
     ((_, heading),) = set(held_headings(flight)[-1:])
     assert f"{heading / DEG:03.0f}°" in turning.message
+
+
+@pytest.mark.parametrize(("heading", "turns"), [(5.0, True), (75.0, False)])
+def test_inside_d_min_it_turns_away_where_that_regains_it_much_sooner(
+    heading: float, turns: bool
+) -> None:
+    """Side by side, 5 km apart: on almost the leader's heading it would take minutes."""
+    situation = Situation(
+        pursuer=Pursuer(x=5_000.0, y=0.0, heading=heading * DEG, tas=215.0, max_bank=25.0 * DEG),
+        leader=Leader(x=0.0, y=0.0, heading=0.0, tas=200.0),
+        slot_distance=12_000.0,
+        min_separation=5.0 * NM,
+    )
+    flight = fly_whole(replace(own_scenario(situation), duration_limit=300.0))
+    said = [d.message for d in flight.of(Unable) if "regain the separation" in d.message]
+    assert bool(said) == turns
+    (loss,) = flight.result.losses
+    assert loss.separation >= 4_950.0
+    outside = next(s.t for s in flight.samples if s.guidance.separation >= 5.0 * NM)
+    assert outside < 60.0
