@@ -75,8 +75,15 @@ def refine_chains(
     tried, given = np.empty((MAX_LEGS, 6)), best
     won = -1
     for k in range(len(chains)):
-        chain = chain_of(chains[k, 1 : int(chains[k, 0, 1]) + 1], tried)
-        here = refine_chain(start, scene, chain, chains[k, 0, 0], stride, best)
+        if k > 0 and time_is_up(scene.until):
+            break
+        contacts = int(chains[k, 0, 1])
+        chain = chain_of(chains[k, 1 : contacts + 1], tried)
+        # while the leader turns the graph may know of a later path to a contact than the earliest
+        _, here = fly_links(start, 0.0, with_time(scene, inf), chain, 0, contacts, inf)
+        if here == inf:
+            continue
+        here = refine_chain(start, scene, chain, here, stride, best)
         if here < best + _AT_EDGE:
             along = follow_edges(start, scene, chain, here, stride)
             if along < here - GAIN:
@@ -92,7 +99,7 @@ def refine_chains(
     shortest = with_contacts(chain, chain.contacts[:contacts])
     # what was found is put down, whatever the time
     _, time = fly_links(start, 0.0, with_time(scene, inf), shortest, 0, contacts, inf)
-    if time == inf:
+    if time >= given:
         return given, 0
     legs[: contacts + 1] = tried[: contacts + 1]
     return time, contacts + 1

@@ -67,8 +67,9 @@ class _Graph(NamedTuple):
 
 @njit(cache=True, nogil=True)
 def best_chains(
-    scene: Scene, nodes: Nodes, beat: float, slack: float, hops: int, chains: FloatArray
-) -> int:
+    scene: Scene, nodes: Nodes, beat: float, slack: float, hops: int, delays: bool,
+    chains: FloatArray,
+) -> int:  # fmt: skip
     """The best chains of two contacts or more on the grid, best first.
 
     Args:
@@ -77,6 +78,7 @@ def best_chains(
         beat: an arrival already known [R/V_P].
         slack: chains on the grid that arrive this much later are kept, to be refined [R/V_P].
         hops: from how many nodes words to other nodes are looked for, in each round.
+        delays: whether paths that arrive at t_release itself, by a delay, are looked for.
         chains: takes the chains: a row with their arrival and number of contacts, then rows as in
             `chain.Chain`. One that arrives at t_release itself needs a delay behind its last
             contact. shape (·, MAX_CONTACTS + 1, 4)
@@ -89,7 +91,7 @@ def best_chains(
     for turn in range(_ROUNDS):
         _slide_on(scene, nodes, graph, best + slack)
         best = _go_on(scene, nodes, graph, best, slack)
-        if nodes.lower.min() <= scene.t_release < best:
+        if delays and nodes.lower.min() <= scene.t_release < best:
             end, tries = _delay(scene, nodes, graph, tries)
             if end >= 0:
                 # what arrives as the slot opens cannot be beaten

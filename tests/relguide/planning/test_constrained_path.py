@@ -30,6 +30,7 @@ from relguide.planning import constrained_path as module
 from relguide.planning.constrained_path import BEARINGS, TURNING_BEARINGS
 from relguide.planning.optimality import check
 from relguide.planning.tables import scene_of
+from tests.bench import draws
 from tests.oracle import arrival_error
 from tests.situations import headings, numbers
 
@@ -263,3 +264,33 @@ def test_eight_times_the_effort_finds_nothing_much_better(tight: bool) -> None:
         if not ours <= harder + 0.1:
             worse.append((situation, ours, harder))
     assert not worse, worse
+
+
+@pytest.mark.parametrize(("case", "slot_at_limit"), [(94, True), (212, False)])
+def test_the_slot_is_waited_for_from_the_contact_that_the_wait_was_found_for(
+    case: int, slot_at_limit: bool
+) -> None:
+    """While the leader turns, the wait may begin at a later path to the contact than the earliest.
+
+    What was flown was the earliest, no wait was found from there, and the plan came 46 s and 22 s
+    later.
+    """
+    rng = np.random.default_rng([777, case])
+    situation = draws.active(rng, tight=True, intent=True, slot_at_limit=slot_at_limit)
+    answer = plan(situation)
+    assert isinstance(answer, Plan)
+    assert answer.optimality.proof == "relaxation"
+    assert answer.certificate.holds
+    assert answer.arrival.holds
+
+
+@pytest.mark.parametrize(("case", "best"), [(86, 492.998), (34, 377.800)])
+def test_round_a_leader_who_turns_with_a_slot_at_the_limit_narrow_windows_are_searched(
+    case: int, best: float
+) -> None:
+    """With half the bearings they came 135 s and 10 s later."""
+    rng = np.random.default_rng([777, case])
+    situation = draws.active(rng, tight=True, intent=True, slot_at_limit=True)
+    answer = plan(situation)
+    assert isinstance(answer, Plan)
+    assert answer.time_to_converge < best + 0.01
