@@ -22,6 +22,10 @@ from relguide.planning.extras import add_command as _add_command
 if typing.TYPE_CHECKING:
     from relguide.contract.recorder import record as record
     from relguide.contract.recorder import replay as replay
+    from relguide.flying.air import Air as Air
+    from relguide.flying.airframe import Airframe as Airframe
+    from relguide.flying.airframe import airframe as airframe
+    from relguide.flying.airframe import load_airframe as load_airframe
     from relguide.flying.documents import Alert as Alert
     from relguide.flying.documents import Document as Document
     from relguide.flying.documents import EngagementChanged as EngagementChanged
@@ -41,11 +45,20 @@ if typing.TYPE_CHECKING:
     from relguide.flying.flight import DeclaredLeader as DeclaredLeader
     from relguide.flying.flight import Scenario as Scenario
     from relguide.flying.flight import fly as fly
+    from relguide.flying.guidance.settings import Settings as Settings
+    from relguide.flying.guidance.settings import load_settings as load_settings
     from relguide.flying.scenarios import own_scenario as own_scenario
     from relguide.flying.scenarios import scenario as scenario
     from relguide.flying.scenarios import scenario_behind as scenario_behind
+    from relguide.flying.simulation import simulate as simulate
     from relguide.flying.tracks import RecordedTrack as RecordedTrack
     from relguide.flying.tracks import load_track as load_track
+    from relguide.flying.world import Aircraft as Aircraft
+    from relguide.flying.world import Declared as Declared
+    from relguide.flying.world import Guided as Guided
+    from relguide.flying.world import Link as Link
+    from relguide.flying.world import Recorded as Recorded
+    from relguide.flying.world import World as World
     from relguide.maps.isochrones import Grid as Grid
     from relguide.maps.isochrones import Isochrones as Isochrones
     from relguide.maps.isochrones import isochrones as isochrones
@@ -92,6 +105,10 @@ __version__ = "0.1.0"
 _HOMES = {
     "record": "relguide.contract.recorder",
     "replay": "relguide.contract.recorder",
+    "Air": "relguide.flying.air",
+    "Airframe": "relguide.flying.airframe",
+    "airframe": "relguide.flying.airframe",
+    "load_airframe": "relguide.flying.airframe",
     "Alert": "relguide.flying.documents",
     "Document": "relguide.flying.documents",
     "EngagementChanged": "relguide.flying.documents",
@@ -116,6 +133,15 @@ _HOMES = {
     "scenario_behind": "relguide.flying.scenarios",
     "RecordedTrack": "relguide.flying.tracks",
     "load_track": "relguide.flying.tracks",
+    "Settings": "relguide.flying.guidance.settings",
+    "load_settings": "relguide.flying.guidance.settings",
+    "simulate": "relguide.flying.simulation",
+    "Aircraft": "relguide.flying.world",
+    "Declared": "relguide.flying.world",
+    "Guided": "relguide.flying.world",
+    "Link": "relguide.flying.world",
+    "Recorded": "relguide.flying.world",
+    "World": "relguide.flying.world",
     "Grid": "relguide.maps.isochrones",
     "Isochrones": "relguide.maps.isochrones",
     "isochrones": "relguide.maps.isochrones",
@@ -163,6 +189,9 @@ __all__ = [
     "CALM",
     "LEFT",
     "RIGHT",
+    "Air",
+    "Aircraft",
+    "Airframe",
     "Alert",
     "Alternative",
     "Arc",
@@ -170,6 +199,7 @@ __all__ = [
     "BoundaryArc",
     "Candidate",
     "Certificate",
+    "Declared",
     "DeclaredLeader",
     "Document",
     "EngagementChanged",
@@ -178,10 +208,12 @@ __all__ = [
     "FlyStraight",
     "ForecastChanged",
     "Grid",
+    "Guided",
     "Isochrones",
     "Leader",
     "LeaderChanged",
     "LeaderRoute",
+    "Link",
     "ModeChanged",
     "NoPlan",
     "Optimality",
@@ -195,11 +227,13 @@ __all__ = [
     "Pose",
     "Pursuer",
     "Reason",
+    "Recorded",
     "RecordedTrack",
     "Sample",
     "Samples",
     "Scenario",
     "SeparationLost",
+    "Settings",
     "Situation",
     "Situations",
     "Straight",
@@ -209,12 +243,16 @@ __all__ = [
     "TurnTo",
     "Unable",
     "Wind",
+    "World",
+    "airframe",
     "alternatives",
     "candidates",
     "certify",
     "check",
     "fly",
     "isochrones",
+    "load_airframe",
+    "load_settings",
     "load_track",
     "own_scenario",
     "plan",
@@ -225,6 +263,7 @@ __all__ = [
     "replay",
     "scenario",
     "scenario_behind",
+    "simulate",
     "wind_from",
 ]
 

@@ -16,6 +16,7 @@ from relguide.learn.network_planner import network_planner
 from relguide.learn.words.branch_network import load_network
 from relguide.planning.constrained_path import BEARINGS
 from tests.bench import draws
+from tests.bench.cases import unlimited_cases
 from tests.bench.exhaustive import least_time
 from tests.bench.limit import main, plan_twice
 from tests.bench.network_batch import as_row
@@ -93,6 +94,12 @@ def test_a_batch_by_networks_gives_what_their_planner_gives() -> None:
         assert (verdict == BY_NETWORK) == (planned.planner == "network")
         answered += verdict == BY_NETWORK
     assert answered > 25
+
+
+def test_cases_are_golden_and_drawn() -> None:
+    golden = len(unlimited_cases(0))
+    assert golden > 100
+    assert len(unlimited_cases(2)) == golden + 2
 
 
 def test_a_case_is_what_its_number_says() -> None:

@@ -176,13 +176,17 @@ def known_airframes() -> tuple[str, ...]:
     return tuple(sorted(name[:-5].upper() for name in names if name.endswith(".toml")))
 
 
-@cache
 def airframe(designator: str) -> Airframe:
     """A type that comes with the library.
 
     Raises:
         ValueError: for any other, naming those there are.
     """
+    return _known_airframe(text("designator", designator))
+
+
+@cache
+def _known_airframe(designator: str) -> Airframe:
     if designator not in known_airframes():
         known = ", ".join(known_airframes())
         raise ValueError(

@@ -25,7 +25,7 @@ from relguide.flying.orders import no_commands as no_commands
 from relguide.flying.scatter import scatter
 from relguide.flying.simulation import simulate, whole_steps
 from relguide.flying.tracks import RecordedTrack
-from relguide.flying.world import Aircraft, Declared, Guided, Link, Recorded, World
+from relguide.flying.world import ALTITUDES, Aircraft, Declared, Guided, Link, Recorded, World
 from relguide.planning.inputs import (
     expect,
     expect_function,
@@ -42,8 +42,6 @@ from relguide.units import DEG, Metre, Radian, Second
 
 TEXTS = ("name", "title", "description", "pursuer_ident", "leader_ident", "leader_type")
 """Fields of a scenario that people read."""
-ALTITUDES: tuple[Metre, Metre] = (-500.0, 20_000.0)
-"""Where aircraft fly [m]: from below the Dead Sea's shore to where the standard air ends."""
 LEADER_BANK: Radian = 30.0 * DEG
 """What a leader's autopilot may use, if its intent asks for no more [rad]."""
 DEFAULT_TYPE = "A306"
@@ -99,7 +97,7 @@ class Scenario:
             raise ValueError(
                 f"pursuer_ident and leader_ident must differ, not both be {self.leader_ident!r}."
             )
-        expect_within("altitude", self.altitude, *ALTITUDES, "m")
+        expect_within("altitude", self.altitude, *ALTITUDES)
         expect_within("spacing", self.spacing, *SPACING)
         if number("duration_limit", self.duration_limit) <= 0.0:
             raise ValueError(f"duration_limit must be above 0 s, not {self.duration_limit}.")

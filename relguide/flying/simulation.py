@@ -7,6 +7,7 @@ Everything else that flies a plan, live or not, iterates over these documents.
 
 from collections.abc import Callable, Iterable, Iterator
 from itertools import count
+from typing import get_args
 
 from relguide.flying.aircraft_documents import AircraftCard, LinkCard
 from relguide.flying.braking import learn_braking
@@ -41,6 +42,7 @@ from relguide.flying.orders import (
 from relguide.flying.pursuit import Pursuit, begin_pursuit
 from relguide.flying.tally import count_event, link_result
 from relguide.flying.world import World
+from relguide.planning.inputs import expect, expect_function, expect_whole, number, text
 from relguide.planning.plan import Planner, plan
 from relguide.units import Second
 
@@ -79,10 +81,42 @@ def simulate(
     Yields:
         `FlightStarted` first, `FlightEnded` last. What the planner raises is passed on as it is.
     """
-    a_sample = whole_steps(sample_period, step)
+    expect("world", world, World)
+    expect_function("planner", planner)
+    expect_function("commands", commands)
+    for name, value in (("scenario", scenario), ("title", title), ("planner_name", planner_name)):
+        text(name, value)
+    expect_whole("seed", seed, 0)
+    step, until = number("step", step), number("until", until)
+    a_sample = whole_steps(number("sample_period", sample_period), step)
     whole_steps(1.0, step)
+    if until <= 0.0:
+        raise ValueError(f"until must be above 0 s, not {until:g} s.")
+    after_joining = number("after_joining", after_joining)
+    if after_joining < 0.0:
+        raise ValueError(f"after_joining must be 0 s or more, not {after_joining:g} s.")
+    if not isinstance(engagement, str) or engagement not in get_args(Engagement):
+        choices = ", ".join(get_args(Engagement))
+        raise ValueError(f"engagement must be one of {choices}, not {engagement!r}.")
+    start = _start_document(world, planner_name, scenario, title, step, seed)
+    return _simulate(
+        world, planner, start, commands, step, a_sample, until, after_joining, engagement
+    )
+
+
+def _simulate(
+    world: World,
+    planner: Planner,
+    start: FlightStarted,
+    commands: Callable[[Second], Iterable[Command]],
+    step: Second,
+    a_sample: int,
+    until: Second,
+    after_joining: Second,
+    engagement: Engagement,
+) -> Iterator[Document]:
     fleet = Fleet(world, step)
-    yield _start_document(world, planner_name, scenario, title, step, seed)
+    yield start
     pursuits = [begin_pursuit(world, fleet, link, engagement) for link in world.links]
     for one in pursuits:
         yield expected_route(one, one.view.shown)

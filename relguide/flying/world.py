@@ -5,10 +5,26 @@ from typing import Literal
 
 from relguide.flying.air import STANDARD_AIR, Air
 from relguide.flying.airframe import Airframe
+from relguide.flying.envelope import envelope_fault
 from relguide.flying.guidance.settings import DEFAULT, Settings
 from relguide.flying.tracks import RecordedTrack
-from relguide.planning.situation import IntentPiece
+from relguide.planning.inputs import Range, expect, expect_within, text, truth
+from relguide.planning.limits import (
+    CLEARANCE,
+    DISTANCE,
+    HEADING,
+    POSITION,
+    SPACING,
+    TAS,
+    too_close_a_slot,
+)
+from relguide.planning.situation import IntentPiece, expect_bank, expect_intent
 from relguide.units import Metre, MetrePerSecond, Radian, Second
+
+ALTITUDES = Range(-500.0, 20_000.0, "m")
+"""Where aircraft fly: from below the Dead Sea's shore to where the standard air ends."""
+RANGES = {"x": POSITION, "y": POSITION, "heading": HEADING, "tas": TAS, "altitude": ALTITUDES}
+"""What is accepted of an aircraft's numbers, beside its bank."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -25,6 +41,10 @@ class Declared:
     intent: tuple[IntentPiece, ...] = ()
     kind: Literal["declared"] = "declared"
 
+    def __post_init__(self) -> None:
+        """Refuse what is no intent."""
+        object.__setattr__(self, "intent", expect_intent("intent", self.intent))
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Recorded:
@@ -32,6 +52,10 @@ class Recorded:
 
     track: RecordedTrack
     kind: Literal["recorded"] = "recorded"
+
+    def __post_init__(self) -> None:
+        """Refuse what is no recording."""
+        expect("track", self.track, RecordedTrack)
 
 
 Pilot = Guided | Declared | Recorded
@@ -62,6 +86,20 @@ class Aircraft:
     believed: Airframe | None = None
     """What its guidance believes of the airframe; the truth, if left out."""
 
+    def __post_init__(self) -> None:
+        """Refuse what cannot be an aircraft in the air."""
+        if not text("ident", self.ident).strip():
+            raise ValueError("ident must not be empty.")
+        expect("airframe", self.airframe, Airframe)
+        text("aircraft_type", self.aircraft_type)
+        for name, accepted in RANGES.items():
+            value = expect_within(name, getattr(self, name), *accepted)
+            object.__setattr__(self, name, value)
+        object.__setattr__(self, "max_bank", expect_bank("max_bank", self.max_bank))
+        expect("pilot", self.pilot, Guided, Declared, Recorded)
+        if self.believed is not None:
+            expect("believed", self.believed, Airframe)
+
     @property
     def known_airframe(self) -> Airframe:
         """The airframe as guidance knows it."""
@@ -87,6 +125,22 @@ class Link:
     declared_intent: tuple[IntentPiece, ...] | None = None
     """What the leader declared, if that is not what it flies: a leader that breaks its word."""
 
+    def __post_init__(self) -> None:
+        """Refuse distances that contradict each other, and what is no text or truth value."""
+        text("pursuer", self.pursuer)
+        text("leader", self.leader)
+        for name in ("slot_distance", "min_separation"):
+            value = expect_within(name, getattr(self, name), *DISTANCE)
+            object.__setattr__(self, name, value)
+        if not CLEARANCE.admits(self.slot_distance - self.min_separation):
+            wrong = too_close_a_slot(self.slot_distance, self.min_separation)
+            raise ValueError(f"slot_distance {wrong}")
+        object.__setattr__(self, "spacing", expect_within("spacing", self.spacing, *SPACING))
+        truth("intent_known", self.intent_known)
+        if self.declared_intent is not None:
+            declared = expect_intent("declared_intent", self.declared_intent)
+            object.__setattr__(self, "declared_intent", declared)
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class World:
@@ -101,17 +155,46 @@ class World:
     settings: Settings = DEFAULT
 
     def __post_init__(self) -> None:
-        """Refuse links between aircraft that are not there."""
-        idents = [aircraft.ident for aircraft in self.aircraft]
-        if len(set(idents)) != len(idents):
+        """Refuse links between aircraft that are not there, and pursuers that cannot be guided."""
+        object.__setattr__(self, "aircraft", _all_of("aircraft", self.aircraft, Aircraft))
+        object.__setattr__(self, "links", _all_of("links", self.links, Link))
+        expect("air", self.air, Air)
+        if self.believed_air is not None:
+            expect("believed_air", self.believed_air, Air)
+        expect("settings", self.settings, Settings)
+        flying = {aircraft.ident: aircraft for aircraft in self.aircraft}
+        if len(flying) < len(self.aircraft):
             raise ValueError("Each aircraft must have an ident of its own.")
         for link in self.links:
             for ident in (link.pursuer, link.leader):
-                if ident not in idents:
-                    raise ValueError(f"There is no aircraft {ident!r} to link.")
+                if ident not in flying:
+                    raise ValueError(
+                        f"There is no aircraft {ident!r} to link: there are {', '.join(flying)}."
+                    )
             if link.pursuer == link.leader:
-                raise ValueError(f"{link.pursuer!r} cannot follow itself.")
+                raise ValueError(f"{link.pursuer!r} cannot follow itself: choose another leader.")
+            self._expect_guided(flying[link.pursuer])
+        if len({link.pursuer for link in self.links}) < len(self.links):
+            raise ValueError("Each pursuer must have one link: it joins one leader.")
+
+    def _expect_guided(self, pursuer: Aircraft) -> None:
+        if not isinstance(pursuer.pilot, Guided):
+            raise ValueError(f"The pilot of {pursuer.ident!r} must be Guided() to join a leader.")
+        fault = envelope_fault(
+            pursuer.airframe, pursuer.altitude, self.air, tas=pursuer.tas, bank=pursuer.max_bank
+        )
+        if fault:
+            raise ValueError(fault)
 
     def index(self, ident: str) -> int:
         """Which of the aircraft has an ident."""
         return [aircraft.ident for aircraft in self.aircraft].index(ident)
+
+
+def _all_of(name: str, values: object, kind: type) -> tuple[object, ...]:
+    """A tuple of one kind of things; a list of them as well."""
+    if not isinstance(values, tuple | list):
+        raise ValueError(f"{name} must be a tuple of {kind.__name__}.")
+    for i, value in enumerate(values):
+        expect(f"{name}[{i}]", value, kind)
+    return tuple(values)

@@ -46,7 +46,12 @@ def _settle_aircraft(name: str, aircraft: "Pursuer | Leader") -> None:
     _settle(aircraft, "tas", expect_within(f"{name}.tas", aircraft.tas, *TAS))
 
 
-def _bank(name: str, value: object) -> float:
+def expect_bank(name: str, value: object) -> Radian:
+    """A bank angle in `BANK` [rad].
+
+    Raises:
+        ValueError: for what is no number, or lies outside.
+    """
     bank = number(name, value)
     expect_within(name, bank / DEG, *BANK)
     return bank
@@ -72,7 +77,7 @@ class Pursuer:
     def __post_init__(self) -> None:
         """Refuse what cannot be flown."""
         _settle_aircraft("pursuer", self)
-        _settle(self, "max_bank", _bank("pursuer.max_bank", self.max_bank))
+        _settle(self, "max_bank", expect_bank("pursuer.max_bank", self.max_bank))
 
     @classmethod
     def from_display(
@@ -130,7 +135,7 @@ class TurnTo:
         """Refuse a turn that cannot be flown."""
         _settle(self, "heading", expect_within("intent turn.heading", self.heading, *HEADING))
         _settle(self, "turn", turn_sign("intent turn.turn", self.turn))
-        _settle(self, "bank", _bank("intent turn.bank", self.bank))
+        _settle(self, "bank", expect_bank("intent turn.bank", self.bank))
 
     @classmethod
     def from_display(
@@ -148,6 +153,22 @@ class TurnTo:
 
 
 IntentPiece = FlyStraight | TurnTo
+
+
+def expect_intent(name: str, value: object) -> tuple[IntentPiece, ...]:
+    """The pieces of an intent, a list of them as well.
+
+    Raises:
+        ValueError: for anything else, and for more than `MAX_PIECES`.
+    """
+    if not isinstance(value, tuple | list):
+        raise ValueError(f"{name} must be a tuple of FlyStraight and TurnTo.")
+    if len(value) > MAX_PIECES:
+        raise ValueError(f"{name} must have at most {MAX_PIECES} pieces, not {len(value)}.")
+    for i, piece in enumerate(value):
+        if not isinstance(piece, FlyStraight | TurnTo):
+            raise ValueError(f"{name}[{i}] must be a FlyStraight or a TurnTo.")
+    return tuple(value)
 
 
 def final_heading(heading: Radian, intent: tuple[IntentPiece, ...]) -> Radian:
@@ -176,16 +197,7 @@ class Leader:
     def __post_init__(self) -> None:
         """Refuse what cannot be flown."""
         _settle_aircraft("leader", self)
-        if not isinstance(self.intent, tuple | list):
-            raise ValueError("leader.intent must be a tuple of FlyStraight and TurnTo.")
-        if len(self.intent) > MAX_PIECES:
-            raise ValueError(
-                f"leader.intent must have at most {MAX_PIECES} pieces, not {len(self.intent)}."
-            )
-        for i, piece in enumerate(self.intent):
-            if not isinstance(piece, FlyStraight | TurnTo):
-                raise ValueError(f"leader.intent[{i}] must be a FlyStraight or a TurnTo.")
-        _settle(self, "intent", tuple(self.intent))
+        _settle(self, "intent", expect_intent("leader.intent", self.intent))
 
     @classmethod
     def from_display(

@@ -48,7 +48,7 @@ def unlimited_cases(fresh: int) -> list[Case]:
         if "unlimited_time_s" in answer
     ]
     rng = np.random.default_rng(SEED)
-    return cases + [_case(f"fresh {i}", draws.draw_situations(rng)) for i in range(fresh)]
+    return cases + [_case(f"fresh {i}", draws.anywhere(rng)) for i in range(fresh)]
 
 
 def limited_cases(drawn: int, *, tight: bool) -> list[Case]:

@@ -1,9 +1,9 @@
 """Certified answers to many situations at once, by networks: what `plan_rows` is compared to.
 
-As `learn.planner`, row by row in one kernel: the fastest way, and where that breaks the limit
-the way round it that the network leads to; then the certificate. What the network passes on,
-`plan_rows` answers. Slot frame: lengths in R, times in R/V_P, angles
-counter-clockwise; the leader is at (D/R, 0) at t = 0 and keeps heading 0.
+As `learn.network_planner`, row by row in one kernel: the fastest path, and where that breaks the
+limit the constrained path that the network leads to; then the certificate. What the network passes
+on, `plan_rows` answers. Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the
+leader is at (D/R, 0) at t = 0 and keeps heading 0.
 """
 
 from math import inf
@@ -73,7 +73,7 @@ def _answer_rows(
         pieces = np.empty((3, 0))
         if not fastest(Pose(x, y, h), alpha, 0.0, 0, scratch, free):
             time = inf
-        elif word_clears(Pose(x, y, h), 0.0, free, Scene(leader, alpha, limit - SLACK, 0.0)):
+        elif word_clears(Pose(x, y, h), 0.0, free, Scene(leader, alpha, limit - SLACK, 0.0, inf)):
             time = free[0]
             pieces = np.zeros((3, 3))
             pieces[1], pieces[2] = SIGNS[int(free[1])], free[2:5]
@@ -86,11 +86,16 @@ def _answer_rows(
             and limit <= away <= limit + around[5]
         ):
             _, _, time, count = choose_template(
-                Pose(x, y, h), Scene(leader, alpha, limit, 0.0), free, ways, Decision(*surer), legs
+                Pose(x, y, h),
+                Scene(leader, alpha, limit, 0.0, inf),
+                free,
+                ways,
+                Decision(*surer),
+                legs,
             )
             if count > 0:
                 pieces = pieces_of(
-                    Pose(x, y, h), Scene(leader, alpha, limit, 0.0), _RADIUS, 1.0, time,
+                    Pose(x, y, h), Scene(leader, alpha, limit, 0.0, inf), _RADIUS, 1.0, time,
                     legs[:count],
                 )  # fmt: skip
         if pieces.shape[1] > 0 and _keeps(x, y, h, slot, alpha, limit, pieces):

@@ -10,13 +10,12 @@ the damping and flags have none. What is left out keeps its default.
 
 import tomllib
 from dataclasses import dataclass, fields, replace
-from math import isfinite
 from pathlib import Path
 from typing import Any, get_args
 
 from relguide.kernels.flight.guide import Gate
 from relguide.kernels.flight.laws import Gains
-from relguide.planning.inputs import truth
+from relguide.planning.inputs import number, truth
 from relguide.units import DEG, KT, NM, Metre, MetrePerSecond, Radian, RadianPerSecond, Second
 
 UNITS = {
@@ -154,8 +153,13 @@ class Settings:
             if field.name in FLAGS:
                 truth(field.name, value)
                 continue
-            if not (isinstance(value, int | float) and isfinite(value) and value > 0.0):
+            try:
+                positive = number(field.name, value)
+            except ValueError:
+                positive = 0.0
+            if positive <= 0.0:
                 raise ValueError(f"{field.name} must be a number above 0, not {value!r}.")
+            object.__setattr__(self, field.name, positive)
 
     def planned_bank(self, max_bank: Radian) -> Radian:
         """The bank at which plans turn, for an autopilot that may use `max_bank` [rad]."""

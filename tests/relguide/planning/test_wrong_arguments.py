@@ -1,6 +1,7 @@
 """Whatever a public function is given, only a ValueError comes out, with a sentence."""
 
 from collections.abc import Callable
+from dataclasses import fields
 from decimal import Decimal
 from fractions import Fraction
 from math import inf, nan, pi
@@ -16,24 +17,34 @@ from relguide import (
     CALM,
     LEFT,
     RIGHT,
+    Air,
+    Aircraft,
+    Airframe,
     Arc,
     BoundaryArc,
+    Declared,
     DeclaredLeader,
     FlyStraight,
     Grid,
+    Guided,
     Leader,
+    Link,
     NoPlan,
     Plan,
     Pursuer,
     Reason,
+    Recorded,
     RecordedTrack,
     Scenario,
+    Settings,
     Situation,
     Situations,
     Straight,
     Trajectory,
     TurnTo,
     Wind,
+    World,
+    airframe,
     alternatives,
     candidates,
     certify,
@@ -48,6 +59,7 @@ from relguide import (
     record,
     scenario,
     scenario_behind,
+    simulate,
     wind_from,
 )
 from relguide.planning.frames import LocalPlane
@@ -93,6 +105,20 @@ TRACK = RecordedTrack(
     ground_speed=np.full(200, 180.0),
     altitude=np.full(200, 5_000.0),
 )
+A306 = airframe("A306")
+OWN: dict[str, Any] = {
+    "ident": "OWN", "airframe": A306, "aircraft_type": "A306", "x": -40e3, "y": 0.0, "heading": 0.0,
+    "tas": 240.0, "altitude": 9e3, "max_bank": 25 * DEG, "pilot": Guided(), "believed": None,
+}  # fmt: skip
+OTHER: dict[str, Any] = OWN | {"ident": "OTHER", "x": 0.0, "tas": 200.0, "pilot": Declared()}
+LINK: dict[str, Any] = {
+    "pursuer": "OWN", "leader": "OTHER", "slot_distance": 12e3, "min_separation": 9e3,
+    "spacing": 0.0, "intent_known": True, "declared_intent": None,
+}  # fmt: skip
+WORLD: dict[str, Any] = {
+    "aircraft": (Aircraft(**OWN), Aircraft(**OTHER)), "links": (Link(**LINK),), "air": Air(),
+    "believed_air": None, "settings": Settings(),
+}  # fmt: skip
 CALLS: dict[str, tuple[Callable[..., object], dict[str, Any]]] = {
     "Leader": (
         Leader,
@@ -174,6 +200,32 @@ CALLS: dict[str, tuple[Callable[..., object], dict[str, Any]]] = {
             "seed": 0,
         },
     ),
+    "Air": (Air, {"wind": CALM, "isa_deviation": 10.0}),
+    "Aircraft": (Aircraft, OWN),
+    "Airframe": (Airframe, {field.name: getattr(A306, field.name) for field in fields(A306)}),
+    "Declared": (Declared, {"intent": (FlyStraight(duration=1.0),)}),
+    "Link": (Link, LINK),
+    "Recorded": (Recorded, {"track": TRACK}),
+    "Settings": (Settings, {"damping": 0.8, "caution": 60, "always_ask": False}),
+    "World": (World, WORLD),
+    "airframe": (airframe, {"designator": "A306"}),
+    "simulate": (
+        simulate,
+        {
+            "world": World(**WORLD),
+            "planner": plan,
+            "scenario": "own",
+            "title": "",
+            "planner_name": "exact",
+            "commands": lambda t: (),
+            "step": 0.05,
+            "sample_period": 1.0,
+            "seed": 0,
+            "until": 1.0,
+            "after_joining": 0.0,
+            "engagement": "engaged",
+        },
+    ),
     "scenario": (scenario, {"name": "fig_6a"}),
     "own_scenario": (own_scenario, {"situation": SITUATION, "intent_known": False}),
     "scenario_behind": (scenario_behind, {"track": TRACK, "behind": 3e4, "abeam": 2e4}),
@@ -191,9 +243,9 @@ ANSWERS = {
     "Reason", "Sample", "Samples", "SeparationLost", "TimeRow", "Times", "Unable",
 }  # fmt: skip
 """What calls give back, and is not asked for."""
-PARTS = {"Arc", "BoundaryArc", "DeclaredLeader", "RecordedTrack", "Straight"}
+PARTS = {"Arc", "BoundaryArc", "DeclaredLeader", "Guided", "RecordedTrack", "Straight"}
 """What a `Trajectory` or a `Scenario` checks as it is made of them."""
-FILES = {"load_track", "replay"}
+FILES = {"load_airframe", "load_settings", "load_track", "replay"}
 """What reads a file: tests of its own say what it refuses."""
 METHODS = {"from_trajectory", "over_ground", "pose_at", "sample"}
 ARGUMENTS = [(name, argument) for name, (_, given) in CALLS.items() for argument in given]
@@ -239,6 +291,11 @@ junk = st.one_of(
         ]
     ),
 )
+
+
+def world(pursuer: str = "OWN", leader: str = "OTHER", tas: float = 240.0) -> World:
+    link = Link(**LINK | {"pursuer": pursuer, "leader": leader})
+    return World(aircraft=(Aircraft(**OWN | {"tas": tas}), Aircraft(**OTHER)), links=(link,))
 
 
 def show(title: Any, total: Any) -> Any:
@@ -318,6 +375,22 @@ def test_a_wrong_segment_is_refused_with_a_sentence(
         (lambda: plan_arrays(Situations(**COLUMNS), threads=True), "a whole number of 1 or more"),
         (lambda: plan_arrays(Situations(**COLUMNS), limited=None), "limited must be True or"),  # type: ignore[arg-type]
         (lambda: check(PLAN, SITUATION, samples=0), "samples must lie in 1 … 100000, not 0"),
+        (lambda: Aircraft(**OWN | {"ident": " "}), "ident must not be empty"),
+        (lambda: Aircraft(**OWN | {"altitude": 31_000.0}), "altitude must lie in -500 … 20000 m"),
+        (lambda: Aircraft(**OWN | {"max_bank": 25.0}), "max_bank must lie in 1 … 60 °"),
+        (lambda: Aircraft(**OWN | {"pilot": "me"}), "must be a Guided or a Declared or a Recorded"),
+        (lambda: Declared(intent=(1,)), r"intent\[0\] must be a FlyStraight or a TurnTo"),  # type: ignore[arg-type]
+        (lambda: Link(**LINK | {"slot_distance": 5e3}), "must be at least min_separation"),
+        (lambda: Link(**LINK | {"spacing": 900.0}), "spacing must lie in 0 … 600 s"),
+        (lambda: World(**WORLD | {"aircraft": Aircraft(**OWN)}), "must be a tuple of Aircraft"),
+        (lambda: World(**WORLD | {"links": (1,)}), r"links\[0\] must be a Link, not 1"),
+        (lambda: world("OTHER", "OWN"), "pilot of 'OTHER' must be Guided\\(\\) to join a leader"),
+        (lambda: world("OWN", "X"), "no aircraft 'X' to link: there are OWN, OTHER"),
+        (lambda: world("OWN", "OWN"), "cannot follow itself: choose another leader"),
+        (lambda: world(tas=330.0), "The A306 cannot fly 641 kt at FL295: .*choose"),
+        (lambda: simulate(World(**WORLD), until=0.0), "until must be above 0 s"),
+        (lambda: simulate(World(**WORLD), engagement="on"), "must be one of off, designated"),  # type: ignore[arg-type]
+        (lambda: airframe("A380"), "There is no airframe 'A380': choose one of"),
     ],
 )
 def test_sentences_say_what_would_be_right(call: Callable[[], object], sentence: str) -> None:
