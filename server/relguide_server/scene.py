@@ -90,6 +90,7 @@ class Scene:
         self._height = 0.0
         self._own_height = 0.0
         self._forecast: ForecastChanged | None = None
+        self._proposal: PlanProposed | None = None
         self._drawn_from = 0.0
         self._promise = ""
         self._cast: _Cast | None = None
@@ -148,7 +149,14 @@ class Scene:
                 self._sample(document.t, _pair(document, link), cast)
             case LeaderChanged() | ModeChanged() | SeparationLost() | FlightEnded():
                 pass  # what they change is seen in the samples
-            case PlanProposed() | EngagementChanged() | PlanRefused() | Alert() | Unable():
+            case PlanProposed():
+                if document.ident == link.pursuer:
+                    self._proposal = document
+                    self._draw_proposal(paint.PROPOSED)
+            case EngagementChanged():
+                if document.ident == link.pursuer:
+                    self._change_engagement(document)
+            case PlanRefused() | Alert() | Unable():
                 pass  # for the navigation display
             case _:
                 assert_never(document)
@@ -190,6 +198,22 @@ class Scene:
         """The plan's ideal path, a thin line beside the one that will be flown."""
         points = shapes.path_points(changed.plan.segments, self._wind, self._own_height)
         lines(self._scene, "/world/plan", shapes.polyline(points), paint.PLAN, 1.0)
+
+    def _draw_proposal(self, colour: paint.Colour) -> None:
+        """The path that could be flown, dashed."""
+        if self._proposal is None:
+            self._scene.remove_by_name("/world/proposal")
+            return
+        segments = self._proposal.plan.segments
+        points = shapes.path_points(segments, self._wind, self._own_height)
+        lines(self._scene, "/world/proposal", shapes.dashes(points, dash=2.4, gap=2.0), colour, 2.5)
+
+    def _change_engagement(self, changed: EngagementChanged) -> None:
+        """A proposal is accepted, or taken back, or there is none any more."""
+        if {changed.previous, changed.engagement} != {"designated", "armed"}:
+            self._proposal = None
+        armed = changed.engagement == "armed"
+        self._draw_proposal(paint.SLOT if armed else paint.PROPOSED)
 
     def _draw_forecast(self, t: float) -> None:
         """What is left at flight time t [s] of the path that will be flown, and its shadow."""
@@ -242,7 +266,9 @@ class Scene:
         slot = guidance.slot
         self._slot.position = (slot.x / KM, slot.y / KM, self._height)
         self._slot.wxyz = shapes.attitude(slot.heading, 0.0)
-        gate = (GATES[guidance.mode], "SLOT · joined" if guidance.joined else "SLOT")
+        self._slot.visible = guidance.engagement != "off"
+        colour = GATES[guidance.mode] if guidance.engagement == "engaged" else paint.SLOT
+        gate = (colour, "SLOT · joined" if guidance.joined else "SLOT")
         if gate != self._gate:
             self._draw_gate(*gate)
         lost = guidance.separation < min_separation

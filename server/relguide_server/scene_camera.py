@@ -44,7 +44,6 @@ class Cameras:
         server.gui.set_panel_label("VIEW")
         for name, direction in VIEWS.items():
             self._offer(name, direction)
-        server.gui.main_panel.minimize()
 
     def frame(self, separation: float, height: float) -> None:
         """Get both aircraft into the picture.
@@ -65,7 +64,7 @@ class Cameras:
         initial.look_at = self._middle()
 
     def _offer(self, name: str, direction: Vector) -> None:
-        """A button in viser's panel, which starts folded."""
+        """A button in viser's panel, which the cockpit hides and presses from its own."""
 
         def show(event: GuiEvent[Any]) -> None:
             if event.client is not None:

@@ -45,3 +45,15 @@ def test_what_may_not_follow_is_refused_with_a_sentence(page: Page, watched: Wat
     page.keyboard.press("e")
     expect(page.locator(".feedback.refused")).to_contain_text("designate the leader first")
     expect(page.locator(".mode-name")).to_have_text("Off")
+
+
+def test_the_scene_shows_nothing_but_the_flight_and_obeys_the_pages_buttons(
+    page: Page, watched: Watch
+) -> None:
+    expect(page.locator(".poster")).to_have_count(0, timeout=60_000)
+    scene = page.locator("iframe").content_frame
+    expect(scene.locator("[class*=Paper-root]:visible")).to_have_count(0)
+    expect(scene.locator("[class*=Notification-root]:visible")).to_have_count(0)
+    expect(scene.get_by_text("From above", exact=True)).to_have_count(1)
+    page.get_by_role("button", name="From above").click()
+    assert watched.complaints == []
