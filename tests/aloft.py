@@ -7,9 +7,9 @@ import numpy as np
 from relguide.flying.airframe import Airframe, airframe
 from relguide.flying.guidance.settings import DEFAULT
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.flight.flight_records import HOLD_HEADING, Body, Control, Drift, Limits
 from relguide.kernels.flight.guide import CONVERGE, Course, Progress, Task, act
 from relguide.kernels.flight.laws import Gains
-from relguide.kernels.flight.records import HOLD_HEADING, Body, Control, Drift, Limits
 from relguide.kernels.flight.second import GUIDED, fly_second
 from relguide.units import DEG, Metre, MetrePerSecond, Radian, Second
 

@@ -14,10 +14,10 @@ from relguide.kernels.base.motion import advance
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.base.turn import turn_rate
 from relguide.kernels.flight.ahead import add_mark
+from relguide.kernels.flight.flight_records import Body, Drift, Limits
 from relguide.kernels.flight.laws import ground_track
 from relguide.kernels.flight.marks import straight_for
 from relguide.kernels.flight.program import roll_lead
-from relguide.kernels.flight.records import Body, Drift, Limits
 from relguide.planning.situation import FlyStraight, IntentPiece, Leader, TurnTo, Wind
 from relguide.units import DEG, Metre, MetrePerSecond, Radian, RadianPerSecond, Second
 

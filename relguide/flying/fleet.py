@@ -25,7 +25,7 @@ from relguide.flying.leaders.declared import (
 from relguide.flying.leaders.recorded import Recording, steps_of_track
 from relguide.flying.world import Aircraft, Declared, Guided, Link, Recorded, World
 from relguide.kernels.base.angles import wrap, wrap_signed
-from relguide.kernels.flight.records import Body, Control, Drift, Limits, limits_at
+from relguide.kernels.flight.flight_records import Body, Control, Drift, Limits, limits_at
 from relguide.kernels.flight.second import (
     GUIDED,
     PROGRAMMED,

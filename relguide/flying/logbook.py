@@ -53,7 +53,7 @@ from relguide.flying.plan_documents import PathPoint
 from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.base.turn import turn_rate
-from relguide.kernels.flight.records import HOLD_HEADING, Control
+from relguide.kernels.flight.flight_records import HOLD_HEADING, Control
 from relguide.planning.alternatives import alternatives
 from relguide.planning.situation import Leader, Wind
 from relguide.units import DEG, Metre, Radian, Second

@@ -15,8 +15,8 @@ from relguide_server import areas, flights, pages, plans, scene_relay
 from relguide_server.departures import Departures, library_departures
 from relguide_server.drift import DriftCheck
 from relguide_server.errors import install_handlers
-from relguide_server.fleet import Fleet
 from relguide_server.guards import BodyLimit, StrictHeaders
+from relguide_server.live_fleet import Fleet
 from relguide_server.metrics import Metrics
 from relguide_server.openapi import describe, json_answer, response, schema_of
 from relguide_server.pages import Page

@@ -31,7 +31,7 @@ from relguide.planning.situation import Situation
 from relguide.planning.words import HORIZON
 from relguide.units import Second
 from relguide_server.errors import Refusal
-from relguide_server.fleet import Fleet, FleetOf
+from relguide_server.live_fleet import Fleet, FleetOf
 from relguide_server.openapi import (
     KNOWN_PARAMETERS_ONLY,
     json_answer,

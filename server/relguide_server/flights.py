@@ -37,7 +37,7 @@ from relguide.flying.orders import (
 )
 from relguide_server.departures import DeparturesOf
 from relguide_server.errors import Refusal
-from relguide_server.fleet import FleetOf
+from relguide_server.live_fleet import FleetOf
 from relguide_server.live_flight import LiveFlight
 from relguide_server.openapi import (
     KNOWN_PARAMETERS_ONLY,

@@ -21,7 +21,7 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, WebSocketException
 from websockets.typing import Subprotocol
 
-from relguide_server.fleet import FleetOf
+from relguide_server.live_fleet import FleetOf
 from relguide_server.live_flight import LiveFlight
 
 PASSED_ON = frozenset({"ViewerCameraMessage", "GuiUpdateMessage"})

@@ -3,8 +3,8 @@
 from math import hypot
 
 from relguide.kernels.base.turn import turn_rate
+from relguide.kernels.flight.flight_records import HOLD_HEADING, TURN_RATE, Body, Control
 from relguide.kernels.flight.lateral import lateral_step
-from relguide.kernels.flight.records import HOLD_HEADING, TURN_RATE, Body, Control
 from relguide.planning.situation import Situation
 from relguide.units import DEG, Metre, Radian, Second
 from tests.aloft import STILL, limits_of

@@ -13,8 +13,8 @@ from relguide.flying.airframe import Airframe
 from relguide.flying.guidance.settings import DEFAULT
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.base.turn import bank_for_turn_rate, turn_rate
+from relguide.kernels.flight.flight_records import HOLD_HEADING, TURN_RATE, Body, Control
 from relguide.kernels.flight.path import lay_path, project
-from relguide.kernels.flight.records import HOLD_HEADING, TURN_RATE, Body, Control
 from relguide.units import Metre, MetrePerSecond, Radian, RadianPerSecond, Second
 from tests.aloft import A306, GAINS, MAX_BANK, fly, limits_of, tracking
 from tests.campaign.loops import PATH_GAINS, STEP, Floats, PathGains

@@ -14,9 +14,9 @@ from relguide.flying.guidance.assignment import Assignment
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.flight.ahead import AT, LEAST, NEVER, RIGHT, fly_ahead
+from relguide.kernels.flight.flight_records import Body
 from relguide.kernels.flight.guide import Course, Progress
 from relguide.kernels.flight.path import lay_path
-from relguide.kernels.flight.records import Body
 from relguide.units import Metre, Second
 
 STEPS = 4

@@ -17,8 +17,8 @@ from relguide.flying.guidance.announcements import (
 from relguide.flying.guidance.committed import Committed
 from relguide.flying.guidance.forecast import Forecast
 from relguide.flying.modes import NUMBERS, Mode, change
+from relguide.kernels.flight.flight_records import Control
 from relguide.kernels.flight.guide import HOLD, Progress
-from relguide.kernels.flight.records import Control
 from relguide.planning.acceptance import Fault
 from relguide.planning.plan import Reason
 from relguide.planning.trajectory import Trajectory

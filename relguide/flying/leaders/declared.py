@@ -9,8 +9,8 @@ import numpy as np
 from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.base.turn import turn_rate
+from relguide.kernels.flight.flight_records import Body, Limits
 from relguide.kernels.flight.program import ROLLED_OUT, STRAIGHT, TURN, roll_lead
-from relguide.kernels.flight.records import Body, Limits
 from relguide.planning.limits import MAX_PIECES
 from relguide.planning.situation import FlyStraight, IntentPiece, TurnTo
 from relguide.planning.trajectory import LEFT, RIGHT, Turn

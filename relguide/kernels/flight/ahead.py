@@ -7,11 +7,11 @@ from numba import njit
 
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.flight import marks as at
+from relguide.kernels.flight.flight_records import Body, Drift, Limits, store
 from relguide.kernels.flight.guide import CONVERGE, Course, Gate, Progress, Task, act
 from relguide.kernels.flight.lateral import lateral_step
 from relguide.kernels.flight.laws import Gains, ground_track
 from relguide.kernels.flight.program import fly_program
-from relguide.kernels.flight.records import Body, Drift, Limits, store
 from relguide.kernels.flight.second import least_between
 
 LEAST, AT, MODE, RIGHT, S, TO_SLOT = 0, 1, 2, 3, 4, 5

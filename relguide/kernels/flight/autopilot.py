@@ -11,7 +11,7 @@ from numba import njit
 
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.base.turn import bank_for_turn_rate, turn_rate
-from relguide.kernels.flight.records import HOLD_HEADING, Body, Control, Limits
+from relguide.kernels.flight.flight_records import HOLD_HEADING, Body, Control, Limits
 
 ROLL_KP = 0.8
 """Closes bank in 1/kp = 1.3 s: slow enough not to excite a roll mode of 0.5 s [1/s]."""

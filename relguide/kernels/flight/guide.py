@@ -14,6 +14,14 @@ from numba import njit
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.flight import marks as at
+from relguide.kernels.flight.flight_records import (
+    HOLD_HEADING,
+    Body,
+    Control,
+    Drift,
+    Limits,
+    move_to,
+)
 from relguide.kernels.flight.laws import (
     Gains,
     Way,
@@ -26,14 +34,6 @@ from relguide.kernels.flight.laws import (
 )
 from relguide.kernels.flight.marks import beside_marks, mark_at, sharpest_bend, straight_for
 from relguide.kernels.flight.path import heading_on, project, turning_after
-from relguide.kernels.flight.records import (
-    HOLD_HEADING,
-    Body,
-    Control,
-    Drift,
-    Limits,
-    move_to,
-)
 from relguide.units import G0
 
 HOLD, CONVERGE, CAPTURE, FOLLOW, ESCAPE = 0, 1, 2, 3, 4

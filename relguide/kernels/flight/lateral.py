@@ -7,7 +7,7 @@ from numba import njit
 from relguide.kernels.base.motion import advance
 from relguide.kernels.base.turn import turn_rate
 from relguide.kernels.flight.autopilot import aileron
-from relguide.kernels.flight.records import Body, Control, Drift, Limits
+from relguide.kernels.flight.flight_records import Body, Control, Drift, Limits
 
 
 @njit(cache=True, nogil=True)

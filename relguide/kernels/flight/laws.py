@@ -18,7 +18,7 @@ from numba import njit
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.base.motion import advance
 from relguide.kernels.base.turn import bank_for_turn_rate, turn_rate
-from relguide.kernels.flight.records import HOLD_HEADING, TURN_RATE, Body, Drift
+from relguide.kernels.flight.flight_records import HOLD_HEADING, TURN_RATE, Body, Drift
 from relguide.units import G0
 
 SECOND = 1.0

@@ -10,8 +10,15 @@ from numba import njit
 
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.base.turn import turn_rate
+from relguide.kernels.flight.flight_records import (
+    HOLD_HEADING,
+    TURN_RATE,
+    Body,
+    Control,
+    Drift,
+    Limits,
+)
 from relguide.kernels.flight.lateral import lateral_step
-from relguide.kernels.flight.records import HOLD_HEADING, TURN_RATE, Body, Control, Drift, Limits
 
 STRAIGHT = 0.0
 """First column of a piece: fly straight until the flight time in the second [s]."""

@@ -7,9 +7,9 @@ from numba import njit
 from numpy.typing import NDArray
 
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.flight.flight_records import Control, Drift, body_at, limits_at, store
 from relguide.kernels.flight.lateral import lateral_step
 from relguide.kernels.flight.program import fly_program
-from relguide.kernels.flight.records import Control, Drift, body_at, limits_at, store
 
 IntArray = NDArray[np.int64]
 GUIDED = 0

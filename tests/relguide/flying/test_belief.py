@@ -10,9 +10,9 @@ from relguide.flying.airframe import airframe
 from relguide.flying.belief import ROOM, SPARE, Belief, FlownTrack, intent_after
 from relguide.flying.fleet import Fleet
 from relguide.flying.world import Aircraft, Declared, Guided, Link, Pilot, World
+from relguide.kernels.flight.flight_records import Drift
 from relguide.kernels.flight.laws import ground_track
 from relguide.kernels.flight.program import roll_lead
-from relguide.kernels.flight.records import Drift
 from relguide.planning.situation import CALM, FlyStraight, Leader, TurnTo, Wind
 from relguide.planning.trajectory import LEFT, RIGHT
 from relguide.units import DEG, NM

@@ -14,7 +14,7 @@ from relguide.flying.flight import fly
 from relguide.flying.scenarios import scenario
 from relguide.flying.simulation import simulate
 from relguide.flying.world import Aircraft, Declared, Guided, Link, Pilot, Recorded, World
-from relguide.kernels.flight.records import HOLD_HEADING, Control
+from relguide.kernels.flight.flight_records import HOLD_HEADING, Control
 from relguide.planning.limits import POSITION, TAS
 from relguide.planning.plan import plan
 from relguide.planning.situation import FlyStraight, TurnTo, Wind

@@ -9,7 +9,7 @@ from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.settings import DEFAULT, Settings
 from relguide.flying.pursuit import assignment_of
 from relguide.flying.scenarios import fig_6, own_scenario
-from relguide.kernels.flight.records import Control
+from relguide.kernels.flight.flight_records import Control
 from relguide.planning.situation import Leader, Pursuer, Situation
 from relguide.units import DEG, NM
 

@@ -20,7 +20,7 @@ from relguide.flying.guidance.converge import Proposal, propose
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.base.turn import turn_rate
 from relguide.kernels.flight import path as on
-from relguide.kernels.flight.records import HOLD_HEADING, TURN_RATE, Control
+from relguide.kernels.flight.flight_records import HOLD_HEADING, TURN_RATE, Control
 from relguide.planning.plan import plan
 from relguide.planning.situation import wind_from
 from relguide.planning.trajectory import LEFT, RIGHT, Arc, Straight

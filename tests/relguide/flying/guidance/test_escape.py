@@ -7,7 +7,7 @@ import pytest
 
 from relguide.flying.guidance.escape import escape, separation_on_heading
 from relguide.kernels.base.angles import wrap_signed
-from relguide.kernels.flight.records import HOLD_HEADING, Control
+from relguide.kernels.flight.flight_records import HOLD_HEADING, Control
 from relguide.planning.situation import TurnTo
 from relguide.planning.trajectory import LEFT
 from relguide.units import DEG, NM

@@ -12,8 +12,8 @@ from relguide.flying.guidance.converge import Proposal, propose
 from relguide.flying.guidance.forecast import NO_COURSE, Forecast, forecast
 from relguide.flying.scenarios import own_scenario
 from relguide.kernels.flight.ahead import AT, LEAST, NEVER, RIGHT
+from relguide.kernels.flight.flight_records import TURN_RATE, Control
 from relguide.kernels.flight.guide import HOLD, Progress
-from relguide.kernels.flight.records import TURN_RATE, Control
 from relguide.planning.plan import NoPlan, plan
 from relguide.units import DEG
 from tests.flights import fly_whole, random_start

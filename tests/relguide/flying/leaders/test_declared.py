@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from relguide.flying.leaders.declared import Program, program_of, remaining, turn_program
 from relguide.kernels.base.turn import turn_rate
+from relguide.kernels.flight.flight_records import Body
 from relguide.kernels.flight.program import STRAIGHT, TURN, fly_program, roll_lead
-from relguide.kernels.flight.records import Body
 from relguide.planning.limits import MAX_PIECES
 from relguide.planning.situation import FlyStraight, IntentPiece, Leader, TurnTo
 from relguide.planning.trajectory import LEFT, RIGHT, Turn

@@ -17,6 +17,7 @@ from relguide.flying.scenarios import scenario
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.flight import marks as at
 from relguide.kernels.flight.ahead import AT, LEAST, MODE, NEVER, TO_SLOT, add_mark, fly_ahead
+from relguide.kernels.flight.flight_records import Body, Drift
 from relguide.kernels.flight.guide import (
     CAPTURE,
     CONVERGE,
@@ -29,7 +30,6 @@ from relguide.kernels.flight.guide import (
 )
 from relguide.kernels.flight.laws import ground_track
 from relguide.kernels.flight.marks import beside_marks
-from relguide.kernels.flight.records import Body, Drift
 from relguide.planning.plan import plan
 from relguide.planning.situation import FlyStraight, TurnTo, wind_from
 from relguide.planning.trajectory import RIGHT

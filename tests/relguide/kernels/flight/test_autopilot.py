@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.base.turn import turn_rate
 from relguide.kernels.flight.autopilot import INTEGRATE_WITHIN, aileron
+from relguide.kernels.flight.flight_records import TURN_RATE, Body, Control
 from relguide.kernels.flight.program import roll_lead
-from relguide.kernels.flight.records import TURN_RATE, Body, Control
 from relguide.units import DEG
 from tests.aloft import LIMITS, MAX_BANK, STEP, fly, hold, level
 

@@ -11,6 +11,7 @@ from relguide.flying.belief import FlownTrack
 from relguide.flying.guidance.forecast import NO_COURSE
 from relguide.flying.guidance.settings import DEFAULT
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.flight.flight_records import HOLD_HEADING, Body, Control, Drift
 from relguide.kernels.flight.guide import (
     CAPTURE,
     CONVERGE,
@@ -24,7 +25,6 @@ from relguide.kernels.flight.guide import (
     act,
 )
 from relguide.kernels.flight.path import lay_path
-from relguide.kernels.flight.records import HOLD_HEADING, Body, Control, Drift
 from relguide.units import DEG, G0
 from tests.aloft import FAR_AWAY, GAINS, LIMITS, STILL, level
 

@@ -20,8 +20,8 @@ from relguide.kernels.flight.autopilot import (
     ROLL_KP,
     aileron,
 )
+from relguide.kernels.flight.flight_records import HOLD_HEADING, TURN_RATE, Body, Control, Drift
 from relguide.kernels.flight.lateral import lateral_step
-from relguide.kernels.flight.records import HOLD_HEADING, TURN_RATE, Body, Control, Drift
 from relguide.units import DEG, G0
 from tests.aloft import A306, LIMITS, MAX_BANK, STEP, STILL, fly, hold, level
 

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.base.turn import bank_for_turn_rate, turn_rate
+from relguide.kernels.flight.flight_records import HOLD_HEADING, TURN_RATE, Control, Drift, Limits
 from relguide.kernels.flight.laws import (
     ALIGNED,
     NEAR,
@@ -23,7 +24,6 @@ from relguide.kernels.flight.laws import (
     track,
 )
 from relguide.kernels.flight.path import lay_path, project
-from relguide.kernels.flight.records import HOLD_HEADING, TURN_RATE, Control, Drift, Limits
 from relguide.units import DEG
 from tests.aloft import A306, GAINS, LIMITS, STILL, fly, level, limits_of, tracking
 

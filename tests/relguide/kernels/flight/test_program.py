@@ -8,6 +8,7 @@ import pytest
 from relguide.flying.leaders.declared import Program, program_of
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.base.turn import turn_rate
+from relguide.kernels.flight.flight_records import HOLD_HEADING, TURN_RATE, Control
 from relguide.kernels.flight.program import (
     fly_program,
     next_piece,
@@ -15,7 +16,6 @@ from relguide.kernels.flight.program import (
     roll_lead,
     until_roll,
 )
-from relguide.kernels.flight.records import HOLD_HEADING, TURN_RATE, Control
 from relguide.kernels.flight.second import PROGRAMMED, fly_second
 from relguide.planning.situation import FlyStraight, IntentPiece, Leader, TurnTo
 from relguide.planning.trajectory import LEFT, RIGHT, Turn

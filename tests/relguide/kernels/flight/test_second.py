@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.base.turn import turn_rate
-from relguide.kernels.flight.records import TURN_RATE, Body, Control, Drift
+from relguide.kernels.flight.flight_records import TURN_RATE, Body, Control, Drift
 from relguide.kernels.flight.second import (
     GUIDED,
     PROGRAMMED,
