@@ -25,11 +25,11 @@ EXAMPLES = """
     relguide fly situation.json --record a.jsonl your own situation, recorded
     relguide fly track.csv                       behind a recorded ADS-B track
     relguide fly random --seed 7                 a flight drawn from that number
+    relguide fly fig_6b --spacing 60             once joined, a minute behind
     relguide fly fig_6b --orders orders.jsonl    the leader does as it is ordered, a line an order:
         {"t_s": 60, "intent_known": false}
         {"t_s": 300, "leader_heading_deg": 180, "direction": "left"}
         {"t_s": 950, "leader_tas_mps": 100}
-  relguide fly fig_6b --spacing 60             once joined, a minute behind
     """
 MAX_FOLLOWING = 36_000.0
 """Longest time to follow [s]."""

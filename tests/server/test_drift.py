@@ -5,7 +5,6 @@ from collections.abc import Callable
 from dataclasses import replace
 from threading import Event
 
-import numpy as np
 import pytest
 from relguide_server.app import create_app
 from relguide_server.drift import WAITING, DriftCheck
@@ -15,25 +14,18 @@ from relguide_server.settings import Settings
 from starlette.testclient import TestClient
 
 from relguide import NoPlan, Plan, Planner, Situation, plan
-from relguide.kernels.words.branches import BRANCHES, SIZE
-from relguide.learn.network_planner import network_planner
-from relguide.learn.words.branch_network import BranchNetwork
 from tests.bodies import change
-from tests.relguide.learn.words.networks import network
 from tests.server.flown import SITUATION
 
 PATIENCE = 60.0
 """How long an audit may take [s]: kernels may have to be compiled first."""
 
 
-def one_idea(branch: str) -> BranchNetwork:
-    """A network that is sure of one branch, whatever it is asked."""
-    layers = network().layers
-    bias = np.zeros_like(layers.last_bias)
-    bias[BRANCHES.index(branch)] = 50.0
-    bias[SIZE:] = 1.0
-    stubborn = layers._replace(last=np.zeros_like(layers.last), last_bias=bias)
-    return replace(network(), layers=stubborn, least_share=0.01, most=3)
+def slow_network(situation: Situation) -> Plan | NoPlan:
+    """Plans that turn at half of the bank, and say that a network made them."""
+    gentle = replace(situation.pursuer, max_bank=0.5 * situation.pursuer.max_bank)
+    answer = as_network(replace(situation, pursuer=gentle))
+    return replace(answer, situation=situation) if isinstance(answer, Plan) else answer
 
 
 def as_network(situation: Situation) -> Plan | NoPlan:
@@ -70,7 +62,7 @@ def metrics_after(planner: Planner, *, audits: int) -> dict[str, float]:
 
 @pytest.mark.slow
 def test_a_bad_network_is_reported() -> None:
-    found = metrics_after(network_planner(one_idea("LSL")), audits=1)
+    found = metrics_after(slow_network, audits=1)
     asked = found["network_plans_total"] + found["network_fallbacks_total"]
     assert asked >= 8.0  # the first flight of the rehearsal asks too
     assert found['drift_audits_total{answer="different"}'] >= 1.0

@@ -72,7 +72,7 @@ def refine_chains(
     Returns:
         the least arrival [R/V_P] and the number of its legs; `best` and 0 if none is earlier.
     """
-    tried, given = np.empty((MAX_LEGS, 6)), best
+    tried, given = np.zeros((MAX_LEGS, 6)), best
     won = -1
     for k in range(len(chains)):
         if k > 0 and time_is_up(scene.until):

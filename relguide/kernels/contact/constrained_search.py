@@ -78,7 +78,7 @@ def best_constrained_path(
     best, count = _search(start, scene, bearings, tangents, beat, legs)
     if narrow and len(scene.leader) > 1 and scene.d_min > 1.0 and best > scene.t_release:
         # more bearings do not include the fewer ones, nor find all that these do
-        finer = np.empty_like(legs)
+        finer = np.zeros_like(legs)
         time, found = _search(start, scene, 2 * bearings, tangents, best, finer)
         if found > 0:
             best, count = time, found
@@ -105,7 +105,7 @@ def _search(
     kept = best_chains(scene, nodes, best, _NEARLY, hops, True, chains)
     if kept > 0 and chains[0, 0, 0] == scene.t_release:
         contacts = int(chains[0, 0, 1])
-        chain = chain_of(chains[0, 1 : contacts + 1], np.empty((MAX_LEGS, 6)))
+        chain = chain_of(chains[0, 1 : contacts + 1], np.zeros((MAX_LEGS, 6)))
         if _fly_to_delay(start, with_time(scene, inf), chain):
             legs[: contacts + 1] = chain.legs[: contacts + 1]
             return scene.t_release, contacts + 1
