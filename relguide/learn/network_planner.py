@@ -53,10 +53,10 @@ class Proposal:
     @property
     def optimality(self) -> Optimality:
         """What is proved of it where it is certified."""
-        proved = self.candidate.time_to_converge <= self.lower_bound + AS_FAST
+        time = self.candidate.time_to_converge
         return Optimality(
-            proof="relaxation" if proved else "bound",
-            lower_bound=min(self.lower_bound, self.candidate.time_to_converge),
+            proof="relaxation" if time <= self.lower_bound + AS_FAST else "bound",
+            lower_bound=min(self.lower_bound, time),
         )
 
 

@@ -31,6 +31,9 @@ from relguide.planning.situation import Situation
 from relguide.planning.words import HORIZON
 from relguide.units import Metre, Second
 
+NO_PATH = np.full(5, inf)
+"""The fastest path without the limit, until one is found."""
+
 
 def view(situation: Situation, radius: Metre) -> tuple[bool, Where, FloatArray]:
     """A situation as networks see it, behind a leader that keeps straight.
@@ -44,7 +47,7 @@ def view(situation: Situation, radius: Metre) -> tuple[bool, Where, FloatArray]:
         infinite time if there is none or the slot lies aside: see `network_view.view`.
     """
     pursuer, leader, wind = situation.pursuer, situation.leader, situation.wind
-    free = np.full(5, inf)
+    free = NO_PATH.copy()
     binds, where = network_view.view(
         pursuer.x, pursuer.y, pursuer.heading, pursuer.tas, radius,
         leader.x, leader.y, leader.heading, leader.tas,
