@@ -96,6 +96,16 @@ class LockedIndex(caching.IndexDataCacheFile):  # type: ignore[misc]
         with self._alone():
             return super().load(key)
 
+    def _load_index(self) -> Any:
+        """What the index holds; nothing if it was cut short, or names types that are no more.
+
+        An index of another version may: a folder of kernels outlives the sources it is of.
+        """
+        try:
+            return super()._load_index()
+        except (ImportError, AttributeError, EOFError, pickle.UnpicklingError):
+            return {}
+
     def _alone(self) -> AbstractContextManager[None]:
         place = Path(self._cache_path)
         return _lock(place) if place == folder() else nullcontext()

@@ -1,6 +1,7 @@
 """After `python -m relguide.warm_up` nothing is left to compile, and stale code is never run."""
 
 import os
+import pickle
 import subprocess
 import sys
 from pathlib import Path
@@ -296,6 +297,23 @@ def test_a_folder_that_can_only_be_read_serves_if_it_was_filled(
     assert cache.folder.__wrapped__() == read_only
     (read_only / f"{cache.EVERYTHING}{cache.RECORD}").write_text("{")
     assert not cache.is_full(read_only)
+
+
+@pytest.mark.parametrize(
+    "rest", [b"cno_such_module\nType\n.", b"crelguide.units\nNoSuchType\n.", b"", b"\x80"]
+)
+def test_an_index_that_cannot_be_read_is_out_of_date_and_nothing_worse(
+    tmp_path: Path, rest: bytes
+) -> None:
+    """After an upgrade in place it may name types of modules that are no more."""
+    index = cache.LockedIndex(str(tmp_path), "kernel", "stamp")
+    index.save("signature", "machine code")
+    assert index.load("signature") == "machine code"
+    (file,) = tmp_path.glob("*.nbi")
+    file.write_bytes(pickle.dumps(index._version) + rest)
+    assert index.load("signature") is None
+    index.save("signature", "compiled anew")
+    assert index.load("signature") == "compiled anew"
 
 
 def test_kernels_are_kept_where_we_say() -> None:
