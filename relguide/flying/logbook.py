@@ -55,6 +55,7 @@ from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.base.turn import turn_rate
 from relguide.kernels.flight.flight_records import HOLD_HEADING, Control
 from relguide.planning.alternatives import alternatives
+from relguide.planning.plan import Plan
 from relguide.planning.situation import Leader, Wind
 from relguide.units import DEG, Metre, Radian, Second
 
@@ -168,8 +169,7 @@ def event_document(t: Second, names: Names, event: Event) -> Document:
     ident = names.pursuer
     match event:
         case NewPlan(shown=plan, committed=committed):
-            at, wind = plan.certificate.at_time, plan.situation.wind
-            leader, ahead = plan.situation.leader.trajectory, committed.forecast
+            ahead, (leader_at, own_at) = committed.forecast, _closest_points(plan)
             least, _ = ahead.least(t)
             others = alternatives(committed.plan) if event.announced else ()
             return PlanChanged(
@@ -178,26 +178,26 @@ def event_document(t: Second, names: Names, event: Event) -> Document:
                 reason=event.reason,
                 message=event.message,
                 plan=plan_card(plan, others, later=committed.begins - t),
-                leader_at_closest=path_point(leader.pose_at(at), at, wind),
-                pursuer_at_closest=path_point(plan.trajectory.pose_at(at), at, wind),
+                leader_at_closest=leader_at,
+                pursuer_at_closest=own_at,
                 announced=event.announced,
                 promised=committed.joins_at(ahead) - t,
                 tube=ahead.tube,
                 flown_least=least,
             )
         case ProposedPlan(shown=plan, committed=committed):
-            at, wind = plan.certificate.at_time, plan.situation.wind
-            leader, ahead = plan.situation.leader.trajectory, committed.forecast
+            ahead, (leader_at, own_at) = committed.forecast, _closest_points(plan)
             least, _ = ahead.least(t)
             others, later = alternatives(committed.plan), committed.begins - t
+            wind = plan.situation.wind
             return PlanProposed(
                 t=t,
                 ident=ident,
                 message=event.message,
                 plan=plan_card(plan, others, later=later),
-                leader_at_closest=path_point(leader.pose_at(at), at, wind),
-                pursuer_at_closest=path_point(plan.trajectory.pose_at(at), at, wind),
-                promised=(ahead.join_time if ahead.joins else committed.due) - t,
+                leader_at_closest=leader_at,
+                pursuer_at_closest=own_at,
+                promised=committed.joins_at(ahead) - t,
                 flown_least=least,
                 others=other_path_cards(others, wind, later=later, most=GHOSTS),
             )
@@ -243,6 +243,14 @@ def event_document(t: Second, names: Names, event: Event) -> Document:
             return Unable(t=t, ident=ident, reason=event.reason, message=event.message)
         case _:
             assert_never(event)
+
+
+def _closest_points(plan: Plan) -> tuple[PathPoint, PathPoint]:
+    """Where leader and pursuer are when a plan brings them closest."""
+    at, wind = plan.certificate.at_time, plan.situation.wind
+    both = plan.situation.leader.trajectory, plan.trajectory
+    leader, own = (path_point(path.pose_at(at), at, wind) for path in both)
+    return leader, own
 
 
 def forecast_document(t: Second, ident: str, ahead: Forecast) -> ForecastChanged:

@@ -33,9 +33,7 @@ from relguide.flying.logbook import event_document, forecast_document, sample
 from relguide.flying.losses import count_second
 from relguide.flying.orders import (
     Command,
-    LeaderData,
-    PursuerHeading,
-    SetEngagement,
+    CrewCommand,
     no_commands,
     obey,
 )
@@ -189,7 +187,7 @@ def _obey(command: Command, fleet: Fleet, pursuits: list[Pursuit], t: Second) ->
     if not pursuits:
         return
     first = pursuits[0]
-    if isinstance(command, LeaderData | PursuerHeading | SetEngagement):
+    if isinstance(command, CrewCommand):
         yield from obey_crew(first, command, fleet, t)
         return
     known, said = obey(command, fleet, first.leader, first.known, t)
@@ -202,13 +200,10 @@ def _obey(command: Command, fleet: Fleet, pursuits: list[Pursuit], t: Second) ->
 
 def _guide(one: Pursuit, fleet: Fleet, planner: Planner, t: Second) -> Iterator[Document]:
     """One act of guidance, and what is new of the leader."""
-    if one.heard is None:
-        one.track.add(fleet.body(one.leader), fleet.drift, t)
     learn_braking(one, fleet)
     yield from doubt_leader(one, fleet, t)
     belief = one.belief(fleet, t)
-    if one.heard is not None:
-        one.track.add(belief.leader, fleet.drift, t)
+    one.track.add(belief.leader, fleet.drift, t)
     yield from watch_leader(one, belief)
     one.memory, advice = advise(one.memory, belief, one.assignment, planner)
     for event in advice.events:

@@ -44,6 +44,7 @@ from relguide.flying.guidance.plan_news import (
     announce_pending,
     count_refusal,
     fly_proposal,
+    retry_pause,
     say_no_plan,
 )
 from relguide.flying.guidance.stand_by import give_up_old_data, stand_by
@@ -64,7 +65,7 @@ def advise(
 ) -> tuple[Memory, Advice]:
     """What to fly for the next second."""
     memory = notice_leader(memory, belief, assignment)
-    memory, events = give_up_old_data(memory, belief)
+    memory, events = give_up_old_data(memory, belief, assignment)
     if memory.engagement != "off":
         memory, unfit = judge_speed(memory, belief, assignment)
         events += unfit
@@ -108,8 +109,7 @@ def _try_to_plan(
 ) -> tuple[Memory, list[Event]]:
     """From a held heading: converge as soon as there is a path that keeps d_min."""
     settings, t = assignment.settings, belief.t
-    quiet = settings.retry_share * (t - max(memory.changed, memory.since))
-    if t - memory.asked < min(max(settings.retry, quiet), settings.retry_longest):
+    if t - memory.asked < retry_pause(memory, belief, assignment):
         return memory, []
     if memory.mode == "escape":
         rested = t - memory.since >= settings.escapes_for and is_steady(memory, belief, assignment)

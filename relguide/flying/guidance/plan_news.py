@@ -166,6 +166,13 @@ def count_refusal(
     return memory._replace(fallbacks=memory.fallbacks + found.fell_back, refused=fault), news
 
 
+def retry_pause(memory: Memory, belief: Belief, assignment: Assignment) -> Second:
+    """How long to wait for the next try without a plan [s]: longer, if nothing is new for long."""
+    settings = assignment.settings
+    quiet = settings.retry_share * (belief.t - max(memory.changed, memory.since))
+    return min(max(settings.retry, quiet), settings.retry_longest)
+
+
 def say_no_plan(
     memory: Memory, belief: Belief, assignment: Assignment, answer: NoPlan, events: list[Event]
 ) -> tuple[Memory, list[Event]]:

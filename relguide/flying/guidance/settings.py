@@ -129,6 +129,12 @@ class Settings:
     """… once the leader has done nothing new for five times as long,"""
     retry_longest: Second = 60.0
     """… but never after a longer pause than this."""
+    propose_every: Second = 2.0
+    """A path that is proposed begins where the aircraft is: it is made anew this often."""
+    proposes_on_data_of: Second = 5.0
+    """No path is proposed on older data of the leader, …"""
+    flies_on_data_of: Second = 10.0
+    """… and none is flown on data older than this."""
     look_out: Second = 180.0
     """How long an escape must keep clear: DAIDALUS looks as far."""
     escape_tube: Metre = 60.0

@@ -13,19 +13,17 @@ from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.committed import shown_plan
 from relguide.flying.guidance.converge import NoProposal, Proposal, propose
 from relguide.flying.guidance.memory import LONG_AGO, Announced, Memory, enter
-from relguide.flying.guidance.plan_news import count_refusal, leads_elsewhere, say_no_plan
+from relguide.flying.guidance.plan_news import (
+    count_refusal,
+    leads_elsewhere,
+    retry_pause,
+    say_no_plan,
+)
 from relguide.flying.modes import NUMBERS
 from relguide.kernels.flight.guide import Progress
 from relguide.planning.phrases import compass
 from relguide.planning.plan import Planner
-from relguide.units import MetrePerSecond, Radian, Second
-
-PROPOSE_EVERY: Second = 2.0
-"""A proposal begins where the aircraft is: it is made anew so often [s]."""
-TOO_OLD_TO_PROPOSE: Second = 5.0
-"""With data of the leader older than this no path is proposed [s]."""
-TOO_OLD_TO_FLY: Second = 10.0
-"""With data of the leader older than this no path is flown [s]."""
+from relguide.units import MetrePerSecond, Radian
 
 
 def order_engagement(memory: Memory, belief: Belief, to: Engagement) -> tuple[Memory, list[Event]]:
@@ -77,9 +75,12 @@ def hold_heading(memory: Memory, heading: Radian, tas: MetrePerSecond) -> Memory
     return memory._replace(progress=progress, forecast=None, proposed=None)
 
 
-def give_up_old_data(memory: Memory, belief: Belief) -> tuple[Memory, list[Event]]:
+def give_up_old_data(
+    memory: Memory, belief: Belief, assignment: Assignment
+) -> tuple[Memory, list[Event]]:
     """Stop flying where the leader was heard of too long ago."""
-    if memory.engagement in ("off", "designated") or belief.leader_age <= TOO_OLD_TO_FLY:
+    oldest = assignment.settings.flies_on_data_of
+    if memory.engagement in ("off", "designated") or belief.leader_age <= oldest:
         return memory, []
     message = f"Unable: nothing was heard of the leader for {belief.leader_age:.0f} s."
     memory, events = stop(memory, belief, "designated", "The leader's data are lost")
@@ -90,14 +91,13 @@ def stand_by(
     memory: Memory, belief: Belief, assignment: Assignment, planner: Planner
 ) -> tuple[Memory, list[Event]]:
     """Propose a path, if a leader is designated and it is time for a new proposal."""
-    if memory.engagement == "off" or belief.leader_age > TOO_OLD_TO_PROPOSE:
+    if memory.engagement == "off" or belief.leader_age > assignment.settings.proposes_on_data_of:
         return memory._replace(proposed=None), []
     if memory.unable == "speed":
         return _without_proposal(memory)
-    settings, wait = assignment.settings, PROPOSE_EVERY
-    if memory.missing is not None:  # the longer nothing is new, the more seldom it is tried again
-        quiet = settings.retry_share * (belief.t - max(memory.changed, memory.since))
-        wait = min(max(settings.retry, quiet), settings.retry_longest)
+    wait = assignment.settings.propose_every
+    if memory.missing is not None:
+        wait = retry_pause(memory, belief, assignment)
     if belief.t - memory.asked < wait:
         return memory, []
     found = propose(belief, assignment, None, planner)
@@ -116,7 +116,7 @@ def _say_proposal(
     """The path proposed now; one that was accepted is not exchanged for another in silence."""
     committed, before = found.committed, memory.proposed
     shown = shown_plan(committed.plan, found.lead, belief, assignment)
-    joins = committed.forecast.join_time if committed.forecast.joins else committed.due
+    joins = committed.joins_at(committed.forecast)
     said = ProposedPlan(
         committed=committed,
         shown=shown,
