@@ -60,7 +60,13 @@ function alongBoundary(segment: BoundarySegment, t: number): PathPoint {
   const points = [segment.start, ...segment.via, segment.end];
   const next = points.findIndex((point) => point.t_s > t);
   const [before, after] = [points[next - 1] ?? segment.start, points[next] ?? segment.end];
-  const part = (t - before.t_s) / (after.t_s - before.t_s);
+  return between(before, after, t);
+}
+
+/** Between two points of a path at time `t` [s], held to both; it turns the shorter way. */
+export function between(before: PathPoint, after: PathPoint, t: number): PathPoint {
+  const span = after.t_s - before.t_s;
+  const part = span > 0 ? Math.min(1, Math.max(0, (t - before.t_s) / span)) : 0;
   const turned = wrap180(after.heading_deg - before.heading_deg);
   return {
     t_s: t,

@@ -196,7 +196,8 @@ export function createFlightStore(): FlightStore {
   return { flight, receive, advance, link };
 }
 
-function emptyFlight(): Flight {
+/** A flight of which nothing is known. */
+export function emptyFlight(): Flight {
   return {
     id: signal(null),
     started: signal(null),

@@ -1,21 +1,12 @@
 /** Points of a forecast: the closed loop flown ahead, as columns. */
 
-import { wrap180, wrap360 } from "../units";
+import { between } from "../geometry";
 import type { ForecastChanged, PathPoint } from "../wire";
 
 /** Where a forecast has the aircraft at flight time `t` [s], held to its ends. */
 export function forecastPoint(forecast: ForecastChanged, t: number): PathPoint {
   const k = Math.max(1, forecastIndex(forecast, t));
-  const [before, after] = [pointOf(forecast, k - 1), pointOf(forecast, k)];
-  const span = after.t_s - before.t_s;
-  const part = span > 0 ? Math.min(1, Math.max(0, (t - before.t_s) / span)) : 0;
-  const turned = wrap180(after.heading_deg - before.heading_deg);
-  return {
-    t_s: t,
-    x_m: before.x_m + part * (after.x_m - before.x_m),
-    y_m: before.y_m + part * (after.y_m - before.y_m),
-    heading_deg: wrap360(before.heading_deg + part * turned),
-  };
+  return between(pointOf(forecast, k - 1), pointOf(forecast, k), t);
 }
 
 /** The first of a forecast's points that is still to come at flight time `t` [s]; the last if none is. */

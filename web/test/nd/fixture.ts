@@ -1,8 +1,7 @@
 /** Flights as the display gets them: documents made by the exact planner, samples where both would be. */
 
-import { signal } from "@preact/signals";
 import { cutPath, pathPointAt, samplePath, velocity, windVector } from "../../src/geometry";
-import type { Flight } from "../../src/store/flight";
+import { emptyFlight, type Flight } from "../../src/store/flight";
 import { type PairCard, type PairSample, pairCard } from "../../src/store/pair";
 import { wrap360 } from "../../src/units";
 import type {
@@ -63,42 +62,6 @@ export function forecastOf(name: FlightName, bulge = 400): ForecastChanged {
     least_separation_m: 11_000,
     pursuer_at_closest: closest,
     leader_at_closest: { ...closest, x_m: closest.x_m + 11_000 },
-  };
-}
-
-/** An empty store, as before the first tick. */
-export function emptyFlight(): Flight {
-  return {
-    id: signal(null),
-    started: signal(null),
-    route: signal(null),
-    plan: signal(null),
-    proposal: signal(null),
-    engagement: signal(null),
-    heard: signal(null),
-    forecast: signal(null),
-    superseded: signal(null),
-    unavailable: signal(null),
-    alerts: signal([]),
-    unable: signal(null),
-    lost: signal(null),
-    mode: signal(null),
-    modeSince: signal(-Infinity),
-    planSince: signal(-Infinity),
-    lostSince: signal(-Infinity),
-    joinedSince: signal(-Infinity),
-    belowSince: signal(-Infinity),
-    sample: signal(null),
-    now: signal(null),
-    reading: signal(null),
-    wall: signal(0),
-    simTime: signal(0),
-    dataAge: signal(0),
-    trail: { pursuer: signal([]), leader: signal([]) },
-    ended: signal(null),
-    clock: signal({ rate: 1, paused: false, ended: false }),
-    connection: signal("connecting"),
-    messages: signal([]),
   };
 }
 

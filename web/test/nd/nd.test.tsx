@@ -2,11 +2,12 @@ import { signal } from "@preact/signals";
 import { expect, test } from "vitest";
 import { NavigationDisplay } from "../../src/nd/nd";
 import type { Flight } from "../../src/store/flight";
+import { emptyFlight } from "../../src/store/flight";
 import type { PairSample } from "../../src/store/pair";
 import { createShown } from "../../src/store/picture";
 import { alert, separationLost, unable } from "../samples";
 import { mount } from "./draw";
-import { documentsOf, emptyFlight, flightAt, setTime } from "./fixture";
+import { documentsOf, flightAt, setTime } from "./fixture";
 
 function show(flight: Flight, mode: "ROSE" | "ARC" = "ROSE", range = 80): Element {
   return mount(NavigationDisplay, {
