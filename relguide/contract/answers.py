@@ -8,12 +8,13 @@ from relguide.contract.bodies import (
     MAX_INTEGER,
     Anchor,
     NamedSituationBody,
+    path_to_wire,
     plan_to_wire,
     situation_from_body,
 )
 from relguide.contract.refusal import ContractError, loads, make_printable, parse
 from relguide.contract.wire import to_wire
-from relguide.flying.cards import no_plan_card, optimality_check, plan_card
+from relguide.flying.cards import no_plan_card, optimality_check, other_path_cards, plan_card
 from relguide.flying.verdicts import OptimalityCheck
 from relguide.planning.acceptance import ask
 from relguide.planning.alternatives import alternatives
@@ -23,9 +24,12 @@ from relguide.planning.plan import NoPlan, Plan, Planner
 from relguide.planning.situation import Situation
 from relguide.units import Second
 
-Include = Literal["alternatives", "optimality"]
-"""What an answer contains only if asked for: the other paths to the slot, and how the plan meets
-Pontryagin's conditions. They take longer than the plan."""
+Include = Literal["alternatives", "paths", "optimality"]
+"""What an answer contains only if asked for: the other paths to the slot and why each is not flown,
+the same to be drawn, and how the plan meets Pontryagin's conditions. They take longer than the
+plan."""
+MOST_PATHS = 8
+"""Most other paths that are given to be drawn, the fastest."""
 
 
 def read_include(text: str) -> tuple[Include, ...]:
@@ -37,13 +41,14 @@ def read_include(text: str) -> tuple[Include, ...]:
     chosen: list[Include] = []
     for word in text.split(","):
         match word.strip():
-            case "alternatives" | "optimality" as known:
+            case "alternatives" | "paths" | "optimality" as known:
                 chosen.append(known)
             case "":
                 pass
             case other:
                 raise ValueError(
-                    f"include must be alternatives, optimality, or both with a comma, not {other}."
+                    "include must be alternatives, paths or optimality, or some of them with "
+                    f"commas, not {other}."
                 )
     return tuple(chosen)
 
@@ -73,8 +78,13 @@ def answer(
     match planned := ask(planner, situation, deadline=left_until(until)).plan:
         case Plan():
             left = left_until(until)
-            others = alternatives(planned, deadline=left) if "alternatives" in include else ()
+            asked = not {"alternatives", "paths"}.isdisjoint(include)
+            others = alternatives(planned, deadline=left) if asked else ()
             reply = plan_to_wire(plan_card(planned, others), anchor)
+            if "paths" in include:
+                wind = situation.wind
+                cards = other_path_cards(others, wind, later=0.0, most=MOST_PATHS)
+                reply["others"] = [path_to_wire(card, anchor) for card in cards]
             if "alternatives" not in include:
                 del reply["alternatives"]
             if "optimality" in include:

@@ -17,7 +17,7 @@ from relguide.contract.accepted import Accepted
 from relguide.contract.compass import compass, heading_of
 from relguide.contract.refusal import ContractError, Strict, parse
 from relguide.contract.wire import to_wire
-from relguide.flying.plan_documents import Direction, PlanCard
+from relguide.flying.plan_documents import Direction, OtherPathCard, PlanCard
 from relguide.planning import limits
 from relguide.planning.frames import LocalPlane
 from relguide.planning.situation import (
@@ -229,6 +229,11 @@ def situation_from_body(body: SituationBody) -> tuple[Situation, Anchor]:
 
 def plan_to_wire(card: PlanCard, anchor: Anchor) -> dict[str, Any]:
     """A plan as a JSON object; every point with latitude and longitude if the situation came so."""
+    return path_to_wire(card, anchor)
+
+
+def path_to_wire(card: PlanCard | OtherPathCard, anchor: Anchor) -> dict[str, Any]:
+    """A card with segments as a JSON object, its points as above."""
     answer = to_wire(card)
     match anchor:
         case LocalPlane():

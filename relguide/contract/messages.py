@@ -32,6 +32,7 @@ from relguide.flying.plan_documents import (
     Direction,
     NoPlanCard,
     OptimalityCard,
+    OtherPathCard,
     PathPoint,
     PathSegment,
     PlanCard,
@@ -74,6 +75,11 @@ def model_of(document_type: type[Any]) -> type[BaseModel]:
         members["alternatives"] = (
             others,
             Field(default_factory=list, description=described.description),
+        )
+        drawn = "The other paths to be drawn, the fastest first.\nIf asked for."
+        members["others"] = (
+            list[_json_type(OtherPathCard)],  # type: ignore[misc]
+            Field(default_factory=list, description=drawn),
         )
     if document_type is PathPoint:
         members |= _GEODETIC

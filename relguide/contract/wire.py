@@ -29,6 +29,7 @@ from relguide.flying.documents import Document
 from relguide.flying.plan_documents import (
     AnyAlternativeCard,
     NoPlanCard,
+    OtherPathCard,
     PathPoint,
     PlanCard,
 )
@@ -39,6 +40,7 @@ Card = (
     | NoPlanCard
     | PathPoint
     | AnyAlternativeCard
+    | OtherPathCard
     | OptimalityCheck
     | RegularCheck
     | AircraftCard

@@ -85,7 +85,8 @@ IncludeAsked = Annotated[
     Query(
         max_length=100,
         description="What to add to the plan, with commas between. `alternatives`: the other paths "
-        "to the slot, and why each is not flown. `optimality`: how the plan meets Pontryagin's "
+        "to the slot, and why each is not flown. `paths`: the same as `others`, with the segments "
+        "that draw them. `optimality`: how the plan meets Pontryagin's "
         "conditions, with H and the costates along it. Each takes a millisecond or more.",
         examples=["alternatives,optimality"],
     ),

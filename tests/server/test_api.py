@@ -86,7 +86,7 @@ def test_alternatives_come_on_request(client: TestClient) -> None:
 @pytest.mark.parametrize("path", ["/api/v1/plans", "/api/v1/plans/batch"])
 def test_what_cannot_be_included_is_refused(client: TestClient, path: str) -> None:
     wrong = is_problem(client.post(f"{path}?include=wings", json=EXAMPLE), 422, path)
-    assert "include must be alternatives, optimality, or both" in wrong["detail"]
+    assert "include must be alternatives, paths or optimality" in wrong["detail"]
     unknown = is_problem(client.post(f"{path}?optimality=true", json=EXAMPLE), 422, path)
     assert "has no parameter 'optimality'. It has include." in unknown["detail"]
 

@@ -1,7 +1,7 @@
 // Made by `python -m relguide_server.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-190bb762a501";
+export const PROTOCOL = "relguide-610d466c0bed";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -731,6 +731,11 @@ export interface PlanCard {
   /** By time; words without any path last. In an answer only if asked for. */
   alternatives?: Alternative[];
   compute_ms: number;
+  /**
+   * The other paths to be drawn, the fastest first.
+   * If asked for.
+   */
+  others?: OtherPathCard[];
 }
 
 /** A new plan is flown. */

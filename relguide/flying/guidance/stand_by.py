@@ -72,7 +72,9 @@ def stop(memory: Memory, belief: Belief, to: Engagement, why: str) -> tuple[Memo
 def hold_heading(memory: Memory, heading: Radian, tas: MetrePerSecond) -> Memory:
     """Fly a heading that the crew selects [rad], at a speed [m/s], until guidance is engaged."""
     progress = Progress(NUMBERS["heading"], 0.0, heading, tas)
-    return memory._replace(progress=progress, forecast=None, proposed=None)
+    # What was accepted is kept: the next proposal is held against it.
+    accepted = memory.proposed if memory.engagement == "armed" else None
+    return memory._replace(progress=progress, forecast=None, proposed=accepted)
 
 
 def give_up_old_data(
@@ -113,8 +115,13 @@ def stand_by(
 def _say_proposal(
     memory: Memory, belief: Belief, assignment: Assignment, found: Proposal
 ) -> tuple[Memory, list[Event]]:
-    """The path proposed now; one that was accepted is not exchanged for another in silence."""
-    committed, before = found.committed, memory.proposed
+    """The path proposed now; one that was accepted is not exchanged for another in silence.
+
+    While armed, each proposal is held against the one that was accepted, not against the one
+    before: many small steps away from it are a large one.
+    """
+    committed = found.committed
+    accepted = memory.proposed if memory.engagement == "armed" else None
     shown = shown_plan(committed.plan, found.lead, belief, assignment)
     joins = committed.joins_at(committed.forecast)
     said = ProposedPlan(
@@ -123,16 +130,16 @@ def _say_proposal(
         message=f"Proposed: {summary(shown, joins - belief.t)}.",
     )
     proposed = Announced(belief.t, joins, shown.trajectory, belief.t)
-    memory = memory._replace(proposed=proposed, missing=None)
-    if memory.engagement != "armed" or before is None:
-        return memory, [said]
+    memory = memory._replace(missing=None)
+    if accepted is None:
+        return memory._replace(proposed=proposed), [said]
     settings = assignment.settings
-    later = joins - before.joins > settings.shown_time
-    if not later and not leads_elsewhere(before, shown.trajectory, belief, settings):
+    later = joins - accepted.joins > settings.shown_time
+    if not later and not leads_elsewhere(accepted, shown.trajectory, belief, settings):
         return memory, [said]
     message = "The proposal is another one now: accept it again."
     change = EngagementChange(engagement="designated", previous="armed", message=message)
-    return memory._replace(engagement="designated"), [said, change]
+    return memory._replace(engagement="designated", proposed=proposed), [said, change]
 
 
 def _without_proposal(memory: Memory) -> tuple[Memory, list[Event]]:

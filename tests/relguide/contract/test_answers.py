@@ -66,10 +66,24 @@ def test_alternatives_come_only_if_asked_for() -> None:
     assert answer_line(line, plan, include=["alternatives"])["alternatives"]
 
 
+def test_the_other_paths_come_with_their_segments_on_request() -> None:
+    situation, anchor = situation_from_json(BODY)
+    reply = answer(situation, anchor, plan, include=["paths"])
+    assert "alternatives" not in reply
+    TypeAdapter(PlanAnswer).validate_python(reply)
+    times = [other["time_to_converge_s"] for other in reply["others"]]
+    assert times == sorted(times)
+    for other in reply["others"]:
+        (start, end) = (other["segments"][0]["start"], other["segments"][-1]["end"])
+        assert (start["x_m"], start["y_m"]) == (BODY["pursuer"]["x_m"], BODY["pursuer"]["y_m"])
+        assert end["t_s"] == pytest.approx(other["time_to_converge_s"])
+    assert "others" not in answer(situation, anchor, plan)
+
+
 def test_what_to_include_is_read_from_words_with_commas() -> None:
     assert read_include("") == ()
     assert read_include("alternatives, optimality") == ("alternatives", "optimality")
-    with pytest.raises(ValueError, match="include must be alternatives, optimality, or both"):
+    with pytest.raises(ValueError, match="include must be alternatives, paths or optimality"):
         read_include("alternatives,proof")
 
 

@@ -133,6 +133,20 @@ def test_an_accepted_proposal_that_can_no_longer_be_flown_disarms() -> None:
     assert not of(documents, PlanChanged)
 
 
+@pytest.mark.parametrize(
+    "order", [PursuerHeading(heading=93.0 * DEG), LeaderSpeed(tas=197.0)], ids=["own", "leader"]
+)
+def test_an_accepted_proposal_lapses_when_either_drifts_slowly_from_it(order: Command) -> None:
+    """Each new proposal is nearly the one before, but no longer the one that was accepted."""
+    orders: Orders = {2.0: to("designated"), 6.0: to("armed"), 8.0: order}
+    documents = flown(orders, 240.0)
+    armed = engagements(documents).count("armed")
+    assert 10 < armed < 230
+    assert engagements(documents)[-1] == "designated"
+    assert "accept it again" in of(documents, EngagementChanged)[-1].message
+    assert of(documents, PlanProposed)[-1].t > 230.0
+
+
 def test_a_crew_flies_headings_until_it_engages() -> None:
     orders: Orders = {5.0: PursuerHeading(heading=180.0 * DEG), 100.0: to("designated")}
     own = of(flown(orders, 110.0), Sample)[-1].aircraft[0]
