@@ -1,4 +1,8 @@
-"""Documents ↔ file: a line that says what the file is, then one JSON document a line."""
+"""Documents ↔ file: a line that says what the file is, then one JSON document a line.
+
+What JSON needs is imported when a file is written or read: `relguide` has both functions on its
+face, and numpy and numba are enough to import that.
+"""
 
 import gzip
 import zlib
@@ -6,12 +10,8 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import IO, Literal, cast
 
-import orjson
-
-from relguide.contract.messages import from_wire
-from relguide.contract.refusal import ContractError, loads
-from relguide.contract.wire import dumps
 from relguide.flying.documents import Document
+from relguide.planning.extras import need
 
 FORMAT = "relguide-flight"
 """What the first line calls the file."""
@@ -33,8 +33,10 @@ def record(documents: Iterable[Document], file: Path | str) -> Iterator[Document
 
     Raises:
         RecordingError: if the name does not end in .jsonl or .jsonl.gz.
+        MissingExtra: if a package that writes JSON is not installed.
         OSError: if the file cannot be written.
     """
+    need("orjson")
     check_name(file)
     return _record(documents, Path(file))
 
@@ -46,8 +48,10 @@ def replay(file: Path | str) -> Iterator[Document]:
 
     Raises:
         RecordingError: naming the first line that is not a document.
+        MissingExtra: if a package that reads JSON is not installed.
         OSError: if the file cannot be opened.
     """
+    need("orjson", "pydantic")
     path = Path(file)
     with _open(path, "rb") as stream:
         lines = _lines(stream, path)
@@ -67,6 +71,10 @@ def check_name(file: Path | str) -> None:
 
 
 def _record(documents: Iterable[Document], path: Path) -> Iterator[Document]:
+    import orjson
+
+    from relguide.contract.wire import dumps
+
     with _open(path, "wb") as stream:
         stream.write(orjson.dumps({"format": FORMAT, "version": VERSION}) + b"\n")
         for document in documents:
@@ -94,6 +102,8 @@ def _lines(stream: IO[bytes], path: Path) -> Iterator[bytes]:
 
 
 def _check_header(line: bytes, path: Path) -> None:
+    from relguide.contract.refusal import ContractError, loads
+
     try:
         header = loads(line)
     except ContractError:
@@ -109,6 +119,11 @@ def _check_header(line: bytes, path: Path) -> None:
 
 
 def _document(line: bytes, where: str) -> Document:
+    import orjson
+
+    from relguide.contract.messages import from_wire
+    from relguide.contract.refusal import ContractError
+
     if not line.endswith(b"\n"):
         raise RecordingError(f"{where}: the file is cut short here; what comes before is good.")
     try:

@@ -49,6 +49,12 @@ def test_the_library_plans_and_flies() -> None:
 
 
 @pytest.mark.slow
+def test_all_public_names_can_be_imported() -> None:
+    done = core("from relguide import *\nprint(plan.__name__, record.__name__, replay.__name__)")
+    assert (done.stderr, done.stdout) == ("", "plan record replay\n")
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("arguments", "package", "extra"),
     [
@@ -56,7 +62,7 @@ def test_the_library_plans_and_flies() -> None:
         (["plan", "situation.json", "--include", "optimality"], "pydantic", "serve"),
         (["check", "situation.json"], "pydantic", "serve"),
         (["fly", "fig_6b"], "pydantic", "serve"),
-        (["fly", "fig_6b", "--record", "a.jsonl"], "orjson", "serve"),
+        (["fly", "fig_6b", "--record", "a.jsonl"], "pydantic", "serve"),
         (["replay", "a.jsonl"], "pydantic", "serve"),
         (["serve"], "fastapi", "serve"),
         (["dataset", "--method", "exact", "--out", "labels.npz"], "orjson", "learn"),
@@ -92,6 +98,8 @@ def test_a_command_says_what_brings_what_it_needs(
          "isochrones(found.situation, Grid(x=0.0, y=0.0, columns=9, rows=9))", "serve"),
         ("from relguide.planning.frames import LocalPlane\n"
          "LocalPlane(lat_deg=50.0, lon_deg=8.0).to_local(50.0, 8.0)", "serve"),
+        ("relguide.record((), 'flight.jsonl')", "serve"),
+        ("list(relguide.replay('flight.jsonl'))", "serve"),
     ],
 )  # fmt: skip
 def test_so_does_the_library(program: str, extra: str) -> None:
