@@ -47,6 +47,13 @@ if typing.TYPE_CHECKING:
     from relguide.flying.flight import fly as fly
     from relguide.flying.guidance.settings import Settings as Settings
     from relguide.flying.guidance.settings import load_settings as load_settings
+    from relguide.flying.orders import Command as Command
+    from relguide.flying.orders import IntentKnown as IntentKnown
+    from relguide.flying.orders import LeaderData as LeaderData
+    from relguide.flying.orders import LeaderHeading as LeaderHeading
+    from relguide.flying.orders import LeaderSpeed as LeaderSpeed
+    from relguide.flying.orders import PursuerHeading as PursuerHeading
+    from relguide.flying.orders import SetEngagement as SetEngagement
     from relguide.flying.scenarios import own_scenario as own_scenario
     from relguide.flying.scenarios import scenario as scenario
     from relguide.flying.scenarios import scenario_behind as scenario_behind
@@ -128,6 +135,13 @@ _HOMES = {
     "DeclaredLeader": "relguide.flying.flight",
     "Scenario": "relguide.flying.flight",
     "fly": "relguide.flying.flight",
+    "Command": "relguide.flying.orders",
+    "IntentKnown": "relguide.flying.orders",
+    "LeaderData": "relguide.flying.orders",
+    "LeaderHeading": "relguide.flying.orders",
+    "LeaderSpeed": "relguide.flying.orders",
+    "PursuerHeading": "relguide.flying.orders",
+    "SetEngagement": "relguide.flying.orders",
     "own_scenario": "relguide.flying.scenarios",
     "scenario": "relguide.flying.scenarios",
     "scenario_behind": "relguide.flying.scenarios",
@@ -199,6 +213,7 @@ __all__ = [
     "BoundaryArc",
     "Candidate",
     "Certificate",
+    "Command",
     "Declared",
     "DeclaredLeader",
     "Document",
@@ -209,10 +224,14 @@ __all__ = [
     "ForecastChanged",
     "Grid",
     "Guided",
+    "IntentKnown",
     "Isochrones",
     "Leader",
     "LeaderChanged",
+    "LeaderData",
+    "LeaderHeading",
     "LeaderRoute",
+    "LeaderSpeed",
     "Link",
     "ModeChanged",
     "NoPlan",
@@ -226,6 +245,7 @@ __all__ = [
     "Planner",
     "Pose",
     "Pursuer",
+    "PursuerHeading",
     "Reason",
     "Recorded",
     "RecordedTrack",
@@ -233,6 +253,7 @@ __all__ = [
     "Samples",
     "Scenario",
     "SeparationLost",
+    "SetEngagement",
     "Settings",
     "Situation",
     "Situations",

@@ -42,6 +42,10 @@ def test_what_is_used_beside_plan_is_loaded_when_asked_for() -> None:
             "flying.airframe": ("Airframe", "airframe", "load_airframe"),
             "flying.flight": ("DeclaredLeader", "Scenario", "fly"),
             "flying.guidance.settings": ("Settings", "load_settings"),
+            "flying.orders": (
+                "IntentKnown", "LeaderData", "LeaderHeading", "LeaderSpeed", "PursuerHeading",
+                "SetEngagement",
+            ),
             "flying.simulation": ("simulate",),
             "flying.world": ("Aircraft", "Declared", "Guided", "Link", "Recorded", "World"),
             "flying.scenarios": ("own_scenario", "scenario", "scenario_behind"),

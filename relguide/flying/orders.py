@@ -2,15 +2,14 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from math import isfinite
-from typing import Literal, assert_never
+from typing import Literal, assert_never, get_args
 
 from relguide.flying.documents import Engagement, LeaderChanged
 from relguide.flying.fleet import Fleet
 from relguide.flying.leaders.declared import TurnChoice
 from relguide.kernels.base.angles import wrap
-from relguide.planning.inputs import expect_within
-from relguide.planning.limits import TAS
+from relguide.planning.inputs import expect_within, truth
+from relguide.planning.limits import HEADING, TAS
 from relguide.planning.phrases import compass
 from relguide.units import DEG, KT, MetrePerSecond, Radian, Second
 
@@ -29,9 +28,8 @@ class LeaderHeading:
 
     def __post_init__(self) -> None:
         """Refuse a heading that is no number, and an unknown direction."""
-        if not isfinite(self.heading):
-            raise ValueError(f"heading must be a finite number, not {self.heading}.")
-        if self.direction not in ("left", "right", "shorter"):
+        _settle_heading(self)
+        if not isinstance(self.direction, str) or self.direction not in get_args(TurnChoice):
             raise ValueError(f"direction must be left, right or shorter, not {self.direction!r}.")
 
 
@@ -44,7 +42,7 @@ class LeaderSpeed:
 
     def __post_init__(self) -> None:
         """Refuse a speed outside the accepted range."""
-        expect_within("tas", self.tas, *TAS)
+        object.__setattr__(self, "tas", expect_within("tas", self.tas, *TAS))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -54,6 +52,10 @@ class IntentKnown:
     known: bool
     kind: Literal["intent_known"] = "intent_known"
 
+    def __post_init__(self) -> None:
+        """Refuse what is no truth value."""
+        object.__setattr__(self, "known", truth("known", self.known))
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LeaderData:
@@ -61,6 +63,10 @@ class LeaderData:
 
     received: bool
     kind: Literal["leader_data"] = "leader_data"
+
+    def __post_init__(self) -> None:
+        """Refuse what is no truth value."""
+        object.__setattr__(self, "received", truth("received", self.received))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -73,8 +79,7 @@ class PursuerHeading:
 
     def __post_init__(self) -> None:
         """Refuse a heading that is no number."""
-        if not isfinite(self.heading):
-            raise ValueError(f"heading must be a finite number, not {self.heading}.")
+        _settle_heading(self)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -83,6 +88,25 @@ class SetEngagement:
 
     engagement: Engagement
     kind: Literal["set_engagement"] = "set_engagement"
+
+    def __post_init__(self) -> None:
+        """Refuse what is no engagement."""
+        expect_engagement(self.engagement)
+
+
+def expect_engagement(value: object) -> None:
+    """Refuse what is no engagement.
+
+    Raises:
+        ValueError: naming those that there are.
+    """
+    if not isinstance(value, str) or value not in get_args(Engagement):
+        choices = ", ".join(get_args(Engagement))
+        raise ValueError(f"engagement must be one of {choices}, not {value!r}.")
+
+
+def _settle_heading(order: LeaderHeading | PursuerHeading) -> None:
+    object.__setattr__(order, "heading", expect_within("heading", order.heading, *HEADING))
 
 
 LeaderCommand = LeaderHeading | LeaderSpeed | IntentKnown

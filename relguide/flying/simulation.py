@@ -34,6 +34,7 @@ from relguide.flying.losses import count_second
 from relguide.flying.orders import (
     Command,
     CrewCommand,
+    expect_engagement,
     no_commands,
     obey,
 )
@@ -93,9 +94,7 @@ def simulate(
     after_joining = number("after_joining", after_joining)
     if after_joining < 0.0:
         raise ValueError(f"after_joining must be 0 s or more, not {after_joining:g} s.")
-    if not isinstance(engagement, str) or engagement not in get_args(Engagement):
-        choices = ", ".join(get_args(Engagement))
-        raise ValueError(f"engagement must be one of {choices}, not {engagement!r}.")
+    expect_engagement(engagement)
     start = _start_document(world, planner_name, scenario, title, step, seed)
     return _simulate(
         world, planner, start, commands, step, a_sample, until, after_joining, engagement
@@ -184,6 +183,7 @@ def _start_document(
 
 def _obey(command: Command, fleet: Fleet, pursuits: list[Pursuit], t: Second) -> Iterator[Document]:
     """The first link's leader, or its pursuer, does as it is ordered; all pursuers hear of it."""
+    expect("A command", command, *get_args(Command))
     if not pursuits:
         return
     first = pursuits[0]

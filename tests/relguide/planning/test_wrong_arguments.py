@@ -27,15 +27,21 @@ from relguide import (
     FlyStraight,
     Grid,
     Guided,
+    IntentKnown,
     Leader,
+    LeaderData,
+    LeaderHeading,
+    LeaderSpeed,
     Link,
     NoPlan,
     Plan,
     Pursuer,
+    PursuerHeading,
     Reason,
     Recorded,
     RecordedTrack,
     Scenario,
+    SetEngagement,
     Settings,
     Situation,
     Situations,
@@ -204,8 +210,14 @@ CALLS: dict[str, tuple[Callable[..., object], dict[str, Any]]] = {
     "Aircraft": (Aircraft, OWN),
     "Airframe": (Airframe, {field.name: getattr(A306, field.name) for field in fields(A306)}),
     "Declared": (Declared, {"intent": (FlyStraight(duration=1.0),)}),
+    "IntentKnown": (IntentKnown, {"known": False}),
+    "LeaderData": (LeaderData, {"received": False}),
+    "LeaderHeading": (LeaderHeading, {"heading": 1.0, "direction": "left"}),
+    "LeaderSpeed": (LeaderSpeed, {"tas": 190.0}),
     "Link": (Link, LINK),
+    "PursuerHeading": (PursuerHeading, {"heading": 1.0}),
     "Recorded": (Recorded, {"track": TRACK}),
+    "SetEngagement": (SetEngagement, {"engagement": "armed"}),
     "Settings": (Settings, {"damping": 0.8, "caution": 60, "always_ask": False}),
     "World": (World, WORLD),
     "airframe": (airframe, {"designator": "A306"}),
@@ -243,6 +255,8 @@ ANSWERS = {
     "Reason", "Sample", "Samples", "SeparationLost", "TimeRow", "Times", "Unable",
 }  # fmt: skip
 """What calls give back, and is not asked for."""
+UNIONS = {"Command"}
+"""What is one of several that are called."""
 PARTS = {"Arc", "BoundaryArc", "DeclaredLeader", "Guided", "RecordedTrack", "Straight"}
 """What a `Trajectory` or a `Scenario` checks as it is made of them."""
 FILES = {"load_airframe", "load_settings", "load_track", "replay"}
@@ -298,6 +312,10 @@ def world(pursuer: str = "OWN", leader: str = "OTHER", tas: float = 240.0) -> Wo
     return World(aircraft=(Aircraft(**OWN | {"tas": tas}), Aircraft(**OTHER)), links=(link,))
 
 
+def flown_with(command: Any) -> object:
+    return list(simulate(World(**WORLD), commands=lambda t: (command,), until=1.0))
+
+
 def show(title: Any, total: Any) -> Any:
     with progress_bar(title, total=total) as count:
         yield count(0.0)
@@ -305,7 +323,7 @@ def show(title: Any, total: Any) -> Any:
 
 def test_all_that_can_be_called_is() -> None:
     public = {name for name in relguide.__all__ if name not in ("CALM", "LEFT", "RIGHT")}
-    assert public == (set(CALLS) | ANSWERS | PARTS | FILES) - METHODS
+    assert public == (set(CALLS) | ANSWERS | UNIONS | PARTS | FILES) - METHODS
 
 
 @pytest.mark.parametrize("name", CALLS)
@@ -390,6 +408,14 @@ def test_a_wrong_segment_is_refused_with_a_sentence(
         (lambda: world(tas=330.0), "The A306 cannot fly 641 kt at FL295: .*choose"),
         (lambda: simulate(World(**WORLD), until=0.0), "until must be above 0 s"),
         (lambda: simulate(World(**WORLD), engagement="on"), "must be one of off, designated"),  # type: ignore[arg-type]
+        (lambda: flown_with(3), "A command must be a LeaderHeading or a LeaderSpeed or .* not 3"),
+        (lambda: LeaderHeading(heading=nan), "heading must be a finite number, not nan"),
+        (lambda: LeaderHeading(heading=1.0, direction="up"), "must be left, right or shorter"),  # type: ignore[arg-type]
+        (lambda: LeaderSpeed(tas=500.0), "tas must lie in 30 … 400 m/s, not 500 m/s"),
+        (lambda: IntentKnown(known=None), "known must be True or False, not None"),  # type: ignore[arg-type]
+        (lambda: LeaderData(received=1), "received must be True or False, not 1"),
+        (lambda: PursuerHeading(heading="north"), "heading must be a number, not 'north'"),  # type: ignore[arg-type]
+        (lambda: SetEngagement(engagement="on"), "must be one of off, designated, armed, engaged"),  # type: ignore[arg-type]
         (lambda: airframe("A380"), "There is no airframe 'A380': choose one of"),
     ],
 )
