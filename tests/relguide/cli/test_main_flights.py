@@ -7,8 +7,10 @@ from typing import Any
 
 import pytest
 
+from relguide.cli.flight_tables import print_flight
 from relguide.contract.recorder import replay
-from relguide.flying.documents import FlightStarted, LeaderChanged, Sample
+from relguide.contract.story import story_of
+from relguide.flying.documents import EngagementChanged, FlightStarted, LeaderChanged, Sample
 from tests.command_line import NEAR, UNREACHABLE, Run, process, write
 
 FIGURES = {
@@ -70,6 +72,19 @@ def test_a_recording_replays_to_the_same_figures(
     assert code == 0
     for word in ("engaged", "least separation", "fallbacks"):
         assert word in out
+
+
+def test_what_the_crew_engages_is_a_row_of_the_table(capsys: pytest.CaptureFixture[str]) -> None:
+    said = EngagementChanged(
+        t=65.0,
+        ident="OWN",
+        engagement="designated",
+        previous="off",
+        message="LDR is designated.",
+    )
+    print_flight(story_of([said]), {"simulated_s": 65.0})
+    (row,) = [line for line in capsys.readouterr().out.splitlines() if "designated" in line]
+    assert row.split() == ["1:05.0", "designated", "LDR", "is", "designated."]
 
 
 @pytest.mark.slow

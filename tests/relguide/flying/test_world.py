@@ -283,7 +283,9 @@ def test_a_flight_ends_with_a_sentence_where_an_aircraft_leaves_the_plane() -> N
     (said,) = [document for document in documents if isinstance(document, Unable)]
     assert (said.reason, said.t) == ("geometry", 26.0)
     assert said.message.startswith("L leaves the plane of this flight")
-    assert documents[-1].t == said.t
+    ended = documents[-1]
+    assert isinstance(ended, FlightEnded)
+    assert (ended.t, ended.reason, ended.message) == (said.t, "plane_left", said.message)
 
 
 @pytest.mark.slow
