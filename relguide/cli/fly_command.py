@@ -8,7 +8,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from relguide.cli.output import DONE, FAILED, say, write_json
-from relguide.cli.shared_options import add_planner
+from relguide.cli.shared_options import add_planner, seconds
 from relguide.cli.situation_file import open_input, read_situation
 from relguide.learn.planners import make_planner
 from relguide.planning.extras import need
@@ -183,22 +183,11 @@ def _seed(text: str) -> int:
 
 
 def _following(text: str) -> float:
-    return _seconds(text, 0.0, MAX_FOLLOWING)
+    return seconds(text, 0.0, MAX_FOLLOWING)
 
 
 def _spacing(text: str) -> float:
-    return _seconds(text, 1.0, SPACING.high)
-
-
-def _seconds(text: str, low: float, high: float) -> float:
-    try:
-        seconds = float(text)
-    except ValueError:
-        seconds = -1.0
-    if not low <= seconds <= high:
-        bounds = f"{low:g} to {high:g}"
-        raise argparse.ArgumentTypeError(f"must be a number of seconds from {bounds}, not {text}")
-    return seconds
+    return seconds(text, 1.0, SPACING.high)
 
 
 def _recording(text: str) -> str:

@@ -3,11 +3,11 @@
 import argparse
 import os
 import sys
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Collection, Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
 from relguide.cli.output import DONE, FAILED, say, write_json
-from relguide.cli.shared_options import add_planner
+from relguide.cli.shared_options import add_planner, seconds
 from relguide.cli.situation_file import open_input, read_situation
 from relguide.learn.planners import make_planner
 from relguide.planning.extras import need
@@ -156,9 +156,9 @@ def _plan_batch(file: str, planner: "Planner", asked: Asked) -> int:
     return FAILED if invalid else DONE
 
 
-def _prove_after(planner: "Planner", seconds: float, *, shown: bool = True) -> "Planner":
+def _prove_after(planner: "Planner", longest: float, *, shown: bool = True) -> "Planner":
     """A planner which then looks this long for a better lower bound."""
-    if seconds == 0.0:
+    if longest == 0.0:
         return planner
     from relguide.planning.acceptance import with_deadline
     from relguide.planning.deadline import end_of, left_until
@@ -170,7 +170,7 @@ def _prove_after(planner: "Planner", seconds: float, *, shown: bool = True) -> "
         return show_progress(
             bounds,
             title="proving",
-            total=seconds,
+            total=longest,
             done=lambda bound: bound.elapsed,
             state=lambda bound: f"gap {bound.gap:.3f} s",
         )
@@ -181,8 +181,8 @@ def _prove_after(planner: "Planner", seconds: float, *, shown: bool = True) -> "
         if isinstance(planned, NoPlan):
             return planned
         left = left_until(until)
-        longest = seconds if left is None else min(seconds, left)
-        return prove(planned, seconds=longest, progress=progress if shown else iter)
+        least = longest if left is None else min(longest, left)
+        return prove(planned, seconds=least, progress=progress if shown else iter)
 
     return plan_and_prove
 
@@ -197,24 +197,12 @@ def _parse_include(text: str) -> "tuple[Include, ...]":
 
 
 def _proof_time(text: str) -> float:
-    from relguide.planning.prove import check_seconds
+    from relguide.planning.prove import MAX_SECONDS
 
-    return _seconds(text, check_seconds)
+    return seconds(text, 0.0, MAX_SECONDS)
 
 
 def _deadline(text: str) -> float:
-    from relguide.planning.deadline import check_deadline
+    from relguide.planning.deadline import MAX_DEADLINE
 
-    return _seconds(text, check_deadline)
-
-
-def _seconds(text: str, check: "Callable[[object], float]") -> float:
-    try:
-        seconds = float(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"must be a number of seconds, not {text}") from None
-    try:
-        check(seconds)
-    except ValueError as error:
-        raise argparse.ArgumentTypeError(str(error)) from None
-    return seconds
+    return seconds(text, 0.0, MAX_DEADLINE)

@@ -1,6 +1,7 @@
 """Options that several commands have, and what they stand for."""
 
 import argparse
+from math import nan
 from typing import TYPE_CHECKING
 
 from relguide.learn.planners import PLANNERS
@@ -14,6 +15,18 @@ def count(text: str) -> int:
     if not (text.isascii() and text.isdigit() and int(text[:12]) <= 10**9):
         raise argparse.ArgumentTypeError(f"must be a whole number of 0 or more, not {text}")
     return int(text)
+
+
+def seconds(text: str, low: float, high: float) -> float:
+    """An option's value as a time in [low, high] [s]."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = nan
+    if not low <= value <= high:
+        bounds = f"{low:g} to {high:g}"
+        raise argparse.ArgumentTypeError(f"must be a number of seconds from {bounds}, not {text}")
+    return value
 
 
 def add_planner(parser: argparse.ArgumentParser) -> None:

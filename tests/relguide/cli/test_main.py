@@ -159,6 +159,14 @@ def test_misuse_gives_a_sentence(run: Run, arguments: tuple[str, ...]) -> None:
     assert len(last) > 20
 
 
+@pytest.mark.parametrize("option", ["--prove", "--deadline"])
+@pytest.mark.parametrize("given", ["soon", "-1", "nan", "3601"])
+def test_times_are_refused_in_one_sentence(run: Run, option: str, given: str) -> None:
+    code, out, err = run("plan", "none.json", option, given)
+    assert (code, out) == (2, "")
+    assert err.endswith(f"{option}: must be a number of seconds from 0 to 3600, not {given}\n")
+
+
 @pytest.mark.parametrize("command", ["plan", "check", "fly", "replay", "serve"])
 def test_help_has_examples(run: Run, command: str) -> None:
     code, out, _ = run(command, "--help")
