@@ -1,17 +1,30 @@
 """Convergence areas as outsiders get them: lines and regions in metres, each name with its unit."""
 
 from math import degrees
-from typing import Any
+from typing import Annotated, Any, Literal
 
 import numpy as np
+from pydantic import Field
 
-from relguide.contract.bodies import Anchor
+from relguide.contract.bodies import Anchor, Position, SituationBody
 from relguide.contract.compass import compass
 from relguide.contract.refusal import Strict
 from relguide.maps.contours import Floats
-from relguide.maps.isochrones import Grid, Isochrones
+from relguide.maps.isochrones import (
+    COLUMNS,
+    HEIGHT,
+    MAX_EXTENT,
+    MAX_LEVELS,
+    MAX_NODES,
+    MIN_EXTENT,
+    ROWS,
+    WIDTH,
+    Grid,
+    Isochrones,
+)
 from relguide.planning.frames import LocalPlane
 from relguide.planning.situation import Situation
+from relguide.planning.words import HORIZON
 
 DECIMALS = 0
 """Decimals of positions in metres; a display shows 0.1 NM."""
@@ -40,6 +53,40 @@ DRAWN = (
     "Each vertex of a line is on its level to 0.1 s; lines are cut where the time jumps. Each "
     "vertex of a region lies on an edge of the grid, accurate to an eighth of that edge."
 )
+
+
+Extent = Annotated[float, Field(ge=MIN_EXTENT, le=MAX_EXTENT)]
+Count = Annotated[int, Field(ge=2, le=MAX_NODES)]
+Levels = Annotated[list[Annotated[float, Field(ge=0.0, le=HORIZON)]], Field(max_length=MAX_LEVELS)]
+
+
+class AreaRequest(Strict):
+    """Whose convergence area is asked for, and on which grid: either a flight or a situation."""
+
+    flight: Annotated[str, Field(max_length=100)] | None = None
+    """Id of a flight: the area for its situation now."""
+    situation: SituationBody | None = None
+    """Instead of a flight: a situation as `POST /plans` takes it."""
+    x_m: Position | None = None
+    """Centre of the grid, east; if left out, the leader."""
+    y_m: Position | None = None
+    """Centre of the grid, north; if left out, the leader."""
+    width_m: Extent = WIDTH
+    """From the first column to the last."""
+    height_m: Extent = HEIGHT
+    """From the first row to the last."""
+    columns: Count = COLUMNS
+    rows: Count = ROWS
+    levels_s: Annotated[Levels, Field(default_factory=list)]
+    """Times of the lines; if left out, some round ones."""
+    exact: bool = False
+    """Whether to search the paths that touch the minimum separation as well. Takes seconds; for few
+    nodes, and a leader without turns to come."""
+    planner: Literal["exact", "network"] = "exact"
+    """`network`: a network of branches says where it is enough to solve one word; all words are
+    solved where it is not sure, and where the word changes."""
+    times: bool = False
+    """Whether to give the times of all nodes."""
 
 
 class AreaGrid(Strict):

@@ -3,7 +3,7 @@
 from hashlib import sha256
 from typing import Any, Literal
 
-from relguide.contract.area_bodies import AreaAnswer
+from relguide.contract.area_bodies import AreaAnswer, AreaRequest
 from relguide.contract.bodies import Piece, SituationBody
 from relguide.contract.messages import (
     AlternativeModel,
@@ -66,7 +66,7 @@ _ALIASES: dict[str, tuple[Any, str]] = {
     "FlightRequest": (FlightRequest, "A request for a new flight."),
     "Command": (Command, "A command to a flight."),
 }
-_ROOTS = (Tick, SituationBody, ScenarioList, FlightList, AreaAnswer)
+_ROOTS = (Tick, SituationBody, ScenarioList, FlightList, AreaRequest, AreaAnswer)
 
 
 def typescript_body(*, docs: bool) -> str:

@@ -6,8 +6,10 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-MAX_LISTED = 8
-"""How many defects one refusal spells out."""
+MAX_SAID = 8
+"""How many defects the sentence of a refusal spells out."""
+MAX_LISTED = 20
+"""How many defects a refusal lists."""
 MAX_QUOTED = 40
 """How many characters of a refused value are quoted back."""
 TAG = "#"
@@ -30,18 +32,21 @@ class ContractError(ValueError):
     """Something from outside does not follow the contract.
 
     Attributes:
-        problems: (path of the field, sentence), at least one; the path is empty for the whole.
+        problems: (path of the field, sentence), at least one and at most `MAX_LISTED`; the path is
+            empty for the whole.
+        count: how many there are in all.
     """
 
-    def __init__(self, problems: Sequence[tuple[str, str]]) -> None:
+    def __init__(self, problems: Sequence[tuple[str, str]], *, count: int = 0) -> None:
         self.problems = tuple(
-            (make_printable(path), make_printable(message)) for path, message in problems
+            (make_printable(path), make_printable(message))
+            for path, message in problems[:MAX_LISTED]
         )
-        listed = [f"{path}: {message}" if path else message for path, message in self.problems]
-        more = len(listed) - MAX_LISTED
-        if more > 0:
-            listed[MAX_LISTED:] = [f"and {more} more"]
-        super().__init__("; ".join(listed))
+        self.count = max(count, len(problems))
+        said = [f"{path}: {message}" if path else message for path, message in self.problems]
+        if self.count > MAX_SAID:
+            said[MAX_SAID:] = [f"and {self.count - MAX_SAID} more"]
+        super().__init__("; ".join(said))
 
 
 def loads(text: bytes | str) -> object:
@@ -89,9 +94,10 @@ def parse(model: type[M], source: bytes | str | Mapping[str, object]) -> M:
 
 def refusal(error: ValidationError, content: object) -> ContractError:
     """Pydantic's findings about `content`, in our words."""
-    found: list[Any] = error.errors(include_url=False)
+    found: list[Any] = error.errors(include_url=False)[:MAX_LISTED]
     problems = [(_path(e, content), _sentence(e)) for e in found]
-    return ContractError([(path, text if path else f"This {text}") for path, text in problems])
+    named = [(path, text if path else f"This {text}") for path, text in problems]
+    return ContractError(named, count=error.error_count())
 
 
 def _unique_keys(pairs: list[tuple[str, object]]) -> dict[str, object]:

@@ -7,7 +7,7 @@ nothing: the certificate is made anew, for the situation that was asked about.
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import lru_cache, partial
 from inspect import signature
 from math import hypot, inf
 from typing import Literal, NamedTuple
@@ -88,6 +88,7 @@ def with_deadline(planner: Planner, deadline: Second | None) -> Planner:
     return partial(timed, deadline=deadline)
 
 
+@lru_cache(64)
 def takes_deadline(planner: Planner) -> bool:
     """Whether a planner can be given a `deadline`, as `plan` can."""
     return "deadline" in signature(planner).parameters

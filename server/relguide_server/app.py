@@ -4,24 +4,29 @@ import asyncio
 import os
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
+from functools import partial
 from importlib.metadata import version
 
 from fastapi import APIRouter, FastAPI, Request
 from starlette.responses import PlainTextResponse, Response
 
 from relguide.learn.planners import make_planner
+from relguide.planning.acceptance import takes_deadline
 from relguide.planning.plan import Planner
 from relguide_server import areas, flights, pages, plans, scene_relay
 from relguide_server.departures import Departures, library_departures
 from relguide_server.drift import DriftCheck
 from relguide_server.errors import install_handlers
 from relguide_server.guards import BodyLimit, StrictHeaders
+from relguide_server.jobs import load
 from relguide_server.live_fleet import Fleet
 from relguide_server.metrics import Metrics
 from relguide_server.openapi import describe, json_answer, response, schema_of
 from relguide_server.pages import Page
+from relguide_server.plan_desk import PlanDesk
 from relguide_server.preparation import Preparation, PreparationOf, Readiness, steps_for
 from relguide_server.settings import Settings, settings_from
+from relguide_server.workers import Workers
 
 DESCRIPTION = """Minimum-time relative guidance: plans with a proof, and flights that fly them.
 
@@ -51,9 +56,14 @@ def create_app(
     metrics = Metrics()
     drift = DriftCheck(metrics, every=settings.drift_check)
     preparation = preparation or Preparation()
-    planner = drift.watch(planner or make_planner(settings.planner))
-    patient = preparation.guard(planner, settings, waiting=True)
-    departures = departures or library_departures(patient)
+    # other processes cannot be given a planner that has no name: then threads do the work
+    name = "" if planner else settings.planner
+    workers = Workers(settings.workers if name else 0, queue=settings.queue)
+    planner = planner or make_planner(settings.planner)
+    quick = takes_deadline(planner)
+    if name != "exact":
+        planner = drift.watch(planner)
+    departures = departures or library_departures(preparation.guard(planner, name, waiting=True))
     fleet = Fleet(settings, metrics)
 
     @asynccontextmanager
@@ -61,7 +71,9 @@ def create_app(
         preparation.start(departures.rehearse)
         drift.start()
         fleet.start()
+        workers.start(partial(preparation.can_plan_by, name), partial(load, name))
         yield
+        await workers.stop()
         await fleet.stop()
         await asyncio.to_thread(drift.stop)
         await asyncio.to_thread(preparation.stop)
@@ -75,7 +87,10 @@ def create_app(
         docs_url=None,
         redoc_url=None,
     )
-    app.state.planner = preparation.guard(planner, settings, waiting=False)
+    app.state.workers = workers
+    app.state.desk = PlanDesk(
+        name, planner, quick=quick, preparation=preparation, workers=workers, metrics=metrics
+    )
     app.state.settings, app.state.departures = settings, departures
     app.state.fleet, app.state.metrics, app.state.preparation = fleet, metrics, preparation
     for part in (

@@ -1,18 +1,14 @@
 """The route of convergence areas: lines of equal time-to-converge round a leader."""
 
-import asyncio
-from functools import cache
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
-from fastapi import APIRouter, Query
+from fastapi import APIRouter, Query, Request
 from starlette.responses import Response
 
-from relguide.contract.area_bodies import AreaAnswer, area_to_wire
-from relguide.contract.bodies import Anchor, Unanchored, situation_from_json
-from relguide.contract.refusal import ContractError
+from relguide.contract.area_bodies import AreaAnswer, AreaRequest
+from relguide.contract.bodies import Anchor, SituationBody, Unanchored, situation_from_body
+from relguide.contract.refusal import ContractError, parse
 from relguide.flying.present import situation_now
-from relguide.learn.words.area_words import area_words
-from relguide.learn.words.branch_network import BranchNetwork, load_network
 from relguide.maps.isochrones import (
     COLUMNS,
     HEIGHT,
@@ -23,29 +19,38 @@ from relguide.maps.isochrones import (
     ROWS,
     WIDTH,
     Grid,
-    isochrones,
-    times_around,
 )
 from relguide.planning.limits import POSITION
 from relguide.planning.situation import Situation
 from relguide.planning.words import HORIZON
-from relguide.units import Second
 from relguide_server.errors import Refusal
+from relguide_server.jobs import draw_area
 from relguide_server.live_fleet import Fleet, FleetOf
 from relguide_server.openapi import (
+    JSON,
     KNOWN_PARAMETERS_ONLY,
     json_answer,
+    parse_json,
     problem_of,
     problem_responses,
+    read_body,
+    request_body,
     response,
     schema_of,
+    unless_left,
 )
-from relguide_server.preparation import PreparationOf
+from relguide_server.plans import EXAMPLE
+from relguide_server.preparation import Preparation, PreparationOf
+from relguide_server.workers import Workers
 
 MOST_SEARCHED = 1_200
 """Most nodes of a grid that is searched exactly: some seconds of work."""
 
-MODELS = (AreaAnswer,)
+ONE_OF_BOTH = "Give either flight or situation, and not both: whose area is it?"
+LONGEST = 20.0
+"""An area that takes longer is ended [s]."""
+
+MODELS = (AreaAnswer, AreaRequest)
 """What the OpenAPI document needs for this route."""
 router = APIRouter(prefix="/api/v1", tags=["areas"], dependencies=[KNOWN_PARAMETERS_ONLY])
 
@@ -99,7 +104,8 @@ TimesAsked = Annotated[bool, Query(description="Whether to give the times of all
         **problem_responses(404, 409, 422, 503),
     },
 )
-async def draw_area(
+async def show_area(
+    request: Request,
     fleet: FleetOf,
     preparation: PreparationOf,
     flight: FlightAsked = None,
@@ -119,30 +125,92 @@ async def draw_area(
 
     The pursuer is put on every node of a grid; everything else stays as in the situation.
     """
-    preparation.require("areas", *(["bulk"] if exact else []))
-    asked, anchor = _situation_of(fleet, flight, situation)
+    if (flight is None) == (situation is None):
+        raise Refusal(422, ONE_OF_BOTH)
+    given: SituationBody | None = None
+    if situation is not None:
+        try:
+            given = parse(SituationBody, situation)
+        except ContractError as error:
+            raise problem_of(error, under="situation") from None
+    asked = AreaRequest(
+        flight=flight,
+        situation=given,
+        x_m=x_m,
+        y_m=y_m,
+        width_m=width_m,
+        height_m=height_m,
+        columns=columns,
+        rows=rows,
+        levels_s=level_s,
+        exact=exact,
+        planner=planner,
+        times=times,
+    )
+    return await _draw(asked, request, fleet, preparation)
+
+
+@router.post(
+    "/areas",
+    summary="Lines of equal time-to-converge",
+    responses={
+        **response(200, "Lines, and regions of words.", schema_of(AreaAnswer)),
+        **problem_responses(400, 404, 408, 409, 413, 415, 422, 503),
+    },
+    openapi_extra=request_body(schema_of(AreaRequest), {"situation": EXAMPLE, "levels_s": [600.0]}),
+)
+async def draw_area_of_body(
+    request: Request, fleet: FleetOf, preparation: PreparationOf
+) -> Response:
+    """As `GET /areas`, with the situation in the body as `POST /plans` takes it."""
+    content = parse_json(await read_body(request, JSON))
+    if not isinstance(content, dict):
+        raise Refusal(422, "The body must be an object with fields.")
+    try:
+        asked = parse(AreaRequest, content)
+    except ContractError as error:
+        raise problem_of(error) from None
+    return await _draw(asked, request, fleet, preparation)
+
+
+async def _draw(
+    asked: AreaRequest, request: Request, fleet: Fleet, preparation: Preparation
+) -> Response:
+    preparation.require("areas", *(["bulk"] if asked.exact else []))
+    if asked.planner == "network":
+        preparation.require_planner("network")
+    situation, anchor = _situation_of(fleet, asked.flight, asked.situation)
     try:
         grid = Grid(
-            x=asked.leader.x if x_m is None else x_m,
-            y=asked.leader.y if y_m is None else y_m,
-            width=width_m,
-            height=height_m,
-            columns=columns,
-            rows=rows,
+            x=situation.leader.x if asked.x_m is None else asked.x_m,
+            y=situation.leader.y if asked.y_m is None else asked.y_m,
+            width=asked.width_m,
+            height=asked.height_m,
+            columns=asked.columns,
+            rows=asked.rows,
         )
     except ValueError as error:
         raise Refusal(422, str(error)) from None
-    if exact:
-        _refuse_long(asked, grid)
-    return json_answer(
-        await asyncio.to_thread(
-            _draw, asked, anchor, grid, level_s, planner=planner, exact=exact, times=times
-        )
+    if asked.exact:
+        _refuse_long(situation, grid)
+    workers: Workers = request.app.state.workers
+    drawing = workers.do(
+        "areas",
+        draw_area,
+        situation,
+        anchor,
+        grid,
+        asked.levels_s,
+        asked.planner,
+        asked.exact,
+        asked.times,
+        patience=LONGEST,
     )
+    return json_answer(await unless_left(request, drawing))
 
 
 def _situation_of(
-    fleet: Fleet, flight: str | None, situation: str | None
+    fleet: Fleet, flight: str | None, situation: SituationBody | None
 ) -> tuple[Situation, Anchor]:
     if flight is not None and situation is None:
         past = fleet.find(flight).history
@@ -153,10 +221,10 @@ def _situation_of(
             raise Refusal(409, f"This flight cannot be planned for now: {error}") from None
     if situation is not None and flight is None:
         try:
-            return situation_from_json(situation)
+            return situation_from_body(situation)
         except ContractError as error:
             raise problem_of(error, under="situation") from None
-    raise Refusal(422, "Give either flight or situation, and not both: whose area is it?")
+    raise Refusal(422, ONE_OF_BOTH)
 
 
 def _refuse_long(situation: Situation, grid: Grid) -> None:
@@ -172,25 +240,3 @@ def _refuse_long(situation: Situation, grid: Grid) -> None:
             f"An exact area may have at most {MOST_SEARCHED:,} nodes (columns times rows), not "
             f"{grid.columns * grid.rows:,}.",
         )
-
-
-def _draw(
-    situation: Situation,
-    anchor: Anchor,
-    grid: Grid,
-    levels: list[Second],
-    *,
-    planner: Literal["exact", "network"],
-    exact: bool,
-    times: bool,
-) -> dict[str, Any]:
-    words = area_words(_network(), situation, grid) if planner == "network" else None
-    evaluate = times_around(situation, words=words)
-    area = isochrones(situation, grid, levels, evaluate=evaluate, exact=exact)
-    return area_to_wire(area, situation, anchor, exact=exact, times=times)
-
-
-@cache
-def _network() -> BranchNetwork:
-    """The network that comes with the program, read once."""
-    return load_network()

@@ -54,7 +54,7 @@ class Departures:
     """Fly for a while and discard it: afterwards everything is compiled."""
 
 
-def departures_of(connection: HTTPConnection) -> Departures:
+async def departures_of(connection: HTTPConnection) -> Departures:
     """The departures of the app that serves this connection."""
     departures: Departures = connection.app.state.departures
     return departures

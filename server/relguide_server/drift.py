@@ -10,9 +10,11 @@ from functools import partial
 from queue import Empty, Full, Queue
 from threading import Event, Lock, Thread
 
+from relguide.planning.acceptance import with_deadline
 from relguide.planning.plan import NoPlan, Plan, Planner
 from relguide.planning.plan import plan as exact_plan
 from relguide.planning.situation import Situation
+from relguide.units import Second
 from relguide_server.errors import run_logged
 from relguide_server.metrics import Metrics
 
@@ -46,8 +48,8 @@ class DriftCheck:
     def watch(self, planner: Planner) -> Planner:
         """The same planner, with its answers counted and audited; usable from any thread."""
 
-        def plan_and_note(situation: Situation) -> Plan | NoPlan:
-            answer = planner(situation)
+        def plan_and_note(situation: Situation, *, deadline: Second | None = None) -> Plan | NoPlan:
+            answer = with_deadline(planner, deadline)(situation)
             if isinstance(answer, Plan):
                 self._note(answer)
             return answer

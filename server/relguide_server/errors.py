@@ -6,14 +6,17 @@
 """
 
 import logging
+import traceback
 from collections.abc import Callable, Sequence
 from http import HTTPStatus
+from typing import Any
 
 import orjson
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from pydantic import BaseModel, Field
 from starlette.exceptions import HTTPException
+from starlette.requests import ClientDisconnect
 from starlette.responses import Response
 
 log = logging.getLogger("relguide.server")
@@ -82,6 +85,7 @@ def install_handlers(app: FastAPI) -> None:
     """Make every error of the app a problem document."""
     app.add_exception_handler(HTTPException, _answer_refusal)
     app.add_exception_handler(RequestValidationError, _answer_invalid)
+    app.add_exception_handler(ClientDisconnect, _note_left)
     app.add_exception_handler(Exception, _answer_broken)
 
 
@@ -117,6 +121,13 @@ async def _answer_invalid(request: Request, error: Exception) -> Response:
     return problem(request.url.path, 422, detail, errors=errors)
 
 
+async def _note_left(request: Request, error: Exception) -> Response:
+    # nobody reads this answer
+    del error
+    log.info("A client left before %s %s was answered.", request.method, request.url.path)
+    return Response(status_code=400)
+
+
 async def _answer_broken(request: Request, error: Exception) -> Response:
     # Starlette raises the error again after this answer, so that the server logs its traceback.
     del error
@@ -125,6 +136,23 @@ async def _answer_broken(request: Request, error: Exception) -> Response:
         500,
         "The server made a mistake: its log has the details. The request may be right.",
     )
+
+
+def attempt(job: Callable[..., Any], arguments: tuple[Any, ...]) -> tuple[Any, str]:
+    """Do a job; of a mistake of ours, give the traceback.
+
+    Returns:
+        What it returned, and nothing; or nothing, and the traceback.
+
+    Raises:
+        Refusal: what the job refuses.
+    """
+    try:
+        return job(*arguments), ""
+    except Refusal:
+        raise
+    except Exception:
+        return None, traceback.format_exc()
 
 
 def run_logged(name: str, work: Callable[[], None]) -> bool:

@@ -101,7 +101,9 @@ async def start_flight(
     except ContractError as error:
         raise problem_of(error) from None
     if departure.first is not None:
-        await asyncio.to_thread(preparation.admit, departure.first, request.app.state.settings)
+        await asyncio.to_thread(
+            preparation.admit, departure.first, request.app.state.settings.planner
+        )
     flight = await fleet.launch(
         departure.scenario,
         departure.title,

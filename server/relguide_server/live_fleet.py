@@ -133,7 +133,7 @@ class Fleet:
                     await self._land(flight)
 
 
-def fleet_of(connection: HTTPConnection) -> Fleet:
+async def fleet_of(connection: HTTPConnection) -> Fleet:
     """The fleet of the app that serves this connection."""
     fleet: Fleet = connection.app.state.fleet
     return fleet

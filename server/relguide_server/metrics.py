@@ -12,8 +12,10 @@ the separation limit binds."""
 class Metrics:
     """Counters of one running service, and one largest value; they only grow."""
 
-    plans: dict[str, int] = field(default_factory=lambda: {"planned": 0, "no_plan": 0})
-    """Plans answered, by status."""
+    plans: dict[str, int] = field(
+        default_factory=lambda: {"planned": 0, "no_plan": 0, "invalid": 0}
+    )
+    """Plans answered, by status; `invalid` for lines of a batch."""
     plan_counts: list[int] = field(default_factory=lambda: [0] * (len(BUCKETS) + 1))
     """Plans in each bucket; the last is for all above."""
     plan_seconds: float = 0.0

@@ -3,38 +3,119 @@
 The contract reads the bytes itself, so REST, command line and files refuse with the same words.
 """
 
-from collections.abc import Sequence
-from typing import Any
+import asyncio
+from collections.abc import Awaitable, Sequence
+from typing import Any, TypeVar
 
 import orjson
 from fastapi import Depends, FastAPI, Request
+from fastapi.dependencies.models import Dependant
 from fastapi.openapi.utils import get_openapi
 from fastapi.routing import APIRoute
 from pydantic import BaseModel
 from pydantic.json_schema import JsonSchemaMode, models_json_schema
-from starlette.requests import HTTPConnection
+from starlette.requests import ClientDisconnect, HTTPConnection
 from starlette.responses import Response
 
 from relguide.contract.refusal import ContractError, loads
 from relguide_server.errors import PROBLEM_JSON, Problem, ProblemError, Refusal
 
+T = TypeVar("T")
 _REF = "#/components/schemas/{model}"
 
 
+SMALL = 16 * 1024
+"""Bodies of at most so many bytes are read on the event loop: some milliseconds, whatever they
+hold."""
+BODY_PATIENCE = 15.0
+"""How long a body may take to come [s]."""
+JSON = "application/json"
+
+
+async def read_body(request: Request, *types: str, most: int = SMALL) -> bytes:
+    """The body of a request.
+
+    Args:
+        request: of a route.
+        types: what it may be declared to be.
+        most: how long it may be [bytes].
+
+    Raises:
+        Refusal: 415, if it is declared to be something else; 413, if it is longer; 408, if it does
+            not come.
+    """
+    # A page of another site can send most other types without the browser's permission.
+    if content_type(request) not in types:
+        raise Refusal(415, f"The body must be sent with Content-Type: {' or '.join(types)}.")
+    declared = request.headers.get("content-length", "0")
+    if declared.isdecimal() and int(declared) > most:
+        raise _too_long(most)
+    parts, size = [], 0
+    try:
+        async with asyncio.timeout(BODY_PATIENCE):
+            async for part in request.stream():
+                size += len(part)
+                if size > most:
+                    raise _too_long(most)
+                parts.append(part)
+    except TimeoutError:
+        late = f"The body did not come within {BODY_PATIENCE:.0f} s."
+        raise Refusal(408, late, headers={"Connection": "close"}) from None
+    return b"".join(parts)
+
+
+def _too_long(most: int) -> Refusal:
+    detail = f"The body of this request may have at most {most:,} bytes."
+    return Refusal(413, detail, headers={"Connection": "close"})
+
+
+async def unless_left(request: Request, work: Awaitable[T]) -> T:
+    """What some work gives, whose request has been read; it is cancelled if the client leaves.
+
+    Raises:
+        ClientDisconnect: if the client left.
+    """
+    working = asyncio.ensure_future(work)
+    leaving = asyncio.ensure_future(_wait_until_left(request))
+    try:
+        await asyncio.wait((working, leaving), return_when=asyncio.FIRST_COMPLETED)
+        if working.done():
+            return working.result()
+        raise ClientDisconnect
+    finally:
+        leaving.cancel()
+        working.cancel()
+
+
+async def _wait_until_left(request: Request) -> None:
+    while (await request.receive())["type"] != "http.disconnect":
+        pass
+
+
+def content_type(request: Request) -> str:
+    """The declared type of a body, without parameters."""
+    return request.headers.get("content-type", "").partition(";")[0].strip().lower()
+
+
+def parse_json(body: bytes) -> object:
+    """The content of a body.
+
+    Raises:
+        Refusal: if it is no JSON.
+    """
+    try:
+        return loads(body)
+    except ContractError as error:
+        raise problem_of(error, 400) from None
+
+
 async def read_json(request: Request) -> object:
-    """The parsed body of a request.
+    """The parsed body of a request, for a route that takes a small one.
 
     Raises:
         Refusal: if it is not declared to be JSON, or is no JSON.
     """
-    declared = request.headers.get("content-type", "").partition(";")[0].strip().lower()
-    # A page of another site can send any other type here without the browser's permission.
-    if declared != "application/json":
-        raise Refusal(415, "The body must be JSON, sent with Content-Type: application/json.")
-    try:
-        return loads(await request.body())
-    except ContractError as error:
-        raise problem_of(error, 400) from None
+    return parse_json(await read_body(request, JSON))
 
 
 async def refuse_unknown_parameters(connection: HTTPConnection) -> None:
@@ -45,13 +126,20 @@ async def refuse_unknown_parameters(connection: HTTPConnection) -> None:
     """
     match connection.scope["route"]:
         case APIRoute(path=path, dependant=dependant):
-            known = {field.alias for field in dependant.query_params}
+            if not connection.scope["query_string"]:
+                return
+            known = _parameters(dependant)
             for name in connection.query_params:
                 if name not in known:
                     has = f"It has {', '.join(sorted(known))}." if known else "It has none."
                     raise Refusal(422, f"{path} has no parameter {name[:100]!r}. {has}")
         case _:
             return
+
+
+def _parameters(dependant: Dependant) -> set[str]:
+    below = (_parameters(part) for part in dependant.dependencies)
+    return {field.alias for field in dependant.query_params}.union(*below)
 
 
 KNOWN_PARAMETERS_ONLY = Depends(refuse_unknown_parameters)
@@ -71,7 +159,7 @@ def problem_of(error: ContractError, status: int = 422, *, under: str = "") -> R
         for path, message in error.problems
     ]
     first = f"{errors[0].path}: {errors[0].message}" if errors[0].path else errors[0].message
-    more = f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""
+    more = f" (and {error.count - 1} more)" if error.count > 1 else ""
     return Refusal(status, first + more, errors=errors)
 
 

@@ -1,37 +1,43 @@
 """Routes that plan: a situation in, a plan with its proof out."""
 
-import asyncio
-from time import perf_counter
-from typing import Annotated, Any
+from collections.abc import AsyncIterator
+from time import monotonic
+from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Depends, Query, Request
 from pydantic import BaseModel, Field, RootModel, create_model
-from starlette.responses import Response
+from starlette.responses import Response, StreamingResponse
 
-from relguide.contract.answers import Include, answer, read_include
-from relguide.contract.bodies import Anchor, NamedSituationBody, SituationBody, situation_from_body
+from relguide.contract.answers import read_include
+from relguide.contract.bodies import NamedSituationBody, SituationBody
 from relguide.contract.messages import PlanAnswer, model_of
-from relguide.contract.refusal import ContractError, parse
 from relguide.flying.plan_documents import NoPlanCard, PlanCard
-from relguide.planning.plan import Planner
-from relguide.planning.situation import Situation
 from relguide_server.errors import Refusal
-from relguide_server.metrics import Metrics
+from relguide_server.jobs import MAX_BATCH
 from relguide_server.openapi import (
+    JSON,
     KNOWN_PARAMETERS_ONLY,
+    content_type,
     json_answer,
     list_schema,
-    problem_of,
     problem_responses,
-    read_json,
+    read_body,
     request_body,
     response,
     schema_of,
+    unless_left,
 )
-from relguide_server.preparation import Preparation, PreparationOf
+from relguide_server.plan_desk import PlanDesk, Wish
 
-MAX_BATCH = 1000
-"""Most situations in one request."""
+MAX_BODY = 64 * 1024
+"""Longest body with one situation [bytes]."""
+MAX_BATCH_BODY = 4 * 1024 * 1024
+"""Longest body of a batch [bytes]: 1,000 situations with 20 pieces of intent each fit in 3 MB."""
+NDJSON = "application/x-ndjson"
+"""A batch as lines, answered as lines."""
+BUDGET_MS, LEAST_MS, MOST_MS = 250.0, 1.0, 10_000.0
+"""How long planning a situation may take if the request does not say, and the range of what it may
+say."""
 
 EXAMPLE = {
     "pursuer": {
@@ -68,29 +74,48 @@ MODELS = (SituationBody, NamedSituationBody, Answer, NamedPlan, NamedNoPlan)
 """What the OpenAPI document needs for these routes."""
 
 
-def _planner_of(request: Request) -> Planner:
-    planner: Planner = request.app.state.planner
-    return planner
+async def _desk_of(request: Request) -> PlanDesk:
+    desk: PlanDesk = request.app.state.desk
+    return desk
 
 
-def _metrics_of(request: Request) -> Metrics:
-    metrics: Metrics = request.app.state.metrics
-    return metrics
+async def _read_wish(
+    include: Annotated[
+        str,
+        Query(
+            max_length=100,
+            description="What to add to the plan, with commas between. `alternatives`: the other "
+            "paths to the slot, and why each is not flown. `paths`: the same as `others`, with the "
+            "segments that draw them. `optimality`: how the plan meets "
+            "Pontryagin's conditions, with H and the costates along it; where the path slides "
+            "along the minimum separation that takes seconds more than `max_ms`.",
+            examples=["alternatives,optimality"],
+        ),
+    ] = "",
+    max_ms: Annotated[
+        float,
+        Query(
+            ge=LEAST_MS,
+            le=MOST_MS,
+            allow_inf_nan=False,
+            description="How long planning may take, each situation of a batch. Then the answer is "
+            "the best plan found, with its bound, or that none was found yet (`deadline`).",
+        ),
+    ] = BUDGET_MS,
+    planner: Annotated[
+        Literal["exact", "network"] | None,
+        Query(description="Who plans; if left out, the one that the service was started with."),
+    ] = None,
+) -> Wish:
+    try:
+        included = read_include(include)
+    except ValueError as error:
+        raise Refusal(422, str(error)) from None
+    return Wish(planner=planner, include=included, budget=max_ms * 1e-3)
 
 
-PlannerOf = Annotated[Planner, Depends(_planner_of)]
-MetricsOf = Annotated[Metrics, Depends(_metrics_of)]
-IncludeAsked = Annotated[
-    str,
-    Query(
-        max_length=100,
-        description="What to add to the plan, with commas between. `alternatives`: the other paths "
-        "to the slot, and why each is not flown. `paths`: the same as `others`, with the segments "
-        "that draw them. `optimality`: how the plan meets Pontryagin's "
-        "conditions, with H and the costates along it. Each takes a millisecond or more.",
-        examples=["alternatives,optimality"],
-    ),
-]
+DeskOf = Annotated[PlanDesk, Depends(_desk_of)]
+WishOf = Annotated[Wish, Depends(_read_wish)]
 router = APIRouter(prefix="/api/v1", tags=["plans"], dependencies=[KNOWN_PARAMETERS_ONLY])
 
 
@@ -99,106 +124,73 @@ router = APIRouter(prefix="/api/v1", tags=["plans"], dependencies=[KNOWN_PARAMET
     summary="Plan a situation",
     responses={
         **response(200, "A plan, or why there is none.", schema_of(Answer)),
-        **problem_responses(400, 413, 415, 422, 503),
+        **problem_responses(400, 408, 413, 415, 422, 503),
     },
     openapi_extra=request_body(schema_of(SituationBody), EXAMPLE),
 )
-async def make_plan(
-    request: Request,
-    planner: PlannerOf,
-    metrics: MetricsOf,
-    preparation: PreparationOf,
-    include: IncludeAsked = "",
-) -> Response:
+async def make_plan(request: Request, desk: DeskOf, wish: WishOf) -> Response:
     """The minimum-time plan with its proof, or the answer that there is no plan, and why."""
-    included = _read_include(include, preparation)
-    situation, anchor = _read(await read_json(request), SituationBody)
-    # 0.1 ms as a rule, but tens where the limit binds: the streams must not wait for it
-    given, seconds = await asyncio.to_thread(_answer, situation, anchor, planner, included)
-    metrics.count_plan(given["status"], seconds)
-    return json_answer(given)
+    end = monotonic() + wish.budget
+    body = await read_body(request, JSON, most=MAX_BODY)
+    answered = desk.answer_at_once(body, wish)
+    if answered is None or wish.include or not answered.final:
+        answered = await unless_left(request, desk.answer_by_worker(body, wish, answered, end))
+    return json_answer(desk.count(answered))
 
 
 @router.post(
     "/plans/batch",
     summary="Plan many situations",
     responses={
-        **response(
-            200,
-            "An answer for each, in order.",
-            list_schema(schema_of(NamedPlan, NamedNoPlan), most=MAX_BATCH),
-        ),
-        **problem_responses(400, 413, 415, 422, 503),
+        200: {
+            "description": "An answer for each, in order.",
+            "content": {
+                JSON: {"schema": list_schema(schema_of(NamedPlan, NamedNoPlan), most=MAX_BATCH)},
+                NDJSON: {"schema": {"type": "string", "description": "An answer a line."}},
+            },
+        },
+        **problem_responses(400, 408, 413, 415, 422, 503),
     },
-    openapi_extra=request_body(
-        list_schema(schema_of(NamedSituationBody), most=MAX_BATCH), [EXAMPLE]
-    ),
+    openapi_extra={
+        "requestBody": {
+            "required": True,
+            "content": {
+                JSON: {
+                    "schema": list_schema(schema_of(NamedSituationBody), most=MAX_BATCH),
+                    "example": [EXAMPLE],
+                },
+                NDJSON: {"schema": {"type": "string", "description": "A situation a line."}},
+            },
+        }
+    },
 )
-async def make_plans(
-    request: Request,
-    planner: PlannerOf,
-    metrics: MetricsOf,
-    preparation: PreparationOf,
-    include: IncludeAsked = "",
-) -> Response:
-    """Up to 1,000 situations; an answer for each, in order, with its `id` if it has one."""
-    included = _read_include(include, preparation)
-    bodies = await read_json(request)
-    if not isinstance(bodies, list):
-        raise Refusal(422, "The body must be a list of situations.")
-    if len(bodies) > MAX_BATCH:
-        raise Refusal(
-            422,
-            f"At most {MAX_BATCH} situations a request, not {len(bodies)}.",
-        )
-    answers = await asyncio.to_thread(_answer_all, bodies, planner, included)
-    for given, seconds in answers:
-        metrics.count_plan(given["status"], seconds)
-    return json_answer([given for given, _ in answers])
+async def make_plans(request: Request, desk: DeskOf, wish: WishOf) -> Response:
+    """Up to 1,000 situations; an answer for each, in order, with its `id` if it has one.
+
+    A list is answered by a list, or refused as a whole if one situation is wrong. Lines
+    (`application/x-ndjson`) are answered by lines as they are planned, and a wrong one by a line
+    with the status `invalid`.
+    """
+    body = await read_body(request, JSON, NDJSON, most=MAX_BATCH_BODY)
+    if content_type(request) == NDJSON:
+        lines = [line for line in body.splitlines() if line.strip()]
+        if len(lines) > MAX_BATCH:
+            raise Refusal(422, f"At most {MAX_BATCH} situations a request, not {len(lines)}.")
+        answers = desk.answer_batch(lines, wish)
+        first = await unless_left(request, anext(answers, []))
+        return StreamingResponse(_write_lines(first, answers), media_type=NDJSON)
+    return json_answer(await unless_left(request, _answer_list(body, desk, wish)))
 
 
-def _read_include(text: str, preparation: Preparation) -> tuple[Include, ...]:
-    try:
-        included = read_include(text)
-    except ValueError as error:
-        raise Refusal(422, str(error)) from None
-    if "optimality" in included:
-        preparation.require("proofs")
-    return included
+async def _write_lines(
+    first: list[bytes], others: AsyncIterator[list[bytes]]
+) -> AsyncIterator[bytes]:
+    yield b"".join(text + b"\n" for text in first)
+    async for answers in others:
+        yield b"".join(text + b"\n" for text in answers)
 
 
-def _answer_all(
-    bodies: list[object], planner: Planner, included: tuple[Include, ...]
-) -> list[tuple[dict[str, Any], float]]:
-    # All are read before any is planned: a request is refused as a whole or served as a whole.
-    read = [
-        (_read(body, NamedSituationBody, under=f"[{index}]"), body)
-        for index, body in enumerate(bodies)
-    ]
-    answers = []
-    for (situation, anchor), body in read:
-        given, seconds = _answer(situation, anchor, planner, included)
-        if isinstance(body, dict) and "id" in body:
-            given = {"id": body["id"], **given}
-        answers.append((given, seconds))
-    return answers
-
-
-def _read(
-    content: object, shape: type[SituationBody], *, under: str = ""
-) -> tuple[Situation, Anchor]:
-    if not isinstance(content, dict):
-        raise Refusal(422, f"{under} must be an object with fields: a situation.".strip())
-    try:
-        return situation_from_body(parse(shape, content))
-    except ContractError as error:
-        raise problem_of(error, under=under) from None
-
-
-def _answer(
-    situation: Situation, anchor: Anchor, planner: Planner, included: tuple[Include, ...]
-) -> tuple[dict[str, Any], float]:
-    """The answer, and how long it took [s]; counted by the caller, on the loop's own thread."""
-    started = perf_counter()
-    given = answer(situation, anchor, planner, include=included)
-    return given, perf_counter() - started
+async def _answer_list(body: bytes, desk: PlanDesk, wish: Wish) -> bytes:
+    lines = await desk.split(body)
+    answers = [text async for texts in desk.answer_batch(lines, wish) for text in texts]
+    return b"[" + b",".join(answers) + b"]"

@@ -15,8 +15,10 @@ from fastapi import Depends
 from pydantic import BaseModel, Field
 from starlette.requests import HTTPConnection
 
+from relguide.planning.acceptance import with_deadline
 from relguide.planning.plan import NoPlan, Plan, Planner, plan_at_once
 from relguide.planning.situation import Situation
+from relguide.units import Second
 from relguide.warm_up import SETS, STEPS, Preparing, WarmUpError, missing, prepare
 from relguide_server.errors import Refusal, log, run_logged
 from relguide_server.settings import Settings
@@ -56,6 +58,7 @@ class Preparation:
         self._steps = tuple(steps)
         self._missing = missing(steps)
         self._state: Preparing | None = None
+        self._usable: set[str] = set()
         self._rehearsed = False
         self._changed = threading.Condition()
         self._stopped = threading.Event()
@@ -126,28 +129,58 @@ class Preparation:
         with self._changed:
             self._changed.wait_for(lambda: self.has(*steps) or self._stopped.is_set())
 
-    def admit(self, situation: Situation, settings: Settings) -> None:
+    def can_plan_by(self, name: str) -> bool:
+        """Whether all that a planner needs is compiled."""
+        return not self._missing or self.has("flying", *PLANNED_WITH.get(name, ()))
+
+    def require_planner(self, name: str) -> None:
+        """Refuse a planner that is not compiled.
+
+        Args:
+            name: of the planner; empty for one that is not compiled ahead.
+
+        Raises:
+            Refusal: 503, as in `require`.
+        """
+        steps = PLANNED_WITH.get(name, ())
+        self.require("flying", *steps)
+        if not self._steps or name in self._usable or set(steps) <= set(self._steps):
+            return
+        if missing(steps):
+            raise Refusal(
+                503,
+                f"The planner {name} is not compiled here: `relguide warm-up` does that, or start "
+                f"the service with RELGUIDE_PLANNER={name}.",
+                headers={"Retry-After": "30"},
+            )
+        self._usable.add(name)
+
+    def admit(self, situation: Situation, name: str) -> None:
         """Refuse a situation whose plan needs what is not compiled yet.
+
+        Args:
+            situation: what is to be planned.
+            name: of the planner.
 
         Raises:
             Refusal: 503, as in `require`.
         """
         self.require("flying")
-        steps = PLANNED_WITH[settings.planner]
+        steps = PLANNED_WITH.get(name, ())
         if not self.has(*steps) and plan_at_once(situation) is None:
             self.require(*steps)
 
-    def guard(self, planner: Planner, settings: Settings, *, waiting: bool) -> Planner:
+    def guard(self, planner: Planner, name: str, *, waiting: bool) -> Planner:
         """The same planner; while kernels are missing, plans that need none of them.
 
         Args:
             planner: the planner.
-            settings: which one it is.
+            name: its name; empty if it has none.
             waiting: whether all other plans wait, as in a flight, or are refused.
         """
-        steps = PLANNED_WITH[settings.planner]
+        steps = PLANNED_WITH.get(name, ())
 
-        def guarded(situation: Situation) -> Plan | NoPlan:
+        def guarded(situation: Situation, *, deadline: Second | None = None) -> Plan | NoPlan:
             if not self.has("flying", *steps):
                 if waiting:
                     self.wait("flying")
@@ -158,7 +191,7 @@ class Preparation:
                 if waiting:
                     self.wait(*steps)
                 self.require(*steps)
-            return planner(situation)
+            return with_deadline(planner, deadline)(situation)
 
         return guarded
 
@@ -191,7 +224,7 @@ class Preparation:
             self._changed.notify_all()
 
 
-def preparation_of(connection: HTTPConnection) -> Preparation:
+async def preparation_of(connection: HTTPConnection) -> Preparation:
     """The preparation of the app that serves this connection."""
     preparation: Preparation = connection.app.state.preparation
     return preparation

@@ -1,8 +1,9 @@
 """The settings of an operator, each with its reason, and how uvicorn is started."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import isfinite
+from os import cpu_count
 from typing import Any
 
 from relguide.learn.planners import SERVING
@@ -12,6 +13,12 @@ from relguide.learn.planners import SERVING
 class Settings:
     """Limits of the service. Each can be set by an environment variable `RELGUIDE_<NAME>`."""
 
+    workers: int = field(default_factory=lambda: min(4, max(2, cpu_count() or 1)))
+    """Processes that plan what takes longer than a millisecond, draw areas and answer batches; each
+    holds 200 MB. With 0, threads of the service itself do that, and nothing ends one that is stuck.
+    """
+    queue: int = 64
+    """Jobs of a kind that may wait for a worker."""
     max_flights: int = 16
     """Flights that may be in the air at once: each is a thread that shares one interpreter."""
     keep_unseen: float = 600.0
@@ -32,9 +39,10 @@ class Settings:
         """Refuse settings with which nothing could run."""
         if self.planner not in SERVING:
             raise ValueError(f"planner must be {' or '.join(SERVING)}, not {self.planner}.")
-        if self.drift_check < 0:
-            raise ValueError(f"drift_check must be 0 or more, not {self.drift_check}.")
-        for name in ("max_flights", "max_body"):
+        for name in ("drift_check", "workers"):
+            if getattr(self, name) < 0:
+                raise ValueError(f"{name} must be 0 or more, not {getattr(self, name)}.")
+        for name in ("max_flights", "max_body", "queue"):
             if getattr(self, name) < 1:
                 raise ValueError(f"{name} must be 1 or more, not {getattr(self, name)}.")
         for name in ("keep_unseen", "spare_after", "stream_rate"):

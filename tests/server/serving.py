@@ -47,7 +47,8 @@ def ideal_app(
     source: Callable[..., Iterator[Document]] = ideal_flight, **settings: float
 ) -> FastAPI:
     """The service with ideal flights."""
-    return create_app(Settings(**settings), departures=ideal_departures(source))  # type: ignore[arg-type]
+    limits = Settings(**{"workers": 0, **settings})  # type: ignore[arg-type]
+    return create_app(limits, departures=ideal_departures(source))
 
 
 @contextmanager

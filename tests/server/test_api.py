@@ -1,5 +1,6 @@
 """REST: plans, flights, problem documents; garbage in, sentences out."""
 
+import json
 import threading
 import time
 from collections.abc import Iterator
@@ -17,6 +18,13 @@ from relguide.planning.situation import Situation
 from tests.server.flown import ideal_flight
 from tests.server.serving import ideal_app, ideal_departures
 
+HARD = {
+    **EXAMPLE,
+    "pursuer": {**EXAMPLE["pursuer"], "x_m": 0.0, "y_m": 30e3, "heading_deg": 180.0},
+    "leader": {"x_m": 0.0, "y_m": 0.0, "heading_deg": 0.0, "tas_mps": 200.0},
+    "slot_distance_m": 12e3,
+}  # fmt: skip
+"""A head-on encounter: the limit binds."""
 PROBLEM = {"type", "title", "status", "detail", "instance", "errors"}
 
 
@@ -83,12 +91,56 @@ def test_alternatives_come_on_request(client: TestClient) -> None:
     assert batch["alternatives"] == asked["alternatives"]
 
 
+def test_a_batch_of_lines_is_answered_by_lines_and_a_wrong_one_spoils_itself_only(
+    client: TestClient,
+) -> None:
+    lines = [json.dumps({**EXAMPLE, "id": "one"}), "{", '{"id": 2}', "", json.dumps(EXAMPLE)]
+    answer = client.post(
+        "/api/v1/plans/batch",
+        content="\n".join(lines).encode(),
+        headers={"Content-Type": "application/x-ndjson"},
+    )
+    assert answer.headers["content-type"] == "application/x-ndjson"
+    answers = [json.loads(line) for line in answer.text.splitlines()]
+    assert [a["status"] for a in answers] == ["planned", "invalid", "invalid", "planned"]
+    assert [a.get("id") for a in answers] == ["one", None, 2, None]
+    assert "pursuer: is missing." in answers[2]["message"]
+
+
+def test_a_body_full_of_mistakes_is_answered_by_twenty(client: TestClient) -> None:
+    body = {f"x{k}": k for k in range(3000)}
+    document = is_problem(client.post("/api/v1/plans", json=body), 422, "/api/v1/plans")
+    assert len(document["errors"]) == 20
+    assert "and 3003 more" in document["detail"]
+
+
+def test_a_plan_keeps_its_budget(client: TestClient) -> None:
+    started = time.monotonic()
+    hard = client.post("/api/v1/plans?max_ms=1", json=HARD).json()
+    assert time.monotonic() - started < 0.2
+    assert hard.get("reason", "deadline") == "deadline"
+    assert (hard["lower_bound_s"] if "reason" in hard else hard["optimality"]["lower_bound_s"]) > 0
+    assert client.post("/api/v1/plans?max_ms=5000", json=HARD).json()["status"] == "planned"
+    for wrong in ("0", "10001", "nan", "soon"):
+        answer = client.post(f"/api/v1/plans?max_ms={wrong}", json=EXAMPLE)
+        assert "max_ms" in is_problem(answer, 422, "/api/v1/plans")["detail"]
+
+
+def test_a_planner_may_be_asked_for(client: TestClient) -> None:
+    asked = client.post("/api/v1/plans?planner=network", json=EXAMPLE)
+    assert asked.json()["planner"] in ("network", "exact")
+    (batch,) = client.post("/api/v1/plans/batch?planner=network", json=[EXAMPLE]).json()
+    assert batch["word"] == asked.json()["word"]
+    wrong = client.post("/api/v1/plans?planner=regular_dp", json=EXAMPLE)
+    assert "planner" in is_problem(wrong, 422, "/api/v1/plans")["detail"]
+
+
 @pytest.mark.parametrize("path", ["/api/v1/plans", "/api/v1/plans/batch"])
 def test_what_cannot_be_included_is_refused(client: TestClient, path: str) -> None:
     wrong = is_problem(client.post(f"{path}?include=wings", json=EXAMPLE), 422, path)
     assert "include must be alternatives, paths or optimality" in wrong["detail"]
     unknown = is_problem(client.post(f"{path}?optimality=true", json=EXAMPLE), 422, path)
-    assert "has no parameter 'optimality'. It has include." in unknown["detail"]
+    assert "has no parameter 'optimality'. It has include, max_ms, planner." in unknown["detail"]
 
 
 def test_parameters_that_a_route_does_not_have_are_refused(client: TestClient) -> None:
@@ -119,7 +171,7 @@ def test_a_batch_has_an_end(client: TestClient) -> None:
         (b"{}", 422, "is missing"),
         (b'{"slot_distance_m": NaN}', 400, "NaN"),
         (b'{"pursuer": 5, "pursuer": 6}', 400, "more than once"),
-        (b"[" * 100_000, 400, ""),
+        (b"[" * 60_000, 400, "nested too deeply"),
     ],
 )
 def test_garbage_is_refused_with_a_sentence(

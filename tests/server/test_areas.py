@@ -155,3 +155,30 @@ def test_what_is_no_area_is_refused(
 ) -> None:
     document = is_problem(client.get(URL, params=parameters), 422, URL)
     assert sentence in document["detail"]
+
+
+def test_an_area_is_drawn_from_a_body(client: TestClient) -> None:
+    few = {"columns": 32, "rows": 24, "levels_s": [300.0, 600.0]}
+    posted = client.post(URL, json={"situation": STRAIGHT, **few})
+    assert posted.status_code == 200
+    asked = client.get(URL, params=ask(level_s=["300", "600"])).json()
+    drawn = posted.json()
+    assert {**drawn, "compute_ms": 0.0} == {**asked, "compute_ms": 0.0}
+
+
+@pytest.mark.parametrize(
+    ("body", "sentence"),
+    [
+        ({}, "either flight or situation"),
+        ({"situation": {**STRAIGHT, "wings": 2}}, "situation.wings: is not a field"),
+        ({"situation": STRAIGHT, "columns": 1}, "columns: must be at least 2"),
+        ({"situation": STRAIGHT, "x_m": 990_000.0}, "The grid must lie within"),
+        ({"situation": STRAIGHT, "level_s": []}, "level_s: is not a field"),
+        ([], "must be an object"),
+    ],
+)
+def test_what_is_no_body_of_an_area_is_refused(
+    client: TestClient, body: object, sentence: str
+) -> None:
+    document = is_problem(client.post(URL, json=body), 422, URL)
+    assert sentence in document["detail"]

@@ -23,6 +23,14 @@ CHECKS = (
 )
 
 
+@schemathesis.serializer("application/x-ndjson")
+def write_lines(context: schemathesis.SerializationContext, value: object) -> bytes:
+    return b"\n".join(
+        line if isinstance(line, bytes) else str(line).encode()
+        for line in (value if isinstance(value, list) else [value])
+    )
+
+
 @schema.parametrize()
 @settings(max_examples=15, deadline=None, suppress_health_check=list(HealthCheck))
 def test_the_service_does_what_its_document_says(case: schemathesis.Case) -> None:

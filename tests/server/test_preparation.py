@@ -104,10 +104,10 @@ def test_a_flight_waits_and_a_request_does_not(compiled: Callable[..., None]) ->
     _until(lambda: preparation.has("flying"))
     situation = next(s for s, _ in golden("reference") if plan_at_once(s) is None)
     with pytest.raises(Refusal) as refused:
-        preparation.guard(plan, Settings(), waiting=False)(situation)
+        preparation.guard(plan, "exact", waiting=False)(situation)
     assert refused.value.status_code == 503
     answers: list[object] = []
-    patient = preparation.guard(plan, Settings(), waiting=True)
+    patient = preparation.guard(plan, "exact", waiting=True)
     flight = threading.Thread(target=lambda: answers.append(patient(situation)))
     flight.start()
     flight.join(0.2)

@@ -1,7 +1,7 @@
 // Made by `python -m relguide_server.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-610d466c0bed";
+export const PROTOCOL = "relguide-c401c4bbefd6";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -267,6 +267,38 @@ export interface AreaRegion {
    * Fill them by the even-odd rule.
    */
   polygons: number[][][][];
+}
+
+/** Whose convergence area is asked for, and on which grid: either a flight or a situation. */
+export interface AreaRequest {
+  /** Id of a flight: the area for its situation now. */
+  flight?: string | null;
+  /** Instead of a flight: a situation as `POST /plans` takes it. */
+  situation?: SituationBody | null;
+  /** Centre of the grid, east; if left out, the leader. */
+  x_m?: number | null;
+  /** Centre of the grid, north; if left out, the leader. */
+  y_m?: number | null;
+  /** From the first column to the last. */
+  width_m?: number;
+  /** From the first row to the last. */
+  height_m?: number;
+  columns?: number;
+  rows?: number;
+  /** Times of the lines; if left out, some round ones. */
+  levels_s?: number[];
+  /**
+   * Whether to search the paths that touch the minimum separation as well. Takes seconds; for few
+   * nodes, and a leader without turns to come.
+   */
+  exact?: boolean;
+  /**
+   * `network`: a network of branches says where it is enough to solve one word; all words are
+   * solved where it is not sure, and where the word changes.
+   */
+  planner?: "exact" | "network";
+  /** Whether to give the times of all nodes. */
+  times?: boolean;
 }
 
 /** How a plan's end meets eq. (7): the pursuer at the slot, on the leader's heading, it open. */

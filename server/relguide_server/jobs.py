@@ -1,0 +1,210 @@
+"""What workers do: functions of what can be sent to another process, which give JSON text back."""
+
+import json
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cache
+from time import monotonic, perf_counter
+from typing import Any, Literal
+
+import orjson
+
+from relguide.contract.answers import Include, answer, answer_line
+from relguide.contract.area_bodies import area_to_wire
+from relguide.contract.bodies import (
+    Anchor,
+    NamedSituationBody,
+    SituationBody,
+    Unanchored,
+    situation_from_body,
+)
+from relguide.contract.refusal import ContractError, parse
+from relguide.learn.planners import make_planner
+from relguide.learn.words.area_words import area_words
+from relguide.learn.words.branch_network import BranchNetwork, load_network
+from relguide.maps.isochrones import Grid, isochrones, times_around
+from relguide.planning.deadline import LOADING, load_kernels
+from relguide.planning.plan import Planner
+from relguide.planning.situation import Situation
+from relguide.units import Second
+from relguide_server.errors import Refusal
+from relguide_server.openapi import parse_json, problem_of
+
+MAX_BATCH = 1000
+"""Most situations in one request."""
+MAX_LINE = 64 * 1024
+"""Longest situation [bytes]."""
+
+
+LEAST: Second = 1e-3
+"""Each situation is planned for so long at least, however late it is [s]."""
+LEAST_WITH_MORE: Second = 0.02
+"""The same where alternatives are asked for."""
+
+
+@dataclass(frozen=True, slots=True)
+class Answered:
+    """The answer to a situation, and what is counted of it."""
+
+    text: bytes
+    status: str
+    seconds: float
+    """How long it took."""
+    final: bool
+    """Whether more time would not change it: it is proved, or a network is sure of it."""
+
+
+def load(planner: str | Planner) -> None:
+    """Get ready to plan: in a process of its own that takes a second."""
+    load_kernels()
+    for situation in LOADING:
+        plan_situation(situation, Unanchored(), planner, ("alternatives",), None)
+
+
+def planner_of(planner: str | Planner) -> Planner:
+    """A planner by its name; one that is given is taken."""
+    return _named(planner) if isinstance(planner, str) else planner
+
+
+def read_situation(body: bytes) -> tuple[Situation, Anchor]:
+    """A situation from the body of a request.
+
+    Raises:
+        Refusal: naming each field that is wrong.
+    """
+    return _read(parse_json(body), SituationBody)
+
+
+def plan_body(
+    body: bytes, planner: str | Planner, include: tuple[Include, ...], end: float
+) -> Answered:
+    """Plan the situation in the body of a request.
+
+    Args:
+        body: the situation in JSON.
+        planner: who plans.
+        include: as in `answer`.
+        end: when planning is to end, by `time.monotonic`, which is one for all processes [s].
+    """
+    situation, anchor = read_situation(body)
+    least = LEAST_WITH_MORE if include else LEAST
+    return plan_situation(situation, anchor, planner, include, max(end - monotonic(), least))
+
+
+def plan_situation(
+    situation: Situation,
+    anchor: Anchor,
+    planner: str | Planner,
+    include: tuple[Include, ...],
+    deadline: Second | None,
+) -> Answered:
+    """Plan a situation."""
+    started = perf_counter()
+    given = answer(situation, anchor, planner_of(planner), include=include, deadline=deadline)
+    return _answered(given, started)
+
+
+def split_batch(body: bytes) -> list[bytes]:
+    """The situations of a batch, each as JSON text.
+
+    All are read before any is planned: it is refused as a whole or served as a whole.
+
+    Raises:
+        Refusal: for the first that is wrong.
+    """
+    bodies = parse_json(body)
+    if not isinstance(bodies, list):
+        raise Refusal(422, "The body must be a list of situations.")
+    if len(bodies) > MAX_BATCH:
+        raise Refusal(422, f"At most {MAX_BATCH} situations a request, not {len(bodies)}.")
+    for index, content in enumerate(bodies):
+        _read(content, NamedSituationBody, under=f"[{index}]")
+    # not orjson: a heading may be a whole number of any size
+    return [json.dumps(content).encode() for content in bodies]
+
+
+def plan_lines(
+    lines: Iterable[bytes],
+    planner: str | Planner,
+    include: tuple[Include, ...],
+    deadline: Second,
+    until: Second,
+) -> list[Answered]:
+    """Plan as many lines of a batch, in their order, as can be begun in some time.
+
+    Args:
+        lines: situations, each as JSON text; a wrong one gets an answer that says so.
+        planner: who plans.
+        include: as in `answer`.
+        deadline: of each line [s].
+        until: no line is begun later than this, but the first [s].
+    """
+    began = perf_counter()
+    make = planner_of(planner)
+    answers: list[Answered] = []
+    for line in lines:
+        started = perf_counter()
+        if answers and started > began + until:
+            break
+        if len(line) > MAX_LINE:
+            wrong = f"A situation may have at most {MAX_LINE:,} bytes."
+            given: dict[str, Any] = {"status": "invalid", "message": wrong}
+        else:
+            given = answer_line(line, make, include=include, deadline=deadline)
+        answers.append(_answered(given, started))
+    return answers
+
+
+def draw_area(
+    situation: Situation,
+    anchor: Anchor,
+    grid: Grid,
+    levels: Sequence[Second],
+    planner: Literal["exact", "network"],
+    exact: bool,
+    times: bool,
+) -> bytes:
+    """A convergence area as JSON text."""
+    words = area_words(_network(), situation, grid) if planner == "network" else None
+    evaluate = times_around(situation, words=words)
+    area = isochrones(situation, grid, levels, evaluate=evaluate, exact=exact)
+    return orjson.dumps(area_to_wire(area, situation, anchor, exact=exact, times=times))
+
+
+def _answered(given: dict[str, Any], started: float) -> Answered:
+    text = orjson.dumps(given)
+    return Answered(text, given["status"], perf_counter() - started, _is_final(given))
+
+
+def _is_final(given: dict[str, Any]) -> bool:
+    match given:
+        case {"status": "planned", "optimality": {"proof": "relaxation"}}:
+            return True
+        case {"status": "planned", "planner": "network"}:
+            return True
+        case {"status": "no_plan", "reason": reason}:
+            return bool(reason != "deadline")
+        case _:
+            return False
+
+
+def _read(
+    content: object, shape: type[SituationBody], *, under: str = ""
+) -> tuple[Situation, Anchor]:
+    if not isinstance(content, dict):
+        raise Refusal(422, f"{under} must be an object with fields: a situation.".strip())
+    try:
+        return situation_from_body(parse(shape, content))
+    except ContractError as error:
+        raise problem_of(error, under=under) from None
+
+
+@cache
+def _named(name: str) -> Planner:
+    return make_planner(name)
+
+
+@cache
+def _network() -> BranchNetwork:
+    """The network that comes with the program, read once."""
+    return load_network()

@@ -1,0 +1,178 @@
+"""PlanDesk: answers situations, at once where that takes a millisecond, else by the workers.
+
+Most situations are planned within 0.1 ms, which is less than it takes to ask another process. So
+each is first tried here, on the event loop, with a deadline of `AT_ONCE`. What is proved by then,
+the least time or that there is no plan, is the answer. Everything else goes to a worker, with what
+is left of the budget. If that is spent before a worker has answered, the answer is what was found
+at first: it is certified as well, and says its bound.
+"""
+
+import asyncio
+from collections.abc import AsyncIterator, Sequence
+from dataclasses import dataclass
+from time import monotonic
+
+from relguide.contract.answers import Include
+from relguide.planning.plan import Planner
+from relguide.units import Second
+from relguide_server import jobs
+from relguide_server.jobs import Answered
+from relguide_server.metrics import Metrics
+from relguide_server.openapi import SMALL
+from relguide_server.preparation import Preparation
+from relguide_server.workers import Workers
+
+AT_ONCE: Second = 1e-3
+"""How long a situation is tried on the event loop; of 4,000 extreme ones none took 3 ms."""
+GRACE: Second = 1.0
+"""How much later than its deadline a worker may answer before it is taken to be stuck."""
+PROOF: Second = 5.0
+"""How much longer Pontryagin's conditions may take, which know no deadline."""
+HANDING_OVER: Second = 0.02
+"""How long an answer takes from a worker at most."""
+SLICE: Second = 0.05
+"""A batch is planned in slices of this length, between which other jobs are begun."""
+AT_A_TIME = 64
+"""Most lines of a batch that are sent at a time."""
+READING: Second = 30.0
+"""How long the largest batch may take to be read."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Wish:
+    """How a situation is to be answered."""
+
+    planner: str | None
+    """By whom; the service's own planner if `None`."""
+    include: tuple[Include, ...]
+    budget: Second
+    """How long planning may take, waiting included; for a batch, each situation."""
+
+    @property
+    def patience(self) -> Second:
+        """How long a job may take beyond what is left of the budget."""
+        return GRACE + (PROOF if "optimality" in self.include else 0.0)
+
+
+class PlanDesk:
+    """Answers situations. Lives on the event loop."""
+
+    def __init__(
+        self,
+        name: str,
+        planner: Planner,
+        *,
+        quick: bool,
+        preparation: Preparation,
+        workers: Workers,
+        metrics: Metrics,
+    ) -> None:
+        """Open it.
+
+        Args:
+            name: of the service's own planner; empty for one that has none, which other processes
+                cannot be given.
+            planner: the same, to be asked here.
+            quick: whether it takes a deadline.
+            preparation: says which kernels are compiled.
+            workers: do what takes longer.
+            metrics: count the answers.
+        """
+        self._name = name
+        self._planner, self._guarded = planner, preparation.guard(planner, name, waiting=False)
+        self._preparation = preparation
+        self._workers = workers
+        self._metrics = metrics
+        self._quick = quick
+
+    def answer_at_once(self, body: bytes, wish: Wish) -> Answered | None:
+        """A first answer to a situation in JSON; `None` where even that may take too long.
+
+        Raises:
+            Refusal: if it is no situation.
+        """
+        if len(body) > SMALL:
+            return None
+        situation, anchor = jobs.read_situation(body)
+        if not self._quick or wish.planner not in (None, self._name):
+            return None
+        warm = self._preparation.can_plan_by(self._name)
+        planner = self._planner if warm else self._guarded
+        return jobs.plan_situation(situation, anchor, planner, (), AT_ONCE)
+
+    async def answer_by_worker(
+        self, body: bytes, wish: Wish, first: Answered | None, end: float
+    ) -> Answered:
+        """The answer to a situation in JSON.
+
+        Args:
+            body: the situation.
+            wish: how it is to be answered.
+            first: the answer if no worker gives one in time.
+            end: when the budget is spent, by `time.monotonic` [s].
+
+        Raises:
+            Refusal: if it is no situation, or too many wait.
+        """
+        self._require(wish)
+        left = max(end - monotonic(), 0.0)
+        job = self._workers.do(
+            "plans",
+            jobs.plan_body,
+            body,
+            self._whom(wish),
+            wish.include,
+            end,
+            patience=left + wish.patience,
+        )
+        if first is None or wish.include:
+            answered: Answered = await job
+            return answered
+        try:
+            return await asyncio.wait_for(job, left + HANDING_OVER)
+        except TimeoutError:
+            return first
+
+    async def answer_batch(self, lines: Sequence[bytes], wish: Wish) -> AsyncIterator[list[bytes]]:
+        """The answers to the lines of a batch, in their order, as they come.
+
+        Raises:
+            Refusal: if too many batches wait.
+        """
+        self._require(wish)
+        done = 0
+        while done < len(lines):
+            answers: list[Answered] = await self._workers.do(
+                "batches",
+                jobs.plan_lines,
+                lines[done : done + AT_A_TIME],
+                self._whom(wish),
+                wish.include,
+                wish.budget,
+                SLICE,
+                patience=SLICE + wish.budget + wish.patience,
+            )
+            done += len(answers)
+            yield [self.count(answered) for answered in answers]
+
+    async def split(self, body: bytes) -> list[bytes]:
+        """The situations of a batch as lines; refused as a whole if one is wrong."""
+        lines: list[bytes] = await self._workers.do(
+            "batches", jobs.split_batch, body, patience=READING
+        )
+        return lines
+
+    def count(self, answered: Answered) -> bytes:
+        """The text of an answer, which is counted."""
+        self._metrics.count_plan(answered.status, answered.seconds)
+        return answered.text
+
+    def _require(self, wish: Wish) -> None:
+        """Refuse what is not compiled yet."""
+        self._preparation.require_planner(wish.planner or self._name)
+        if "optimality" in wish.include:
+            self._preparation.require("proofs")
+
+    def _whom(self, wish: Wish) -> str | Planner:
+        """The planner as a worker takes it."""
+        return wish.planner or self._name or self._planner

@@ -1,0 +1,220 @@
+"""The workers of the service: a bounded queue for each kind of job, and the hands that do them.
+
+Kinds take turns, so that no kind starves another; and of several hands one is kept from the long
+kinds, so that a plan never waits for an area. A job that takes longer than it may is killed with
+its hand, which is replaced. A client that leaves takes its job with it.
+"""
+
+import asyncio
+from collections import deque
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+from typing import Any, Literal, get_args
+
+from relguide_server.errors import Refusal, log
+from relguide_server.hands import Hand, HandLostError, ProcessHand, ThreadHand
+from relguide_server.outcomes import Outcome, value_of
+
+Kind = Literal["plans", "flights", "areas", "batches"]
+"""What waits in one queue."""
+KINDS: tuple[Kind, ...] = get_args(Kind)
+LONG: frozenset[Kind] = frozenset(("areas", "batches"))
+"""Kinds that leave one hand free."""
+ABANDONED = 0.5
+"""How long a job goes on whose client has left, before its hand is killed [s]: a new hand costs a
+second of a processor."""
+LOOK = 0.2
+"""How often it is looked whether processes may start [s]."""
+LOADING = 60.0
+"""How long a process may take to get ready [s]: a second, on a machine that does nothing else."""
+LOADING_AGAIN = 5.0
+"""After so long a process that did not get ready is started again [s]."""
+INTERRUPTED = "Planning was interrupted: try again."
+THREADS = 4
+"""Hands where jobs are done by threads."""
+
+
+@dataclass(slots=True, eq=False)
+class _Job:
+    work: tuple[Callable[..., Any], tuple[Any, ...]]
+    patience: float
+    outcome: asyncio.Future[Outcome] = field(
+        default_factory=lambda: asyncio.get_running_loop().create_future()
+    )
+
+
+class Workers:
+    """Hands and queues. Lives on the event loop, from `start` to `stop`."""
+
+    def __init__(self, count: int, *, queue: int) -> None:
+        """Prepare them.
+
+        Args:
+            count: processes; with 0, threads of this process do the jobs.
+            queue: most jobs of a kind that wait.
+        """
+        self._hands: Sequence[Hand] = (
+            [ProcessHand() for _ in range(count)] or [ThreadHand() for _ in range(THREADS)]
+        )  # fmt: skip
+        self._room = queue
+        self._waiting: dict[Kind, deque[_Job]] = {kind: deque() for kind in KINDS}
+        self._turn = deque(KINDS)
+        self._long = 0
+        self._wake = asyncio.Condition()
+        self._tasks: list[asyncio.Task[None]] = []
+        self.done: dict[Kind, int] = dict.fromkeys(KINDS, 0)
+        """Jobs done."""
+        self.full: dict[Kind, int] = dict.fromkeys(KINDS, 0)
+        """Jobs refused since too many waited."""
+        self.killed = 0
+        """Hands killed and replaced."""
+
+    @property
+    def waiting(self) -> dict[Kind, int]:
+        """Jobs that wait, by kind."""
+        return {kind: len(jobs) for kind, jobs in self._waiting.items()}
+
+    @property
+    def processes(self) -> list[int]:
+        """The ids of the processes that run."""
+        hands = [hand for hand in self._hands if isinstance(hand, ProcessHand)]
+        return [hand.pid for hand in hands if hand.pid]
+
+    def start(self, is_warm: Callable[[], bool], load: Callable[[], None]) -> None:
+        """Begin to do jobs.
+
+        Args:
+            is_warm: whether what jobs need is compiled: until then no process is started, which
+                would compile it a second time.
+            load: the first job of each process.
+        """
+        self._tasks = [
+            asyncio.create_task(self._serve(hand, is_warm, load)) for hand in self._hands
+        ]
+
+    async def stop(self) -> None:
+        """End all hands at once, whatever they do."""
+        for task in self._tasks:
+            task.cancel()
+        for task in self._tasks:
+            with suppress(asyncio.CancelledError):
+                await task
+        await asyncio.gather(*(hand.drop() for hand in self._hands))
+        for jobs in self._waiting.values():
+            for job in jobs:
+                job.outcome.cancel()
+            jobs.clear()
+
+    async def do(
+        self, kind: Kind, work: Callable[..., Any], *arguments: Any, patience: float
+    ) -> Any:
+        """Do a job, and give what it returns.
+
+        Args:
+            kind: whose queue it waits in.
+            work: a function of a module.
+            arguments: that can be pickled.
+            patience: how long it may take once it is begun [s].
+
+        Raises:
+            Refusal: 503, if too many wait, or it took too long; or what the job refuses.
+        """
+        queue = self._waiting[kind]
+        if len(queue) >= self._room:
+            self.full[kind] += 1
+            raise Refusal(
+                503,
+                f"{len(queue)} {kind} wait already, the most that may: try again in a moment.",
+                headers={"Retry-After": "1"},
+            )
+        job = _Job((work, arguments), patience)
+        queue.append(job)
+        async with self._wake:
+            self._wake.notify()
+        try:
+            return value_of(await job.outcome)
+        finally:
+            job.outcome.cancel()  # has no effect on one that is done
+            with suppress(ValueError):
+                queue.remove(job)
+
+    async def _serve(
+        self, hand: Hand, is_warm: Callable[[], bool], load: Callable[[], None]
+    ) -> None:
+        while not is_warm():
+            await asyncio.sleep(LOOK)
+        while True:
+            if isinstance(hand, ProcessHand) and not hand.pid:
+                loading = _Job((load, ()), LOADING)
+                await self._finish(hand, loading)
+                if loading.outcome.exception() is not None:
+                    await asyncio.sleep(LOADING_AGAIN)
+                    continue
+            kind, job = await self._next()
+            try:
+                await self._finish(hand, job)
+                self.done[kind] += 1
+            finally:
+                if kind in LONG:
+                    self._long -= 1
+                    async with self._wake:
+                        self._wake.notify()
+
+    async def _finish(self, hand: Hand, job: _Job) -> None:
+        doing = asyncio.ensure_future(hand.do(job.work))
+        try:
+            await asyncio.wait(
+                (doing, job.outcome), timeout=job.patience, return_when=asyncio.FIRST_COMPLETED
+            )
+            if not doing.done() and job.outcome.done():
+                await asyncio.wait((doing,), timeout=ABANDONED)
+            if doing.done():
+                outcome = doing.result()
+                if not job.outcome.done():
+                    job.outcome.set_result(outcome)
+                return
+            self.killed += 1
+            await self._replace(hand, doing)
+            log.warning("A job took longer than %.1f s and was ended.", job.patience)
+            if not job.outcome.done():
+                job.outcome.set_exception(_too_long(job.patience))
+        except HandLostError as error:
+            log.error("%s", error)
+            await self._replace(hand, doing)
+            if not job.outcome.done():
+                job.outcome.set_exception(
+                    Refusal(
+                        503, "Planning was interrupted: try again.", headers={"Retry-After": "1"}
+                    )
+                )
+        finally:
+            doing.cancel()
+
+    async def _replace(self, hand: Hand, doing: "asyncio.Future[Outcome]") -> None:
+        doing.cancel()
+        with suppress(asyncio.CancelledError, HandLostError):
+            await doing
+        await hand.drop()
+
+    async def _next(self) -> tuple[Kind, _Job]:
+        async with self._wake:
+            while True:
+                for _ in KINDS:
+                    kind = self._turn[0]
+                    self._turn.rotate(-1)
+                    jobs = self._waiting[kind]
+                    if not jobs or (kind in LONG and self._long >= max(len(self._hands) - 1, 1)):
+                        continue
+                    if kind in LONG:
+                        self._long += 1
+                    return kind, jobs.popleft()
+                await self._wake.wait()
+
+
+def _too_long(seconds: float) -> Refusal:
+    return Refusal(
+        503,
+        f"This took longer than {seconds:.0f} s and was ended: ask for less, or try again.",
+        headers={"Retry-After": "5"},
+    )

@@ -1,0 +1,145 @@
+"""Workers: jobs in processes, bounded queues, and nobody who starves another."""
+
+import asyncio
+import os
+import threading
+import time
+from collections.abc import Awaitable, Callable, Iterator
+from contextlib import contextmanager
+
+import pytest
+from relguide_server.errors import Refusal
+from relguide_server.workers import Workers
+
+ANY = 20.0
+
+
+def with_workers(
+    count: int, scene: Callable[[Workers], Awaitable[None]], *, queue: int = 8
+) -> None:
+    """Play a scene with workers that begin at once."""
+
+    async def play() -> None:
+        workers = Workers(count, queue=queue)
+        workers.start(lambda: True, os.getpid)
+        try:
+            await scene(workers)
+        finally:
+            await workers.stop()
+
+    asyncio.run(play())
+
+
+def exists(pid: int) -> bool:
+    return os.path.exists(f"/proc/{pid}")
+
+
+def test_processes_do_jobs_and_leave_with_the_service() -> None:
+    processes = []
+
+    async def scene(workers: Workers) -> None:
+        ids = {await workers.do("plans", os.getpid, patience=ANY) for _ in range(4)}
+        assert os.getpid() not in ids
+        assert ids <= set(workers.processes)
+        processes.extend(workers.processes)
+        assert all(map(exists, processes))
+
+    with_workers(2, scene)
+    assert not any(map(exists, processes))
+
+
+def test_a_job_that_is_stuck_is_killed_and_its_process_replaced() -> None:
+    async def scene(workers: Workers) -> None:
+        before = await workers.do("plans", os.getpid, patience=ANY)
+        with pytest.raises(Refusal, match="was ended"):
+            await workers.do("plans", time.sleep, 3600.0, patience=0.2)
+        after = await workers.do("plans", os.getpid, patience=ANY)
+        assert after != before
+        assert not exists(before)
+        assert workers.killed == 1
+
+    with_workers(1, scene)
+
+
+def test_a_process_that_dies_is_replaced() -> None:
+    async def scene(workers: Workers) -> None:
+        with pytest.raises(Refusal, match="interrupted"):
+            await workers.do("plans", os._exit, 1, patience=ANY)
+        assert await workers.do("plans", os.getpid, patience=ANY) > 0
+
+    with_workers(1, scene)
+
+
+def test_a_client_that_leaves_takes_its_job_along() -> None:
+    async def scene(workers: Workers) -> None:
+        before = await workers.do("plans", os.getpid, patience=ANY)
+        running = asyncio.create_task(workers.do("plans", time.sleep, 3600.0, patience=ANY))
+        waiting = asyncio.create_task(workers.do("plans", time.sleep, 3600.0, patience=ANY))
+        await asyncio.sleep(0.1)
+        assert workers.waiting["plans"] == 1
+        waiting.cancel()
+        running.cancel()
+        assert await workers.do("plans", os.getpid, patience=ANY) != before
+
+    with_workers(1, scene)
+
+
+@contextmanager
+def held(gate: threading.Event) -> Iterator[None]:
+    try:
+        yield
+    finally:
+        gate.set()
+
+
+def test_a_full_queue_refuses_and_says_when_to_come_again() -> None:
+    gate = threading.Event()
+
+    async def scene(workers: Workers) -> None:
+        jobs = []
+        for count in (3, 8):  # of four threads one is kept from areas
+            for _ in range(count):
+                jobs.append(asyncio.create_task(workers.do("areas", gate.wait, patience=ANY)))
+            await asyncio.sleep(0.05)
+        with pytest.raises(Refusal) as refused:
+            await workers.do("areas", gate.wait, patience=ANY)
+        assert refused.value.status_code == 503
+        assert refused.value.headers == {"Retry-After": "1"}
+        assert workers.full["areas"] == 1
+        # others have a queue of their own, and a hand
+        assert await workers.do("plans", int, "7", patience=ANY) == 7
+        gate.set()
+        assert await asyncio.gather(*jobs) == [True] * len(jobs)
+
+    with held(gate):
+        with_workers(0, scene)
+
+
+def test_kinds_take_turns() -> None:
+    done: list[str] = []
+
+    async def scene(workers: Workers) -> None:
+        gate = asyncio.create_task(workers.do("plans", time.sleep, 0.2, patience=ANY))
+        await asyncio.sleep(0.05)
+
+        async def ask(kind: str) -> None:
+            await workers.do(kind, int, patience=ANY)  # type: ignore[arg-type]
+            done.append(kind)
+
+        async with asyncio.TaskGroup() as group:
+            for kind in ("batches",) * 4 + ("plans",) * 2:
+                group.create_task(ask(kind))
+        await gate
+
+    with_workers(1, scene)
+    assert done.index("plans") <= 1
+    assert sorted(done[:4]) == ["batches"] * 2 + ["plans"] * 2
+
+
+def test_a_mistake_of_ours_in_a_job_is_a_sentence() -> None:
+    async def scene(workers: Workers) -> None:
+        with pytest.raises(Refusal, match="The server made a mistake") as refused:
+            await workers.do("plans", int, "seven", patience=ANY)
+        assert refused.value.status_code == 500
+
+    with_workers(0, scene)
