@@ -68,6 +68,11 @@ class Settings:
     """Drifts 35 m in a kilometre: the route is kept from there on."""
     capture_turn: Radian = 2.0 * DEG
     """A path that turns less than this from here on is captured from."""
+    capture_near: Metre = 60.0
+    """… once it is so near to the leader's path: a correction without a bank that is felt, or …"""
+    capture_slot: Metre = 800.0
+    """… has so little to close: in wind a straight in the air mass meets the leader's ground path
+    only at the slot."""
     capture_across: Metre = 600.0
     """How far the path may end beside the leader's: a minute's correction on a straight."""
     ask_every: Second = 10.0
@@ -194,6 +199,8 @@ class Settings:
             self.joined_across,
             self.joined_heading,
             self.capture_turn,
+            self.capture_near,
+            self.capture_slot,
             self.capture_across,
         )
 

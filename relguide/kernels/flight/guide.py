@@ -70,8 +70,12 @@ class Gate(NamedTuple):
     """Largest difference from the leader's heading [rad]."""
     capture_turn: float
     """A path that turns less is captured from [rad]."""
+    capture_near: float
+    """… once it has come so near to the leader's path [m], or …"""
+    capture_slot: float
+    """… with no more than this to close [m], if it ends no farther beside that path than …"""
     capture_across: float
-    """… and that ends no farther beside the leader's path [m]."""
+    """… this [m]."""
 
 
 class Course(NamedTuple):
@@ -191,7 +195,11 @@ def _is_near_marks(marks: FloatArray, body: Body, task: Task, gate: Gate, to_slo
     # far from the path no place is next to it, and the nearest may lie ahead or behind
     across = hypot(body.x - x, body.y - y)
     off = abs(wrap_signed(body.heading - heading))
-    return across < gate.capture_across and off < gate.capture_turn + 4.0 * gate.heading
+    if off > gate.capture_turn + gate.heading:
+        return False
+    # in wind its straight in the air mass leads to the slot, and not along the leader's ground path
+    most = gate.capture_near if to_slot > gate.capture_slot else gate.capture_across
+    return across < most
 
 
 @njit(cache=True, nogil=True)

@@ -170,18 +170,29 @@ def test_a_path_that_still_turns_is_tracked_in_the_air_mass() -> None:
     assert done.to_slot == pytest.approx(flown.slot + V * t - 2_400.0)
 
 
-def test_capture_begins_where_nothing_turns_any_more_beside_the_leaders_path() -> None:
-    """At 250 m to the side: not while the path turns on, and not where the leader is elsewhere."""
+def test_capture_begins_where_nothing_turns_any_more_next_to_the_leaders_path() -> None:
+    """50 m to the side: not while the path turns on, nor where the leader is or went elsewhere."""
     straight, turning = course((39_000.0, 0.0))[0], course((39_000.0, 0.0), (9e3, 1e-4))[0]
-    body = level(250.0, -15_000.0)
-    for flown, marks, mode in (
-        (straight, STRAIGHT, CAPTURE),
-        (turning, STRAIGHT, CONVERGE),
-        (straight, FAR_AWAY, CONVERGE),
+    for flown, marks, heading, mode in (
+        (straight, STRAIGHT, 0.0, CAPTURE),
+        (turning, STRAIGHT, 0.0, CONVERGE),
+        (straight, FAR_AWAY, 0.0, CONVERGE),
+        (straight, STRAIGHT, 0.09, CONVERGE),
     ):
+        body = level(50.0, -15_000.0)._replace(heading=heading)
         done = act_on(body, CONVERGE, marks=marks, course=flown, s=25_000.0, t=0.0)
         assert done.progress.mode == mode
         assert not done.joined
+
+
+def test_far_from_the_slot_a_path_beside_the_leaders_is_flown_on() -> None:
+    """In wind it meets the leader's ground path only at the slot: 500 m before it, 250 m do."""
+    straight = course((39_000.0, 0.0))[0]
+    body = level(250.0, -15_000.0)
+    for to_slot, mode in ((15_000.0, CONVERGE), (500.0, CAPTURE)):
+        flown = straight._replace(slot=25_000.0 + to_slot)
+        done = act_on(body, CONVERGE, marks=STRAIGHT, course=flown, s=25_000.0, t=0.0)
+        assert done.progress.mode == mode
 
 
 def test_a_faster_slot_is_not_braked_for() -> None:
