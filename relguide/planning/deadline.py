@@ -10,6 +10,7 @@ from itertools import islice
 from math import inf, pi
 
 from relguide.kernels.base.clock import now, time_is_up
+from relguide.planning.at_release import first_at_release
 from relguide.planning.certificate import certify
 from relguide.planning.constrained_path import constrained_path
 from relguide.planning.inputs import expect_within
@@ -83,6 +84,7 @@ def load_kernels() -> None:
     """Call all kernels of a plan once."""
     for situation in LOADING:
         first_candidate(situation, situation.pursuer.turn_radius)
+        first_at_release(situation, situation.pursuer.turn_radius)
         found = candidates(situation)
         for candidate in islice(found, 1):
             certify(candidate.trajectory, situation)

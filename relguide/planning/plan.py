@@ -14,6 +14,7 @@ from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.separation.clearance import SLACK
 from relguide.planning.arrival import Arrival, arrival
+from relguide.planning.at_release import first_at_release
 from relguide.planning.candidate import Candidate
 from relguide.planning.certificate import Certificate, certify, judge
 from relguide.planning.constrained_path import constrained_path
@@ -219,7 +220,7 @@ def plan_at_once(situation: Situation) -> Plan | None:
     chosen = _plan_at_once(situation, radius)
     if chosen is None:
         found = candidates(situation)
-        if len(found) > 0 and found.bound <= HORIZON:
+        if found and found.bound <= HORIZON:
             chosen = _fastest_extremal(found, situation, radius, path_of(found.leader), inf)
     return None if chosen is None else _plan_of(chosen, situation, started)
 
@@ -238,8 +239,8 @@ def _plan_of(chosen: _Chosen, situation: Situation, started: int) -> Plan:
 
 
 def _plan_at_once(situation: Situation, radius: Metre) -> _Chosen | None:
-    """The fastest extremal to a slot that is open, if it keeps d_min."""
-    first = first_candidate(situation, radius)
+    """The fastest extremal to an open slot, or a path just as it opens, if it keeps d_min."""
+    first = first_candidate(situation, radius) or first_at_release(situation, radius)
     if first is None:
         return None
     candidate, time = first
@@ -252,7 +253,7 @@ def _plan_at_once(situation: Situation, radius: Metre) -> _Chosen | None:
 def _search(situation: Situation, radius: Metre, until: float) -> _Chosen | NoPlan:
     """The fastest of all extremals and of all paths that touch d_min, or why there is none."""
     found = candidates(situation)
-    if len(found) == 0:
+    if not found:
         return NoPlan(reason=Reason.SLOT_UNREACHABLE, message=_unreachable(situation))
     if found.bound > HORIZON:
         return NoPlan(

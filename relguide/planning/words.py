@@ -6,8 +6,14 @@ from math import hypot
 
 import numpy as np
 
+from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.path_pieces import NO_TURN
-from relguide.kernels.words.delay import DELAY_PIECES, MAX_DELAYS, delay_paths
+from relguide.kernels.words.delay import (
+    DELAY_PIECES,
+    MAX_DELAYS,
+    straight_delays,
+    turning_delays,
+)
 from relguide.kernels.words.extremals import MAX_ROWS, WORDS, solve_and_measure
 from relguide.planning.candidate import SIGN_ROWS, Candidate, assemble
 from relguide.planning.inputs import expect
@@ -34,8 +40,8 @@ class Candidates:
     rows: np.ndarray
     """The extremals that arrive after the slot opens, fastest first, as `solve` gives them: those
     within the horizon; if no other path is known, the first even if it is beyond."""
-    release_paths: list[_Pieces]
-    """The pieces of `at_release`."""
+    straight_delays: list[_Pieces]
+    """The pieces of the first of `at_release`: a straight takes up the time."""
     reachable_at_release: bool
     """Whether the shortest path to where the slot opens is short enough to be there in time."""
 
@@ -51,8 +57,11 @@ class Candidates:
 
         Each is made when asked for: there may be hundreds.
         """
-        for signs, amounts in self.release_paths:
-            yield assemble(self.situation, self.frame, signs, amounts, "")
+        if self.reachable_at_release:
+            for signs, amounts in self.straight_delays:
+                yield assemble(self.situation, self.frame, signs, amounts, "")
+            for signs, amounts in _turning_delays(self.frame):
+                yield assemble(self.situation, self.frame, signs, amounts, "")
 
     @property
     def later(self) -> Iterator[Candidate]:
@@ -61,8 +70,12 @@ class Candidates:
             signs = SIGN_ROWS[int(word)]
             yield assemble(self.situation, self.frame, signs, amounts, WORDS[int(word)])
 
+    def __bool__(self) -> bool:
+        return self.reachable_at_release or len(self.rows) > 0
+
     def __len__(self) -> int:
-        return len(self.release_paths) + len(self.rows)
+        turning = len(_turning_delays(self.frame)) if self.reachable_at_release else 0
+        return len(self.straight_delays) + turning + len(self.rows)
 
     def __iter__(self) -> Iterator[Candidate]:
         yield from self.at_release
@@ -81,17 +94,20 @@ def candidates(situation: Situation) -> Candidates:
     rows = np.empty((MAX_ROWS, 5))
     n, shortest = solve_and_measure(frame.x, frame.y, frame.h, frame.alpha, frame.t_release, rows)
     reachable = shortest <= frame.t_release + NO_TURN
-    release_paths = _release_paths(frame) if reachable or _is_in_slot(frame) else []
-    reachable = reachable or len(release_paths) > 0
+    straight = _straight_delays(frame) if reachable or _is_in_slot(frame) else []
+    if not reachable and _is_in_slot(frame):
+        reachable = bool(straight or _turning_delays(frame))
     within = HORIZON * situation.pursuer.tas / frame.radius
-    while n > (0 if release_paths else 1) and rows[n - 1, 0] > within:
+    while n > 1 and rows[n - 1, 0] > within:
         n -= 1
+    if n == 1 and rows[0, 0] > within and reachable and (straight or _turning_delays(frame)):
+        n = 0
     return Candidates(
         situation=situation,
         leader=leader,
         frame=frame,
         rows=rows[:n],
-        release_paths=release_paths,
+        straight_delays=straight,
         reachable_at_release=reachable,
     )
 
@@ -102,10 +118,20 @@ def _is_in_slot(frame: SlotFrame) -> bool:
     return frame.t_release > 0.0 and abs(straight - frame.t_release) <= NO_TURN
 
 
-def _release_paths(frame: SlotFrame) -> list[_Pieces]:
+def _straight_delays(frame: SlotFrame) -> list[_Pieces]:
     paths = np.empty((2, MAX_DELAYS, DELAY_PIECES))
-    n = delay_paths(frame.pose, frame.alpha, frame.t_release, paths)
-    signs, amounts = paths[:, :n].tolist()
+    n = straight_delays(frame.pose, frame.alpha, frame.t_release, paths)
+    return _in_order(paths[:, :n])
+
+
+def _turning_delays(frame: SlotFrame) -> list[_Pieces]:
+    paths = np.empty((2, MAX_DELAYS, DELAY_PIECES))
+    n = turning_delays(frame.pose, frame.alpha, frame.t_release, paths, 0)
+    return _in_order(paths[:, :n])
+
+
+def _in_order(paths: FloatArray) -> list[_Pieces]:
+    signs, amounts = paths.tolist()
     return sorted(zip(signs, amounts, strict=True), key=_canonical_order)
 
 

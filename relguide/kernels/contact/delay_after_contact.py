@@ -9,7 +9,12 @@ from numba import njit
 from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.clear_words import pieces_clear
-from relguide.kernels.words.delay import DELAY_PIECES, MAX_DELAYS, delay_paths
+from relguide.kernels.words.delay import (
+    DELAY_PIECES,
+    MAX_DELAYS,
+    straight_delays,
+    turning_delays,
+)
 
 
 @njit(cache=True, nogil=True)
@@ -27,10 +32,20 @@ def delay_until_release(pose: Pose, t: float, scene: Scene, pieces: FloatArray) 
         whether there is one.
     """
     paths = np.empty((2, MAX_DELAYS, DELAY_PIECES))
+    seen, left = Pose(pose.x - scene.alpha * t, pose.y, pose.h), scene.t_release - t
+    n = straight_delays(seen, scene.alpha, left, paths)
+    fewest = _put_clear(pose, t, scene, paths[:, :n], pieces)
+    if fewest > 2:  # three turns or more, of which none is better than two
+        n = turning_delays(seen, scene.alpha, left, paths, n)
+        fewest = _put_clear(pose, t, scene, paths[:, :n], pieces)
+    return fewest <= DELAY_PIECES
+
+
+@njit(cache=True, nogil=True)
+def _put_clear(pose: Pose, t: float, scene: Scene, paths: FloatArray, pieces: FloatArray) -> int:
+    """Put down the first clear path of those with the fewest turns; how many, or more than all."""
     fewest = DELAY_PIECES + 1
-    seen = Pose(pose.x - scene.alpha * t, pose.y, pose.h)
-    n = delay_paths(seen, scene.alpha, scene.t_release - t, paths)
-    for j in range(n):
+    for j in range(paths.shape[1]):
         signs, amounts = paths[0, j], paths[1, j]
         turns = 0
         for k in range(DELAY_PIECES):
@@ -40,4 +55,4 @@ def delay_until_release(pose: Pose, t: float, scene: Scene, pieces: FloatArray) 
             fewest = turns
             pieces[:, 0] = signs
             pieces[:, 1] = amounts
-    return fewest <= DELAY_PIECES
+    return fewest
