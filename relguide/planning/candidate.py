@@ -55,8 +55,11 @@ def assemble(
 
 
 def candidate_of(pursuer: Pursuer, segments: tuple[Segment, ...], word: str = "") -> Candidate:
-    """A candidate from segments that lead to the slot; without a word, their letters are it."""
-    trajectory = pursuer.flying(segments)
+    """A candidate from segments that lead to the slot; without a word, their letters are it.
+
+    The segments are known to be sound: all come from kernels.
+    """
+    trajectory = Trajectory.of_sound(pursuer.x, pursuer.y, pursuer.heading, pursuer.tas, segments)
     return Candidate(word=word or trajectory.letters, trajectory=trajectory)
 
 

@@ -9,6 +9,6 @@ def as_code(value: Any) -> str:
     shown = [
         f"{f.name}={getattr(value, f.name)!r}"
         for f in fields(value)
-        if f.default is MISSING or getattr(value, f.name) != f.default
+        if f.init and (f.default is MISSING or getattr(value, f.name) != f.default)
     ]
     return f"{type(value).__name__}({', '.join(shown)})"

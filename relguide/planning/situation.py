@@ -6,7 +6,7 @@ all sides (see `limits`), and with it the work that a plan takes. Positions and 
 of the world frame (x east, y north, heading clockwise from north), at t = 0, over the ground.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import cos, hypot, sin
 from typing import Literal
 
@@ -191,6 +191,8 @@ class Leader:
     """True airspeed V_L, kept constant [m/s]."""
     intent: tuple[IntentPiece, ...] = ()
     """Pieces to come; what follows the last one is the endless final leg."""
+    _trajectory: Trajectory | None = field(default=None, init=False, compare=False)
+    """`trajectory`, once it has been asked for."""
 
     __repr__ = as_code
 
@@ -222,6 +224,8 @@ class Leader:
     @property
     def trajectory(self) -> Trajectory:
         """What the leader flies in the air mass; its last heading goes on for ever."""
+        if self._trajectory is not None:
+            return self._trajectory
         segments: list[Arc | Straight] = []
         heading = self.heading
         for piece in self.intent:
@@ -239,9 +243,11 @@ class Leader:
                         )
                     )
                     heading = piece.heading
-        return Trajectory(
+        flown = Trajectory(
             x=self.x, y=self.y, heading=self.heading, tas=self.tas, segments=tuple(segments)
         )
+        _settle(self, "_trajectory", flown)
+        return flown
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)

@@ -136,6 +136,25 @@ class Trajectory:
         if not self.duration < inf:
             raise ValueError("All segments together must have a finite length and duration.")
 
+    @classmethod
+    def of_sound(
+        cls,
+        x: Metre,
+        y: Metre,
+        heading: Radian,
+        tas: MetrePerSecond,
+        segments: tuple[Segment, ...],
+    ) -> "Trajectory":
+        """One of numbers that are known to be sound, for planners: nothing is looked at."""
+        made = object.__new__(cls)
+        settle = object.__setattr__
+        settle(made, "x", x)
+        settle(made, "y", y)
+        settle(made, "heading", heading)
+        settle(made, "tas", tas)
+        settle(made, "segments", segments)
+        return made
+
     @property
     def length(self) -> float:
         """Path length in the air mass [m], Σ (l_k + R θ_k) of eq. (17)."""
