@@ -22,7 +22,14 @@ from tests.campaign.__main__ import main
 from tests.campaign.evasion import best_turn
 from tests.campaign.families import FAMILIES, REACH, draw
 from tests.campaign.flights import failed_row, row_of
-from tests.campaign.paths import circles, circles_of, distance_from, path_in_air, reversals_of
+from tests.campaign.paths import (
+    circles,
+    circles_of,
+    distance_from,
+    lone_circles,
+    path_in_air,
+    reversals_of,
+)
 from tests.campaign.row import FIGURES, read_rows, row_from
 from tests.campaign.tables import distributions, ranking
 from tests.plans import find_plan, golden_plan
@@ -236,6 +243,14 @@ def test_circles_are_counted_across_short_straights() -> None:
     assert circles([*right[:60], (-1.0 * DEG, 1.0), *right[:60]]) == 0
     assert circles(right * 2) == 2
     assert circles([(-2.0 * pi, 100.0), (2.0 * pi, 100.0)]) == 2
+
+
+def test_a_circle_behind_a_leader_that_circles_is_told_apart() -> None:
+    right, still, back = [2.0 * DEG] * 185, [0.0] * 185, [-1.0 * DEG] * 185
+    assert lone_circles(right, still, 1.0) == 1
+    assert lone_circles(right, [0.5 * DEG] * 185, 1.0) == 1
+    assert lone_circles(right, back, 1.0) == 0
+    assert lone_circles([*still, *right], [*back, *still], 1.0) == 1
 
 
 def test_a_plan_has_the_circles_and_reversals_of_its_turns() -> None:

@@ -33,6 +33,7 @@ from tests.campaign.paths import (
     circles_of,
     count_circles,
     distance_from,
+    lone_circles,
     path_in_air,
     reversals_of,
 )
@@ -87,7 +88,7 @@ def failed_row(case: Case, error: BaseException) -> Row:
         planned_s=None, promised_s=None, join_over_plan=None, join_over_promise=None,
         least_share=_start_share(case.scenario.situation),
         start_share=_start_share(case.scenario.situation), below_s=0.0, losses=(),
-        shown_replans=0, all_replans=0, reversals=0, extra_reversals=0, loops=0,
+        shown_replans=0, all_replans=0, reversals=0, extra_reversals=None, loops=0, lone_loops=0,
         heading_jump_deg=0.0, cross_track_m=0.0, off_forecast_m=None, fastest_mps=0.0, alerts=0,
         cpu_s=0.0,
         error=f"{type(error).__name__}: {error}",
@@ -131,9 +132,15 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
         shown_replans=end.replans_announced,
         all_replans=end.replans,
         reversals=end.bank_reversals,
-        extra_reversals=end.bank_reversals
-        - (reversals_of(engaged.plan.segments) if engaged else 0),
+        extra_reversals=end.bank_reversals - reversals_of(engaged.plan.segments)
+        if engaged
+        else None,
         loops=max(loops, 0),
+        lone_loops=lone_circles(
+            [s.pursuer.turn_rate for s in samples], [s.leader.turn_rate for s in samples], EVERY
+        )
+        if loops > 0
+        else 0,
         heading_jump_deg=_heading_jump(documents) / DEG,
         cross_track_m=_cross_track(documents, situation.wind, announced_only=False),
         off_announced_m=_cross_track(documents, situation.wind, announced_only=True),

@@ -1,6 +1,6 @@
 """Paths of announced plans in the air mass, how far off one flies, and full circles."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 from math import cos, pi, sin
 from typing import assert_never
@@ -81,15 +81,37 @@ def count_circles(rates: Iterable[float], every: Second) -> int:
 
 def circles(turns: Iterable[tuple[Radian, Second]]) -> int:
     """Full circles in successive heading changes, each with the time it took."""
-    found, run, idle = 0, 0.0, 0.0
-    for angle, duration in turns:
+    return sum(_whole(run) for run, _, _ in _runs(turns))
+
+
+def lone_circles(rates: Sequence[float], leader_rates: Sequence[float], every: Second) -> int:
+    """Full circles in a series of turn rates during which the leader turned less than half of one.
+
+    Args:
+        rates: the pursuer's [rad/s].
+        leader_rates: the leader's, at the same times [rad/s].
+        every: between them [s].
+    """
+    turns = [(rate * every if abs(rate) > TURNING else 0.0, every) for rate in rates]
+    return sum(
+        _whole(run)
+        for run, first, last in _runs(turns)
+        if abs(sum(leader_rates[first:last])) * every < pi
+    )
+
+
+def _runs(turns: Iterable[tuple[Radian, Second]]) -> Iterator[tuple[Radian, int, int]]:
+    """Turns to one side with no long pause: how far [rad], the first change and past the last."""
+    run, idle, first, last = 0.0, 0.0, 0, 0
+    for i, (angle, duration) in enumerate(turns):
         if angle == 0.0:
             idle += duration
             continue
         if idle > PAUSE or angle * run < 0.0:
-            found, run = found + _whole(run), 0.0
-        run, idle = run + angle, 0.0
-    return found + _whole(run)
+            yield run, first, last
+            run, first = 0.0, i
+        run, idle, last = run + angle, 0.0, i + 1
+    yield run, first, last
 
 
 def reversals_of(segments: Sequence[PathSegment]) -> int:

@@ -54,10 +54,12 @@ class Row:
     all_replans: int
     reversals: int
     """Of bank, until joined."""
-    extra_reversals: int
-    """Beyond those of the plan at engagement."""
+    extra_reversals: int | None
+    """Beyond those of the plan at engagement; `None` if there was none."""
     loops: int
     """Full circles that neither a plan nor the leader had."""
+    lone_loops: int
+    """Those of them during which the leader turned less than half a circle."""
     heading_jump_deg: float
     """Largest between held headings of two seconds without an announcement."""
     cross_track_m: float
@@ -196,6 +198,7 @@ FIGURES = (
     Figure(name="all_replans", heading="replans in all"),
     Figure(name="extra_reversals", heading="bank reversals beyond the plan's"),
     Figure(name="loops", heading="circles not planned"),
+    Figure(name="lone_loops", heading="of these, leader turned < 180°"),
     Figure(name="heading_jump_deg", heading="jump of the held heading, °", decimals=1),
     Figure(name="cross_track_m", heading="off the plan's path, m"),
     Figure(name="off_announced_m", heading="off the announced path, m"),
