@@ -1,4 +1,4 @@
-"""cluster(address) → Executor: a Dask cluster's workers, which make the parts of a data set.
+"""cluster(address) → Executor: a Dask cluster's workers, which make the parts of a large work.
 
 A part is the same wherever it is made if the program is the same, so every machine must have this
 one: that is checked on connecting, and again with every part, as workers may join later. Needs the
@@ -31,7 +31,7 @@ COUNTED_EVERY: Second = 2.0
 """Between two looks at how many workers there are."""
 PACKAGES = ("relguide", "numpy", "numba")
 """What a part's last digits depend on."""
-PARTS_OF_IT = ("kernels", "learn")
+PARTS_OF_IT = ("cli/batch", "contract", "flying", "kernels", "learn", "planning")
 """The folders whose code makes parts."""
 
 

@@ -1,21 +1,25 @@
 """`relguide plan`: the plan of a situation, or of each in a file."""
 
 import argparse
-import os
-import sys
-from collections.abc import Collection, Iterator
+from collections.abc import Collection
 from typing import TYPE_CHECKING, NamedTuple
 
-from relguide.cli.output import DONE, FAILED, say, write_json
+from relguide.cli.batch.options import (
+    add_batch_options,
+    cores_of,
+    order_of,
+    refuse_batch_options,
+)
+from relguide.cli.output import DONE, FAILED, write_json
+from relguide.cli.proving import prove_after
 from relguide.cli.shared_options import add_planner, seconds
-from relguide.cli.situation_file import open_input, read_situation
+from relguide.cli.situation_file import read_situation
 from relguide.learn.planners import make_planner
 from relguide.planning.extras import need
 
 if TYPE_CHECKING:
     from relguide.contract.answers import Include
-    from relguide.planning.plan import NoPlan, Plan, Planner
-    from relguide.planning.situation import Situation
+    from relguide.planning.plan import Planner
 
 PURPOSE = "plan a situation, or a file of them"
 EXAMPLES = """
@@ -23,6 +27,10 @@ EXAMPLES = """
     relguide plan situation.json --table      the same for people
     cat situation.json | relguide plan -      from standard input
     relguide plan --batch situations.jsonl    one plan a line, in order
+    relguide plan --batch all.csv --out answers.parquet --fields times
+                                              from file to file, on all cores
+    relguide plan --batch all.csv --out answers.parquet --fields times --resume
+                                              going on after a stop
     relguide plan situation.json --include alternatives,optimality
                                               with what else there was, H and λ
     relguide plan situation.json --prove 10   with a better lower bound of its time
@@ -34,7 +42,11 @@ EXAMPLES = """
 def add_options(parser: argparse.ArgumentParser) -> None:
     """The options of `relguide plan`."""
     parser.add_argument("file", metavar="FILE", help="a situation in JSON; - for standard input")
-    parser.add_argument("--batch", action="store_true", help="FILE has one situation a line")
+    parser.add_argument(
+        "--batch",
+        action="store_true",
+        help="FILE has one situation a line: JSON lines, CSV or Parquet",
+    )
     parser.add_argument("--table", action="store_true", help="print tables for people")
     parser.add_argument(
         "--prove",
@@ -61,13 +73,14 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "the plan meets Pontryagin's conditions, with H and λ along it; or both, with a comma",
     )
     add_planner(parser)
+    add_batch_options(parser)
 
 
 def run(chosen: argparse.Namespace) -> int:
     """Plan, and print the answers."""
     need("pydantic", "orjson", "rich")
-    if chosen.batch and chosen.table:
-        raise ValueError("A batch is answered in JSON, one plan a line: leave out --table.")
+    if not chosen.batch:
+        refuse_batch_options(chosen)
     planner = make_planner(chosen.planner)
     asked = Asked(chosen.prove, chosen.include, chosen.deadline)
     if asked.deadline is not None:
@@ -78,7 +91,11 @@ def run(chosen: argparse.Namespace) -> int:
                 f"The planner {chosen.planner} keeps no deadline: choose exact or network."
             )
     if chosen.batch:
-        return _plan_batch(chosen.file, planner, asked)
+        order = order_of(chosen)
+        from relguide.cli.batch.run import Workers, answer_file
+
+        workers = Workers(cores_of(chosen), chosen.dask)
+        return answer_file(chosen.file, chosen.out, order, workers, resume=chosen.resume)
     return _plan_one(chosen.file, planner, asked, table=chosen.table)
 
 
@@ -102,7 +119,7 @@ def _plan_one(file: str, planner: "Planner", asked: Asked, *, table: bool) -> in
         # loads the compiled kernels: that takes seconds, planning a tenth of a millisecond, and the
         # time measured is that of planning
         planner(situation)
-    proving = _prove_after(planner, asked.prove)
+    proving = prove_after(planner, asked.prove)
     if table:
         from relguide.cli.plan_tables import print_no_plan, print_optimality, print_plan
         from relguide.planning.acceptance import ask
@@ -124,67 +141,6 @@ def _plan_one(file: str, planner: "Planner", asked: Asked, *, table: bool) -> in
     name = {"id": body.id} if "id" in body.model_fields_set else {}
     write_json(name | reply)
     return DONE if reply["status"] == "planned" else FAILED
-
-
-def _plan_batch(file: str, planner: "Planner", asked: Asked) -> int:
-    """Answer one line after another; those that are no situations are counted."""
-    import orjson
-
-    from relguide.contract.answers import answer_line
-    from relguide.planning.progress import show_progress
-
-    invalid: list[int] = []
-    read = 0
-    # no bar of its own: that of the batch goes on
-    proving = _prove_after(planner, asked.prove, shown=False)
-    with open_input(file) as stream:
-        size = os.fstat(stream.fileno()).st_size if file != "-" else 0
-        lines = show_progress(
-            enumerate(stream, start=1), title="planning", total=size, done=lambda _: read
-        )
-        for number, line in lines:
-            read += len(line)
-            if not line.strip():
-                continue
-            reply = answer_line(line, proving, include=asked.include, deadline=asked.deadline)
-            if reply["status"] == "invalid":
-                invalid.append(number)
-            sys.stdout.write(orjson.dumps(reply).decode() + "\n")
-    if invalid:
-        noun = "line is" if len(invalid) == 1 else "lines are"
-        say(f"{len(invalid)} {noun} no valid situation, the first is line {invalid[0]}.")
-    return FAILED if invalid else DONE
-
-
-def _prove_after(planner: "Planner", longest: float, *, shown: bool = True) -> "Planner":
-    """A planner which then looks this long for a better lower bound."""
-    if longest == 0.0:
-        return planner
-    from relguide.planning.acceptance import with_deadline
-    from relguide.planning.deadline import end_of, left_until
-    from relguide.planning.plan import NoPlan
-    from relguide.planning.progress import show_progress
-    from relguide.planning.prove import Bound, prove
-
-    def progress(bounds: Iterator[Bound]) -> Iterator[Bound]:
-        return show_progress(
-            bounds,
-            title="proving",
-            total=longest,
-            done=lambda bound: bound.elapsed,
-            state=lambda bound: f"gap {bound.gap:.3f} s",
-        )
-
-    def plan_and_prove(situation: "Situation", *, deadline: float | None = None) -> "Plan | NoPlan":
-        until = end_of(deadline)
-        planned = with_deadline(planner, left_until(until))(situation)
-        if isinstance(planned, NoPlan):
-            return planned
-        left = left_until(until)
-        least = longest if left is None else min(longest, left)
-        return prove(planned, seconds=least, progress=progress if shown else iter)
-
-    return plan_and_prove
 
 
 def _parse_include(text: str) -> "tuple[Include, ...]":

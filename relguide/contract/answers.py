@@ -1,18 +1,9 @@
-"""From a situation in JSON to its answer in JSON, one at a time or a line of a batch."""
+"""answer(situation): the plan, or why there is none, in JSON; `bulk.py` answers many."""
 
 from collections.abc import Collection
 from typing import Any, Literal
 
-from relguide.contract.bodies import (
-    MAX_ID,
-    MAX_INTEGER,
-    Anchor,
-    NamedSituationBody,
-    path_to_wire,
-    plan_to_wire,
-    situation_from_body,
-)
-from relguide.contract.refusal import ContractError, loads, make_printable, parse
+from relguide.contract.bodies import Anchor, path_to_wire, plan_to_wire
 from relguide.contract.wire import to_wire
 from relguide.flying.cards import no_plan_card, optimality_check, other_path_cards, plan_card
 from relguide.flying.verdicts import OptimalityCheck
@@ -97,45 +88,3 @@ def answer(
 def check_optimality(plan: Plan) -> OptimalityCheck:
     """How a plan meets Pontryagin's conditions. Takes some milliseconds."""
     return optimality_check(check(plan, plan.situation))
-
-
-def answer_line(
-    line: bytes,
-    planner: Planner,
-    *,
-    include: Collection[Include] = (),
-    deadline: Second | None = None,
-) -> dict[str, Any]:
-    """The answer to a line of a batch, with the situation's `id` if it has one.
-
-    A line that is not a situation gets `{"status": "invalid", "message": …}`.
-
-    Args:
-        line: a situation in JSON.
-        planner: who plans.
-        include: as in `answer`.
-        deadline: as in `answer`, of this line [s].
-    """
-    name: dict[str, Any] = {}
-    try:
-        content = loads(line)
-        if isinstance(content, dict):
-            name = _name(content)
-            situation, anchor = situation_from_body(parse(NamedSituationBody, content))
-            return name | answer(situation, anchor, planner, include=include, deadline=deadline)
-        raise ContractError([("", "A line must be an object with fields: a situation.")])
-    except ContractError as error:
-        return name | {"status": "invalid", "message": str(error)}
-
-
-def _name(content: dict[str, Any]) -> dict[str, Any]:
-    """The `id` alone, if it is one that can be written back."""
-    match content.get("id"):
-        case bool():
-            return {}
-        case int(number) if abs(number) <= MAX_INTEGER:
-            return {"id": number}
-        case str(text) if len(text) <= MAX_ID and make_printable(text) == text:
-            return {"id": text}
-        case _:
-            return {}

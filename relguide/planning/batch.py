@@ -7,7 +7,7 @@ Ten million situations may be given at once: they are taken in blocks, so that b
 and the answer, 18 bytes a situation, there are some 40 MB.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, fields
 from math import inf
 from numbers import Integral
@@ -90,6 +90,25 @@ class Situations:
         Raises:
             ValueError: naming the first row that cannot be flown, and why.
         """
+        columns = self._full()
+        for start, block in _blocks(columns):
+            for i in np.flatnonzero(~_can_be_flown(block)):
+                try:
+                    _situation(**{name: float(column[i]) for name, column in block.items()})
+                except ValueError as error:
+                    raise ValueError(f"Situation {start + i}: {error}") from None
+        return tuple(columns.values())
+
+    def can_be_flown(self) -> NDArray[np.bool_]:
+        """Which rows can be flown, to be sure: shape (n,). `Situation` says what is wrong.
+
+        Raises:
+            ValueError: if these are no columns.
+        """
+        blocks = [_can_be_flown(block) for _, block in _blocks(self._full())]
+        return np.concatenate(blocks) if blocks else np.empty(0, np.bool_)
+
+    def _full(self) -> dict[str, Floats]:
         given = {f.name: _column(f.name, getattr(self, f.name)) for f in fields(self)}
         sizes = {name: len(column) for name, column in given.items() if len(column) != 1}
         size = next(iter(sizes.values()), 1)
@@ -99,11 +118,7 @@ class Situations:
                     f"All columns must have one length, but {next(iter(sizes))} has {size} and "
                     f"{name} has {other}."
                 )
-        columns = {name: np.broadcast_to(column, size) for name, column in given.items()}
-        for start in range(0, size, BLOCK):
-            block = slice(start, start + BLOCK)
-            _check(start, {name: column[block] for name, column in columns.items()})
-        return tuple(columns.values())
+        return {name: np.broadcast_to(column, size) for name, column in given.items()}
 
 
 class TimeRow(NamedTuple):
@@ -272,11 +287,15 @@ def _column(name: str, given: ArrayLike) -> Floats:
     return np.atleast_1d(column.astype(np.float64, copy=False))
 
 
-def _check(start: int, columns: Mapping[str, Floats]) -> None:
-    """Refuse a block with a row that cannot be flown; `start` is the number of its first.
+def _blocks(columns: Mapping[str, Floats]) -> Iterator[tuple[int, dict[str, Floats]]]:
+    """A block of rows after another, with the number of its first."""
+    for start in range(0, len(columns["pursuer_x"]), BLOCK):
+        block = slice(start, start + BLOCK)
+        yield start, {name: column[block] for name, column in columns.items()}
 
-    The ranges find such rows; what is wrong with one says `Situation`.
-    """
+
+def _can_be_flown(columns: Mapping[str, Floats]) -> NDArray[np.bool_]:
+    """Which rows of a block lie in all ranges; what is wrong with the others says `Situation`."""
     east, north = columns["wind_east"], columns["wind_north"]
     tas, heading = columns["leader_tas"], columns["leader_heading"]
     with np.errstate(invalid="ignore", over="ignore"):  # no range admits what is not a number
@@ -293,11 +312,7 @@ def _check(start: int, columns: Mapping[str, Floats]) -> None:
         # the extremes alone are twice as fast, and nearly always all is well
         if not (accepted.admits(float(column.min())) and accepted.admits(float(column.max()))):
             good &= accepted.admits(column)
-    for i in np.flatnonzero(~good):
-        try:
-            _situation(**{name: float(column[i]) for name, column in columns.items()})
-        except ValueError as error:
-            raise ValueError(f"Situation {start + i}: {error}") from None
+    return good
 
 
 def _situation(

@@ -21,6 +21,7 @@ EXTRAS = {
     "torch": "learn",
     "matplotlib": "figures",
     "distributed": "cluster",
+    "pyarrow": "parquet",
 }
 """A package, as it is imported, and the smallest extra that brings it."""
 

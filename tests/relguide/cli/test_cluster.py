@@ -3,6 +3,7 @@
 Each part is made with the number of its process, so that a test can see who made it.
 """
 
+import json
 import os
 import subprocess
 import sys
@@ -25,7 +26,8 @@ from relguide.learn.words.branch_labels import (
     label_chunk,
     load_labels,
 )
-from tests.command_line import Run
+from tests.bodies import BODY
+from tests.command_line import NEAR, Run, write
 from tests.relguide.cli.dask_cluster import LocalCluster, local_cluster
 
 REQUEST = LabelRequest(count=2000, seed=11, chunk=50)
@@ -92,6 +94,24 @@ def test_the_commands_give_what_they_give_here(run: Run, machines: LocalCluster)
     assert (code, err) == (0, "")
     assert "in closed loops" in told_here
     assert found_in(told_here) == found_in(told_there)
+
+
+def test_a_batch_is_answered_as_it_is_here(run: Run, machines: LocalCluster) -> None:
+    bodies = [{"id": n, **(BODY, NEAR)[n % 2]} for n in range(450)] + [{"id": "last"}]
+    write("".join(json.dumps(body) + "\n" for body in bodies), "all.jsonl")
+    batch = ("plan", "--batch", "all.jsonl")
+    code, out, err = run(*batch, "--out", "there.jsonl", "--dask", machines.address)
+    assert (code, out.startswith("there.jsonl: 451 answers, ")) == (1, True)
+    assert err == "relguide: 1 line is no valid situation, the first is line 451.\n"
+    assert run(*batch, "--out", "here.jsonl", "--processes", "1")[::2] == (1, err)
+    here, there = (
+        [json.loads(line) | {"compute_ms": 0} for line in Path(name).read_text().splitlines()]
+        for name in ("here.jsonl", "there.jsonl")
+    )
+    assert here == there
+    code, _, err = run(*batch, "--dask", machines.address, "--processes", "2")
+    assert code == 2
+    assert "not allowed with argument" in err
 
 
 def found_in(told: str) -> list[str]:

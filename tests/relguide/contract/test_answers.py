@@ -1,14 +1,13 @@
-"""Answers to situations: their names, a batch's lines, and optimality on demand."""
+"""Answers to situations: their names, and optimality on demand."""
 
 import json
 from dataclasses import replace
-from typing import Any
 
 import pytest
 from pydantic import TypeAdapter
 
 from relguide import LEFT, RIGHT, Arc, NoPlan, Situation, check, plan
-from relguide.contract.answers import answer, answer_line, read_include
+from relguide.contract.answers import answer, read_include
 from relguide.contract.bodies import situation_from_json
 from relguide.contract.messages import PlanAnswer
 from relguide.planning.plan import Plan
@@ -61,9 +60,7 @@ def test_alternatives_come_only_if_asked_for() -> None:
     reply = answer(situation, anchor, plan)
     assert "alternatives" not in reply
     TypeAdapter(PlanAnswer).validate_python(reply)
-    line = json.dumps(BODY).encode()
-    assert "alternatives" not in answer_line(line, plan)
-    assert answer_line(line, plan, include=["alternatives"])["alternatives"]
+    assert answer(situation, anchor, plan, include=["alternatives"])["alternatives"]
 
 
 def test_the_other_paths_come_with_their_segments_on_request() -> None:
@@ -93,22 +90,6 @@ def test_no_plan_has_the_contracts_names() -> None:
     assert set(reply) == {"status", "reason", "message", "lower_bound_s"}
     assert reply["status"] == "no_plan"
     TypeAdapter(PlanAnswer).validate_python(reply)
-
-
-@pytest.mark.parametrize("name", ["a", "", 7, "é"])
-def test_a_batch_line_carries_its_id(name: Any) -> None:
-    reply = answer_line(json.dumps({"id": name, **BODY}).encode(), plan)
-    assert (reply["id"], reply["status"]) == (name, "planned")
-    refused = answer_line(json.dumps({"id": name}).encode(), plan)
-    assert (refused["id"], refused["status"]) == (name, "invalid")
-    assert "pursuer: is missing." in refused["message"]
-
-
-@pytest.mark.parametrize("name", [True, 1.5, None, [], 2**70, "\ud800", "a" * 201])
-def test_an_id_that_is_none_makes_the_line_invalid(name: Any) -> None:
-    reply = answer_line(json.dumps({"id": name, **BODY}).encode(), plan)
-    assert set(reply) == {"status", "message"}
-    assert "id" in reply["message"]
 
 
 # --- optimality on demand -----------------------------------------------------------------------
@@ -204,15 +185,6 @@ def planned_for(situation: Situation) -> Plan:
     planned = plan(situation)
     assert isinstance(planned, Plan)
     return planned
-
-
-def test_a_batch_line_says_it_on_demand() -> None:
-    reply = answer_line(json.dumps({"id": 1, **BODY}).encode(), plan, include=["optimality"])
-    assert reply["optimality"]["stationary"] is True
-    no_plan = answer_line(
-        json.dumps(change("leader.tas_mps", 300)).encode(), plan, include=["optimality"]
-    )
-    assert set(no_plan) == {"status", "reason", "message", "lower_bound_s"}
 
 
 @pytest.mark.parametrize("liar", LIARS, ids=lambda liar: liar.__name__)

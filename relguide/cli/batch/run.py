@@ -1,0 +1,190 @@
+"""answer_file(…): every line of a file answered, to a file or to standard output."""
+
+import os
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import replace
+from itertools import chain
+from pathlib import Path
+from time import monotonic
+from typing import IO, NamedTuple
+
+from relguide.cli.batch.order import Order
+from relguide.cli.batch.part import Part, Reached, finish_part, open_part, part_of
+from relguide.cli.batch.pool import in_order, start_processes
+from relguide.cli.batch.source import (
+    BLOCK,
+    Chunk,
+    flat_names,
+    parquet_chunks,
+    read_header,
+    text_chunks,
+)
+from relguide.cli.batch.work import Answered, answer_chunk, beginning
+from relguide.cli.output import DONE, FAILED, say, write
+from relguide.cli.situation_file import open_input
+from relguide.cli.workers import start_workers
+from relguide.contract.flat import check_columns
+from relguide.planning.extras import need
+from relguide.planning.progress import progress_bar
+
+STANDARD_INPUT = "-"
+
+
+class Source(NamedTuple):
+    """A file of situations that is open."""
+
+    order: Order
+    """With what the file says of itself."""
+    size: int
+    """Bytes, or rows of Parquet; 0 if that is not known."""
+    skip: Callable[[Part], None]
+    """Pass over what is answered in a part."""
+    chunks: Callable[[Reached], Iterator[Chunk | None]]
+    """What comes after that."""
+
+
+class Workers(NamedTuple):
+    """Where chunks are answered."""
+
+    processes: int
+    """Of this machine."""
+    scheduler: str | None
+    """Of a Dask cluster, which then does it all."""
+
+
+def answer_file(
+    file: str, out: Path | None, order: Order, workers: Workers, *, resume: bool
+) -> int:
+    """Answer every line of a file.
+
+    Args:
+        file: situations; - for standard input.
+        out: where the answers go; to standard output if it is `None`.
+        order: what is asked.
+        workers: who answers.
+        resume: whether to go on with what a stopped run left beside `out`.
+
+    Returns:
+        the exit status: 1 if a line is no situation.
+    """
+    started = monotonic()
+    with _open_source(file, order) as source:
+        if out is None:
+            write(beginning(source.order).decode())
+            reached = Reached()
+            for chunk, answered in _answers(source, reached, workers):
+                write(answered.content.decode())
+                reached = reached.after(chunk, answered)
+        else:
+            with open_part(out, source.order, resume=resume) as part:
+                source.skip(part)
+                part.check_input()
+                before = part.reached.answers
+                try:
+                    for chunk, answered in _answers(source, part.reached, workers):
+                        part.add(chunk, answered)
+                except KeyboardInterrupt:
+                    say(f"What is done is in {part_of(out)}: --resume goes on with it.")
+                    raise
+            reached = part.reached
+            finish_part(out, source.order)
+            rate = (reached.answers - before) / max(monotonic() - started, 1e-3)
+            write(f"{out}: {reached.answers:,} answers, {rate:,.0f} a second.\n")
+    if reached.invalid:
+        noun = "line is" if reached.invalid == 1 else "lines are"
+        first = reached.first_invalid
+        say(f"{reached.invalid} {noun} no valid situation, the first is line {first}.")
+    return FAILED if reached.invalid else DONE
+
+
+def _answers(
+    source: Source, reached: Reached, workers: Workers
+) -> Iterator[tuple[Chunk, Answered]]:
+    """The answers to all chunks from there on, in order, with a bar."""
+    order, chunks = source.order, source.chunks(reached)
+    with progress_bar("planning", total=source.size) as advance, ExitStack() as stack:
+        advance(reached.read)
+        if workers.scheduler is not None:
+            executor = stack.enter_context(start_workers(None, workers.scheduler))
+            found = in_order(order, chunks, executor, 1)
+        else:
+            found = _answer_here(order, chunks, workers.processes, stack)
+        for chunk, answered in found:
+            yield chunk, answered
+            advance(chunk.size)
+
+
+def _answer_here(
+    order: Order, chunks: Iterator[Chunk | None], processes: int, stack: ExitStack
+) -> Iterator[tuple[Chunk, Answered]]:
+    """The first chunk in this process, which loads the kernels; the others in copies of it."""
+    loaded = False
+    for chunk in chunks:
+        if chunk is None:
+            continue
+        if loaded and processes > 1:
+            executor = stack.enter_context(start_processes(processes))
+            yield from in_order(order, chain((chunk,), chunks), executor, processes)
+            return
+        yield chunk, answer_chunk(order, chunk)
+        loaded = True
+
+
+@contextmanager
+def _open_source(file: str, order: Order) -> Iterator[Source]:
+    """A file of situations, and the order with what the file says of itself."""
+    if order.source == "parquet":
+        with _open_parquet(file, order) as source:
+            yield source
+        return
+    with open_input(file) as stream:
+        size = os.fstat(stream.fileno()).st_size if file != STANDARD_INPUT else 0
+        head = b""
+        if order.source == "csv":
+            header, head = read_header(stream, file)
+            check_columns(header, file)
+            order = replace(order, header=header)
+        yield _text_source(stream, order, size, head)
+
+
+def _text_source(stream: IO[bytes], order: Order, size: int, head: bytes) -> Source:
+    def skip(part: Part) -> None:
+        left = part.reached.read
+        while left > 0 and (block := stream.read(min(left, BLOCK))):
+            part.pass_over(block)
+            left -= len(block)
+
+    def chunks(reached: Reached) -> Iterator[Chunk | None]:
+        first = (1 if head else 0) + reached.lines + 1
+        return text_chunks(stream, first, order.at_once)
+
+    return Source(order, max(size - len(head), 0), skip, chunks)
+
+
+@contextmanager
+def _open_parquet(file: str, order: Order) -> Iterator[Source]:
+    need("pyarrow")
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    if file == STANDARD_INPUT:
+        raise ValueError("Parquet is not read from standard input: name a file.")
+    try:
+        opened = pq.ParquetFile(file)
+    except pa.ArrowInvalid as error:
+        raise ValueError(f"{file} is no Parquet file: {error}.") from None
+    with opened:
+        schema = opened.schema_arrow
+        check_columns(flat_names(schema), file)
+        whole = "id" in schema.names and pa.types.is_integer(schema.field("id").type)
+        order = replace(order, whole_ids=whole)
+        rows = parquet_chunks(opened, order.at_once)
+
+        def skip(part: Part) -> None:
+            left = part.reached.read
+            while left > 0 and (chunk := next(rows, None)):
+                part.pass_over(chunk.content)
+                left -= chunk.size
+
+        yield Source(order, opened.metadata.num_rows, skip, lambda reached: rows)

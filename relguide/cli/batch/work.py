@@ -1,0 +1,158 @@
+"""answer_chunk(order, chunk) → Answered: what a process that plans does, in turn with others."""
+
+import csv
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cache
+from io import StringIO
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import orjson
+
+from relguide.cli.batch.order import Order
+from relguide.cli.batch.source import Chunk
+from relguide.cli.proving import prove_after
+from relguide.contract.bulk import Record, Wanted, answer_all
+from relguide.contract.flat import Kind, answer_columns, row_of_answer, situation_of_row
+from relguide.contract.plain import quick_loads
+from relguide.contract.refusal import ContractError
+from relguide.learn.planners import make_planner
+
+if TYPE_CHECKING:
+    import pyarrow
+
+
+class Answered(NamedTuple):
+    """The answers to a chunk."""
+
+    content: bytes
+    """As they are written into the file."""
+    answers: int
+    """How many."""
+    invalid: int
+    """How many lines are no situation."""
+    first_invalid: int
+    """The number of the first of those; 0 if there is none."""
+
+
+def answer_chunk(order: Order, chunk: Chunk) -> Answered:
+    """Answer each line of a chunk, in order."""
+    answers = answer_all(_records(order, chunk), _wanted(order))
+    wrong = [answer["line"] for answer in answers if answer["status"] == "invalid"]
+    content = encode(order, answers)
+    return Answered(content, len(answers), len(wrong), wrong[0] if wrong else 0)
+
+
+@cache
+def _wanted(order: Order) -> Wanted:
+    # no bar of its own: that of the batch goes on
+    planner = prove_after(make_planner(order.planner), order.prove, shown=False)
+    return Wanted(
+        planner=planner, fields=order.fields, include=order.include, deadline=order.deadline
+    )
+
+
+# --- lines --------------------------------------------------------------------------------------
+
+
+def _records(order: Order, chunk: Chunk) -> Iterator[Record]:
+    """What each line holds; blank ones are passed over."""
+    if order.source == "parquet":
+        yield from enumerate(_parquet_rows(chunk), start=chunk.first)
+        return
+    json = order.source == "jsonl"
+    for number, line in enumerate(chunk.content.split(b"\n"), start=chunk.first):
+        if line.strip():
+            try:
+                content = quick_loads(line) if json else _csv_row(line, order.header)
+            except ContractError as error:
+                yield number, error
+            else:
+                yield number, content
+
+
+def _csv_row(line: bytes, header: Sequence[str]) -> dict[str, Any]:
+    """A line of CSV by itself: a quote that is not closed spoils no other line."""
+    try:
+        (cells,) = csv.reader([line.decode().rstrip("\r")], strict=True)
+    except UnicodeDecodeError as error:
+        message = f"This is not UTF-8 text: byte {error.start} cannot be read."
+        raise ContractError([("", message)]) from None
+    except csv.Error as error:
+        message = f"This is not a line of CSV: {error}."
+        raise ContractError([("", message)]) from None
+    if len(cells) != len(header):
+        message = f"This line must have {len(header)} cells, as the first has, not {len(cells)}."
+        raise ContractError([("", message)])
+    return situation_of_row(header, cells)
+
+
+def _parquet_rows(chunk: Chunk) -> Iterator[object]:
+    import pyarrow as pa
+
+    with pa.ipc.open_stream(chunk.content) as stream:
+        rows = stream.read_all().to_pylist()
+    for row in rows:
+        flat: dict[str, Any] = {}
+        for name, cell in row.items():
+            if isinstance(cell, dict):
+                flat |= {f"{name}.{inner}": value for inner, value in cell.items()}
+            else:
+                flat[name] = cell
+        try:
+            yield situation_of_row(tuple(flat), tuple(flat.values()))
+        except ContractError as error:
+            yield error
+
+
+# --- answers ------------------------------------------------------------------------------------
+
+
+def encode(order: Order, answers: Sequence[Mapping[str, Any]]) -> bytes:
+    """Answers as they are written into the file."""
+    if order.to == "jsonl":
+        return b"".join(orjson.dumps(answer) + b"\n" for answer in answers)
+    columns = answer_columns(order.fields, order.include)
+    rows = [row_of_answer(answer, columns) for answer in answers]
+    if order.to == "csv":
+        return _csv_lines(rows)
+    return bytes(_batch(rows, columns, whole_ids=order.whole_ids).serialize())
+
+
+def beginning(order: Order) -> bytes:
+    """What a file of answers begins with."""
+    if order.to == "jsonl":
+        return b""
+    columns = answer_columns(order.fields, order.include)
+    if order.to == "csv":
+        return _csv_lines([list(columns)])
+    return bytes(_batch([], columns, whole_ids=order.whole_ids).schema.serialize())
+
+
+def _csv_lines(rows: Sequence[Sequence[Any]]) -> bytes:
+    text = StringIO()
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    return text.getvalue().encode()
+
+
+def _batch(
+    rows: Sequence[Sequence[Any]], columns: Mapping[str, Kind], *, whole_ids: bool
+) -> "pyarrow.RecordBatch":
+    """Rows as Arrow's columns."""
+    import pyarrow as pa
+
+    types = {
+        "number": pa.float64(),
+        "whole": pa.int64(),
+        "text": pa.string(),
+        "truth": pa.bool_(),
+        "json": pa.string(),
+    }
+    arrays = []
+    for i, (name, kind) in enumerate(columns.items()):
+        cells = [row[i] for row in rows]
+        if name == "id":
+            kind = "whole" if whole_ids else "text"
+            if not whole_ids:
+                cells = [None if cell is None else str(cell) for cell in cells]
+        arrays.append(pa.array(cells, types[kind]))
+    return pa.record_batch(arrays, names=list(columns))

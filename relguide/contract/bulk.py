@@ -1,0 +1,166 @@
+"""answer_all(records): answers to many situations, each by itself: a bad one spoils no other."""
+
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal, NamedTuple
+
+from relguide.contract.answers import Include, answer
+from relguide.contract.bodies import (
+    MAX_ID,
+    MAX_INTEGER,
+    Anchor,
+    NamedSituationBody,
+    situation_from_body,
+)
+from relguide.contract.plain import Row, columns_of, plain_row, take
+from relguide.contract.refusal import ContractError, make_printable, parse
+from relguide.planning.acceptance import ask
+from relguide.planning.batch import VERDICTS, Times, plan_arrays
+from relguide.planning.plan import AS_FAST, NoPlan, Plan, Planner, Proof, Reason
+from relguide.planning.plan import plan as exact_plan
+from relguide.planning.situation import Situation
+from relguide.units import Second
+
+Fields = Literal["times", "plan", "full"]
+"""How much of each plan is wanted: its time alone, the plan, or that with all that may be included.
+"""
+Record = tuple[int, object]
+"""The number of a line, and what JSON it holds; or the `ContractError` that says why it holds none.
+"""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Wanted:
+    """What is wanted of each situation."""
+
+    planner: Planner
+    fields: Fields = "plan"
+    include: Collection[Include] = ()
+    """What is added to plans."""
+    deadline: Second | None = None
+    """How long each may take [s]."""
+
+    @property
+    def in_columns(self) -> bool:
+        """Whether `plan_arrays` gives what is wanted."""
+        return self.fields == "times" and self.planner is exact_plan and self.deadline is None
+
+
+class _Plain(NamedTuple):
+    """A record that may be planned with others, at once."""
+
+    at: int
+    """Which of the answers is its."""
+    record: Record
+    row: Row
+
+
+def answer_all(records: Iterable[Record], wanted: Wanted) -> list[dict[str, Any]]:
+    """An answer for each record, in order, with the situation's `id` if it has one.
+
+    What is no situation is answered by `{"status": "invalid", "line": …, "message": …}`.
+    """
+    answers: list[dict[str, Any]] = []
+    plain: list[_Plain] = []
+    for record in records:
+        content = record[1]
+        reply: dict[str, Any] = {}
+        row: Row | None = None
+        if isinstance(content, dict):
+            reply = _name(content)
+            if wanted.in_columns and ("id" in reply or "id" not in content):
+                row = plain_row(content)
+        if row is None:
+            reply |= _answer_one(record, wanted)
+        else:
+            plain.append(_Plain(len(answers), record, row))
+        answers.append(reply)
+    for one, reply in zip(plain, _answer_plain(plain, wanted), strict=True):
+        answers[one.at] |= reply
+    return answers
+
+
+def _answer_one(record: Record, wanted: Wanted) -> dict[str, Any]:
+    line, content = record
+    try:
+        situation, anchor = _read(content)
+    except ContractError as error:
+        return {"status": "invalid", "line": line, "message": str(error)}
+    if wanted.fields == "times":
+        return _time_of(ask(wanted.planner, situation, deadline=wanted.deadline).plan)
+    return answer(
+        situation, anchor, wanted.planner, include=wanted.include, deadline=wanted.deadline
+    )
+
+
+def _read(content: object) -> tuple[Situation, Anchor]:
+    if isinstance(content, ContractError):
+        raise content
+    if not isinstance(content, dict):
+        raise ContractError([("", "A line must be an object with fields: a situation.")])
+    return situation_from_body(parse(NamedSituationBody, content))
+
+
+def _name(content: dict[str, Any]) -> dict[str, Any]:
+    """The `id` alone, if it is one that can be written back."""
+    match content.get("id"):
+        case bool():
+            return {}
+        case int(number) if abs(number) <= MAX_INTEGER:
+            return {"id": number}
+        case str(text) if len(text) <= MAX_ID and make_printable(text) == text:
+            return {"id": text}
+        case _:
+            return {}
+
+
+# --- times alone --------------------------------------------------------------------------------
+
+
+def _answer_plain(plain: Sequence[_Plain], wanted: Wanted) -> Iterator[dict[str, Any]]:
+    """The times of plain situations, all at once."""
+    if not plain:
+        return
+    situations, sound = columns_of([one.row for one in plain])
+    times = _times(plan_arrays(take(situations, sound), threads=1))
+    for one, fine in zip(plain, sound.tolist(), strict=True):
+        reply = next(times) if fine else None
+        # the careful way says what is wrong, and `plan` looks closer before it gives up
+        yield reply or _answer_one(one.record, wanted)
+
+
+def _times(found: Times) -> Iterator[dict[str, Any] | None]:
+    """Each time as an answer; `None` where no path keeps d_min that `plan_arrays` knows of."""
+    for verdict, time, bound in zip(
+        found.verdicts.tolist(),
+        found.time_to_converge.tolist(),
+        found.lower_bound.tolist(),
+        strict=True,
+    ):
+        match VERDICTS[verdict]:
+            case "planned":
+                proof: Proof = "relaxation" if time <= bound + AS_FAST else "bound"
+                yield _planned(time, proof, min(bound, time))
+            case Reason.SEPARATION_UNAVOIDABLE:
+                yield None
+            case reason:
+                yield _unplanned(reason, bound if reason == Reason.BEYOND_HORIZON else 0.0)
+
+
+def _time_of(planned: Plan | NoPlan) -> dict[str, Any]:
+    if isinstance(planned, NoPlan):
+        return _unplanned(planned.reason, planned.lower_bound)
+    proved = planned.optimality
+    return _planned(planned.time_to_converge, proved.proof, proved.lower_bound)
+
+
+def _planned(time: Second, proof: Proof, bound: Second) -> dict[str, Any]:
+    return {
+        "status": "planned",
+        "time_to_converge_s": time,
+        "optimality": {"proof": proof, "lower_bound_s": bound},
+    }
+
+
+def _unplanned(reason: str, bound: Second) -> dict[str, Any]:
+    return {"status": "no_plan", "reason": reason, "lower_bound_s": bound}

@@ -1,0 +1,252 @@
+"""Many situations: each answer is what `plan` gives, and a bad one spoils no other."""
+
+import json
+from copy import deepcopy
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from relguide import NoPlan, Plan, plan
+from relguide.contract.bodies import situation_from_json
+from relguide.contract.bulk import Wanted, answer_all
+from relguide.contract.plain import columns_of, plain_row, quick_loads
+from relguide.contract.refusal import ContractError, loads
+from tests.bodies import BODY, change, on_earth
+
+PLAIN = change("leader.intent", ...)
+TIMES, PLANS = Wanted(planner=plan, fields="times"), Wanted(planner=plan)
+
+
+def drawn(seed: int) -> dict[str, Any]:
+    """A plain situation within 60 km: the limit is active in some."""
+    rng = np.random.default_rng(seed)
+    tas = float(rng.uniform(180.0, 250.0))
+    return {
+        "id": seed,
+        "pursuer": {
+            "x_m": float(rng.uniform(-60e3, 60e3)),
+            "y_m": float(rng.uniform(-60e3, 60e3)),
+            "heading_deg": float(rng.uniform(-360.0, 720.0)),
+            "tas_mps": tas,
+            "max_bank_deg": float(rng.uniform(15.0, 30.0)),
+        },
+        "leader": {
+            "x_m": 0,
+            "y_m": 0.0,
+            "heading_deg": float(rng.uniform(0.0, 360.0)),
+            "tas_mps": tas * float(rng.uniform(0.6, 1.05)),
+        },
+        "slot_distance_m": float(rng.uniform(9_300.0, 20e3)),
+        "min_separation_m": 9_260,
+        "wind": {"from_deg": 20.0, "speed_mps": float(rng.uniform(0.0, 30.0))},
+    }
+
+
+def one(content: Any, wanted: Wanted = PLANS) -> dict[str, Any]:
+    (answer,) = answer_all([(1, content)], wanted)
+    return answer
+
+
+@pytest.mark.slow
+def test_times_of_many_are_those_of_plan_one_by_one() -> None:
+    bodies = [drawn(seed) for seed in range(150)]
+    bodies += [
+        {**BODY, "id": -1},
+        on_earth((48.0, 2.0), (48.3, 2.5)),
+        change("leader.tas_mps", 300),
+    ]
+    answers = answer_all(enumerate(bodies, start=1), TIMES)
+    seen = set()
+    for body, answer in zip(bodies, answers, strict=True):
+        body = {name: value for name, value in body.items() if name != "id"}
+        planned = plan(situation_from_json(body)[0])
+        seen.add(answer.get("reason", answer.get("optimality", {}).get("proof")))
+        if isinstance(planned, NoPlan):
+            assert (answer["status"], answer["reason"]) == ("no_plan", planned.reason)
+            assert answer["lower_bound_s"] == pytest.approx(planned.lower_bound)
+            continue
+        assert isinstance(planned, Plan)
+        assert answer["status"] == "planned"
+        assert answer["time_to_converge_s"] == pytest.approx(planned.time_to_converge, abs=1e-6)
+        proved = planned.optimality
+        assert answer["optimality"]["proof"] == proved.proof
+        assert answer["optimality"]["lower_bound_s"] == pytest.approx(proved.lower_bound, abs=1e-6)
+    assert {"relaxation", "bound", "slot_unreachable", "separation_already_lost"} <= seen
+    assert [answer.get("id") for answer in answers] == [*range(150), -1, None, None]
+
+
+@pytest.mark.parametrize("wanted", [TIMES, PLANS])
+def test_a_bad_record_spoils_itself_alone(wanted: Wanted) -> None:
+    wrong = [
+        ContractError([("", "This is not JSON.")]),
+        [1],
+        {"id": "x"},
+        change("pursuer.tas_mps", "fast"),
+        change("slot_distance_m", 5_000),
+        change("wind.speed_mps", -1),
+        {**PLAIN, "id": True},
+        {**PLAIN, "slot_distance_m": 10**400},
+        {**PLAIN, "leader": {**PLAIN["leader"], "intent": None}},
+        {**PLAIN, "more": 1},
+    ]
+    records: list[tuple[int, object]] = [(1, PLAIN)]
+    for line, content in enumerate(wrong, start=1):
+        records += [(10 * line, content), (10 * line + 1, {"id": line, **PLAIN})]
+    answers = answer_all(records, wanted)
+    assert len(answers) == len(records)
+    assert {answer["status"] for answer in answers[0::2]} == {"planned"}
+    for line, answer in enumerate(answers[1::2], start=1):
+        assert (answer["status"], answer["line"]) == ("invalid", 10 * line)
+        assert answer["message"].endswith(".")
+    assert [answer.get("id") for answer in answers[2::2]] == list(range(1, len(wrong) + 1))
+    assert answers[5]["id"] == "x"
+    assert "slot_distance_m: must be at least min_separation" in answers[9]["message"]
+
+
+@pytest.mark.parametrize("name", ["a", "", 7, "é"])
+@pytest.mark.parametrize("wanted", [TIMES, PLANS])
+def test_an_answer_carries_its_id(name: Any, wanted: Wanted) -> None:
+    reply = one({"id": name, **PLAIN}, wanted)
+    assert (reply["id"], reply["status"]) == (name, "planned")
+    refused = one({"id": name}, wanted)
+    assert (refused["id"], refused["status"]) == (name, "invalid")
+    assert "pursuer: is missing." in refused["message"]
+
+
+@pytest.mark.parametrize("name", [True, 1.5, None, [], 2**70, "\ud800", "a" * 201])
+@pytest.mark.parametrize("wanted", [TIMES, PLANS])
+def test_an_id_that_is_none_makes_the_line_invalid(name: Any, wanted: Wanted) -> None:
+    reply = one({"id": name, **PLAIN}, wanted)
+    assert set(reply) == {"status", "line", "message"}
+    assert "id" in reply["message"]
+
+
+def test_what_is_included_is_in_each_plan() -> None:
+    reply = one({"id": 1, **BODY}, Wanted(planner=plan, include=["optimality", "alternatives"]))
+    assert reply["optimality"]["stationary"] is True
+    assert reply["alternatives"]
+    no_plan = one(change("leader.tas_mps", 300), Wanted(planner=plan, include=["optimality"]))
+    assert set(no_plan) == {"status", "reason", "message", "lower_bound_s"}
+    assert "alternatives" not in one(BODY)
+
+
+def test_times_are_a_plans_fields_without_its_path() -> None:
+    for body in (BODY, PLAIN):
+        alone, whole = one(body, TIMES), one(body)
+        assert set(alone) == {"status", "time_to_converge_s", "optimality"}
+        assert alone["optimality"] == pytest.approx(whole["optimality"])
+        assert alone["time_to_converge_s"] == pytest.approx(whole["time_to_converge_s"], abs=1e-6)
+
+
+# --- plain situations ---------------------------------------------------------------------------
+
+
+RANGES = {
+    "pursuer.x_m": 1e6, "pursuer.y_m": 1e6, "pursuer.heading_deg": 360.0, "pursuer.tas_mps": 400.0,
+    "pursuer.max_bank_deg": 60.0, "leader.x_m": 1e6, "leader.y_m": 1e6, "leader.heading_deg": 360.0,
+    "leader.tas_mps": 400.0, "slot_distance_m": 200e3, "min_separation_m": 200e3,
+    "wind.from_deg": 360.0, "wind.speed_mps": 150.0,
+}  # fmt: skip
+"""Where values of a field end, or wrap."""
+values = st.one_of(
+    st.floats(-1.1, 1.1),
+    st.sampled_from([1.0, -1.0, 0.0, -0.0, 1.0 + 1e-9, 1.0 + 3e-9, -1e-320, 1e200, 0.1, 1 / 60]),
+)
+
+
+@given(
+    changes=st.dictionaries(st.sampled_from(list(RANGES)), values, max_size=3),
+    whole=st.booleans(),
+)
+@settings(max_examples=300)
+def test_a_plain_row_is_what_the_models_read(changes: dict[str, float], whole: bool) -> None:
+    body = deepcopy(PLAIN)
+    for path, share in changes.items():
+        *way, last = path.split(".")
+        here = body[way[0]] if way else body
+        here[last] = round(share * RANGES[path]) if whole else share * RANGES[path]
+    row = plain_row(body)
+    assert row is not None
+    columns, sound = columns_of([row])
+    try:
+        situation = situation_from_json(body)[0]
+    except ContractError:
+        assert not sound[0]
+        return
+    p, l, wind = situation.pursuer, situation.leader, situation.wind
+    if sound[0]:  # what it does not take is left to the models
+        assert [column[0] for column in columns.columns()] == [
+            p.x, p.y, p.heading, p.tas, p.max_bank, l.x, l.y, l.heading, l.tas,
+            situation.slot_distance, situation.min_separation, wind.east, wind.north,
+        ]  # fmt: skip
+    assert sound[0] or changes
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        BODY,
+        on_earth((48.0, 2.0), (48.3, 2.5)),
+        change("pursuer.x_m", ...),
+        change("pursuer.x_m", True),
+        change("pursuer.x_m", "1"),
+        change("pursuer.x_m", None),
+        change("pursuer", []),
+        change("wind", None),
+        change("wind.speed_mps", ...),
+        {**PLAIN, "leader": {**PLAIN["leader"], "intent": None}},
+        {**PLAIN, "leader": {**PLAIN["leader"], "intent": 0}},
+        {**PLAIN, "leader": {**PLAIN["leader"], "more": 0}},
+        {**PLAIN, "more": 0},
+    ],
+)
+def test_what_is_not_plain_is_left_to_the_models(body: dict[str, Any]) -> None:
+    assert plain_row(body) is None
+    assert plain_row(PLAIN) is not None
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        b"",
+        b"{",
+        b"nonsense",
+        b"[1, 2] 3",
+        b'{"a": NaN}',
+        b'{"a": 1e999}',
+        b'{"a": 1, "a": 2}',
+        b'{"a": {"b": 1, "b": 1}}',
+        b'{"a": "\\u003a", "a": ":"}',
+        b'{"a:": "::", "a:": "::"}',
+        b'\xff{"a": 1}',
+        b'\xef\xbb\xbf{"a": 1}',
+        b'{"a": "x:y", "b": [1.5, -0.0, 12345678901234567890123]}',
+        b'{"a": "\\ud800"}',
+        ' {"é": "ü:", "b": true} '.encode(),
+        b"[" * 2000,
+        b"1" * 5000,
+    ],
+)
+def test_quick_loads_reads_and_refuses_as_loads(line: bytes) -> None:
+    assert outcome(quick_loads, line) == outcome(loads, line)
+
+
+@given(st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False, allow_infinity=False)
+    | st.text(),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=3), inner),
+))  # fmt: skip
+def test_quick_loads_reads_all_of_json_as_loads(content: object) -> None:
+    for plain in (True, False):
+        line = json.dumps(content, ensure_ascii=plain).encode("utf-8", "surrogatepass")
+        assert outcome(quick_loads, line) == outcome(loads, line)
+
+
+def outcome(read: Any, line: bytes) -> object:
+    try:
+        return repr(read(line))
+    except ContractError as error:
+        return str(error)
