@@ -12,7 +12,7 @@ from relguide.contract.bodies import (
     NamedSituationBody,
     situation_from_body,
 )
-from relguide.contract.plain import Row, columns_of, plain_row, take
+from relguide.contract.plain import Row, columns_of, plain_row, quick_loads, take
 from relguide.contract.refusal import ContractError, make_printable, parse
 from relguide.planning.acceptance import ask
 from relguide.planning.batch import VERDICTS, Times, plan_arrays
@@ -78,6 +78,31 @@ def answer_all(records: Iterable[Record], wanted: Wanted) -> list[dict[str, Any]
     for one, reply in zip(plain, _answer_plain(plain, wanted), strict=True):
         answers[one.at] |= reply
     return answers
+
+
+def answer_line(
+    line: bytes,
+    planner: Planner,
+    *,
+    include: Collection[Include] = (),
+    deadline: Second | None = None,
+) -> dict[str, Any]:
+    """The answer to a situation in JSON text, as to one of many.
+
+    Args:
+        line: the text; what is no situation is answered by `{"status": "invalid", "message": …}`.
+        planner: who plans.
+        include: as in `answer`.
+        deadline: as in `answer` [s].
+    """
+    try:
+        content: object = quick_loads(line)
+    except ContractError as error:
+        content = error
+    wanted = Wanted(planner=planner, include=include, deadline=deadline)
+    (reply,) = answer_all([(1, content)], wanted)
+    reply.pop("line", None)
+    return reply
 
 
 def _answer_one(record: Record, wanted: Wanted) -> dict[str, Any]:

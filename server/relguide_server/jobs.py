@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 import orjson
 
-from relguide.contract.answers import Include, answer, answer_line
+from relguide.contract.answers import Include, answer
 from relguide.contract.area_bodies import area_to_wire
 from relguide.contract.bodies import (
     Anchor,
@@ -18,6 +18,7 @@ from relguide.contract.bodies import (
     Unanchored,
     situation_from_body,
 )
+from relguide.contract.bulk import answer_line
 from relguide.contract.refusal import ContractError, parse
 from relguide.learn.planners import make_planner
 from relguide.learn.words.area_words import area_words

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from relguide import NoPlan, Plan, plan
 from relguide.contract.bodies import situation_from_json
-from relguide.contract.bulk import Wanted, answer_all
+from relguide.contract.bulk import Wanted, answer_all, answer_line
 from relguide.contract.plain import columns_of, plain_row, quick_loads
 from relguide.contract.refusal import ContractError, loads
 from tests.bodies import BODY, change, on_earth
@@ -131,6 +131,13 @@ def test_what_is_included_is_in_each_plan() -> None:
     no_plan = one(change("leader.tas_mps", 300), Wanted(planner=plan, include=["optimality"]))
     assert set(no_plan) == {"status", "reason", "message", "lower_bound_s"}
     assert "alternatives" not in one(BODY)
+
+
+def test_a_line_alone_is_answered_as_one_of_many() -> None:
+    reply = answer_line(json.dumps({"id": 1, **BODY}).encode(), plan, include=["optimality"])
+    assert (reply["id"], reply["optimality"]["stationary"]) == (1, True)
+    assert answer_line(b"{", plan)["message"].startswith("This is not JSON: ")
+    assert answer_line(b'{"id": 1}', plan).keys() == {"id", "status", "message"}
 
 
 def test_times_are_a_plans_fields_without_its_path() -> None:
