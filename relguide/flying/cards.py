@@ -49,7 +49,6 @@ from relguide.planning.trajectory import (
     Arc,
     BoundaryArc,
     Pose,
-    Segment,
     Straight,
     Trajectory,
     heading_change,
@@ -184,10 +183,10 @@ def path_segments(
         horizon: if given, the endless straight that follows is appended, to end at this time [s]
             after the start (nothing is appended if the trajectory is longer).
     """
-    pieces: list[Segment] = list(trajectory.segments)
+    flown = trajectory
     if horizon is not None and horizon > trajectory.duration:
-        pieces.append(Straight(length=(horizon - trajectory.duration) * trajectory.tas))
-    flown = replace(trajectory, segments=tuple(pieces))
+        rest = Straight(length=(horizon - trajectory.duration) * trajectory.tas)
+        flown = replace(trajectory, segments=(*trajectory.segments, rest))
     points: list[PathPoint] = []
     t = 0.0
     for pose, duration in zip(flown.breakpoints(), (*flown.durations(), 0.0), strict=True):

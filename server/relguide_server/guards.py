@@ -1,16 +1,16 @@
 """What every request passes: a limit on its body, and headers that make a browser strict."""
 
-from starlette.datastructures import Headers, MutableHeaders
+from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from relguide_server.errors import Refusal, problem
 
 SECURITY_HEADERS = {
-    "X-Content-Type-Options": "nosniff",
-    "Referrer-Policy": "no-referrer",
+    b"x-content-type-options": b"nosniff",
+    b"referrer-policy": b"no-referrer",
     # The cockpit embeds the 3D scene; nobody else embeds either.
-    "X-Frame-Options": "SAMEORIGIN",
-    "Content-Security-Policy": "frame-ancestors 'self'; base-uri 'self'; object-src 'none'",
+    b"x-frame-options": b"SAMEORIGIN",
+    b"content-security-policy": b"frame-ancestors 'self'; base-uri 'self'; object-src 'none'",
 }
 
 
@@ -28,9 +28,10 @@ class StrictHeaders:
 
         async def send_strict(message: Message) -> None:
             if message["type"] == "http.response.start":
-                headers = MutableHeaders(scope=message)
-                for name, value in SECURITY_HEADERS.items():
-                    headers.setdefault(name, value)
+                headers = message.get("headers", [])
+                own = {name for name, _ in headers}
+                missing = [(k, v) for k, v in SECURITY_HEADERS.items() if k not in own]
+                message["headers"] = [*headers, *missing]
             await send(message)
 
         await self.app(scope, receive, send_strict)

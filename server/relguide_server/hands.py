@@ -6,7 +6,7 @@ import pickle
 import sys
 import threading
 from collections.abc import Callable
-from typing import Any, Protocol
+from typing import Any, Protocol, cast
 
 from relguide_server.outcomes import Outcome, outcome_of
 from relguide_server.worker import LENGTH
@@ -93,8 +93,8 @@ class ProcessHand:
             self._started = asyncio.create_task(_start_process())
         # one that is cancelled meanwhile is ended by `drop`
         transport, pipes = await asyncio.shield(self._started)
-        jobs = transport.get_pipe_transport(0)
-        assert isinstance(jobs, asyncio.WriteTransport)
+        # uvloop's is no subclass of asyncio's
+        jobs = cast(asyncio.WriteTransport, transport.get_pipe_transport(0))
         text = pickle.dumps(job, pickle.HIGHEST_PROTOCOL)
         outcome = pipes.expect()
         jobs.write(len(text).to_bytes(LENGTH, "big") + text)

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from typing import Any, Literal, get_args
 
 from relguide_server.errors import Refusal, log
-from relguide_server.hands import Hand, HandLostError, ProcessHand, ThreadHand
+from relguide_server.hands import Hand, ProcessHand, ThreadHand
 from relguide_server.outcomes import Outcome, value_of
 
 Kind = Literal["plans", "flights", "areas", "batches"]
@@ -30,6 +30,9 @@ LOADING = 60.0
 """How long a process may take to get ready [s]: a second, on a machine that does nothing else."""
 LOADING_AGAIN = 5.0
 """After so long a process that did not get ready is started again [s]."""
+WAITING = 30.0
+"""How long a job may wait [s]."""
+STILL_WAITING = f"This waited for more than {WAITING:.0f} s: try again in a moment."
 INTERRUPTED = "Planning was interrupted: try again."
 THREADS = 4
 """Hands where jobs are done by threads."""
@@ -42,6 +45,15 @@ class _Job:
     outcome: asyncio.Future[Outcome] = field(
         default_factory=lambda: asyncio.get_running_loop().create_future()
     )
+
+    def end(self, outcome: Outcome | Refusal) -> None:
+        """Hand the outcome to who waits for it, if anybody does."""
+        if self.outcome.done():
+            return
+        if isinstance(outcome, Refusal):
+            self.outcome.set_exception(outcome)
+        else:
+            self.outcome.set_result(outcome)
 
 
 class Workers:
@@ -133,7 +145,10 @@ class Workers:
         async with self._wake:
             self._wake.notify()
         try:
-            return value_of(await job.outcome)
+            async with asyncio.timeout(WAITING + patience):
+                return value_of(await job.outcome)
+        except TimeoutError:
+            raise Refusal(503, STILL_WAITING, headers={"Retry-After": "5"}) from None
         finally:
             job.outcome.cancel()  # has no effect on one that is done
             with suppress(ValueError):
@@ -169,32 +184,23 @@ class Workers:
             )
             if not doing.done() and job.outcome.done():
                 await asyncio.wait((doing,), timeout=ABANDONED)
-            if doing.done():
-                outcome = doing.result()
-                if not job.outcome.done():
-                    job.outcome.set_result(outcome)
-                return
-            self.killed += 1
-            await self._replace(hand, doing)
-            log.warning("A job took longer than %.1f s and was ended.", job.patience)
-            if not job.outcome.done():
-                job.outcome.set_exception(_too_long(job.patience))
-        except HandLostError as error:
-            log.error("%s", error)
-            await self._replace(hand, doing)
-            if not job.outcome.done():
-                job.outcome.set_exception(
-                    Refusal(
-                        503, "Planning was interrupted: try again.", headers={"Retry-After": "1"}
-                    )
-                )
+            if not doing.done():
+                self.killed += 1
+                await self._replace(hand, doing)
+                log.warning("A job took longer than %.1f s and was ended.", job.patience)
+                job.end(_too_long(job.patience))
+            elif (error := doing.exception()) is not None:
+                log.error("A job was interrupted", exc_info=error)
+                await self._replace(hand, doing)
+                job.end(Refusal(503, INTERRUPTED, headers={"Retry-After": "1"}))
+            else:
+                job.end(doing.result())
         finally:
             doing.cancel()
 
     async def _replace(self, hand: Hand, doing: "asyncio.Future[Outcome]") -> None:
         doing.cancel()
-        with suppress(asyncio.CancelledError, HandLostError):
-            await doing
+        await asyncio.wait((doing,))
         await hand.drop()
 
     async def _next(self) -> tuple[Kind, _Job]:

@@ -55,8 +55,15 @@ def ideal_app(
 def serve(app: FastAPI) -> Iterator[str]:
     """Serve an app on a free port of this machine; gives `127.0.0.1:port`."""
     options = uvicorn_options(host="127.0.0.1", port=0)
-    server = uvicorn.Server(uvicorn.Config(app, **options))
-    thread = threading.Thread(target=lambda: asyncio.run(server.serve()), name="service")
+    config = uvicorn.Config(app, **options)
+    server = uvicorn.Server(config)
+
+    def run() -> None:
+        # the loop that `relguide serve` takes, uvloop where there is one
+        with asyncio.Runner(loop_factory=config.get_loop_factory()) as runner:
+            runner.run(server.serve())
+
+    thread = threading.Thread(target=run, name="service")
     thread.start()
     try:
         while not server.started:

@@ -7,13 +7,16 @@ import time
 
 import httpx2 as httpx
 import viser
+from relguide_server.app import create_app
+from relguide_server.settings import Settings
 from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed
 from websockets.typing import Subprotocol
 
 from relguide.contract.protocol import PROTOCOL
 from tests.server.flown import ideal_flight
-from tests.server.serving import ideal_app, serve
+from tests.server.serving import ideal_app, ideal_departures, serve
+from tests.server.test_api import HARD
 
 
 def test_nothing_is_left_after_shutdown() -> None:
@@ -48,6 +51,16 @@ def test_nothing_is_left_after_shutdown() -> None:
     assert time.monotonic() - stopping < 5.0
     assert threading.active_count() <= threads
     assert len(os.listdir("/proc/self/fd")) <= descriptors
+
+
+def test_processes_plan_what_takes_longer_and_leave_with_it() -> None:
+    app = create_app(Settings(workers=1), departures=ideal_departures())
+    with serve(app) as address:
+        answer = httpx.post(f"http://{address}/api/v1/plans?max_ms=10000", json=HARD, timeout=60.0)
+        assert answer.json()["status"] == "planned"
+        (process,) = app.state.workers.processes
+        assert app.state.workers.done["plans"] == 1
+    assert not os.path.exists(f"/proc/{process}")
 
 
 def test_it_stops_while_browsers_still_look() -> None:
