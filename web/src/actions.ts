@@ -1,5 +1,6 @@
 /** What the buttons do: the one place where the page talks to the server. */
 
+import { effect, untracked } from "@preact/signals";
 import {
   type Answer,
   commandFlight,
@@ -8,11 +9,19 @@ import {
   listScenarios,
   readFlight,
 } from "./api";
+import { fly, followMode, layOut, mapFromFlight } from "./map/flying";
 import type { Actions, Session } from "./session";
 import type { FlightStore } from "./store/flight";
 import { OTHER_VERSION, openStream, type Stream } from "./stream";
 import { formatHeading, formatKnots, inPageUnits, wrap360 } from "./units";
-import { type Command, type Engagement, type FlightStatus, PROTOCOL } from "./wire";
+import {
+  type Command,
+  type Direction,
+  type Engagement,
+  type FlightRequest,
+  type FlightStatus,
+  PROTOCOL,
+} from "./wire";
 
 /** What a page that is opened without a flight shows: the paper's figure, nobody designated yet. */
 const FIRST_SCENARIO = "fig_6b";
@@ -40,24 +49,42 @@ export function createActions(
 
   /** How far new flights are engaged: `engaged` in the address says so from the start. */
   let engagement: keyof typeof RATE = "off";
+  /** Whether the page began with the map alone, so that nothing flies yet. */
+  let isGrounded = false;
 
   async function open(address: URLSearchParams): Promise<void> {
     engagement = address.has("engaged") ? "engaged" : "off";
     const joined = address.get("flight");
     void loadScenarios();
+    if (address.has("plan")) {
+      layOut(session, address);
+      isGrounded = joined === null;
+      if (isGrounded) return;
+    }
     if (joined === null) {
-      await begin(address.get("scenario") ?? FIRST_SCENARIO, RATE[engagement]);
+      await begin(requestOf(address.get("scenario") ?? FIRST_SCENARIO));
       return;
     }
     const answer = await readFlight(joined);
     if (answer.kind === "done") {
       show(answer.value);
     } else if (answer.status === 404) {
-      await begin(FIRST_SCENARIO, RATE[engagement]);
+      await begin(requestOf(FIRST_SCENARIO));
       say("done", `Flight ${joined} is no longer flown here, so a new one was started.`);
     } else {
       fail(answer, () => void open(address));
     }
+  }
+
+  followMode(session);
+  // Whoever leaves the map without a flight sees the one that a page begins with.
+  effect(() => {
+    if (session.ndMode.value === "PLAN" || !isGrounded) return;
+    untracked(() => void begin(requestOf(FIRST_SCENARIO)));
+  });
+
+  function requestOf(scenario: string): FlightRequest {
+    return { scenario, rate: RATE[engagement], engagement };
   }
 
   async function loadScenarios(): Promise<void> {
@@ -66,21 +93,24 @@ export function createActions(
     else if (answer.status === 0) setTimeout(() => void loadScenarios(), ASK_AGAIN);
   }
 
-  async function begin(scenario: string, rate: number): Promise<void> {
+  /** Starts a flight and shows it; `flies` is called once it flies. */
+  async function begin(wanted: FlightRequest, flies = () => {}): Promise<void> {
+    isGrounded = false;
     if (again !== null) clearTimeout(again);
     say("sending", "Starting the flight…");
-    const answer = await createFlight({ scenario, rate, engagement });
+    const answer = await createFlight(wanted);
     if (answer.kind === "done") {
       show(answer.value);
+      flies();
       say("done", `New flight: ${answer.value.title}.`);
     } else if (answer.retryAfter !== undefined) {
       session.outage.value = null;
       say("sending", `${answer.sentence} It will start by itself.`);
-      again = setTimeout(() => void begin(scenario, rate), 1000 * answer.retryAfter);
-    } else if (session.status.value === null) {
-      fail(answer, () => void begin(scenario, rate));
+      again = setTimeout(() => void begin(wanted, flies), 1000 * answer.retryAfter);
+    } else if (session.status.value === null && session.ndMode.value !== "PLAN") {
+      fail(answer, () => void begin(wanted, flies));
     } else {
-      say("refused", answer.sentence);
+      say("refused", inPageUnits(answer.sentence));
     }
   }
 
@@ -155,9 +185,20 @@ export function createActions(
     else say("refused", inPageUnits(answer.sentence));
   }
 
+  function leaderHeading(heading: number, direction?: Direction): void {
+    if (heading < 0 || heading > 360) {
+      say("refused", `A heading is 0 to 360°, not ${heading}°.`);
+      return;
+    }
+    const way = direction === undefined ? "" : ` by the ${direction}`;
+    const text = `Leader to heading ${formatHeading(heading)}${way}`;
+    const body = { command: "leader_heading", heading_deg: wrap360(heading) } as const;
+    void command(direction === undefined ? body : { ...body, direction }, `${text}…`, `${text}.`);
+  }
+
   return {
     open,
-    start: (scenario) => void begin(scenario, RATE[engagement]),
+    start: (scenario) => void begin(requestOf(scenario)),
     end: () => void end(),
     engage(engagement) {
       // A click on a leader that is designated already takes nothing back.
@@ -182,16 +223,7 @@ export function createActions(
     pause: () => void command({ command: "pause" }, "Pausing…", "Paused."),
     setRate: (rate) =>
       void command({ command: "set_rate", rate }, `Rate ×${rate}…`, `Rate ×${rate}.`),
-    leaderHeading(heading, direction) {
-      if (heading < 0 || heading > 360) {
-        say("refused", `A heading is 0 to 360°, not ${heading}°.`);
-        return;
-      }
-      const way = direction === undefined ? "" : ` by the ${direction}`;
-      const text = `Leader to heading ${formatHeading(heading)}${way}`;
-      const body = { command: "leader_heading", heading_deg: wrap360(heading) } as const;
-      void command(direction === undefined ? body : { ...body, direction }, `${text}…`, `${text}.`);
-    },
+    leaderHeading,
     leaderSpeed(tas) {
       const text = `Leader to ${formatKnots(tas)} kt`;
       void command(
@@ -212,6 +244,8 @@ export function createActions(
       if (again !== null) clearTimeout(again);
       attempt();
     },
+    fly: () => fly(session, begin, { leaderHeading }),
+    mapFromFlight: () => mapFromFlight(session),
     reload: () => location.reload(),
   };
 }

@@ -1,6 +1,16 @@
 /** The REST service, as far as the cockpit uses it. A refusal is an answer with a sentence, not an exception. */
 
-import type { Command, FlightRequest, FlightStatus, ScenarioInfo, ScenarioList } from "./wire";
+import type {
+  AreaAnswer,
+  Command,
+  FlightRequest,
+  FlightStatus,
+  OtherPathCard,
+  PlanAnswer,
+  ScenarioInfo,
+  ScenarioList,
+  SituationBody,
+} from "./wire";
 
 /** What the server said. `status` is 0 when it did not answer at all. */
 export type Answer<T> =
@@ -41,6 +51,18 @@ export function readFlight(id: string): Promise<Answer<FlightStatus>> {
 
 export function commandFlight(id: string, command: Command): Promise<Answer<FlightStatus>> {
   return request("POST", `${ROOT}/flights/${encodeURIComponent(id)}/commands`, command);
+}
+
+/** A plan with the other paths to the slot, those that are drawn included. */
+export function planSituation(
+  situation: SituationBody,
+): Promise<Answer<PlanAnswer & { readonly others?: readonly OtherPathCard[] }>> {
+  return request("POST", `${ROOT}/plans?include=alternatives,paths`, situation);
+}
+
+/** Regions of words and lines of equal time, for a query. */
+export function readArea(query: string): Promise<Answer<AreaAnswer>> {
+  return request("GET", `${ROOT}/areas?${query}`);
 }
 
 export function endFlight(id: string): Promise<Answer<null>> {

@@ -7,7 +7,7 @@ import type { Session } from "./session";
 export function followRange({ shown, ndAuto, ndMode, ndRange }: Session): void {
   effect(() => {
     const mode = ndMode.value;
-    if (!ndAuto.value || shown.numbers.value.readAt === null) return;
+    if (!ndAuto.value || mode === "PLAN" || shown.numbers.value.readAt === null) return;
     untracked(() => {
       const { pose, places } = shown.picture.value;
       if (pose !== null && places.length > 0)

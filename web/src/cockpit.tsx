@@ -2,6 +2,9 @@
 
 import { type Signal, useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
+import { MapBench } from "./map/bench";
+import { HowTo } from "./map/how-to";
+import { PlanMap } from "./map/map";
 import { NavigationDisplay } from "./nd/nd";
 import { Aircraft } from "./panels/aircraft";
 import { Alternatives } from "./panels/alternatives";
@@ -29,6 +32,7 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
   const { session, actions } = props;
   const narrow = useMedia(NARROW);
   const small = useMedia(SMALL);
+  const isMap = session.ndMode.value === "PLAN";
   return (
     <>
       <Header session={session}>
@@ -40,43 +44,55 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
           <Efis session={session} />
           <div class="bezel">
             <Captioned>
-              <NavigationDisplay
-                shown={session.shown}
-                mode={session.ndMode}
-                range={session.ndRange}
-                designate={() => actions.engage("designated")}
-              />
+              {isMap ? (
+                <PlanMap map={session.map} />
+              ) : (
+                <NavigationDisplay
+                  shown={session.shown}
+                  mode={session.ndMode}
+                  range={session.ndRange}
+                  designate={() => actions.engage("designated")}
+                />
+              )}
             </Captioned>
           </div>
           <div class="below">
-            {small.value && <Engage session={session} actions={actions} />}
-            <Events session={session} />
-            {narrow.value && <Aircraft session={session} actions={actions} />}
+            {small.value && !isMap && <Engage session={session} actions={actions} />}
+            {isMap ? <HowTo /> : <Events session={session} />}
+            {narrow.value && !isMap && <Aircraft session={session} actions={actions} />}
           </div>
         </section>
-        <section class="workstation" aria-label="Scene and panels">
-          <div class="beside">
-            <Scene session={session} />
-            <OutageNotice session={session} actions={actions} />
-          </div>
-          <div class="panels">
-            <div class="column commands">
-              <FlightControls session={session} actions={actions} />
-              <LeaderControls key={session.status.value?.id} session={session} actions={actions} />
+        {isMap ? (
+          <MapBench session={session} actions={actions} />
+        ) : (
+          <section class="workstation" aria-label="Scene and panels">
+            <div class="beside">
+              <Scene session={session} />
+              <OutageNotice session={session} actions={actions} />
             </div>
-            <div class="column numbers">
-              {!small.value && <Engage session={session} actions={actions} />}
-              <PlanNumbers session={session} />
-              {narrow.value && <Alternatives session={session} />}
-            </div>
-            {!narrow.value && (
-              <div class="column lists">
-                <Aircraft session={session} actions={actions} />
-                <Alternatives session={session} />
+            <div class="panels">
+              <div class="column commands">
+                <FlightControls session={session} actions={actions} />
+                <LeaderControls
+                  key={session.status.value?.id}
+                  session={session}
+                  actions={actions}
+                />
               </div>
-            )}
-          </div>
-        </section>
+              <div class="column numbers">
+                {!small.value && <Engage session={session} actions={actions} />}
+                <PlanNumbers session={session} />
+                {narrow.value && <Alternatives session={session} />}
+              </div>
+              {!narrow.value && (
+                <div class="column lists">
+                  <Aircraft session={session} actions={actions} />
+                  <Alternatives session={session} />
+                </div>
+              )}
+            </div>
+          </section>
+        )}
       </main>
       <Help session={session} />
       <Announcer session={session} />

@@ -1,11 +1,23 @@
 /** The keys of the page. A key typed into a field, or with Ctrl, Alt or Meta, is not ours. */
 
+import { type Editor, halfExtent, pan, showAll, zoom } from "./map/editor";
 import { type Actions, type Session, stepRange } from "./session";
+
+/** An arrow moves the map by this part of what is seen. */
+const PAN = 0.15;
+
+function panBy(map: Editor, arrow: string): void {
+  const step = 2 * PAN * halfExtent(map.range.value);
+  const east = arrow === "ArrowRight" ? step : arrow === "ArrowLeft" ? -step : 0;
+  const north = arrow === "ArrowUp" ? step : arrow === "ArrowDown" ? -step : 0;
+  pan(map, east, north);
+}
 
 /** What a key does, or null if it is not ours. */
 export function keyAction(key: string, session: Session, actions: Actions): (() => void) | null {
   if (!session.letterKeys.value && /^[a-z]$/i.test(key)) return null;
-  const { flight, ndMode, ndRange, sceneMaximised, helpOpen } = session;
+  const { flight, ndMode, ndRange, map, sceneMaximised, helpOpen } = session;
+  const isMap = ndMode.value === "PLAN";
   switch (key) {
     case " ":
       return () => (flight.clock.value.paused ? actions.play() : actions.pause());
@@ -19,14 +31,29 @@ export function keyAction(key: string, session: Session, actions: Actions): (() 
       return () => {
         ndMode.value = "ARC";
       };
+    case "p":
+    case "P":
+      return () => {
+        ndMode.value = "PLAN";
+      };
+    case "f":
+    case "F":
+      return isMap ? () => showAll(map) : null;
+    case "ArrowLeft":
+    case "ArrowRight":
+    case "ArrowUp":
+    case "ArrowDown":
+      return isMap ? () => panBy(map, key) : null;
     case "+":
     case "=":
+      if (isMap) return () => zoom(map, 1);
       return () => {
         session.ndAuto.value = false;
         ndRange.value = stepRange(ndRange.value, 1);
       };
     case "-":
     case "−":
+      if (isMap) return () => zoom(map, -1);
       return () => {
         session.ndAuto.value = false;
         ndRange.value = stepRange(ndRange.value, -1);

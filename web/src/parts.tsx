@@ -44,6 +44,8 @@ export function Reading(props: {
 /** One choice of a few, all visible: a row of buttons of which one is down. */
 export function Choice<T extends string | number>(props: {
   label: string;
+  /** What kind of choice it is, as a class. */
+  kind?: string;
   options: readonly T[];
   chosen: T | null;
   /** What holds now without having been chosen. */
@@ -52,7 +54,7 @@ export function Choice<T extends string | number>(props: {
   choose: (option: T) => void;
 }) {
   return (
-    <fieldset class="choice">
+    <fieldset class={`choice ${props.kind ?? ""}`}>
       <legend class="visually-hidden">{props.label}</legend>
       {props.options.map((option) => (
         <button

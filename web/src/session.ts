@@ -2,11 +2,13 @@
 
 import { type Signal, signal } from "@preact/signals";
 import type { Readiness } from "./api";
+import { createEditor, type Editor } from "./map/editor";
 import type { Flight } from "./store/flight";
 import { createShown, type Shown } from "./store/picture";
 import type { Direction, Engagement, FlightStatus, ScenarioInfo } from "./wire";
 
-export type NdMode = "ROSE" | "ARC";
+/** PLAN is the map, where a situation is laid out before it is flown. */
+export type NdMode = "ROSE" | "ARC" | "PLAN";
 export const ND_RANGES = [10, 20, 40, 80, 160, 320] as const;
 /** Range of the navigation display [NM]. */
 export type NdRange = (typeof ND_RANGES)[number];
@@ -40,6 +42,8 @@ export interface Session {
   readonly ndRange: Signal<NdRange>;
   /** Whether the range is the one that fits, until one is selected. */
   readonly ndAuto: Signal<boolean>;
+  /** What is laid out on the map. */
+  readonly map: Editor;
   readonly sceneMaximised: Signal<boolean>;
   readonly helpOpen: Signal<boolean>;
   /** Whether single letters are keys. */
@@ -72,6 +76,10 @@ export interface Actions {
   setIntentKnown(known: boolean): void;
   /** Tries the lost connection again, now. */
   retry(): void;
+  /** Makes a flight of what is laid out on the map. */
+  fly(): void;
+  /** Lays out on the map where the flight's two aircraft are now. */
+  mapFromFlight(): void;
   /** Loads the page anew. */
   reload(): void;
 }
@@ -90,6 +98,7 @@ export function createSession(
     ndMode: signal("ARC"),
     ndRange: signal(40),
     ndAuto: signal(true),
+    map: createEditor(),
     sceneMaximised: signal(false),
     helpOpen: signal(false),
     letterKeys: signal(true),

@@ -153,6 +153,12 @@ export const ELEMENTS: readonly Element[] = [
     what: "dash-dot: what it declared; dotted: no intent, straight ahead assumed",
     key: "key-leader",
   },
+  {
+    name: "area",
+    title: "Area",
+    what: "on the map: from where which word is the fastest, and lines of equal time, in minutes",
+    key: "",
+  },
   { name: "rings", title: "Range", what: "rings at parts of the selected range", key: "" },
   { name: "tape", title: "Heading", what: "in tens of degrees, true", key: "" },
 ];

@@ -17,6 +17,8 @@ export function silentActions(): Actions {
     leaderSpeed: vi.fn(),
     setIntentKnown: vi.fn(),
     retry: vi.fn(),
+    fly: vi.fn(),
+    mapFromFlight: vi.fn(),
     reload: vi.fn(),
   };
 }

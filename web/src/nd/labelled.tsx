@@ -15,7 +15,7 @@ import { proposalLabel } from "./proposal";
 import { ringLabelPoints } from "./rings";
 import { ink } from "./style";
 import { turnLabels } from "./turns";
-import { type Box, type Point, placeAt, project, READOUTS } from "./view";
+import { type Box, type Point, placeAt, project } from "./view";
 
 /** All labels of the map, the most important first. */
 function labelsOf(props: LayerProps): Label[] {
@@ -128,7 +128,7 @@ function LabelRow({
 function choose(props: LayerProps, labels: Label[], before: ReadonlyMap<string, Placement>) {
   const around = {
     layout: props.view.layout.value,
-    boxes: [...Object.values(READOUTS), ...symbols(props)],
+    boxes: [...props.view.layout.value.readouts, ...symbols(props)],
     points: linePoints(props),
   };
   return placeLabels(labels, around, before);
@@ -142,7 +142,7 @@ function symbols({ shown, view }: LayerProps): Box[] {
   ];
   const layout = view.layout.value;
   if (now === null || pose === null) return [];
-  const boxes = [square(layout.centre, 28)];
+  const boxes = [square(project(layout, pose, now.pursuer), 28)];
   if (look !== null && look.slot !== "none")
     boxes.push(square(project(layout, pose, now.slot), 22));
   if (leaderOnMap({ shown, view }) !== null)

@@ -4,7 +4,7 @@ import { Stroke } from "./stroke";
 import { ink } from "./style";
 import { placeAt } from "./view";
 
-const SHAPE = "M0 -20V22M-24 0H24M-9 18H9";
+export const SHAPE = "M0 -20V22M-24 0H24M-9 18H9";
 
 /** The own ship; a red circle when nothing is known of where its nose points. */
 export function OwnShip({ shown, view }: LayerProps) {

@@ -1,18 +1,19 @@
 /**
  * The projection: the only file that knows where things are in the 768 × 768 box [px].
  *
- * Heading-up: the nose of the own ship points to the top of the glass. World: x east, y north [m].
+ * ROSE and ARC: the nose of the own ship points to the top of the glass. PLAN: north does, and any place
+ * may be in the middle. World: x east, y north [m].
  * The *map* is the world north-up in pixels (y down), carried by one transform a frame.
  */
 
-import { computed, type ReadonlySignal, type Signal } from "@preact/signals";
+import { computed, type ReadonlySignal } from "@preact/signals";
 import type { Shown } from "../store/picture";
 import { DEG, NM, wrap180 } from "../units";
 
 export const SIZE = 768;
 export const RANGES = [10, 20, 40, 80, 160, 320] as const;
 
-export type DisplayMode = "ROSE" | "ARC";
+export type DisplayMode = "ROSE" | "ARC" | "PLAN";
 
 export interface Point {
   readonly x: number;
@@ -53,11 +54,13 @@ export interface Layout {
   readonly rings: readonly Ring[];
   /** On which clock positions the rings are labelled [deg right of the nose]. */
   readonly ringLabels: readonly number[];
+  /** What stands on the glass beside the map: labels keep clear of it. */
+  readonly readouts: readonly Box[];
 }
 
 export interface View {
   readonly layout: ReadonlySignal<Layout>;
-  /** The own ship; null while nothing is known of it. */
+  /** What is in the middle, and up: the own ship, null while nothing is known of it; in PLAN any place. */
   readonly pose: ReadonlySignal<Pose | null>;
   /** Carries the map under the own ship. */
   readonly mapTransform: ReadonlySignal<string>;
@@ -67,10 +70,18 @@ export interface View {
   readonly beat: ReadonlySignal<string>;
 }
 
-/** Both modes show 500 px for the selected range: ARC ahead, ROSE across (250 px each way). */
-const RANGE_PX = 500;
-const CENTRE = { ROSE: { x: 384, y: 384 }, ARC: { x: 384, y: 620 } } as const;
-const TAPE = { ROSE: 250, ARC: 492 } as const;
+/** 500 px for the selected range: in ARC ahead, in ROSE across (250 px each way); in PLAN twice the 250. */
+const RANGE_PX = { ROSE: 500, ARC: 500, PLAN: 250 } as const;
+const CENTRE = {
+  ROSE: { x: 384, y: 384 },
+  ARC: { x: 384, y: 620 },
+  PLAN: { x: 384, y: 384 },
+} as const;
+/** In PLAN there is none: the map fills the glass to its corners. */
+const TAPE = { ROSE: 250, ARC: 492, PLAN: 600 } as const;
+/** At which parts of the range there are rings, and where they are labelled. */
+const RINGS = { ROSE: [0.25], ARC: [0.75, 0.5, 0.25], PLAN: [1, 0.5] } as const;
+const RING_LABELS = { ROSE: [-135], ARC: [-56, 56], PLAN: [-135] } as const;
 
 /** The readouts round the map. Labels and edge symbols keep clear of them. */
 export const READOUTS = {
@@ -83,6 +94,12 @@ export const READOUTS = {
   message: { x: 184, y: 728, width: 400, height: 34 },
 } as const satisfies Record<string, Box>;
 
+/** In PLAN: the wind at the top, the message at the bottom. */
+const PLAN_READOUTS: readonly Box[] = [
+  { x: 0, y: 0, width: 150, height: 150 },
+  { x: 184, y: 728, width: 400, height: 34 },
+];
+
 /** Where the large flags stand: that of the map over its middle, the leader's over the message line. */
 export function flagPoint(layout: Layout, whole: boolean): Point {
   const { flag } = READOUTS;
@@ -92,22 +109,30 @@ export function flagPoint(layout: Layout, whole: boolean): Point {
 }
 
 export function layoutOf(mode: DisplayMode, range: number): Layout {
-  const scale = RANGE_PX / (range * NM);
-  const parts = mode === "ARC" ? [0.75, 0.5, 0.25] : [0.25];
+  const scale = RANGE_PX[mode] / (range * NM);
   return {
     mode,
     range,
     scale,
     centre: CENTRE[mode],
     tape: TAPE[mode],
-    rings: parts.map((part) => ({ radius: RANGE_PX * part, label: String(range * part) })),
-    ringLabels: mode === "ARC" ? [-56, 56] : [-135],
+    rings: RINGS[mode].map((part) => ({
+      radius: RANGE_PX[mode] * part,
+      label: String(range * part),
+    })),
+    ringLabels: RING_LABELS[mode],
+    readouts: mode === "PLAN" ? PLAN_READOUTS : Object.values(READOUTS),
   };
 }
 
-export function createView(shown: Shown, mode: Signal<DisplayMode>, range: Signal<number>): View {
+export function createView(
+  shown: Shown,
+  mode: ReadonlySignal<DisplayMode>,
+  range: ReadonlySignal<number>,
+  middle?: ReadonlySignal<Pose>,
+): View {
   const layout = computed(() => layoutOf(mode.value, range.value));
-  const pose = computed(() => shown.picture.value.pose);
+  const pose = middle ?? computed(() => shown.picture.value.pose);
   return {
     layout,
     pose,
@@ -176,6 +201,12 @@ export function onwards(from: Place, direction: Point, length: number): Place {
 /** Whether a symbol at this point is seen whole: on the map and beside the readouts. */
 export function onMap(layout: Layout, { x, y }: Point, margin = 18): boolean {
   const { centre, tape } = layout;
+  if (layout.mode === "PLAN") {
+    const inside = { x: margin, y: margin, width: SIZE - 2 * margin, height: SIZE - 2 * margin };
+    return (
+      within(inside, { x, y }) && !layout.readouts.some((box) => within(box, { x, y }, margin / 2))
+    );
+  }
   if (Math.hypot(x - centre.x, y - centre.y) > tape - margin) return false;
   if (x < margin || x > SIZE - margin || y > READOUTS.message.y - margin) return false;
   return !within(READOUTS.spacing, { x, y }, margin);

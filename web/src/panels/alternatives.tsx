@@ -10,7 +10,7 @@ import type { Alternative } from "../wire";
 /** What becomes of the path that is shown, where it is not flown. */
 const STATE: Partial<Record<Guidance, string>> = { proposed: "proposed", armed: "accepted" };
 
-export function Alternatives(props: { session: Session }) {
+export function Alternatives(props: { session: Pick<Session, "shown"> }) {
   const { shown } = props.session;
   const { plan: shownPlan, state } = shown.numbers.value;
   const plan = shownPlan?.plan;

@@ -26,7 +26,15 @@ export function Captioned(props: { children: ComponentChildren }) {
   useEffect(() => {
     const { current } = glass;
     if (current === null) return;
+    const clear = () => {
+      caption.value = null;
+    };
     const say = (event: PointerEvent) => {
+      // What is dragged is known already.
+      if (event.type === "pointermove" && event.buttons !== 0) {
+        clear();
+        return;
+      }
       const box = current.getBoundingClientRect();
       const element = elementAt(event.clientX, event.clientY);
       const [x, y] = [event.clientX - box.left, event.clientY - box.top];
@@ -34,9 +42,6 @@ export function Captioned(props: { children: ComponentChildren }) {
         element === null
           ? null
           : { element, x: Math.min(x, box.width - 200), y: y > box.height - 90 ? y - 84 : y + 18 };
-    };
-    const clear = () => {
-      caption.value = null;
     };
     current.addEventListener("pointermove", say);
     current.addEventListener("pointerdown", say);

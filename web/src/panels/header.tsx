@@ -66,6 +66,9 @@ function SimClock(props: { session: Session }) {
 function ConnectionState(props: { session: Session }) {
   const { connection, dataAge } = props.session.flight;
   const state = connection.value;
+  // The map needs no flight.
+  if (props.session.ndMode.value === "PLAN" && props.session.status.value === null)
+    return <p class="connection">No flight</p>;
   const age = state === "stale" || state === "lost" ? ` ${Math.floor(dataAge.value)} s` : "";
   return (
     <p class={`connection ${state}`}>

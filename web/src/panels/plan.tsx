@@ -7,7 +7,7 @@ import { countTurns, plannerName, proofSentence, STATE_NAMES } from "../store/re
 import { formatClock, formatMiles } from "../units";
 import type { LinkResult } from "../wire";
 
-export function PlanNumbers(props: { session: Session }) {
+export function PlanNumbers(props: { session: Pick<Session, "flight" | "shown"> }) {
   const { flight, shown } = props.session;
   const numbers = shown.numbers.value;
   const { sample, plan } = numbers;

@@ -1,0 +1,158 @@
+/**
+ * Asks the service as the map is edited: one question at a time, always about the newest situation, so
+ * that the picture follows the finger and no old answer overtakes a new one.
+ */
+
+import { computed, effect, untracked } from "@preact/signals";
+import { type Answer, planSituation, readArea } from "../api";
+import type { Session } from "../session";
+import { inPageUnits } from "../units";
+import { type Editor, halfExtent, showAll } from "./editor";
+import { bodyOf, type Situation, settle } from "./situation";
+
+/** An answer to what is no more on the map is shown so long at most [ms]. */
+const LATE = 150;
+/** A service that does not answer is asked again [ms]. */
+const ASK_AGAIN = 3000;
+/** The area is drawn finely once the hand has rested for so long [ms]. */
+const REST = 250;
+/** Nodes of its grid along each side, under the hand and at rest. */
+const NODES = { moving: 28, resting: 120 } as const;
+
+/** Follows the map while it is shown. */
+export function followMap(session: Pick<Session, "ndMode" | "map" | "firstStart">): void {
+  const { ndMode, map, firstStart } = session;
+  const askPlan = createAsker(
+    () => map.situation.peek(),
+    async (situation) => takePlan(map, situation, await planSituation(bodyOf(situation))),
+    () => {
+      map.answered.value = null;
+    },
+  );
+  effect(() => {
+    if (ndMode.value !== "PLAN") return;
+    void map.situation.value;
+    untracked(askPlan);
+  });
+
+  // Own ship's place does not matter to the area: while that is dragged, it stays as it is.
+  const question = computed(() => (map.hasArea.value ? areaQuestion(map) : ""));
+  let isResting = true;
+  const askArea = createAsker(
+    () => {
+      if (question.peek() === "") return "";
+      const nodes = String(isResting ? NODES.resting : NODES.moving);
+      return `${question.peek()}&columns=${nodes}&rows=${nodes}`;
+    },
+    async (asked) => {
+      if (asked === "") {
+        map.area.value = null;
+        return 0;
+      }
+      const answer = await readArea(asked);
+      map.area.value = answer.kind === "done" ? { asked, answer: answer.value } : null;
+      return againIn(answer);
+    },
+    () => {
+      map.area.value = null;
+    },
+  );
+  effect(() => {
+    if (ndMode.value === "PLAN") void untracked(() => askThumbs(map));
+  });
+
+  let resting: ReturnType<typeof setTimeout> | undefined;
+  effect(() => {
+    if (ndMode.value !== "PLAN") return;
+    if (firstStart.value?.warm.areas === false) return; // it is asked when they are ready
+    void question.value;
+    untracked(() => {
+      isResting = false;
+      clearTimeout(resting);
+      resting = setTimeout(() => {
+        isResting = true;
+        askArea();
+      }, REST);
+      askArea();
+    });
+  });
+}
+
+/** Asks for the plans of the gallery, one after another, once. */
+async function askThumbs(map: Editor): Promise<void> {
+  for (const { entry, answered } of map.thumbs) {
+    if (answered.value !== null) continue;
+    const situation = settle(entry.situation);
+    const answer = await planSituation(bodyOf(situation));
+    if (answer.kind === "done") answered.value = { situation, answer: answer.value };
+  }
+}
+
+/** How long to wait before the same is asked again [ms]; 0 when it is answered for good. */
+function againIn(answer: Answer<unknown>): number {
+  if (answer.kind === "done") return 0;
+  if (answer.retryAfter !== undefined) return 1000 * answer.retryAfter;
+  return answer.status === 0 ? ASK_AGAIN : 0;
+}
+
+function takePlan(
+  map: Editor,
+  situation: Situation,
+  answer: Awaited<ReturnType<typeof planSituation>>,
+): number {
+  if (answer.kind === "done") {
+    map.refusal.value = "";
+    map.answered.value = { situation, answer: answer.value };
+    if (map.isToFit.value && map.situation.value === situation) {
+      map.isToFit.value = false;
+      showAll(map);
+    }
+  } else {
+    map.refusal.value = inPageUnits(answer.sentence);
+    map.answered.value = null;
+  }
+  return againIn(answer);
+}
+
+/** Asks until the newest question is answered; `expire` is called when that takes too long. */
+function createAsker<T>(
+  newest: () => T,
+  ask: (question: T) => Promise<number>,
+  expire: () => void,
+): () => void {
+  let isAsking = false;
+  let settled: T | undefined;
+  async function run(): Promise<void> {
+    if (isAsking) return;
+    isAsking = true;
+    let question = newest();
+    while (question !== settled) {
+      const timer = setTimeout(expire, LATE);
+      const again = await ask(question);
+      clearTimeout(timer);
+      if (again === 0) settled = question;
+      else await new Promise((resolve) => setTimeout(resolve, again));
+      question = newest();
+    }
+    isAsking = false;
+  }
+  return () => void run();
+}
+
+/** What is asked of the area, as the query of its address, but for how finely. */
+function areaQuestion(map: Editor): string {
+  const situation = map.situation.value;
+  const body = bodyOf({
+    ...situation,
+    pursuer: { ...situation.pursuer, x_m: 0, y_m: 0 },
+  });
+  const { x_m, y_m } = map.centre.value;
+  const half = halfExtent(map.range.value);
+  return new URLSearchParams({
+    situation: JSON.stringify(body),
+    x_m: x_m.toFixed(0),
+    y_m: y_m.toFixed(0),
+    width_m: (2 * half).toFixed(0),
+    height_m: (2 * half).toFixed(0),
+  }).toString();
+}

@@ -1,0 +1,29 @@
+/** Beside the map: the gallery, the situation in numbers, its plan, and what to do with it. */
+
+import { Alternatives } from "../panels/alternatives";
+import { PlanNumbers } from "../panels/plan";
+import type { Actions, Session } from "../session";
+import { SituationForm } from "./form";
+import { Gallery } from "./gallery-panel";
+import { TakeAlong } from "./take-along";
+
+export function MapBench({ session, actions }: { session: Session; actions: Actions }) {
+  const { map } = session;
+  return (
+    <section class="workstation map-bench" aria-label="Situation and plan">
+      <Gallery session={session} />
+      <div class="panels">
+        <div class="column">
+          <SituationForm map={map} />
+        </div>
+        <div class="column numbers">
+          <TakeAlong session={session} actions={actions} />
+          <PlanNumbers session={map.reading} />
+        </div>
+        <div class="column lists">
+          <Alternatives session={map.reading} />
+        </div>
+      </div>
+    </section>
+  );
+}

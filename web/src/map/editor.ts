@@ -1,0 +1,163 @@
+/** The map's state: the situation that is edited, what was answered to it, and what of it is in sight. */
+
+import { batch, computed, effect, type ReadonlySignal, type Signal, signal } from "@preact/signals";
+import { emptyFlight, type Flight } from "../store/flight";
+import { createShown, type Shown } from "../store/picture";
+import { NM } from "../units";
+import type { AreaAnswer } from "../wire";
+import { calmed } from "./calm";
+import { FIRST, type Situation, settle } from "./situation";
+import { createThumbs, type Thumb } from "./thumbs";
+import { type Answered, showWhatIf } from "./what-if";
+
+/** Ranges of the map [NM]: from its middle to its ring. */
+export const MAP_RANGES = [2, 3, 5, 7, 10, 15, 20, 30, 40, 60, 80, 120, 160, 240, 320] as const;
+/** The ring's radius, and half of what is seen [px]. */
+const RING = 250;
+const HALF = 384;
+/** What belongs in sight stays so far from the edge, as a part of half of what is seen. */
+const ROOM = 0.8;
+
+interface Place {
+  readonly x_m: number;
+  readonly y_m: number;
+}
+
+/** A convergence area, and the question that it answers. */
+export interface Area {
+  readonly asked: string;
+  readonly answer: AreaAnswer;
+}
+
+export interface Editor {
+  readonly situation: Signal<Situation>;
+  /** The answer to it, or to what it was a moment ago; null while there is none. */
+  readonly answered: Signal<Answered | null>;
+  /** Why the service plans nothing for it; empty if it does. */
+  readonly refusal: Signal<string>;
+  /** What is to be known of how the map began; empty if nothing. */
+  readonly notice: Signal<string>;
+  readonly area: Signal<Area | null>;
+  /** What is in the middle of the map, and how far it is to the ring [NM]. */
+  readonly centre: Signal<Place>;
+  readonly range: Signal<number>;
+  /** Whether all is brought into sight when the next answer comes. */
+  readonly isToFit: Signal<boolean>;
+  /** Whether regions of words and lines of equal time are shown. */
+  readonly hasArea: Signal<boolean>;
+  /** The gallery beside it. */
+  readonly thumbs: readonly Thumb[];
+  /** Whether a situation was ever put here. */
+  readonly isBegun: Signal<boolean>;
+  /** The situation as a flight at its first instant, and what is shown of it. */
+  readonly flight: Flight;
+  readonly shown: Shown;
+  /** The same to be read, beside the map: it changes five times a second. */
+  readonly reading: {
+    readonly situation: ReadonlySignal<Situation>;
+    readonly flight: Flight;
+    readonly shown: Shown;
+  };
+}
+
+export function createEditor(): Editor {
+  const [flight, read] = [emptyFlight(), emptyFlight()];
+  const situation = signal(FIRST);
+  const answered = signal<Answered | null>(null);
+  const calm = calmed(computed(() => ({ situation: situation.value, answered: answered.value })));
+  const editor: Editor = {
+    situation,
+    answered,
+    refusal: signal(""),
+    notice: signal(""),
+    area: signal(null),
+    centre: signal({ x_m: 0, y_m: 0 }),
+    range: signal(40),
+    isToFit: signal(true),
+    hasArea: signal(true),
+    thumbs: createThumbs(),
+    isBegun: signal(false),
+    flight,
+    shown: createShown(flight),
+    reading: {
+      situation: computed(() => calm.value.situation),
+      flight: read,
+      shown: createShown(read),
+    },
+  };
+  effect(() => showWhatIf(flight, editor.situation.value, editor.answered.value));
+  effect(() => showWhatIf(read, calm.value.situation, calm.value.answered));
+  return editor;
+}
+
+/** Puts another situation on the map and brings it into sight. */
+export function putSituation(editor: Editor, situation: Situation): void {
+  batch(() => {
+    editor.situation.value = settle(situation);
+    editor.answered.value = null;
+    editor.isToFit.value = true;
+    editor.notice.value = "";
+    editor.isBegun.value = true;
+  });
+  showAll(editor);
+}
+
+/** Changes the situation under the hand. */
+export function edit(editor: Editor, change: (situation: Situation) => Situation): void {
+  editor.situation.value = settle(change(editor.situation.value));
+}
+
+/** The smallest range, round the middle of them, that shows both aircraft, the slot and the path. */
+export function showAll(editor: Editor): void {
+  const { now, places } = editor.shown.picture.value;
+  if (now === null) return;
+  const { centre, range } = frameOf([now.pursuer, now.slot, ...places]);
+  batch(() => {
+    editor.centre.value = centre;
+    editor.range.value = range;
+  });
+}
+
+export function frameOf(places: readonly Place[]): { centre: Place; range: number } {
+  const [x, y] = [places.map(({ x_m }) => x_m), places.map(({ y_m }) => y_m)];
+  const middle = (values: number[]) => (Math.min(...values) + Math.max(...values)) / 2;
+  const extent = Math.max(Math.max(...x) - Math.min(...x), Math.max(...y) - Math.min(...y)) / 2;
+  const range =
+    MAP_RANGES.find((each) => (each * NM * HALF * ROOM) / RING >= extent) ??
+    MAP_RANGES[MAP_RANGES.length - 1] ??
+    320;
+  return { centre: { x_m: middle(x), y_m: middle(y) }, range };
+}
+
+/** The next range outward (+1) or inward (−1), about a place that stays where it is seen. */
+export function zoom(editor: Editor, step: 1 | -1, about: Place = editor.centre.value): void {
+  const before = editor.range.value;
+  const range =
+    step > 0
+      ? MAP_RANGES.find((each) => each > before)
+      : MAP_RANGES.findLast((each) => each < before);
+  if (range === undefined) return;
+  zoomTo(editor, range, about);
+}
+
+export function zoomTo(editor: Editor, range: number, about: Place = editor.centre.value): void {
+  const { centre } = editor;
+  const ratio = range / editor.range.value;
+  batch(() => {
+    editor.range.value = range;
+    centre.value = {
+      x_m: about.x_m + (centre.value.x_m - about.x_m) * ratio,
+      y_m: about.y_m + (centre.value.y_m - about.y_m) * ratio,
+    };
+  });
+}
+
+export function pan(editor: Editor, east: number, north: number): void {
+  const { centre } = editor;
+  centre.value = { x_m: centre.value.x_m + east, y_m: centre.value.y_m + north };
+}
+
+/** Half of what the map shows, east and north [m]. */
+export function halfExtent(range: number): number {
+  return (range * NM * HALF) / RING;
+}

@@ -1,0 +1,106 @@
+/** The handles on the glass: what a finger or the keyboard takes hold of. */
+
+import { useComputed } from "@preact/signals";
+import type { LayerProps } from "../nd/layer";
+import { ink } from "../nd/style";
+import { type Point, placeAt, project, round } from "../nd/view";
+import type { Editor } from "./editor";
+import { HANDLES, type HandleName, handlePoint, sayHandle } from "./handles";
+
+/** What may be touched: 24 px of the page and more, however small the glass. */
+const TOUCH = 26;
+const KNOB = 9;
+
+const COLOURS = {
+  ring: "label",
+  slot: "selected",
+  leader: "leader",
+  "leader-heading": "leader",
+  own: "ownship",
+  "own-heading": "ownship",
+  wind: "value",
+} as const satisfies Record<HandleName, string>;
+/** Those that are symbols already need no knob. */
+const BARE: readonly HandleName[] = ["own", "leader", "slot"];
+
+export function Grips({ map, view }: { map: Editor; view: LayerProps["view"] }) {
+  return (
+    <g class="grips">
+      <RingTouch map={map} view={view} />
+      {HANDLES.map((name) => (
+        <Grip key={name} map={map} view={view} name={name} />
+      ))}
+    </g>
+  );
+}
+
+interface GripProps {
+  readonly map: Editor;
+  readonly view: LayerProps["view"];
+  readonly name: HandleName;
+}
+
+function Grip({ map, view, name }: GripProps) {
+  const point = useComputed<Point>(() => {
+    const middle = view.pose.value ?? { x_m: 0, y_m: 0, heading_deg: 0 };
+    return handlePoint(name, map.situation.value, view.layout.value, middle);
+  });
+  const place = useComputed(() => placeAt(point.value));
+  const stick = useComputed(() => {
+    if (name !== "own-heading" && name !== "leader-heading") return "";
+    const middle = view.pose.value ?? { x_m: 0, y_m: 0, heading_deg: 0 };
+    const owner = name === "own-heading" ? "own" : "leader";
+    const from = handlePoint(owner, map.situation.value, view.layout.value, middle);
+    return `M0 0L${round(0.6 * (from.x - point.value.x))} ${round(0.6 * (from.y - point.value.y))}`;
+  });
+  const said = useComputed(() => sayHandle(name, map.situation.value));
+  const { label, text, value, least, most } = said.value;
+  const colour = ink(COLOURS[name]);
+  return (
+    <g
+      class="grip"
+      data-handle={name}
+      transform={place}
+      tabIndex={0}
+      role="slider"
+      aria-label={label}
+      aria-valuetext={text}
+      aria-valuenow={value}
+      aria-valuemin={least}
+      aria-valuemax={most}
+    >
+      {stick.value !== "" && (
+        <path
+          class="nd-stroke"
+          d={stick}
+          stroke={colour}
+          stroke-width={1.5}
+          stroke-dasharray="3 4"
+        />
+      )}
+      <circle class="grip-touch" r={name === "wind" ? KNOB + 6 : TOUCH} />
+      {!BARE.includes(name) && (
+        <circle
+          class="nd-hollow"
+          r={name === "wind" ? 6 : KNOB}
+          stroke={colour}
+          stroke-width={2.5}
+        />
+      )}
+    </g>
+  );
+}
+
+/** The whole ring can be taken hold of, wherever the knob is. */
+function RingTouch({ map, view }: Omit<GripProps, "name">) {
+  const place = useComputed(() => {
+    const middle = view.pose.value;
+    return middle === null
+      ? ""
+      : placeAt(project(view.layout.value, middle, map.situation.value.leader));
+  });
+  const radius = useComputed(() =>
+    round(map.situation.value.min_separation_m * view.layout.value.scale),
+  );
+  return <circle class="ring-touch" data-handle="ring" r={radius} transform={place} />;
+}

@@ -1,0 +1,256 @@
+/** What can be taken hold of on the map: where it is, what a drag or a key makes of the situation. */
+
+import { type Vector, windVector } from "../geometry";
+import {
+  bearing,
+  distance,
+  type Layout,
+  type Place,
+  type Point,
+  type Pose,
+  project,
+} from "../nd/view";
+import { DEG, formatHeading, formatKnots, formatMiles, KT, NM, wrap360 } from "../units";
+import { leaderRoute, slotNow } from "./leader-route";
+import { BOUNDS, type Situation, stepMiles } from "./situation";
+
+export const HANDLES = [
+  "ring",
+  "slot",
+  "leader",
+  "leader-heading",
+  "own",
+  "own-heading",
+  "wind",
+] as const;
+export type HandleName = (typeof HANDLES)[number];
+
+/** How a handle is said, and its value as a number for those who do not see it. */
+export interface Said {
+  readonly label: string;
+  readonly text: string;
+  readonly value: number;
+  readonly least: number;
+  readonly most: number;
+}
+
+/** How far before an aircraft the handle of its heading stands [px]. */
+export const STICK = 62;
+/** The wind's dial: its middle, its radius, and what the rim stands for. */
+export const DIAL = { x: 74, y: 74, radius: 46, most: 100 * KT } as const;
+/** Below this it is calm [m/s]: the middle of the dial. */
+const CALM_BELOW = 2 * KT;
+
+function slotOf(situation: Situation) {
+  const wind = windVector(situation.wind);
+  return slotNow(situation, leaderRoute(situation, wind), wind);
+}
+
+/** Where a handle is on the glass [px]. */
+export function handlePoint(
+  name: HandleName,
+  situation: Situation,
+  layout: Layout,
+  middle: Pose,
+): Point {
+  const { pursuer, leader, wind } = situation;
+  const at = (place: Place) => project(layout, middle, place);
+  switch (name) {
+    case "own":
+      return at(pursuer);
+    case "leader":
+      return at(leader);
+    case "own-heading":
+      return towards(at(pursuer), pursuer.heading_deg, STICK);
+    case "leader-heading":
+      return towards(at(leader), leader.heading_deg, STICK);
+    case "slot":
+      return at(slotOf(situation).point);
+    case "ring":
+      return towards(
+        at(leader),
+        leader.heading_deg + 90,
+        situation.min_separation_m * layout.scale,
+      );
+    case "wind":
+      return towards(
+        DIAL,
+        wind.from_deg,
+        (DIAL.radius * Math.min(wind.speed_mps, DIAL.most)) / DIAL.most,
+      );
+  }
+}
+
+function towards({ x, y }: Point, direction: number, length: number): Point {
+  return { x: x + length * Math.sin(direction * DEG), y: y - length * Math.cos(direction * DEG) };
+}
+
+/** The situation with a handle moved to a place; `glass` is the same on the glass [px]. */
+export function dragHandle(
+  name: HandleName,
+  situation: Situation,
+  place: Place,
+  glass: Point,
+): Situation {
+  const { pursuer, leader } = situation;
+  const to = { x_m: place.x_m, y_m: place.y_m };
+  switch (name) {
+    case "own":
+      return { ...situation, pursuer: { ...pursuer, ...to } };
+    case "leader":
+      return { ...situation, leader: { ...leader, ...to } };
+    case "own-heading":
+      return {
+        ...situation,
+        pursuer: { ...pursuer, heading_deg: Math.round(bearing(pursuer, place)) },
+      };
+    case "leader-heading":
+      return {
+        ...situation,
+        leader: { ...leader, heading_deg: Math.round(bearing(leader, place)) },
+      };
+    case "slot":
+      return withSlot(situation, along(slotOf(situation), place));
+    case "ring":
+      return withLimit(situation, distance(leader, place));
+    case "wind":
+      return { ...situation, wind: windAt(glass) };
+  }
+}
+
+/** How far behind the leader's place on its final track a place is [m]. */
+function along({ origin, ahead }: { origin: Vector; ahead: Vector }, place: Place): number {
+  return (origin.x - place.x_m) * ahead.x + (origin.y - place.y_m) * ahead.y;
+}
+
+/** D in tenths of a mile, no less than d_min. */
+function withSlot(situation: Situation, length: number): Situation {
+  const wanted = Math.max(length, situation.min_separation_m);
+  return {
+    ...situation,
+    slot_distance_m: Math.max(stepMiles(wanted, 0), situation.min_separation_m),
+  };
+}
+
+/** d_min in tenths of a mile, no more than D. */
+function withLimit(situation: Situation, length: number): Situation {
+  const wanted = Math.min(Math.max(0, length), situation.slot_distance_m);
+  return {
+    ...situation,
+    min_separation_m: Math.min(stepMiles(wanted, 0), situation.slot_distance_m),
+  };
+}
+
+function windAt({ x, y }: Point): Situation["wind"] {
+  const [east, north] = [x - DIAL.x, DIAL.y - y];
+  const speed = Math.min(1, Math.hypot(east, north) / DIAL.radius) * DIAL.most;
+  if (speed < CALM_BELOW) return { from_deg: 0, speed_mps: 0 };
+  const from = wrap360(Math.round(Math.atan2(east, north) / DEG));
+  return { from_deg: from, speed_mps: Math.round(speed / KT) * KT };
+}
+
+const ARROWS: Record<string, readonly [number, number]> = {
+  ArrowLeft: [-1, 0],
+  ArrowRight: [1, 0],
+  ArrowUp: [0, 1],
+  ArrowDown: [0, -1],
+};
+
+/** The situation after a key on a handle; null if the key is not its. Shift makes the finer step. */
+export function keyHandle(
+  name: HandleName,
+  situation: Situation,
+  key: string,
+  isFine: boolean,
+): Situation | null {
+  const arrow = ARROWS[key];
+  if (arrow === undefined) return null;
+  const [right, up] = arrow;
+  const { pursuer, leader, wind } = situation;
+  const move = <T extends Place>(aircraft: T): T => {
+    const step = (isFine ? 0.1 : 1) * NM;
+    return { ...aircraft, x_m: aircraft.x_m + right * step, y_m: aircraft.y_m + up * step };
+  };
+  const turn = <T extends { readonly heading_deg: number }>(aircraft: T): T => ({
+    ...aircraft,
+    heading_deg: Math.round(aircraft.heading_deg) + (right + up) * (isFine ? 1 : 5),
+  });
+  const miles = (right + up) * (isFine ? 0.1 : 0.5);
+  switch (name) {
+    case "own":
+      return { ...situation, pursuer: move(pursuer) };
+    case "leader":
+      return { ...situation, leader: move(leader) };
+    case "own-heading":
+      return { ...situation, pursuer: turn(pursuer) };
+    case "leader-heading":
+      return { ...situation, leader: turn(leader) };
+    case "slot":
+      return withSlot(situation, stepMiles(situation.slot_distance_m, miles));
+    case "ring":
+      return withLimit(situation, stepMiles(situation.min_separation_m, miles));
+    case "wind": {
+      const [knots, degrees] = isFine ? [1, 1] : [5, 10];
+      const speed = Math.max(0, Math.round(wind.speed_mps / KT) + up * knots) * KT;
+      return {
+        ...situation,
+        wind: { from_deg: wind.from_deg + right * degrees, speed_mps: speed },
+      };
+    }
+  }
+}
+
+/** What a handle is and what it says now. */
+export function sayHandle(name: HandleName, situation: Situation): Said {
+  const { pursuer, leader, wind } = situation;
+  const heading = (label: string, value: number): Said => ({
+    label,
+    text: `${formatHeading(value)} degrees`,
+    value: Math.round(value),
+    least: 0,
+    most: 360,
+  });
+  const miles = (label: string, length: number): Said => ({
+    label,
+    text: `${formatMiles(length)} nautical miles`,
+    value: Number((length / NM).toFixed(1)),
+    least: 0,
+    most: Math.floor(BOUNDS.distance[1] / NM),
+  });
+  const place = (label: string, { x_m, y_m }: Place): Said => ({
+    label,
+    text: `${side(x_m, "east", "west")}, ${side(y_m, "north", "south")}`,
+    value: Math.round(x_m / NM),
+    least: -540,
+    most: 540,
+  });
+  switch (name) {
+    case "own":
+      return place("Own ship's place", pursuer);
+    case "leader":
+      return place("Leader's place", leader);
+    case "own-heading":
+      return heading("Own ship's heading", pursuer.heading_deg);
+    case "leader-heading":
+      return heading("Leader's heading", leader.heading_deg);
+    case "slot":
+      return miles("Slot distance D", situation.slot_distance_m);
+    case "ring":
+      return miles("Minimum separation", situation.min_separation_m);
+    case "wind":
+      return {
+        label: "Wind: up and down for its speed, left and right for its direction",
+        text:
+          wind.speed_mps > 0
+            ? `from ${formatHeading(wind.from_deg)} degrees, ${formatKnots(wind.speed_mps)} knots`
+            : "calm",
+        value: Number(formatKnots(wind.speed_mps)),
+        least: 0,
+        most: Number(formatKnots(BOUNDS.wind[1])),
+      };
+  }
+}
+
+function side(length: number, positive: string, negative: string): string {
+  return `${formatMiles(Math.abs(length))} miles ${length < 0 ? negative : positive}`;
+}

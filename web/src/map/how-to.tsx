@@ -1,0 +1,28 @@
+/** What can be done on the map, under it. */
+
+import { Panel } from "../parts";
+
+const WAYS: readonly (readonly [string, string])[] = [
+  [
+    "Drag",
+    "either aircraft, the knob before it (its heading), the slot (D), the circle (MIN), the wind",
+  ],
+  ["Keys", "Tab takes hold of each of these; arrow keys move it, with Shift a little"],
+  ["Map", "drag its ground, turn the wheel, or use two fingers; F brings all into sight"],
+  ["Lines", "dashed: the path; dotted: slower, or too close; thin: equal times, in minutes"],
+];
+
+export function HowTo() {
+  return (
+    <Panel name="how" title="On the map">
+      <dl>
+        {WAYS.map(([name, what]) => (
+          <>
+            <dt key={name}>{name}</dt>
+            <dd key={what}>{what}</dd>
+          </>
+        ))}
+      </dl>
+    </Panel>
+  );
+}

@@ -1,0 +1,83 @@
+/** What the map shows besides the display's own layers: own ship where it is, the wind, the message. */
+
+import { useComputed } from "@preact/signals";
+import { type LayerProps, usePart } from "../nd/layer";
+import { SHAPE } from "../nd/ownship";
+import { Stroke } from "../nd/stroke";
+import { ink } from "../nd/style";
+import { placeAt, READOUTS, toMap } from "../nd/view";
+import { UNABLE } from "../store/notices";
+import { formatHeading, formatKnots } from "../units";
+import type { Editor } from "./editor";
+import { DIAL } from "./handles";
+
+export function OwnShipThere({ shown, view }: LayerProps) {
+  const own = usePart(shown, ({ now }) => now?.pursuer ?? null);
+  const place = useComputed(() =>
+    own.value === null ? "" : placeAt(toMap(view.layout.value, own.value), own.value.heading_deg),
+  );
+  return (
+    <g class="nd-ownship" transform={place}>
+      <Stroke d={SHAPE} line={{ colour: "ownship", width: 5, dash: "" }} />
+    </g>
+  );
+}
+
+/** The wind as a dial: where it comes from, its strength from the middle to the rim (100 kt). */
+export function WindDial({ map }: { map: Editor }) {
+  const { from_deg, speed_mps } = map.situation.value.wind;
+  const length = (DIAL.radius * Math.min(speed_mps, DIAL.most)) / DIAL.most;
+  const text = speed_mps > 0 ? `${formatHeading(from_deg)} / ${formatKnots(speed_mps)}` : "CALM";
+  return (
+    <g class="nd-air" transform={placeAt(DIAL)}>
+      <rect class="nd-ground" x={-DIAL.x} y={-DIAL.y} width={150} height={156} />
+      <circle class="nd-stroke" r={DIAL.radius} stroke={ink("scale")} stroke-width={1.5} />
+      <circle class="nd-stroke" r={DIAL.radius / 2} stroke={ink("superseded")} stroke-width={1} />
+      {speed_mps > 0 && (
+        <g transform={`rotate(${from_deg})`}>
+          <Stroke
+            d={`M0 ${-length}V${DIAL.radius}M-7 ${DIAL.radius - 12}L0 ${DIAL.radius}L7 ${DIAL.radius - 12}`}
+            line={{ colour: "value", width: 2.5, dash: "" }}
+          />
+        </g>
+      )}
+      <text
+        class="nd-text"
+        y={DIAL.radius + 24}
+        font-size={20}
+        text-anchor="middle"
+        fill={ink("value")}
+      >
+        {text}
+      </text>
+    </g>
+  );
+}
+
+/** Why there is no path. */
+export function MapMessage({ map }: { map: Editor }) {
+  const answer = map.answered.value?.answer;
+  const text =
+    map.refusal.value !== ""
+      ? "NOT PLANNED"
+      : answer?.status === "no_plan"
+        ? `NO PLAN: ${UNABLE[answer.reason]}`
+        : "";
+  if (text === "") return null;
+  const { x, y, width, height } = READOUTS.message;
+  return (
+    <g class="nd-message" transform={placeAt({ x, y })}>
+      <rect class="nd-ground nd-frame" width={width} height={height} stroke={ink("caution")} />
+      <text
+        class="nd-text"
+        x={width / 2}
+        y={25}
+        font-size={22}
+        text-anchor="middle"
+        fill={ink("caution")}
+      >
+        {text}
+      </text>
+    </g>
+  );
+}
