@@ -2,6 +2,7 @@
 
 import type {
   AreaAnswer,
+  AreaRequest,
   Command,
   FlightRequest,
   FlightStatus,
@@ -53,16 +54,18 @@ export function commandFlight(id: string, command: Command): Promise<Answer<Flig
   return request("POST", `${ROOT}/flights/${encodeURIComponent(id)}/commands`, command);
 }
 
-/** A plan with the other paths to the slot, those that are drawn included. */
+/** A plan with the other paths to the slot, those that are drawn included; within `most` [ms]. */
 export function planSituation(
   situation: SituationBody,
+  most: number,
 ): Promise<Answer<PlanAnswer & { readonly others?: readonly OtherPathCard[] }>> {
-  return request("POST", `${ROOT}/plans?include=alternatives,paths`, situation);
+  const query = `include=alternatives,paths&max_ms=${most}`;
+  return request("POST", `${ROOT}/plans?${query}`, situation);
 }
 
-/** Regions of words and lines of equal time, for a query. */
-export function readArea(query: string): Promise<Answer<AreaAnswer>> {
-  return request("GET", `${ROOT}/areas?${query}`);
+/** Regions of words and lines of equal time. */
+export function drawArea(wanted: AreaRequest): Promise<Answer<AreaAnswer>> {
+  return request("POST", `${ROOT}/areas`, wanted);
 }
 
 export function endFlight(id: string): Promise<Answer<null>> {

@@ -53,9 +53,15 @@ export function AreaLayer({ map, view }: { map: Editor; view: View }) {
 }
 
 function regionsOf(layout: Layout, answer: AreaAnswer | null) {
+  const placed: Point[] = [];
   return (answer?.regions ?? []).map((region, i) => {
     const largest = widest(region.polygons.map((polygon) => polygon.map(ringOf)));
-    const fits = largest !== null && largest.width * layout.scale > NAMED_FROM;
+    const middle = largest === null ? null : toMap(layout, largest);
+    const fits =
+      largest !== null &&
+      largest.width * layout.scale > NAMED_FROM &&
+      placed.every((other) => middle === null || isClear(middle, other));
+    if (fits && middle !== null) placed.push(middle);
     return {
       key: i,
       word: region.word,
@@ -64,9 +70,14 @@ function regionsOf(layout: Layout, answer: AreaAnswer | null) {
       d: region.polygons
         .flatMap((polygon) => polygon.map((ring) => data(layout, ring, "Z")))
         .join(""),
-      at: fits ? toMap(layout, largest) : null,
+      at: fits ? middle : null,
     };
   });
+}
+
+/** Whether two names do not touch. */
+function isClear(a: Point, b: Point): boolean {
+  return Math.abs(a.x - b.x) > 110 || Math.abs(a.y - b.y) > 26;
 }
 
 function nameOf({ word, limited }: AreaRegion): string {

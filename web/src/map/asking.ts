@@ -4,9 +4,10 @@
  */
 
 import { computed, effect, untracked } from "@preact/signals";
-import { type Answer, planSituation, readArea } from "../api";
+import { type Answer, drawArea, planSituation } from "../api";
 import type { Session } from "../session";
 import { inPageUnits } from "../units";
+import type { AreaRequest } from "../wire";
 import { type Editor, halfExtent, showAll } from "./editor";
 import { bodyOf, type Situation, settle } from "./situation";
 
@@ -14,6 +15,9 @@ import { bodyOf, type Situation, settle } from "./situation";
 const LATE = 150;
 /** A service that does not answer is asked again [ms]. */
 const ASK_AGAIN = 3000;
+/** What a plan may take under the hand, and at rest [ms]. */
+const QUICK = 80;
+const THOROUGH = 2000;
 /** The area is drawn finely once the hand has rested for so long [ms]. */
 const REST = 250;
 /** Nodes of its grid along each side, under the hand and at rest. */
@@ -22,9 +26,15 @@ const NODES = { moving: 28, resting: 120 } as const;
 /** Follows the map while it is shown. */
 export function followMap(session: Pick<Session, "ndMode" | "map" | "firstStart">): void {
   const { ndMode, map, firstStart } = session;
+  let thorough: ReturnType<typeof setTimeout> | undefined;
   const askPlan = createAsker(
     () => map.situation.peek(),
-    async (situation) => takePlan(map, situation, await planSituation(bodyOf(situation))),
+    async (situation) => {
+      const answer = await planSituation(bodyOf(situation), QUICK);
+      clearTimeout(thorough);
+      if (!isOptimal(answer)) thorough = setTimeout(() => void askMore(map, situation), REST);
+      return takePlan(map, situation, answer);
+    },
     () => {
       map.answered.value = null;
     },
@@ -41,15 +51,16 @@ export function followMap(session: Pick<Session, "ndMode" | "map" | "firstStart"
   const askArea = createAsker(
     () => {
       if (question.peek() === "") return "";
-      const nodes = String(isResting ? NODES.resting : NODES.moving);
-      return `${question.peek()}&columns=${nodes}&rows=${nodes}`;
+      return `${question.peek()} ${isResting ? NODES.resting : NODES.moving}`;
     },
     async (asked) => {
       if (asked === "") {
         map.area.value = null;
         return 0;
       }
-      const answer = await readArea(asked);
+      const [body = "", nodes] = asked.split(" ");
+      const sides = { columns: Number(nodes), rows: Number(nodes) };
+      const answer = await drawArea({ ...(JSON.parse(body) as AreaRequest), ...sides });
       map.area.value = answer.kind === "done" ? { asked, answer: answer.value } : null;
       return againIn(answer);
     },
@@ -83,9 +94,25 @@ async function askThumbs(map: Editor): Promise<void> {
   for (const { entry, answered } of map.thumbs) {
     if (answered.value !== null) continue;
     const situation = settle(entry.situation);
-    const answer = await planSituation(bodyOf(situation));
+    const answer = await planSituation(bodyOf(situation), THOROUGH);
     if (answer.kind === "done") answered.value = { situation, answer: answer.value };
   }
+}
+
+/** Whether no more time would find a better plan. */
+function isOptimal(answer: Awaited<ReturnType<typeof planSituation>>): boolean {
+  if (answer.kind !== "done") return true;
+  const { value } = answer;
+  return value.status === "planned"
+    ? value.optimality.proof === "relaxation"
+    : value.reason !== "deadline" && value.reason !== "separation_unavoidable";
+}
+
+/** Asks for the plan of what has come to rest with more time, where that may help. */
+async function askMore(map: Editor, situation: Situation): Promise<void> {
+  if (map.situation.value !== situation) return;
+  const answer = await planSituation(bodyOf(situation), THOROUGH);
+  if (map.situation.value === situation) takePlan(map, situation, answer);
 }
 
 /** How long to wait before the same is asked again [ms]; 0 when it is answered for good. */
@@ -139,7 +166,7 @@ function createAsker<T>(
   return () => void run();
 }
 
-/** What is asked of the area, as the query of its address, but for how finely. */
+/** What is asked of the area, but for how finely: text without a blank, so that it can be compared. */
 function areaQuestion(map: Editor): string {
   const situation = map.situation.value;
   const body = bodyOf({
@@ -148,11 +175,12 @@ function areaQuestion(map: Editor): string {
   });
   const { x_m, y_m } = map.centre.value;
   const half = halfExtent(map.range.value);
-  return new URLSearchParams({
-    situation: JSON.stringify(body),
-    x_m: x_m.toFixed(0),
-    y_m: y_m.toFixed(0),
-    width_m: (2 * half).toFixed(0),
-    height_m: (2 * half).toFixed(0),
-  }).toString();
+  const asked: AreaRequest = {
+    situation: body,
+    x_m: Math.round(x_m),
+    y_m: Math.round(y_m),
+    width_m: Math.round(2 * half),
+    height_m: Math.round(2 * half),
+  };
+  return JSON.stringify(asked);
 }

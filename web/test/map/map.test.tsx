@@ -1,0 +1,161 @@
+/** The map as it is seen and held: its picture, its handles by hand and by key. */
+
+import { describe, expect, test } from "vitest";
+import { createEditor, edit, halfExtent, putSituation, zoom } from "../../src/map/editor";
+import { situationOf } from "../../src/map/from-flight";
+import { dragHandle, HANDLES, handlePoint, keyHandle, sayHandle } from "../../src/map/handles";
+import { mapView, PlanMap } from "../../src/map/map";
+import { FIRST, settle } from "../../src/map/situation";
+import { widest } from "../../src/map/widest";
+import { layoutOf, project } from "../../src/nd/view";
+import { guidance } from "../../src/store/states";
+import { NM } from "../../src/units";
+import type { PlanCard } from "../../src/wire";
+import { mount } from "../nd/draw";
+import { documentsOf, flightAt } from "../nd/fixture";
+import { noPlan } from "../samples";
+
+const { plan } = documentsOf("fig_6b").plan;
+
+function answered(card: PlanCard = plan) {
+  const map = createEditor();
+  putSituation(map, FIRST);
+  map.answered.value = {
+    situation: map.situation.value,
+    answer: {
+      ...card,
+      others: [{ word: "LSR", time_to_converge_s: 900, segments: card.segments, why: "" }],
+    },
+  };
+  return map;
+}
+
+test("a situation with its plan is drawn as a proposal, with its ghosts", () => {
+  const map = answered();
+  expect(guidance(map.flight)).toBe("proposed");
+  const root = mount(PlanMap, { map });
+  for (const name of [
+    "proposed",
+    "others",
+    "slot",
+    "circle",
+    "leader",
+    "capture",
+    "ownship",
+    "intent",
+  ])
+    expect(root.querySelector(`.nd-${name}`), name).not.toBeNull();
+  expect(root.querySelectorAll(".grip")).toHaveLength(HANDLES.length);
+  expect(map.shown.numbers.value.toJoin).not.toBe("");
+});
+
+test("without a plan the slot is crossed and the map says why; without an answer it says nothing", () => {
+  const map = answered();
+  map.answered.value = { situation: map.situation.value, answer: noPlan(0).answer };
+  expect(guidance(map.flight)).toBe("infeasible");
+  const root = mount(PlanMap, { map });
+  expect(root.querySelector(".nd-message")?.textContent).toBe("NO PLAN: SPEED");
+  map.answered.value = null;
+  expect(guidance(map.flight)).toBe("designated");
+  expect(mount(PlanMap, { map }).querySelector(".nd-message")).toBeNull();
+});
+
+test("own ship is drawn where it is, not in the middle", () => {
+  const map = answered();
+  const view = mapView(map);
+  const own = project(view.layout.value, view.pose.value, FIRST.pursuer);
+  expect(Math.hypot(own.x - 384, own.y - 384)).toBeGreaterThan(50);
+  expect(handlePoint("own", FIRST, view.layout.value, view.pose.value)).toEqual(own);
+});
+
+describe("handles", () => {
+  const layout = layoutOf("PLAN", 40);
+  const middle = { x_m: 0, y_m: 0, heading_deg: 0 };
+  const placeOf = ({ x, y }: { x: number; y: number }) => ({
+    x_m: (x - layout.centre.x) / layout.scale,
+    y_m: (layout.centre.y - y) / layout.scale,
+  });
+
+  test.each(HANDLES)("%s dragged to where it is changes nothing much", (name) => {
+    const at = handlePoint(name, FIRST, layout, middle);
+    const after = settle(dragHandle(name, FIRST, placeOf(at), at));
+    const again = handlePoint(name, after, layout, middle);
+    expect(Math.hypot(again.x - at.x, again.y - at.y)).toBeLessThan(1);
+  });
+
+  test("D never falls below MIN, and MIN never rises above D", () => {
+    const near = settle(dragHandle("slot", FIRST, { x_m: 0, y_m: 0 }, { x: 0, y: 0 }));
+    expect(near.slot_distance_m).toBe(FIRST.min_separation_m);
+    const wide = settle(dragHandle("ring", FIRST, { x_m: 90_000, y_m: 0 }, { x: 0, y: 0 }));
+    expect(wide.min_separation_m).toBe(FIRST.slot_distance_m);
+  });
+
+  test.each(HANDLES)("%s is moved by arrows, finely with Shift, and by no other key", (name) => {
+    const windy = { ...FIRST, wind: { from_deg: 100, speed_mps: 20 }, min_separation_m: 5 * NM };
+    const by = (isFine: boolean) => {
+      const after = keyHandle(name, windy, "ArrowUp", isFine);
+      if (after === null) throw new Error("Not its key.");
+      return settle(after);
+    };
+    expect(by(false)).not.toEqual(settle(windy));
+    expect(by(true)).not.toEqual(by(false));
+    expect(keyHandle(name, windy, "q", false)).toBeNull();
+    const { label, text, value, least, most } = sayHandle(name, windy);
+    expect(label.length * text.length).toBeGreaterThan(0);
+    expect(value).toBeGreaterThanOrEqual(least);
+    expect(value).toBeLessThanOrEqual(most);
+  });
+});
+
+test("zooming keeps a place where it is seen", () => {
+  const map = answered();
+  const place = { x_m: 30_000, y_m: -12_000 };
+  const seen = () =>
+    project(layoutOf("PLAN", map.range.value), { ...map.centre.value, heading_deg: 0 }, place);
+  const before = seen();
+  const range = map.range.value;
+  zoom(map, 1, place);
+  expect(map.range.value).toBeGreaterThan(range);
+  expect(seen().x).toBeCloseTo(before.x, 9);
+  expect(seen().y).toBeCloseTo(before.y, 9);
+});
+
+test("all is in sight when a situation is put on the map", () => {
+  const map = createEditor();
+  putSituation(map, { ...FIRST, pursuer: { ...FIRST.pursuer, x_m: -400_000 } });
+  const half = halfExtent(map.range.value);
+  expect(Math.abs(map.centre.value.x_m + 400_000)).toBeLessThan(half);
+  expect(Math.abs(map.centre.value.x_m)).toBeLessThan(half);
+});
+
+test("the situation of a flight is where the two are, with what the leader has yet to turn", () => {
+  const flight = flightAt("fig_6b", 200);
+  const found = situationOf(flight);
+  const now = flight.now.value;
+  expect(found?.pursuer.x_m).toBe(Math.round(now?.pursuer.x_m ?? 0));
+  const [straight, turn] = found?.leader.intent ?? [];
+  const whole = documentsOf("fig_6b").route.segments[0]?.duration_s ?? 0;
+  expect(straight).toEqual({ straight_s: Math.round(10 * (whole - 200)) / 10 });
+  expect(turn).toMatchObject({ direction: "right" });
+  expect(found?.leader.intent).toHaveLength(2);
+});
+
+test("what is edited is kept within bounds", () => {
+  const map = createEditor();
+  edit(map, (now) => ({ ...now, pursuer: { ...now.pursuer, x_m: 5e6, heading_deg: 400 } }));
+  expect(map.situation.value.pursuer.x_m).toBe(1_000_000);
+  expect(map.situation.value.pursuer.heading_deg).toBe(40);
+});
+
+test("a region is named where it is widest", () => {
+  const ring = (points: readonly (readonly [number, number])[]) =>
+    points.map(([x_m, y_m]) => ({ x_m, y_m }));
+  const triangle = ring([
+    [0, 0],
+    [10, 0],
+    [5, 8],
+    [0, 0],
+  ]);
+  expect(widest([[triangle]])).toMatchObject({ x_m: 5, y_m: 1 });
+  expect(widest([])).toBeNull();
+});
