@@ -24,7 +24,7 @@ def rows(table: Table) -> list[tuple[str, ...]]:
 @pytest.mark.slow
 def test_a_planner_loses_nothing_to_itself_and_a_bad_one_is_reported() -> None:
     one = fly_measured(1, plan)
-    assert one.told
+    assert one.intent_known
     assert one.way
     assert len(one.spent) > 300
     same = {"exact": [one], "network": [one]}
@@ -39,7 +39,9 @@ def test_a_planner_loses_nothing_to_itself_and_a_bad_one_is_reported() -> None:
     late = by_network(result=replace(one.result, join_time=2.0 * one.result.join_time))
     assert rows(losses_table(late))[0][2] == "100.0000"
     close = failures(by_network(kept=BREACH - 0.1))
-    assert close[0] == "Flight 1 comes within 0.890 d_min by network, told what the leader will do."
+    assert (
+        close[0] == "Flight 1 comes within 0.890 d_min by network, knowing what the leader will do."
+    )
     assert close[1].endswith(f"by network, {one.kept:.3f} by the exact planner.")
     lost = by_network(result=replace(one.result, joined=False))
     assert failures(lost) == ["Flight 1 joins by the exact planner only."]
@@ -51,9 +53,9 @@ def test_what_nobody_could_keep_is_no_failure() -> None:
     head_on = replace(one, kept=0.7, result=replace(one.result, planned_time=0.0))
     assert failures({"exact": [head_on]}) == []
     assert rows(flights_table({"exact": [head_on]}))[0][-2:] == ("1", "1")
-    untold = replace(one, kept=0.7, told=False)
-    assert failures({"exact": [untold]}) == []
-    assert rows(flights_table({"exact": [untold]}))[0][4] == "1 of 1"
+    unknown = replace(one, kept=0.7, intent_known=False)
+    assert failures({"exact": [unknown]}) == []
+    assert rows(flights_table({"exact": [unknown]}))[0][4] == "1 of 1"
 
 
 @pytest.mark.slow

@@ -1,7 +1,7 @@
 """Whole flights by network and by the exact planner: `python -m tests.bench.loop --flights 200`.
 
 Both fly the same flights at 1 Hz, with rolling aircraft and a leader who changes course. What the
-network loses is told in join time, what it costs in the time of a decision. With `--only network`
+network loses is given in join time, what it costs in the time of a decision. With `--only network`
 as many flights are flown in a third of the time: what counts then is that none breaks d_min.
 """
 
@@ -44,7 +44,7 @@ class Flown:
     """A flight, and what its planner was asked."""
 
     number: int
-    told: bool
+    intent_known: bool
     """Whether the leader's intent was known."""
     result: LinkResult
     kept: float
@@ -138,7 +138,7 @@ def fly_measured(number: int, planner: Planner, longest: float = LONGEST) -> Flo
     (result,) = end.results
     return Flown(
         number=number,
-        told=scenario.intent_known,
+        intent_known=scenario.intent_known,
         result=result,
         kept=result.least_separation / scenario.situation.min_separation,
         spent=tuple(spent),
@@ -157,19 +157,19 @@ def flights_table(flights: Flights) -> Table:
     many = len(next(iter(flights.values())))
     table = _table(
         f"{many:,} flights at 1 Hz",
-        "joined", "told: breaches", "least, d_min", "not told: breaches", "least, d_min",
+        "joined", "intent known: breaches", "least, d_min", "not known: breaches", "least, d_min",
         "no way when engaged", "breaches",
     )  # fmt: skip
     for name, by_one in flights.items():
-        told = [one for one in by_one if one.told and one.way]
-        not_told = [one for one in by_one if not one.told and one.way]
+        known = [one for one in by_one if one.intent_known and one.way]
+        not_known = [one for one in by_one if not one.intent_known and one.way]
         lost = [one for one in by_one if not one.way]
         table.add_row(
             name,
             f"{sum(one.result.joined for one in by_one):,}",
             *(
                 cell
-                for group in (told, not_told)
+                for group in (known, not_known)
                 for cell in (
                     f"{_breaches(group)} of {len(group):,}",
                     f"{min((one.kept for one in group), default=0.0):.3f}",
@@ -232,11 +232,11 @@ def failures(flights: Flights) -> list[str]:
     Of a leader who turns without a word nobody can say beforehand what could have been kept.
     """
     found = [
-        f"Flight {one.number} comes within {one.kept:.3f} d_min by {name}, told what the leader "
+        f"Flight {one.number} comes within {one.kept:.3f} d_min by {name}, knowing what the leader "
         "will do."
         for name, by_one in flights.items()
         for one in by_one
-        if one.told and one.way and one.kept < BREACH
+        if one.intent_known and one.way and one.kept < BREACH
     ]
     for exact, network in _pairs(flights):
         if exact.result.joined and not network.result.joined:
