@@ -1,19 +1,20 @@
 """answer(situation): the plan, or why there is none, in JSON; `bulk.py` answers many."""
 
 from collections.abc import Collection
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from relguide.contract.bodies import Anchor, path_to_wire, plan_to_wire
 from relguide.contract.wire import to_wire
 from relguide.flying.cards import no_plan_card, optimality_check, other_path_cards, plan_card
-from relguide.flying.verdicts import OptimalityCheck
 from relguide.planning.acceptance import ask
-from relguide.planning.alternatives import alternatives
 from relguide.planning.deadline import end_of, left_until
-from relguide.planning.optimality import check
 from relguide.planning.plan import NoPlan, Plan, Planner
 from relguide.planning.situation import Situation
 from relguide.units import Second
+
+if TYPE_CHECKING:
+    from relguide.flying.verdicts import OptimalityCheck
+    from relguide.planning.alternatives import AnyAlternative
 
 Include = Literal["alternatives", "paths", "optimality"]
 """What an answer contains only if asked for: the other paths to the slot and why each is not flown,
@@ -70,7 +71,7 @@ def answer(
         case Plan():
             left = left_until(until)
             asked = not {"alternatives", "paths"}.isdisjoint(include)
-            others = alternatives(planned, deadline=left) if asked else ()
+            others = _alternatives(planned, left) if asked else ()
             reply = plan_to_wire(plan_card(planned, others), anchor)
             if "paths" in include:
                 wind = situation.wind
@@ -85,6 +86,14 @@ def answer(
             return to_wire(no_plan_card(planned))
 
 
-def check_optimality(plan: Plan) -> OptimalityCheck:
+def _alternatives(plan: Plan, deadline: Second | None) -> "tuple[AnyAlternative, ...]":
+    from relguide.planning.alternatives import alternatives  # which a plan alone need not load
+
+    return alternatives(plan, deadline=deadline)
+
+
+def check_optimality(plan: Plan) -> "OptimalityCheck":
     """How a plan meets Pontryagin's conditions. Takes some milliseconds."""
+    from relguide.planning.optimality import check
+
     return optimality_check(check(plan, plan.situation))

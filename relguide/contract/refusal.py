@@ -4,7 +4,10 @@ import json
 from collections.abc import Mapping, Sequence
 from typing import Any, TypeVar
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict, GetJsonSchemaHandler, ValidationError
+from pydantic_core import CoreSchema
+
+from relguide.contract.docs import field_docs
 
 MAX_SAID = 8
 """How many defects the sentence of a refusal spells out."""
@@ -24,8 +27,23 @@ class Strict(BaseModel):
         extra="forbid",
         allow_inf_nan=False,
         frozen=True,
-        use_attribute_docstrings=True,
     )
+
+    @classmethod
+    def __get_pydantic_json_schema__(
+        cls, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> dict[str, Any]:
+        """The schema, with the string under each field as its description.
+
+        pydantic's own way reads the sources of each shape as it is defined, schema or not.
+        """
+        described = handler(schema)
+        members = handler.resolve_ref_schema(described).get("properties", {})
+        for owner in reversed(cls.__mro__):
+            if issubclass(owner, Strict) and owner is not Strict:
+                for name, doc in field_docs(owner).items():
+                    members[name]["description"] = doc
+        return described
 
 
 class ContractError(ValueError):

@@ -5,52 +5,62 @@ written as degrees (`_deg`, `_degps`), headings and tracks in [0, 360). A traili
 Python name is dropped. The field that names a union's member (`kind`, `status`) comes first.
 """
 
-import ast
-import inspect
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, is_dataclass
 from enum import Enum
 from math import degrees, isfinite, radians
 from types import UnionType
-from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
+from typing import (
+    TYPE_CHECKING,
+    Annotated,
+    Any,
+    Literal,
+    Union,
+    get_args,
+    get_origin,
+    get_type_hints,
+)
 
 import orjson
 
 from relguide.contract.compass import compass
-from relguide.flying.aircraft_documents import (
-    AircraftCard,
-    AircraftSample,
-    GuidanceSample,
-    LinkCard,
-    LinkResult,
-    Loss,
-)
-from relguide.flying.documents import Document
-from relguide.flying.plan_documents import (
-    AnyAlternativeCard,
-    NoPlanCard,
-    OtherPathCard,
-    PathPoint,
-    PlanCard,
-)
-from relguide.flying.verdicts import OptimalityCheck, RegularCheck
+from relguide.contract.docs import field_docs
 
-Card = (
-    PlanCard
-    | NoPlanCard
-    | PathPoint
-    | AnyAlternativeCard
-    | OtherPathCard
-    | OptimalityCheck
-    | RegularCheck
-    | AircraftCard
-    | AircraftSample
-    | LinkCard
-    | GuidanceSample
-    | LinkResult
-    | Loss
-)
-"""Parts of documents that also travel alone."""
+if TYPE_CHECKING:  # most of what can be written is never needed where plans are made
+    from relguide.flying.aircraft_documents import (
+        AircraftCard,
+        AircraftSample,
+        GuidanceSample,
+        LinkCard,
+        LinkResult,
+        Loss,
+    )
+    from relguide.flying.documents import Document
+    from relguide.flying.plan_documents import (
+        AnyAlternativeCard,
+        NoPlanCard,
+        OtherPathCard,
+        PathPoint,
+        PlanCard,
+    )
+    from relguide.flying.verdicts import OptimalityCheck, RegularCheck
+
+    Card = (
+        PlanCard
+        | NoPlanCard
+        | PathPoint
+        | AnyAlternativeCard
+        | OtherPathCard
+        | OptimalityCheck
+        | RegularCheck
+        | AircraftCard
+        | AircraftSample
+        | LinkCard
+        | GuidanceSample
+        | LinkResult
+        | Loss
+    )
+    """Parts of documents that also travel alone."""
 
 SUFFIX = {
     "m": "_m",
@@ -82,16 +92,21 @@ class WireField:
     """In JSON."""
     annotation: Any
     """Its Python type, without the unit."""
-    doc: str
-    """Its docstring, or nothing."""
+    owner: type[Any]
+    """The document that has it."""
     encode: Convert
     """Python value → JSON value."""
     decode_number: Convert
     """JSON number → Python number, for angles; the identity for everything else. For a column of
     numbers, that of each member."""
 
+    @property
+    def doc(self) -> str:
+        """Its docstring, or nothing: read from the source when it is asked for."""
+        return field_docs(self.owner).get(self.name, "")
 
-def to_wire(document: Document | Card) -> dict[str, Any]:
+
+def to_wire(document: "Document | Card") -> dict[str, Any]:
     """A document, or a card of one, as a JSON object.
 
     Raises:
@@ -100,7 +115,7 @@ def to_wire(document: Document | Card) -> dict[str, Any]:
     return {f.wire_name: f.encode(getattr(document, f.name)) for f in wire_fields(type(document))}
 
 
-def dumps(document: Document | Card) -> bytes:
+def dumps(document: "Document | Card") -> bytes:
     """A document, or a card of one, as JSON text."""
     return orjson.dumps(to_wire(document))
 
@@ -112,7 +127,7 @@ def tick(
     rate: float,
     paused: bool,
     ended: bool,
-    documents: Sequence[Document],
+    documents: "Sequence[Document]",
 ) -> bytes:
     """One frame of the stream: what happened since the last one, in order, as JSON text.
 
@@ -145,33 +160,12 @@ def wire_fields(document_type: type[Any]) -> tuple[WireField, ...]:
     if (known := _FIELDS.get(document_type)) is not None:
         return known
     hints = get_type_hints(document_type, include_extras=True)
-    docs = field_docs(document_type)
-    described = [
-        _describe(f.name, hints[f.name], docs.get(f.name, "")) for f in fields(document_type)
-    ]
+    described = [_describe(f.name, hints[f.name], document_type) for f in fields(document_type)]
     described.sort(key=lambda f: f.name not in TAGS)
     return _FIELDS.setdefault(document_type, tuple(described))
 
 
-def field_docs(document_type: type[Any]) -> dict[str, str]:
-    """The string under each field of a class, by name."""
-    try:
-        (definition,) = ast.parse(inspect.getsource(document_type)).body
-    except OSError:  # installed without sources: there are no docstrings
-        return {}
-    assert isinstance(definition, ast.ClassDef)
-    docs: dict[str, str] = {}
-    for field, below in zip(definition.body, definition.body[1:], strict=False):
-        match field, below:
-            case (
-                ast.AnnAssign(target=ast.Name(id=name)),
-                ast.Expr(value=ast.Constant(value=str(text))),
-            ):
-                docs[name] = inspect.cleandoc(text)
-    return docs
-
-
-def _describe(name: str, hint: Any, doc: str) -> WireField:
+def _describe(name: str, hint: Any, owner: type[Any]) -> WireField:
     unit, annotation = "", hint
     if get_origin(hint) is Annotated:
         annotation, unit = get_args(hint)
@@ -183,7 +177,7 @@ def _describe(name: str, hint: Any, doc: str) -> WireField:
         name=name,
         wire_name=name.rstrip("_") + SUFFIX.get(unit, ""),
         annotation=annotation,
-        doc=doc,
+        owner=owner,
         encode=encode,
         decode_number=decode,
     )

@@ -1,11 +1,13 @@
-"""Plans and trajectories as outsiders read them: over the ground, piece by piece."""
+"""Plans and trajectories as outsiders read them: over the ground, piece by piece.
+
+What a plan alone has nothing of is imported where it is shown: the start of a command is short.
+"""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from math import atan2, ceil, pi
-from typing import assert_never
+from typing import TYPE_CHECKING, assert_never
 
-from relguide.flying.aircraft_documents import WindCard
 from relguide.flying.plan_documents import (
     AlternativeCard,
     AnyAlternativeCard,
@@ -25,22 +27,10 @@ from relguide.flying.plan_documents import (
     TurnSegment,
     UnsafeAlternativeCard,
 )
-from relguide.flying.verdicts import BoundaryArcCard, ContactCard, CostatesCard, OptimalityCheck
 from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.turn import bank_for_turn_radius
-from relguide.planning.alternatives import (
-    Alternative,
-    AnyAlternative,
-    AsFast,
-    Faster,
-    LosesSeparation,
-    NoRoot,
-    Slower,
-    TooEarly,
-)
 from relguide.planning.arrival import Arrival
 from relguide.planning.certificate import Certificate
-from relguide.planning.optimality import OptimalityReport
 from relguide.planning.plan import NoPlan, Plan
 from relguide.planning.situation import Wind
 from relguide.planning.slot import over_ground
@@ -55,12 +45,18 @@ from relguide.planning.trajectory import (
 )
 from relguide.units import Second
 
+if TYPE_CHECKING:
+    from relguide.flying.aircraft_documents import WindCard
+    from relguide.flying.verdicts import OptimalityCheck
+    from relguide.planning.alternatives import AnyAlternative
+    from relguide.planning.optimality import OptimalityReport
+
 VIA: Second = 5.0
 """Time between the points that draw a boundary arc [s]: their chords stray from it by metres."""
 
 
 def plan_card(
-    plan: Plan, others: Sequence[AnyAlternative] = (), *, later: Second = 0.0
+    plan: Plan, others: "Sequence[AnyAlternative]" = (), *, later: Second = 0.0
 ) -> PlanCard:
     """A plan with its segments over the ground.
 
@@ -85,7 +81,7 @@ def plan_card(
 
 
 def other_path_cards(
-    others: Iterable[AnyAlternative], wind: Wind, *, later: Second, most: int
+    others: "Iterable[AnyAlternative]", wind: Wind, *, later: Second, most: int
 ) -> tuple[OtherPathCard, ...]:
     """The fastest of the other paths, over the ground.
 
@@ -95,6 +91,8 @@ def other_path_cards(
         later: when they begin, after a lead-in [s].
         most: how many at most.
     """
+    from relguide.planning.alternatives import Alternative
+
     paths = [other for other in others if isinstance(other, Alternative)]
     return tuple(
         OtherPathCard(
@@ -123,8 +121,15 @@ def separation_card(certificate: Certificate) -> Separation:
     )
 
 
-def optimality_check(report: OptimalityReport) -> OptimalityCheck:
+def optimality_check(report: "OptimalityReport") -> "OptimalityCheck":
     """What Pontryagin's conditions say of a plan."""
+    from relguide.flying.verdicts import (
+        BoundaryArcCard,
+        ContactCard,
+        CostatesCard,
+        OptimalityCheck,
+    )
+
     along = report.history
     return OptimalityCheck(
         arrival=report.arrival,
@@ -231,13 +236,25 @@ def path_segments(
     return tuple(segments)
 
 
-def wind_card(wind: Wind) -> WindCard:
+def wind_card(wind: Wind) -> "WindCard":
     """A wind as reports give it: where it comes from, and how strong."""
+    from relguide.flying.aircraft_documents import WindCard
+
     direction = wrap(atan2(wind.east, wind.north) + pi) if wind.speed > 0.0 else 0.0
     return WindCard(from_=direction, speed=wind.speed)
 
 
-def _alternative_card(other: AnyAlternative, later: Second) -> AnyAlternativeCard:
+def _alternative_card(other: "AnyAlternative", later: Second) -> AnyAlternativeCard:
+    from relguide.planning.alternatives import (
+        Alternative,
+        AsFast,
+        Faster,
+        LosesSeparation,
+        NoRoot,
+        Slower,
+        TooEarly,
+    )
+
     match other:
         case NoRoot(word=word, why=why):
             return MissingAlternativeCard(word=word, why=why)

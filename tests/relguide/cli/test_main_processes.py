@@ -93,3 +93,19 @@ def answers(url: str, *, within: float) -> bool:
         except OSError:
             sleep(0.1)
     return False
+
+
+def test_a_plan_loads_nothing_of_flights_and_learning() -> None:
+    """What `relguide plan` must not load, since it starts a second sooner without."""
+    program = (
+        "import sys, relguide.__main__ as m\n"
+        "m.main(['plan', '-'])\n"
+        "heavy = ('torch', 'distributed', 'pyarrow', 'pyproj', 'rich', 'relguide.maps',\n"
+        "    'relguide.flying.guidance', 'relguide.flying.world', 'relguide.contract.messages',\n"
+        "    'relguide.planning.alternatives', 'relguide.planning.optimality')\n"
+        "print('HEAVY', *(name for name in heavy if name in sys.modules))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program], input=json.dumps(BODY), capture_output=True, text=True
+    )
+    assert (done.stdout.splitlines()[-1], done.stderr) == ("HEAVY", "")

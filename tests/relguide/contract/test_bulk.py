@@ -160,7 +160,7 @@ RANGES = {
 """Where values of a field end, or wrap."""
 values = st.one_of(
     st.floats(-1.1, 1.1),
-    st.sampled_from([1.0, -1.0, 0.0, -0.0, 1.0 + 1e-9, 1.0 + 3e-9, -1e-320, 1e200, 0.1, 1 / 60]),
+    st.sampled_from([1.0, -1.0, 0.0, -0.0, 1.0 + 5e-10, 1.0 + 3e-9, -1e-320, 1e200, 0.1, 1 / 60]),
 )
 
 
