@@ -8,6 +8,7 @@ from rich.console import Console
 
 from tests.bench import (
     detours,
+    files,
     inference,
     network,
     network_batch,
@@ -37,6 +38,7 @@ def main(arguments: list[str] | None = None) -> int:
     console.print(network.table(results.pairs))
     console.print(network_batch.table(results.network_batches))
     console.print(inference.table(results.rates))
+    console.print(files.table(results.file_runs))
     console.print(simulators.table(simulators.measure(given.runs)))
     for contest in results.beaten:
         console.print(_show_beaten(contest), soft_wrap=True, highlight=False)

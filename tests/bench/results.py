@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from tests.bench import detours, inference, network, network_batch, throughput, unlimited
+from tests.bench import detours, files, inference, network, network_batch, throughput, unlimited
 from tests.bench.cases import Case, equal_cases, limited_cases, unlimited_cases
 from tests.bench.detours import Contest
 from tests.bench.inference import Rate
@@ -28,6 +28,7 @@ class Counts:
     limited_batch: int = _count(2048, "situations of a batch, the limit active")
     asked: int = _count(150, "situations of each kind that networks and plan() are asked")
     questions: int = _count(20_000, "questions for the network of branches alone")
+    lines: int = _count(50_000, "situations of a file")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -46,6 +47,8 @@ class Results:
     """The same situations at once."""
     rates: list[Rate]
     """The network of branches alone."""
+    file_runs: list[files.Run]
+    """From file to file, by the command."""
 
     @property
     def beaten(self) -> list[Contest]:
@@ -73,4 +76,5 @@ def measure(counts: Counts) -> Results:
         pairs=network.measure(asked),
         network_batches=network_batch.measure(asked),
         rates=inference.measure(counts.questions),
+        file_runs=files.measure(counts.lines),
     )

@@ -43,10 +43,10 @@ def measure(count: int, limited: int, active: list[Case]) -> list[Throughput]:
     """
     repeated = [active[i % len(active)].situation for i in range(limited)]
     batches = (
-        ("without the limit", _draw_columns(count), False),
+        ("without the limit", draw_columns(count), False),
         ("where it binds", _columns(repeated), True),
     )
-    plan_arrays(_draw_columns(1), limited=False)  # compiles
+    plan_arrays(draw_columns(1), limited=False)  # compiles
     plan_arrays(_columns(repeated[:1]))
     found = []
     for name, situations, keeps in batches:
@@ -63,7 +63,7 @@ def measure(count: int, limited: int, active: list[Case]) -> list[Throughput]:
     return found
 
 
-def _draw_columns(count: int) -> Situations:
+def draw_columns(count: int) -> Situations:
     """As `draws.anywhere`, by the column."""
     rng = np.random.default_rng(SEED)
     far, bearing = rng.uniform(15e3, 150e3, count), rng.uniform(0.0, 2.0 * pi, count)
