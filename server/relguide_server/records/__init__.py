@@ -1,0 +1,1 @@
+"""What the service keeps: flights with their documents and commands, and plans asked for."""

@@ -1,0 +1,249 @@
+"""The keeper: what the service asks of the records, and what a flight is recorded by."""
+
+import asyncio
+import secrets
+import time
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
+from importlib.metadata import version
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal, TypeVar
+
+from fastapi import Depends
+from platformdirs import user_data_path
+from pydantic import BaseModel, Field
+from starlette.requests import HTTPConnection
+
+from relguide.flying.documents import Document, Sample
+from relguide.units import Second
+from relguide_server.errors import Refusal
+from relguide_server.records.clock import Clock
+from relguide_server.records.entries import (
+    Began,
+    Commanded,
+    Ended,
+    FlightCard,
+    Flown,
+    Outcome,
+    PlanAsked,
+    Unavailable,
+)
+from relguide_server.records.writer import Limits, Writer
+
+if TYPE_CHECKING:
+    from relguide_server.records.store import Store
+
+T = TypeVar("T")
+SAMPLE_PERIOD: Second = 1.0
+"""Flight time between two samples that are kept; of all other documents each is kept."""
+SOON: Second = 1.0
+"""How long an answer waits at most until what it acknowledges is saved."""
+READERS = 2
+"""Requests that read records at a time."""
+DAY: Second = 86_400.0
+OFF = "Nothing is recorded, as RELGUIDE_RECORDS is off."
+
+
+class RecordsReport(BaseModel):
+    """Whether flights are recorded."""
+
+    status: Literal["on", "off", "waiting"] = Field(
+        description="waiting: the database cannot be written now; what fits is kept until it can."
+    )
+    message: str = Field(description="Why nothing is saved now; empty if everything is.")
+
+
+class Recording:
+    """Takes the documents of one flight. This one keeps nothing."""
+
+    def add(self, document: Document) -> None:
+        """Record a document, which is newer than all before."""
+
+    def end(self, outcome: Outcome) -> None:
+        """Nothing follows."""
+
+
+class Tape(Recording):
+    """Passes the documents of one flight to the writer; of samples, one a second."""
+
+    def __init__(self, flight_id: str, writer: Writer, clock: Clock) -> None:
+        self._flight_id, self._writer, self._clock = flight_id, writer, clock
+        self._number = self._lost = 0
+        self._due = 0.0
+        self._over = False
+
+    def add(self, document: Document) -> None:
+        """Record a document; called by the flight's own thread."""
+        if isinstance(document, Sample):
+            if document.t < self._due:
+                return
+            # 20 steps of 0.05 s are less than a second by a rounding error
+            self._due = document.t + SAMPLE_PERIOD - 1e-6
+        if not self._writer.put(Flown(self._flight_id, self._number, document)):
+            self._lost += 1
+        self._number += 1
+
+    def end(self, outcome: Outcome) -> None:
+        """Nothing follows; said once more, it changes nothing."""
+        if self._over:
+            return
+        self._over = True
+        self._writer.put(
+            Ended(
+                flight_id=self._flight_id, at=self._clock.now(), outcome=outcome, lost=self._lost
+            )
+        )
+
+
+class Keeper:
+    """The records of one service; lives on the event loop. Without a writer nothing is kept."""
+
+    def __init__(self, writer: Writer | None = None, *, plans: int = 0, clock: Clock) -> None:
+        """Make it.
+
+        Args:
+            writer: saves.
+            plans: plans a second that are kept.
+            clock: tells the time.
+        """
+        self._writer, self._clock = writer, clock
+        self._plans = plans
+        self._second, self._planned = 0.0, 0
+        self._readers = ThreadPoolExecutor(READERS, thread_name_prefix="records read")
+
+    def start(self) -> None:
+        """Begin to save."""
+        if self._writer is not None:
+            self._writer.start()
+
+    def stop(self) -> None:
+        """Save what there is, and end."""
+        if self._writer is not None:
+            self._writer.stop()
+        self._readers.shutdown()
+
+    def begin(self, card: FlightCard) -> Recording:
+        """Record a flight from now on."""
+        if self._writer is None:
+            return Recording()
+        self._writer.put(Began(card, self._clock.now()))
+        return Tape(card.id, self._writer, self._clock)
+
+    async def saved(self) -> bool:
+        """Wait until all that was begun and commanded so far is saved; false if it cannot be."""
+        return self._writer is not None and await self._writer.saved(SOON)
+
+    def note_command(self, flight_id: str, *, t: Second, body: str, sent_by: str) -> None:
+        """Record a command."""
+        if self._writer is not None:
+            self._writer.put(
+                Commanded(
+                    flight_id=flight_id, at=self._clock.now(), t=t, body=body, sent_by=sent_by
+                )
+            )
+
+    def note_plan(
+        self, body: bytes, *, planner: str, status: str, seconds: Second, asked_by: str
+    ) -> None:
+        """Record a plan asked for; those beyond so many a second are counted only."""
+        if self._writer is None or not self._plans:
+            return
+        elapsed = self._clock.elapsed()
+        if elapsed - self._second >= 1.0:
+            self._second, self._planned = elapsed, 0
+        self._planned += 1
+        if self._planned > self._plans:
+            self._writer.counts.plans_lost += 1
+            return
+        self._writer.put(
+            PlanAsked(
+                at=self._clock.now(), body=body.decode(), planner=planner, status=status,
+                seconds=seconds, asked_by=asked_by,
+            )
+        )  # fmt: skip
+
+    async def read(self, work: Callable[["Store"], T]) -> T:
+        """Do some reading, on a thread of its own.
+
+        Raises:
+            Refusal: 404, if nothing is recorded; 503, if the database cannot be read now.
+        """
+        if self._writer is None:
+            raise Refusal(404, OFF)
+        if self._writer.store is None:
+            trouble = self._writer.trouble or "The database is being opened."
+            raise Refusal(503, trouble, headers={"Retry-After": "5"})
+        job = partial(work, self._writer.store)
+        try:
+            return await asyncio.get_running_loop().run_in_executor(self._readers, job)
+        except Unavailable as error:
+            raise Refusal(503, str(error), headers={"Retry-After": "5"}) from None
+
+    def report(self) -> RecordsReport:
+        """Whether flights are recorded."""
+        if self._writer is None:
+            return RecordsReport(status="off", message=OFF)
+        trouble = self._writer.trouble
+        return RecordsReport(status="waiting" if trouble else "on", message=trouble)
+
+    def figures(self) -> dict[str, float]:
+        """What is counted, by the name of the metric."""
+        if self._writer is None:
+            return {}
+        counts = self._writer.counts
+        return {
+            "relguide_records_up": float(not self._writer.trouble),
+            "relguide_records_batches_total": counts.saved,
+            "relguide_records_failures_total": counts.failed,
+            "relguide_records_documents_lost_total": counts.documents_lost,
+            "relguide_records_commands_lost_total": counts.commands_lost,
+            "relguide_records_plans_lost_total": counts.plans_lost,
+        }
+
+
+def keep(
+    *, records: str, database_url: str, data: str, record_plans: int, keep_days: float, keep_mb: float
+) -> Keeper:
+    """The keeper that an operator's settings ask for.
+
+    Args:
+        records: `on` or `off`.
+        database_url: where; a file of its own if empty.
+        data: the folder of that file; the user's folder for data if empty.
+        record_plans: plans a second that are kept.
+        keep_days: how long records are kept.
+        keep_mb: how much the documents of flights may take.
+    """
+    clock = Clock()
+    if records == "off":
+        return Keeper(clock=clock)
+    run, started_at, software = secrets.token_hex(8), time.time(), version("relguide")
+    folder = Path(data) if data else user_data_path("relguide", appauthor=False)
+
+    def open_store() -> "Store":
+        # SQLAlchemy takes a third of a second to import, for which no start has to wait
+        from relguide_server.records.database import url_of
+        from relguide_server.records.store import Store
+
+        url = url_of(database_url, folder)
+        return Store(url, run=run, version=software, started_at=started_at)
+
+    writer = Writer(
+        open_store,
+        run=run,
+        version=software,
+        limits=Limits(age=keep_days * DAY, size=keep_mb * 1e6),
+        clock=clock,
+    )
+    return Keeper(writer, plans=record_plans, clock=clock)
+
+
+async def keeper_of(connection: HTTPConnection) -> Keeper:
+    """The keeper of the app that serves this connection."""
+    keeper: Keeper = connection.app.state.keeper
+    return keeper
+
+
+KeeperOf = Annotated[Keeper, Depends(keeper_of)]
+"""How a route asks for it."""

@@ -1,0 +1,299 @@
+"""The writer: a thread that saves what it is given, in batches, and lets nobody wait.
+
+What is given to it waits in a bounded queue. While the database cannot be written it keeps what
+fits, and counts what does not; it tries again, and saves all that it has kept once it can.
+"""
+
+import asyncio
+import threading
+from collections import deque
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING, Any
+
+from relguide.flying.documents import Sample
+from relguide.units import Second
+from relguide_server.errors import log, run_logged
+from relguide_server.records.entries import (
+    Began,
+    Commanded,
+    Ended,
+    Entry,
+    Flown,
+    PlanAsked,
+    Unavailable,
+)
+from relguide_server.records.clock import Clock
+from relguide_server.records.reel import Reel, Rows
+
+if TYPE_CHECKING:
+    from relguide_server.records.store import Store
+
+FLUSH: Second = 0.5
+"""How long something waits at most until it is saved."""
+QUEUE = 20_000
+"""Most entries that wait to be looked at: samples are refused from half of it on."""
+HELD = 32 * 1024 * 1024
+"""Most bytes of JSON that wait to be saved: samples are refused from half of it on."""
+PLANS_HELD = 10_000
+"""Most plans that wait to be saved."""
+RETRY, RETRY_MOST = 0.5, 5.0
+"""How long until a database that failed is tried again at first, and at most [s]."""
+WATCH: Second = 3.0
+"""How long the count of another run is watched before it is taken to be killed."""
+SWEEP: Second = 60.0
+"""How often killed runs and old records are looked for."""
+
+
+@dataclass(slots=True)
+class Counts:
+    """What the writer has done, and what was lost."""
+
+    saved: int = 0
+    """Batches."""
+    failed: int = 0
+    """Attempts to save that failed."""
+    documents: int = 0
+    documents_lost: int = 0
+    commands_lost: int = 0
+    plans_lost: int = 0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Limits:
+    """How much is kept."""
+
+    age: Second
+    """Records older than this are forgotten."""
+    size: float
+    """Documents of flights beyond this are forgotten [bytes]."""
+    plans: int = 100_000
+    """Plans beyond this are forgotten."""
+
+
+class Writer:
+    """Saves entries. `put` is for any thread, `saved` for the event loop."""
+
+    def __init__(
+        self,
+        open_store: Callable[[], "Store"],
+        *,
+        run: str,
+        version: str,
+        limits: Limits,
+        clock: Clock,
+    ) -> None:
+        self.counts = Counts()
+        self.trouble = ""
+        """Why nothing can be saved now; empty if it can, or has not been tried yet."""
+        self.store: Store | None = None
+        self._open_store = open_store
+        self._run_id, self._version = run, version
+        self._limits, self._clock = limits, clock
+        self._changed = threading.Condition()
+        self._queue: deque[Entry] = deque()
+        self._hurry = self._stopping = False
+        self._ticket = 0
+        """Number of the newest entry."""
+        self._waiting: list[tuple[int, asyncio.Future[bool]]] = []
+        self._reels: dict[str, Reel] = {}
+        self._plans: list[dict[str, Any]] = []
+        self._planned = 0
+        self._retry_at = 0.0
+        self._backoff = RETRY
+        self._census_at = 0.0
+        self._beats: dict[str, int] | None = None
+        self._swept = False
+        self._thread = threading.Thread(
+            target=run_logged, args=("Recording", self._write), name="records", daemon=True
+        )
+
+    def start(self) -> None:
+        """Begin to save."""
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Save what there is, and end."""
+        with self._changed:
+            self._stopping = True
+            self._changed.notify()
+        self._thread.join(10.0)
+
+    def put(self, entry: Entry) -> bool:
+        """Give it something to save; never waits.
+
+        Returns:
+            False if too much waits already, so that it is lost.
+        """
+        with self._changed:
+            full = QUEUE // 2 if isinstance(entry, Flown | PlanAsked) else QUEUE
+            if isinstance(entry, Flown) and not isinstance(entry.document, Sample):
+                full = QUEUE
+            if len(self._queue) >= full and not isinstance(entry, Began | Ended):
+                self._count_lost(entry)
+                return False
+            self._queue.append(entry)
+            self._ticket += 1
+            return True
+
+    async def saved(self, patience: Second) -> bool:
+        """Wait until all that it was given so far is saved.
+
+        Args:
+            patience: how long to wait [s].
+
+        Returns:
+            Whether it is; false at once while the database cannot be written.
+        """
+        if self.trouble or not self._thread.is_alive():
+            return False
+        future: asyncio.Future[bool] = asyncio.get_running_loop().create_future()
+        with self._changed:
+            self._waiting.append((self._ticket, future))
+            self._hurry = True
+            self._changed.notify()
+        try:
+            return await asyncio.wait_for(future, patience)
+        except TimeoutError:
+            return False
+
+    # -- its thread -------------------------------------------------------------------------------
+
+    def _write(self) -> None:
+        while True:
+            with self._changed:
+                self._changed.wait_for(lambda: self._hurry or self._stopping, FLUSH)
+                entries, self._queue = self._queue, deque()
+                self._hurry = False
+                ticket, stopping = self._ticket, self._stopping
+            for entry in entries:
+                self._take(entry)
+            if stopping or self._clock.elapsed() >= self._retry_at:
+                self._try(ticket)
+            self._answer(0)
+            if stopping:
+                break
+        if self.store is not None:
+            self.store.close()
+
+    def _try(self, ticket: int) -> None:
+        try:
+            self._save(ticket)
+        except Unavailable as error:
+            self.counts.failed += 1
+            self._retry_at = self._clock.elapsed() + self._backoff
+            self._backoff = min(2.0 * self._backoff, RETRY_MOST)
+            if str(error) != self.trouble:
+                log.warning("Nothing is recorded for now: %s", error)
+            self.trouble = str(error)
+            if self.store is not None:
+                self.store.close()
+                self.store = None
+
+    def _save(self, ticket: int) -> None:
+        if self.store is None:
+            self.store = self._open_store()
+            for reel in self._reels.values():
+                reel.note_replaced()
+        rows = self._rows()
+        if rows or self._reels:
+            self.store.save(rows, now=self._clock.now())
+            self.counts.saved += 1
+            self.counts.documents += sum(row["count"] for row in rows.chunks)
+        self._plans = []
+        for reel in list(self._reels.values()):
+            reel.note_saved()
+            if reel.over:
+                del self._reels[reel.card.id]
+        if self.trouble:
+            log.warning("Flights are recorded again.")
+            self.trouble, self._backoff = "", RETRY
+        self._answer(ticket)
+        self._look_around(self.store)
+
+    def _rows(self) -> Rows:
+        rows = Rows(plans=[*self._plans])
+        for reel in self._reels.values():
+            rows.add(reel.rows(self._run_id, self._version))
+        return rows
+
+    def _take(self, entry: Entry) -> None:
+        match entry:
+            case Began(card=card):
+                self._reels[card.id] = Reel(entry)
+            case Flown(flight_id=flight_id) if flight_id in self._reels:
+                self._add(self._reels[flight_id], entry)
+            case Commanded(flight_id=flight_id) if flight_id in self._reels:
+                self._reels[flight_id].command(entry)
+            case Ended(flight_id=flight_id) if flight_id in self._reels:
+                self._reels[flight_id].end(entry)
+            case PlanAsked():
+                self._add_plan(entry)
+            case _:
+                pass  # of a flight that is over
+
+    def _add(self, reel: Reel, flown: Flown) -> None:
+        most = HELD // 2 if isinstance(flown.document, Sample) else HELD
+        if self.trouble and sum(other.held for other in self._reels.values()) > most:
+            reel.skip(flown.number)
+            self.counts.documents_lost += 1
+            return
+        try:
+            reel.add(flown)
+        except ValueError:  # a number in it is not finite: the stream says so as well
+            reel.skip(flown.number)
+            self.counts.documents_lost += 1
+
+    def _add_plan(self, asked: PlanAsked) -> None:
+        if len(self._plans) >= PLANS_HELD:
+            self.counts.plans_lost += 1
+            return
+        self._plans.append({"run": self._run_id, "number": self._planned, **asdict(asked)})
+        self._planned += 1
+
+    def _count_lost(self, entry: Entry) -> None:
+        match entry:
+            case Flown():
+                self.counts.documents_lost += 1
+            case Commanded():
+                self.counts.commands_lost += 1
+            case PlanAsked():
+                self.counts.plans_lost += 1
+            case Began() | Ended():
+                pass
+
+    def _answer(self, ticket: int) -> None:
+        """Tell those who wait that all up to a number is saved; or, in trouble, that it is not."""
+        with self._changed:
+            done = [(n, future) for n, future in self._waiting if n <= ticket or self.trouble]
+            self._waiting = [(n, f) for n, f in self._waiting if not (n <= ticket or self.trouble)]
+        for number, future in done:
+            with suppress(RuntimeError):  # the loop is closed: nobody waits any more
+                future.get_loop().call_soon_threadsafe(_resolve, future, number <= ticket)
+
+    def _look_around(self, store: "Store") -> None:
+        """Notice killed runs, a while after the start and now and then, and forget what is old."""
+        elapsed = self._clock.elapsed()
+        if elapsed < self._census_at:
+            return
+        if self._beats is None:
+            self._beats = store.beats()
+            self._census_at = elapsed + WATCH
+            return
+        now = store.beats()
+        still = {run: beat for run, beat in self._beats.items() if now.get(run) == beat}
+        if still and (count := store.interrupt(still)):
+            log.warning("%d flights were interrupted, as the service was killed.", count)
+        self._beats = None
+        self._census_at = elapsed + SWEEP - WATCH
+        before = self._clock.now() - self._limits.age if self._clock.steady() else 0.0
+        if store.forget(
+            before=before, most_bytes=self._limits.size, most_plans=self._limits.plans
+        ):
+            self._census_at = elapsed  # there may be more
+
+
+def _resolve(future: asyncio.Future[bool], saved: bool) -> None:
+    if not future.done():
+        future.set_result(saved)
