@@ -22,7 +22,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(chosen: argparse.Namespace) -> int:
     """Serve until stopped; an address that cannot be used is an OSError."""
-    need("fastapi", "uvicorn", "viser", "orjson", "msgspec", "websockets")
+    need("fastapi", "uvicorn", "viser", "orjson", "msgspec", "websockets", "sqlalchemy", "alembic")
     host, port = chosen.host, chosen.port
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     with socket.socket(family) as probe:  # uvicorn would say it in a log line, and exit

@@ -7,6 +7,7 @@ gives the command.
 from importlib.util import find_spec
 
 EXTRAS = {
+    "alembic": "serve",
     "contourpy": "serve",
     "fastapi": "serve",
     "fastapi_swagger": "serve",
@@ -14,7 +15,9 @@ EXTRAS = {
     "orjson": "serve",
     "pydantic": "serve",
     "pyproj": "serve",
+    "platformdirs": "serve",
     "rich": "serve",
+    "sqlalchemy": "serve",
     "uvicorn": "serve",
     "viser": "serve",
     "websockets": "serve",
@@ -22,6 +25,7 @@ EXTRAS = {
     "matplotlib": "figures",
     "distributed": "cluster",
     "pyarrow": "parquet",
+    "psycopg": "postgres",
 }
 """A package, as it is imported, and the smallest extra that brings it."""
 

@@ -25,6 +25,8 @@ from relguide_server.openapi import describe, json_answer, response, schema_of
 from relguide_server.pages import Page
 from relguide_server.plan_desk import PlanDesk
 from relguide_server.preparation import Preparation, PreparationOf, Readiness, steps_for
+from relguide_server.records.clock import Clock
+from relguide_server.records.keeper import Keeper, KeeperOf, keep
 from relguide_server.settings import Settings, settings_from
 from relguide_server.workers import Workers
 
@@ -43,6 +45,7 @@ def create_app(
     planner: Planner | None = None,
     departures: Departures | None = None,
     preparation: Preparation | None = None,
+    keeper: Keeper | None = None,
 ) -> FastAPI:
     """The whole service.
 
@@ -51,11 +54,13 @@ def create_app(
         planner: who plans, for REST and for flights; the settings' if left out.
         departures: what can be flown; the library's scenarios if left out.
         preparation: compiles ahead what is not compiled yet; if left out, nothing does.
+        keeper: records flights, commands and plans; if left out, nothing does.
     """
     settings = settings or settings_from(os.environ)
     metrics = Metrics()
     drift = DriftCheck(metrics, every=settings.drift_check)
     preparation = preparation or Preparation()
+    keeper = keeper or Keeper(clock=Clock())
     # other processes cannot be given a planner that has no name: then threads do the work
     name = "" if planner else settings.planner
     workers = Workers(settings.workers if name else 0, queue=settings.queue)
@@ -69,12 +74,14 @@ def create_app(
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         preparation.start(departures.rehearse)
+        keeper.start()
         drift.start()
         fleet.start()
         workers.start(partial(preparation.can_plan_by, name), partial(load, name))
         yield
         await workers.stop()
         await fleet.stop()
+        await asyncio.to_thread(keeper.stop)
         await asyncio.to_thread(drift.stop)
         await asyncio.to_thread(preparation.stop)
 
@@ -92,6 +99,7 @@ def create_app(
         name, planner, quick=quick, preparation=preparation, workers=workers, metrics=metrics
     )
     app.state.settings, app.state.departures = settings, departures
+    app.state.keeper = keeper
     app.state.fleet, app.state.metrics, app.state.preparation = fleet, metrics, preparation
     for part in (
         router,
@@ -125,9 +133,12 @@ async def healthz() -> Response:
         **response(503, "The first start is not done yet.", schema_of(Readiness)),
     },
 )
-async def readyz(preparation: PreparationOf) -> Response:
-    """Ready once all that it serves is compiled and a flight has been rehearsed."""
-    report = preparation.report()
+async def readyz(preparation: PreparationOf, keeper: KeeperOf) -> Response:
+    """Ready once all that it serves is compiled and a flight has been rehearsed.
+
+    Records do not count: a service whose database is gone plans and flies as ever.
+    """
+    report = preparation.report() | {"records": keeper.report().model_dump()}
     if preparation.ready:
         return json_answer(report)
     again = {"Retry-After": str(preparation.seconds_left())}
@@ -135,16 +146,28 @@ async def readyz(preparation: PreparationOf) -> Response:
 
 
 @router.get("/metrics", summary="Numbers for Prometheus", response_class=PlainTextResponse)
-async def metrics_page(request: Request) -> Response:
+async def metrics_page(request: Request, keeper: KeeperOf) -> Response:
     """What the service counts of itself."""
     fleet: Fleet = request.app.state.fleet
-    text = request.app.state.metrics.text(
+    text: str = request.app.state.metrics.text(
         flights_running=sum(not flight.over for flight in fleet),
         stream_clients=sum(len(flight.clients) for flight in fleet),
         scene_clients=sum(flight.scene_viewers for flight in fleet),
     )
+    text += keeper.figures_text()
     return Response(text, media_type="text/plain; version=0.0.4; charset=utf-8")
 
 
 _settings = settings_from(os.environ)
-app = create_app(_settings, preparation=Preparation(steps_for(_settings)))
+app = create_app(
+    _settings,
+    preparation=Preparation(steps_for(_settings)),
+    keeper=keep(
+        records=_settings.records,
+        database_url=_settings.database_url,
+        data=_settings.data,
+        record_plans=_settings.record_plans,
+        keep_days=_settings.keep_days,
+        keep_mb=_settings.keep_mb,
+    ),
+)

@@ -50,6 +50,8 @@ from relguide_server.openapi import (
     schema_of,
 )
 from relguide_server.preparation import PreparationOf
+from relguide_server.records.entries import FlightCard
+from relguide_server.records.keeper import KeeperOf, Recording
 from relguide_server.stream import UNKNOWN_FLIGHT, WRONG_PROTOCOL
 
 
@@ -88,11 +90,16 @@ async def list_scenarios(departures: DeparturesOf) -> Response:
     openapi_extra=request_body(schema_of(NewFlight), {"scenario": "fig_6b", "rate": 10.0}),
 )
 async def start_flight(
-    request: Request, fleet: FleetOf, departures: DeparturesOf, preparation: PreparationOf
+    request: Request,
+    fleet: FleetOf,
+    departures: DeparturesOf,
+    preparation: PreparationOf,
+    keeper: KeeperOf,
 ) -> Response:
     """It flies at `rate` simulated seconds per second, until it is ended or no longer watched.
 
-    Guidance is engaged unless `engagement` says otherwise.
+    Guidance is engaged unless `engagement` says otherwise. The header `Relguide-Recorded` says
+    whether it is on record already (`yes`) or not, or not yet (`no`).
     """
     try:
         wanted = parse(NewFlight, _content(await read_json(request))).root
@@ -104,16 +111,33 @@ async def start_flight(
         await asyncio.to_thread(
             preparation.admit, departure.first, request.app.state.settings.planner
         )
+
+    def record(flight_id: str) -> Recording:
+        card = FlightCard(
+            id=flight_id,
+            scenario=departure.scenario,
+            title=departure.title,
+            request=wanted.model_dump_json(exclude_unset=True),
+            settings=request.app.state.settings.text_for_records(),
+            seed=wanted.seed,
+            requested_by=address_of(request),
+        )
+        return keeper.begin(card)
+
     flight = await fleet.launch(
         departure.scenario,
         departure.title,
         departure.source,
         rate=wanted.rate,
         paused=wanted.paused,
+        record=record,
     )
     status = status_of(flight)
-    location = f"/api/v1/flights/{status.id}"
-    return json_answer(status.model_dump(), 201, headers={"Location": location})
+    headers = {
+        "Location": f"/api/v1/flights/{status.id}",
+        "Relguide-Recorded": "yes" if await keeper.saved() else "no",
+    }
+    return json_answer(status.model_dump(), 201, headers=headers)
 
 
 @router.get(
@@ -163,10 +187,13 @@ async def end_flight(flight_id: str, fleet: FleetOf) -> Response:
         schema_of(FlightCommand), {"command": "leader_heading", "heading_deg": 135.0}
     ),
 )
-async def command_flight(flight_id: str, request: Request, fleet: FleetOf) -> Response:
+async def command_flight(
+    flight_id: str, request: Request, fleet: FleetOf, keeper: KeeperOf
+) -> Response:
     """Pause, go on, another rate; what the leader flies and tells; and what the crew engages.
 
-    Commands to a paused flight take effect when it continues, within a second of flight.
+    Commands to a paused flight take effect when it continues, within a second of flight. The
+    header `Relguide-Recorded` says whether the command is on record already.
     """
     flight = fleet.find(flight_id)
     try:
@@ -176,7 +203,11 @@ async def command_flight(flight_id: str, request: Request, fleet: FleetOf) -> Re
     if flight.over:
         raise Refusal(409, "This flight has ended and takes no commands: start another one.")
     _command(flight, command)
-    return json_answer(status_of(flight).model_dump(), 202)
+    keeper.note_command(
+        flight_id, t=flight.t, body=command.model_dump_json(), sent_by=address_of(request)
+    )
+    headers = {"Relguide-Recorded": "yes" if await keeper.saved() else "no"}
+    return json_answer(status_of(flight).model_dump(), 202, headers=headers)
 
 
 @router.websocket("/flights/{flight_id}/stream")
@@ -197,6 +228,11 @@ async def stream(websocket: WebSocket, flight_id: str, fleet: FleetOf) -> None:
         await client.pump(websocket)
     finally:
         flight.leave(client)
+
+
+def address_of(request: Request) -> str:
+    """Address of the client; empty if it is not known."""
+    return request.client.host[:255] if request.client else ""
 
 
 def status_of(flight: LiveFlight) -> FlightStatus:

@@ -2,7 +2,7 @@
 
 import asyncio
 import secrets
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from typing import Annotated
 
@@ -12,6 +12,8 @@ from starlette.requests import HTTPConnection
 from relguide_server.errors import Refusal
 from relguide_server.live_flight import FlightLabel, LiveFlight, Source
 from relguide_server.metrics import Metrics
+from relguide_server.records.entries import Outcome
+from relguide_server.records.keeper import Recording
 from relguide_server.settings import Settings
 
 REAP_PERIOD = 1.0
@@ -43,7 +45,7 @@ class Fleet:
         for task in self._tasks:
             with suppress(asyncio.CancelledError):
                 await task
-        await asyncio.gather(*(self._land(flight) for flight in list(self)))
+        await asyncio.gather(*(self._land(flight, "stopped") for flight in list(self)))
 
     def find(self, flight_id: str) -> LiveFlight:
         """A flight by its id.
@@ -66,16 +68,38 @@ class Fleet:
         return flight_id in self._flights
 
     async def launch(
-        self, scenario: str, title: str, source: Source, *, rate: float, paused: bool
+        self,
+        scenario: str,
+        title: str,
+        source: Source,
+        *,
+        rate: float,
+        paused: bool,
+        record: Callable[[str], Recording],
     ) -> LiveFlight:
         """Start a flight, and wait until it is in the air.
+
+        Args:
+            scenario: its name; empty for a situation of the client's own.
+            title: for people.
+            source: flies it.
+            rate: simulated seconds per second.
+            paused: whether it waits for `play`.
+            record: what records it, given its id.
 
         Raises:
             Refusal: 429, if too many fly already; 500, if it broke before its first sample.
         """
         await self._make_room()
         label = FlightLabel(id=secrets.token_hex(6), scenario=scenario, title=title)
-        flight = LiveFlight(label, source, rate=rate, paused=paused, metrics=self._metrics)
+        flight = LiveFlight(
+            label,
+            source,
+            rate=rate,
+            paused=paused,
+            metrics=self._metrics,
+            recording=record(label.id),
+        )
         self._flights[label.id] = flight
         self._metrics.flights_started += 1
         try:
@@ -83,17 +107,17 @@ class Fleet:
         except TimeoutError:
             began = False
         if not began:
-            await self._land(flight)
+            await self._land(flight, "broken")
             raise Refusal(500, "The flight stopped before it began: the server's log says why.")
         return flight
 
     async def remove(self, flight_id: str) -> None:
         """End a flight and forget it."""
-        await self._land(self.find(flight_id))
+        await self._land(self.find(flight_id), "removed")
 
-    async def _land(self, flight: LiveFlight) -> None:
+    async def _land(self, flight: LiveFlight, outcome: Outcome) -> None:
         self._flights.pop(flight.label.id, None)
-        await flight.land()
+        await flight.land(outcome)
 
     async def _make_room(self) -> None:
         now, limit = asyncio.get_running_loop().time(), self._settings.max_flights
@@ -111,7 +135,7 @@ class Fleet:
                     "End one (DELETE), or try again when one is no longer watched.",
                     headers={"Retry-After": str(round(self._settings.spare_after))},
                 )
-            await self._land(min(unseen, key=lambda flight: flight.last_seen))
+            await self._land(min(unseen, key=lambda flight: flight.last_seen), "unwatched")
 
     async def _tick(self) -> None:
         loop, period = asyncio.get_running_loop(), 1.0 / self._settings.stream_rate
@@ -130,7 +154,7 @@ class Fleet:
             for flight in list(self):
                 unseen = loop.time() - flight.last_seen
                 if not flight.watched and unseen > self._settings.keep_unseen:
-                    await self._land(flight)
+                    await self._land(flight, "unwatched")
 
 
 async def fleet_of(connection: HTTPConnection) -> Fleet:

@@ -14,6 +14,8 @@ from relguide_server.history import History
 from relguide_server.inbox import Inbox
 from relguide_server.metrics import Metrics
 from relguide_server.pace import Pace
+from relguide_server.records.entries import Outcome
+from relguide_server.records.keeper import Recording
 from relguide_server.scene_stage import SceneStage
 from relguide_server.stream import FLIGHT_BROKEN, FLIGHT_GONE, StreamClient
 
@@ -35,13 +37,22 @@ class LiveFlight:
     """A flight and all that belongs to it. Lives on the event loop; `_fly` is another thread."""
 
     def __init__(
-        self, label: FlightLabel, source: Source, *, rate: float, paused: bool, metrics: Metrics
+        self,
+        label: FlightLabel,
+        source: Source,
+        *,
+        rate: float,
+        paused: bool,
+        metrics: Metrics,
+        recording: Recording,
     ) -> None:
         self.label = label
         self.pace = Pace(rate=rate, paused=paused)
         self.history = History()
         self.last_seen = asyncio.get_running_loop().time()
         self.broken = False
+        self._flown = False
+        self._recording = recording
         self.scene_viewers = 0
         self.clients: set[StreamClient] = set()
         self._metrics = metrics
@@ -59,7 +70,7 @@ class LiveFlight:
     @property
     def over(self) -> bool:
         """Whether it has ended, or was stopped by a mistake of ours."""
-        return bool(self.history.ended) or self.broken
+        return bool(self.history.ended) or self.broken or self._flown
 
     @property
     def watched(self) -> bool:
@@ -138,14 +149,19 @@ class LiveFlight:
             stage, self._stage = self._stage, None
             await stage.close()
 
-    async def land(self) -> None:
-        """End it now: close its streams and its scene, and wait for its thread."""
+    async def land(self, outcome: Outcome) -> None:
+        """End it now: close its streams and its scene, and wait for its thread.
+
+        Args:
+            outcome: what is recorded of it, if it has not ended by itself.
+        """
         self.pace.stop()
         self._dismiss(FLIGHT_GONE, "This flight is over and has been removed.")
         if self._stage is not None:
             stage, self._stage = self._stage, None
             await stage.close()
         await asyncio.to_thread(self._thread.join, 5.0)
+        self._recording.end(outcome)
 
     # -- inside -----------------------------------------------------------------------------------
 
@@ -165,6 +181,8 @@ class LiveFlight:
 
     def _run(self) -> None:
         self.broken = not run_logged(f"Flight {self.label.id}", self._fly)
+        if self.broken:
+            self._recording.end("broken")
         self._note_flying()
 
     def _fly(self) -> None:
@@ -172,8 +190,11 @@ class LiveFlight:
             if not self.pace.wait_until(document.t):
                 return
             self._inbox.put(document)
+            self._recording.add(document)
             if isinstance(document, Sample) and not self._flying.is_set():
                 self._note_flying()
+        self._flown = True
+        self._recording.end("stopped")
 
     def _take_commands(self, t: float) -> Iterator[Command]:
         del t

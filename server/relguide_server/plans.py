@@ -161,6 +161,13 @@ async def make_plan(request: Request, desk: DeskOf, wish: WishOf) -> Response:
     answered = desk.answer_at_once(body, wish)
     if answered is None or not answered.final:
         answered = await unless_left(request, desk.answer_by_worker(body, wish, answered, end))
+    request.app.state.keeper.note_plan(
+        body,
+        planner=wish.planner or "",
+        status=answered.status,
+        seconds=answered.seconds,
+        asked_by=request.client.host if request.client else "",
+    )
     return json_answer(desk.count(answered))
 
 

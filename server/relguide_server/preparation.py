@@ -21,6 +21,7 @@ from relguide.planning.situation import Situation
 from relguide.units import Second
 from relguide.warm_up import SETS, STEPS, Preparing, WarmUpError, missing, prepare
 from relguide_server.errors import Refusal, log, run_logged
+from relguide_server.records.keeper import RecordsReport
 from relguide_server.settings import Settings
 
 PLANNED_WITH = {"exact": ("limited",), "network": ("limited", "networks")}
@@ -46,6 +47,7 @@ class Readiness(BaseModel):
     status: Literal["ready", "preparing"]
     warm: dict[str, bool] = Field(description="Parts of the planner, and whether each is compiled.")
     preparing: NowPreparing | None
+    records: RecordsReport
 
 
 class Preparation:

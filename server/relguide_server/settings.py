@@ -1,5 +1,6 @@
 """The settings of an operator, each with its reason, and how uvicorn is started."""
 
+import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import isfinite
@@ -7,6 +8,9 @@ from os import cpu_count
 from typing import Any
 
 from relguide.learn.planners import SERVING
+
+DATABASES = ("sqlite:///", "postgresql://", "postgresql+psycopg://")
+"""What the address of a database may begin with."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,20 +39,41 @@ class Settings:
     """One in so many plans by network is planned again exactly, for `/metrics`; 0: none. Where the
     limit binds that takes tens of milliseconds, on a thread of its own."""
 
+    records: str = "on"
+    """Whether flights, commands and plans asked for are kept: on or off."""
+    database_url: str = ""
+    """Where: sqlite:///FILE or postgresql://USER:PASSWORD@HOST/NAME. A file in `data` if empty."""
+    data: str = ""
+    """The folder of that file; the user's own folder for data if empty."""
+    record_plans: int = 200
+    """Plans a second that are kept; 0: none."""
+    keep_days: float = 30.0
+    """How long records are kept."""
+    keep_mb: float = 2000.0
+    """How much the documents of all flights may take; then the oldest go."""
+
     def __post_init__(self) -> None:
         """Refuse settings with which nothing could run."""
         if self.planner not in SERVING:
             raise ValueError(f"planner must be {' or '.join(SERVING)}, not {self.planner}.")
-        for name in ("drift_check", "workers"):
+        if self.records not in ("on", "off"):
+            raise ValueError(f"records must be on or off, not {self.records}.")
+        if self.database_url and not self.database_url.startswith(DATABASES):
+            raise ValueError(f"database_url must begin with {' or '.join(DATABASES)}.")
+        for name in ("drift_check", "workers", "record_plans"):
             if getattr(self, name) < 0:
                 raise ValueError(f"{name} must be 0 or more, not {getattr(self, name)}.")
         for name in ("max_flights", "max_body", "queue"):
             if getattr(self, name) < 1:
                 raise ValueError(f"{name} must be 1 or more, not {getattr(self, name)}.")
-        for name in ("keep_unseen", "spare_after", "stream_rate"):
+        for name in ("keep_unseen", "spare_after", "stream_rate", "keep_days", "keep_mb"):
             value = getattr(self, name)
             if not (isfinite(value) and value > 0.0):
                 raise ValueError(f"{name} must be a positive number, not {value}.")
+
+    def text_for_records(self) -> str:
+        """Those that matter to a flight, as JSON."""
+        return json.dumps({name: getattr(self, name) for name in ("planner", "stream_rate")})
 
 
 def settings_from(environment: Mapping[str, str]) -> Settings:

@@ -1,4 +1,4 @@
-"""The database: SQLite or PostgreSQL, its tables brought up to date, and its errors as sentences."""
+"""The database: SQLite or PostgreSQL, its tables up to date, and its errors as sentences."""
 
 import sqlite3
 from collections.abc import Iterator
@@ -29,7 +29,7 @@ def url_of(text: str, folder: Path) -> URL:
         folder: where that file is.
 
     Raises:
-        ValueError: if it is neither SQLite's nor PostgreSQL's.
+        Unavailable: if it is neither SQLite's nor PostgreSQL's.
     """
     if not text:
         return URL.create("sqlite", database=str(folder / "records.sqlite3"))
@@ -40,9 +40,9 @@ def url_of(text: str, folder: Path) -> URL:
     if url.drivername in ("postgresql", "postgres"):
         return url.set(drivername="postgresql+psycopg")
     if url.drivername not in ("sqlite", "postgresql+psycopg"):
-        raise ValueError(
-            "database_url must begin with postgresql:// or sqlite:///, e.g. "
-            "postgresql://relguide:secret@localhost/relguide."
+        raise Unavailable(
+            "RELGUIDE_DATABASE_URL must begin with postgresql:// or "
+            "sqlite:///, e.g. postgresql://relguide:secret@localhost/relguide."
         )
     return url
 

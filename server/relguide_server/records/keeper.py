@@ -90,9 +90,7 @@ class Tape(Recording):
             return
         self._over = True
         self._writer.put(
-            Ended(
-                flight_id=self._flight_id, at=self._clock.now(), outcome=outcome, lost=self._lost
-            )
+            Ended(flight_id=self._flight_id, at=self._clock.now(), outcome=outcome, lost=self._lost)
         )
 
 
@@ -187,23 +185,34 @@ class Keeper:
         trouble = self._writer.trouble
         return RecordsReport(status="waiting" if trouble else "on", message=trouble)
 
-    def figures(self) -> dict[str, float]:
-        """What is counted, by the name of the metric."""
+    def figures_text(self) -> str:
+        """What is counted, in the text format of Prometheus."""
         if self._writer is None:
-            return {}
+            return ""
         counts = self._writer.counts
-        return {
-            "relguide_records_up": float(not self._writer.trouble),
-            "relguide_records_batches_total": counts.saved,
-            "relguide_records_failures_total": counts.failed,
-            "relguide_records_documents_lost_total": counts.documents_lost,
-            "relguide_records_commands_lost_total": counts.commands_lost,
-            "relguide_records_plans_lost_total": counts.plans_lost,
-        }
+        return "".join(
+            f"# HELP relguide_records_{name} {said}\n"
+            f"# TYPE relguide_records_{name} {'counter' if name.endswith('_total') else 'gauge'}\n"
+            f"relguide_records_{name} {value}\n"
+            for name, value, said in (
+                ("up", int(not self._writer.trouble), "Whether the database can be written."),
+                ("batches_total", counts.saved, "Batches saved."),
+                ("failures_total", counts.failed, "Attempts to save that failed."),
+                ("documents_lost_total", counts.documents_lost, "Documents not kept."),
+                ("commands_lost_total", counts.commands_lost, "Commands not kept."),
+                ("plans_lost_total", counts.plans_lost, "Plans not kept, too many a second."),
+            )
+        )
 
 
 def keep(
-    *, records: str, database_url: str, data: str, record_plans: int, keep_days: float, keep_mb: float
+    *,
+    records: str,
+    database_url: str,
+    data: str,
+    record_plans: int,
+    keep_days: float,
+    keep_mb: float,
 ) -> Keeper:
     """The keeper that an operator's settings ask for.
 

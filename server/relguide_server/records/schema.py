@@ -2,7 +2,6 @@
 
 from sqlalchemy import (
     BigInteger,
-    Boolean,
     Column,
     Double,
     ForeignKey,
@@ -59,9 +58,7 @@ flights = Table(
 chunks = Table(
     "chunks",
     metadata,
-    Column(
-        "flight_id", String(32), ForeignKey("flights.id", ondelete="CASCADE"), primary_key=True
-    ),
+    Column("flight_id", String(32), ForeignKey("flights.id", ondelete="CASCADE"), primary_key=True),
     # number of the first document in it
     Column("first", Integer, primary_key=True, autoincrement=False),
     Column("count", Integer, nullable=False),
@@ -75,9 +72,7 @@ chunks = Table(
 commands = Table(
     "commands",
     metadata,
-    Column(
-        "flight_id", String(32), ForeignKey("flights.id", ondelete="CASCADE"), primary_key=True
-    ),
+    Column("flight_id", String(32), ForeignKey("flights.id", ondelete="CASCADE"), primary_key=True),
     Column("number", Integer, primary_key=True, autoincrement=False),
     Column("at", Double, nullable=False),
     Column("t", Double, nullable=False),

@@ -123,7 +123,7 @@ class Store:
                 connection.execute(sa.delete(plans).where(plans.c.at <= oldest_kept))
         if gone and self.engine.dialect.name == "sqlite":
             with database.reading(self.engine) as connection:
-                connection.exec_driver_sql("PRAGMA incremental_vacuum").all()
+                connection.exec_driver_sql("PRAGMA incremental_vacuum")
         return len(gone)
 
 

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 from relguide.flying.documents import Sample
 from relguide.units import Second
 from relguide_server.errors import log, run_logged
+from relguide_server.records.clock import Clock
 from relguide_server.records.entries import (
     Began,
     Commanded,
@@ -24,7 +25,6 @@ from relguide_server.records.entries import (
     PlanAsked,
     Unavailable,
 )
-from relguide_server.records.clock import Clock
 from relguide_server.records.reel import Reel, Rows
 
 if TYPE_CHECKING:
@@ -288,9 +288,7 @@ class Writer:
         self._beats = None
         self._census_at = elapsed + SWEEP - WATCH
         before = self._clock.now() - self._limits.age if self._clock.steady() else 0.0
-        if store.forget(
-            before=before, most_bytes=self._limits.size, most_plans=self._limits.plans
-        ):
+        if store.forget(before=before, most_bytes=self._limits.size, most_plans=self._limits.plans):
             self._census_at = elapsed  # there may be more
 
 

@@ -1,0 +1,131 @@
+"""Databases for the tests: a file of SQLite, and a server of PostgreSQL's own where installed."""
+
+import os
+import pwd
+import shutil
+import socket
+import subprocess
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from relguide_server.records.clock import Clock
+from relguide_server.records.database import url_of
+from relguide_server.records.store import Store
+from relguide_server.records.writer import Limits, Writer
+
+PROGRAMS = sorted(Path("/usr/lib/postgresql").glob("*/bin"))[-1:]
+"""Where Debian's package puts PostgreSQL's programs."""
+HAS_POSTGRES = bool(PROGRAMS) or bool(shutil.which("initdb"))
+NO_POSTGRES = "needs PostgreSQL's initdb and postgres: apt-get install postgresql"
+
+
+def program(name: str) -> str:
+    return str(PROGRAMS[0] / name) if PROGRAMS else str(shutil.which(name))
+
+
+def as_whom() -> dict[str, object]:
+    """PostgreSQL refuses to run as root: then it runs as somebody else."""
+    if os.geteuid() != 0:
+        return {}
+    user = pwd.getpwnam("postgres" if _has_user("postgres") else "nobody")
+    return {"user": user.pw_uid, "group": user.pw_gid, "extra_groups": []}
+
+
+def _has_user(name: str) -> bool:
+    return any(entry.pw_name == name for entry in pwd.getpwall())
+
+
+class Postgres:
+    """A server of our own in an empty folder, that can be stopped and started."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder, self.data = folder, folder / "data"
+        with socket.socket() as probe:
+            probe.bind(("127.0.0.1", 0))
+            self.port = probe.getsockname()[1]
+        self._server: subprocess.Popen[bytes] | None = None
+        who = as_whom()
+        if who:
+            os.chown(folder, int(str(who["user"])), int(str(who["group"])))
+        subprocess.run(
+            [program("initdb"), "-D", self.data, "-U", "relguide", "-A", "trust", "--no-sync"],
+            check=True, capture_output=True, cwd=folder, **who,
+        )  # fmt: skip
+
+    def start(self) -> None:
+        options = ["-p", str(self.port), "-k", "", "-h", "127.0.0.1", "-F"]
+        self._server = subprocess.Popen(
+            [program("postgres"), "-D", self.data, *options],
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd=self.folder, **as_whom(),
+        )  # fmt: skip
+        ready = [program("pg_isready"), "-h", "127.0.0.1", "-p", str(self.port), "-t", "1"]
+        while subprocess.run(ready, capture_output=True, check=False).returncode:
+            assert self._server.poll() is None, "PostgreSQL did not start."
+
+    def stop(self) -> None:
+        if self._server is not None:
+            self._server.send_signal(subprocess.signal.SIGINT)  # the fast shutdown
+            self._server.wait(20.0)
+            self._server = None
+
+    def database(self, name: str) -> str:
+        """The address of a new, empty database."""
+        subprocess.run(
+            [program("createdb"), "-h", "127.0.0.1", "-p", str(self.port), "-U", "relguide", name],
+            check=True,
+        )  # fmt: skip
+        return f"postgresql://relguide@127.0.0.1:{self.port}/{name}"
+
+
+@contextmanager
+def postgres() -> Iterator[Postgres]:
+    with tempfile.TemporaryDirectory(prefix="relguide-postgres-") as folder:
+        os.chmod(folder, 0o755)
+        server = Postgres(Path(folder))
+        server.start()
+        try:
+            yield server
+        finally:
+            server.stop()
+
+
+class Home:
+    """A database, and all that is opened on it in a test."""
+
+    def __init__(self, url: str) -> None:
+        self.url = url
+        self._open: list[Store | Writer] = []
+
+    def store(self, *, run: str = "reader") -> Store:
+        store = Store(url_of(self.url, Path("unused")), run=run, version="1.0", started_at=1e9)
+        self._open.append(store)
+        return store
+
+    def writer(
+        self,
+        *,
+        run: str = "this run",
+        clock: Clock | None = None,
+        limits: Limits | None = None,
+        opening: Callable[[], Store] | None = None,
+    ) -> Writer:
+        writer = Writer(
+            opening or (lambda: self.store(run=run)),
+            run=run,
+            version="1.0",
+            limits=limits or Limits(age=1e12, size=1e12),
+            clock=clock or Clock(),
+        )
+        writer.start()
+        self._open.append(writer)
+        return writer
+
+    def close(self) -> None:
+        for opened in self._open:
+            if isinstance(opened, Writer):
+                opened.stop()
+        for opened in self._open:
+            if isinstance(opened, Store):
+                opened.close()
