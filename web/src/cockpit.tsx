@@ -9,6 +9,7 @@ import { NavigationDisplay } from "./nd/nd";
 import { Aircraft } from "./panels/aircraft";
 import { Alternatives } from "./panels/alternatives";
 import { Captioned } from "./panels/caption";
+import { Captions } from "./panels/captions";
 import { Efis } from "./panels/efis";
 import { Engage } from "./panels/engage";
 import { Announcer, Events } from "./panels/events";
@@ -56,6 +57,7 @@ export function Cockpit(props: { session: Session; actions: Actions }) {
               )}
             </Captioned>
           </div>
+          {!isMap && <Captions session={session} />}
           <div class="below">
             {small.value && !isMap && <Engage session={session} actions={actions} />}
             {isMap ? <HowTo /> : <Events session={session} />}

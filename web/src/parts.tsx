@@ -7,6 +7,8 @@ export function Panel(props: {
   name: string;
   title: string;
   aside?: ComponentChildren;
+  /** Whether its body may scroll: then it can be reached by keyboard. */
+  scrolls?: boolean;
   children: ComponentChildren;
 }) {
   const id = `panel-${props.name}`;
@@ -16,7 +18,9 @@ export function Panel(props: {
         <h2 id={id}>{props.title}</h2>
         {props.aside}
       </header>
-      <div class="panel-body">{props.children}</div>
+      <div class="panel-body" {...(props.scrolls === true && { tabIndex: 0 })}>
+        {props.children}
+      </div>
     </section>
   );
 }

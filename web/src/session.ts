@@ -48,6 +48,10 @@ export interface Session {
   readonly helpOpen: Signal<boolean>;
   /** Whether single letters are keys. */
   readonly letterKeys: Signal<boolean>;
+  /** Whether the colours are those that anybody can tell apart. */
+  readonly distinctColours: Signal<boolean>;
+  /** Whether the five captions of a first minute are shown. */
+  readonly captions: Signal<boolean>;
   /** Whether alerts are heard. */
   readonly sound: Signal<boolean>;
   /** What a first start has yet to prepare; null when that is done. */
@@ -102,6 +106,8 @@ export function createSession(
     sceneMaximised: signal(false),
     helpOpen: signal(false),
     letterKeys: signal(true),
+    distinctColours: signal(false),
+    captions: signal(true),
     sound: signal(true),
     firstStart,
   };

@@ -17,10 +17,10 @@ export function MapBench({ session, actions }: { session: Session; actions: Acti
           <SituationForm map={map} />
         </div>
         <div class="column numbers">
-          <TakeAlong session={session} actions={actions} />
           <PlanNumbers session={map.reading} />
         </div>
         <div class="column lists">
+          <TakeAlong session={session} actions={actions} />
           <Alternatives session={map.reading} />
         </div>
       </div>

@@ -22,6 +22,13 @@ export function Compass({ view }: LayerProps) {
         return (
           <g key={radius}>
             <Stroke d={d} line={{ ...LINES.ring, dash: i === 0 ? "" : LINES.ring.dash }} />
+            <rect
+              class="nd-ground"
+              x={round(at.x - 20)}
+              y={round(at.y - 11)}
+              width={40}
+              height={22}
+            />
             <text
               class="nd-text"
               fill={ink("unit")}

@@ -61,7 +61,7 @@ function Grip({ map, view, name }: GripProps) {
       class="grip"
       data-handle={name}
       transform={place}
-      tabIndex={0}
+      tabindex={0}
       role="slider"
       aria-label={label}
       aria-valuetext={text}

@@ -25,7 +25,7 @@ const KIND_NAMES: Record<Message["kind"], string> = {
 export function Events(props: { session: Session }) {
   const { messages } = props.session.flight;
   return (
-    <Panel name="events" title="Events">
+    <Panel name="events" title="Events" scrolls>
       <ol class="log">
         {messages.value.map((message) => (
           <li key={`${message.t} ${message.text}`} class={message.kind}>

@@ -1,5 +1,6 @@
 /** The keys, and how to read the picture. */
 
+import type { Signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import type { Session } from "../session";
 import { ELEMENTS } from "../words";
@@ -19,7 +20,7 @@ const KEYS: readonly (readonly [string, string])[] = [
 ];
 
 export function Help(props: { session: Session }) {
-  const { helpOpen, letterKeys } = props.session;
+  const { helpOpen, letterKeys, distinctColours, captions } = props.session;
   const dialog = useRef<HTMLDivElement>(null);
   const isOpen = helpOpen.value;
   // The focus goes into the dialog, and back to where it was.
@@ -63,16 +64,9 @@ export function Help(props: { session: Session }) {
           </li>
         ))}
       </ul>
-      <label class="switch">
-        <input
-          type="checkbox"
-          checked={letterKeys.value}
-          onChange={(event) => {
-            letterKeys.value = event.currentTarget.checked;
-          }}
-        />
-        Single letters are keys
-      </label>
+      <Switch text="Single letters are keys" choice={letterKeys} />
+      <Switch text="Colours that anybody can tell apart" choice={distinctColours} />
+      <Switch text="Captions for a first minute" choice={captions} />
       <p>
         Headings are true, in degrees; a dial takes digits, arrow keys or the wheel, Enter sends.
         The address of this page names the flight: all who open it see the same.
@@ -89,5 +83,20 @@ export function Help(props: { session: Session }) {
         Close
       </button>
     </div>
+  );
+}
+
+function Switch({ text, choice }: { text: string; choice: Signal<boolean> }) {
+  return (
+    <label class="switch">
+      <input
+        type="checkbox"
+        checked={choice.value}
+        onChange={(event) => {
+          choice.value = event.currentTarget.checked;
+        }}
+      />
+      {text}
+    </label>
   );
 }

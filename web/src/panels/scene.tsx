@@ -11,6 +11,10 @@ const VIEWS = ["Overview", "From above", "From the side"] as const;
 const CHROME = "[class*=Notification], [class*=Paper-root] { display: none !important }";
 /** How often it is looked whether the scene is drawn [ms]. */
 const LOOK = 200;
+/** Its ground is dark: brighter than this is the vendor's empty page (0 to 255). */
+const DARK = 60;
+/** Where the picture is looked at, as parts of its sides. */
+const PARTS = [0.1, 0.5, 0.9] as const;
 
 export function Scene(props: { session: Session }) {
   const { shown, status, sceneMaximised } = props.session;
@@ -25,9 +29,14 @@ export function Scene(props: { session: Session }) {
     isDrawn.value = false;
     if (!isOpen || url === undefined) return;
     const timer = setInterval(() => {
-      if (!dress(frame.current?.contentDocument ?? null)) return;
-      isDrawn.value = true;
-      clearInterval(timer);
+      const page = frame.current?.contentDocument ?? null;
+      if (!dress(page)) return;
+      // After the scene's own drawing of the same frame: only then can its picture be read.
+      page?.defaultView?.requestAnimationFrame(() => {
+        if (!isDark(page)) return;
+        isDrawn.value = true;
+        clearInterval(timer);
+      });
     }, LOOK);
     return () => clearInterval(timer);
   }, [url, isOpen, isDrawn]);
@@ -79,14 +88,38 @@ export function Scene(props: { session: Session }) {
   );
 }
 
-/** Takes the chrome off the scene's page, which is our own server's. Whether its picture is there. */
-function dress(page: Document | null): boolean {
-  const isThere = [...(page?.querySelectorAll("canvas") ?? [])].some(({ width }) => width > 1);
-  if (page === null || !isThere) return false;
+/** Takes the chrome off the scene's page, which is our own server's. Whether it has a canvas. */
+function dress(page: Document | null): page is Document {
+  if (page === null || canvasOf(page) === null) return false;
+  if (page.querySelector("style[data-dress]") !== null) return true;
   const style = page.createElement("style");
+  style.dataset.dress = "";
   style.textContent = CHROME;
   page.body.append(style);
   return true;
+}
+
+function canvasOf(page: Document): HTMLCanvasElement | null {
+  return [...page.querySelectorAll("canvas")].find(({ width }) => width > 1) ?? null;
+}
+
+/** Whether the scene's own ground is drawn, and no longer the empty page. */
+function isDark(page: Document): boolean {
+  const canvas = canvasOf(page);
+  const glass = document.createElement("canvas");
+  [glass.width, glass.height] = [PARTS.length, PARTS.length];
+  const pen = glass.getContext("2d", { willReadFrequently: true });
+  if (canvas === null || pen === null) return false;
+  for (const [i, x] of PARTS.entries())
+    for (const [j, y] of PARTS.entries())
+      pen.drawImage(canvas, x * canvas.width, y * canvas.height, 1, 1, i, j, 1, 1);
+  const { data } = pen.getImageData(0, 0, PARTS.length, PARTS.length);
+  let dark = 0;
+  for (let at = 0; at < data.length; at += 4) {
+    const [red = 0, green = 0, blue = 0, there = 0] = data.slice(at, at + 4);
+    if (there > 200 && Math.max(red, green, blue) < DARK) dark += 1;
+  }
+  return dark > 5; // of nine: lines and labels may be bright
 }
 
 /** Presses the scene's own button of a view. */

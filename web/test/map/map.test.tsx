@@ -45,7 +45,7 @@ test("a situation with its plan is drawn as a proposal, with its ghosts", () => 
     "intent",
   ])
     expect(root.querySelector(`.nd-${name}`), name).not.toBeNull();
-  expect(root.querySelectorAll(".grip")).toHaveLength(HANDLES.length);
+  expect(root.querySelectorAll(`.grip[tabindex="0"]`)).toHaveLength(HANDLES.length);
   expect(map.shown.numbers.value.toJoin).not.toBe("");
 });
 

@@ -1,0 +1,59 @@
+/** Five captions for a first minute: each says what is seen now and what can be done, until it is done. */
+
+import { useSignal } from "@preact/signals";
+import type { Session } from "../session";
+import type { Guidance } from "../store/states";
+
+const CAPTIONS = [
+  "The white arrowhead is the leader; you are the yellow aircraft. Click the leader, or press D: it is to be joined.",
+  "Dashed yellow is a path to its slot. CNV says how long it takes, the dotted circle how close you come. Accept it, or press C.",
+  "Dashed cyan: accepted, and not flown yet. Engage it, or press E.",
+  "Green is what the aircraft will fly. The gate with the pennant is the slot, D behind the leader. ×10 makes it faster.",
+  "Now let the leader turn: type a heading into its panel, and the path is made anew. PLAN is a map for a situation of your own.",
+] as const;
+
+/** Which of them belongs to a state; those of flying are turned by hand. */
+const AT: Record<Guidance, number> = {
+  off: 0,
+  designated: 1,
+  proposed: 1,
+  armed: 2,
+  converge: 3,
+  capture: 3,
+  follow: 3,
+  escape: 3,
+  infeasible: 1,
+  unable: 3,
+  data_lost: 0,
+};
+
+export function Captions(props: { session: Session }) {
+  const { captions, shown } = props.session;
+  const isTurned = useSignal(false);
+  if (!captions.value || shown.numbers.value.readAt === null) return null;
+  const at = AT[shown.numbers.value.state];
+  const isFlying = at === 3;
+  const number = isFlying && isTurned.value ? 4 : at;
+  const close = () => {
+    captions.value = false;
+  };
+  return (
+    <aside class="first-minute" aria-label="First steps">
+      <b>{number + 1} of 5</b>
+      <p>{CAPTIONS[number]}</p>
+      {isFlying && !isTurned.value && (
+        <button
+          type="button"
+          onClick={() => {
+            isTurned.value = true;
+          }}
+        >
+          Next
+        </button>
+      )}
+      <button type="button" class="quiet" aria-label="Close the first steps" onClick={close}>
+        ×
+      </button>
+    </aside>
+  );
+}
