@@ -81,7 +81,7 @@ def _lines(count: int) -> list[bytes]:
     names = [field.name for field in fields(Situations)]
     columns = [np.broadcast_to(getattr(drawn, name), count).tolist() for name in names]
     lines = []
-    for i, row in enumerate(zip(*columns, strict=True)):
+    for row in zip(*columns, strict=True):
         px, py, psi, tas, bank, lx, ly, leading, leader_tas, distance, nearest, _, _ = row
         pursuer = {
             "x_m": px, "y_m": py, "heading_deg": degrees(psi), "tas_mps": tas,
@@ -90,7 +90,7 @@ def _lines(count: int) -> list[bytes]:
         leader = {"x_m": lx, "y_m": ly, "heading_deg": degrees(leading), "tas_mps": leader_tas}
         body = {"pursuer": pursuer, "leader": leader, "slot_distance_m": distance,
                 "min_separation_m": nearest}  # fmt: skip
-        lines.append(json.dumps({"id": i, **body}).encode())
+        lines.append(json.dumps(body).encode())
     return lines
 
 

@@ -80,7 +80,6 @@ def answer_file(
             with open_part(out, source.order, resume=resume) as part:
                 source.skip(part)
                 part.check_input()
-                before = part.reached.answers
                 try:
                     for chunk, answered in _answers(source, part.reached, workers):
                         part.add(chunk, answered)
@@ -89,8 +88,8 @@ def answer_file(
                     raise
             reached = part.reached
             finish_part(out, source.order)
-            rate = (reached.answers - before) / max(monotonic() - started, 1e-3)
-            write(f"{out}: {reached.answers:,} answers, {rate:,.0f} a second.\n")
+            noun = "answer" if reached.answers == 1 else "answers"
+            write(f"{out}: {reached.answers:,} {noun}, in {monotonic() - started:.1f} s.\n")
     if reached.invalid:
         noun = "line is" if reached.invalid == 1 else "lines are"
         first = reached.first_invalid

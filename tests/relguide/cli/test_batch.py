@@ -102,7 +102,7 @@ def test_csv_and_parquet_hold_what_json_lines_hold(run: Run, fields: str) -> Non
         options = ("--out", name, "--fields", fields, "--processes", "1")
         code, out, err = run("plan", "--batch", as_parquet(bodies), *options)
         assert code == 1
-        assert out.startswith(f"{name}: 16 answers, ")
+        assert out.startswith(f"{name}: 16 answers, in ")
         assert err == "relguide: 1 line is no valid situation, the first is line 16.\n"
     expected = [flat(answer) for answer in lines_of("out.jsonl")]
     table = pq.read_table("out.parquet")

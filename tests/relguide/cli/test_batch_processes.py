@@ -117,7 +117,7 @@ def test_a_killed_run_goes_on_where_it_was(run: Run, situations: str, out: str) 
 
     code, said, err = run(*again, "--resume")
     assert (code, err) == (0, "")
-    assert said.startswith(f"{out}: {COUNT} answers, ")
+    assert said.startswith(f"{out}: {COUNT} answers, in ")
     assert not part.exists()
     assert not record.exists()
     code, _, _ = run("plan", "--batch", situations, "--out", f"whole{Path(out).suffix}")

@@ -101,7 +101,7 @@ def test_a_batch_is_answered_as_it_is_here(run: Run, machines: LocalCluster) -> 
     write("".join(json.dumps(body) + "\n" for body in bodies), "all.jsonl")
     batch = ("plan", "--batch", "all.jsonl")
     code, out, err = run(*batch, "--out", "there.jsonl", "--dask", machines.address)
-    assert (code, out.startswith("there.jsonl: 451 answers, ")) == (1, True)
+    assert (code, out.startswith("there.jsonl: 451 answers, in ")) == (1, True)
     assert err == "relguide: 1 line is no valid situation, the first is line 451.\n"
     assert run(*batch, "--out", "here.jsonl", "--processes", "1")[::2] == (1, err)
     here, there = (
