@@ -74,6 +74,20 @@ export const ELEMENTS: readonly Element[] = [
     key: "key-track",
   },
   {
+    name: "crosstrack",
+    title: "Cross-track",
+    what: "how far own ship is beside the leader's route, and on which side",
+    key: "",
+  },
+  {
+    name: "trend",
+    title: "Trend",
+    what: "where own ship will be if it turns on as now; a tick each 30 s",
+    key: "",
+  },
+  { name: "trackline", title: "Track line", what: "straight on, while no path is flown", key: "" },
+  { name: "lubber", title: "Nose", what: "the mark over it: where the heading is read", key: "" },
+  {
     name: "closest",
     title: "Closest approach",
     what: "both aircraft when they are closest, and where the minimum will be round the leader then",
@@ -150,8 +164,14 @@ export const ELEMENTS: readonly Element[] = [
   {
     name: "intent",
     title: "Leader's route",
-    what: "dash-dot: what it declared; dotted: no intent, straight ahead assumed",
+    what: "dash-dot: what it declared to fly",
     key: "key-leader",
+  },
+  {
+    name: "guess",
+    title: "No intent",
+    what: "dotted: the leader has declared nothing, straight ahead is assumed for three minutes",
+    key: "key-dotted",
   },
   {
     name: "area",

@@ -14,7 +14,7 @@ export function CrossTrack({ shown, view }: LayerProps) {
     return placeAt({ x: x + 32, y: y + 24 });
   });
   return (
-    <text class="nd-text" fill={ink("value")} font-size={20} transform={place}>
+    <text class="nd-text nd-crosstrack" fill={ink("value")} font-size={20} transform={place}>
       {text}
     </text>
   );

@@ -20,7 +20,15 @@ export function LeaderIntent({ shown, view }: LayerProps) {
   const legs = useComputed(() => (known.value ? (path.value?.segments ?? []).filter(isTurn) : []));
   if (!known.value) {
     return (
-      <PathAhead shown={shown} view={view} path={path} line={LINES.extrapolated} horizon={GUESS} />
+      <g class="nd-guess">
+        <PathAhead
+          shown={shown}
+          view={view}
+          path={path}
+          line={LINES.extrapolated}
+          horizon={GUESS}
+        />
+      </g>
     );
   }
   return (

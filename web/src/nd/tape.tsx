@@ -54,5 +54,9 @@ export function LubberLine({ view }: LayerProps) {
     const { x, y } = polar(view.layout.value, 0, view.layout.value.tape);
     return `M${x} ${y - 24}V${y + 18}`;
   });
-  return <Stroke d={d} line={{ colour: "ownship", width: 5, dash: "" }} />;
+  return (
+    <g class="nd-lubber">
+      <Stroke d={d} line={{ colour: "ownship", width: 5, dash: "" }} />
+    </g>
+  );
 }

@@ -32,5 +32,9 @@ export function TrackLine({ shown, view }: LayerProps) {
     const end = polar(view.layout.value, offNose(own, own.track_deg), tape);
     return `M${centre.x} ${centre.y}L${round(end.x)} ${round(end.y)}`;
   });
-  return <Stroke d={d} line={LINES.track} />;
+  return (
+    <g class="nd-trackline">
+      <Stroke d={d} line={LINES.track} />
+    </g>
+  );
 }

@@ -29,5 +29,9 @@ export function TrendVector({ shown, view }: LayerProps) {
     }
     return data;
   });
-  return <Stroke d={d} line={LINES.trend} />;
+  return (
+    <g class="nd-trend">
+      <Stroke d={d} line={LINES.trend} />
+    </g>
+  );
 }

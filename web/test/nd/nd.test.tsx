@@ -145,6 +145,7 @@ test("unknown intent is dotted and said in words, declared intent is dash-dot", 
   const unknown = show(flightAt("fig_6a", 300), "ARC", 40);
   expect(words(unknown)).toContain("NO INTENT");
   expect(has(unknown, "intent")).toBe(false);
+  expect(has(unknown, "guess")).toBe(true);
   const known = show(flightAt("fig_6b", 100), "ARC", 80);
   expect(words(known)).toContain("135°");
   expect(has(known, "intent")).toBe(true);

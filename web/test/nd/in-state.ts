@@ -1,0 +1,66 @@
+/** A flight in each state of guidance, as the display gets it. */
+
+import type { Flight } from "../../src/store/flight";
+import type { PairSample } from "../../src/store/pair";
+import type { Guidance } from "../../src/store/states";
+import type { PlanProposed } from "../../src/wire";
+import { noPlan, unable } from "../samples";
+import { documentsOf, flightAt } from "./fixture";
+
+/** When each is shown [s, flight time]. */
+export const T = 200;
+
+export function proposal(): PlanProposed {
+  const { plan } = documentsOf("fig_6b");
+  const other = { word: "LSR", time_to_converge_s: 900, segments: plan.plan.segments, why: "" };
+  return {
+    kind: "plan_proposed",
+    t_s: 0,
+    ident: plan.ident,
+    message: "",
+    plan: plan.plan,
+    leader_at_closest: plan.leader_at_closest,
+    pursuer_at_closest: plan.pursuer_at_closest,
+    promised_s: plan.plan.time_to_converge_s + 5,
+    flown_least_m: 11_000,
+    others: [other],
+  };
+}
+
+/** A flight in a state. */
+export function flightIn(state: Guidance): Flight {
+  const mode =
+    state === "converge" || state === "capture" || state === "follow" || state === "escape";
+  const flight = flightAt("fig_6b", state === "follow" ? 900 : T, mode ? state : "heading");
+  const change = (sample: Partial<PairSample>) => {
+    if (flight.sample.value === null) throw new Error("An empty flight.");
+    const changed = { ...flight.sample.value, ...sample };
+    for (const each of [flight.sample, flight.now, flight.reading]) each.value = changed;
+  };
+  if (!mode && state !== "unable") flight.plan.value = null;
+  switch (state) {
+    case "off":
+      change({ engagement: "off", time_to_go_s: 0 });
+      break;
+    case "designated":
+      change({ engagement: "designated", time_to_go_s: 0 });
+      break;
+    case "proposed":
+    case "armed":
+      change({ engagement: state === "armed" ? "armed" : "designated", time_to_go_s: 0 });
+      flight.proposal.value = proposal();
+      break;
+    case "infeasible":
+      change({ engagement: "designated", time_to_go_s: 0 });
+      flight.unavailable.value = noPlan(T);
+      break;
+    case "unable":
+      flight.unavailable.value = noPlan(T);
+      break;
+    case "data_lost":
+      change({ engagement: "designated", leader_age_s: 15, time_to_go_s: 0 });
+      flight.unable.value = { ...unable(T), reason: "data" };
+      break;
+  }
+  return flight;
+}
