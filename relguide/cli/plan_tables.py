@@ -28,6 +28,7 @@ from relguide.units import DEG, NM
 
 PROOFS = {
     "relaxation": "optimal: no faster plan exists, with or without the separation limit",
+    "certified": "optimal to 0.1 s: no plan that keeps the separation limit is faster by more",
     "bound": "proved to within the lower bound",
     "none": "not proved optimal",
 }

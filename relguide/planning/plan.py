@@ -35,8 +35,9 @@ from relguide.planning.trajectory import Trajectory, pieces_text
 from relguide.planning.words import HORIZON, Candidates, candidates
 from relguide.units import KT, Metre, Millisecond, Second
 
-Proof = Literal["relaxation", "bound", "none"]
-"""What proves a plan: the best plan without the limit keeps it; a lower bound; nothing."""
+Proof = Literal["relaxation", "certified", "bound", "none"]
+"""What proves a plan: the best plan without the limit keeps it; a lower bound within 0.1 s, which
+`prove` finds; any lower bound; nothing."""
 LONGEST_NAME = 40
 """Longest name of a planner [characters]: what fits on a line of the cockpit."""
 

@@ -2,8 +2,8 @@
 
 The bound is that of `contact_search`; it rises the longer the search runs. If the slot could be
 reached before it opens, arriving just as it opens is a case of its own, in which no path need be an
-extremal: it is ruled out, where it can be, by the shortest path to where the slot is then, which is
-a search of the same kind.
+extremal. It is ruled out, where it can be, by how soon a point can be met that moves along the
+slot's track at V_P and is at the slot as it opens: a search of the same kind.
 """
 
 from collections.abc import Callable, Iterable, Iterator
@@ -11,10 +11,10 @@ from dataclasses import dataclass, replace
 from math import inf
 from time import perf_counter
 
-from relguide.kernels.bounds.contact_bound import Goal
+from relguide.kernels.bounds.contact_bound import Goal, track_of
 from relguide.planning.contact_search import Question
 from relguide.planning.inputs import expect, expect_function, expect_within
-from relguide.planning.plan import Optimality, Plan
+from relguide.planning.plan import Optimality, Plan, Proof
 from relguide.planning.tables import scene_of
 from relguide.planning.words import Candidates, candidates
 from relguide.units import Second
@@ -23,7 +23,12 @@ MAX_SECONDS: Second = 3_600.0
 """Longest accepted time to prove in [s]."""
 TOLERANCE: Second = 1e-3
 """A gap this small ends the proof [s]: aircraft take a thousand times as long to roll."""
+CERTIFIED: Second = 0.1
+"""A plan this near to its bound counts as optimal [s]: half a second's roll is more."""
+_GAPS: tuple[Second, ...] = (CERTIFIED, 0.01, TOLERANCE)  # closed one after another
 _REPORT: Second = 0.05  # from one report to the next
+_SHARE = 0.99  # of a gap that is wanted, so that rounding does not count
+_PAIRED = 1e-3  # `Question.paired` of paths that arrive as the slot opens [rad]
 _LATER = 1e-9  # a path longer than t_release by this part of it arrives after the slot opens
 
 
@@ -47,8 +52,8 @@ def prove(
 ) -> Plan:
     """The plan with a better lower bound of its time; the longer it may take, the better.
 
-    A plan already proved optimal is returned as it is. The search ends early once the bound is
-    within `TOLERANCE` of the plan's time.
+    A plan already proved optimal is returned as it is. Within `CERTIFIED` of its bound a plan is
+    `certified`. The search ends early once it is within `TOLERANCE`.
 
     Args:
         plan: made by any planner.
@@ -66,7 +71,9 @@ def prove(
     lower_bound = plan.optimality.lower_bound
     for bound in progress(bounds(plan, seconds=seconds)):
         lower_bound = bound.lower_bound
-    return replace(plan, optimality=Optimality(proof="bound", lower_bound=lower_bound))
+    certified = plan.time_to_converge - lower_bound <= CERTIFIED
+    proof: Proof = "certified" if certified else "bound"
+    return replace(plan, optimality=Optimality(proof=proof, lower_bound=lower_bound))
 
 
 def check_seconds(seconds: object) -> Second:
@@ -85,7 +92,7 @@ def bounds(plan: Plan, *, seconds: Second) -> Iterator[Bound]:
     time = plan.time_to_converge
     best = min(plan.optimality.lower_bound, time)
     yield Bound(elapsed=0.0, lower_bound=best, gap=time - best)
-    steps = _rising_bounds(plan, time / scale)
+    steps = _rising_bounds(plan, time / scale, scale)
     next(steps)  # loads the kernels
     started = reported = perf_counter()
     for proved in steps:
@@ -101,26 +108,46 @@ def bounds(plan: Plan, *, seconds: Second) -> Iterator[Bound]:
     yield Bound(elapsed=perf_counter() - started, lower_bound=best, gap=time - best)
 
 
-def _rising_bounds(plan: Plan, time: float) -> Iterator[float]:
+def _rising_bounds(plan: Plan, time: float, scale: float) -> Iterator[float]:
     """Bounds of the plan's time [R/V_P], round after round until there is no better one."""
     found = candidates(plan.situation)
-    frame, slot = found.frame, question_of(found)
-    slot.warm_up()
+    slot = question_of(found)
+    _load(slot)
     yield 0.0
     if found.reachable_at_release:
-        place = replace(
-            slot,
-            scene=slot.scene._replace(t_release=0.0),
-            goal=Goal(frame.alpha * frame.t_release, 0.0),
-            horizon=frame.t_release,
-        )
-        after = frame.t_release * (1.0 + _LATER)
-        shortest = 0.0
-        for shortest in place.bounds(after):
-            yield min(shortest, frame.t_release)
-        if shortest < after:
+        track, after = at_release(slot)
+        soonest = 0.0
+        for soonest in track.bounds(after):
+            yield min(soonest, track.horizon)
+        if soonest < after:
             return
-    yield from slot.bounds(time)
+    # paths that arrive within the gap of the plan are left out at once: so a small gap, which takes
+    # a hundred times as long, does not delay a larger one
+    for gap in _GAPS:
+        aimed = replace(slot, paired=slot.paired * gap / CERTIFIED)
+        yield from aimed.bounds(time - _SHARE * gap / scale)
+
+
+def at_release(slot: Question) -> tuple[Question, float]:
+    """How soon a path can come to the track of the slot, and what rules one out as it opens.
+
+    Only one that has come to it by then can be there as it opens, see `track_of`.
+    """
+    t_release = slot.scene.t_release
+    track = replace(
+        slot,
+        scene=slot.scene._replace(t_release=0.0),
+        goal=track_of(slot.goal, t_release),
+        horizon=t_release,
+        paired=_PAIRED,
+    )
+    return track, t_release * (1.0 + _LATER)
+
+
+def _load(question: Question) -> None:
+    """Load the kernels."""
+    for _ in question.bounds(0.0):
+        pass
 
 
 def question_of(found: Candidates) -> Question:
@@ -129,7 +156,6 @@ def question_of(found: Candidates) -> Question:
     return Question(
         start=frame.pose,
         scene=scene_of(found.situation, frame),
-        goal=Goal(0.0, frame.alpha),
-        never_at_release=not found.reachable_at_release,
+        goal=Goal(0.0, frame.alpha, found.reachable_at_release),
         horizon=inf,
     )

@@ -7,6 +7,7 @@ from math import hypot
 import numpy as np
 
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.bounds.contact_bound import arrives_at_release
 from relguide.kernels.contact.path_pieces import NO_TURN
 from relguide.kernels.words.delay import (
     DELAY_PIECES,
@@ -43,7 +44,8 @@ class Candidates:
     straight_delays: list[_Pieces]
     """The pieces of the first of `at_release`: a straight takes up the time."""
     reachable_at_release: bool
-    """Whether the shortest path to where the slot opens is short enough to be there in time."""
+    """Whether a path may be there just as it opens: in about one in a hundred situations the
+    shortest is short enough, and yet none has that length."""
 
     @property
     def bound(self) -> Second:
@@ -95,7 +97,10 @@ def candidates(situation: Situation) -> Candidates:
     n, shortest = solve_and_measure(frame.x, frame.y, frame.h, frame.alpha, frame.t_release, rows)
     reachable = shortest <= frame.t_release + NO_TURN
     straight = _straight_delays(frame) if reachable or _is_in_slot(frame) else []
-    if not reachable and _is_in_slot(frame):
+    if reachable and not straight:
+        # the shortest path fits, and yet there may be none of just that length
+        reachable = arrives_at_release(frame.x, frame.y, frame.h, frame.alpha, frame.t_release)
+    elif not reachable and _is_in_slot(frame):
         reachable = bool(straight or _turning_delays(frame))
     within = HORIZON * situation.pursuer.tas / frame.radius
     while n > 1 and rows[n - 1, 0] > within:

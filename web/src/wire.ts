@@ -1,7 +1,7 @@
 // Made by `python -m relguide_server.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-c401c4bbefd6";
+export const PROTOCOL = "relguide-b0bda30d9559";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -20,7 +20,7 @@ export type Mode = "heading" | "converge" | "capture" | "follow" | "escape";
 export type Engagement = "off" | "designated" | "armed" | "engaged";
 
 /** Why a plan is optimal. */
-export type Proof = "relaxation" | "bound" | "none";
+export type Proof = "relaxation" | "certified" | "bound" | "none";
 
 /** Why a new plan was made. */
 export type PlanReason =

@@ -20,7 +20,7 @@ from numba import njit
 from relguide.kernels.base.angles import TWO_PI, wrap
 from relguide.kernels.base.records import Pose, Scene, Velocity, Window, with_limit
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.bounds.breach import MOST_LOOKS, NearWord, Sieve, breaks_limit
+from relguide.kernels.bounds.breach import MOST_LOOKS, Flown, NearWord, Sieve, breaks_limit
 from relguide.kernels.bounds.word_bound import Blur, soonest
 from relguide.kernels.contact.contact import contact_heading, to_frame_of
 from relguide.kernels.separation.clearance import leader_at, piece_at
@@ -67,7 +67,31 @@ class Goal(NamedTuple):
     x: float
     """At t = 0, on the x axis [R]."""
     speed: float
-    """Along it [V_P]: α for the slot, 0 for a place."""
+    """Along it [V_P]: α for the slot, 1 for a point of its track (see `track_of`)."""
+    holds: bool
+    """Whether a path may arrive just as the slot opens, and then need not be an extremal."""
+
+
+class Poses(NamedTuple):
+    """The poses of a cell's contacts."""
+
+    t: float
+    """Middle of the window of time; its start if it has no end [R/V_P]."""
+    span: float
+    """Half of its width; 0 if it has no end [R/V_P]."""
+    middle: Pose
+    """Of the middle bearing, at the middle."""
+    vx: float
+    """How that moves [V_P]."""
+    vy: float
+    """[V_P]."""
+    differs: float
+    """How much the heading may differ from it [rad]; infinite if there is no contact."""
+    left: float
+    """How far the centre of their left circles may lie from the middle's, where that would be had
+    it kept its velocity [R]."""
+    right: float
+    """And that of their right circles [R]."""
 
 
 class Spread(NamedTuple):
@@ -115,6 +139,26 @@ def contacts_within(cell: Cell, alpha: float, d_min: float) -> Spread:
 
 
 @njit(cache=True, nogil=True)
+def poses_of(scene: Scene, cell: Cell) -> Poses:
+    """The poses of a cell; `differs` is infinite if there is no contact."""
+    low, high = cell.start, cell.end
+    t = low if high == inf else 0.5 * (low + high)
+    span = 0.0 if high == inf else 0.5 * (high - low)
+    spread = contacts_within(cell, scene.alpha, scene.d_min)
+    there = leader_at(scene, cell.piece, t)
+    at = there.h + cell.bearing
+    across, ahead = scene.d_min * sin(at), scene.d_min * cos(at)
+    # the contact of the middle bearing moves like this, and turns with the leader
+    rate = scene.leader[cell.piece, 4]
+    swing, strays = turning_blur(scene, rate, span)
+    return Poses(
+        t, span, Pose(there.x + ahead, there.y + across, there.h + spread.heading),
+        scene.alpha * cos(there.h) - rate * across, scene.alpha * sin(there.h) + rate * ahead,
+        spread.differs + swing, spread.left + strays, spread.right + strays,
+    )  # fmt: skip
+
+
+@njit(cache=True, nogil=True)
 def cell_bound(
     start: Pose, scene: Scene, goal: Goal, cell: Cell, beat: float
 ) -> tuple[float, float]:
@@ -127,39 +171,17 @@ def cell_bound(
         cell: of contacts.
         beat: arrivals from here on do not matter, and both times come back as infinite [R/V_P].
     """
-    spread = contacts_within(cell, scene.alpha, scene.d_min)
-    if spread.differs == inf:
+    poses = poses_of(scene, cell)
+    if poses.differs == inf:
         return inf, inf
     low, high = cell.start, cell.end
-    t = low if high == inf else 0.5 * (low + high)
-    span = 0.0 if high == inf else 0.5 * (high - low)
-    there = leader_at(scene, cell.piece, t)
-    at = there.h + cell.bearing
-    cx, cy = there.x + scene.d_min * cos(at), there.y + scene.d_min * sin(at)
-    course = there.h + spread.heading
-    # the contact of the middle bearing moves like this, and turns with the leader
-    rate = scene.leader[cell.piece, 4]
-    vx = scene.alpha * cos(there.h) - rate * scene.d_min * sin(at)
-    vy = scene.alpha * sin(there.h) + rate * scene.d_min * cos(at)
-    swing, strays = turning_blur(scene, rate, span)
-    differs = spread.differs + swing
-    # the slot does not turn with it: what the contact moves relative to the goal is blur
-    if cell.piece + 1 == len(scene.leader) and goal.speed == scene.alpha:
-        drifts = 0.0
-    else:
-        drifts = strays + span * hypot(vx - goal.speed, vy)
-    onward = soonest(
-        Pose(cx - goal.x - goal.speed * t, cy, course),
-        Blur(spread.left + drifts, spread.right + drifts, differs, 0.0),
-        Velocity(goal.speed, 0.0),
-        Window(max(scene.t_release - high, 0.0) - _EDGE, beat - low),
-        Sieve(False, start, scene),
-    )
+    onward = _onward_bound(scene, goal, cell, poses, beat - low)
     if onward == inf:
         return inf, inf
     # to the contact: read backward, the start is what is to be met, and left is right
-    blur = Blur(spread.right + strays, spread.left + strays, differs, 0.0)
+    blur = Blur(poses.right, poses.left, poses.differs, 0.0)
     c, s = cos(start.h), sin(start.h)
+    at, vx, vy = poses.middle, poses.vx, poses.vy
     target = Velocity(vx * c + vy * s, vy * c - vx * s)
     inside = with_limit(scene, scene.d_min - _INSIDE)
     soon = inf
@@ -167,12 +189,14 @@ def cell_bound(
         # 0: every word; 1: those that may keep the limit; 2: a word and a full loop, or more of
         # them, since without one they are paths that arrive no sooner than the soonest word
         looped = TWO_PI if loops == 2 else 0.0
-        dx, dy = cx - (t - looped) * vx - start.x, cy - (t - looped) * vy - start.y
-        earliest = 0.0 if loops == 2 else low - _EDGE
-        latest = min(beat - onward, high + _EDGE) - looped
+        dx = at.x - (poses.t - looped) * vx - start.x
+        dy = at.y - (poses.t - looped) * vy - start.y
+        # a second loop takes 4π in all
+        earliest = 0.0 if loops == 2 and high >= 2.0 * TWO_PI else low - looped - _EDGE
+        latest = min(beat - onward, high + _EDGE, soon) - looped
         found = looped + soonest(
-            Pose(-dx * c - dy * s, dx * s - dy * c, course - start.h), blur, target,
-            Window(earliest, latest), Sieve(loops == 1, start, inside),
+            Pose(-dx * c - dy * s, dx * s - dy * c, at.h - start.h), blur, target,
+            Window(earliest, latest), _sieve_from(start, inside, loops == 1),
         )  # fmt: skip
         if loops == 0:
             if found == inf:
@@ -180,6 +204,81 @@ def cell_bound(
         else:
             soon = min(soon, found)
     return max(soon, low), onward
+
+
+@njit(cache=True, nogil=True)
+def _onward_bound(scene: Scene, goal: Goal, cell: Cell, poses: Poses, beat: float) -> float:
+    """How soon a path can be at the goal from a contact of a cell, with or without the limit."""
+    opens, unlimited = scene.t_release - cell.end, _sieve_from(_ORIGIN, scene, False)
+    onward = soonest(
+        _seen_from(goal, poses), _blur_toward(scene, goal, cell, poses),
+        Velocity(goal.speed, 0.0), Window(max(opens, 0.0) - _EDGE, beat), unlimited,
+    )  # fmt: skip
+    left = scene.t_release - cell.start
+    if not goal.holds or left <= 0.0 or left >= beat or onward <= opens:
+        return onward
+    # who is there as the slot opens has met this point by then
+    track = track_of(goal, scene.t_release)
+    early = soonest(
+        _seen_from(track, poses), _blur_toward(scene, track, cell, poses),
+        Velocity(track.speed, 0.0), Window(0.0, left + _EDGE), unlimited,
+    )  # fmt: skip
+    return min(onward, max(opens, early)) if early < inf else onward
+
+
+@njit(cache=True, nogil=True)
+def track_of(goal: Goal, t_release: float) -> Goal:
+    """A point that moves along the slot's track at V_P, and is where the slot opens as it opens.
+
+    Who is there at that moment, on heading 0, has met this point: then, if not sooner. Who meets it
+    sooner can follow it, and is there, if that keeps the limit. So there is a path of just that
+    length only if there is one that meets the point by then, and the soonest of those is an
+    extremal; without the limit, if and only if.
+    """
+    return Goal(goal.x + (goal.speed - 1.0) * t_release, 1.0, False)
+
+
+@njit(cache=True, nogil=True)
+def arrives_at_release(x: float, y: float, h: float, alpha: float, t_release: float) -> bool:
+    """Whether a path without the limit may be at the slot just as it opens.
+
+    Args:
+        x: the pursuer ahead of the slot [R].
+        y: and left of it [R].
+        h: its heading [rad], in [0, 2π).
+        alpha: V_L/V_P.
+        t_release: when the slot opens [R/V_P].
+    """
+    track = track_of(Goal(0.0, alpha, True), t_release)
+    nobody = Scene(np.zeros((1, 5)), 0.0, 0.0, 0.0, inf)
+    meets = soonest(
+        Pose(x - track.x, y, h), Blur(0.0, 0.0, 0.0, 0.0), Velocity(1.0, 0.0),
+        Window(0.0, t_release + _EDGE), Sieve(False, _ORIGIN, 0.0, nobody, 1.0, 0.0, 0.0),
+    )  # fmt: skip
+    return bool(meets < inf)
+
+
+@njit(cache=True, nogil=True)
+def _seen_from(goal: Goal, poses: Poses) -> Pose:
+    """The middle of a cell's poses, seen from the goal at that time."""
+    at = poses.middle
+    return Pose(at.x - goal.x - goal.speed * poses.t, at.y, at.h)
+
+
+@njit(cache=True, nogil=True)
+def _blur_toward(scene: Scene, goal: Goal, cell: Cell, poses: Poses) -> Blur:
+    """How far the poses of a cell may lie from their middle, as the goal sees them."""
+    drifts = 0.0
+    if cell.piece + 1 < len(scene.leader) or goal.speed != scene.alpha:
+        # the goal does not move with the contacts
+        drifts = poses.span * hypot(poses.vx - goal.speed, poses.vy)
+    return Blur(poses.left + drifts, poses.right + drifts, poses.differs, 0.0)
+
+
+@njit(cache=True, nogil=True)
+def _sieve_from(start: Pose, scene: Scene, used: bool) -> Sieve:
+    """What leaves out words that break the limit on their way from the start."""
+    return Sieve(used, start, 0.0, scene, 1.0, 0.0, 0.0)
 
 
 @njit(cache=True, nogil=True)
@@ -200,27 +299,27 @@ def turning_blur(scene: Scene, rate: float, span: float) -> tuple[float, float]:
 
 
 @njit(cache=True, nogil=True)
-def leaving_bound(scene: Scene, cell: Cell, beat: float) -> float:
-    """How soon a path can be at the slot from its last contact, if that is one of the cell's.
+def leaving_bound(scene: Scene, goal: Goal, cell: Cell, beat: float) -> float:
+    """How soon a path can be at the goal from its last contact, if that is one of the cell's.
 
-    On the final leg, where the place of a contact from the slot does not change. Arguments as
-    `cell_bound`; infinite from `beat` on.
+    Arguments as `cell_bound`; infinite from `beat` on.
     """
-    alpha, d_min = scene.alpha, scene.d_min
-    spread = contacts_within(cell, alpha, d_min)
-    if spread.differs == inf:
+    poses = poses_of(scene, cell)
+    if poses.differs == inf:
         return inf
-    lx, ly, lh = leader_at(scene, len(scene.leader) - 1, 0.0)
-    # read backward from the slot, the leader flies backward too
-    astern = Scene(np.array([[0.0, lx, ly, lh + pi, 0.0]]), alpha, d_min - _INSIDE, 0.0, inf)
-    at = lh + cell.bearing
-    cx, cy = lx + d_min * cos(at), ly + d_min * sin(at)
-    blur = Blur(spread.left, spread.right, spread.differs, 0.0)
+    blur = _blur_toward(scene, goal, cell, poses)
+    inside = with_limit(scene, scene.d_min - _INSIDE)
+    opens = max(scene.t_release - cell.end, 0.0) - _EDGE
     found = inf
-    for looped in (0.0, TWO_PI):
+    for loops in range(2):
+        looped = TWO_PI * loops
+        seen = _seen_from(Goal(goal.x + looped * goal.speed, goal.speed, False), poses)
+        sieve = Sieve(
+            loops == 0, Pose(goal.x, 0.0, pi), goal.speed, inside, -1.0, cell.start, cell.end
+        )
         word = looped + soonest(
-            Pose(cx - looped * alpha, cy, lh + spread.heading), blur, Velocity(alpha, 0.0),
-            Window(0.0, beat - looped), Sieve(looped == 0.0, Pose(0.0, 0.0, pi), astern),
+            seen, blur, Velocity(goal.speed, 0.0),
+            Window(0.0 if loops > 0 else opens, min(beat, found) - looped), sieve,
         )  # fmt: skip
         found = min(found, word)
     return found
@@ -228,37 +327,47 @@ def leaving_bound(scene: Scene, cell: Cell, beat: float) -> float:
 
 @njit(cache=True, nogil=True)
 def between_bound(scene: Scene, table: FloatArray, cell: Cell, other: Cell, beat: float) -> float:
-    """How soon a path can be at a contact of the other cell from one of this, on the final leg.
+    """How soon a path can be at a contact of the other cell from one of this.
 
     Arguments as `cell_bound` and `round_bound`; infinite from `beat` on.
     """
-    round_disc = min(round_bound(table, 0, cell, other), round_bound(table, 1, cell, other))
-    if round_disc >= beat:
+    if other.end < cell.start:
         return inf
-    return max(round_disc, word_between(scene, cell, other, beat))
+    apart = other.start - cell.end
+    if min(cell.piece, other.piece) + 1 == len(scene.leader):
+        apart = max(
+            apart, min(round_bound(table, 0, cell, other), round_bound(table, 1, cell, other))
+        )
+    beat = min(beat, other.end - cell.start + _EDGE)
+    if apart >= beat:
+        return inf
+    return max(apart, word_between(scene, cell, other, beat))
 
 
 @njit(cache=True, nogil=True)
 def word_between(scene: Scene, cell: Cell, other: Cell, beat: float) -> float:
-    """No word leads sooner to a contact of the other cell from one of this, on the final leg.
+    """No word leads sooner to a contact of the other cell from one of this.
 
     Arguments as `cell_bound`; infinite from `beat` on.
     """
-    alpha, d_min = scene.alpha, scene.d_min
-    begin, end = contacts_within(cell, alpha, d_min), contacts_within(other, alpha, d_min)
+    begin, end = poses_of(scene, cell), poses_of(scene, other)
     if begin.differs == inf or end.differs == inf:
         return inf
-    # headings and places relative to the leader
-    here = Pose(d_min * cos(cell.bearing), d_min * sin(cell.bearing), begin.heading)
-    there = Pose(d_min * cos(other.bearing), d_min * sin(other.bearing), end.heading)
-    end_blur, differs = max(end.left, end.right), begin.differs + end.differs
-    blur = Blur(begin.left + end_blur, begin.right + end_blur, differs, end.differs)
+    # where the other contact would be at that time, had it always moved as it then does
+    drifts = 0.0
+    met = end.middle
+    if min(cell.piece, other.piece) + 1 < len(scene.leader):
+        drifts = begin.span * hypot(begin.vx - end.vx, begin.vy - end.vy)
+    early = begin.t - end.t
+    met = Pose(met.x + early * end.vx, met.y + early * end.vy, met.h)
+    c, s = cos(met.h), sin(met.h)
+    moved, differs = max(end.left, end.right) + drifts, begin.differs + end.differs
     return soonest(
-        to_frame_of(here, there),
-        blur,
-        Velocity(alpha * cos(there.h), -alpha * sin(there.h)),
+        to_frame_of(begin.middle, met),
+        Blur(begin.left + moved, begin.right + moved, differs, end.differs),
+        Velocity(end.vx * c + end.vy * s, end.vy * c - end.vx * s),
         Window(0.0, beat),
-        Sieve(False, _ORIGIN, scene),
+        _sieve_from(_ORIGIN, scene, False),
     )
 
 
@@ -343,6 +452,7 @@ def untouched_bound(start: Pose, scene: Scene, goal: Goal, beat: float) -> float
             best = TWO_PI + rows[k, 0]
             break
     n = solve(seen, goal.speed, scene.t_release, rows)
+    flown = Flown(0.0, 1.0, 0.0, 0.0)
     for k in range(n):
         if rows[k, 0] >= best:
             break
@@ -350,7 +460,7 @@ def untouched_bound(start: Pose, scene: Scene, goal: Goal, beat: float) -> float
         word = NearWord(
             (signs[0], signs[1], signs[2]), rows[k, 2], 0.0, rows[k, 3], 0.0, rows[k, 0]
         )
-        if not breaks_limit(start, word, inside, _STRIDE):
+        if not breaks_limit(start, word, flown, inside, _STRIDE):
             best = rows[k, 0]
             break
     # with two loops and more: no sooner than the soonest of all paths that are so long delayed

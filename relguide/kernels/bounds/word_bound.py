@@ -30,7 +30,7 @@ from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, wrap, wrap_signed
 from relguide.kernels.base.records import Pose, Velocity, Window
-from relguide.kernels.bounds.breach import ROUNDING, NearWord, Sieve, breaks_limit
+from relguide.kernels.bounds.breach import ROUNDING, Flown, NearWord, Sieve, breaks_limit
 
 _DEPTH = 192
 _FINEST = 1e-12  # an interval this short is not halved again [rad]
@@ -80,6 +80,8 @@ class _Interval(NamedTuple):
 
     time: float
     """No path of it arrives sooner [R/V_P]; infinite if none can arrive in time."""
+    latest: float
+    """Nor later."""
     fine: bool
     """Whether halving it would say no more."""
     turned: float
@@ -94,7 +96,7 @@ class _Interval(NamedTuple):
     """How much that may differ."""
 
 
-_NOTHING = _Interval(inf, True, 0.0, 0.0, 0.0, 0.0, 0.0)
+_NOTHING = _Interval(inf, inf, True, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 @njit(cache=True, nogil=True)
@@ -218,7 +220,8 @@ def _bound_same_side(side: _Side, window: Window, sieve: Sieve) -> float:
             if slack < hypot(to_x, to_y):
                 astray = asin(slack / hypot(to_x, to_y))
                 course = atan2(to_y, to_x)
-        found = _Interval(time, True, turned, -course, astray, middle, middle_blur)
+        latest = turned + side.heading + greatest
+        found = _Interval(time, latest, True, turned, -course, astray, middle, middle_blur)
         if _is_possible(found, (-1.0, 0.0, -1.0), 3, 0.0, side, sieve):
             best = time
     return best
@@ -283,7 +286,7 @@ def _three_turns_within(
     slack = side.radius + 2.0 * side.alpha * half
     astray = pi if slack >= gap else asin(slack / gap) + 0.5 * half
     first = wrap_signed(0.5 * mid - atan2(to_y, to_x))
-    return _Interval(time, spread <= side.radius, turned, first, astray, mid, half)
+    return _Interval(time, latest, spread <= side.radius, turned, first, astray, mid, half)
 
 
 @njit(cache=True, nogil=True, inline="always")  # 8 % of a proof
@@ -325,7 +328,7 @@ def _opposite_turns_within(
         return _NOTHING
     fine = longest < inf and half * (longest + half) <= side.radius
     middle, middle_blur = 0.5 * (shortest + longest), 0.5 * (longest - shortest)
-    return _Interval(time, fine, turned, mid, half, middle, middle_blur)
+    return _Interval(time, latest, fine, turned, mid, half, middle, middle_blur)
 
 
 @njit(cache=True, nogil=True)
@@ -367,4 +370,16 @@ def _is_ruled_out(
         (m * signs[0], m * signs[1], m * signs[2]), first, found.astray, found.middle,
         found.middle_blur, found.time,
     )  # fmt: skip
-    return breaks_limit(sieve.back, word, sieve.scene, _STRIDE)
+    begin, astray = 0.0, 0.0
+    if sieve.sense < 0.0:
+        # flown back from the goal, of which it is known only nearly when it is met
+        begin = sieve.low + found.time
+        latest = sieve.high + found.latest
+        if latest < inf:
+            astray = 0.5 * max(latest - begin, 0.0)
+            begin += astray
+        elif sieve.speed != sieve.scene.alpha:
+            return False
+    end = Pose(sieve.end.x + sieve.speed * begin, sieve.end.y, sieve.end.h)
+    flown = Flown(begin, sieve.sense, sieve.speed, astray)
+    return breaks_limit(end, word, flown, sieve.scene, _STRIDE)

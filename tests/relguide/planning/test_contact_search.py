@@ -10,7 +10,8 @@ import pytest
 
 from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.bounds.contact_bound import Cell, Goal
-from relguide.planning.contact_search import Question, halves
+from relguide.kernels.bounds.contact_tree import cell_at, halve, plant
+from relguide.planning.contact_search import Question
 
 LEADER = np.array(
     [[0.0, 1.0, 0.5, -0.7, 0.4], [2.0, 2.6, 0.2, 0.1, -0.2], [3.0, 3.5, 0.3, -0.1, 0.0]]
@@ -18,8 +19,7 @@ LEADER = np.array(
 QUESTION = Question(
     start=Pose(0.0, 0.0, 0.0),
     scene=Scene(LEADER, 0.9, 0.8, 5.0),
-    goal=Goal(-1.0, 0.9),
-    never_at_release=False,
+    goal=Goal(-1.0, 0.9, False),
     horizon=inf,
 )
 
@@ -68,6 +68,13 @@ def test_contacts_after_the_horizon_have_no_cell() -> None:
     assert set(windows(replace(QUESTION, horizon=0.0))) == {(0, -1.0), (0, 1.0)}
 
 
+def test_last_contacts_are_those_of_every_leg() -> None:
+    seen: dict[int, set[tuple[float, float]]] = defaultdict(set)
+    for cell in QUESTION.last_contacts():
+        seen[cell.piece].add((cell.start, cell.end))
+    assert seen == {0: {(0.0, 2.0)}, 1: {(2.0, 3.0)}, 2: {(3.0, inf)}}
+
+
 @pytest.mark.parametrize(
     ("cell", "by_time"),
     [
@@ -81,7 +88,11 @@ def test_contacts_after_the_horizon_have_no_cell() -> None:
 def test_the_halves_of_a_cell_are_the_cell_cut_across_its_longer_side(
     cell: Cell, by_time: bool
 ) -> None:
-    one, other = halves(cell, QUESTION.scene.d_min)
+    tree = plant(np.array([cell]), 3)
+    first = halve(tree, 0, QUESTION.scene.d_min)
+    assert halve(tree, 0, QUESTION.scene.d_min) == first == 1
+    assert halve(tree, 1, QUESTION.scene.d_min) == -1  # no room
+    one, other = cell_at(tree, first), cell_at(tree, first + 1)
     assert (one.piece, one.side) == (other.piece, other.side) == (cell.piece, cell.side)
     if by_time:
         middle = 0.5 * (cell.start + cell.end)

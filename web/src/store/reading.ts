@@ -46,6 +46,8 @@ export function proofSentence(optimality: OptimalityCard, time: number): string 
   switch (optimality.proof) {
     case "relaxation":
       return "Optimal: no path is faster, even without the minimum separation.";
+    case "certified":
+      return "Optimal: no path that keeps the minimum separation is faster by more than 0.1 s.";
     case "bound":
       return `At most ${formatClock(time - optimality.lower_bound_s)} above the optimum: no path is faster than ${formatClock(optimality.lower_bound_s)}.`;
     case "none":

@@ -19,6 +19,7 @@ describe("numbers beside the picture", () => {
 
   test("each proof has its words", () => {
     expect(proofSentence({ proof: "relaxation", lower_bound_s: 250 }, 250)).toMatch(/^Optimal/);
+    expect(proofSentence({ proof: "certified", lower_bound_s: 249.95 }, 250)).toMatch(/^Optimal/);
     expect(proofSentence({ proof: "bound", lower_bound_s: 240 }, 250)).toContain("00:10");
     expect(proofSentence({ proof: "none", lower_bound_s: 240 }, 250)).toContain("not proved");
     expect(proofSentence({ proof: "none", lower_bound_s: 0 }, 250)).not.toContain("00:00");

@@ -1,5 +1,6 @@
 """Cells of contacts: none of their bounds lies above what is exact for any contact in them."""
 
+from collections import Counter
 from math import cos, hypot, inf, pi, sin, sqrt
 
 import numpy as np
@@ -9,11 +10,12 @@ from hypothesis import strategies as st
 from numba import njit
 from scipy.integrate import quad
 
-from relguide.kernels.base.records import Pose, Scene, Velocity
+from relguide.kernels.base.records import Contact, Pose, Scene, Velocity
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.contact_bound import (
     Cell,
     Goal,
+    arrives_at_release,
     cell_bound,
     contacts_within,
     leaving_bound,
@@ -23,9 +25,23 @@ from relguide.kernels.bounds.contact_bound import (
     untouched_bound,
     word_between,
 )
-from relguide.kernels.contact.contact import contact_exists, contact_heading, to_frame_of
+from relguide.kernels.contact.contact import (
+    contact_exists,
+    contact_heading,
+    contact_on,
+    to_frame_of,
+)
+from relguide.kernels.contact.paths_to_contact import paths_to_contact
 from relguide.kernels.separation.clearance import leader_at, piece_at
-from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, fly_piece, solve, solve_toward
+from relguide.kernels.words.delay import DELAY_PIECES, MAX_DELAYS, delay_paths
+from relguide.kernels.words.extremals import (
+    MAX_ROWS,
+    SIGNS,
+    fly_piece,
+    solve,
+    solve_and_measure,
+    solve_toward,
+)
 from tests.situations import numbers
 
 FAR = 1e3
@@ -101,8 +117,8 @@ def test_no_contact_of_a_cell_is_reached_or_left_sooner(
 ) -> None:  # fmt: skip
     start, scene = Pose(x, y, h), straight(alpha, d_min, d_min + behind)
     assume(hypot(x - d_min - behind, y) > d_min)
-    soon, onward = cell_bound(start, scene, Goal(0.0, alpha), cell, FAR)
-    leaving = leaving_bound(scene, cell, FAR)
+    soon, onward = cell_bound(start, scene, Goal(0.0, alpha, False), cell, FAR)
+    leaving = leaving_bound(scene, Goal(0.0, alpha, False), cell, FAR)
     b = cell.bearing + share * cell.half
     if not contact_exists(b, alpha):
         return
@@ -173,7 +189,7 @@ def test_who_touches_nothing_is_as_fast_as_an_extremal_that_keeps_clear() -> Non
         start = Pose(x, y, h)
         n = solve(start, 0.8, 0.0, rows)
         clear = [row[0] for row in rows[:n] if keeps(start, row, scene)]
-        lowest = untouched_bound(start, scene, Goal(0.0, 0.8), inf)
+        lowest = untouched_bound(start, scene, Goal(0.0, 0.8, False), inf)
         assert lowest <= min(clear, default=inf) + SLACK
         # or it has a full loop
         assert lowest == pytest.approx(min(clear, default=inf)) or lowest > 2.0 * pi
@@ -182,12 +198,13 @@ def test_who_touches_nothing_is_as_fast_as_an_extremal_that_keeps_clear() -> Non
 
 
 def turning(rng: np.random.Generator) -> Scene:
-    """A leader that turns, then keeps straight."""
+    """A leader that turns, then keeps straight along the x axis."""
     alpha, d_min = rng.uniform(0.4, 0.98), rng.uniform(0.3, 4.0)
     table = np.zeros((2, 5))
     table[0] = 0.0, *rng.uniform(-4.0, 4.0, 2), rng.uniform(-pi, pi), rng.choice((1.0, -1.0))
     table[0, 4] *= rng.uniform(0.2, 1.2)
     table[1, 0] = rng.uniform(1.0, 3.0)
+    table[0, 3] = -table[0, 4] * table[1, 0]  # the final leg leads along the x axis
     scene = Scene(table, alpha, d_min, 0.0)
     table[1, 1:4] = leader_at(scene, 0, table[1, 0])
     return scene
@@ -242,7 +259,7 @@ def test_a_contact_with_a_leader_that_turns_strays_no_further() -> None:
 def test_no_contact_with_a_leader_that_turns_is_reached_or_left_sooner(seed: int) -> None:
     """Words are flown back from contacts at the edges of a cell, where it is widest in time."""
     rng = np.random.default_rng(seed)
-    reached = left = 0
+    reached = left = kept = barred = 0
     for _ in range(4_000):
         scene = turning(rng)
         until = scene.leader[1, 0]
@@ -256,7 +273,7 @@ def test_no_contact_with_a_leader_that_turns_is_reached_or_left_sooner(seed: int
         amounts = rng.dirichlet((1.0, 1.0, 1.0)) * t
         row = np.array((t, rng.integers(0, 6), *amounts))
         start = flown_backward(contact, row)
-        goal = Goal(rng.uniform(-6.0, 6.0), rng.choice((scene.alpha, 0.0)))
+        goal = Goal(rng.uniform(-6.0, 6.0), rng.choice((scene.alpha, 0.0, 1.0)), False)
         soon, onward = cell_bound(start, scene, goal, cell, FAR)
         rows = np.empty((MAX_ROWS, 5))
         on = Pose(contact.x - goal.x - goal.speed * t, contact.y, contact.h % (2.0 * pi))
@@ -264,8 +281,62 @@ def test_no_contact_with_a_leader_that_turns_is_reached_or_left_sooner(seed: int
             continue
         assert onward <= rows[0, 0] + SLACK * (1.0 + rows[0, 0])
         left += 1
+        later = scene._replace(leader=scene.leader - np.array([t, 0.0, 0.0, 0.0, 0.0]))
+        leaving = leaving_bound(scene, goal, cell, FAR)
+        for some in rows[: solve(on, goal.speed, 0.0, rows)]:
+            if some[0] < 50.0 and keeps(contact, some, later._replace(d_min=scene.d_min - 1e-9)):
+                assert leaving <= some[0] + SLACK * (1.0 + some[0])
+                kept += 1
+                break
+            barred += leaving > some[0] + 0.1
         if keeps(start, row, scene._replace(d_min=scene.d_min - SLACK)):
             assert soon <= t + SLACK * (1.0 + t)
             reached += 1
     assert left > 3_000
     assert reached > 300
+    assert kept > 300
+    assert barred > 30
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_no_contact_follows_another_sooner_while_the_leader_turns(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    met = 0
+    for _ in range(1_500):
+        scene = turning(rng)
+        cells, contacts = [], []
+        for piece in (0, rng.integers(0, 2)):
+            half = 0.25 * pi * 0.5 ** rng.integers(2, 16)
+            bearing = (rng.integers(0, round(pi / half)) + 0.5) * 2.0 * half - pi
+            start, end = (0.0, scene.leader[1, 0]) if piece == 0 else (scene.leader[1, 0], 9.0)
+            span = 0.5 * (end - start) * 0.5 ** rng.integers(0, 8)
+            middle = start + span + rng.uniform() * (end - start - 2.0 * span)
+            cell = Cell(piece, rng.choice((1.0, -1.0)), bearing, half, middle - span, middle + span)
+            b, t = bearing + rng.choice((-1.0, 0.0, 1.0)) * half, rng.uniform(cell.start, cell.end)
+            cells.append(cell)
+            contacts.append((Contact(int(piece), b, cell.side), t))
+        (contact, t), (other, _) = contacts
+        rows = np.empty((MAX_ROWS, 5))
+        n = paths_to_contact(contact_on(scene, contact, t), t, scene, other, rows)
+        for row in rows[:n]:
+            if cells[1].start <= row[0] <= cells[1].end:
+                assert word_between(scene, *cells, FAR) <= row[0] - t + 1e-5
+                met += 1
+    assert met > 100
+
+
+def test_who_is_there_as_the_slot_opens_is_who_a_delay_leads_there() -> None:
+    """Both ways: a path of just that length is found if and only if the closed test allows one."""
+    rng = np.random.default_rng(3)
+    paths = np.empty((2, MAX_DELAYS, DELAY_PIECES))
+    seen: Counter[tuple[bool, bool]] = Counter()
+    for _ in range(4_000):
+        x, y, h = *rng.uniform(-4.0, 4.0, 2), rng.uniform(0.0, 2.0 * pi)
+        alpha, t_release = rng.uniform(0.4, 0.98), rng.uniform(0.5, 12.0)
+        rows = np.empty((MAX_ROWS, 5))
+        _, shortest = solve_and_measure(x, y, h, alpha, t_release, rows)
+        found = delay_paths(Pose(x, y, h), alpha, t_release, paths) > 0
+        assert found == arrives_at_release(x, y, h, alpha, t_release)
+        seen[shortest <= t_release, found] += 1
+    assert set(seen) == {(False, False), (True, False), (True, True)}
+    assert seen[True, False] > 20

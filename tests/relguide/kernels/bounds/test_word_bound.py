@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from relguide.kernels.base.records import Pose, Scene, Velocity, Window
-from relguide.kernels.bounds.breach import NearWord, Sieve, breaks_limit
+from relguide.kernels.bounds.breach import Flown, NearWord, Sieve, breaks_limit
 from relguide.kernels.bounds.word_bound import Blur, intercept_span, soonest
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, WORDS, fly_piece, solve_toward
 from tests.situations import numbers
@@ -15,7 +15,7 @@ from tests.situations import numbers
 ROUNDING = 1e-9
 NOBODY = np.array([[0.0, 1e6, 1e6, 0.0, 0.0]])
 """A leader that is nowhere near."""
-NO_SIEVE = Sieve(False, Pose(0.0, 0.0, 0.0), Scene(NOBODY, 0.5, 0.0, 0.0))
+NO_SIEVE = Sieve(False, Pose(0.0, 0.0, 0.0), 0.0, Scene(NOBODY, 0.5, 0.0, 0.0), 1.0, 0.0, 0.0)
 
 places = st.one_of(numbers(-3.0, 3.0), numbers(-40.0, 40.0), st.sampled_from([0.0, 1.0, 2.0, 4.0]))
 courses = st.one_of(
@@ -146,7 +146,8 @@ def test_a_breach_is_never_made_up(
     table = np.array([[0.0, 0.0, 0.0, leader, 0.0]])
     until = first + middle + last
     near = NearWord(signs, first, blurs[0], middle, blurs[1], until)
-    if not breaks_limit(Pose(*start, 0.0), near, Scene(table, 0.7, limit, 0.0), 0.02):
+    on = Flown(0.0, 1.0, 0.0, 0.0)
+    if not breaks_limit(Pose(*start, 0.0), near, on, Scene(table, 0.7, limit, 0.0), 0.02):
         return
     amounts = (
         max(first + shares[0] * blurs[0], 0.0),

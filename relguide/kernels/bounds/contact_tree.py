@@ -1,0 +1,180 @@
+"""Cells of contacts as a tree: each knows its halves, and what is known of it is computed once.
+
+The time round the disc is the difference of two times, one for each contact. So each may be looked
+at with its own, and much more closely than both together: that is what `round_from` and `round_to`
+do. Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
+"""
+
+from math import inf, isnan
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from relguide.kernels.base.records import Pose, Scene
+from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.bounds.contact_bound import Cell, Goal, cell_bound, leaving_bound, round_time
+
+IntArray = np.ndarray[tuple[int, ...], np.dtype[np.int64]]
+
+_CLOSELY = 50  # times a cell is halved to find what is least in it
+_NARROW = 1e-6  # and how narrow its parts may become: what is left counts for some 1e-5 R/V_P [rad]
+_SOON, _ONWARD, _LEAVING, _FROM, _TO = 0, 1, 2, 3, 5  # columns of what is known
+_COLUMNS = 7
+
+
+class Tree(NamedTuple):
+    """Cells, and what is known of them."""
+
+    cells: FloatArray
+    """The fields of each `Cell`. shape (n, 6)"""
+    halves: IntArray
+    """The first of its two halves, the other being the next; −1 if it has not been halved, and in
+    the last place how many cells there are. shape (n + 1,)"""
+    known: FloatArray
+    """How soon a first contact can be there, the goal from it, and the goal from a last one; and
+    bounds of both with the time round, either way. NaN while it is not known. shape (n, 7)"""
+
+
+class Problem(NamedTuple):
+    """How soon can a path that keeps d_min be at a goal?"""
+
+    start: Pose
+    """Where they begin, at t = 0."""
+    scene: Scene
+    """The leader, d_min, and the time before which arrivals do not count."""
+    goal: Goal
+    """Where they arrive."""
+    table: FloatArray
+    """Of `times_round`."""
+    beat: float
+    """Arrivals from here on do not matter [R/V_P]."""
+    paired: float
+    """How small a cell of first contacts, not on the final leg, must be before the last contacts
+    that go with it are looked at, one by one [rad]."""
+
+
+@njit(cache=True, nogil=True)
+def plant(cells: FloatArray, room: int) -> Tree:
+    """A tree of these cells, shape (n, 6), with room for so many in all."""
+    count = len(cells)
+    tree = Tree(np.empty((room, 6)), np.empty(room + 1, np.int64), np.empty((room, _COLUMNS)))
+    tree.cells[:count] = cells
+    tree.halves[:count], tree.known[:count] = -1, np.nan
+    tree.halves[room] = count
+    return tree
+
+
+@njit(cache=True, nogil=True)
+def cell_at(tree: Tree, n: int) -> Cell:
+    """A cell by its number."""
+    piece, side, bearing, half, start, end = tree.cells[n]
+    return Cell(int(piece), side, bearing, half, start, end)
+
+
+@njit(cache=True, nogil=True)
+def halve(tree: Tree, n: int, d_min: float) -> int:
+    """The number of the first half of a cell, the other's being one more; −1 if there is no room.
+
+    It is cut across the longer side, of bearings or times.
+    """
+    room = len(tree.cells)
+    if tree.halves[n] >= 0:
+        return int(tree.halves[n])
+    if tree.halves[room] + 2 > room:
+        return -1
+    first = int(tree.halves[room])
+    tree.halves[room] += 2
+    tree.halves[n] = first
+    cell = cell_at(tree, n)
+    tree.halves[first : first + 2], tree.known[first : first + 2] = -1, np.nan
+    tree.cells[first] = tree.cells[first + 1] = tree.cells[n]
+    span = 0.5 * (cell.end - cell.start)
+    if inf > span > (d_min + 1.0) * cell.half:
+        tree.cells[first, 5] = tree.cells[first + 1, 4] = cell.start + span
+    else:
+        half = 0.5 * cell.half
+        tree.cells[first, 3] = tree.cells[first + 1, 3] = half
+        tree.cells[first, 2], tree.cells[first + 1, 2] = cell.bearing - half, cell.bearing + half
+    return first
+
+
+@njit(cache=True, nogil=True)
+def reach(tree: Tree, problem: Problem, n: int) -> tuple[float, float]:
+    """How soon a first contact can be in the cell, and how soon the goal from there.
+
+    Its window of time is narrowed to when contacts are reached that lead to the goal in time.
+    """
+    known = tree.known[n]
+    if isnan(known[_SOON]):
+        cell = cell_at(tree, n)
+        soon, onward = cell_bound(problem.start, problem.scene, problem.goal, cell, problem.beat)
+        known[_SOON], known[_ONWARD] = soon, onward
+        if soon < inf and cell.end < inf:
+            tree.cells[n, 4] = soon
+            tree.cells[n, 5] = min(cell.end, max(problem.beat - onward, soon))
+    return float(known[_SOON]), float(known[_ONWARD])
+
+
+@njit(cache=True, nogil=True)
+def leave(tree: Tree, problem: Problem, n: int) -> float:
+    """How soon the goal can be reached from a last contact in the cell."""
+    known = tree.known[n]
+    if isnan(known[_LEAVING]):
+        known[_LEAVING] = leaving_bound(problem.scene, problem.goal, cell_at(tree, n), problem.beat)
+    return float(known[_LEAVING])
+
+
+@njit(cache=True, nogil=True)
+def round_from(tree: Tree, problem: Problem, n: int, way: int) -> float:
+    """How soon a first contact can be in a cell, less the time round to there, looked at closely.
+
+    Args:
+        tree: with the cell.
+        problem: what is asked.
+        n: number of the cell.
+        way: 0 counter-clockwise round the leader, 1 clockwise.
+    """
+    return _least(tree, problem, n, way, False)
+
+
+@njit(cache=True, nogil=True)
+def round_to(tree: Tree, problem: Problem, n: int, way: int) -> float:
+    """How soon the goal can be reached from a last contact in a cell, with the time round to it."""
+    return _least(tree, problem, n, way, True)
+
+
+@njit(cache=True, nogil=True)
+def _with_round(tree: Tree, problem: Problem, n: int, way: int, last: bool) -> float:
+    sense, bearing, half = 1.0 - 2.0 * way, tree.cells[n, 2], tree.cells[n, 3]
+    if last:
+        edge = bearing - sense * half
+        return leave(tree, problem, n) + sense * round_time(problem.table, way, edge)
+    edge = bearing + sense * half
+    return reach(tree, problem, n)[0] - sense * round_time(problem.table, way, edge)
+
+
+@njit(cache=True, nogil=True)
+def _least(tree: Tree, problem: Problem, n: int, way: int, last: bool) -> float:
+    """The least that `_with_round` comes to in a cell."""
+    column = (_TO if last else _FROM) + way
+    if not isnan(tree.known[n, column]):
+        return float(tree.known[n, column])
+    numbers, bounds = np.empty(_CLOSELY + 2, np.int64), np.empty(_CLOSELY + 2)
+    numbers[0], bounds[0] = n, _with_round(tree, problem, n, way, last)
+    count, at = 1, 0
+    for _ in range(_CLOSELY):
+        if bounds[at] == inf or tree.cells[numbers[at], 3] < _NARROW:
+            break
+        first = halve(tree, numbers[at], problem.scene.d_min)
+        if first < 0:
+            break
+        parent = bounds[at]
+        for k in range(2):
+            place = at if k == 0 else count
+            numbers[place] = first + k
+            bounds[place] = max(parent, _with_round(tree, problem, first + k, way, last))
+        count += 1
+        at = int(np.argmin(bounds[:count]))
+    tree.known[n, column] = bounds[at]
+    return float(bounds[at])

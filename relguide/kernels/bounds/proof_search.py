@@ -1,0 +1,211 @@
+"""The least time of all paths that touch d = d_min, by halving cells of contacts: branch and bound.
+
+A path has a first contact, and if the way on from it breaks the limit another one, of which the
+last counts too. Bundles of paths are kept by their first contact's cell and the last one's, in a
+heap, the least bound first; that is proved at any moment. Slot frame: lengths in R, times in R/V_P.
+"""
+
+from math import inf
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from relguide.kernels.base.clock import time_is_up
+from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.bounds.contact_bound import between_bound
+from relguide.kernels.bounds.contact_tree import (
+    IntArray,
+    Problem,
+    Tree,
+    cell_at,
+    halve,
+    leave,
+    plant,
+    reach,
+    round_from,
+    round_to,
+)
+
+MAX_BUNDLES = 400_000
+"""Most bundles of paths kept, and cells; the search ends there."""
+SEARCHING, CLOSED, STUCK = 0, 1, 2
+"""What a round ends with: there is more to do; no bundle is left; nothing more can be done."""
+_SMALLEST = 1e-10  # a cell no wider than this is not halved: rounding counts for more [rad]
+_EASED = 0.03  # cells narrower than this are looked at closely [rad]
+_SLACK = 1e-6  # of `round_time`, as part of a whole round
+_NO_LAST = -1  # of a bundle whose last contact does not matter
+
+
+class Search(NamedTuple):
+    """The bundles of paths that may arrive before what is to be beaten."""
+
+    first: Tree
+    """Of first contacts."""
+    last: Tree
+    """Of last contacts."""
+    roots: int
+    """How many cells that one began with."""
+    bounds: FloatArray
+    """A heap: no path of a bundle arrives before this [R/V_P]. shape (MAX_BUNDLES,)"""
+    bundles: IntArray
+    """Numbers of both cells, and 1 where the time round was looked at closely. shape (·, 3)"""
+    size: IntArray
+    """How many bundles there are. shape (1,)"""
+
+
+@njit(cache=True, nogil=True)
+def begin(problem: Problem, first: FloatArray, last: FloatArray) -> Search:
+    """A search that has only begun.
+
+    Args:
+        problem: what is asked.
+        first: cells that hold every first contact. shape (·, 6)
+        last: cells that hold every last one. shape (·, 6)
+    """
+    search = Search(
+        plant(first, MAX_BUNDLES), plant(last, MAX_BUNDLES), len(last), np.empty(MAX_BUNDLES),
+        np.empty((MAX_BUNDLES, 3), np.int64), np.zeros(1, np.int64),
+    )  # fmt: skip
+    for n in range(len(first)):
+        _add(search, problem, n, _NO_LAST, 0.0)
+    return search
+
+
+@njit(cache=True, nogil=True)
+def go_on(search: Search, problem: Problem, until: float) -> tuple[float, int]:
+    """Halve the bundles with the least bounds.
+
+    Args:
+        search: goes on.
+        problem: as it began with.
+        until: when to end, by `clock.now` [s].
+
+    Returns:
+        the least bound, or `beat`, and what it ended with.
+    """
+    final = len(problem.scene.leader) - 1
+    while search.size[0] > 0:
+        bound = search.bounds[0]
+        if search.size[0] + 2 * search.roots >= MAX_BUNDLES:
+            return bound, STUCK
+        if time_is_up(until):
+            return bound, SEARCHING
+        n, m, eased = search.bundles[0]
+        half = search.first.cells[n, 3]
+        if max(half, search.last.cells[m, 3] if m >= 0 else 0.0) < _SMALLEST:
+            return bound, STUCK
+        _drop_least(search)
+        if m < 0:
+            # elsewhere than on the final leg the cells of last contacts are very many
+            if (
+                search.first.cells[n, 0] == final
+                or _size(search.first, n, problem.scene.d_min) < problem.paired
+            ) and leave(search.first, problem, n) > reach(search.first, problem, n)[1] + _SMALLEST:
+                for k in range(search.roots):
+                    _add(search, problem, n, k, bound)
+                continue
+        elif eased == 0 and max(half, search.last.cells[m, 3]) < _EASED:
+            at_end = min(search.first.cells[n, 0], search.last.cells[m, 0]) == final
+            closer = _round_trip(search, problem, n, m) if at_end else bound
+            if closer > bound:
+                if closer < problem.beat:
+                    _push(search, closer, n, m, 1)
+                continue
+        if not _halve(search, problem, n, m, bound):
+            return bound, STUCK
+    return problem.beat, CLOSED
+
+
+@njit(cache=True, nogil=True)
+def _add(search: Search, problem: Problem, n: int, m: int, least: float) -> None:
+    """Keep the paths through these cells, known to arrive no sooner than `least`."""
+    soon, onward = reach(search.first, problem, n)
+    if soon == inf:
+        return
+    if m < 0:
+        bound = soon + onward
+    else:
+        leaving = leave(search.last, problem, m)
+        cell, other = cell_at(search.first, n), cell_at(search.last, m)
+        between = between_bound(
+            problem.scene, problem.table, cell, other, problem.beat - soon - leaving
+        )
+        bound = max(soon + between, other.start) + leaving
+    bound = max(bound, least, problem.scene.t_release)
+    if bound < problem.beat:
+        _push(search, bound, n, m, 0)
+
+
+@njit(cache=True, nogil=True)
+def _halve(search: Search, problem: Problem, n: int, m: int, bound: float) -> bool:
+    """Keep both halves of the larger cell; whether there was room for them."""
+    d_min = problem.scene.d_min
+    if m >= 0 and _size(search.last, m, d_min) >= _size(search.first, n, d_min):
+        half = halve(search.last, m, d_min)
+        if half >= 0:
+            _add(search, problem, n, half, bound)
+            _add(search, problem, n, half + 1, bound)
+        return half >= 0
+    half = halve(search.first, n, d_min)
+    if half >= 0:
+        _add(search, problem, half, m, bound)
+        _add(search, problem, half + 1, m, bound)
+    return half >= 0
+
+
+@njit(cache=True, nogil=True)
+def _size(tree: Tree, n: int, d_min: float) -> float:
+    """The longer side of a cell [rad]."""
+    span = 0.5 * (tree.cells[n, 5] - tree.cells[n, 4])
+    return float(max(tree.cells[n, 3], span / (d_min + 1.0) if span < inf else 0.0))
+
+
+@njit(cache=True, nogil=True)
+def _round_trip(search: Search, problem: Problem, n: int, m: int) -> float:
+    """How soon paths can arrive that go round from one cell to another, on the final leg."""
+    first, last = search.first.cells[n], search.last.cells[m]
+    closest = inf
+    for way in range(2):
+        apart = (1.0 - 2.0 * way) * (first[2] - last[2])
+        behind = 1.0 if apart >= first[3] + last[3] else 0.0
+        whole = problem.table[way, -1] * (behind - 2.0 * _SLACK)
+        trip = round_from(search.first, problem, n, way) + round_to(search.last, problem, m, way)
+        closest = min(closest, trip + whole)
+    return closest
+
+
+@njit(cache=True, nogil=True)
+def _push(search: Search, bound: float, n: int, m: int, eased: int) -> None:
+    """Put a bundle into the heap."""
+    at = int(search.size[0])
+    search.size[0] += 1
+    while at > 0:
+        above = (at - 1) // 2
+        if search.bounds[above] <= bound:
+            break
+        search.bounds[at] = search.bounds[above]
+        search.bundles[at] = search.bundles[above]
+        at = above
+    search.bounds[at] = bound
+    search.bundles[at, 0], search.bundles[at, 1], search.bundles[at, 2] = n, m, eased
+
+
+@njit(cache=True, nogil=True)
+def _drop_least(search: Search) -> None:
+    """Take the least bundle from the heap."""
+    bounds, bundles = search.bounds, search.bundles
+    search.size[0] -= 1
+    count, at = int(search.size[0]), 0
+    bound = bounds[count]
+    while 2 * at + 1 < count:
+        below = 2 * at + 1
+        if below + 1 < count and bounds[below + 1] < bounds[below]:
+            below += 1
+        if bounds[below] >= bound:
+            break
+        bounds[at] = bounds[below]
+        bundles[at] = bundles[below]
+        at = below
+    bounds[at] = bound
+    bundles[at] = bundles[count]
