@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache, partial
 from inspect import signature
 from math import hypot, inf
+from types import FunctionType
 from typing import Literal, NamedTuple
 
 from relguide.kernels.base.angles import wrap_signed
@@ -91,6 +92,14 @@ def with_deadline(planner: Planner, deadline: Second | None) -> Planner:
 @lru_cache(64)
 def takes_deadline(planner: Planner) -> bool:
     """Whether a planner can be given a `deadline`, as `plan` can."""
+    if isinstance(planner, FunctionType):
+        return _names_deadline(planner)
+    return "deadline" in signature(planner).parameters
+
+
+@lru_cache(maxsize=64)
+def _names_deadline(planner: FunctionType) -> bool:
+    """Whether a function does: reading its signature takes longer than some plans."""
     return "deadline" in signature(planner).parameters
 
 

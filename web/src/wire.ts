@@ -200,54 +200,35 @@ export interface AlternativeCard {
 /** A convergence area: lines of equal time-to-converge, and regions of equal word. */
 export interface AreaAnswer {
   grid: AreaGrid;
-  /** Clockwise from true north; the same at all nodes. */
   pursuer_heading_deg: number;
   levels_s: number[];
-  /** One for each level, in the same order. */
   contours: AreaContour[];
-  /** Together they cover the grid. */
   regions: AreaRegion[];
   count: AreaCount;
-  /** What is exact here and what is a bound, in sentences. */
   notes: string[];
   compute_ms: number;
-  /**
-   * Times of the nodes, if asked for: one list for each row, from the south; null where there is
-   * no plan.
-   */
   times_s?: (number | null)[][] | null;
-  /** No plan from a node is faster than this; laid out as `times_s`. */
   lower_bounds_s?: (number | null)[][] | null;
 }
 
 /** The places from which the time-to-converge is equal to a level. */
 export interface AreaContour {
   level_s: number;
-  /**
-   * Lines of [x_m, y_m], or of [x_m, y_m, lat_deg, lon_deg] if the situation came with latitudes;
-   * closed where the first vertex is also the last.
-   */
   lines: number[][][];
 }
 
 /** How many nodes of the grid have each kind of answer. */
 export interface AreaCount {
-  /** The time is proved to be the least. */
   proved: number;
-  /** There is a plan, and a lower bound of the time. */
   limited: number;
   no_plan: number;
 }
 
 /** Where the pursuer was put: the nodes of a rectangle with sides toward east and north. */
 export interface AreaGrid {
-  /** Its centre, east. */
   x_m: number;
-  /** Its centre, north. */
   y_m: number;
-  /** From the first column to the last. */
   width_m: number;
-  /** From the first row to the last. */
   height_m: number;
   columns: number;
   rows: number;
@@ -255,49 +236,24 @@ export interface AreaGrid {
 
 /** A region with one word as its answer. */
 export interface AreaRegion {
-  /**
-   * Letters; or `delay`: a path made longer to arrive exactly when the slot opens; or
-   * `constrained`: a path that touches the minimum separation; or empty: no plan.
-   */
   word: string;
-  /** Whether the path that would be fastest without the minimum separation comes too close. */
   limited: boolean;
-  /**
-   * Each polygon is an outline followed by its holes, all closed, with points as in a contour.
-   * Fill them by the even-odd rule.
-   */
   polygons: number[][][][];
 }
 
 /** Whose convergence area is asked for, and on which grid: either a flight or a situation. */
 export interface AreaRequest {
-  /** Id of a flight: the area for its situation now. */
   flight?: string | null;
-  /** Instead of a flight: a situation as `POST /plans` takes it. */
   situation?: SituationBody | null;
-  /** Centre of the grid, east; if left out, the leader. */
   x_m?: number | null;
-  /** Centre of the grid, north; if left out, the leader. */
   y_m?: number | null;
-  /** From the first column to the last. */
   width_m?: number;
-  /** From the first row to the last. */
   height_m?: number;
   columns?: number;
   rows?: number;
-  /** Times of the lines; if left out, some round ones. */
   levels_s?: number[];
-  /**
-   * Whether to search the paths that touch the minimum separation as well. Takes seconds; for few
-   * nodes, and a leader without turns to come.
-   */
   exact?: boolean;
-  /**
-   * `network`: a network of branches says where it is enough to solve one word; all words are
-   * solved where it is not sure, and where the word changes.
-   */
   planner?: "exact" | "network";
-  /** Whether to give the times of all nodes. */
   times?: boolean;
 }
 
@@ -418,23 +374,17 @@ export interface FlightStarted {
 /** Where a flight stands. */
 export interface FlightStatus {
   id: string;
-  /** Its name; empty for a situation of your own. */
   scenario: string;
   title: string;
-  /** Flight time. */
   t_s: number;
-  /** Simulated seconds per second. */
   rate: number;
   paused: boolean;
   ended: boolean;
   mode: Mode;
-  /** How far the crew has engaged guidance. */
   engagement: Engagement;
   joined: boolean;
   separation_m: number;
-  /** Path of its WebSocket. */
   stream_url: string;
-  /** Path of its 3D scene. */
   scene_url: string;
 }
 
@@ -464,11 +414,8 @@ export interface ForecastChanged {
 export interface GeodeticLeader {
   lat_deg: number;
   lon_deg: number;
-  /** Clockwise from true north. */
   heading_deg: number;
-  /** True airspeed, kept constant. */
   tas_mps: number;
-  /** Pieces to come; what follows the last is flown for ever. */
   intent?: IntentPiece[];
 }
 
@@ -476,11 +423,8 @@ export interface GeodeticLeader {
 export interface GeodeticPursuer {
   lat_deg: number;
   lon_deg: number;
-  /** Clockwise from true north. */
   heading_deg: number;
-  /** True airspeed, kept constant. */
   tas_mps: number;
-  /** Bank of its turns. */
   max_bank_deg: number;
 }
 
@@ -547,9 +491,7 @@ export interface LeaderDataCommand {
 /** Instruct the leader to turn to a heading. */
 export interface LeaderHeadingCommand {
   command: "leader_heading";
-  /** Clockwise from true north. */
   heading_deg: number;
-  /** Which way round; if left out, the shorter. */
   direction?: Direction | null;
 }
 
@@ -572,7 +514,6 @@ export interface LeaderRoute {
 /** Instruct the leader to fly at a speed. */
 export interface LeaderSpeedCommand {
   command: "leader_speed";
-  /** True airspeed. */
   tas_mps: number;
 }
 
@@ -621,29 +562,19 @@ export interface LinkResult {
 
 /** The aircraft to be joined, at t = 0, with what it has declared it will do. */
 export interface LocalLeader {
-  /** East. */
   x_m: number;
-  /** North. */
   y_m: number;
-  /** Clockwise from true north. */
   heading_deg: number;
-  /** True airspeed, kept constant. */
   tas_mps: number;
-  /** Pieces to come; what follows the last is flown for ever. */
   intent?: IntentPiece[];
 }
 
 /** The aircraft that is guided, at t = 0. */
 export interface LocalPursuer {
-  /** East. */
   x_m: number;
-  /** North. */
   y_m: number;
-  /** Clockwise from true north. */
   heading_deg: number;
-  /** True airspeed, kept constant. */
   tas_mps: number;
-  /** Bank of its turns. */
   max_bank_deg: number;
 }
 
@@ -846,7 +777,6 @@ export interface PlayCommand {
 /** Select a heading for the pursuer, while guidance is not engaged. */
 export interface PursuerHeadingCommand {
   command: "pursuer_heading";
-  /** Clockwise from true north. */
   heading_deg: number;
 }
 
@@ -862,22 +792,12 @@ export interface Sample {
 
 /** Start a flight of a scenario. */
 export interface ScenarioFlightRequest {
-  /** Simulated seconds per second. */
   rate?: number;
-  /** Whether it waits for the command `play`. */
   paused?: boolean;
-  /**
-   * Whether the pursuer knows the leader's intent; if left out, as the scenario says. Of a
-   * situation of your own it does.
-   */
   intent_known?: boolean | null;
-  /** How far guidance is engaged at the start. */
   engagement?: Engagement;
-  /** 0 flies the type as its data say; any other draws its constants, unknown to its guidance. */
   seed?: number;
-  /** Time behind the leader to keep once joined; if left out, D is kept. */
   spacing_time_s?: number | null;
-  /** Its name. */
   scenario: string;
 }
 
@@ -886,9 +806,7 @@ export interface ScenarioInfo {
   name: string;
   title: string;
   description: string;
-  /** Whether what it needs is installed. */
   available: boolean;
-  /** If it is not available, what to install. */
   message: string;
 }
 
@@ -933,7 +851,6 @@ export interface SetEngagementCommand {
 /** Change how fast simulated time runs. */
 export interface SetRateCommand {
   command: "set_rate";
-  /** Simulated seconds per second. */
   rate: number;
 }
 
@@ -941,37 +858,24 @@ export interface SetRateCommand {
 export interface SituationBody {
   pursuer: LocalPursuer | GeodeticPursuer;
   leader: LocalLeader | GeodeticLeader;
-  /** D: how far behind the leader the pursuer is to be. */
   slot_distance_m: number;
-  /** d_min: how close the two may come; at most D. */
   min_separation_m: number;
-  /** Left out: calm. */
   wind?: WindBody;
 }
 
 /** Start a flight from a situation of your own. */
 export interface SituationFlightRequest {
-  /** Simulated seconds per second. */
   rate?: number;
-  /** Whether it waits for the command `play`. */
   paused?: boolean;
-  /**
-   * Whether the pursuer knows the leader's intent; if left out, as the scenario says. Of a
-   * situation of your own it does.
-   */
   intent_known?: boolean | null;
-  /** How far guidance is engaged at the start. */
   engagement?: Engagement;
-  /** 0 flies the type as its data say; any other draws its constants, unknown to its guidance. */
   seed?: number;
-  /** Time behind the leader to keep once joined; if left out, D is kept. */
   spacing_time_s?: number | null;
   situation: SituationBody;
 }
 
 /** A piece of intent: keep the heading. */
 export interface StraightPiece {
-  /** For how long. */
   straight_s: number;
 }
 
@@ -989,23 +893,17 @@ export interface StraightSegment {
 export interface Tick {
   kind: "tick";
   flight_id: string;
-  /** Flight time now. */
   t_s: number;
-  /** Simulated seconds per second. */
   rate: number;
   paused: boolean;
   ended: boolean;
-  /** Since the last tick, in order; of several samples only the newest. */
   documents: Document[];
 }
 
 /** A piece of intent: turn at constant bank. */
 export interface TurnPiece {
-  /** Heading to roll out on, clockwise from true north. */
   turn_to_heading_deg: number;
-  /** Which way round. */
   direction: Direction;
-  /** Bank of the turn. */
   bank_deg: number;
 }
 
@@ -1057,7 +955,6 @@ export interface UnsafeAlternativeCard {
 
 /** Uniform wind as reports give it. */
 export interface WindBody {
-  /** Where it comes from, clockwise from true north. */
   from_deg: number;
   speed_mps: number;
 }
