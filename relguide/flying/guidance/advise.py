@@ -259,7 +259,7 @@ def _replan_or_escape(
     """Another path if there is one that keeps d_min; else away from the leader."""
     turns_on = turns_unannounced(belief, assignment)
     events: list[Event] = []
-    if memory.mode == "converge" and not turns_on:
+    if not turns_on:
         found = converge.propose(belief, assignment, memory.committed, planner)
         memory, events = count_refusal(memory, found)
         if isinstance(found, Proposal):

@@ -107,8 +107,10 @@ def _regained_in(belief: Belief, heading: Radian, assignment: Assignment) -> Sec
 def must_leave(memory: Memory, belief: Belief, assignment: Assignment, outlook: Outlook) -> bool:
     """Whether what is flown now would lose d_min, or soon leave no way to keep it."""
     t, limit = belief.t, assignment.min_separation
-    ahead = outlook.forecast
-    if ahead.rest(t) < limit and ahead.least(t, assignment.settings.caution)[0] < limit:
+    ahead, kept = outlook.forecast, limit
+    if memory.committed is None:
+        kept = min(limit + assignment.settings.forecast_error, belief.separation)
+    if ahead.rest(t) < kept and ahead.least(t, assignment.settings.caution)[0] < kept:
         return True
     turns_on = turns_unannounced(belief, assignment)
     if not turns_on and outlook.least >= limit:

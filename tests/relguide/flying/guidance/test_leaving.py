@@ -6,20 +6,36 @@ from itertools import pairwise
 import pytest
 
 from relguide.flying.aircraft_documents import HeadingReference
+from relguide.flying.belief import Belief
 from relguide.flying.documents import Alert, ModeChanged, PlanUnavailable, SeparationLost, Unable
 from relguide.flying.flight import LeaderHeading, LeaderSpeed, Scenario
+from relguide.flying.guidance.assignment import Assignment
+from relguide.flying.guidance.committed import Committed
+from relguide.flying.guidance.converge import Proposal, propose
+from relguide.flying.guidance.leaving import must_leave
+from relguide.flying.guidance.memory import begin
+from relguide.flying.guidance.monitor import Outlook
 from relguide.flying.orders import Command, IntentKnown
 from relguide.flying.scenarios import own_scenario
 from relguide.kernels.base.angles import wrap_signed
-from relguide.planning.plan import NoPlan, Reason
+from relguide.planning.plan import NoPlan, Reason, plan
 from relguide.planning.situation import Leader, Pursuer, Situation
 from relguide.units import DEG, KT, NM
+from tests.campaign.families import draw
+from tests.campaign.flights import fly_case
 from tests.flights import Flown, fly_whole, random_start
-from tests.relguide.flying.guidance.beliefs import FIG_6B
+from tests.relguide.flying.guidance.beliefs import FIG_6B, behind, observe
+from tests.relguide.flying.guidance.test_forecast import make_forecast
 
 FOLLOWED = replace(FIG_6B, after_joining=600.0)
 JOINED = 950.0
 """By then Fig. 6b has joined, and the leader flies south-east [s]."""
+
+
+def committed(belief: Belief, assignment: Assignment) -> Committed:
+    found = propose(belief, assignment, None, plan)
+    assert isinstance(found, Proposal)
+    return found.committed
 
 
 def held_headings(flight: Flown) -> list[tuple[float, float]]:
@@ -173,3 +189,23 @@ def test_inside_d_min_it_turns_away_where_that_regains_it_much_sooner(
     assert loss.separation >= 4_950.0
     outside = next(s.t for s in flight.samples if s.guidance.separation >= 5.0 * NM)
     assert outside < 60.0
+
+
+def test_where_no_plan_keeps_a_buffer_a_forecast_next_to_d_min_is_not_trusted() -> None:
+    belief, assignment = observe(behind(along=12_000.0))
+    memory = begin(belief)._replace(mode="follow")
+    for least, leaves in ((10.0, True), (30.0, False)):
+        ahead = make_forecast([assignment.min_separation + least] * 200, t=belief.t)
+        outlook = Outlook(ahead, assignment.min_separation + least, belief.t + 40.0)
+        assert must_leave(memory, belief, assignment, outlook) == leaves
+        planned = memory._replace(mode="converge", committed=committed(belief, assignment))
+        assert not must_leave(planned, belief, assignment, outlook)
+
+
+@pytest.mark.slow
+def test_a_turn_that_would_just_lose_d_min_is_planned_for_in_time() -> None:
+    """D is 0.3 NM more than d_min, and the leader is ordered to turn by 90° while followed."""
+    row = fly_case(draw("follow", 221))
+    assert row.joined
+    assert row.losses == ()
+    assert row.least_share > 1.0
