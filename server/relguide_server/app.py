@@ -13,7 +13,7 @@ from starlette.responses import PlainTextResponse, Response
 from relguide.learn.planners import make_planner
 from relguide.planning.acceptance import takes_deadline
 from relguide.planning.plan import Planner
-from relguide_server import areas, flights, pages, plans, scene_relay
+from relguide_server import areas, flights, pages, plans, record_routes, scene_relay
 from relguide_server.departures import Departures, library_departures
 from relguide_server.drift import DriftCheck
 from relguide_server.errors import install_handlers
@@ -106,12 +106,13 @@ def create_app(
         plans.router,
         areas.router,
         flights.router,
+        record_routes.router,
         scene_relay.router,
         pages.router,
     ):
         app.include_router(part)
     install_handlers(app)
-    describe(app, (Readiness, *plans.MODELS, *areas.MODELS, *flights.MODELS))
+    describe(app, (Readiness, *plans.MODELS, *areas.MODELS, *flights.MODELS, *record_routes.MODELS))
     # The last one added is the first one passed.
     app.add_middleware(Page)
     app.add_middleware(BodyLimit, max_body=settings.max_body)

@@ -202,6 +202,8 @@ async def command_flight(
         raise problem_of(error) from None
     if flight.over:
         raise Refusal(409, "This flight has ended and takes no commands: start another one.")
+    if flight.label.replay and not isinstance(command, PlayCommand | PauseCommand | SetRateCommand):
+        raise Refusal(409, "This is a recording: it takes play, pause and set_rate only.")
     _command(flight, command)
     keeper.note_command(
         flight_id, t=flight.t, body=command.model_dump_json(), sent_by=address_of(request)

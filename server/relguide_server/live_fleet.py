@@ -76,6 +76,7 @@ class Fleet:
         rate: float,
         paused: bool,
         record: Callable[[str], Recording],
+        replay: bool = False,
     ) -> LiveFlight:
         """Start a flight, and wait until it is in the air.
 
@@ -86,12 +87,13 @@ class Fleet:
             rate: simulated seconds per second.
             paused: whether it waits for `play`.
             record: what records it, given its id.
+            replay: whether it is a recording.
 
         Raises:
             Refusal: 429, if too many fly already; 500, if it broke before its first sample.
         """
         await self._make_room()
-        label = FlightLabel(id=secrets.token_hex(6), scenario=scenario, title=title)
+        label = FlightLabel(id=secrets.token_hex(6), scenario=scenario, title=title, replay=replay)
         flight = LiveFlight(
             label,
             source,

@@ -31,6 +31,8 @@ class FlightLabel:
     id: str
     scenario: str
     title: str
+    replay: bool = False
+    """Whether it is a recording, which takes no orders."""
 
 
 class LiveFlight:

@@ -6,7 +6,6 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import sqlalchemy as sa
-from alembic.util import CommandError
 from sqlalchemy import event
 from sqlalchemy.engine import URL, Connection, Engine, make_url
 from sqlalchemy.exc import SQLAlchemyError
@@ -94,11 +93,6 @@ def sentences(url: URL) -> Iterator[None]:
     where = url.render_as_string(hide_password=True)
     try:
         yield
-    except CommandError:
-        raise Unavailable(
-            f"{where} was made by a newer version of relguide: update this one, or give another "
-            "RELGUIDE_DATABASE_URL."
-        ) from None
     except ModuleNotFoundError as error:
         raise Unavailable(
             f"{where} needs the package {error.name}, which is not installed: "
@@ -140,6 +134,7 @@ def _bring_up_to_date(engine: Engine) -> None:
     # alembic takes a fifth of a second to import, which a start with good tables need not wait for
     from alembic import command
     from alembic.config import Config
+    from alembic.util import CommandError
 
     config = Config()
     config.set_main_option("script_location", str(MIGRATIONS).replace("%", "%%"))
@@ -147,7 +142,13 @@ def _bring_up_to_date(engine: Engine) -> None:
         if engine.dialect.name == "postgresql":
             connection.execute(sa.select(sa.func.pg_advisory_xact_lock(UPGRADE_LOCK)))
         config.attributes["connection"] = connection
-        command.upgrade(config, "head")
+        try:
+            command.upgrade(config, "head")
+        except CommandError:
+            raise Unavailable(
+                "The tables were made by a newer version of relguide: update this one, or give "
+                "another RELGUIDE_DATABASE_URL."
+            ) from None
 
 
 def _revision(engine: Engine) -> str:

@@ -8,7 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from importlib.metadata import version
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal, TypeVar
+from typing import Annotated, Literal, TypeVar
 
 from fastapi import Depends
 from platformdirs import user_data_path
@@ -19,6 +19,7 @@ from relguide.flying.documents import Document, Sample
 from relguide.units import Second
 from relguide_server.errors import Refusal
 from relguide_server.records.clock import Clock
+from relguide_server.records.database import url_of
 from relguide_server.records.entries import (
     Began,
     Commanded,
@@ -29,10 +30,8 @@ from relguide_server.records.entries import (
     PlanAsked,
     Unavailable,
 )
+from relguide_server.records.store import Store
 from relguide_server.records.writer import Limits, Writer
-
-if TYPE_CHECKING:
-    from relguide_server.records.store import Store
 
 T = TypeVar("T")
 SAMPLE_PERIOD: Second = 1.0
@@ -108,18 +107,20 @@ class Keeper:
         self._writer, self._clock = writer, clock
         self._plans = plans
         self._second, self._planned = 0.0, 0
-        self._readers = ThreadPoolExecutor(READERS, thread_name_prefix="records read")
+        self._readers: ThreadPoolExecutor | None = None
 
     def start(self) -> None:
         """Begin to save."""
         if self._writer is not None:
+            self._readers = ThreadPoolExecutor(READERS, thread_name_prefix="records read")
             self._writer.start()
 
     def stop(self) -> None:
         """Save what there is, and end."""
         if self._writer is not None:
             self._writer.stop()
-        self._readers.shutdown()
+        if self._readers is not None:
+            self._readers.shutdown(wait=False, cancel_futures=True)
 
     def begin(self, card: FlightCard) -> Recording:
         """Record a flight from now on."""
@@ -161,8 +162,24 @@ class Keeper:
             )
         )  # fmt: skip
 
-    async def read(self, work: Callable[["Store"], T]) -> T:
+    async def read(self, work: Callable[[Store], T]) -> T:
         """Do some reading, on a thread of its own.
+
+        Raises:
+            Refusal: 404, if nothing is recorded; 503, if the database cannot be read now.
+        """
+        job = partial(work, self.reading())
+        try:
+            return await asyncio.get_running_loop().run_in_executor(self._readers, job)
+        except Unavailable as error:
+            raise Refusal(503, str(error), headers={"Retry-After": "5"}) from None
+
+    def opened(self) -> bool:
+        """Whether the records can be read."""
+        return self._writer is not None and self._writer.store is not None
+
+    def reading(self) -> Store:
+        """The open database.
 
         Raises:
             Refusal: 404, if nothing is recorded; 503, if the database cannot be read now.
@@ -172,11 +189,7 @@ class Keeper:
         if self._writer.store is None:
             trouble = self._writer.trouble or "The database is being opened."
             raise Refusal(503, trouble, headers={"Retry-After": "5"})
-        job = partial(work, self._writer.store)
-        try:
-            return await asyncio.get_running_loop().run_in_executor(self._readers, job)
-        except Unavailable as error:
-            raise Refusal(503, str(error), headers={"Retry-After": "5"}) from None
+        return self._writer.store
 
     def report(self) -> RecordsReport:
         """Whether flights are recorded."""
@@ -230,13 +243,8 @@ def keep(
     run, started_at, software = secrets.token_hex(8), time.time(), version("relguide")
     folder = Path(data) if data else user_data_path("relguide", appauthor=False)
 
-    def open_store() -> "Store":
-        # SQLAlchemy takes a third of a second to import, for which no start has to wait
-        from relguide_server.records.database import url_of
-        from relguide_server.records.store import Store
-
-        url = url_of(database_url, folder)
-        return Store(url, run=run, version=software, started_at=started_at)
+    def open_store() -> Store:
+        return Store(url_of(database_url, folder), run=run, version=software, started_at=started_at)
 
     writer = Writer(
         open_store,

@@ -10,7 +10,7 @@ from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from relguide.flying.documents import Sample
 from relguide.units import Second
@@ -26,9 +26,7 @@ from relguide_server.records.entries import (
     Unavailable,
 )
 from relguide_server.records.reel import Reel, Rows
-
-if TYPE_CHECKING:
-    from relguide_server.records.store import Store
+from relguide_server.records.store import Store
 
 FLUSH: Second = 0.5
 """How long something waits at most until it is saved."""
@@ -40,6 +38,8 @@ PLANS_HELD = 10_000
 """Most plans that wait to be saved."""
 RETRY, RETRY_MOST = 0.5, 5.0
 """How long until a database that failed is tried again at first, and at most [s]."""
+LAST: Second = 2.0
+"""How long the end of the service waits for what is still to be saved."""
 WATCH: Second = 3.0
 """How long the count of another run is watched before it is taken to be killed."""
 SWEEP: Second = 60.0
@@ -77,7 +77,7 @@ class Writer:
 
     def __init__(
         self,
-        open_store: Callable[[], "Store"],
+        open_store: Callable[[], Store],
         *,
         run: str,
         version: str,
@@ -105,12 +105,14 @@ class Writer:
         self._census_at = 0.0
         self._beats: dict[str, int] | None = None
         self._swept = False
-        self._thread = threading.Thread(
-            target=run_logged, args=("Recording", self._write), name="records", daemon=True
-        )
+        self._thread: threading.Thread | None = None
 
     def start(self) -> None:
         """Begin to save."""
+        self._stopping = False
+        self._thread = threading.Thread(
+            target=run_logged, args=("Recording", self._write), name="records", daemon=True
+        )
         self._thread.start()
 
     def stop(self) -> None:
@@ -118,7 +120,8 @@ class Writer:
         with self._changed:
             self._stopping = True
             self._changed.notify()
-        self._thread.join(10.0)
+        if self._thread is not None:
+            self._thread.join(LAST)
 
     def put(self, entry: Entry) -> bool:
         """Give it something to save; never waits.
@@ -146,7 +149,7 @@ class Writer:
         Returns:
             Whether it is; false at once while the database cannot be written.
         """
-        if self.trouble or not self._thread.is_alive():
+        if self.trouble or self._thread is None or not self._thread.is_alive():
             return False
         future: asyncio.Future[bool] = asyncio.get_running_loop().create_future()
         with self._changed:
@@ -176,6 +179,7 @@ class Writer:
                 break
         if self.store is not None:
             self.store.close()
+            self.store = None
 
     def _try(self, ticket: int) -> None:
         try:
@@ -272,7 +276,7 @@ class Writer:
             with suppress(RuntimeError):  # the loop is closed: nobody waits any more
                 future.get_loop().call_soon_threadsafe(_resolve, future, number <= ticket)
 
-    def _look_around(self, store: "Store") -> None:
+    def _look_around(self, store: Store) -> None:
         """Notice killed runs, a while after the start and now and then, and forget what is old."""
         elapsed = self._clock.elapsed()
         if elapsed < self._census_at:

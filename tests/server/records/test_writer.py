@@ -13,7 +13,6 @@ from relguide_server.records.entries import (
     Began,
     Commanded,
     Ended,
-    FlightCard,
     PlanAsked,
     Unavailable,
 )
@@ -26,14 +25,8 @@ from relguide_server.records.writer import Limits, Writer
 from relguide.contract.wire import dumps
 from relguide.flying.documents import Document, Sample
 from tests.server.flown import ideal_flight
+from tests.server.records.flown_cards import card
 from tests.server.records.places import Home
-
-
-def card(flight_id: str) -> FlightCard:
-    return FlightCard(
-        id=flight_id, scenario="ideal", title="Ideal", request="{}", settings="{}", seed=0,
-        requested_by="127.0.0.1",
-    )  # fmt: skip
 
 
 def wait_for(condition: Callable[[], object], patience: float = 10.0) -> None:

@@ -1,0 +1,329 @@
+"""Routes of what is on record: find flights, read, replay, export and remove them."""
+
+from collections.abc import AsyncIterator, Iterator
+from typing import Annotated, Any, Literal
+
+from fastapi import APIRouter, Query, Request
+from pydantic import AwareDatetime, RootModel
+from starlette.responses import Response, StreamingResponse
+
+from relguide.contract.bodies import SituationBody, situation_from_body
+from relguide.contract.messages import FlightStatus, from_wire
+from relguide.contract.recorder import VERSION
+from relguide.contract.refusal import ContractError, parse
+from relguide.flying.documents import Document
+from relguide.planning.extras import MissingExtra
+from relguide.planning.frames import LocalPlane
+from relguide_server.errors import Refusal
+from relguide_server.flights import status_of
+from relguide_server.live_fleet import FleetOf
+from relguide_server.openapi import (
+    KNOWN_PARAMETERS_ONLY,
+    json_answer,
+    problem_of,
+    problem_responses,
+    read_json,
+    request_body,
+    response,
+    schema_of,
+)
+from relguide_server.records import exports, shelf
+from relguide_server.records.bodies import (
+    RecordedDocuments,
+    RecordedFlightDetails,
+    RecordedFlightList,
+    RecordedPlanList,
+    ReplayRequest,
+)
+from relguide_server.records.entries import Outcome
+from relguide_server.records.keeper import Keeper, KeeperOf, Recording
+from relguide_server.records.shelf import Search
+from relguide_server.records.store import Store
+
+MOST = 500
+"""Most flights or plans in an answer."""
+MOST_DOCUMENTS = 1000
+"""Most documents in an answer."""
+MEDIA = {
+    "jsonl": "application/x-ndjson",
+    "csv": "text/csv",
+    "geojson": "application/geo+json",
+    "parquet": "application/vnd.apache.parquet",
+}
+"""Media types of the forms of an export."""
+
+
+class NewReplay(RootModel[ReplayRequest]):
+    """Fly a recording again."""
+
+
+MODELS = (
+    NewReplay,
+    RecordedDocuments,
+    RecordedFlightDetails,
+    RecordedFlightList,
+    RecordedPlanList,
+    FlightStatus,
+)
+"""What the OpenAPI document needs for these routes."""
+router = APIRouter(prefix="/api/v1/records", tags=["records"], dependencies=[KNOWN_PARAMETERS_ONLY])
+
+Since = Annotated[AwareDatetime | None, Query(description="Begun at this time or later.")]
+Until = Annotated[AwareDatetime | None, Query(description="Begun before this time.")]
+Limit = Annotated[int, Query(ge=1, le=MOST, description="How many at most.")]
+Offset = Annotated[int, Query(ge=0, le=10**9, description="How many of the newest to pass over.")]
+
+
+@router.get(
+    "/flights",
+    summary="Flights on record",
+    responses={
+        **response(200, "The newest first.", schema_of(RecordedFlightList)),
+        **problem_responses(404, 422, 503),
+    },
+)
+async def list_recorded(
+    keeper: KeeperOf,
+    since: Since = None,
+    until: Until = None,
+    scenario: Annotated[
+        str | None, Query(max_length=100, description="Its name; empty: one's own situations.")
+    ] = None,
+    outcome: Annotated[Outcome | None, Query(description="What became of it.")] = None,
+    limit: Limit = 100,
+    offset: Offset = 0,
+) -> Response:
+    """Those in the air as well; what is new of them is here within a second."""
+    search = Search(
+        since=since.timestamp() if since else None,
+        until=until.timestamp() if until else None,
+        scenario=scenario,
+        outcome=outcome,
+        limit=limit,
+        offset=offset,
+    )
+    return json_answer({"flights": await keeper.read(lambda s: shelf.find_flights(s, search))})
+
+
+@router.get(
+    "/plans",
+    summary="Plans on record",
+    responses={
+        **response(200, "The newest first.", schema_of(RecordedPlanList)),
+        **problem_responses(404, 422, 503),
+    },
+)
+async def list_plans(
+    keeper: KeeperOf,
+    since: Since = None,
+    until: Until = None,
+    status: Annotated[
+        Literal["planned", "no_plan"] | None, Query(description="Of the answer.")
+    ] = None,
+    limit: Limit = 100,
+    offset: Offset = 0,
+) -> Response:
+    """The situations of `POST /plans`, at most as many a second as the service is set to keep."""
+    search = Search(
+        since=since.timestamp() if since else None,
+        until=until.timestamp() if until else None,
+        outcome=status,
+        limit=limit,
+        offset=offset,
+    )
+    return json_answer({"plans": await keeper.read(lambda s: shelf.find_plans(s, search))})
+
+
+@router.get(
+    "/flights/{flight_id}",
+    summary="One flight on record",
+    responses={
+        **response(200, "All but its documents.", schema_of(RecordedFlightDetails)),
+        **problem_responses(404, 503),
+    },
+)
+async def show_recorded(flight_id: str, keeper: KeeperOf) -> Response:
+    """What was asked, by whom, with which settings; the commands given; and how it went."""
+    return json_answer(await _find(flight_id, keeper))
+
+
+@router.get(
+    "/flights/{flight_id}/documents",
+    summary="Documents of a flight",
+    responses={
+        **response(200, "In order.", schema_of(RecordedDocuments)),
+        **problem_responses(404, 422, 503),
+    },
+)
+async def list_documents(
+    flight_id: str,
+    keeper: KeeperOf,
+    first: Annotated[int, Query(ge=0, le=10**9, description="From this number on.")] = 0,
+    limit: Annotated[
+        int, Query(ge=1, le=MOST_DOCUMENTS, description="How many at most.")
+    ] = MOST_DOCUMENTS,
+) -> Response:
+    """As the stream sends them, each with its number; of samples one a second of flight."""
+    await _find(flight_id, keeper)
+    found = await keeper.read(lambda s: shelf.read_documents(s, flight_id, first, limit))
+    following = found[-1][0] + 1 if found else first
+    listed = b",".join(b'{"number":%d,"document":%s}' % (n, line.strip()) for n, line in found)
+    return json_answer(b'{"documents":[%s],"next":%d}' % (listed, following))
+
+
+@router.post(
+    "/flights/{flight_id}/replay",
+    status_code=201,
+    summary="Fly a recording again",
+    responses={
+        **response(201, "It is in the air.", schema_of(FlightStatus)),
+        **problem_responses(400, 404, 408, 409, 413, 415, 422, 429, 500, 503),
+    },
+    openapi_extra=request_body(schema_of(NewReplay), {"rate": 10.0}),
+)
+async def replay_flight(
+    flight_id: str, request: Request, keeper: KeeperOf, fleet: FleetOf
+) -> Response:
+    """A flight with a stream and a scene of its own, which takes `play`, `pause` and `set_rate`."""
+    try:
+        wanted = parse(NewReplay, _content(await read_json(request))).root
+    except ContractError as error:
+        raise problem_of(error) from None
+    about = await _find(flight_id, keeper)
+    if about["form"] != VERSION:
+        raise Refusal(409, f"It was recorded by relguide {about['version']}, in another form.")
+    early = await keeper.read(lambda s: shelf.read_documents(s, flight_id, 0, 100))
+    if not any(line.startswith(b'{"kind":"sample"') for _, line in early):
+        raise Refusal(409, "Nothing of this flight was kept that could be shown.")
+    flight = await fleet.launch(
+        about["scenario"],
+        about["title"],
+        lambda commands: _documents(keeper.reading(), flight_id),
+        rate=wanted.rate,
+        paused=wanted.paused,
+        record=lambda _: Recording(),
+        replay=True,
+    )
+    headers = {"Location": f"/api/v1/flights/{flight.label.id}"}
+    return json_answer(status_of(flight).model_dump(), 201, headers=headers)
+
+
+@router.get(
+    "/flights/{flight_id}/export",
+    summary="A flight as a file",
+    responses={
+        200: {
+            "description": "The file.",
+            "content": {media: {"schema": {"type": "string"}} for media in MEDIA.values()},
+        },
+        **problem_responses(404, 422, 501, 503),
+    },
+)
+async def export_flight(
+    flight_id: str,
+    keeper: KeeperOf,
+    form: Annotated[
+        Literal["jsonl", "csv", "geojson", "parquet"],
+        Query(
+            alias="format",
+            description="`jsonl`: all documents, as `relguide replay` reads them. `csv`, "
+            "`parquet`: samples, a row for each aircraft and second. `geojson`: the tracks.",
+        ),
+    ] = "jsonl",
+    lat_deg: Annotated[
+        float | None,
+        Query(ge=-90.0, le=90.0, allow_inf_nan=False, description="Where x = y = 0 is, for "
+              "`geojson` of a flight whose situation had no latitudes."),
+    ] = None,
+    lon_deg: Annotated[
+        float | None,
+        Query(ge=-180.0, le=180.0, allow_inf_nan=False, description="Longitude of the same."),
+    ] = None,
+) -> Response:  # fmt: skip
+    """What is on record of it now."""
+    about = await _find(flight_id, keeper)
+    headers = {"Content-Disposition": f'attachment; filename="flight-{about["id"]}.{form}"'}
+    match form:
+        case "jsonl" | "csv":
+            lines = _parts(keeper, flight_id, about["form"], form)
+            return StreamingResponse(lines, media_type=MEDIA[form], headers=headers)
+        case "geojson":
+            plane = _plane(about["request"], lat_deg, lon_deg)
+            body = await keeper.read(
+                lambda s: exports.as_geojson(plane, shelf.each_chunk(s, flight_id))
+            )
+        case "parquet":
+            try:
+                body = await keeper.read(
+                    lambda s: exports.as_parquet(shelf.each_chunk(s, flight_id))
+                )
+            except MissingExtra as error:
+                raise Refusal(501, str(error)) from None
+    return Response(body, media_type=MEDIA[form], headers=headers)
+
+
+@router.delete(
+    "/flights/{flight_id}",
+    status_code=204,
+    summary="Remove a flight from the records",
+    responses=problem_responses(404, 409, 503),
+)
+async def remove_recorded(flight_id: str, keeper: KeeperOf) -> Response:
+    """With its documents and commands; one that flies must be ended first."""
+    match await keeper.read(lambda s: shelf.remove_flight(s, flight_id)):
+        case None:
+            raise _unknown(flight_id)
+        case "flying":
+            raise Refusal(409, "It is in the air: end it first (DELETE /api/v1/flights/…).")
+    return Response(status_code=204)
+
+
+async def _find(flight_id: str, keeper: Keeper) -> dict[str, Any]:
+    found = await keeper.read(lambda s: shelf.read_flight(s, flight_id))
+    if found is None:
+        raise _unknown(flight_id)
+    return found
+
+
+def _unknown(flight_id: str) -> Refusal:
+    return Refusal(
+        404,
+        f"There is no flight {flight_id[:100]!r} on record. GET /api/v1/records/flights lists all.",
+    )
+
+
+def _documents(store: Store, flight_id: str) -> Iterator[Document]:
+    for lines in shelf.each_chunk(store, flight_id):
+        for line in lines:
+            yield from_wire(line)
+
+
+async def _parts(keeper: Keeper, flight_id: str, form: int, kind: str) -> AsyncIterator[bytes]:
+    """A file, a chunk at a time."""
+
+    def begin(store: Store) -> Iterator[bytes]:
+        chunks = shelf.each_chunk(store, flight_id)
+        return exports.as_recording(form, chunks) if kind == "jsonl" else exports.as_csv(chunks)
+
+    parts = await keeper.read(begin)
+    while (part := await keeper.read(lambda _: next(parts, None))) is not None:
+        yield part
+
+
+def _plane(request: dict[str, Any], lat_deg: float | None, lon_deg: float | None) -> LocalPlane:
+    """How a flight lies on the earth: as its situation says, or as is asked."""
+    if "situation" in request:
+        _, anchor = situation_from_body(SituationBody.model_validate(request["situation"]))
+        if isinstance(anchor, LocalPlane):
+            return anchor
+    if lat_deg is None or lon_deg is None:
+        raise Refusal(
+            422, "This flight has no latitudes: say by lat_deg and lon_deg where its x = y = 0 is."
+        )
+    return LocalPlane(lat_deg=lat_deg, lon_deg=lon_deg)
+
+
+def _content(parsed: object) -> dict[str, object]:
+    if isinstance(parsed, dict):
+        return parsed
+    raise ContractError([("", "The body must be an object with fields.")])

@@ -1,0 +1,127 @@
+"""A process that records flights, says what was acknowledged, and is killed at any moment.
+
+`python -m tests.server.records.killed --rounds 100 [--url postgresql://…]` does it a hundred times.
+"""
+
+import argparse
+import asyncio
+import random
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import dataclass
+
+from relguide_server.records.clock import Clock
+from relguide_server.records.entries import Began, Commanded
+from relguide_server.records.keeper import Tape
+from relguide_server.records.shelf import each_chunk, read_flight
+
+from tests.server.flown import ideal_flight
+from tests.server.records.flown_cards import card
+from tests.server.records.places import Home
+
+TOGETHER = 4
+"""Flights in the air at once."""
+
+
+@dataclass(frozen=True, slots=True)
+class Lost:
+    """What one round lost of what was acknowledged."""
+
+    flights: int
+    commands: int
+    documents: int
+    """Gaps among those that are there."""
+    acknowledged: int
+
+
+def say(line: str) -> None:
+    sys.stdout.write(f"{line}\n")
+    sys.stdout.flush()
+
+
+def record(url: str, run: str) -> None:
+    """Record flights until killed; a line for each flight and command that is acknowledged."""
+    home = Home(url)
+    writer = home.writer(run=run)
+    documents = list(ideal_flight(duration=60.0))
+    while True:
+        names = [f"{run}-{time.monotonic_ns() % 10**10}-{k}" for k in range(TOGETHER)]
+        tapes = []
+        for name in names:
+            writer.put(Began(card(name), time.time()))
+            tapes.append(Tape(name, writer, Clock()))
+        if asyncio.run(writer.saved(10.0)):
+            say("\n".join(names))
+        for k, document in enumerate(documents):
+            for tape in tapes:
+                tape.add(document)
+            if k % 100 == 99:
+                order = f'{{"command": "play", "k": {k}}}'
+                writer.put(
+                    Commanded(flight_id=names[0], at=0.0, t=document.t, body=order, sent_by="")
+                )
+                if asyncio.run(writer.saved(10.0)):
+                    say(f"{names[0]} {k}")
+        for tape in tapes:
+            tape.end("removed")
+
+
+def kill_once(url: str, run: str, after: float) -> Lost:
+    """Record in a process of its own, kill it, and look for what it acknowledged.
+
+    Args:
+        url: of the database.
+        run: name of the run.
+        after: how long after its first line it is killed [s].
+    """
+    command = [sys.executable, "-m", "tests.server.records.killed", "--record", run, "--url", url]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        first = process.stdout.readline()
+        assert first, "It recorded nothing."
+        time.sleep(after)
+        process.send_signal(signal.SIGKILL)
+        said = [first, *process.stdout]
+    home = Home(url)
+    store = home.store()
+    flights = commands = gaps = 0
+    whole = [line.split() for line in said if line.endswith("\n")]
+    kept = {name: read_flight(store, name) for name, *_ in whole}
+    for name, *order in whole:
+        found = kept[name]
+        if found is None:
+            flights += 1
+        elif order:
+            commands += int(order[0]) not in [c["command"]["k"] for c in found["commands"]]
+    for name, found in kept.items():
+        count = sum(len(lines) for lines in each_chunk(store, name))
+        gaps += found is not None and found["documents"] != count + found["lost"]
+    home.close()
+    return Lost(flights, commands, gaps, len(whole))
+
+
+def main() -> int:
+    """Kill it so many times; 0 if nothing acknowledged was lost."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--rounds", type=int, default=100)
+    parser.add_argument("--url", default="")
+    parser.add_argument("--record", default="")
+    parser.add_argument("--seed", type=int, default=1)
+    chosen = parser.parse_args()
+    if chosen.record:
+        record(chosen.url, chosen.record)
+    rng = random.Random(chosen.seed)
+    with tempfile.TemporaryDirectory() as folder:
+        url = chosen.url or f"sqlite:///{folder}/records.sqlite3"
+        rounds = [kill_once(url, f"run{k}", rng.uniform(0.0, 0.8)) for k in range(chosen.rounds)]
+    lost = [one for one in rounds if one.flights or one.commands or one.documents]
+    acknowledged = sum(one.acknowledged for one in rounds)
+    say(f"{len(rounds)} kills, {acknowledged} acknowledged, rounds that lost something: {lost}")
+    return bool(lost)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,188 @@
+"""What was acknowledged survives `kill -9`; two processes share a database; disks fill up."""
+
+import asyncio
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+import sqlalchemy as sa
+from alembic import command
+from alembic.config import Config
+from relguide_server.records import database
+from relguide_server.records.clock import Clock
+from relguide_server.records.entries import Began, Unavailable
+from relguide_server.records.keeper import Tape
+from relguide_server.records.schema import HEAD, flights, metadata
+from relguide_server.records.shelf import each_chunk
+
+from tests.server.flown import ideal_flight
+from tests.server.records.flown_cards import card
+from tests.server.records.killed import kill_once
+from tests.server.records.places import HAS_POSTGRES, NO_POSTGRES, Home, Postgres
+from tests.server.records.test_writer import row_of, wait_for
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("after", [0.05, 0.4])
+def test_what_was_acknowledged_survives_a_kill(url: str, after: float) -> None:
+    lost = kill_once(url, "killed", after)
+    assert (lost.flights, lost.commands, lost.documents) == (0, 0, 0)
+    assert lost.acknowledged >= 4
+
+
+@pytest.mark.slow
+def test_two_processes_share_a_database(url: str) -> None:
+    """Both make its tables at once, and both record."""
+    command = [sys.executable, "-m", "tests.server.records.killed", "--url", url, "--record"]
+    both = [
+        subprocess.Popen([*command, run], stdout=subprocess.PIPE, text=True)
+        for run in ("one", "two")
+    ]
+    firsts = [process.stdout.readline() for process in both]
+    time.sleep(0.5)
+    for process in both:
+        process.send_signal(signal.SIGKILL)
+    home = Home(url)
+    store = home.store()
+    for first, process in zip(firsts, both, strict=True):
+        assert first
+        for name in (line.split()[0] for line in [first, *process.communicate()[0].splitlines()]):
+            assert row_of(store, name)["scenario"] == "ideal"
+    home.close()
+
+
+FULL = """
+import resource, signal, sys, time
+from relguide_server.records.clock import Clock
+from relguide_server.records.entries import Began
+from relguide_server.records.keeper import Tape
+from tests.server.flown import ideal_flight
+from tests.server.records.flown_cards import card
+from tests.server.records.places import Home
+writer = Home(sys.argv[1]).writer()
+writer.put(Began(card("one"), 1e9))
+tape = Tape("one", writer, Clock())
+documents = list(ideal_flight(duration=900.0))
+half = len(documents) // 2
+def wait_for(condition):
+    end = time.monotonic() + 20.0
+    while not condition():
+        assert time.monotonic() < end
+        time.sleep(0.02)
+for document in documents[:half]:
+    tape.add(document)
+wait_for(lambda: writer.counts.documents)
+signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+resource.setrlimit(resource.RLIMIT_FSIZE, (4096, limits[1]))
+for document in documents[half:]:
+    tape.add(document)
+wait_for(lambda: writer.trouble)
+print(writer.trouble, flush=True)
+resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+wait_for(lambda: not writer.trouble)
+tape.end("removed")
+writer.stop()
+print(writer.counts.documents_lost, flush=True)
+"""
+
+
+def test_a_full_disk_is_said_and_what_was_flown_meanwhile_is_saved_later(tmp_path: Path) -> None:
+    """No file of the process may grow, which is what a full disk is to it."""
+    home = Home(f"sqlite:///{tmp_path}/records.sqlite3")
+    done = subprocess.run(
+        [sys.executable, "-c", FULL, home.url], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    trouble, lost = done.stdout.splitlines()
+    assert "full" in trouble or "disk I/O" in trouble
+    assert lost == "0"
+    store = home.store()
+    count = sum(len(lines) for lines in each_chunk(store, "one"))
+    row = row_of(store, "one")
+    assert (row["documents"], row["lost"], row["outcome"]) == (count, 0, "joined")
+    assert count > 900
+    home.close()
+
+
+@pytest.mark.skipif(not HAS_POSTGRES, reason=NO_POSTGRES)
+def test_a_server_that_stops_and_starts_again_is_caught_up_with(server: Postgres) -> None:
+    home = Home(server.database("stopped"))
+    writer = home.writer()
+    writer.put(Began(card("one"), 1e9))
+    tape = Tape("one", writer, Clock())
+    documents = list(ideal_flight(duration=60.0))
+    for document in documents[:400]:
+        tape.add(document)
+    assert asyncio.run(writer.saved(5.0))
+    server.stop()
+    for document in documents[400:]:
+        tape.add(document)
+    wait_for(lambda: writer.trouble)
+    started = time.monotonic()
+    assert asyncio.run(writer.saved(5.0)) is False
+    assert time.monotonic() - started < 0.5
+    server.start()
+    wait_for(lambda: not writer.trouble, 20.0)
+    tape.end("removed")
+    writer.stop()
+    store = home.store()
+    count = sum(len(lines) for lines in each_chunk(store, "one"))
+    assert row_of(store, "one")["documents"] == count > 60
+    assert writer.counts.documents_lost == 0
+    home.close()
+
+
+def alembic_to(url: str, revision: str) -> sa.Engine:
+    engine = sa.create_engine(database.url_of(url, Path("unused")))
+    config = Config()
+    config.set_main_option("script_location", str(database.MIGRATIONS))
+    with engine.begin() as connection:
+        config.attributes["connection"] = connection
+        command.upgrade(config, revision)
+    return engine
+
+
+def test_old_tables_are_brought_up_to_date_with_what_is_in_them(url: str) -> None:
+    engine = alembic_to(url, "0001")
+    assert not sa.inspect(engine).has_table("plans")
+    with engine.begin() as connection:
+        connection.execute(sa.text("INSERT INTO runs VALUES ('old', 'here', '0.1', 1.0, 2.0, 3)"))
+        connection.execute(
+            sa.text(
+                "INSERT INTO flights VALUES ('one', 'old', 's', 't', '{}', '{}', 0, '0.1', 3, '', "
+                "1.0, 2.0, 'joined', 0, 0, 0, '{}')"
+            )
+        )
+    engine.dispose()
+    home = Home(url)
+    store = home.store()
+    assert sa.inspect(store.engine).has_table("plans")
+    with database.reading(store.engine) as connection:
+        assert connection.scalar(sa.select(flights.c.id)) == "one"
+        assert connection.scalar(sa.text("SELECT version_num FROM alembic_version")) == HEAD
+    home.close()
+
+
+def test_the_tables_are_those_that_the_revisions_make(url: str) -> None:
+    from alembic.autogenerate import compare_metadata
+    from alembic.migration import MigrationContext
+
+    engine = alembic_to(url, "head")
+    with engine.connect() as connection:
+        assert compare_metadata(MigrationContext.configure(connection), metadata) == []
+    engine.dispose()
+
+
+def test_tables_of_a_newer_version_are_left_alone(url: str) -> None:
+    engine = alembic_to(url, "head")
+    with engine.begin() as connection:
+        connection.execute(sa.text("UPDATE alembic_version SET version_num = '9999'"))
+    engine.dispose()
+    home = Home(url)
+    with pytest.raises(Unavailable, match="newer version"):
+        home.store()
+    home.close()

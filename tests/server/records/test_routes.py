@@ -1,0 +1,195 @@
+"""Records over REST: find, read, replay, export and remove."""
+
+import csv
+import io
+import json
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pyarrow.parquet as pq
+import pytest
+from relguide_server.app import create_app
+from relguide_server.plans import EXAMPLE
+from relguide_server.records.keeper import keep
+from relguide_server.settings import Settings
+from starlette.testclient import TestClient
+
+from relguide.contract.protocol import PROTOCOL
+from relguide.contract.recorder import replay
+from relguide.contract.story import story_of
+from relguide.contract.wire import dumps
+from relguide.flying.documents import FlightEnded, Sample
+from tests.server.flown import ideal_flight
+from tests.server.serving import ideal_departures
+
+
+def make_client(url: str, folder: Path, source: Callable = ideal_flight) -> TestClient:
+    keeper = keep(
+        records="on", database_url=url, data=str(folder), record_plans=5, keep_days=30.0,
+        keep_mb=100.0,
+    )  # fmt: skip
+    app = create_app(Settings(workers=0), departures=ideal_departures(source), keeper=keeper)
+    return TestClient(app)
+
+
+@pytest.fixture
+def client(url: str, tmp_path: Path) -> Iterator[TestClient]:
+    with make_client(url, tmp_path) as client:
+        wait_for(lambda: client.get("/api/v1/records/flights").status_code == 200)
+        yield client
+
+
+def wait_for(condition: Callable[[], object], patience: float = 10.0) -> None:
+    end = time.monotonic() + patience
+    while not condition():
+        assert time.monotonic() < end
+        time.sleep(0.05)
+
+
+def start(client: TestClient, **body: object) -> str:
+    answer = client.post("/api/v1/flights", json={"scenario": "ideal", "rate": 60.0, **body})
+    assert (answer.status_code, answer.headers["relguide-recorded"]) == (201, "yes")
+    flight_id: str = answer.json()["id"]
+    return flight_id
+
+
+def record_of(client: TestClient, flight_id: str) -> dict:
+    answer = client.get(f"/api/v1/records/flights/{flight_id}")
+    assert answer.status_code == 200, answer.text
+    return answer.json()
+
+
+def fly_whole(client: TestClient) -> str:
+    flight_id = start(client)
+    wait_for(lambda: record_of(client, flight_id)["outcome"] == "joined")
+    return flight_id
+
+
+def test_a_flight_is_found_and_read(client: TestClient, tmp_path: Path) -> None:
+    flight_id = fly_whole(client)
+    found = record_of(client, flight_id)
+    assert found["request"] == {"scenario": "ideal", "rate": 60.0}
+    assert found["settings"]["planner"] == "exact"
+    assert (found["seed"], found["lost"], found["requested_by"]) == (0, 0, "testclient")
+    assert found["figures"]["simulated_s"] == 30.0
+    assert found["figures"]["plans"] == 1
+    base = "/api/v1/records/flights"
+    ids = [flight["id"] for flight in client.get(base).json()["flights"]]
+    assert ids == [flight_id]
+    for search, count in (
+        ("scenario=ideal&outcome=joined", 1), ("scenario=fig_6b", 0), ("outcome=flying", 0),
+        (f"since={found['started_at']}", 1), (f"until={found['started_at']}", 0),
+        ("limit=1&offset=1", 0),
+    ):  # fmt: skip
+        assert len(client.get(f"{base}?{search}").json()["flights"]) == count, search
+    whole = client.get(f"{base}/{flight_id}/documents").json()
+    numbers = [numbered["number"] for numbered in whole["documents"]]
+    assert numbers == list(range(found["documents"]))
+    later = client.get(f"{base}/{flight_id}/documents?first=10&limit=5").json()
+    assert later["documents"] == whole["documents"][10:15]
+    assert later["next"] == 15
+
+
+def test_commands_are_on_record_before_they_are_acknowledged(client: TestClient) -> None:
+    flight_id = start(client, paused=True)
+    order = {"command": "leader_heading", "heading_deg": 135.0, "direction": "left"}
+    answer = client.post(f"/api/v1/flights/{flight_id}/commands", json=order)
+    assert answer.headers["relguide-recorded"] == "yes"
+    (kept,) = record_of(client, flight_id)["commands"]
+    assert kept["command"] == order
+    assert client.delete(f"/api/v1/records/flights/{flight_id}").status_code == 409
+    assert client.delete(f"/api/v1/flights/{flight_id}").status_code == 204
+    wait_for(lambda: record_of(client, flight_id)["outcome"] == "removed")
+    assert client.delete(f"/api/v1/records/flights/{flight_id}").status_code == 204
+    assert client.get(f"/api/v1/records/flights/{flight_id}").status_code == 404
+
+
+def test_plans_asked_for_are_on_record_so_many_a_second(client: TestClient) -> None:
+    for _ in range(20):
+        client.post("/api/v1/plans", json=EXAMPLE)
+    wait_for(lambda: client.get("/api/v1/records/plans").json()["plans"])
+    kept = client.get("/api/v1/records/plans?status=planned").json()["plans"]
+    assert kept[0]["situation"] == EXAMPLE
+    assert len(kept) < 20
+    lost = "relguide_records_plans_lost_total"
+    text = client.get("/metrics").text
+    assert f"{lost} {20 - len(kept)}" in text
+
+
+def test_a_recording_is_what_was_flown_and_flies_again(client: TestClient, tmp_path: Path) -> None:
+    flight_id = fly_whole(client)
+    file = tmp_path / "flight.jsonl"
+    file.write_bytes(client.get(f"/api/v1/records/flights/{flight_id}/export").content)
+    kept = list(replay(file))
+    assert story_of(kept).broken == ""
+    assert isinstance(kept[-1], FlightEnded)
+    path = f"/api/v1/records/flights/{flight_id}"
+    answer = client.post(f"{path}/replay", json={"rate": 60.0, "paused": True})
+    assert answer.status_code == 201, answer.text
+    again = answer.json()
+    assert again["title"] == "Exact trajectories"
+    commands = f"/api/v1/flights/{again['id']}/commands"
+    order = {"command": "leader_heading", "heading_deg": 1.0}
+    assert client.post(commands, json=order).status_code == 409
+    streamed: list[dict] = []
+    with client.websocket_connect(again["stream_url"], subprotocols=[PROTOCOL]) as socket:
+        assert client.post(commands, json={"command": "play"}).status_code == 202
+        while not (tick := socket.receive_json())["ended"]:
+            streamed += tick["documents"]
+        streamed += tick["documents"]
+    # the stream gives of several samples the newest only; all else is there, as it was kept
+    said = [json.loads(dumps(d)) for d in kept]
+    assert [d for d in streamed if d["kind"] != "sample"] == [
+        d for d in said if d["kind"] != "sample"
+    ]
+    assert all(d in said for d in streamed)
+    assert len(client.get("/api/v1/records/flights").json()["flights"]) == 1
+
+
+def test_exports_hold_every_sample(client: TestClient, tmp_path: Path) -> None:
+    flight_id = fly_whole(client)
+    path = f"/api/v1/records/flights/{flight_id}/export"
+    file = tmp_path / "flight.jsonl"
+    file.write_bytes(client.get(path).content)
+    samples = [d for d in replay(file) if isinstance(d, Sample)]
+    assert len(samples) == 31
+    answer = client.get(f"{path}?format=csv")
+    assert answer.headers["content-disposition"].endswith('.csv"')
+    rows = list(csv.DictReader(io.StringIO(answer.text)))
+    assert len(rows) == 2 * len(samples)
+    assert float(rows[2]["x_m"]) == samples[1].aircraft[0].x
+    assert (rows[0]["mode"], rows[1]["mode"]) == ("converge", "")
+    table = pq.read_table(io.BytesIO(client.get(f"{path}?format=parquet").content)).to_pylist()
+    assert [row["x_m"] for row in table] == [float(row["x_m"]) for row in rows]
+    assert table[0]["joined"] is False
+    refused = client.get(f"{path}?format=geojson")
+    assert refused.status_code == 422
+    assert "lat_deg" in refused.json()["detail"]
+    tracks = client.get(f"{path}?format=geojson&lat_deg=48&lon_deg=2").json()
+    assert [len(f["geometry"]["coordinates"]) for f in tracks["features"]] == [31, 31]
+    leader = tracks["features"][1]["geometry"]["coordinates"][0]
+    assert leader[:2] == pytest.approx([2.0, 48.0])
+
+
+def test_without_records_all_else_works_and_says_so() -> None:
+    with TestClient(create_app(Settings(workers=0), departures=ideal_departures())) as client:
+        assert client.get("/readyz").json()["records"]["status"] == "off"
+        answer = client.post("/api/v1/flights", json={"scenario": "ideal"})
+        assert (answer.status_code, answer.headers["relguide-recorded"]) == (201, "no")
+        refused = client.get("/api/v1/records/flights")
+        assert refused.status_code == 404
+        assert "RELGUIDE_RECORDS" in refused.json()["detail"]
+
+
+def test_a_folder_that_cannot_be_written_is_said_and_flights_fly(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("no folder")
+    with make_client("", tmp_path / "file") as client:
+        wait_for(lambda: client.get("/readyz").json()["records"]["status"] == "waiting")
+        assert "exists" in client.get("/readyz").json()["records"]["message"]
+        started = time.monotonic()
+        answer = client.post("/api/v1/flights", json={"scenario": "ideal"})
+        assert (answer.status_code, answer.headers["relguide-recorded"]) == (201, "no")
+        assert time.monotonic() - started < 0.5
+        assert client.get("/api/v1/records/flights").status_code == 503
+        assert "relguide_records_up 0" in client.get("/metrics").text
