@@ -93,7 +93,7 @@ def test_what_is_laid_out_is_flown(page: Page, watched: Watch) -> None:
     )
     expect(page.locator(".connection")).to_have_text("Live")
     expect(page.locator(".mode-name")).to_have_text("Proposed")
-    assert "own=" not in page.url
+    expect(page).not_to_have_url(re.compile("own="))
     assert "flight=" in page.url
     page.get_by_role("button", name="PLAN", exact=True).click()
     page.get_by_role("button", name="From the flight").click()

@@ -15,7 +15,7 @@ export function Alternatives(props: { session: Pick<Session, "shown"> }) {
   const { plan: shownPlan, state } = shown.numbers.value;
   const plan = shownPlan?.plan;
   return (
-    <Panel name="alternatives" title="Alternatives">
+    <Panel name="alternatives" title="Alternatives" scrolls>
       {plan === undefined ? (
         <p class="hint">No path is proposed or flown now.</p>
       ) : (
