@@ -21,12 +21,15 @@ FROM python:3.12-slim
 LABEL org.opencontainers.image.title="relguide" \
       org.opencontainers.image.description="Minimum-time relative guidance of aircraft" \
       org.opencontainers.image.licenses="Apache-2.0"
-RUN useradd --uid 10001 --create-home relguide
+RUN useradd --uid 10001 --create-home relguide && install -d -o 10001 -g 10001 /data
 COPY --from=build /opt/relguide /opt/relguide
 # NUMBA_CPU_NAME: whom the kernels were compiled for.
 ENV PATH=/opt/relguide/bin:$PATH \
     PYTHONUNBUFFERED=1 \
-    NUMBA_CPU_NAME=generic
+    NUMBA_CPU_NAME=generic \
+    RELGUIDE_DATA=/data
+# What is on record; without a volume it goes with the container.
+VOLUME /data
 USER 10001
 WORKDIR /home/relguide
 

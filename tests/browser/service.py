@@ -63,7 +63,11 @@ def running_service(folder: Path, port: int | None = None) -> Iterator[Service]:
             cwd=folder,
             stdout=output,
             stderr=subprocess.STDOUT,
-            env={**os.environ, "PYTHONPATH": os.pathsep.join(map(str, (ROOT, ROOT / "server")))},
+            env={
+                **os.environ,
+                "RELGUIDE_RECORDS": "off",
+                "PYTHONPATH": os.pathsep.join(map(str, (ROOT, ROOT / "server"))),
+            },
         )
     service = Service(f"http://127.0.0.1:{port}", process, log)
     try:
