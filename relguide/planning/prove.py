@@ -29,6 +29,7 @@ _GAPS: tuple[Second, ...] = (CERTIFIED, 0.01, TOLERANCE)  # closed one after ano
 _REPORT: Second = 0.05  # from one report to the next
 _SHARE = 0.99  # of a gap that is wanted, so that rounding does not count
 _PAIRED = 1e-3  # `Question.paired` of paths that arrive as the slot opens [rad]
+_FINEST_PAIRED = 1e-9  # the least that is asked for with small gaps [rad]
 _LATER = 1e-9  # a path longer than t_release by this part of it arrives after the slot opens
 
 
@@ -124,7 +125,7 @@ def _rising_bounds(plan: Plan, time: float, scale: float) -> Iterator[float]:
     # paths that arrive within the gap of the plan are left out at once: so a small gap, which takes
     # a hundred times as long, does not delay a larger one
     for gap in _GAPS:
-        aimed = replace(slot, paired=slot.paired * gap / CERTIFIED)
+        aimed = replace(slot, paired=max(slot.paired * (gap / CERTIFIED) ** 3, _FINEST_PAIRED))
         yield from aimed.bounds(time - _SHARE * gap / scale)
 
 
