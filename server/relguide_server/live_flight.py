@@ -53,7 +53,7 @@ class LiveFlight:
         self.history = History()
         self.last_seen = asyncio.get_running_loop().time()
         self.broken = False
-        self._flown = False
+        self._flown = self._shown = False
         self._recording = recording
         self.scene_viewers = 0
         self.clients: set[StreamClient] = set()
@@ -72,7 +72,7 @@ class LiveFlight:
     @property
     def over(self) -> bool:
         """Whether it has ended, or was stopped by a mistake of ours."""
-        return bool(self.history.ended) or self.broken or self._flown
+        return bool(self.history.ended) or self.broken or self._shown
 
     @property
     def watched(self) -> bool:
@@ -101,7 +101,9 @@ class LiveFlight:
 
     def collect(self) -> list[Document]:
         """Take the worker's documents since the last time, and remember them."""
+        flown = self._flown  # before the last documents are taken: a flight is over after them
         documents = self._inbox.drain()
+        self._shown = flown
         for document in documents:
             self.history.add(document)
         return documents

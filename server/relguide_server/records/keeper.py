@@ -196,6 +196,8 @@ class Keeper:
         if self._writer is None:
             return RecordsReport(status="off", message=OFF)
         trouble = self._writer.trouble
+        if not self._writer.lives():
+            trouble = "Recording stopped by a mistake of the server: its log has the details."
         return RecordsReport(status="waiting" if trouble else "on", message=trouble)
 
     def figures_text(self) -> str:

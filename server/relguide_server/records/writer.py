@@ -122,6 +122,13 @@ class Writer:
             self._changed.notify()
         if self._thread is not None:
             self._thread.join(LAST)
+        if self.store is not None:
+            self.store.close()
+            self.store = None
+
+    def lives(self) -> bool:
+        """Whether its thread runs."""
+        return self._thread is not None and self._thread.is_alive()
 
     def put(self, entry: Entry) -> bool:
         """Give it something to save; never waits.
@@ -149,7 +156,7 @@ class Writer:
         Returns:
             Whether it is; false at once while the database cannot be written.
         """
-        if self.trouble or self._thread is None or not self._thread.is_alive():
+        if self.trouble or not self.lives():
             return False
         future: asyncio.Future[bool] = asyncio.get_running_loop().create_future()
         with self._changed:
@@ -177,9 +184,6 @@ class Writer:
             self._answer(0)
             if stopping:
                 break
-        if self.store is not None:
-            self.store.close()
-            self.store = None
 
     def _try(self, ticket: int) -> None:
         try:

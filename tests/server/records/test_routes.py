@@ -193,3 +193,27 @@ def test_a_folder_that_cannot_be_written_is_said_and_flights_fly(tmp_path: Path)
         assert time.monotonic() - started < 0.5
         assert client.get("/api/v1/records/flights").status_code == 503
         assert "relguide_records_up 0" in client.get("/metrics").text
+
+
+def test_a_replay_ends_where_the_recording_does(client: TestClient) -> None:
+    flight_id = start(client)
+    kept = f"/api/v1/records/flights/{flight_id}"
+    wait_for(lambda: record_of(client, flight_id)["figures"]["simulated_s"] > 3.0)
+    client.delete(f"/api/v1/flights/{flight_id}")
+    wait_for(lambda: record_of(client, flight_id)["outcome"] != "flying")
+    again = client.post(f"{kept}/replay", json={"rate": 60.0}).json()
+    status = f"/api/v1/flights/{again['id']}"
+    wait_for(lambda: client.get(status).json()["ended"])
+    last = record_of(client, flight_id)["figures"]["simulated_s"]
+    assert client.get(status).json()["t_s"] == pytest.approx(last, abs=1.0)
+
+
+def test_a_mistake_in_the_recording_ends_no_flight(
+    client: TestClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delattr("relguide_server.records.reel.Reel.add")
+    answer = client.post("/api/v1/flights", json={"scenario": "ideal"})
+    assert answer.status_code == 201
+    wait_for(lambda: client.get("/readyz").json()["records"]["status"] == "waiting")
+    assert "mistake" in client.get("/readyz").json()["records"]["message"]
+    assert client.get(answer.headers["location"]).json()["ended"] is False
