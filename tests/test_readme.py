@@ -40,7 +40,7 @@ def test_one_request() -> None:
     body = json.loads(curl[curl.index("'{") + 1 : curl.rindex("}'") + 1])
     path = re.search(r":8000(\S+)", curl)
     assert path is not None
-    with TestClient(create_app()) as client:
+    with TestClient(create_app(), base_url="http://localhost") as client:
         answer = client.post(path[1], json=body)
     assert answer.status_code == 200
     assert answer.json()["status"] == "planned"

@@ -32,11 +32,13 @@ def run(chosen: argparse.Namespace) -> int:
         except OSError as error:
             raise OSError(error.errno, error.strerror, f"{host}, port {port}") from None
     # By name: the library knows nothing of the service that stands on it; its command starts it.
-    uvicorn, settings = import_module("uvicorn"), import_module("relguide_server.settings")
-    app = import_module("relguide_server.app").app
+    serving, app = (
+        import_module("relguide_server.serving"),
+        import_module("relguide_server.app").app,
+    )
     shown = f"[{host}]" if ":" in host else host
     write(f"relguide is on http://{shown}:{port} (Ctrl-C stops it)\n")
-    uvicorn.run(app, **settings.uvicorn_options(host=host, port=port))
+    serving.serve(app, host=host, port=port)
     return DONE
 
 

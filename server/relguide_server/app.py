@@ -11,13 +11,14 @@ from fastapi import APIRouter, FastAPI, Request
 from starlette.responses import PlainTextResponse, Response
 
 from relguide.learn.planners import make_planner
-from relguide.planning.acceptance import takes_deadline
+from relguide.planning.acceptance import takes_deadline, with_deadline
 from relguide.planning.plan import Planner
 from relguide_server import areas, flights, pages, plans, record_routes, scene_relay
+from relguide_server.access import Access, read_tokens
 from relguide_server.departures import Departures, library_departures
 from relguide_server.drift import DriftCheck
 from relguide_server.errors import install_handlers
-from relguide_server.guards import BodyLimit, StrictHeaders
+from relguide_server.guards import BodyLimit, HeadAsGet, StrictHeaders
 from relguide_server.jobs import load
 from relguide_server.live_fleet import Fleet
 from relguide_server.metrics import Metrics
@@ -36,6 +37,8 @@ Every field names its unit. Headings count clockwise from true north. Errors are
 (RFC 9457). A flight is watched by WebSocket at `/api/v1/flights/{id}/stream`, and in 3D at
 `/scene/{id}/`."""
 
+IN_FLIGHT = 2.0
+"""How long a flight may plan at a time [s]: it waits meanwhile, and the service cannot stop it."""
 router = APIRouter(tags=["service"])
 
 
@@ -68,7 +71,10 @@ def create_app(
     quick = takes_deadline(planner)
     if name != "exact":
         planner = drift.watch(planner)
-    departures = departures or library_departures(preparation.guard(planner, name, waiting=True))
+    patient = preparation.guard(planner, name, waiting=True)
+    if quick:
+        patient = with_deadline(patient, IN_FLIGHT)
+    departures = departures or library_departures(patient)
     fleet = Fleet(settings, metrics)
 
     @asynccontextmanager
@@ -116,7 +122,10 @@ def create_app(
     # The last one added is the first one passed.
     app.add_middleware(Page)
     app.add_middleware(BodyLimit, max_body=settings.max_body)
+    hosts = [name.strip() for name in settings.hosts.split(",") if name.strip()]
+    app.add_middleware(Access, hosts=hosts, tokens=read_tokens(settings.tokens))
     app.add_middleware(StrictHeaders)
+    app.add_middleware(HeadAsGet)
     return app
 
 

@@ -22,6 +22,8 @@ WAITING = 32
 """Answers that may wait to be audited: where the limit binds, an exact plan takes some 10 ms."""
 LOOK = 0.5
 """How often the thread checks whether it should end [s]."""
+LONGEST = 1.0
+"""How long the exact planner may take for an audit [s]."""
 DIFFERENT = 1e-3
 """Times that differ by more are different answers [s]."""
 
@@ -67,7 +69,7 @@ class DriftCheck:
         """End after the present audit; those that wait are skipped."""
         self._over.set()
         if self._thread is not None:
-            self._thread.join()
+            self._thread.join(LOOK + LONGEST)
             self._thread = None
 
     def _note(self, answer: Plan) -> None:
@@ -95,7 +97,7 @@ class DriftCheck:
             run_logged("An audit of the drift check", partial(self._audit, answer))
 
     def _audit(self, answer: Plan) -> None:
-        exact = self._exact(answer.situation)
+        exact = with_deadline(self._exact, LONGEST)(answer.situation)
         # the network's answer is certified: if the exact planner has no plan, nothing is lost
         loss = 0.0 if isinstance(exact, NoPlan) else _loss(answer, exact)
         differs = isinstance(exact, NoPlan) or abs(loss) > DIFFERENT

@@ -35,6 +35,7 @@ from relguide.flying.orders import (
     PursuerHeading,
     SetEngagement,
 )
+from relguide_server.access import expect_owner, owner_of
 from relguide_server.departures import DeparturesOf
 from relguide_server.errors import Refusal
 from relguide_server.live_fleet import FleetOf
@@ -52,7 +53,7 @@ from relguide_server.openapi import (
 from relguide_server.preparation import PreparationOf
 from relguide_server.records.entries import FlightCard
 from relguide_server.records.keeper import KeeperOf, Recording
-from relguide_server.stream import UNKNOWN_FLIGHT, WRONG_PROTOCOL
+from relguide_server.stream import TOO_MANY, UNKNOWN_FLIGHT, WRONG_PROTOCOL
 
 
 class NewFlight(RootModel[FlightRequest]):
@@ -85,7 +86,7 @@ async def list_scenarios(departures: DeparturesOf) -> Response:
     summary="Start a flight",
     responses={
         **response(201, "It is in the air.", schema_of(FlightStatus)),
-        **problem_responses(400, 413, 415, 422, 429, 500, 503),
+        **problem_responses(400, 408, 413, 415, 422, 429, 500, 503),
     },
     openapi_extra=request_body(schema_of(NewFlight), {"scenario": "fig_6b", "rate": 10.0}),
 )
@@ -131,6 +132,7 @@ async def start_flight(
         rate=wanted.rate,
         paused=wanted.paused,
         record=record,
+        owner=owner_of(request),
     )
     status = status_of(flight)
     headers = {
@@ -167,10 +169,11 @@ async def show_flight(flight_id: str, fleet: FleetOf) -> Response:
     "/flights/{flight_id}",
     status_code=204,
     summary="End a flight",
-    responses=problem_responses(404),
+    responses=problem_responses(403, 404),
 )
-async def end_flight(flight_id: str, fleet: FleetOf) -> Response:
+async def end_flight(flight_id: str, request: Request, fleet: FleetOf) -> Response:
     """Its streams and its scene close with it."""
+    expect_owner(request, fleet.find(flight_id).label.owner)
     await fleet.remove(flight_id)
     return Response(status_code=204)
 
@@ -181,7 +184,7 @@ async def end_flight(flight_id: str, fleet: FleetOf) -> Response:
     summary="Tell a flight something",
     responses={
         **response(202, "The command was passed on.", schema_of(FlightStatus)),
-        **problem_responses(400, 404, 409, 413, 415, 422),
+        **problem_responses(400, 403, 404, 408, 409, 413, 415, 422),
     },
     openapi_extra=request_body(
         schema_of(FlightCommand), {"command": "leader_heading", "heading_deg": 135.0}
@@ -196,6 +199,7 @@ async def command_flight(
     header `Relguide-Recorded` says whether the command is on record already.
     """
     flight = fleet.find(flight_id)
+    expect_owner(request, flight.label.owner)
     try:
         command = parse(FlightCommand, _content(await read_json(request))).root
     except ContractError as error:
@@ -225,6 +229,9 @@ async def stream(websocket: WebSocket, flight_id: str, fleet: FleetOf) -> None:
         await websocket.close(UNKNOWN_FLIGHT, "There is no such flight: it has been removed.")
         return
     flight = fleet.find(flight_id)
+    if len(flight.clients) >= websocket.app.state.settings.max_watchers:
+        await websocket.close(TOO_MANY, "As many watch this flight as may: try again later.")
+        return
     client = flight.join()
     try:
         await client.pump(websocket)

@@ -1,16 +1,23 @@
 """What every request passes: a limit on its body, and headers that make a browser strict."""
 
+from importlib.metadata import version
+
 from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from relguide_server.errors import Refusal, problem
 
+VERSION = version("relguide")
+"""Of the software; each answer says it."""
 SECURITY_HEADERS = {
     b"x-content-type-options": b"nosniff",
     b"referrer-policy": b"no-referrer",
     # The cockpit embeds the 3D scene; nobody else embeds either.
     b"x-frame-options": b"SAMEORIGIN",
-    b"content-security-policy": b"frame-ancestors 'self'; base-uri 'self'; object-src 'none'",
+    b"content-security-policy": b"default-src 'self'; script-src 'self'; "
+    b"style-src 'self' 'unsafe-inline'; img-src 'self' data:; frame-src 'self'; "
+    b"frame-ancestors 'self'; base-uri 'self'; object-src 'none'; form-action 'self'",
+    b"relguide-version": VERSION.encode(),
 }
 
 
@@ -67,3 +74,23 @@ class BodyLimit:
             return message
 
         await self.app(scope, receive_limited, send)
+
+
+class HeadAsGet:
+    """ASGI middleware: answers HEAD as GET, without the body."""
+
+    def __init__(self, app: ASGIApp) -> None:
+        self.app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Serve one connection."""
+        if scope["type"] != "http" or scope["method"] != "HEAD":
+            await self.app(scope, receive, send)
+            return
+
+        async def send_head(message: Message) -> None:
+            if message["type"] == "http.response.body":
+                message = {**message, "body": b""}
+            await send(message)
+
+        await self.app({**scope, "method": "GET"}, receive, send_head)

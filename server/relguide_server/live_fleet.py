@@ -15,6 +15,7 @@ from relguide_server.metrics import Metrics
 from relguide_server.records.entries import Outcome
 from relguide_server.records.keeper import Recording
 from relguide_server.settings import Settings
+from relguide_server.stream import RESTART
 
 REAP_PERIOD = 1.0
 """How often unwatched flights are looked for [s]."""
@@ -47,6 +48,11 @@ class Fleet:
                 await task
         await asyncio.gather(*(self._land(flight, "stopped") for flight in list(self)))
 
+    def dismiss(self) -> None:
+        """Tell all streams that the service stops."""
+        for flight in self:
+            flight.dismiss(RESTART, "The service is stopping: it may be back in a moment.")
+
     def find(self, flight_id: str) -> LiveFlight:
         """A flight by its id.
 
@@ -77,6 +83,7 @@ class Fleet:
         paused: bool,
         record: Callable[[str], Recording],
         replay: bool = False,
+        owner: str = "",
     ) -> LiveFlight:
         """Start a flight, and wait until it is in the air.
 
@@ -88,12 +95,19 @@ class Fleet:
             paused: whether it waits for `play`.
             record: what records it, given its id.
             replay: whether it is a recording.
+            owner: who starts it, and may command it.
 
         Raises:
             Refusal: 429, if too many fly already; 500, if it broke before its first sample.
         """
         await self._make_room()
-        label = FlightLabel(id=secrets.token_hex(6), scenario=scenario, title=title, replay=replay)
+        label = FlightLabel(
+            id=secrets.token_hex(6),
+            scenario=scenario,
+            title=title,
+            replay=replay,
+            owner=owner,
+        )
         flight = LiveFlight(
             label,
             source,

@@ -19,6 +19,9 @@ from relguide_server.records.keeper import Recording
 from relguide_server.scene_stage import SceneStage
 from relguide_server.stream import FLIGHT_BROKEN, FLIGHT_GONE, StreamClient
 
+LANDING = 1.0
+"""How long the thread of a flight may take to end [s]: it looks at each step, and when it plans it
+comes to its deadline."""
 Source = Callable[[Callable[[float], Iterable[Command]]], Iterator[Document]]
 """A flight to be flown: takes a function that is polled for commands at each step, and gives the
 flight's documents in order."""
@@ -33,6 +36,8 @@ class FlightLabel:
     title: str
     replay: bool = False
     """Whether it is a recording, which takes no orders."""
+    owner: str = ""
+    """Who started it, as `access.owner_of` says it."""
 
 
 class LiveFlight:
@@ -121,7 +126,7 @@ class LiveFlight:
             for client in self.clients:
                 client.offer(text, essential=essential)
         if self.broken:
-            self._dismiss(FLIGHT_BROKEN, "This flight was stopped by a mistake of the server.")
+            self.dismiss(FLIGHT_BROKEN, "This flight was stopped by a mistake of the server.")
 
     def join(self) -> StreamClient:
         """A new client of the stream."""
@@ -153,6 +158,11 @@ class LiveFlight:
             stage, self._stage = self._stage, None
             await stage.close()
 
+    def dismiss(self, code: int, reason: str) -> None:
+        """End all streams with a sentence."""
+        for client in self.clients:
+            client.close(code, reason)
+
     async def land(self, outcome: Outcome) -> None:
         """End it now: close its streams and its scene, and wait for its thread.
 
@@ -160,11 +170,11 @@ class LiveFlight:
             outcome: what is recorded of it, if it has not ended by itself.
         """
         self.pace.stop()
-        self._dismiss(FLIGHT_GONE, "This flight is over and has been removed.")
+        self.dismiss(FLIGHT_GONE, "This flight is over and has been removed.")
         if self._stage is not None:
             stage, self._stage = self._stage, None
             await stage.close()
-        await asyncio.to_thread(self._thread.join, 5.0)
+        await asyncio.to_thread(self._thread.join, LANDING)
         self._recording.end(outcome)
 
     # -- inside -----------------------------------------------------------------------------------
@@ -178,10 +188,6 @@ class LiveFlight:
             ended=self.over,
             documents=documents,
         ).decode()
-
-    def _dismiss(self, code: int, reason: str) -> None:
-        for client in self.clients:
-            client.close(code, reason)
 
     def _run(self) -> None:
         self.broken = not run_logged(f"Flight {self.label.id}", self._fly)

@@ -80,7 +80,7 @@ class Preparation:
         with self._changed:
             self._changed.notify_all()
         if self._thread is not None:
-            self._thread.join(5.0)
+            self._thread.join(1.0)
 
     @property
     def ready(self) -> bool:

@@ -24,8 +24,22 @@ from websockets.typing import Subprotocol
 from relguide_server.live_fleet import FleetOf
 from relguide_server.live_flight import LiveFlight
 
-PASSED_ON = frozenset({"ViewerCameraMessage", "GuiUpdateMessage"})
-"""Messages that a browser may send to the scene: its camera, and the view button pressed."""
+PASSED_ON = {
+    "ViewerCameraMessage": frozenset(
+        ("wxyz", "position", "fov", "near", "far", "image_height", "image_width", "look_at",
+         "up_direction")
+    ),
+    "GuiUpdateMessage": frozenset(("uuid", "updates")),
+}  # fmt: skip
+"""Messages that a browser may send to the scene, with their fields: its camera, and the view button
+pressed."""
+SCENE_CSP = (
+    "default-src 'self'; script-src 'self' 'unsafe-inline' 'wasm-unsafe-eval' blob:; "
+    "style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; "
+    "connect-src 'self' data: blob:; worker-src 'self' blob:; frame-ancestors 'self'; "
+    "base-uri 'self'; object-src 'none'; form-action 'self'"
+)
+"""What viser's page may load: it holds its scripts, a decoder and workers within itself."""
 NOT_PASSED_ON = (1008, "The scene takes camera and button messages only.")
 
 
@@ -44,7 +58,12 @@ async def page(flight_id: str, request: Request, fleet: FleetOf) -> Response:
     """Viser's own client: one self-contained page, the same for all flights."""
     fleet.find(flight_id)
     html, packed, tag = _client_page()
-    headers = {"ETag": tag, "Cache-Control": "no-cache", "Vary": "Accept-Encoding"}
+    headers = {
+        "ETag": tag,
+        "Cache-Control": "no-cache",
+        "Vary": "Accept-Encoding",
+        "Content-Security-Policy": SCENE_CSP,
+    }
     if tag in request.headers.get("if-none-match", ""):
         return Response(status_code=304, headers=headers)
     if "gzip" in request.headers.get("accept-encoding", ""):
@@ -135,7 +154,11 @@ def may_pass(message: bytes) -> bool:
         content = msgspec.msgpack.decode(message)
     except msgspec.DecodeError:
         return False
-    return isinstance(content, dict) and content.get("type") in PASSED_ON
+    if not isinstance(content, dict):
+        return False
+    kind = content.get("type")
+    fields = PASSED_ON.get(kind) if isinstance(kind, str) else None
+    return fields is not None and content.keys() <= fields | {"type"}
 
 
 @cache

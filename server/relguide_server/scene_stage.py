@@ -35,7 +35,7 @@ class SceneStage:
     async def close(self) -> None:
         """Close the scene; the connections of its viewers are closed."""
         self._inbox.close()
-        await asyncio.to_thread(self._thread.join, 5.0)
+        await asyncio.to_thread(self._thread.join, 1.0)
         if not self._port.done():
             self._port.set_result(0)
 

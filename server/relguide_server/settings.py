@@ -1,4 +1,4 @@
-"""The settings of an operator, each with its reason, and how uvicorn is started."""
+"""The settings of an operator, each with its reason."""
 
 import json
 from collections.abc import Mapping
@@ -23,6 +23,16 @@ class Settings:
     """
     queue: int = 64
     """Jobs of a kind that may wait for a worker."""
+    hosts: str = ""
+    """Names this server is reached by, with commas between; it always answers to localhost and to
+    addresses. `*`: any name, which lets pages of other sites reach it."""
+    tokens: str = ""
+    """Who may do what, e.g. `view:TOKEN,fly:TOKEN,control:TOKEN`; if empty, everybody may do all.
+    """
+    max_watchers: int = 64
+    """Browsers that may watch one flight."""
+    max_connections: int = 512
+    """Connections that are served at once; others get 503."""
     max_flights: int = 16
     """Flights that may be in the air at once: each is a thread that shares one interpreter."""
     keep_unseen: float = 600.0
@@ -63,7 +73,7 @@ class Settings:
         for name in ("drift_check", "workers", "record_plans"):
             if getattr(self, name) < 0:
                 raise ValueError(f"{name} must be 0 or more, not {getattr(self, name)}.")
-        for name in ("max_flights", "max_body", "queue"):
+        for name in ("max_flights", "max_body", "queue", "max_watchers", "max_connections"):
             if getattr(self, name) < 1:
                 raise ValueError(f"{name} must be 1 or more, not {getattr(self, name)}.")
         for name in ("keep_unseen", "spare_after", "stream_rate", "keep_days", "keep_mb"):
@@ -93,23 +103,3 @@ def settings_from(environment: Mapping[str, str]) -> Settings:
                 f"{variable} must be {noun}, not {environment[variable]!r}."
             ) from error
     return Settings(**changed)
-
-
-def uvicorn_options(*, host: str, port: int) -> dict[str, Any]:
-    """How uvicorn is started: what `relguide serve` passes to `uvicorn.run`.
-
-    uvloop and httptools are taken when installed ("auto"). Compressing each of 20 messages a second
-    would cost more than the stream itself, so per-message deflate is off.
-    """
-    return {
-        "host": host,
-        "port": port,
-        "loop": "auto",
-        "http": "auto",
-        "ws_per_message_deflate": False,
-        "ws_max_size": 1024 * 1024,  # a browser sends us camera positions, nothing larger
-        "timeout_graceful_shutdown": 3,  # a stream never ends by itself
-        "log_level": "warning",
-        "access_log": False,
-        "server_header": False,
-    }

@@ -11,7 +11,10 @@ from relguide_server.metrics import Metrics
 QUEUE = 2
 """Ticks that may wait for one client: a tenth of a second."""
 WRONG_PROTOCOL, UNKNOWN_FLIGHT, FLIGHT_GONE, FLIGHT_BROKEN = 4400, 4404, 4410, 4500
+TOO_MANY = 4429
 """Close codes of a stream, each sent with a sentence."""
+RESTART = 1012
+"""The same, of the protocol itself: the page dials again."""
 
 
 class StreamClient:

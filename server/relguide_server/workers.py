@@ -33,6 +33,7 @@ LOADING_AGAIN = 5.0
 WAITING = 30.0
 """How long a job may wait [s]."""
 STILL_WAITING = f"This waited for more than {WAITING:.0f} s: try again in a moment."
+STOPPING = "The service is stopping: it may be back in a moment."
 INTERRUPTED = "Planning was interrupted: try again."
 THREADS = 4
 """Hands where jobs are done by threads."""
@@ -72,6 +73,8 @@ class Workers:
         self._room = queue
         self._waiting: dict[Kind, deque[_Job]] = {kind: deque() for kind in KINDS}
         self._turn = deque(KINDS)
+        self._open: set[_Job] = set()
+        self._stopped = False
         self._long = 0
         self._wake = asyncio.Condition()
         self._tasks: list[asyncio.Task[None]] = []
@@ -101,22 +104,23 @@ class Workers:
                 would compile it a second time.
             load: the first job of each process.
         """
+        self._stopped = False
         self._tasks = [
             asyncio.create_task(self._serve(hand, is_warm, load)) for hand in self._hands
         ]
 
     async def stop(self) -> None:
-        """End all hands at once, whatever they do."""
+        """End all hands at once, whatever they do, and refuse all jobs."""
+        self._stopped = True
+        for job in self._open:
+            job.end(Refusal(503, STOPPING, headers={"Retry-After": "5"}))
         for task in self._tasks:
             task.cancel()
         for task in self._tasks:
             with suppress(asyncio.CancelledError):
                 await task
         await asyncio.gather(*(hand.drop() for hand in self._hands))
-        for jobs in self._waiting.values():
-            for job in jobs:
-                job.outcome.cancel()
-            jobs.clear()
+        self._tasks.clear()
 
     async def do(
         self, kind: Kind, work: Callable[..., Any], *arguments: Any, patience: float
@@ -133,6 +137,8 @@ class Workers:
             Refusal: 503, if too many wait, or it took too long; or what the job refuses.
         """
         queue = self._waiting[kind]
+        if self._stopped:
+            raise Refusal(503, STOPPING, headers={"Retry-After": "5"})
         if len(queue) >= self._room:
             self.full[kind] += 1
             raise Refusal(
@@ -142,6 +148,7 @@ class Workers:
             )
         job = _Job((work, arguments), patience)
         queue.append(job)
+        self._open.add(job)
         async with self._wake:
             self._wake.notify()
         try:
@@ -150,6 +157,7 @@ class Workers:
         except TimeoutError:
             raise Refusal(503, STILL_WAITING, headers={"Retry-After": "5"}) from None
         finally:
+            self._open.discard(job)
             job.outcome.cancel()  # has no effect on one that is done
             with suppress(ValueError):
                 queue.remove(job)

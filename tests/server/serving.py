@@ -4,12 +4,17 @@ import asyncio
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import Any
 
+import starlette.testclient
 import uvicorn
 from fastapi import FastAPI
 from relguide_server.app import create_app
 from relguide_server.departures import Departure, Departures
-from relguide_server.settings import Settings, uvicorn_options
+from relguide_server.serving import Server, uvicorn_options
+from relguide_server.settings import Settings
+from starlette.testclient import WebSocketTestSession
+from starlette.types import ASGIApp
 
 from relguide.contract.messages import (
     FlightRequest,
@@ -21,6 +26,16 @@ from relguide.contract.refusal import ContractError
 from relguide.flying.documents import Document
 from relguide.planning.plan import plan
 from tests.server.flown import SITUATION, ideal_flight
+
+
+class TestClient(starlette.testclient.TestClient):
+    """A client on this machine: the service does not answer for other names."""
+
+    def __init__(self, app: ASGIApp, **options: Any) -> None:
+        super().__init__(app, base_url="http://localhost", **options)
+
+    def websocket_connect(self, url: str, *arguments: Any, **options: Any) -> WebSocketTestSession:
+        return super().websocket_connect(f"ws://localhost{url}", *arguments, **options)
 
 
 def ideal_departures(
@@ -56,7 +71,7 @@ def serve(app: FastAPI) -> Iterator[str]:
     """Serve an app on a free port of this machine; gives `127.0.0.1:port`."""
     options = uvicorn_options(host="127.0.0.1", port=0)
     config = uvicorn.Config(app, **options)
-    server = uvicorn.Server(config)
+    server = Server(config)
 
     def run() -> None:
         # the loop that `relguide serve` takes, uvloop where there is one

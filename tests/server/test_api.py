@@ -11,12 +11,11 @@ import pytest
 from relguide_server.app import create_app
 from relguide_server.plans import EXAMPLE, MAX_BATCH
 from relguide_server.settings import Settings
-from starlette.testclient import TestClient
 
 from relguide.planning.plan import NoPlan, Plan, plan
 from relguide.planning.situation import Situation
 from tests.server.flown import ideal_flight
-from tests.server.serving import ideal_app, ideal_departures
+from tests.server.serving import TestClient, ideal_app, ideal_departures
 
 HARD = {
     **EXAMPLE,
@@ -71,23 +70,31 @@ def test_a_batch_is_answered_in_order_with_its_ids(client: TestClient) -> None:
 
 
 def test_optimality_comes_on_request(client: TestClient) -> None:
-    asked = client.post("/api/v1/plans?include=optimality", json=EXAMPLE).json()["optimality"]
+    asked = client.post("/api/v1/plans?include=optimality&max_ms=10000", json=EXAMPLE).json()[
+        "optimality"
+    ]
     assert asked["stationary"] is True
     assert asked["hamiltonian_residual"] < 1e-8
     assert len(asked["costates"]["t_s"]) == len(asked["costates"]["switching_s_per_deg"]) > 100
     plain = client.post("/api/v1/plans", json=EXAMPLE).json()["optimality"]
     assert set(plain) == {"proof", "lower_bound_s"}
-    (batch,) = client.post("/api/v1/plans/batch?include=optimality", json=[EXAMPLE]).json()
+    (batch,) = client.post(
+        "/api/v1/plans/batch?include=optimality&max_ms=9999", json=[EXAMPLE]
+    ).json()
     assert batch["optimality"] == asked
 
 
 def test_alternatives_come_on_request(client: TestClient) -> None:
     plain = client.post("/api/v1/plans", json=EXAMPLE).json()
     assert "alternatives" not in plain
-    asked = client.post("/api/v1/plans?include=alternatives,optimality", json=EXAMPLE).json()
+    asked = client.post(
+        "/api/v1/plans?include=alternatives,optimality&max_ms=9999", json=EXAMPLE
+    ).json()
     assert {other["word"] for other in asked["alternatives"]} >= {"LSL", "RSR"} - {asked["word"]}
     assert "costates" in asked["optimality"]
-    (batch,) = client.post("/api/v1/plans/batch?include=alternatives", json=[EXAMPLE]).json()
+    (batch,) = client.post(
+        "/api/v1/plans/batch?include=alternatives&max_ms=9999", json=[EXAMPLE]
+    ).json()
     assert batch["alternatives"] == asked["alternatives"]
 
 
@@ -127,9 +134,9 @@ def test_a_plan_keeps_its_budget(client: TestClient) -> None:
 
 
 def test_a_planner_may_be_asked_for(client: TestClient) -> None:
-    asked = client.post("/api/v1/plans?planner=network", json=EXAMPLE)
+    asked = client.post("/api/v1/plans?planner=network&max_ms=9999", json=EXAMPLE)
     assert asked.json()["planner"] in ("network", "exact")
-    (batch,) = client.post("/api/v1/plans/batch?planner=network", json=[EXAMPLE]).json()
+    (batch,) = client.post("/api/v1/plans/batch?planner=network&max_ms=9999", json=[EXAMPLE]).json()
     assert batch["word"] == asked.json()["word"]
     wrong = client.post("/api/v1/plans?planner=regular_dp", json=EXAMPLE)
     assert "planner" in is_problem(wrong, 422, "/api/v1/plans")["detail"]

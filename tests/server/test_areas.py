@@ -8,11 +8,10 @@ import numpy as np
 import pytest
 from relguide_server.areas import MOST_SEARCHED
 from relguide_server.plans import EXAMPLE
-from starlette.testclient import TestClient
 
 from relguide.contract.area_bodies import AreaAnswer
 from relguide.contract.refusal import parse
-from tests.server.serving import ideal_app
+from tests.server.serving import TestClient, ideal_app
 from tests.server.test_api import is_problem
 
 URL = "/api/v1/areas"

@@ -6,9 +6,9 @@ import pytest
 from relguide_server.app import create_app
 from relguide_server.plans import EXAMPLE
 from relguide_server.settings import Settings
-from starlette.testclient import TestClient
 
 from relguide.contract.protocol import PROTOCOL
+from tests.server.serving import TestClient
 
 
 @pytest.mark.slow

@@ -11,11 +11,11 @@ from relguide_server.drift import WAITING, DriftCheck
 from relguide_server.metrics import Metrics
 from relguide_server.plans import EXAMPLE
 from relguide_server.settings import Settings
-from starlette.testclient import TestClient
 
 from relguide import NoPlan, Plan, Planner, Situation, plan
 from tests.bodies import change
 from tests.server.flown import SITUATION
+from tests.server.serving import TestClient
 
 PATIENCE = 60.0
 """How long an audit may take [s]: kernels may have to be compiled first."""

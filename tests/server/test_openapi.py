@@ -8,9 +8,8 @@ from schemathesis.specs.openapi.checks import (
     response_schema_conformance,
     status_code_conformance,
 )
-from starlette.testclient import TestClient
 
-from tests.server.serving import ideal_app
+from tests.server.serving import TestClient, ideal_app
 
 app = ideal_app(max_flights=2, spare_after=1e-6)
 client = TestClient(app)

@@ -5,7 +5,6 @@ from collections.abc import Callable, Iterator
 from queue import Queue
 
 import pytest
-from fastapi.testclient import TestClient
 from relguide_server import preparation as module
 from relguide_server.app import create_app
 from relguide_server.departures import library_departures
@@ -16,6 +15,7 @@ from relguide_server.settings import Settings
 
 from relguide.planning.plan import Plan, plan, plan_at_once
 from relguide.warm_up import STEPS, Preparing, WarmUpError
+from tests.server.serving import TestClient
 from tests.situations import golden
 
 STEPS_SERVED = steps_for(Settings())
@@ -94,7 +94,8 @@ def test_a_first_start_answers_what_it_can(compiled: Callable[..., None]) -> Non
         compiled(*STEPS_SERVED)
         _until(lambda: preparation.ready)
         assert client.get("/readyz").json()["status"] == "ready"
-        assert client.post("/api/v1/plans", json=LIMITED).json()["status"] == "planned"
+        patient = client.post("/api/v1/plans?max_ms=10000", json=LIMITED)
+        assert patient.json()["status"] == "planned"
 
 
 def test_a_flight_waits_and_a_request_does_not(compiled: Callable[..., None]) -> None:

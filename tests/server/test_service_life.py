@@ -1,9 +1,14 @@
 """The service's beginning and end: quick, and nothing is left behind."""
 
 import asyncio
+import contextlib
 import os
+import socket
+import subprocess
+import sys
 import threading
 import time
+from collections.abc import Callable
 
 import httpx2 as httpx
 import viser
@@ -64,26 +69,75 @@ def test_processes_plan_what_takes_longer_and_leave_with_it() -> None:
 
 
 def test_it_stops_while_browsers_still_look() -> None:
-    async def look(address: str) -> int | None:
+    async def look(address: str) -> tuple[int | None, str | None]:
         async with httpx.AsyncClient(base_url=f"http://{address}") as client:
             answer = await client.post("/api/v1/flights", json={"scenario": "ideal"})
         path = answer.json()["stream_url"]
         async with connect(
             f"ws://{address}{path}", subprotocols=[Subprotocol(PROTOCOL)], proxy=None
-        ) as socket:
-            await socket.recv()
+        ) as stream:
+            await stream.recv()
             looking.set()
             try:
                 while True:
-                    await socket.recv()
+                    await stream.recv()
             except ConnectionClosed:
-                return socket.close_code
+                return stream.close_code, stream.close_reason
 
     looking = threading.Event()
-    codes: list[int | None] = []
+    ends: list[tuple[int | None, str | None]] = []
     with serve(ideal_app()) as address:
-        browser = threading.Thread(target=lambda: codes.append(asyncio.run(look(address))))
+        browser = threading.Thread(target=lambda: ends.append(asyncio.run(look(address))))
         browser.start()
         assert looking.wait(10.0)
     browser.join(10.0)
-    assert codes == [1012]  # "service restart": the page dials again
+    # "service restart": the page dials again
+    assert ends == [(1012, "The service is stopping: it may be back in a moment.")]
+
+
+def test_a_signal_ends_it_within_three_seconds_under_load() -> None:
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    command = [sys.executable, "-m", "relguide", "serve", "--port", str(port)]
+    service = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    url = f"http://127.0.0.1:{port}"
+
+    def attack(path: str, body: object) -> None:
+        with contextlib.suppress(httpx.HTTPError):
+            httpx.post(url + path, json=body, timeout=60.0)
+
+    try:
+        wait_until(lambda: answers(url))
+        batch, area = [HARD] * 1000, {"situation": HARD, "columns": 512, "rows": 512}
+        attacks = [("/plans?max_ms=10000", HARD), ("/plans/batch", batch), ("/areas", area)] * 6
+        attackers = [
+            threading.Thread(target=attack, args=(f"/api/v1{path}", body)) for path, body in attacks
+        ]
+        for attacker in attackers:
+            attacker.start()
+        time.sleep(2.0)
+        stopping = time.monotonic()
+        service.terminate()
+        _, complaints = service.communicate(timeout=10.0)
+        assert time.monotonic() - stopping < 3.0
+        assert b"Traceback" not in complaints
+        for attacker in attackers:
+            attacker.join(10.0)
+    finally:
+        service.kill()
+        service.wait()
+
+
+def answers(url: str) -> bool:
+    try:
+        return httpx.get(f"{url}/healthz").status_code == 200
+    except httpx.HTTPError:
+        return False
+
+
+def wait_until(holds: Callable[[], bool]) -> None:
+    deadline = time.monotonic() + 60.0
+    while not holds():
+        assert time.monotonic() < deadline
+        time.sleep(0.1)

@@ -1,7 +1,8 @@
 """What an operator may set."""
 
 import pytest
-from relguide_server.settings import Settings, settings_from, uvicorn_options
+from relguide_server.serving import uvicorn_options
+from relguide_server.settings import Settings, settings_from
 
 
 def test_the_environment_overrides() -> None:

@@ -1,0 +1,197 @@
+"""Who may ask: the names this server answers to, the pages that may command it, and tokens.
+
+- A page of another site can make a browser send requests here. It cannot hide its `Origin`, which
+  is refused wherever something is changed or streamed. By rebinding a name of its own to this
+  machine it could hide that as well, so only names known here are answered; an address is no name.
+- Programs send no `Origin`. With tokens, they and browsers must show one (`Authorization: Bearer`,
+  or the cookie that `/?token=…` sets).
+"""
+
+import secrets
+from collections.abc import Mapping, Sequence
+from hashlib import sha256
+from http.cookies import CookieError, SimpleCookie
+from ipaddress import ip_address
+from typing import Literal, get_args
+from urllib.parse import parse_qs, urlsplit
+
+from starlette.datastructures import Headers
+from starlette.requests import HTTPConnection
+from starlette.responses import RedirectResponse, Response
+from starlette.types import ASGIApp, Receive, Scope, Send
+
+from relguide_server.errors import Refusal, problem
+
+Role = Literal["view", "fly", "control"]
+"""`view`: read, plan and watch; `fly`: start flights, and command and end one's own; `control`: all
+flights."""
+ROLES: tuple[Role, ...] = get_args(Role)
+COOKIE = "relguide_token"
+SAFE = ("GET", "HEAD", "OPTIONS")
+OPEN = ("/healthz", "/readyz")
+"""Answered without a token."""
+CALCULATIONS = ("/api/v1/plans", "/api/v1/areas", "/api/v1/simulations")
+"""What changes nothing, though it is posted."""
+UNKNOWN_HOST = (
+    "This server does not answer for the name {name!r}. If it is its name, start it with "
+    "RELGUIDE_HOSTS={name}."
+)
+FOREIGN = "A page of {origin} may not do this: only pages of this server may."
+NO_TOKEN = "This needs a token: send Authorization: Bearer …, or open /?token=… in a browser."
+TOO_LITTLE = "This token may {role}; this needs one that may {needed}."
+
+
+class Access:
+    """ASGI middleware: refuses unknown hosts, foreign pages and, if there are tokens, who has none.
+
+    Who asks is noted in the scope, for `owner_of`.
+    """
+
+    def __init__(self, app: ASGIApp, *, hosts: Sequence[str], tokens: Mapping[str, Role]) -> None:
+        self.app = app
+        self.hosts = frozenset(name.lower() for name in hosts)
+        self.tokens = tokens
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Serve one connection."""
+        if scope["type"] not in ("http", "websocket"):
+            await self.app(scope, receive, send)
+            return
+        answer = self._judge(scope, Headers(scope=scope))
+        if answer is None:
+            await self.app(scope, receive, send)
+        elif scope["type"] == "http":
+            await answer(scope, receive, send)
+        else:
+            await receive()  # what asks to be accepted
+            await send({"type": "websocket.close", "code": 1008, "reason": ""})
+
+    def _judge(self, scope: Scope, headers: Headers) -> Response | None:
+        """The answer that refuses; `None` for what may pass."""
+        path, host = scope["path"], headers.get("host", "")
+        if not self._is_ours(host):
+            return problem(path, 421, UNKNOWN_HOST.format(name=_name(host)[:100]))
+        origin = headers.get("origin")
+        changes = scope["type"] == "websocket" or scope["method"] not in SAFE
+        if changes and origin is not None and not self._is_own_page(origin, host):
+            return problem(path, 403, FOREIGN.format(origin=origin[:100]))
+        if not self.tokens or path in OPEN:
+            return None
+        return self._judge_token(scope, headers)
+
+    def _is_ours(self, host: str) -> bool:
+        name = _name(host)
+        if name == "localhost" or name.endswith(".localhost") or "*" in self.hosts:
+            return True
+        return name in self.hosts or _is_address(name)
+
+    def _is_own_page(self, origin: str, host: str) -> bool:
+        try:
+            parts = urlsplit(origin)
+            return parts.scheme in ("http", "https") and parts.netloc.lower() == host.lower()
+        except ValueError:
+            return False
+
+    def _judge_token(self, scope: Scope, headers: Headers) -> Response | None:
+        path = scope["path"]
+        if path == "/" and scope["type"] == "http":
+            shown = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
+            if self._role(shown) is not None:
+                return _remember(shown)
+        token = _token(headers)
+        role = self._role(token)
+        if role is None:
+            said = {"WWW-Authenticate": "Bearer"}
+            return problem(path, 401, NO_TOKEN, headers=said)
+        needed = _needed(scope)
+        if ROLES.index(role) < ROLES.index(needed):
+            return problem(path, 403, TOO_LITTLE.format(role=role, needed=needed))
+        scope.setdefault("state", {})
+        scope["state"]["owner"] = "" if role == "control" else sha256(token.encode()).hexdigest()
+        return None
+
+    def _role(self, token: str) -> Role | None:
+        found: Role | None = None
+        for known, role in self.tokens.items():  # all of them, so that time tells nothing
+            if secrets.compare_digest(known.encode(), token.encode()):
+                found = role
+        return found
+
+
+def owner_of(connection: HTTPConnection) -> str:
+    """Who asks, as flights note their owners; empty for who may command all of them."""
+    owner: str = getattr(connection.state, "owner", "")
+    return owner
+
+
+def expect_owner(connection: HTTPConnection, owner: str) -> None:
+    """Refuse who is not the owner of a flight.
+
+    Raises:
+        Refusal: 403.
+    """
+    asking = owner_of(connection)
+    if asking not in ("", owner):
+        raise Refusal(403, "This flight is another's: only who started it commands it.")
+
+
+def read_tokens(text: str) -> dict[str, Role]:
+    """Tokens from their setting, `view:abc,fly:def`.
+
+    Raises:
+        ValueError: if a part is no role and a token of 16 characters or more.
+    """
+    tokens: dict[str, Role] = {}
+    for part in filter(None, text.split(",")):
+        name, _, token = part.strip().partition(":")
+        role = next((role for role in ROLES if role == name), None)
+        if role is None or len(token) < SHORTEST:
+            raise ValueError(
+                "tokens must be a list such as view:TOKEN,fly:TOKEN,control:TOKEN, each TOKEN of "
+                f"{SHORTEST} characters or more."
+            )
+        tokens[token] = role
+    return tokens
+
+
+SHORTEST = 16
+"""Characters of a token, at least."""
+
+
+def _needed(scope: Scope) -> Role:
+    if scope["type"] == "websocket" or scope["method"] in SAFE:
+        return "view"
+    return "view" if scope["path"].startswith(CALCULATIONS) else "fly"
+
+
+def _token(headers: Headers) -> str:
+    scheme, _, token = headers.get("authorization", "").partition(" ")
+    if scheme.lower() == "bearer":
+        return token.strip()
+    try:
+        cookie = SimpleCookie(headers.get("cookie", "")).get(COOKIE)
+    except CookieError:
+        return ""
+    return cookie.value if cookie else ""
+
+
+def _remember(token: str) -> Response:
+    """The page without the token in its address, which a browser's history would keep."""
+    answer = RedirectResponse("/", 303)
+    answer.set_cookie(COOKIE, token, httponly=True, samesite="strict")
+    return answer
+
+
+def _name(host: str) -> str:
+    """The name in a `Host`, without the port."""
+    if host.startswith("["):
+        return host[1:].partition("]")[0].lower()
+    return host.rpartition(":")[0].lower() if ":" in host else host.lower()
+
+
+def _is_address(name: str) -> bool:
+    try:
+        ip_address(name)
+    except ValueError:
+        return False
+    return True

@@ -1,0 +1,59 @@
+"""How the service is started and stopped: what `relguide serve` calls."""
+
+import asyncio
+import socket
+from typing import Any
+
+import uvicorn
+from fastapi import FastAPI
+
+from relguide_server.live_fleet import Fleet
+from relguide_server.workers import Workers
+
+TO_SAY_GOODBYE = 0.3
+"""How long streams may take to be told why they end [s]."""
+TO_FINISH = 1.0
+"""How long requests may take to be answered once the service is to stop [s]."""
+
+
+class Server(uvicorn.Server):
+    """Uvicorn's server, which tells streams and requests why they end."""
+
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        """Stop: streams end with a sentence, and so do jobs; requests have a second."""
+        app = self.config.loaded_app
+        while not isinstance(app, FastAPI):
+            app = app.app
+        fleet: Fleet = app.state.fleet
+        workers: Workers = app.state.workers
+        fleet.dismiss()
+        await workers.stop()
+        await asyncio.sleep(TO_SAY_GOODBYE)
+        await super().shutdown(sockets)
+
+
+def serve(app: FastAPI, *, host: str, port: int) -> None:
+    """Serve until a signal says to stop; then end within three seconds."""
+    most = app.state.settings.max_connections
+    options = uvicorn_options(host=host, port=port)
+    Server(uvicorn.Config(app, limit_concurrency=most, **options)).run()
+
+
+def uvicorn_options(*, host: str, port: int) -> dict[str, Any]:
+    """How uvicorn is configured.
+
+    uvloop and httptools are taken when installed ("auto"). Compressing each of 20 messages a second
+    would cost more than the stream itself, so per-message deflate is off.
+    """
+    return {
+        "host": host,
+        "port": port,
+        "loop": "auto",
+        "http": "auto",
+        "ws_per_message_deflate": False,
+        "ws_max_size": 1024 * 1024,  # a browser sends us camera positions, nothing larger
+        "timeout_graceful_shutdown": TO_FINISH,
+        "log_level": "warning",
+        "access_log": False,
+        "server_header": False,
+    }
