@@ -1,6 +1,7 @@
 """`relguide serve`: the service and the cockpit."""
 
 import argparse
+import os
 import socket
 from importlib import import_module
 
@@ -18,6 +19,12 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """The options of `relguide serve`."""
     parser.add_argument("--host", default="127.0.0.1", help="default: %(default)s")
     parser.add_argument("--port", type=_port, default=8000, help="default: %(default)s")
+    parser.add_argument(
+        "--workers",
+        type=int,
+        metavar="N",
+        help="processes for what takes longer than a millisecond (default: one a core, 2 to 4)",
+    )
 
 
 def run(chosen: argparse.Namespace) -> int:
@@ -31,6 +38,8 @@ def run(chosen: argparse.Namespace) -> int:
             probe.bind((host, port))
         except OSError as error:
             raise OSError(error.errno, error.strerror, f"{host}, port {port}") from None
+    if chosen.workers is not None:
+        os.environ["RELGUIDE_WORKERS"] = str(chosen.workers)
     # By name: the library knows nothing of the service that stands on it; its command starts it.
     serving, app = (
         import_module("relguide_server.serving"),

@@ -140,17 +140,28 @@ async def healthz() -> Response:
     summary="Is it ready?",
     responses={
         **response(200, "All that it serves is compiled.", schema_of(Readiness)),
-        **response(503, "The first start is not done yet.", schema_of(Readiness)),
+        **response(
+            503, "The first start is not done yet, or no worker answers.", schema_of(Readiness)
+        ),
     },
 )
-async def readyz(preparation: PreparationOf, keeper: KeeperOf) -> Response:
-    """Ready once all that it serves is compiled and a flight has been rehearsed.
+async def readyz(request: Request, preparation: PreparationOf, keeper: KeeperOf) -> Response:
+    """Ready once all that it serves is compiled, a flight has been rehearsed and workers answer.
 
     Records do not count: a service whose database is gone plans and flies as ever.
     """
-    report = preparation.report() | {"records": keeper.report().model_dump()}
-    if preparation.ready:
+    workers: Workers = request.app.state.workers
+    report = preparation.report() | {
+        "planning": {
+            "answers": workers.ready,
+            "processes": len(workers.processes),
+            "waiting": workers.waiting,
+        },
+        "records": keeper.report().model_dump(),
+    }
+    if preparation.ready and workers.ready:
         return json_answer(report)
+    report["status"] = "preparing"
     again = {"Retry-After": str(preparation.seconds_left())}
     return json_answer(report, 503, headers=again)
 

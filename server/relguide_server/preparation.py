@@ -41,12 +41,21 @@ class NowPreparing(BaseModel):
     share: float = Field(description="How much of it is done, from 0 to 1.")
 
 
+class PlanningReport(BaseModel):
+    """Whether what takes longer than a millisecond is answered."""
+
+    answers: bool = Field(description="Whether a worker is there.")
+    processes: int = Field(description="How many run.")
+    waiting: dict[str, int] = Field(description="Jobs that wait for one, by kind.")
+
+
 class Readiness(BaseModel):
     """What a service can answer already."""
 
     status: Literal["ready", "preparing"]
     warm: dict[str, bool] = Field(description="Parts of the planner, and whether each is compiled.")
     preparing: NowPreparing | None
+    planning: PlanningReport
     records: RecordsReport
 
 

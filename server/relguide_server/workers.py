@@ -75,6 +75,7 @@ class Workers:
         self._turn = deque(KINDS)
         self._open: set[_Job] = set()
         self._stopped = False
+        self._ready: set[Hand] = set()
         self._long = 0
         self._wake = asyncio.Condition()
         self._tasks: list[asyncio.Task[None]] = []
@@ -84,6 +85,11 @@ class Workers:
         """Jobs refused since too many waited."""
         self.killed = 0
         """Hands killed and replaced."""
+
+    @property
+    def ready(self) -> bool:
+        """Whether a hand has done its first job, so that jobs are answered."""
+        return bool(self._ready)
 
     @property
     def waiting(self) -> dict[Kind, int]:
@@ -121,6 +127,7 @@ class Workers:
                 await task
         await asyncio.gather(*(hand.drop() for hand in self._hands))
         self._tasks.clear()
+        self._ready.clear()
 
     async def do(
         self, kind: Kind, work: Callable[..., Any], *arguments: Any, patience: float
@@ -174,6 +181,7 @@ class Workers:
                 if loading.outcome.exception() is not None:
                     await asyncio.sleep(LOADING_AGAIN)
                     continue
+            self._ready.add(hand)
             kind, job = await self._next()
             try:
                 await self._finish(hand, job)
@@ -207,6 +215,7 @@ class Workers:
             doing.cancel()
 
     async def _replace(self, hand: Hand, doing: "asyncio.Future[Outcome]") -> None:
+        self._ready.discard(hand)
         doing.cancel()
         await asyncio.wait((doing,))
         await hand.drop()

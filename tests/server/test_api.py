@@ -308,8 +308,10 @@ def test_health_readiness_and_numbers(client: TestClient) -> None:
     assert client.get("/healthz").json() == {"status": "ok"}
     while not client.app.state.preparation.ready:  # type: ignore[attr-defined]
         time.sleep(0.01)
-    ready = {"status": "ready", "warm": {}, "preparing": None}
-    assert client.get("/readyz").json() == ready
+    report = client.get("/readyz").json()
+    assert (report["status"], report["warm"], report["preparing"]) == ("ready", {}, None)
+    waiting = dict.fromkeys(("plans", "flights", "areas", "batches"), 0)
+    assert report["planning"] == {"answers": True, "processes": 0, "waiting": waiting}
     client.post("/api/v1/plans", json=EXAMPLE)
     page = client.get("/metrics")
     assert page.headers["content-type"].startswith("text/plain; version=0.0.4")

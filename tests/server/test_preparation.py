@@ -67,7 +67,7 @@ def test_a_plan_at_once_is_the_plan_where_the_limit_costs_nothing() -> None:
 
 def test_a_first_start_answers_what_it_can(compiled: Callable[..., None]) -> None:
     preparation = Preparation(STEPS_SERVED)
-    with TestClient(create_app(Settings(), preparation=preparation)) as client:
+    with TestClient(create_app(Settings(workers=0), preparation=preparation)) as client:
         refused = client.post("/api/v1/plans", json=EXAMPLE)
         assert refused.status_code == 503
         assert int(refused.headers["Retry-After"]) >= 1
@@ -93,7 +93,7 @@ def test_a_first_start_answers_what_it_can(compiled: Callable[..., None]) -> Non
 
         compiled(*STEPS_SERVED)
         _until(lambda: preparation.ready)
-        assert client.get("/readyz").json()["status"] == "ready"
+        _until(lambda: client.get("/readyz").json()["status"] == "ready")
         patient = client.post("/api/v1/plans?max_ms=10000", json=LIMITED)
         assert patient.json()["status"] == "planned"
 
