@@ -34,12 +34,13 @@ PASSED_ON = {
 """Messages that a browser may send to the scene, with their fields: its camera, and the view button
 pressed."""
 SCENE_CSP = (
-    "default-src 'self'; script-src 'self' 'unsafe-inline' 'wasm-unsafe-eval' blob:; "
+    "default-src 'self'; script-src 'self' 'unsafe-inline' 'unsafe-eval' blob:; "
     "style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; "
     "connect-src 'self' data: blob:; worker-src 'self' blob:; frame-ancestors 'self'; "
     "base-uri 'self'; object-src 'none'; form-action 'self'"
 )
-"""What viser's page may load: it holds its scripts, a decoder and workers within itself."""
+"""What viser's page may load: it holds its scripts, a decoder and workers within itself, and it
+evaluates text."""
 NOT_PASSED_ON = (1008, "The scene takes camera and button messages only.")
 
 
