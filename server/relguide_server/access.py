@@ -30,8 +30,10 @@ COOKIE = "relguide_token"
 SAFE = ("GET", "HEAD", "OPTIONS")
 OPEN = ("/healthz", "/readyz")
 """Answered without a token."""
-CALCULATIONS = ("/api/v1/plans", "/api/v1/areas", "/api/v1/simulations")
+CALCULATIONS = ("/api/v1/plans", "/api/v1/areas")
 """What changes nothing, though it is posted."""
+RECORDS = "/api/v1/records"
+"""Nobody removes from there but who may command all flights."""
 UNKNOWN_HOST = (
     "This server does not answer for the name {name!r}. If it is its name, start it with "
     "RELGUIDE_HOSTS={name}."
@@ -161,6 +163,8 @@ SHORTEST = 16
 def _needed(scope: Scope) -> Role:
     if scope["type"] == "websocket" or scope["method"] in SAFE:
         return "view"
+    if scope["path"].startswith(RECORDS) and scope["method"] == "DELETE":
+        return "control"
     return "view" if scope["path"].startswith(CALCULATIONS) else "fly"
 
 

@@ -14,6 +14,7 @@ from relguide.contract.refusal import ContractError, parse
 from relguide.flying.documents import Document
 from relguide.planning.extras import MissingExtra
 from relguide.planning.frames import LocalPlane
+from relguide_server.access import owner_of
 from relguide_server.errors import Refusal
 from relguide_server.flights import status_of
 from relguide_server.live_fleet import FleetOf
@@ -203,6 +204,7 @@ async def replay_flight(
         paused=wanted.paused,
         record=lambda _: Recording(),
         replay=True,
+        owner=owner_of(request),
     )
     headers = {"Location": f"/api/v1/flights/{flight.label.id}"}
     return json_answer(status_of(flight).model_dump(), 201, headers=headers)

@@ -99,6 +99,7 @@ def test_a_foreign_page_does_not_listen() -> None:
         ("POST", "/api/v1/flights", FLIGHT, (401, 403, 201, 201)),
         ("POST", "/api/v1/flights/none/commands", {"command": "play"}, (401, 403, 404, 404)),
         ("DELETE", "/api/v1/flights/none", None, (401, 403, 404, 404)),
+        ("DELETE", "/api/v1/records/flights/none", None, (401, 403, 403, 404)),
     ],
 )
 def test_what_each_token_may(

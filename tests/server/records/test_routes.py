@@ -13,7 +13,6 @@ from relguide_server.app import create_app
 from relguide_server.plans import EXAMPLE
 from relguide_server.records.keeper import keep
 from relguide_server.settings import Settings
-from starlette.testclient import TestClient
 
 from relguide.contract.protocol import PROTOCOL
 from relguide.contract.recorder import replay
@@ -21,7 +20,7 @@ from relguide.contract.story import story_of
 from relguide.contract.wire import dumps
 from relguide.flying.documents import FlightEnded, Sample
 from tests.server.flown import ideal_flight
-from tests.server.serving import ideal_departures
+from tests.server.serving import TestClient, ideal_departures
 
 
 def make_client(url: str, folder: Path, source: Callable = ideal_flight) -> TestClient:
