@@ -59,7 +59,7 @@ def ideal_departures(
 
 
 def ideal_app(
-    source: Callable[..., Iterator[Document]] = ideal_flight, **settings: float
+    source: Callable[..., Iterator[Document]] = ideal_flight, **settings: float | str
 ) -> FastAPI:
     """The service with ideal flights."""
     limits = Settings(**{"workers": 0, **settings})  # type: ignore[arg-type]

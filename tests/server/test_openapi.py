@@ -11,7 +11,7 @@ from schemathesis.specs.openapi.checks import (
 
 from tests.server.serving import TestClient, ideal_app
 
-app = ideal_app(max_flights=2, spare_after=1e-6)
+app = ideal_app(max_flights=2, spare_after=1e-6, hosts="testserver")
 client = TestClient(app)
 schema = schemathesis.openapi.from_asgi("/openapi.json", app)
 CHECKS = (

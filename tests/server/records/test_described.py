@@ -18,7 +18,7 @@ FOLDER = tempfile.TemporaryDirectory(prefix="relguide-records-")
 keeper = keep(
     records="on", database_url="", data=FOLDER.name, record_plans=5, keep_days=1.0, keep_mb=10.0
 )
-app = create_app(Settings(workers=0), departures=ideal_departures())
+app = create_app(Settings(workers=0, hosts="testserver"), departures=ideal_departures())
 # each case starts and stops the service: the records are to stay open
 app.state.keeper = keeper
 schema = schemathesis.openapi.from_asgi("/openapi.json", app)
