@@ -33,7 +33,7 @@ def write_lines(context: schemathesis.SerializationContext, value: object) -> by
 @schema.parametrize()
 @settings(max_examples=15, deadline=None, suppress_health_check=list(HealthCheck))
 def test_the_service_does_what_its_document_says(case: schemathesis.Case) -> None:
-    case.call_and_validate(checks=CHECKS)
+    case.call_and_validate(checks=CHECKS, timeout=120)
 
 
 def test_every_reference_leads_somewhere() -> None:

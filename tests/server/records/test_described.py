@@ -37,4 +37,4 @@ def _open() -> Iterator[None]:
 @settings(max_examples=15, deadline=None, suppress_health_check=list(HealthCheck))
 @pytest.mark.usefixtures("_open")
 def test_the_records_do_what_their_document_says(case: schemathesis.Case) -> None:
-    case.call_and_validate(checks=CHECKS)
+    case.call_and_validate(checks=CHECKS, timeout=120)
