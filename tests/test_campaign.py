@@ -58,6 +58,7 @@ def test_all_recorded_flights_of_the_collection_lead() -> None:
     assert recordings.count() == 235
     assert draw("recorded", 1).scenario.leader_source is recordings.track(1)
     assert recordings.track(235) is recordings.track(0)
+    assert all(draw("recorded", number).scenario.leader_source for number in range(235))
 
 
 @pytest.mark.slow

@@ -184,7 +184,7 @@ def _draw_recorded(rng: Draw, family: str, number: int) -> Case:
         leader=Leader(x=first.x, y=first.y, heading=first.track, tas=first.ground_speed),
         wind=wind_from(float(rng.uniform(0.0, 2.0 * pi)), float(rng.uniform(0.0, 15.0))),
     )
-    case = _case(family, number, situation, intent_known=False)
+    case = _case(family, number, situation, intent_known=False, altitude=first.altitude)
     return replace(
         case,
         scenario=replace(
@@ -192,7 +192,6 @@ def _draw_recorded(rng: Draw, family: str, number: int) -> Case:
             leader_source=track,
             leader_ident=track.ident,
             leader_type=track.aircraft_type or "unknown",
-            altitude=first.altitude,
             after_joining=3600.0,
         ),
     )
@@ -211,7 +210,14 @@ FAMILIES: Mapping[str, Callable[[Draw, str, int], Case]] = {
 """By name; their docstrings say what they are."""
 
 
-def _case(family: str, number: int, situation: Situation, *, intent_known: bool = True) -> Case:
+def _case(
+    family: str,
+    number: int,
+    situation: Situation,
+    *,
+    intent_known: bool = True,
+    altitude: Metre = ALTITUDE,
+) -> Case:
     described = (FAMILIES[family].__doc__ or "").splitlines()[0]
     return Case(
         family=family,
@@ -222,7 +228,7 @@ def _case(family: str, number: int, situation: Situation, *, intent_known: bool 
             description=described,
             situation=situation,
             intent_known=intent_known,
-            altitude=ALTITUDE,
+            altitude=altitude,
             duration_limit=LONGEST,
         ),
     )
