@@ -1,5 +1,8 @@
 """What an operator may set."""
 
+import re
+from pathlib import Path
+
 import pytest
 from relguide_server.serving import uvicorn_options
 from relguide_server.settings import Settings, settings_from
@@ -28,3 +31,10 @@ def test_nonsense_is_refused_with_a_sentence(environment: dict[str, str], senten
 
 def test_the_stream_is_not_compressed() -> None:
     assert uvicorn_options(host="127.0.0.1", port=8000)["ws_per_message_deflate"] is False
+
+
+def test_every_setting_is_in_the_docs() -> None:
+    docs = Path(__file__).parents[2] / "docs"
+    text = (docs / "service.md").read_text() + (docs / "records.md").read_text()
+    named = set(re.findall(r"^\| `RELGUIDE_([A-Z_]+)`", text, flags=re.MULTILINE))
+    assert named == {name.upper() for name in Settings.__dataclass_fields__}
