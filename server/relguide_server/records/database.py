@@ -68,7 +68,11 @@ def connect(url: URL) -> Engine:
             engine = sa.create_engine(url, connect_args={"timeout": PATIENCE})
             event.listen(engine, "connect", _prepare_sqlite)
             event.listen(engine, "begin", _begin_sqlite)
-        _bring_up_to_date(engine)
+        try:
+            _bring_up_to_date(engine)
+        except BaseException:
+            engine.dispose()
+            raise
         return engine
 
 

@@ -219,7 +219,7 @@ def test_a_turning_leader_is_met_on_the_final_leg() -> None:
     assert certify(planned.trajectory, TURNING).holds
     assert planned.time_to_converge == pytest.approx(exact.time_to_converge, rel=1e-9)
     # it would be there before the slot opens, and how to wait is the exact planner's to say
-    pursuer = replace(TURNING.pursuer, x=-7600.0, y=-12_200.0, heading=45 * DEG)
+    pursuer = replace(TURNING.pursuer, x=-12_000.0, y=-9000.0, heading=45 * DEG)
     near = replace(TURNING, pursuer=pursuer, min_separation=0.0)
     assert candidates(near).reachable_at_release
     assert propose(load_network(), near) is None

@@ -30,10 +30,11 @@ from relguide_server.app import create_app
 from relguide_server.settings import Settings
 
 body = json.load(open(sys.argv[1]))
-client = TestClient(create_app(Settings(planner="network", workers=0)), base_url="http://localhost")
-print(client.post("/api/v1/plans", json=body).json()["planner"])
-small = {"columns": "32", "rows": "24", "planner": "network", "situation": json.dumps(body)}
-print(client.get("/api/v1/areas", params=small).status_code)
+app = create_app(Settings(planner="network", workers=0))
+with TestClient(app, base_url="http://localhost") as client:
+    print(client.post("/api/v1/plans", json=body).json()["planner"])
+    small = {"columns": "32", "rows": "24", "planner": "network", "situation": json.dumps(body)}
+    print(client.get("/api/v1/areas", params=small).status_code)
 """
 )
 

@@ -19,6 +19,7 @@ from relguide.maps.isochrones import (
     round_levels,
     times_around,
 )
+from relguide.planning.words import candidates
 from relguide.units import DEG
 
 STRAIGHT = Situation(
@@ -70,7 +71,10 @@ def test_times_are_those_of_plan(situation: Situation, drawn: dict[Situation, Is
                 assert field.time[i] == inf
                 continue
             time, word = field.time[i], NAMES[field.words[i]]
-            assert field.lower_bound[i] == pytest.approx(answer.optimality.lower_bound, abs=1e-6)
+            bound = answer.optimality.lower_bound
+            if abs(field.lower_bound[i] - bound) > 1e-6:  # no path arrives just as the slot opens
+                assert field.lower_bound[i] < bound
+                assert not candidates(answer.situation).reachable_at_release
             if limited[i]:
                 assert answer.time_to_converge <= time + 1e-6
                 assert answer.time_to_converge >= field.lower_bound[i] - 1e-6

@@ -42,8 +42,8 @@ def test_a_proven_time_is_met_and_proved(name: str, i: int) -> None:
             expected["time_to_converge_s"], abs=expected["tolerance_s"]
         )
     assert answer.certificate.holds
-    # RW021: reachable before it opens, but no path of that exact length is known; honest about it
-    assert answer.optimality.proof == ("bound" if expected["id"] == "RW021" else "relaxation")
+    # of RW021, reachable before the slot opens, it is proved that no path has that exact length
+    assert answer.optimality.proof == "relaxation"
 
 
 @pytest.mark.parametrize(
