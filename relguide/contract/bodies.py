@@ -6,7 +6,7 @@ are clockwise from true north where the aircraft is, are turned by the angle bet
 and the plane's north. Wind and intent are taken at the leader.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import atan2, degrees, hypot, isfinite, radians
 from typing import Annotated, Any
@@ -272,9 +272,12 @@ def _pursuer(body: LocalPursuer | GeodeticPursuer, x: float, y: float, heading: 
 
 
 def _leader(body: LocalLeader | GeodeticLeader, x: float, y: float, heading: float) -> Leader:
-    return Leader(
-        x=x, y=y, heading=heading, tas=body.tas_mps, intent=tuple(map(_piece, body.intent))
-    )
+    return Leader(x=x, y=y, heading=heading, tas=body.tas_mps, intent=intent_from_body(body.intent))
+
+
+def intent_from_body(pieces: Sequence[StraightPiece | TurnPiece]) -> tuple[IntentPiece, ...]:
+    """What a leader declares or flies, its headings from true north at the leader."""
+    return tuple(map(_piece, pieces))
 
 
 def _piece(body: StraightPiece | TurnPiece) -> IntentPiece:

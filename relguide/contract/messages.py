@@ -22,7 +22,7 @@ from pydantic import (
     create_model,
 )
 
-from relguide.contract.bodies import SituationBody, Tas
+from relguide.contract.bodies import Intent, SituationBody, Tas
 from relguide.contract.refusal import Strict, loads, refusal
 from relguide.contract.wire import WireField, wire_fields
 from relguide.flying.aircraft_documents import ReferenceCard
@@ -241,6 +241,8 @@ class SituationFlightRequest(_HowToFly):
     """Start a flight from a situation of your own."""
 
     situation: SituationBody
+    flown_intent: Intent | None = None
+    """What the leader flies if that is not what it declares in `situation`: it breaks its word."""
 
 
 def _which_request(value: Any) -> str:

@@ -8,7 +8,7 @@ from typing import Annotated
 from fastapi import Depends
 from starlette.requests import HTTPConnection
 
-from relguide.contract.bodies import situation_from_body
+from relguide.contract.bodies import intent_from_body, situation_from_body
 from relguide.contract.messages import (
     FlightRequest,
     ScenarioFlightRequest,
@@ -20,7 +20,7 @@ from relguide.contract.refusal import ContractError
 from relguide.flying.flight import Scenario, fly
 from relguide.flying.scenarios import SCENARIOS, own_scenario, scenario
 from relguide.planning.plan import Planner
-from relguide.planning.situation import Situation
+from relguide.planning.situation import IntentPiece, Situation
 from relguide_server.live_flight import Source
 
 ENDLESS = 1e9
@@ -97,9 +97,15 @@ def library_departures(planner: Planner) -> Departures:
 
 def _known_situation(flown: Scenario) -> Situation:
     """Its situation, with as much of the leader's intent as the pursuer knows."""
-    if flown.intent_known:
-        return flown.situation
-    return replace(flown.situation, leader=replace(flown.situation.leader, intent=()))
+    if not flown.intent_known:
+        return _with_intent(flown.situation, ())
+    if flown.declared_intent is not None:
+        return _with_intent(flown.situation, flown.declared_intent)
+    return flown.situation
+
+
+def _with_intent(situation: Situation, intent: tuple[IntentPiece, ...]) -> Situation:
+    return replace(situation, leader=replace(situation.leader, intent=intent))
 
 
 def _scenarios() -> ScenarioList:
@@ -130,6 +136,9 @@ def _own_scenario(wanted: SituationFlightRequest) -> Scenario:
         under = [(f"situation.{path}".rstrip("."), said) for path, said in error.problems]
         raise ContractError(under) from None
     try:
-        return own_scenario(situation)
+        if wanted.flown_intent is None:
+            return own_scenario(situation)
+        flown = _with_intent(situation, intent_from_body(wanted.flown_intent))
+        return replace(own_scenario(flown), declared_intent=situation.leader.intent)
     except ValueError as error:  # no level at which the aircraft could fly it, in a sentence
         raise ContractError([("situation.pursuer", str(error))]) from None

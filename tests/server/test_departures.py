@@ -4,11 +4,20 @@ import time
 
 import pytest
 from relguide_server.app import create_app
+from relguide_server.departures import library_departures
 from relguide_server.plans import EXAMPLE
 from relguide_server.settings import Settings
 
+from relguide.contract.messages import SituationFlightRequest
 from relguide.contract.protocol import PROTOCOL
+from relguide.flying.documents import LeaderChanged
+from relguide.flying.orders import no_commands
+from relguide.planning.plan import plan
+from relguide.planning.situation import TurnTo
+from relguide.planning.trajectory import RIGHT
 from tests.server.serving import TestClient
+
+TURN = {"direction": "right", "bank_deg": 20.0}
 
 
 @pytest.mark.slow
@@ -43,6 +52,21 @@ def test_a_situation_of_ones_own_flies() -> None:
         refused = client.post("/api/v1/flights", json=wrong)
         assert refused.status_code == 422
         assert refused.json()["errors"][0]["path"] == "situation.slot_distance_m"
+
+
+def test_a_leader_breaks_its_word_whoever_watches() -> None:
+    declared = [{"straight_s": 400.0}, {**TURN, "turn_to_heading_deg": 150.0}]
+    leader = {**EXAMPLE["leader"], "intent": declared}
+    flown = [{"straight_s": 20.0}, {**TURN, "turn_to_heading_deg": 40.0, "direction": "left"}]
+    body = {"situation": {**EXAMPLE, "leader": leader}, "flown_intent": flown}
+    departure = library_departures(plan).find(SituationFlightRequest.model_validate(body))
+    assert departure.first is not None
+    _, promised = departure.first.leader.intent
+    assert isinstance(promised, TurnTo)
+    assert promised.turn == RIGHT
+    noticed = next(d for d in departure.source(no_commands) if isinstance(d, LeaderChanged))
+    assert "does not fly what it declared" in noticed.message
+    assert 20.0 < noticed.t < 60.0
 
 
 @pytest.mark.parametrize(("key", "value"), [("tas_mps", 300.0), ("max_bank_deg", 45.0)])

@@ -38,6 +38,12 @@ const ENGAGING: Record<Engagement, { doing: string; done: string }> = {
   engaged: { doing: "Engaging…", done: "Relative guidance is engaged." },
 };
 
+/** A heading as it will be flown, and as it was given where that is beyond a full turn. */
+function sayHeading(heading: number): string {
+  const text = formatHeading(heading);
+  return heading < 0 || heading > 360 ? `${text} (${heading}° is ${text}°)` : text;
+}
+
 /** The actions of a page, and `open`, which begins: joins the flight of the address, or starts one. */
 export function createActions(
   session: Session,
@@ -186,12 +192,8 @@ export function createActions(
   }
 
   function leaderHeading(heading: number, direction?: Direction): void {
-    if (heading < 0 || heading > 360) {
-      say("refused", `A heading is 0 to 360°, not ${heading}°.`);
-      return;
-    }
     const way = direction === undefined ? "" : ` by the ${direction}`;
-    const text = `Leader to heading ${formatHeading(heading)}${way}`;
+    const text = `Leader to heading ${sayHeading(heading)}${way}`;
     const body = { command: "leader_heading", heading_deg: wrap360(heading) } as const;
     void command(direction === undefined ? body : { ...body, direction }, `${text}…`, `${text}.`);
   }
@@ -207,11 +209,7 @@ export function createActions(
       void command({ command: "set_engagement", engagement }, doing, done);
     },
     ownHeading(heading) {
-      if (heading < 0 || heading > 360) {
-        say("refused", `A heading is 0 to 360°, not ${heading}°.`);
-        return;
-      }
-      const text = `Own heading ${formatHeading(heading)} selected`;
+      const text = `Own heading ${sayHeading(heading)} selected`;
       const body = { command: "pursuer_heading", heading_deg: wrap360(heading) } as const;
       void command(body, `${text}…`, `${text}.`);
     },
@@ -244,7 +242,7 @@ export function createActions(
       if (again !== null) clearTimeout(again);
       attempt();
     },
-    fly: () => fly(session, begin, { leaderHeading }),
+    fly: () => fly(session, begin),
     mapFromFlight: () => mapFromFlight(session),
     reload: () => location.reload(),
   };

@@ -9,20 +9,21 @@ export function Dial(props: {
   unit: string;
   value: number;
   digits: number;
-  /** Brings a number that was stepped to into the range of what is selected. */
+  /** The number that is meant by one that was typed or stepped to: 400° is 040°. */
   correct: (value: number) => number;
-  /** The largest number that can be commanded: a larger one may be typed, and is refused. */
+  /** The largest number that there is. */
   most: number;
   change: (value: number) => void;
-  /** Enter: what is selected is commanded. */
+  /** Enter: what is selected is commanded, as it was typed. */
   commit: (value: number) => void;
 }) {
   const { label, unit, value, digits, correct, most, change, commit } = props;
   const typed = useSignal<string | null>(null);
-  const shown = String(value).padStart(digits, "0");
+  const selected = correct(value);
+  const shown = String(selected).padStart(digits, "0");
   const step = (by: number) => {
     typed.value = null;
-    change(correct(value + by));
+    change(correct(selected + by));
   };
   const keys: Record<string, () => void> = {
     ArrowUp: () => step(1),
@@ -57,9 +58,8 @@ export function Dial(props: {
           inputMode="numeric"
           role="spinbutton"
           aria-label={label}
-          aria-valuenow={value}
+          aria-valuenow={selected}
           aria-valuemax={most}
-          aria-invalid={value > most}
           maxLength={3}
           size={3}
           value={typed.value ?? shown}

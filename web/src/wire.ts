@@ -1,7 +1,7 @@
 // Made by `python -m relguide_server.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-b0bda30d9559";
+export const PROTOCOL = "relguide-7c3e4a3e2836";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -872,6 +872,7 @@ export interface SituationFlightRequest {
   seed?: number;
   spacing_time_s?: number | null;
   situation: SituationBody;
+  flown_intent?: IntentPiece[] | null;
 }
 
 /** A piece of intent: keep the heading. */

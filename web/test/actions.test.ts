@@ -8,7 +8,7 @@ import { pairAt, STARTED } from "./samples";
 afterEach(() => vi.unstubAllGlobals());
 
 function flying(answer: Response) {
-  const asked = vi.fn(async () => answer);
+  const asked = vi.fn<typeof fetch>(async () => answer);
   vi.stubGlobal("fetch", asked);
   const store = createFlightStore();
   const session = createSession(store.flight);
@@ -34,14 +34,14 @@ function problem(status: number, detail: string): Response {
   return new Response(JSON.stringify({ detail }), { status });
 }
 
-test("a heading beyond 360° is refused with a sentence, and nobody is asked", () => {
-  const { asked, session, actions } = flying(problem(500, ""));
+test("a heading beyond a full turn is flown as what it means, and the page says so", async () => {
+  const { asked, session, actions } = flying(new Response("", { status: 204 }));
   actions.leaderHeading(400, "right");
-  expect(session.feedback.value).toEqual({
-    kind: "refused",
-    text: "A heading is 0 to 360°, not 400°.",
+  await vi.waitFor(() => expect(session.feedback.value.kind).toBe("done"));
+  expect(session.feedback.value).toMatchObject({
+    text: "Leader to heading 040 (400° is 040°) by the right.",
   });
-  expect(asked).not.toHaveBeenCalled();
+  expect(JSON.parse(asked.mock.calls[0]?.[1]?.body as string)).toMatchObject({ heading_deg: 40 });
 });
 
 test("a click on a leader that is designated already takes nothing back", () => {

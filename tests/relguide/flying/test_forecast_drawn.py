@@ -25,11 +25,12 @@ HEAD_ON = Situation(
     slot_distance=6.0 * NM,
     min_separation=5.0 * NM,
 )
+FARTHER = replace(HEAD_ON, pursuer=replace(HEAD_ON.pursuer, x=40_000.0))
 IN_WIND = replace(HEAD_ON, wind=wind_from(200 * DEG, 78 * KT))
 FLIGHTS = {
     "6a": (fig_6(intent_known=False), LEADER_TURNS_AT, 200.0),
     "6b": (fig_6(intent_known=True), 0.0, 900.0),
-    "head-on, 263 degrees of turns": (own_scenario(HEAD_ON), 0.0, 500.0),
+    "head-on, 353 degrees of turns": (own_scenario(FARTHER), 0.0, 450.0),
     "78 kt of wind": (own_scenario(IN_WIND), 0.0, 500.0),
 }
 """By name: the flight, from when on it is looked at [s], how long one forecast must stand [s]."""

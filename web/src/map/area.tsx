@@ -1,7 +1,9 @@
 /** The convergence area under the map: where each word is the answer, and lines of equal time. */
 
 import { useComputed } from "@preact/signals";
-import { type Layout, type Point, round, toMap, type View } from "../nd/view";
+import { type More, regionId } from "../nd/labelled";
+import { LINE_HEIGHT } from "../nd/labels";
+import { type Layout, onMap, type Point, project, round, toMap, type View } from "../nd/view";
 import type { AreaAnswer, AreaRegion } from "../wire";
 import type { Editor } from "./editor";
 import { widest } from "./widest";
@@ -12,6 +14,7 @@ type Ring = readonly (readonly number[])[];
 const NAMES: Record<string, string> = { "": "NO PLAN", delay: "DELAY", constrained: "LIMIT" };
 /** A name is written only where it fits [px]. */
 const NAMED_FROM = 70;
+const NAME_SIZE = 17;
 /** Where along its line a number is tried, and how far it stays from the others [px]. */
 const PARTS = [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8] as const;
 const APART = 48;
@@ -41,43 +44,41 @@ export function AreaLayer({ map, view }: { map: Editor; view: View }) {
           </text>
         ),
       )}
-      {regions.value.map(({ key, name, at }) =>
-        at === null ? null : (
-          <text key={key} class="nd-text area-word" x={round(at.x)} y={round(at.y + 6)}>
-            {name}
-          </text>
-        ),
-      )}
     </g>
   );
 }
 
 function regionsOf(layout: Layout, answer: AreaAnswer | null) {
-  const placed: Point[] = [];
-  return (answer?.regions ?? []).map((region, i) => {
-    const largest = widest(region.polygons.map((polygon) => polygon.map(ringOf)));
-    const middle = largest === null ? null : toMap(layout, largest);
-    const fits =
-      largest !== null &&
-      largest.width * layout.scale > NAMED_FROM &&
-      placed.every((other) => middle === null || isClear(middle, other));
-    if (fits && middle !== null) placed.push(middle);
-    return {
-      key: i,
-      word: region.word,
-      limited: region.limited,
-      name: nameOf(region),
-      d: region.polygons
-        .flatMap((polygon) => polygon.map((ring) => data(layout, ring, "Z")))
-        .join(""),
-      at: fits ? middle : null,
-    };
-  });
+  return (answer?.regions ?? []).map((region, i) => ({
+    key: i,
+    word: region.word,
+    limited: region.limited,
+    d: region.polygons
+      .flatMap((polygon) => polygon.map((ring) => data(layout, ring, "Z")))
+      .join(""),
+  }));
 }
 
-/** Whether two names do not touch. */
-function isClear(a: Point, b: Point): boolean {
-  return Math.abs(a.x - b.x) > 110 || Math.abs(a.y - b.y) > 26;
+/** The names of the regions, and where numbers stand on the lines, for the map's labels. */
+export function areaLabels(map: Editor, view: View): More {
+  const [answer, layout, pose] = [map.area.value?.answer, view.layout.value, view.pose.value];
+  if (!map.hasArea.value || answer === undefined || pose === null)
+    return { labels: [], points: [] };
+  const labels = answer.regions.flatMap((region, i) => {
+    const largest = widest(region.polygons.map((polygon) => polygon.map(ringOf)));
+    if (largest === null || largest.width * layout.scale < NAMED_FROM) return [];
+    const at = project(layout, pose, largest);
+    if (!onMap(layout, at)) return [];
+    const lines = [{ text: nameOf(region), colour: "superseded" as const }];
+    // in the middle of its region: the gap is measured from its edge
+    const gap = (-NAME_SIZE * LINE_HEIGHT) / 2;
+    return [{ id: regionId(i), at, lines, side: 0, gap, size: NAME_SIZE, optional: true }];
+  });
+  const origin = project(layout, pose, { x_m: 0, y_m: 0 });
+  const points = linesOf(layout, answer).flatMap(({ at }) =>
+    at === null ? [] : [{ x: at.x + origin.x, y: at.y + origin.y }],
+  );
+  return { labels, points };
 }
 
 function nameOf({ word, limited }: AreaRegion): string {

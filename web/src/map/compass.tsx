@@ -1,14 +1,9 @@
+import { Cell } from "../nd/cell";
 import type { LayerProps } from "../nd/layer";
+import { LETTERS, letterPoint, RingLabel } from "../nd/rings";
 import { Stroke } from "../nd/stroke";
-import { ink, LINES } from "../nd/style";
+import { LINES } from "../nd/style";
 import { polar, round } from "../nd/view";
-
-const LETTERS = [
-  ["N", 0],
-  ["E", 90],
-  ["S", 180],
-  ["W", 270],
-] as const;
 
 /** Range rings about the middle of the map, and where north is. */
 export function Compass({ view }: LayerProps) {
@@ -29,33 +24,22 @@ export function Compass({ view }: LayerProps) {
               width={40}
               height={22}
             />
-            <text
-              class="nd-text"
-              fill={ink("unit")}
-              font-size={18}
-              text-anchor="middle"
-              x={round(at.x)}
-              y={round(at.y + 6)}
-            >
-              {label}
-            </text>
+            <RingLabel {...at} text={label} />
           </g>
         );
       })}
-      {LETTERS.map(([letter, direction]) => {
-        const at = polar(layout, direction, (layout.rings[0]?.radius ?? 0) + 18);
+      {Object.entries(LETTERS).map(([letter, direction]) => {
+        const at = letterPoint(layout, direction);
         return (
-          <text
+          <Cell
             key={letter}
-            class="nd-text"
-            fill={ink("scale")}
-            font-size={24}
-            text-anchor="middle"
             x={round(at.x)}
             y={round(at.y + 8)}
-          >
-            {letter}
-          </text>
+            text={letter}
+            colour="scale"
+            size={24}
+            anchor="middle"
+          />
         );
       })}
     </g>

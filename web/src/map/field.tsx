@@ -10,32 +10,33 @@ export function Field(props: {
   value: number;
   decimals?: number;
   step?: number;
-  least: number;
-  most: number;
+  /** Where it may lie; without them it is an angle, and any number means one. */
+  bounds?: readonly [number, number];
   change: (value: number) => void;
 }) {
-  const { label, short, unit, value, decimals = 0, step = 1, least, most, change } = props;
+  const { label, short, unit, value, decimals = 0, step = 1, bounds, change } = props;
+  const [least, most] = bounds ?? [Number.NEGATIVE_INFINITY, Number.POSITIVE_INFINITY];
+  const range = bounds === undefined ? "" : `${least} to ${most}`;
+  const isTaken = (text: string) =>
+    text !== "" && Number.isFinite(Number(text)) && Number(text) >= least && Number(text) <= most;
   const typed = useSignal<string | null>(null);
   const shown = typed.value ?? value.toFixed(decimals);
-  const number = Number(shown);
-  const isRefused = shown === "" || !Number.isFinite(number) || number < least || number > most;
+  const isRefused = !isTaken(shown);
   return (
     <label class="field">
       <span aria-hidden="true">{short}</span>
       <input
         type="number"
-        aria-label={`${label}, ${unit}, ${least} to ${most}`}
+        aria-label={[label, unit, range].filter((part) => part !== "").join(", ")}
         aria-invalid={isRefused}
-        title={isRefused ? `${label}: ${least} to ${most} ${unit}` : label}
+        title={isRefused ? `${label}: ${range} ${unit}` : label}
         step={step}
-        min={least}
-        max={most}
+        {...(bounds !== undefined && { min: least, max: most })}
         value={shown}
         onInput={(event) => {
           const text = event.currentTarget.value;
           typed.value = text;
-          const next = Number(text);
-          if (text !== "" && next >= least && next <= most) change(next);
+          if (isTaken(text)) change(Number(text));
         }}
         onBlur={() => {
           typed.value = null;

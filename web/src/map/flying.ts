@@ -1,11 +1,11 @@
 /** From the map into the air, and back: what is laid out becomes a flight, a flight is laid out. */
 
 import { effect, untracked } from "@preact/signals";
-import type { Actions, Session } from "../session";
+import type { Session } from "../session";
 import type { FlightRequest } from "../wire";
 import { putSituation } from "./editor";
 import { situationOf } from "./from-flight";
-import { entryOf, type Surprise } from "./gallery";
+import { entryOf } from "./gallery";
 import { bodyOf, FIRST, readAddress } from "./situation";
 
 /** Starts a flight; `flies` is called once it does. */
@@ -33,33 +33,13 @@ export function mapFromFlight({ map, flight }: Session): void {
 }
 
 /** Makes a flight of what is laid out: its crew has the leader designated, and decides. */
-export function fly(session: Session, begin: Begin, actions: Pick<Actions, "leaderHeading">): void {
+export function fly(session: Session, begin: Begin): void {
   const situation = session.map.situation.value;
-  const { scenario, surprise } = entryOf(situation) ?? {};
+  const { scenario, flies } = entryOf(situation) ?? {};
   const wanted = { rate: 1, engagement: "designated" } as const;
-  void begin(
-    scenario === undefined ? { ...wanted, situation: bodyOf(situation) } : { ...wanted, scenario },
-    () => {
-      session.ndMode.value = "ARC";
-      if (surprise !== undefined) turnLater(session, surprise, actions);
-    },
-  );
-}
-
-/** What a leader of the gallery does without having said so. */
-function turnLater(
-  { flight, status }: Session,
-  { at, heading, direction }: Surprise,
-  actions: Pick<Actions, "leaderHeading">,
-): void {
-  const flown = status.value?.id;
-  const stop = effect(() => {
-    const isOver = status.value?.id !== flown;
-    const isDue = flight.id.value === flown && flight.simTime.value >= at;
-    if (!isOver && !isDue) return;
-    queueMicrotask(() => {
-      stop();
-      if (isDue) actions.leaderHeading(heading, direction);
-    });
+  const own = { ...wanted, situation: bodyOf(situation) };
+  const broken = flies === undefined ? own : { ...own, flown_intent: [...flies] };
+  void begin(scenario === undefined ? broken : { ...wanted, scenario }, () => {
+    session.ndMode.value = "ARC";
   });
 }

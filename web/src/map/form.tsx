@@ -2,20 +2,40 @@
 
 import { Choice, Panel } from "../parts";
 import { KT, NM } from "../units";
-import type { IntentPiece } from "../wire";
+import type { IntentPiece, TurnPiece } from "../wire";
 import { type Editor, edit } from "./editor";
 import { Field } from "./field";
 import { BOUNDS, MOST_PIECES, type Situation } from "./situation";
 
-const MILES = 539;
+/** A number of the situation: where it may lie, and what typing it makes of its part. */
+interface Numbered<Part> {
+  readonly label: string;
+  readonly short: string;
+  readonly unit: string;
+  readonly value: number;
+  /** An angle has none: 400° is 040°. */
+  readonly bounds?: readonly [number, number];
+  readonly decimals?: number;
+  readonly step?: number;
+  readonly part: (typed: number) => Part;
+}
+
+function Fields<Part>(props: { numbers: readonly Numbered<Part>[]; change: (part: Part) => void }) {
+  return props.numbers.map(({ part, ...number }) => (
+    <Field key={number.label} {...number} change={(typed) => props.change(part(typed))} />
+  ));
+}
+
+const TENTHS = { unit: "NM", decimals: 1 } as const;
+const PLACES = [-539, 539] as const;
+const SPEEDS = [Math.round(BOUNDS.tas[0] / KT), Math.round(BOUNDS.tas[1] / KT)] as const;
+const WINDS = [0, Math.floor(BOUNDS.wind[1] / KT)] as const;
 const DISTANCE = Math.floor(BOUNDS.distance[1] / NM);
 
 type Who = "pursuer" | "leader";
 const NAMES = { pursuer: "Own ship", leader: "Leader" } as const;
 
 export function SituationForm({ map }: { map: Editor }) {
-  const { slot_distance_m, min_separation_m, wind } = map.reading.situation.value;
-  const change = (part: Partial<Situation>) => edit(map, (now) => ({ ...now, ...part }));
   return (
     <Panel name="situation" title="Situation">
       <AircraftFields map={map} who="pursuer" />
@@ -23,112 +43,122 @@ export function SituationForm({ map }: { map: Editor }) {
       <IntentFields map={map} />
       <fieldset class="fields">
         <legend>Spacing and wind</legend>
-        <Field
-          label="Slot distance D"
-          short="D"
-          unit="NM"
-          decimals={1}
-          step={0.1}
-          value={slot_distance_m / NM}
-          least={Number((min_separation_m / NM).toFixed(1))}
-          most={DISTANCE}
-          change={(miles) => change({ slot_distance_m: miles * NM })}
-        />
-        <Field
-          label="Minimum separation"
-          short="MIN"
-          unit="NM"
-          decimals={1}
-          step={0.1}
-          value={min_separation_m / NM}
-          least={0}
-          most={Number((slot_distance_m / NM).toFixed(1))}
-          change={(miles) => change({ min_separation_m: Math.min(miles * NM, slot_distance_m) })}
-        />
-        <Field
-          label="Wind from"
-          short="From"
-          unit="°"
-          value={wind.from_deg}
-          least={0}
-          most={360}
-          change={(from) => change({ wind: { ...wind, from_deg: from } })}
-        />
-        <Field
-          label="Wind speed"
-          short="Wind"
-          unit="kt"
-          value={wind.speed_mps / KT}
-          least={0}
-          most={Math.floor(BOUNDS.wind[1] / KT)}
-          change={(knots) => change({ wind: { ...wind, speed_mps: knots * KT } })}
+        <Fields
+          numbers={spacingAndWind(map.reading.situation.value)}
+          change={(part) => edit(map, (now) => ({ ...now, ...part }))}
         />
       </fieldset>
     </Panel>
   );
 }
 
+function spacingAndWind(situation: Situation): Numbered<Partial<Situation>>[] {
+  const { slot_distance_m, min_separation_m, wind } = situation;
+  const tenth = (metres: number) => Number((metres / NM).toFixed(1));
+  return [
+    {
+      ...TENTHS,
+      label: "Slot distance D",
+      short: "D",
+      step: 0.1,
+      value: slot_distance_m / NM,
+      bounds: [tenth(min_separation_m), DISTANCE],
+      part: (miles) => ({ slot_distance_m: miles * NM }),
+    },
+    {
+      ...TENTHS,
+      label: "Minimum separation",
+      short: "MIN",
+      step: 0.1,
+      value: min_separation_m / NM,
+      bounds: [0, tenth(slot_distance_m)],
+      part: (miles) => ({ min_separation_m: Math.min(miles * NM, slot_distance_m) }),
+    },
+    {
+      label: "Wind from",
+      short: "From",
+      unit: "°",
+      value: wind.from_deg,
+      part: (from) => ({ wind: { ...wind, from_deg: from } }),
+    },
+    {
+      label: "Wind speed",
+      short: "Wind",
+      unit: "kt",
+      value: wind.speed_mps / KT,
+      bounds: WINDS,
+      part: (knots) => ({ wind: { ...wind, speed_mps: knots * KT } }),
+    },
+  ];
+}
+
 function AircraftFields({ map, who }: { map: Editor; who: Who }) {
   const aircraft = map.reading.situation.value[who];
   const name = NAMES[who];
-  const change = (part: Partial<Situation[Who]>) =>
-    edit(map, (now) => ({ ...now, [who]: { ...now[who], ...part } }));
+  const numbers = placeAndSpeed(name, aircraft);
   return (
     <fieldset class="fields">
       <legend class={`key-${who}`}>{name}</legend>
-      <Field
-        label={`${name}: east of the origin`}
-        short="East"
-        unit="NM"
-        decimals={1}
-        step={0.5}
-        value={aircraft.x_m / NM}
-        least={-MILES}
-        most={MILES}
-        change={(miles) => change({ x_m: miles * NM })}
+      <Fields
+        numbers={
+          "max_bank_deg" in aircraft ? [...numbers, bankOf(name, aircraft.max_bank_deg)] : numbers
+        }
+        change={(part) => edit(map, (now) => ({ ...now, [who]: { ...now[who], ...part } }))}
       />
-      <Field
-        label={`${name}: north of the origin`}
-        short="North"
-        unit="NM"
-        decimals={1}
-        step={0.5}
-        value={aircraft.y_m / NM}
-        least={-MILES}
-        most={MILES}
-        change={(miles) => change({ y_m: miles * NM })}
-      />
-      <Field
-        label={`${name}: heading`}
-        short="HDG"
-        unit="°"
-        value={aircraft.heading_deg}
-        least={0}
-        most={360}
-        change={(heading) => change({ heading_deg: heading })}
-      />
-      <Field
-        label={`${name}: true airspeed`}
-        short="TAS"
-        unit="kt"
-        value={aircraft.tas_mps / KT}
-        least={Math.round(BOUNDS.tas[0] / KT)}
-        most={Math.round(BOUNDS.tas[1] / KT)}
-        change={(knots) => change({ tas_mps: knots * KT })}
-      />
-      {"max_bank_deg" in aircraft && (
-        <Field
-          label={`${name}: bank`}
-          short="Bank"
-          unit="°"
-          value={aircraft.max_bank_deg}
-          least={BOUNDS.bank[0]}
-          most={BOUNDS.bank[1]}
-          change={(bank) => change({ max_bank_deg: bank })}
-        />
-      )}
     </fieldset>
   );
+}
+
+function placeAndSpeed(
+  name: string,
+  { x_m, y_m, heading_deg, tas_mps }: Situation[Who],
+): Numbered<Partial<Situation["pursuer"]>>[] {
+  return [
+    {
+      ...TENTHS,
+      label: `${name}: east of the origin`,
+      short: "East",
+      step: 0.5,
+      value: x_m / NM,
+      bounds: PLACES,
+      part: (miles) => ({ x_m: miles * NM }),
+    },
+    {
+      ...TENTHS,
+      label: `${name}: north of the origin`,
+      short: "North",
+      step: 0.5,
+      value: y_m / NM,
+      bounds: PLACES,
+      part: (miles) => ({ y_m: miles * NM }),
+    },
+    {
+      label: `${name}: heading`,
+      short: "HDG",
+      unit: "°",
+      value: heading_deg,
+      part: (heading) => ({ heading_deg: heading }),
+    },
+    {
+      label: `${name}: true airspeed`,
+      short: "TAS",
+      unit: "kt",
+      value: tas_mps / KT,
+      bounds: SPEEDS,
+      part: (knots) => ({ tas_mps: knots * KT }),
+    },
+  ];
+}
+
+function bankOf(name: string, bank: number): Numbered<Partial<Situation["pursuer"]>> {
+  return {
+    label: `${name}: bank`,
+    short: "Bank",
+    unit: "°",
+    value: bank,
+    bounds: BOUNDS.bank,
+    part: (typed) => ({ max_bank_deg: typed }),
+  };
 }
 
 /** What the leader has declared, piece by piece; what follows the last is flown for ever. */
@@ -194,18 +224,7 @@ function Piece(props: {
   const { piece, number, change } = props;
   const name = `Piece ${number}`;
   if ("straight_s" in piece)
-    return (
-      <Field
-        label={`${name}: straight for`}
-        short="Straight"
-        unit="s"
-        step={10}
-        value={piece.straight_s}
-        least={0}
-        most={BOUNDS.piece[1]}
-        change={(seconds) => change({ straight_s: seconds })}
-      />
-    );
+    return <Fields numbers={[durationOf(name, piece.straight_s)]} change={change} />;
   return (
     <>
       <Choice
@@ -215,24 +234,32 @@ function Piece(props: {
         text={(side) => (side === "left" ? "L" : "R")}
         choose={(direction) => change({ ...piece, direction })}
       />
-      <Field
-        label={`${name}: to heading`}
-        short="to"
-        unit="°"
-        value={piece.turn_to_heading_deg}
-        least={0}
-        most={360}
-        change={(heading) => change({ ...piece, turn_to_heading_deg: heading })}
-      />
-      <Field
-        label={`${name}: bank`}
-        short="at"
-        unit="°"
-        value={piece.bank_deg}
-        least={BOUNDS.bank[0]}
-        most={BOUNDS.bank[1]}
-        change={(bank) => change({ ...piece, bank_deg: bank })}
-      />
+      <Fields numbers={turnNumbers(name, piece)} change={(part) => change({ ...piece, ...part })} />
     </>
   );
+}
+
+function durationOf(name: string, seconds: number): Numbered<IntentPiece> {
+  return {
+    label: `${name}: straight for`,
+    short: "Straight",
+    unit: "s",
+    step: 10,
+    value: seconds,
+    bounds: BOUNDS.piece,
+    part: (typed) => ({ straight_s: typed }),
+  };
+}
+
+function turnNumbers(name: string, turn: TurnPiece): Numbered<Partial<TurnPiece>>[] {
+  return [
+    {
+      label: `${name}: to heading`,
+      short: "to",
+      unit: "°",
+      value: turn.turn_to_heading_deg,
+      part: (heading) => ({ turn_to_heading_deg: heading }),
+    },
+    { ...bankOf(name, turn.bank_deg), short: "at", part: (bank) => ({ bank_deg: bank }) },
+  ];
 }

@@ -4,14 +4,6 @@ import { KT, NM } from "../units";
 import type { IntentPiece } from "../wire";
 import { FIRST, type Situation, settle } from "./situation";
 
-/** What the leader does without having said so, once flown. */
-export interface Surprise {
-  /** When [s, flight time]. */
-  readonly at: number;
-  readonly heading: number;
-  readonly direction: "left" | "right";
-}
-
 export interface Entry {
   readonly name: string;
   readonly title: string;
@@ -20,7 +12,8 @@ export interface Entry {
   readonly situation: Situation;
   /** Flown as this scenario of the service, as long as it is not changed. */
   readonly scenario?: string;
-  readonly surprise?: Surprise;
+  /** What the leader flies, where that is not what it declares. */
+  readonly flies?: readonly IntentPiece[];
 }
 
 interface Lay {
@@ -141,7 +134,7 @@ export const GALLERY: readonly Entry[] = [
       own: [-30, 12, 90, 450],
       intent: [{ straight_s: 400 }, turnTo(150, "right")],
     }),
-    surprise: { at: 120, heading: 40, direction: "left" },
+    flies: [{ straight_s: 120 }, turnTo(40, "left", 25)],
   },
   {
     name: "recorded",

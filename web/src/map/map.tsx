@@ -5,7 +5,7 @@ import { useEffect, useMemo, useRef } from "preact/hooks";
 import { Labels } from "../nd/labelled";
 import { MAP_LAYERS } from "../nd/nd";
 import { createView, type DisplayMode, type Place, type Pose, SIZE, type View } from "../nd/view";
-import { AreaLayer } from "./area";
+import { AreaLayer, areaLabels } from "./area";
 import { Compass } from "./compass";
 import type { Editor } from "./editor";
 import { Grips } from "./grips";
@@ -17,16 +17,17 @@ const PLAN = signal<DisplayMode>("PLAN");
 
 /** The projection of a map: its centre in the middle, north up. */
 export function mapView(
-  map: Pick<Editor, "shown"> & {
-    readonly range: ReadonlySignal<number>;
-    readonly centre: ReadonlySignal<Place>;
-  },
+  map: Pick<Editor, "shown"> &
+    Partial<Pick<Editor, "area" | "hasArea">> & {
+      readonly range: ReadonlySignal<number>;
+      readonly centre: ReadonlySignal<Place>;
+    },
 ): View & { readonly pose: ReadonlySignal<Pose> } {
   const middle = computed(() => ({ ...map.centre.value, heading_deg: 0 }));
   // Labels find their places anew with each answer: there is no other pace on a map that stands still.
   let answers = 0;
   const beat = computed(() => {
-    void [map.shown.picture.value.proposed, map.range.value];
+    void [map.shown.picture.value.proposed, map.range.value, map.area?.value, map.hasArea?.value];
     answers += 1;
     return String(answers);
   });
@@ -38,6 +39,7 @@ export function PlanMap({ map }: { map: Editor }) {
   const label = useComputed(
     () => `Map, north up, ring at ${map.range.value} nautical miles. ${map.shown.words.value}`,
   );
+  const more = useComputed(() => areaLabels(map, view));
   const glass = useRef<SVGSVGElement>(null);
   useEffect(() => {
     const { current } = glass;
@@ -70,7 +72,7 @@ export function PlanMap({ map }: { map: Editor }) {
             ))}
             <OwnShipThere shown={map.shown} view={view} />
           </g>
-          <Labels shown={map.shown} view={view} />
+          <Labels shown={map.shown} view={view} more={more} />
           <WindDial map={map} />
           <MapMessage map={map} />
         </svg>

@@ -51,11 +51,14 @@ export function settle(situation: Situation): Situation {
       ...settleAircraft(pursuer),
       max_bank_deg: clamp(pursuer.max_bank_deg, BOUNDS.bank),
     },
-    leader: { ...settleAircraft(leader), intent: leader.intent.slice(0, MOST_PIECES) },
+    leader: {
+      ...settleAircraft(leader),
+      intent: leader.intent.slice(0, MOST_PIECES).map(settlePiece),
+    },
     min_separation_m: fine(least),
     slot_distance_m: Math.max(fine(least), fine(clamp(situation.slot_distance_m, BOUNDS.distance))),
     wind: {
-      from_deg: tenth(wrap360(wind.from_deg)),
+      from_deg: settleAngle(wind.from_deg),
       speed_mps: hundredth(clamp(wind.speed_mps, BOUNDS.wind)),
     },
   };
@@ -68,9 +71,19 @@ function settleAircraft<T extends Pick<LocalLeader, "x_m" | "y_m" | "heading_deg
     ...aircraft,
     x_m: fine(clamp(aircraft.x_m, BOUNDS.position)),
     y_m: fine(clamp(aircraft.y_m, BOUNDS.position)),
-    heading_deg: tenth(wrap360(aircraft.heading_deg)) % 360,
+    heading_deg: settleAngle(aircraft.heading_deg),
     tas_mps: hundredth(clamp(aircraft.tas_mps, BOUNDS.tas)),
   };
+}
+
+function settlePiece(piece: IntentPiece): IntentPiece {
+  if ("straight_s" in piece) return piece;
+  return { ...piece, turn_to_heading_deg: settleAngle(piece.turn_to_heading_deg) };
+}
+
+/** In tenths of a degree, in [0, 360). */
+function settleAngle(angle: number): number {
+  return tenth(wrap360(angle)) % 360;
 }
 
 function fine(metres: number): number {

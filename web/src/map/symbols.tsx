@@ -1,11 +1,13 @@
 /** What the map shows besides the display's own layers: own ship where it is, the wind, the message. */
 
 import { useComputed } from "@preact/signals";
+import { Cell } from "../nd/cell";
 import { type LayerProps, usePart } from "../nd/layer";
+import { MessageBox } from "../nd/message";
 import { SHAPE } from "../nd/ownship";
 import { Stroke } from "../nd/stroke";
 import { ink } from "../nd/style";
-import { placeAt, READOUTS, toMap } from "../nd/view";
+import { placeAt, toMap } from "../nd/view";
 import { UNABLE } from "../store/notices";
 import { formatHeading, formatKnots } from "../units";
 import type { Editor } from "./editor";
@@ -41,15 +43,7 @@ export function WindDial({ map }: { map: Editor }) {
           />
         </g>
       )}
-      <text
-        class="nd-text"
-        y={DIAL.radius + 24}
-        font-size={20}
-        text-anchor="middle"
-        fill={ink("value")}
-      >
-        {text}
-      </text>
+      <Cell x={0} y={DIAL.radius + 24} text={text} colour="value" size={20} anchor="middle" />
     </g>
   );
 }
@@ -64,20 +58,9 @@ export function MapMessage({ map }: { map: Editor }) {
         ? `NO PLAN: ${UNABLE[answer.reason]}`
         : "";
   if (text === "") return null;
-  const { x, y, width, height } = READOUTS.message;
   return (
-    <g class="nd-message" transform={placeAt({ x, y })}>
-      <rect class="nd-ground nd-frame" width={width} height={height} stroke={ink("caution")} />
-      <text
-        class="nd-text"
-        x={width / 2}
-        y={25}
-        font-size={22}
-        text-anchor="middle"
-        fill={ink("caution")}
-      >
-        {text}
-      </text>
+    <g class="nd-message">
+      <MessageBox text={text} colour="caution" />
     </g>
   );
 }

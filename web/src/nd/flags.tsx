@@ -1,6 +1,6 @@
 import type { Colour } from "../store/colours";
+import { Cell } from "./cell";
 import { type LayerProps, usePart } from "./layer";
-import { ink } from "./style";
 import { flagPoint } from "./view";
 
 /** What is missing, in large letters over the map. */
@@ -13,9 +13,7 @@ export function Flags({ shown, view }: LayerProps) {
   const colour: Colour = map ? "alert" : "caution";
   return (
     <g class="nd-flag nd-flash" key={flag.value}>
-      <text class="nd-text" x={x} y={y} font-size={30} text-anchor="middle" fill={ink(colour)}>
-        {flag.value}
-      </text>
+      <Cell x={x} y={y} text={flag.value} colour={colour} size={30} anchor="middle" />
     </g>
   );
 }

@@ -1,4 +1,4 @@
-import { computed, type ReadonlySignal, untracked, useComputed } from "@preact/signals";
+import { computed, type ReadonlySignal, signal, untracked, useComputed } from "@preact/signals";
 import { useMemo } from "preact/hooks";
 import { samplePath } from "../geometry";
 import { forecastIndex, pointsAfter } from "../store/forecast";
@@ -12,7 +12,7 @@ import { leaderOnMap, leaderTag } from "./leader";
 import { minuteLabels } from "./minutes";
 import { offScaleTag } from "./offscale";
 import { proposalLabel } from "./proposal";
-import { ringLabelPoints } from "./rings";
+import { LETTERS, letterPoint, ringLabelPoints } from "./rings";
 import { ink } from "./style";
 import { turnLabels } from "./turns";
 import { type Box, type Point, placeAt, project } from "./view";
@@ -44,12 +44,31 @@ const IDS = [
   "intent",
   ...[0, 1, 2].map((i) => `leg ${i}`),
   ...[5, 10, 15, 20, 25, 30, 35, 40].flatMap((i) => [`minute ${i} own`, `minute ${i} leader`]),
+  ...[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11].map(regionId),
 ];
 
+/** The name of a region under the map. */
+export function regionId(number: number): string {
+  return `region ${number}`;
+}
+
+/** What else is written on a map: labels that are less important, and points to keep clear of. */
+export interface More {
+  readonly labels: readonly Label[];
+  readonly points: readonly Point[];
+}
+
+const NO_MORE: ReadonlySignal<More> = signal({ labels: [], points: [] });
+
 /** The map's labels, clear of each other. They stand upright: outside the turning map. */
-export function Labels({ shown, view }: LayerProps) {
+export function Labels({
+  shown,
+  view,
+  more = NO_MORE,
+}: LayerProps & { more?: ReadonlySignal<More> }) {
   const labels = useComputed(
-    () => new Map(labelsOf({ shown, view }).map((each) => [each.id, each])),
+    () =>
+      new Map([...labelsOf({ shown, view }), ...more.value.labels].map((each) => [each.id, each])),
   );
   const forecast = usePart(shown, (picture) => picture.forecast);
   const placements = useMemo(() => {
@@ -58,10 +77,11 @@ export function Labels({ shown, view }: LayerProps) {
       void view.beat.value;
       void forecast.value;
       // Sides are chosen at the pace of reading; between, each label moves with its point.
-      before = untracked(() => choose({ shown, view }, [...labels.peek().values()], before));
+      const all = [...labels.peek().values()];
+      before = untracked(() => choose({ shown, view }, all, before, more.peek().points));
       return before;
     });
-  }, [shown, view, labels, forecast]);
+  }, [shown, view, labels, forecast, more]);
   return (
     <g class="nd-labels">
       {IDS.map((id) => (
@@ -72,9 +92,12 @@ export function Labels({ shown, view }: LayerProps) {
 }
 
 /** The labels of this moment that have a place, and where. */
-export function chooseLabels(props: LayerProps): { label: Label; placement: Placement }[] {
-  const labels = labelsOf(props);
-  const placements = choose(props, labels, new Map());
+export function chooseLabels(
+  props: LayerProps,
+  more: More = NO_MORE.value,
+): { label: Label; placement: Placement }[] {
+  const labels = [...labelsOf(props), ...more.labels];
+  const placements = choose(props, labels, new Map(), more.points);
   return labels.flatMap((label) => {
     const placement = placements.get(label.id);
     return placement === undefined ? [] : [{ label, placement }];
@@ -125,11 +148,16 @@ function LabelRow({
   );
 }
 
-function choose(props: LayerProps, labels: Label[], before: ReadonlyMap<string, Placement>) {
+function choose(
+  props: LayerProps,
+  labels: Label[],
+  before: ReadonlyMap<string, Placement>,
+  points: readonly Point[] = [],
+) {
   const around = {
     layout: props.view.layout.value,
     boxes: [...props.view.layout.value.readouts, ...symbols(props)],
-    points: linePoints(props),
+    points: [...linePoints(props), ...points],
   };
   return placeLabels(labels, around, before);
 }
@@ -152,6 +180,8 @@ function symbols({ shown, view }: LayerProps): Box[] {
   boxes.push(...points.map((point) => square(project(layout, pose, point), 11)));
   for (const { radius } of layout.rings)
     boxes.push(...ringLabelPoints(layout, radius).map((point) => square(point, 14)));
+  if (layout.mode === "PLAN")
+    boxes.push(...Object.values(LETTERS).map((each) => square(letterPoint(layout, each), 14)));
   return boxes;
 }
 

@@ -73,9 +73,17 @@ export function placeLabels(
   return placed;
 }
 
+/** What is read apart stands apart: so much beside a label, and above and below it [px]. */
+const ROOM = { x: 8, y: 4 } as const;
+
+function widen({ x, y, width, height }: Box): Box {
+  return { x: x - ROOM.x, y: y - ROOM.y, width: width + 2 * ROOM.x, height: height + 2 * ROOM.y };
+}
+
 /** Costs: to touch another label at all is worse than any choice of side. */
 const TOUCHING = 400;
 const COVERED = 6;
+const CLOSE = 40;
 const OUTSIDE = 400;
 const ON_LINE = 16;
 const TURNED = 24; // for half a turn from the preferred side
@@ -116,12 +124,14 @@ function costOf(
   before: Placement | undefined,
 ): number {
   const box = shift(place.box, label.at);
+  const roomy = widen(box);
   const [turn, reach] = place.choice.split(" ").map(Number);
   let cost = (TURNED * Math.abs(turn ?? 0)) / 180 + FAR * (reach ?? 0);
   if (before?.choice === place.choice) cost -= KEPT;
   for (const other of around.boxes) {
     const area = overlap(box, other);
     if (area > 0) cost += TOUCHING + (COVERED * area) / label.size;
+    else if (overlap(roomy, other) > 0) cost += CLOSE;
   }
   for (const point of around.points) if (within(box, point, 2)) cost += ON_LINE;
   for (const corner of corners(box)) if (!visible(around.layout, corner)) cost += OUTSIDE;

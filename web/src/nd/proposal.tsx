@@ -6,7 +6,7 @@ import { type LayerProps, usePart } from "./layer";
 import { pathData } from "./path";
 import { Stroke } from "./stroke";
 import { LINES } from "./style";
-import { offNose, onMap, project } from "./view";
+import { offNose, onMap, type Point, project } from "./view";
 
 /** The path that could be flown, dashed: yellow while it is proposed, cyan once accepted. */
 export function ProposedPath({ shown, view }: LayerProps) {
@@ -42,23 +42,29 @@ export function OtherPaths({ shown, view }: LayerProps) {
   );
 }
 
-/** How far along a path its name stands. */
-const NAMED_AT = 0.35;
+/** How far along a path its name may stand, the best place first. */
+const NAMED_AT = [0.35, 0.25, 0.45, 0.175, 0.55, 0.0875] as const;
+/** So far from a turn's name it is not mistaken for part of it [px]. */
+const CLEAR = 90;
 
-/** "PROPOSED" or "ARMED", beside the path. */
+/** "PROPOSED" or "ARMED", beside the path: where no turn is named, if there is such a place. */
 export function proposalLabel({ shown, view }: LayerProps): Label | null {
-  const [{ look, proposed, wind }, pose] = [shown.picture.value, view.pose.value];
+  const [{ look, proposed, turns, wind }, pose] = [shown.picture.value, view.pose.value];
   if (proposed === null || pose === null || look === null) return null;
   const { segments, time_to_converge_s: duration } = proposed.plan;
-  for (const part of [NAMED_AT, NAMED_AT / 2, NAMED_AT / 4]) {
+  const layout = view.layout.value;
+  const named = turns.map(({ from }) => project(layout, pose, from));
+  const places = NAMED_AT.flatMap((part) => {
     const point = pathPointAt(segments, part * duration, wind);
-    if (point === null) return null;
-    const at = project(view.layout.value, pose, point);
-    if (!onMap(view.layout.value, at)) continue;
-    const text = look.path === "armed" ? "ARMED" : "PROPOSED";
-    const lines = [{ text, colour: look.pathColour }];
-    const side = offNose(pose, point.heading_deg + 90);
-    return { id: "proposal", at, lines, side, gap: 12, size: 20, optional: false };
-  }
-  return null;
+    const at = point === null ? null : project(layout, pose, point);
+    return point === null || at === null || !onMap(layout, at) ? [] : [{ point, at }];
+  });
+  const isClear = ({ at }: { at: Point }) =>
+    named.every(({ x, y }) => Math.hypot(at.x - x, at.y - y) > CLEAR);
+  const place = places.find(isClear) ?? places[0];
+  if (place === undefined) return null;
+  const text = look.path === "armed" ? "ARMED" : "PROPOSED";
+  const lines = [{ text, colour: look.pathColour }];
+  const side = offNose(pose, place.point.heading_deg + 90);
+  return { id: "proposal", at: place.at, lines, side, gap: 12, size: 20, optional: false };
 }

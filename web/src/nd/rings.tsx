@@ -1,7 +1,8 @@
+import { Cell } from "./cell";
 import { type LayerProps, usePart } from "./layer";
 import { Stroke } from "./stroke";
-import { ink, LINES } from "./style";
-import { type Layout, polar, round } from "./view";
+import { LINES } from "./style";
+import { type Layout, type Point, polar, round } from "./view";
 
 /** The range rings and what they say. */
 export function RangeRings({ shown, view }: LayerProps) {
@@ -14,30 +15,12 @@ export function RangeRings({ shown, view }: LayerProps) {
           <Stroke d={ring(layout, radius)} line={LINES.ring} />
           {valid.value &&
             ringLabelPoints(layout, radius).map(({ x, y }) => (
-              <text
-                key={x}
-                class="nd-text"
-                fill={ink("unit")}
-                font-size={18}
-                text-anchor="middle"
-                x={round(x)}
-                y={round(y + 6)}
-              >
-                {label}
-              </text>
+              <RingLabel key={x} x={x} y={y} text={label} />
             ))}
         </g>
       ))}
       {valid.value && layout.mode === "ROSE" && (
-        <text
-          class="nd-text"
-          fill={ink("unit")}
-          font-size={18}
-          text-anchor="middle"
-          {...outerLabel(layout)}
-        >
-          {layout.range / 2}
-        </text>
+        <RingLabel {...outerLabel(layout)} text={String(layout.range / 2)} />
       )}
     </g>
   );
@@ -48,9 +31,21 @@ export function ringLabelPoints(layout: Layout, radius: number) {
   return layout.ringLabels.map((direction) => polar(layout, direction, radius - 14));
 }
 
+/** The points of the compass on a map that has north up. */
+export const LETTERS = { N: 0, E: 90, S: 180, W: 270 } as const;
+
+/** Where such a letter stands, outside the outer ring. */
+export function letterPoint(layout: Layout, direction: number): Point {
+  return polar(layout, direction, (layout.rings[0]?.radius ?? 0) + 18);
+}
+
 function outerLabel(layout: Layout) {
-  const { x, y } = polar(layout, layout.ringLabels[0] ?? 0, layout.tape - 16);
-  return { x: round(x), y: round(y + 6) };
+  return polar(layout, layout.ringLabels[0] ?? 0, layout.tape - 16);
+}
+
+/** How far a ring is, its middle at a point. */
+export function RingLabel({ x, y, text }: Point & { text: string }) {
+  return <Cell x={round(x)} y={round(y + 6)} text={text} colour="unit" size={18} anchor="middle" />;
 }
 
 /** ARC rings end abeam: behind, there is no room for them. */

@@ -5,7 +5,7 @@ import { Dial } from "../dial";
 import { Panel } from "../parts";
 import type { Actions, Session } from "../session";
 import { referenceText } from "../store/reading";
-import { formatBank, formatHeading, formatKnots, formatLevel, wrap360 } from "../units";
+import { formatBank, formatHeading, formatKnots, formatLevel } from "../units";
 import type { AircraftSample } from "../wire";
 
 const ROWS: readonly (readonly [string, string, (aircraft: AircraftSample) => string])[] = [
@@ -61,9 +61,9 @@ export function Aircraft(props: { session: Session; actions: Actions }) {
         <Dial
           label="Own heading"
           unit="°"
-          value={heading.value ?? Number(formatHeading(sample.pursuer.heading_deg))}
+          value={heading.value ?? sample.pursuer.heading_deg}
           digits={3}
-          correct={(value) => Number(formatHeading(wrap360(value)))}
+          correct={(value) => Number(formatHeading(value))}
           change={(value) => {
             heading.value = value;
           }}

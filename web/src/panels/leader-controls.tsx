@@ -4,7 +4,7 @@ import { useSignal } from "@preact/signals";
 import { Dial } from "../dial";
 import { Choice, Icon, Panel } from "../parts";
 import type { Actions, Session } from "../session";
-import { formatHeading, KT, wrap360 } from "../units";
+import { formatHeading, KT } from "../units";
 
 export function LeaderControls(props: { session: Session; actions: Actions }) {
   const { session, actions } = props;
@@ -18,8 +18,7 @@ export function LeaderControls(props: { session: Session; actions: Actions }) {
   const knots = useSignal<number | null>(null);
   const headingNow = leader === undefined ? 0 : Math.round(leader.heading_deg);
   const knotsNow = leader === undefined ? 0 : Math.round(leader.tas_mps / KT);
-  const dialled = heading.value ?? headingNow;
-  const selectedHeading = dialled > 360 ? dialled : Number(formatHeading(dialled));
+  const selectedHeading = heading.value ?? headingNow;
   const selectedKnots = knots.value ?? knotsNow;
   const known = session.flight.route.value?.intent_known ?? null;
   const absent = leader === undefined;
@@ -35,7 +34,7 @@ export function LeaderControls(props: { session: Session; actions: Actions }) {
         unit="°"
         value={selectedHeading}
         digits={3}
-        correct={(value) => Number(formatHeading(wrap360(value)))}
+        correct={(value) => Number(formatHeading(value))}
         change={(value) => {
           heading.value = value;
         }}

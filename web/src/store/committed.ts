@@ -166,9 +166,9 @@ export interface NextTurn extends Turn {
   readonly in: number;
 }
 
-/** The turn of a plan that begins next after flight time `t` [s]; null when none is left. */
+/** The turn of a plan that begins next, at flight time `t` [s] or after; null when none is left. */
 export function nextTurn(plan: Planned, t: number): NextTurn | null {
-  const turn = turnsOf(plan).find(({ segment }) => t < plan.t_s + segment.start.t_s);
+  const turn = turnsOf(plan).find(({ segment }) => t <= plan.t_s + segment.start.t_s);
   if (turn === undefined) return null;
   const at = plan.t_s + turn.segment.start.t_s;
   return { ...turn, at, in: at - t };

@@ -282,7 +282,7 @@ function turnsAhead(flight: Flight, plan: Planned): TurnAhead[] {
     .filter(({ ends }) => ends > flight.simTime.value)
     .map((turn) => ({
       ...turn,
-      hasBegun: flight.simTime.value >= turn.begins,
+      hasBegun: flight.simTime.value > turn.begins,
       isRollIn: isSoon(turn.begins - flight.simTime.value),
       from: committedPoint(flight, turn.begins) ?? turn.segment.start,
       to: committedPoint(flight, turn.ends) ?? turn.segment.end,

@@ -1,13 +1,16 @@
 /** The map as it is seen and held: its picture, its handles by hand and by key. */
 
 import { describe, expect, test } from "vitest";
+import { areaLabels } from "../../src/map/area";
 import { createEditor, edit, halfExtent, putSituation, zoom } from "../../src/map/editor";
 import { situationOf } from "../../src/map/from-flight";
 import { dragHandle, HANDLES, handlePoint, keyHandle, sayHandle } from "../../src/map/handles";
 import { mapView, PlanMap } from "../../src/map/map";
 import { FIRST, settle } from "../../src/map/situation";
 import { widest } from "../../src/map/widest";
-import { layoutOf, project } from "../../src/nd/view";
+import { chooseLabels } from "../../src/nd/labelled";
+import { ringLabelPoints } from "../../src/nd/rings";
+import { layoutOf, overlap, project } from "../../src/nd/view";
 import { guidance } from "../../src/store/states";
 import { NM } from "../../src/units";
 import type { PlanCard } from "../../src/wire";
@@ -158,4 +161,40 @@ test("a region is named where it is widest", () => {
   ]);
   expect(widest([[triangle]])).toMatchObject({ x_m: 5, y_m: 1 });
   expect(widest([])).toBeNull();
+});
+
+test("the name of a region keeps clear of the rings' numbers and of the flight's labels", () => {
+  const map = answered();
+  const side = 20_000;
+  const view = mapView(map);
+  const { x, y } = ringLabelPoints(
+    view.layout.value,
+    view.layout.value.rings[1]?.radius ?? 0,
+  )[0] ?? {
+    x: 0,
+    y: 0,
+  };
+  const { scale, centre } = view.layout.value;
+  const [east, north] = [
+    map.centre.value.x_m + (x - centre.x) / scale,
+    map.centre.value.y_m - (y - centre.y) / scale,
+  ];
+  const square = [-1, 1, 1, -1, -1].map((part, k) => [
+    east + side * part,
+    // it is named an eighth up
+    north + side * ([-0.25, -0.25, 1.75, 1.75, -0.25][k] ?? 0),
+  ]);
+  map.area.value = {
+    asked: "",
+    answer: { regions: [{ word: "LSL", limited: true, polygons: [[square]] }], contours: [] },
+  } as unknown as NonNullable<typeof map.area.value>;
+  const screen = { shown: map.shown, view };
+  const [named] = areaLabels(map, view).labels;
+  expect(named?.at.x).toBeCloseTo(x, 0);
+  expect(named?.at.y).toBeCloseTo(y, 0);
+  const chosen = chooseLabels(screen, areaLabels(map, view));
+  const name = chosen.find(({ label }) => label.id === "region 0");
+  if (name === undefined) throw new Error("It is not named.");
+  const box = { ...name.placement.box, x: x + name.placement.box.x, y: y + name.placement.box.y };
+  expect(overlap(box, { x: x - 14, y: y - 14, width: 28, height: 28 })).toBeLessThan(1);
 });

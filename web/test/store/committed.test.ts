@@ -20,6 +20,8 @@ test("the next turn is the one that begins next; a correction is none", () => {
   const changed = planChanged(100, { segments: [correction, lead, moved] });
   expect(nextTurn(changed, 130)).toMatchObject({ name: "T1", size: "R90", at: 160, in: 30 });
   expect(nextTurn(changed, 161)).toBeNull();
+  const atOnce = planChanged(0, { segments: [rightTurn(90)] });
+  expect(nextTurn(atOnce, 0)).toMatchObject({ name: "T1", in: 0 });
 });
 
 test("a plan that was given up is flown no more", () => {
