@@ -27,6 +27,7 @@ class Strict(BaseModel):
         extra="forbid",
         allow_inf_nan=False,
         frozen=True,
+        defer_build=True,  # of dozens of shapes a program uses a few
     )
 
     @classmethod

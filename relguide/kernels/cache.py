@@ -253,4 +253,3 @@ def _lock(place: Path) -> Iterator[None]:
 
 
 CacheImpl._locator_classes.insert(0, KernelLocator)
-caching.IndexDataCacheFile = LockedIndex
