@@ -5,8 +5,10 @@ Each command is a file of `relguide/cli`; here they are given their names, run a
 
 import argparse
 import os
+import re
 import sys
 from collections.abc import Sequence
+from difflib import get_close_matches
 from textwrap import dedent
 from typing import Protocol
 
@@ -62,8 +64,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns:
         the exit status.
     """
+    given = sys.argv[1:] if arguments is None else arguments
     try:
-        chosen = _parser().parse_args(arguments)
+        chosen = _parse(given)
         status = COMMANDS[chosen.command].run(chosen)
         sys.stdout.flush()
     except BrokenPipeError:  # whoever read our output has seen enough
@@ -90,7 +93,7 @@ def _refuse(sentence: str) -> int:
     return MISUSE
 
 
-def _parser() -> argparse.ArgumentParser:
+def _parse(given: Sequence[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="relguide",
         formatter_class=argparse.RawDescriptionHelpFormatter,
@@ -102,16 +105,22 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(required=True, metavar="COMMAND", dest="command")
     for name, command in COMMANDS.items():
         purpose = command.PURPOSE
-        command.add_options(
-            commands.add_parser(
-                name,
-                help=purpose,
-                description=f"{purpose[0].upper()}{purpose[1:]}.",
-                formatter_class=argparse.RawDescriptionHelpFormatter,
-                epilog="examples:" + dedent(command.EXAMPLES).replace("\n", "\n  ").rstrip(),
-            )
+        added = commands.add_parser(
+            name,
+            help=purpose,
+            description=f"{purpose[0].upper()}{purpose[1:]}.",
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+            epilog="examples:" + dedent(command.EXAMPLES).replace("\n", "\n  ").rstrip(),
         )
-    return parser
+        if name in given:  # the options of some take a quarter of a second to be known
+            command.add_options(added)
+    chosen, unknown = parser.parse_known_args(given)
+    for option in unknown:
+        known = re.findall(r"--[a-z][a-z-]*", commands.choices[chosen.command].format_help())
+        near = get_close_matches(option.partition("=")[0], known, n=1)
+        meant = f": is {near[0]} meant?" if near else "."
+        parser.error(f"relguide {chosen.command} does not know {option}{meant}")
+    return chosen
 
 
 if __name__ == "__main__":

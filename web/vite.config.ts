@@ -5,6 +5,7 @@ import manifest from "./package.json" with { type: "json" };
 const server = "http://127.0.0.1:8000";
 
 export default defineConfig({
+  base: "./", // a proxy may serve it below a path of its own
   define: { __VERSION__: JSON.stringify(manifest.version) },
   build: { target: "es2023", sourcemap: false, modulePreload: { polyfill: false } },
   server: {

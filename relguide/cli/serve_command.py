@@ -1,9 +1,10 @@
 """`relguide serve`: the service and the cockpit."""
 
 import argparse
-import os
 import socket
 from importlib import import_module
+from textwrap import fill, indent
+from typing import Any
 
 from relguide.cli.output import DONE, write
 from relguide.planning.extras import need
@@ -12,24 +13,43 @@ PURPOSE = "start the service and the cockpit"
 EXAMPLES = """
     relguide serve                            on http://127.0.0.1:8000
     relguide serve --host 0.0.0.0 --port 80   for other machines too
+    relguide serve --planner network --max-flights 4 --log-format json
     """
+NEEDED = ("fastapi", "uvicorn", "viser", "orjson", "msgspec", "websockets", "sqlalchemy", "alembic",
+          "pydantic_settings", "prometheus_client")  # fmt: skip
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
-    """The options of `relguide serve`."""
+    """The options of `relguide serve`: an address, and all settings of the service."""
     parser.add_argument("--host", default="127.0.0.1", help="default: %(default)s")
     parser.add_argument("--port", type=_port, default=8000, help="default: %(default)s")
-    parser.add_argument(
-        "--workers",
-        type=int,
-        metavar="N",
-        help="processes for what takes longer than a millisecond (default: one a core, 2 to 4)",
+    need(*NEEDED)
+    options = _server("settings").options()
+    settings = parser.add_argument_group(
+        "settings", "each can be given by a variable of the environment as well"
+    )
+    for option in options:
+        if option.flag:
+            said = option.help.replace("%", "%%")
+            settings.add_argument(option.flag, metavar=option.unit, help=said)
+    parser.add_argument_group(
+        "from the environment alone, as options are seen by everybody on the machine",
+        "\n".join(
+            f"{option.variable} {option.unit}\n{indent(fill(option.help, 72), 22 * ' ')}"
+            for option in options
+            if not option.flag
+        ),
     )
 
 
 def run(chosen: argparse.Namespace) -> int:
     """Serve until stopped; an address that cannot be used is an OSError."""
-    need("fastapi", "uvicorn", "viser", "orjson", "msgspec", "websockets", "sqlalchemy", "alembic")
+    given = {
+        option.name: text
+        for option in _server("settings").options()
+        if (text := getattr(chosen, option.name, None)) is not None
+    }
+    settings = _server("settings").settings_from(**given)
     host, port = chosen.host, chosen.port
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     with socket.socket(family) as probe:  # uvicorn would say it in a log line, and exit
@@ -38,17 +58,16 @@ def run(chosen: argparse.Namespace) -> int:
             probe.bind((host, port))
         except OSError as error:
             raise OSError(error.errno, error.strerror, f"{host}, port {port}") from None
-    if chosen.workers is not None:
-        os.environ["RELGUIDE_WORKERS"] = str(chosen.workers)
-    # By name: the library knows nothing of the service that stands on it; its command starts it.
-    serving, app = (
-        import_module("relguide_server.serving"),
-        import_module("relguide_server.app").app,
-    )
+    app = _server("app").app_of(settings)
     shown = f"[{host}]" if ":" in host else host
-    write(f"relguide is on http://{shown}:{port} (Ctrl-C stops it)\n")
-    serving.serve(app, host=host, port=port)
+    write(f"relguide is on http://{shown}:{port}{settings.root_path} (Ctrl-C stops it)\n")
+    _server("serving").serve(app, host=host, port=port)
     return DONE
+
+
+def _server(name: str) -> Any:
+    """A module of the service, by name: the library knows nothing of what stands on it."""
+    return import_module(f"relguide_server.{name}")
 
 
 def _port(text: str) -> int:

@@ -21,6 +21,7 @@ from starlette.responses import RedirectResponse, Response
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from relguide_server.errors import Refusal, problem
+from relguide_server.mount import path_of, root_of
 
 Role = Literal["view", "fly", "control"]
 """`view`: read, plan and watch; `fly`: start flights, and command and end one's own; `control`: all
@@ -70,7 +71,7 @@ class Access:
 
     def _judge(self, scope: Scope, headers: Headers) -> Response | None:
         """The answer that refuses; `None` for what may pass."""
-        path, host = scope["path"], headers.get("host", "")
+        path, host = path_of(scope), headers.get("host", "")
         if not self._is_ours(host):
             return problem(path, 421, UNKNOWN_HOST.format(name=_name(host)[:100]))
         origin = headers.get("origin")
@@ -95,11 +96,11 @@ class Access:
             return False
 
     def _judge_token(self, scope: Scope, headers: Headers) -> Response | None:
-        path = scope["path"]
+        path = path_of(scope)
         if path == "/" and scope["type"] == "http":
             shown = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
             if self._role(shown) is not None:
-                return _remember(shown)
+                return _remember(shown, root_of(scope))
         token = _token(headers)
         role = self._role(token)
         if role is None:
@@ -163,9 +164,10 @@ SHORTEST = 16
 def _needed(scope: Scope) -> Role:
     if scope["type"] == "websocket" or scope["method"] in SAFE:
         return "view"
-    if scope["path"].startswith(RECORDS) and scope["method"] == "DELETE":
+    path = path_of(scope)
+    if path.startswith(RECORDS) and scope["method"] == "DELETE":
         return "control"
-    return "view" if scope["path"].startswith(CALCULATIONS) else "fly"
+    return "view" if path.startswith(CALCULATIONS) else "fly"
 
 
 def _token(headers: Headers) -> str:
@@ -179,10 +181,10 @@ def _token(headers: Headers) -> str:
     return cookie.value if cookie else ""
 
 
-def _remember(token: str) -> Response:
+def _remember(token: str, root: str) -> Response:
     """The page without the token in its address, which a browser's history would keep."""
-    answer = RedirectResponse("/", 303)
-    answer.set_cookie(COOKIE, token, httponly=True, samesite="strict")
+    answer = RedirectResponse(f"{root}/", 303)
+    answer.set_cookie(COOKIE, token, path=f"{root}/", httponly=True, samesite="strict")
     return answer
 
 

@@ -1,20 +1,22 @@
-"""The service as an ASGI app: `uvicorn relguide_server.app:app`, or `relguide serve`."""
+"""The service as an ASGI app: `relguide serve` serves it, or `uvicorn --factory`, `app_of`."""
 
 import asyncio
-import os
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Iterator
 from contextlib import asynccontextmanager
 from functools import partial
 from importlib.metadata import version
 
 from fastapi import APIRouter, FastAPI, Request
+from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily, Metric
 from starlette.responses import PlainTextResponse, Response
+from uvicorn.middleware.proxy_headers import ProxyHeadersMiddleware
 
 from relguide.learn.planners import make_planner
 from relguide.planning.acceptance import takes_deadline, with_deadline
 from relguide.planning.plan import Planner
-from relguide_server import areas, flights, pages, plans, record_routes, scene_relay
+from relguide_server import areas, flights, logs, pages, plans, record_routes, scene_relay
 from relguide_server.access import Access, read_tokens
+from relguide_server.accounts import Accounts
 from relguide_server.departures import Departures, library_departures
 from relguide_server.drift import DriftCheck
 from relguide_server.errors import install_handlers
@@ -22,6 +24,7 @@ from relguide_server.guards import BodyLimit, HeadAsGet, StrictHeaders
 from relguide_server.jobs import load
 from relguide_server.live_fleet import Fleet
 from relguide_server.metrics import Metrics
+from relguide_server.mount import Mount
 from relguide_server.openapi import describe, json_answer, response, schema_of
 from relguide_server.pages import Page
 from relguide_server.plan_desk import PlanDesk
@@ -59,7 +62,7 @@ def create_app(
         preparation: compiles ahead what is not compiled yet; if left out, nothing does.
         keeper: records flights, commands and plans; if left out, nothing does.
     """
-    settings = settings or settings_from(os.environ)
+    settings = settings or settings_from()
     metrics = Metrics()
     drift = DriftCheck(metrics, every=settings.drift_check)
     preparation = preparation or Preparation()
@@ -76,6 +79,8 @@ def create_app(
         patient = with_deadline(patient, IN_FLIGHT)
     departures = departures or library_departures(patient)
     fleet = Fleet(settings, metrics)
+    metrics.watch(partial(_measure, fleet, workers))
+    metrics.watch(keeper.measure)
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
@@ -125,7 +130,10 @@ def create_app(
     hosts = [name.strip() for name in settings.hosts.split(",") if name.strip()]
     app.add_middleware(Access, hosts=hosts, tokens=read_tokens(settings.tokens))
     app.add_middleware(StrictHeaders)
+    app.add_middleware(Accounts, metrics=metrics)
     app.add_middleware(HeadAsGet)
+    app.add_middleware(ProxyHeadersMiddleware, trusted_hosts=settings.proxies)
+    app.add_middleware(Mount, root_path=settings.root_path, proxies=settings.proxies)
     return app
 
 
@@ -167,28 +175,57 @@ async def readyz(request: Request, preparation: PreparationOf, keeper: KeeperOf)
 
 
 @router.get("/metrics", summary="Numbers for Prometheus", response_class=PlainTextResponse)
-async def metrics_page(request: Request, keeper: KeeperOf) -> Response:
-    """What the service counts of itself."""
-    fleet: Fleet = request.app.state.fleet
-    text: str = request.app.state.metrics.text(
-        flights_running=sum(not flight.over for flight in fleet),
-        stream_clients=sum(len(flight.clients) for flight in fleet),
-        scene_clients=sum(flight.scene_viewers for flight in fleet),
+async def metrics_page(request: Request) -> Response:
+    """What the service counts of itself, and what it measures now."""
+    metrics: Metrics = request.app.state.metrics
+    page, media_type = metrics.page(request.headers.get("accept", ""))
+    return Response(page, media_type=media_type)
+
+
+def app_of(settings: Settings | None = None) -> FastAPI:
+    """The service as an operator starts it: prepared ahead, recording, its log written.
+
+    Args:
+        settings: from the environment if left out.
+    """
+    settings = settings or settings_from()
+    logs.configure(settings.log_format, settings.log_level)
+    app = create_app(
+        settings,
+        preparation=Preparation(steps_for(settings)),
+        keeper=keep(
+            records=settings.records,
+            database_url=settings.database_url,
+            data=settings.data,
+            record_plans=settings.record_plans,
+            keep_days=settings.keep_days,
+            keep_mb=settings.keep_mb,
+        ),
     )
-    text += keeper.figures_text()
-    return Response(text, media_type="text/plain; version=0.0.4; charset=utf-8")
+    app.state.metrics.serve_process()
+    return app
 
 
-_settings = settings_from(os.environ)
-app = create_app(
-    _settings,
-    preparation=Preparation(steps_for(_settings)),
-    keeper=keep(
-        records=_settings.records,
-        database_url=_settings.database_url,
-        data=_settings.data,
-        record_plans=_settings.record_plans,
-        keep_days=_settings.keep_days,
-        keep_mb=_settings.keep_mb,
-    ),
-)
+def _measure(fleet: Fleet, workers: Workers) -> Iterator[Metric]:
+    """What changes without being counted."""
+    for name, text, value in (
+        ("flights_running", "Flights in the air.", sum(not flight.over for flight in fleet)),
+        ("stream_clients", "Browsers on a stream.", sum(len(flight.clients) for flight in fleet)),
+        ("scene_clients", "Browsers on a 3D scene.", sum(f.scene_viewers for f in fleet)),
+        ("worker_processes", "Processes that plan.", len(workers.processes)),
+    ):
+        yield GaugeMetricFamily(f"relguide_{name}", text, value=value)
+    waiting = GaugeMetricFamily("relguide_jobs_waiting", "Jobs that wait.", labels=["kind"])
+    done = CounterMetricFamily("relguide_jobs_done", "Jobs done.", labels=["kind"])
+    full = CounterMetricFamily(
+        "relguide_jobs_refused", "Jobs refused as too many waited.", labels=["kind"]
+    )
+    for family, numbers in (
+        (waiting, workers.waiting), (done, workers.done), (full, workers.full)
+    ):  # fmt: skip
+        for kind, number in numbers.items():
+            family.add_metric([kind], number)
+        yield family
+    yield CounterMetricFamily(
+        "relguide_workers_killed", "Workers ended and replaced.", value=workers.killed
+    )

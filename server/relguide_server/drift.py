@@ -41,6 +41,7 @@ class DriftCheck:
         """
         self._metrics = metrics
         self._every = every
+        self._answers = 0
         self._exact = exact
         self._waiting: Queue[Plan] = Queue(WAITING)
         self._lock = Lock()
@@ -75,17 +76,18 @@ class DriftCheck:
     def _note(self, answer: Plan) -> None:
         with self._lock:
             if answer.fell_back:
-                self._metrics.network_fallbacks += 1
+                self._metrics.network_fallbacks.inc()
                 return
             if answer.planner != "network":
                 return
-            self._metrics.network_answers += 1
-            if self._every == 0 or self._metrics.network_answers % self._every:
+            self._metrics.network_answers.inc()
+            self._answers += 1
+            if self._every == 0 or self._answers % self._every:
                 return
             try:
                 self._waiting.put_nowait(answer)
             except Full:
-                self._metrics.drift_dropped += 1
+                self._metrics.drift_dropped.inc()
 
     def _run(self) -> None:
         while not self._over.is_set():

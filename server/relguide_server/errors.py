@@ -19,6 +19,8 @@ from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect
 from starlette.responses import Response
 
+from relguide_server.logs import request_id
+
 log = logging.getLogger("relguide.server")
 
 PROBLEM_JSON = "application/problem+json"
@@ -135,6 +137,7 @@ async def _answer_broken(request: Request, error: Exception) -> Response:
         request.url.path,
         500,
         "The server made a mistake: its log has the details. The request may be right.",
+        headers={"X-Request-ID": request_id.get()},
     )
 
 

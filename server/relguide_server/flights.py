@@ -40,6 +40,7 @@ from relguide_server.departures import DeparturesOf
 from relguide_server.errors import Refusal
 from relguide_server.live_fleet import FleetOf
 from relguide_server.live_flight import LiveFlight
+from relguide_server.mount import root_of
 from relguide_server.openapi import (
     KNOWN_PARAMETERS_ONLY,
     json_answer,
@@ -134,9 +135,9 @@ async def start_flight(
         record=record,
         owner=owner_of(request),
     )
-    status = status_of(flight)
+    status = status_of(flight, request)
     headers = {
-        "Location": f"/api/v1/flights/{status.id}",
+        "Location": f"{root_of(request.scope)}/api/v1/flights/{status.id}",
         "Relguide-Recorded": "yes" if await keeper.saved() else "no",
     }
     return json_answer(status.model_dump(), 201, headers=headers)
@@ -147,9 +148,10 @@ async def start_flight(
     summary="All flights",
     responses=response(200, "All flights.", schema_of(FlightList)),
 )
-async def list_flights(fleet: FleetOf) -> Response:
+async def list_flights(request: Request, fleet: FleetOf) -> Response:
     """Those in the air, and those that ended a short while ago."""
-    return json_answer(FlightList(flights=[status_of(flight) for flight in fleet]).model_dump())
+    statuses = [status_of(flight, request) for flight in fleet]
+    return json_answer(FlightList(flights=statuses).model_dump())
 
 
 @router.get(
@@ -160,9 +162,9 @@ async def list_flights(fleet: FleetOf) -> Response:
         **problem_responses(404),
     },
 )
-async def show_flight(flight_id: str, fleet: FleetOf) -> Response:
+async def show_flight(flight_id: str, request: Request, fleet: FleetOf) -> Response:
     """Where it stands now."""
-    return json_answer(status_of(fleet.find(flight_id)).model_dump())
+    return json_answer(status_of(fleet.find(flight_id), request).model_dump())
 
 
 @router.delete(
@@ -213,7 +215,7 @@ async def command_flight(
         flight_id, t=flight.t, body=command.model_dump_json(), sent_by=address_of(request)
     )
     headers = {"Relguide-Recorded": "yes" if await keeper.saved() else "no"}
-    return json_answer(status_of(flight).model_dump(), 202, headers=headers)
+    return json_answer(status_of(flight, request).model_dump(), 202, headers=headers)
 
 
 @router.websocket("/flights/{flight_id}/stream")
@@ -244,10 +246,10 @@ def address_of(request: Request) -> str:
     return request.client.host[:255] if request.client else ""
 
 
-def status_of(flight: LiveFlight) -> FlightStatus:
-    """Where a flight stands."""
+def status_of(flight: LiveFlight, request: Request) -> FlightStatus:
+    """Where a flight stands, for who asks."""
     guidance = _guidance(flight)
-    label, pace = flight.label, flight.pace
+    label, pace, root = flight.label, flight.pace, root_of(request.scope)
     return FlightStatus(
         id=label.id,
         scenario=label.scenario,
@@ -260,8 +262,8 @@ def status_of(flight: LiveFlight) -> FlightStatus:
         engagement=guidance.engagement,
         joined=guidance.joined,
         separation_m=guidance.separation,
-        stream_url=f"/api/v1/flights/{label.id}/stream",
-        scene_url=f"/scene/{label.id}/",
+        stream_url=f"{root}/api/v1/flights/{label.id}/stream",
+        scene_url=f"{root}/scene/{label.id}/",
     )
 
 

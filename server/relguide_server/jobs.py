@@ -49,6 +49,8 @@ class Answered:
 
     text: bytes
     status: str
+    reason: str
+    """Why there is no plan; empty if there is one."""
     seconds: float
     """How long it took."""
     final: bool
@@ -174,7 +176,8 @@ def draw_area(
 
 def _answered(given: dict[str, Any], started: float) -> Answered:
     text = orjson.dumps(given)
-    return Answered(text, given["status"], perf_counter() - started, _is_final(given))
+    status, seconds = given["status"], perf_counter() - started
+    return Answered(text, status, given.get("reason", ""), seconds, _is_final(given))
 
 
 def _is_final(given: dict[str, Any]) -> bool:

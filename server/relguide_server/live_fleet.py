@@ -117,7 +117,7 @@ class Fleet:
             recording=record(label.id),
         )
         self._flights[label.id] = flight
-        self._metrics.flights_started += 1
+        self._metrics.flights_started.inc()
         try:
             began = await asyncio.wait_for(flight.wait_for_first_sample(), TAKE_OFF)
         except TimeoutError:
@@ -165,12 +165,25 @@ class Fleet:
 
     async def _reap(self) -> None:
         loop = asyncio.get_running_loop()
+        before = loop.time()
         while True:
             await asyncio.sleep(REAP_PERIOD)
+            before, seconds = loop.time(), loop.time() - before
+            self._measure_rates(seconds)
             for flight in list(self):
                 unseen = loop.time() - flight.last_seen
                 if not flight.watched and unseen > self._settings.keep_unseen:
                     await self._land(flight, "unwatched")
+
+    def _measure_rates(self, seconds: float) -> None:
+        least = 1.0
+        for flight in self:
+            flown, asked = flight.progress(seconds)
+            if asked > 0.0:
+                self._metrics.flight_seconds.inc(flown)
+                self._metrics.flight_seconds_asked.inc(asked)
+                least = min(least, flown / asked)
+        self._metrics.least_rate.set(least)
 
 
 async def fleet_of(connection: HTTPConnection) -> Fleet:

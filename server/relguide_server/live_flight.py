@@ -68,6 +68,7 @@ class LiveFlight:
         self._inbox = Inbox()
         self._stage: SceneStage | None = None
         self._flying = asyncio.Event()
+        self._measured: tuple[float, float, bool] | None = None
         self._thread = threading.Thread(target=self._run, name=f"flight {label.id}", daemon=True)
         self._loop = asyncio.get_running_loop()
         self._thread.start()
@@ -89,6 +90,21 @@ class LiveFlight:
         """Flight time of the newest sample [s]."""
         last = self.history.ended or self.history.newest
         return last[0].t if last else 0.0
+
+    def progress(self, seconds: float) -> tuple[float, float]:
+        """How far it flew since it was asked this before, and how far its rate would have it fly.
+
+        Args:
+            seconds: how long ago that was [s].
+
+        Returns:
+            Both in flight time [s]; zeros where it paused, ended or changed its rate meanwhile.
+        """
+        now = (self.t, self.pace.rate, self.pace.paused)
+        before, self._measured = self._measured, now
+        if before is None or before[1:] != now[1:] or self.pace.paused or self.over:
+            return 0.0, 0.0
+        return now[0] - before[0], seconds * self.pace.rate
 
     def note_seen(self) -> None:
         """Note that somebody has just asked for it."""

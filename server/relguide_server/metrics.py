@@ -1,49 +1,121 @@
-"""Counters of the service in the text format of Prometheus."""
+"""What the service counts of itself, for Prometheus."""
 
-from bisect import bisect_left
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable
 
-BUCKETS = (0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005, 0.01, 0.1, 1.0)
+import prometheus_client
+from prometheus_client import (
+    CollectorRegistry,
+    Counter,
+    Gauge,
+    GCCollector,
+    Histogram,
+    ProcessCollector,
+)
+from prometheus_client.core import Metric
+from prometheus_client.exposition import choose_encoder
+from prometheus_client.registry import Collector
+
+PLAN_BUCKETS = (0.0001, 0.00025, 0.0005, 0.001, 0.0025, 0.005, 0.01, 0.1, 1.0)
 """Upper ends of the histogram of planning times [s]: a plan takes about 0.1 ms, or some 10 ms where
 the separation limit binds."""
+REQUEST_BUCKETS = (0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1.0, 5.0, 30.0)
+"""The same of requests."""
+
+prometheus_client.disable_created_metrics()  # type: ignore[no-untyped-call]  # a gauge a counter
 
 
-@dataclass(slots=True, kw_only=True)
 class Metrics:
-    """Counters of one running service, and one largest value; they only grow."""
+    """Counters of one running service; what is measured only when asked for, `watch` gives."""
 
-    plans: dict[str, int] = field(
-        default_factory=lambda: {"planned": 0, "no_plan": 0, "invalid": 0}
-    )
-    """Plans answered, by status; `invalid` for lines of a batch."""
-    plan_counts: list[int] = field(default_factory=lambda: [0] * (len(BUCKETS) + 1))
-    """Plans in each bucket; the last is for all above."""
-    plan_seconds: float = 0.0
-    """Sum of all planning times [s]."""
-    flights_started: int = 0
-    """Flights started since the service is up."""
-    ticks_sent: int = 0
-    """Messages put on the streams."""
-    ticks_dropped: int = 0
-    """Messages that a slow client did not get because newer ones took their place."""
-    network_answers: int = 0
-    """Plans by network, for REST and for flights."""
-    network_fallbacks: int = 0
-    """Plans by the exact planner where the network was not sure."""
-    drift_answers: dict[str, int] = field(default_factory=lambda: {"same": 0, "different": 0})
-    """Plans by network that were planned again exactly, by result."""
-    drift_dropped: int = 0
-    """Plans by network that were due for an audit while too many waited."""
-    drift_loss: float = 0.0
-    """Sum of the losses of audited plans [s]."""
-    drift_largest_loss: float = 0.0
-    """The largest of those losses [s]."""
+    def __init__(self) -> None:
+        self.registry = CollectorRegistry()
 
-    def count_plan(self, status: str, seconds: float) -> None:
-        """Count one plan."""
-        self.plans[status] += 1
-        self.plan_seconds += seconds
-        self.plan_counts[bisect_left(BUCKETS, seconds)] += 1
+        def counter(name: str, text: str, *labels: str) -> Counter:
+            return Counter(name, text, labels, registry=self.registry)
+
+        self.plans = counter("relguide_plans", "Plans answered.", "status")
+        self.no_plans = counter("relguide_no_plans", "Answers without a plan.", "reason")
+        self.plan_seconds = Histogram(
+            "relguide_plan_seconds",
+            "Time to make and write one plan.",
+            buckets=PLAN_BUCKETS,
+            registry=self.registry,
+        )
+        self.requests = counter(
+            "relguide_requests", "Requests answered.", "route", "method", "status"
+        )
+        self.request_seconds = Histogram(
+            "relguide_request_seconds",
+            "Time to answer a request.",
+            ("route", "method"),
+            buckets=REQUEST_BUCKETS,
+            registry=self.registry,
+        )
+        self.flights_started = counter("relguide_flights_started", "Flights started.")
+        self.flight_seconds = counter("relguide_flight_seconds", "Flight time flown.")
+        self.flight_seconds_asked = counter(
+            "relguide_flight_seconds_asked", "Flight time that the rates of flights asked for."
+        )
+        self.least_rate = Gauge(
+            "relguide_flights_least_rate",
+            "Of the flights in the air, the least share of its rate flown in the last second.",
+            registry=self.registry,
+        )
+        self.least_rate.set(1.0)
+        self.ticks_sent = counter("relguide_stream_ticks_sent", "Ticks sent to clients.")
+        self.ticks_dropped = counter(
+            "relguide_stream_ticks_dropped", "Ticks that slow clients missed."
+        )
+        self.network_answers = counter("relguide_network_plans", "Plans by network.")
+        self.network_fallbacks = counter(
+            "relguide_network_fallbacks", "Plans by the exact planner in place of the network."
+        )
+        self.drift_audits = counter(
+            "relguide_drift_audits", "Plans by network that were planned again exactly.", "answer"
+        )
+        self.drift_dropped = counter(
+            "relguide_drift_dropped", "Plans by network not audited because too many waited."
+        )
+        self.drift_loss = counter(
+            "relguide_drift_loss_seconds", "Sum of the losses of audited plans by network."
+        )
+        self.drift_largest_loss = Gauge(
+            "relguide_drift_largest_loss_seconds",
+            "Largest loss of an audited plan by network.",
+            registry=self.registry,
+        )
+        self._largest_loss = 0.0
+        for status in ("planned", "no_plan", "invalid"):
+            self.plans.labels(status)
+        for answer in ("same", "different"):
+            self.drift_audits.labels(answer)
+
+    def serve_process(self) -> None:
+        """Measure this process too: its memory, processor time and descriptors."""
+        ProcessCollector(registry=self.registry)
+        GCCollector(registry=self.registry)
+
+    def watch(self, measure: Callable[[], Iterable[Metric]]) -> None:
+        """Let a function give what is measured each time the page is read."""
+        self.registry.register(_Measured(measure))
+
+    def count_plan(self, status: str, reason: str, seconds: float) -> None:
+        """Count one plan.
+
+        Args:
+            status: of the answer; `invalid` for lines of a batch.
+            reason: why there is no plan; empty if there is one.
+            seconds: how long it took.
+        """
+        self.plans.labels(status).inc()
+        if reason:
+            self.no_plans.labels(reason).inc()
+        self.plan_seconds.observe(seconds)
+
+    def count_request(self, route: str, method: str, status: int, seconds: float) -> None:
+        """Count one request of HTTP."""
+        self.requests.labels(route, method, status).inc()
+        self.request_seconds.labels(route, method).observe(seconds)
 
     def count_audit(self, *, differs: bool, loss: float) -> None:
         """Count one plan by network that was planned again exactly.
@@ -52,55 +124,33 @@ class Metrics:
             differs: whether the two arrive at different times.
             loss: how much later the network's arrives [s]; below 0 if it arrives sooner.
         """
-        self.drift_answers["different" if differs else "same"] += 1
-        self.drift_loss += max(loss, 0.0)
-        self.drift_largest_loss = max(loss, self.drift_largest_loss)
+        self.drift_audits.labels("different" if differs else "same").inc()
+        self.drift_loss.inc(max(loss, 0.0))
+        self._largest_loss = max(loss, self._largest_loss)
+        self.drift_largest_loss.set(self._largest_loss)
 
-    def text(self, *, flights_running: int, stream_clients: int, scene_clients: int) -> str:
-        """The whole page in the text format 0.0.4; the caller gives the gauges."""
-        total = sum(self.plan_counts)
-        lines = [
-            *_header("relguide_plans_total", "counter", "Plans answered."),
-            *(f'relguide_plans_total{{status="{k}"}} {n}' for k, n in self.plans.items()),
-            *_header("relguide_plan_seconds", "histogram", "Time to make and write one plan."),
-            *(
-                f'relguide_plan_seconds_bucket{{le="{end:g}"}} {sum(self.plan_counts[: i + 1])}'
-                for i, end in enumerate(BUCKETS)
-            ),
-            f'relguide_plan_seconds_bucket{{le="+Inf"}} {total}',
-            f"relguide_plan_seconds_sum {self.plan_seconds:.6f}",
-            f"relguide_plan_seconds_count {total}",
-            *_metric("relguide_network_plans_total", "counter", "Plans by network.",
-                     self.network_answers),
-            *_metric("relguide_network_fallbacks_total", "counter",
-                     "Plans by the exact planner in place of the network.", self.network_fallbacks),
-            *_header("relguide_drift_audits_total", "counter",
-                     "Plans by network that were planned again exactly."),
-            *(f'relguide_drift_audits_total{{answer="{k}"}} {n}'
-              for k, n in self.drift_answers.items()),
-            *_metric("relguide_drift_dropped_total", "counter",
-                     "Plans by network not audited because too many waited.", self.drift_dropped),
-            *_metric("relguide_drift_loss_seconds_total", "counter",
-                     "Sum of the losses of audited plans by network.", f"{self.drift_loss:.6f}"),
-            *_metric("relguide_drift_largest_loss_seconds", "gauge",
-                     "Largest loss of an audited plan by network.",
-                     f"{self.drift_largest_loss:.6f}"),
-            *_metric("relguide_flights_started_total", "counter", "Flights started.",
-                     self.flights_started),
-            *_metric("relguide_stream_ticks_sent_total", "counter", "Ticks sent to clients.",
-                     self.ticks_sent),
-            *_metric("relguide_stream_ticks_dropped_total", "counter",
-                     "Ticks that slow clients missed.", self.ticks_dropped),
-            *_metric("relguide_flights_running", "gauge", "Flights in the air.", flights_running),
-            *_metric("relguide_stream_clients", "gauge", "Browsers on a stream.", stream_clients),
-            *_metric("relguide_scene_clients", "gauge", "Browsers on a 3D scene.", scene_clients),
-        ]  # fmt: skip
-        return "\n".join(lines) + "\n"
+    def value(self, name: str, **labels: str) -> float:
+        """A number of the page; 0 for one that has not been counted yet."""
+        return self.registry.get_sample_value(name, labels) or 0.0
+
+    def page(self, accept: str) -> tuple[bytes, str]:
+        """The whole page, and its media type.
+
+        Args:
+            accept: the header of the request: Prometheus asks for OpenMetrics, people for text.
+        """
+        encode, media_type = choose_encoder(accept)
+        return encode(self.registry), media_type
 
 
-def _header(name: str, kind: str, text: str) -> tuple[str, str]:
-    return f"# HELP {name} {text}", f"# TYPE {name} {kind}"
+class _Measured(Collector):
+    def __init__(self, measure: Callable[[], Iterable[Metric]]) -> None:
+        self._measure = measure
 
+    def collect(self) -> Iterable[Metric]:
+        """What is measured now."""
+        return self._measure()
 
-def _metric(name: str, kind: str, text: str, value: int | str) -> tuple[str, str, str]:
-    return *_header(name, kind, text), f"{name} {value}"
+    def describe(self) -> Iterable[Metric]:
+        """Nothing, so that nothing is measured before the page is read."""
+        return ()

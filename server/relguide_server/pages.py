@@ -12,13 +12,14 @@ from html import escape
 from importlib.resources import files
 from pathlib import Path
 
-from fastapi import APIRouter
+from fastapi import APIRouter, Request
 from fastapi.openapi.docs import get_swagger_ui_html
 from starlette.datastructures import Headers
 from starlette.responses import HTMLResponse, Response
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from relguide_server.errors import Refusal
+from relguide_server.mount import path_of, root_of
 
 HERE = Path(__file__).parent
 PAGE_FOLDERS = (HERE / "page", HERE.parents[1] / "web" / "dist")
@@ -37,7 +38,7 @@ NOT_BUILT = """<!doctype html><html lang="en"><title>relguide</title>
 <body style="background:#040405;color:#e5dfd6;font:18px/1.5 sans-serif;margin:3em">
 <h1>The cockpit has not been built</h1>
 <p>The service itself is running: its API is described at
-<a style="color:#17e9f2" href="/docs">/docs</a>.
+<a style="color:#17e9f2" href="docs">/docs</a>.
 <p>To build the page, run <code>python web/build_page.py</code> in the source tree, then reload
 this page.
 <p style="color:#888">Looked in: {folders}"""
@@ -70,7 +71,7 @@ class Page:
         if scope["type"] != "http" or scope["method"] not in ("GET", "HEAD"):
             await self.app(scope, receive, send)
             return
-        path = scope["path"]
+        path = path_of(scope)
         if path == "/" or self._read_from is None:
             self._refresh()
         found = self._files.get("/index.html" if path == "/" else path)
@@ -129,14 +130,15 @@ _SWAGGER_FILES = {"swagger-ui-bundle.js": "text/javascript", "swagger-ui.css": "
 
 
 @router.get("/docs")
-async def docs() -> HTMLResponse:
+async def docs(request: Request) -> HTMLResponse:
     """The API, to read and to try."""
+    root = root_of(request.scope)
     page = get_swagger_ui_html(
-        openapi_url="/openapi.json",
+        openapi_url=f"{root}/openapi.json",
         title="relguide API",
-        swagger_js_url="/docs/swagger-ui-bundle.js",
-        swagger_css_url="/docs/swagger-ui.css",
-        swagger_favicon_url="/favicon.svg",
+        swagger_js_url=f"{root}/docs/swagger-ui-bundle.js",
+        swagger_css_url=f"{root}/docs/swagger-ui.css",
+        swagger_favicon_url=f"{root}/favicon.svg",
     )
     # the page's own script is known by its hash; no other may be put into it
     (script,) = SCRIPT.findall(bytes(page.body))

@@ -169,7 +169,7 @@ class PlanDesk:
 
     def count(self, answered: Answered) -> bytes:
         """The text of an answer, which is counted."""
-        self._metrics.count_plan(answered.status, answered.seconds)
+        self._metrics.count_plan(answered.status, answered.reason, answered.seconds)
         return answered.text
 
     def _require(self, wish: Wish) -> None:

@@ -18,6 +18,7 @@ from relguide_server.access import owner_of
 from relguide_server.errors import Refusal
 from relguide_server.flights import status_of
 from relguide_server.live_fleet import FleetOf
+from relguide_server.mount import root_of
 from relguide_server.openapi import (
     KNOWN_PARAMETERS_ONLY,
     json_answer,
@@ -206,8 +207,8 @@ async def replay_flight(
         replay=True,
         owner=owner_of(request),
     )
-    headers = {"Location": f"/api/v1/flights/{flight.label.id}"}
-    return json_answer(status_of(flight).model_dump(), 201, headers=headers)
+    headers = {"Location": f"{root_of(request.scope)}/api/v1/flights/{flight.label.id}"}
+    return json_answer(status_of(flight, request).model_dump(), 201, headers=headers)
 
 
 @router.get(

@@ -23,6 +23,7 @@ from websockets.typing import Subprotocol
 
 from relguide_server.live_fleet import FleetOf
 from relguide_server.live_flight import LiveFlight
+from relguide_server.mount import root_of
 
 PASSED_ON = {
     "ViewerCameraMessage": frozenset(
@@ -48,10 +49,10 @@ router = APIRouter(include_in_schema=False)
 
 
 @router.get("/scene/{flight_id}")
-async def redirect_to_slash(flight_id: str, fleet: FleetOf) -> Response:
+async def redirect_to_slash(flight_id: str, request: Request, fleet: FleetOf) -> Response:
     """The page lives under a trailing slash."""
     fleet.find(flight_id)
-    return RedirectResponse(f"/scene/{flight_id}/", 308)
+    return RedirectResponse(f"{root_of(request.scope)}/scene/{flight_id}/", 308)
 
 
 @router.get("/scene/{flight_id}/")

@@ -53,7 +53,9 @@ def uvicorn_options(*, host: str, port: int) -> dict[str, Any]:
         "ws_per_message_deflate": False,
         "ws_max_size": 1024 * 1024,  # a browser sends us camera positions, nothing larger
         "timeout_graceful_shutdown": TO_FINISH,
+        "log_config": None,  # ours holds: logs.py
         "log_level": "warning",
         "access_log": False,
+        "proxy_headers": False,  # app.py sees to them, after mount.py
         "server_header": False,
     }

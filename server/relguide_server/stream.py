@@ -39,7 +39,7 @@ class StreamClient:
         if len(self._queue) == QUEUE:
             _, lost = self._queue.popleft()
             self._behind |= lost
-            self._metrics.ticks_dropped += 1
+            self._metrics.ticks_dropped.inc()
         self._queue.append((text, essential))
         self._wake.set()
 
@@ -66,7 +66,7 @@ class StreamClient:
                 match await self._next():
                     case str() as text:
                         await websocket.send_text(text)
-                        self._metrics.ticks_sent += 1
+                        self._metrics.ticks_sent.inc()
                     case code, reason:
                         await websocket.close(code, reason)
                         return

@@ -41,6 +41,16 @@ def until(holds: Callable[[], bool]) -> None:
         time.sleep(0.01)
 
 
+def value(metrics: Metrics, name: str) -> float:
+    return metrics.value(f"relguide_{name}")
+
+
+def audited(metrics: Metrics, *answers: str) -> float:
+    """Audits with these answers; all if none is named."""
+    named = answers or ("same", "different")
+    return sum(metrics.value("relguide_drift_audits_total", answer=answer) for answer in named)
+
+
 def metrics_after(planner: Planner, *, audits: int) -> dict[str, float]:
     """What `/metrics` shows after so many audits of eight answers."""
     app = create_app(Settings(drift_check=2), planner=planner)
@@ -51,7 +61,7 @@ def metrics_after(planner: Planner, *, audits: int) -> dict[str, float]:
     with TestClient(app) as client:
         answers = client.post("/api/v1/plans/batch", json=bodies).json()
         assert [answer["status"] for answer in answers] == ["planned"] * 8
-        until(lambda: sum(metrics.drift_answers.values()) >= audits)
+        until(lambda: audited(metrics) >= audits)
         lines = client.get("/metrics").text.splitlines()
     return {
         line.split()[0].removeprefix("relguide_"): float(line.split()[1])
@@ -83,7 +93,8 @@ def test_what_is_not_the_networks_is_not_audited() -> None:
     assert isinstance(exact(SITUATION), Plan)
     fallen = DriftCheck(metrics, every=1).watch(lambda s: replace(plan(s), fell_back=True))
     assert isinstance(fallen(SITUATION), Plan)
-    assert (metrics.network_answers, metrics.network_fallbacks) == (0, 1)
+    assert value(metrics, "network_plans_total") == 0
+    assert value(metrics, "network_fallbacks_total") == 1
     for every, waiting in ((0, 0), (1, 3), (3, 1)):
         check = DriftCheck(Metrics(), every=every)
         for _ in range(3):
@@ -107,9 +118,9 @@ def test_with_too_much_to_do_answers_are_left_out_and_nobody_waits() -> None:
     assert begun.wait(PATIENCE)
     for _ in range(WAITING + 5):
         planner(SITUATION)  # would never return if it waited
-    assert metrics.drift_dropped == 5
+    assert value(metrics, "drift_dropped_total") == 5
     free.set()
-    until(lambda: metrics.drift_answers["same"] == WAITING + 1)
+    until(lambda: audited(metrics, "same") == WAITING + 1)
     check.stop()
 
 
@@ -129,7 +140,7 @@ def test_a_mistake_in_an_audit_is_logged_and_the_next_is_made(
     check.start()
     for _ in range(2):
         check.watch(as_network)(SITUATION)
-    until(lambda: metrics.drift_answers["same"] == 1)
+    until(lambda: audited(metrics, "same") == 1)
     check.stop()
     assert "An audit of the drift check stopped by a mistake of ours" in caplog.text
 
@@ -141,9 +152,10 @@ def test_where_the_exact_planner_has_none_the_answers_differ() -> None:
     check = DriftCheck(metrics, every=1, exact=lambda _: none)
     check.start()
     check.watch(as_network)(SITUATION)
-    until(lambda: metrics.drift_answers["different"] == 1)
+    until(lambda: audited(metrics, "different") == 1)
     check.stop()
-    assert metrics.drift_loss == metrics.drift_largest_loss == 0.0
+    assert value(metrics, "drift_loss_seconds_total") == 0.0
+    assert value(metrics, "drift_largest_loss_seconds") == 0.0
 
 
 @pytest.mark.slow
@@ -152,4 +164,4 @@ def test_the_settings_choose_who_plans() -> None:
     with TestClient(app) as client:
         body = {**EXAMPLE, "leader": {**EXAMPLE["leader"], "intent": []}}  # type: ignore[dict-item]
         assert client.post("/api/v1/plans", json=body).json()["planner"] == "network"
-        assert app.state.metrics.network_answers >= 1
+        assert value(app.state.metrics, "network_plans_total") >= 1

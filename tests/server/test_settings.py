@@ -1,32 +1,89 @@
 """What an operator may set."""
 
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 from relguide_server.serving import uvicorn_options
-from relguide_server.settings import Settings, settings_from
+from relguide_server.settings import Settings, options, settings_from
 
 
-def test_the_environment_overrides() -> None:
-    environment = {"RELGUIDE_MAX_FLIGHTS": "4", "RELGUIDE_KEEP_UNSEEN": "1.5", "HOME": "/"}
-    assert settings_from(environment) == Settings(max_flights=4, keep_unseen=1.5)
+def test_the_environment_overrides_and_an_option_overrides_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setenv("RELGUIDE_MAX_FLIGHTS", "4")
+    monkeypatch.setenv("RELGUIDE_KEEP_UNSEEN", "1.5")
+    monkeypatch.setenv("RELGUIDE_SERVICE_PORT_HTTP", "80")  # as Kubernetes does
+    monkeypatch.setenv("RELGUIDE_PORT", "tcp://10.0.0.1:80")
+    assert settings_from() == Settings(max_flights=4, keep_unseen=1.5)
+    assert settings_from(max_flights="5") == Settings(max_flights=5, keep_unseen=1.5)
 
 
 @pytest.mark.parametrize(
-    ("environment", "sentence"),
+    ("variable", "value", "sentence"),
     [
-        ({"RELGUIDE_MAX_FLIGHTS": "many"}, "RELGUIDE_MAX_FLIGHTS must be a whole number"),
-        ({"RELGUIDE_KEEP_UNSEEN": "long"}, "RELGUIDE_KEEP_UNSEEN must be a number"),
-        ({"RELGUIDE_KEEP_UNSEEN": "nan"}, "keep_unseen must be a positive number"),
-        ({"RELGUIDE_MAX_BODY": "0"}, "max_body must be 1 or more"),
-        ({"RELGUIDE_PLANNER": "regular_dp"}, "planner must be exact or network, not regular_dp"),
-        ({"RELGUIDE_DRIFT_CHECK": "-1"}, "drift_check must be 0 or more, not -1"),
+        ("MAX_FLIGHTS", "many", "RELGUIDE_MAX_FLIGHTS must be a whole number, not 'many'."),
+        ("KEEP_UNSEEN", "long", "RELGUIDE_KEEP_UNSEEN must be a number, not 'long'."),
+        ("KEEP_UNSEEN", "nan", "RELGUIDE_KEEP_UNSEEN must be a positive number, not 'nan'."),
+        ("MAX_BODY", "0", "RELGUIDE_MAX_BODY must be 1 or more, not '0'."),
+        ("PLANNER", "best", "RELGUIDE_PLANNER must be exact or network, not 'best'."),
+        ("DRIFT_CHECK", "-1", "RELGUIDE_DRIFT_CHECK must be 0 or more, not '-1'."),
+        ("LOG_FORMAT", "xml", "RELGUIDE_LOG_FORMAT must be text or json, not 'xml'."),
+        ("ROOT_PATH", "//evil", "RELGUIDE_ROOT_PATH must be a path such as /relguide, not"),
+        ("ROOT_PATH", "/api", "RELGUIDE_ROOT_PATH must not begin as a path of the service"),
+        ("PROXIES", "proxy", "RELGUIDE_PROXIES must be addresses such as 127.0.0.1,10.0.0.0/8"),
+        ("DATABASE_URL", "mysql://me:pw@x/y", "RELGUIDE_DATABASE_URL must begin with sqlite:///"),
+        ("MAX_FLIHGTS", "4", "RELGUIDE_MAX_FLIHGTS is no setting: is RELGUIDE_MAX_FLIGHTS meant?"),
+        ("HOST", "x", "RELGUIDE_HOST is no setting: is RELGUIDE_HOSTS meant?"),
+        ("ZZZ", "x", "RELGUIDE_ZZZ is no setting: relguide serve --help lists all."),
+    ],
+)  # fmt: skip
+def test_nonsense_is_refused_with_a_sentence(
+    monkeypatch: pytest.MonkeyPatch, variable: str, value: str, sentence: str
+) -> None:
+    monkeypatch.setenv(f"RELGUIDE_{variable}", value)
+    with pytest.raises(ValueError, match=re.escape(sentence)) as refused:
+        settings_from()
+    assert "pw@" not in str(refused.value)
+
+
+def test_an_option_is_refused_by_its_name() -> None:
+    with pytest.raises(ValueError, match="--keep-unseen must be a number, not 'long'"):
+        settings_from(keep_unseen="long")
+
+
+def test_help_lists_every_setting_with_its_default_and_unit() -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "relguide", "serve", "--help"], capture_output=True, text=True
+    )
+    said = " ".join(done.stdout.split())
+    for option in options():
+        default = Settings.model_fields[option.name].get_default(
+            call_default_factory=True, validated_data={}
+        )
+        shown = f"{default:g}" if isinstance(default, float) else str(default)
+        assert f"{option.flag or option.variable} {option.unit}" in said
+        rest = "" if option.name in ("tokens", "database_url") else f"; {option.variable}"
+        assert f"(default: {shown or 'none'}{rest})" in said
+    assert "--tokens" not in said
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (("serve", "--max-flihgts", "4"), "does not know --max-flihgts: is --max-flights meant?"),
+        (("fly", "fig_6b", "--sede=3"), "does not know --sede=3: is --seed meant?"),
+        (("serve", "--queue", "0"), "--queue must be 1 or more, not '0'."),
     ],
 )
-def test_nonsense_is_refused_with_a_sentence(environment: dict[str, str], sentence: str) -> None:
-    with pytest.raises(ValueError, match=sentence):
-        settings_from(environment)
+def test_a_wrong_option_is_refused_with_a_sentence(
+    arguments: tuple[str, ...], sentence: str
+) -> None:
+    done = subprocess.run([sys.executable, "-m", "relguide", *arguments], capture_output=True)
+    assert done.returncode == 2
+    assert sentence in done.stderr.decode()
 
 
 def test_the_stream_is_not_compressed() -> None:
@@ -37,4 +94,4 @@ def test_every_setting_is_in_the_docs() -> None:
     docs = Path(__file__).parents[2] / "docs"
     text = (docs / "service.md").read_text() + (docs / "records.md").read_text()
     named = set(re.findall(r"^\| `RELGUIDE_([A-Z_]+)`", text, flags=re.MULTILINE))
-    assert named == {name.upper() for name in Settings.__dataclass_fields__}
+    assert named == {name.upper() for name in Settings.model_fields}

@@ -31,7 +31,8 @@ export interface Readiness {
   readonly preparing: { readonly name: string; readonly share: number } | null;
 }
 
-const ROOT = "/api/v1";
+/** Relative to the page, which a proxy may serve below a path of its own. */
+const ROOT = "api/v1";
 /** The server answers in milliseconds; after this long [ms] nobody is there. */
 const PATIENCE = 8000;
 /** The first flight of a new installation waits until the planner is compiled. */
@@ -75,7 +76,7 @@ export function endFlight(id: string): Promise<Answer<null>> {
 /** Null if the server does not say. */
 export async function readReadiness(): Promise<Readiness | null> {
   try {
-    const response = await fetch("/readyz", { signal: AbortSignal.timeout(PATIENCE) });
+    const response = await fetch("readyz", { signal: AbortSignal.timeout(PATIENCE) });
     return (await response.json()) as Readiness;
   } catch {
     return null;

@@ -18,7 +18,7 @@ describe("the service's answers", () => {
       value: { id: "one" },
     });
     expect(fetch).toHaveBeenCalledWith(
-      "/api/v1/flights",
+      "api/v1/flights",
       expect.objectContaining({ method: "POST", body: '{"scenario":"fig_6b","rate":10}' }),
     );
   });
@@ -28,7 +28,7 @@ describe("the service's answers", () => {
     answer(422, JSON.stringify({ title: "Unprocessable Content", status: 422, detail }));
     const refused = await commandFlight("a b", { command: "leader_speed", tas_mps: 1000 });
     expect(refused).toEqual({ kind: "refused", status: 422, sentence: detail });
-    expect(fetch).toHaveBeenCalledWith("/api/v1/flights/a%20b/commands", expect.anything());
+    expect(fetch).toHaveBeenCalledWith("api/v1/flights/a%20b/commands", expect.anything());
   });
 
   test("no answer, and an answer that is no JSON, are refusals too", async () => {

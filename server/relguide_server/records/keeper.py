@@ -3,7 +3,7 @@
 import asyncio
 import secrets
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from importlib.metadata import version
@@ -12,6 +12,7 @@ from typing import Annotated, Literal, TypeVar
 
 from fastapi import Depends
 from platformdirs import user_data_path
+from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily, Metric
 from pydantic import BaseModel, Field
 from starlette.requests import HTTPConnection
 
@@ -200,24 +201,24 @@ class Keeper:
             trouble = "Recording stopped by a mistake of the server: its log has the details."
         return RecordsReport(status="waiting" if trouble else "on", message=trouble)
 
-    def figures_text(self) -> str:
-        """What is counted, in the text format of Prometheus."""
+    def measure(self) -> Iterator[Metric]:
+        """What is counted, for Prometheus."""
         if self._writer is None:
-            return ""
+            return
         counts = self._writer.counts
-        return "".join(
-            f"# HELP relguide_records_{name} {said}\n"
-            f"# TYPE relguide_records_{name} {'counter' if name.endswith('_total') else 'gauge'}\n"
-            f"relguide_records_{name} {value}\n"
-            for name, value, said in (
-                ("up", int(not self._writer.trouble), "Whether the database can be written."),
-                ("batches_total", counts.saved, "Batches saved."),
-                ("failures_total", counts.failed, "Attempts to save that failed."),
-                ("documents_lost_total", counts.documents_lost, "Documents not kept."),
-                ("commands_lost_total", counts.commands_lost, "Commands not kept."),
-                ("plans_lost_total", counts.plans_lost, "Plans not kept, too many a second."),
-            )
+        yield GaugeMetricFamily(
+            "relguide_records_up",
+            "Whether the database can be written.",
+            value=not self._writer.trouble,
         )
+        for name, value, said in (
+            ("batches", counts.saved, "Batches saved."),
+            ("failures", counts.failed, "Attempts to save that failed."),
+            ("documents_lost", counts.documents_lost, "Documents not kept."),
+            ("commands_lost", counts.commands_lost, "Commands not kept."),
+            ("plans_lost", counts.plans_lost, "Plans not kept, too many a second."),
+        ):
+            yield CounterMetricFamily(f"relguide_records_{name}", said, value=value)
 
 
 def keep(

@@ -5,13 +5,14 @@
 
 import argparse
 import asyncio
+import multiprocessing
 import random
-import signal
-import subprocess
 import sys
 import tempfile
 import time
+from contextlib import suppress
 from dataclasses import dataclass
+from multiprocessing.connection import Connection
 
 from relguide_server.records.clock import Clock
 from relguide_server.records.entries import Began, Commanded
@@ -37,13 +38,12 @@ class Lost:
     acknowledged: int
 
 
-def say(line: str) -> None:
-    sys.stdout.write(f"{line}\n")
-    sys.stdout.flush()
+FORKS = multiprocessing.get_context("forkserver")
+FORKS.set_forkserver_preload(["tests.server.records.places", "tests.server.flown"])
 
 
-def record(url: str, run: str) -> None:
-    """Record flights until killed; a line for each flight and command that is acknowledged."""
+def record(url: str, run: str, said: Connection) -> None:
+    """Record flights until killed; say the name of each flight, and its commands, once saved."""
     home = Home(url)
     writer = home.writer(run=run)
     documents = list(ideal_flight(duration=60.0))
@@ -54,7 +54,8 @@ def record(url: str, run: str) -> None:
             writer.put(Began(card(name), time.time()))
             tapes.append(Tape(name, writer, Clock()))
         if asyncio.run(writer.saved(10.0)):
-            say("\n".join(names))
+            for name in names:
+                said.send((name, None))
         for k, document in enumerate(documents):
             for tape in tapes:
                 tape.add(document)
@@ -64,7 +65,7 @@ def record(url: str, run: str) -> None:
                     Commanded(flight_id=names[0], at=0.0, t=document.t, body=order, sent_by="")
                 )
                 if asyncio.run(writer.saved(10.0)):
-                    say(f"{names[0]} {k}")
+                    said.send((names[0], k))
         for tape in tapes:
             tape.end("removed")
 
@@ -77,25 +78,28 @@ def kill_once(url: str, run: str, after: float) -> Lost:
         run: name of the run.
         after: how long after its first line it is killed [s].
     """
-    command = [sys.executable, "-m", "tests.server.records.killed", "--record", run, "--url", url]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
-        assert process.stdout is not None
-        first = process.stdout.readline()
-        assert first, "It recorded nothing."
-        time.sleep(after)
-        process.send_signal(signal.SIGKILL)
-        said = [first, *process.stdout]
+    reader, writer = FORKS.Pipe(duplex=False)
+    process = FORKS.Process(target=record, args=(url, run, writer))
+    process.start()
+    writer.close()
+    whole: list[tuple[str, int | None]] = [reader.recv()]
+    time.sleep(after)
+    process.kill()
+    process.join()
+    with suppress(EOFError):
+        while True:
+            whole.append(reader.recv())
+    reader.close()
     home = Home(url)
     store = home.store()
     flights = commands = gaps = 0
-    whole = [line.split() for line in said if line.endswith("\n")]
-    kept = {name: read_flight(store, name) for name, *_ in whole}
-    for name, *order in whole:
+    kept = {name: read_flight(store, name) for name, _ in whole}
+    for name, order in whole:
         found = kept[name]
         if found is None:
             flights += 1
-        elif order:
-            commands += int(order[0]) not in [c["command"]["k"] for c in found["commands"]]
+        elif order is not None:
+            commands += order not in [c["command"]["k"] for c in found["commands"]]
     for name, found in kept.items():
         count = sum(len(lines) for lines in each_chunk(store, name))
         gaps += found is not None and found["documents"] != count + found["lost"]
@@ -108,18 +112,17 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--rounds", type=int, default=100)
     parser.add_argument("--url", default="")
-    parser.add_argument("--record", default="")
     parser.add_argument("--seed", type=int, default=1)
     chosen = parser.parse_args()
-    if chosen.record:
-        record(chosen.url, chosen.record)
     rng = random.Random(chosen.seed)
     with tempfile.TemporaryDirectory() as folder:
         url = chosen.url or f"sqlite:///{folder}/records.sqlite3"
         rounds = [kill_once(url, f"run{k}", rng.uniform(0.0, 0.8)) for k in range(chosen.rounds)]
     lost = [one for one in rounds if one.flights or one.commands or one.documents]
     acknowledged = sum(one.acknowledged for one in rounds)
-    say(f"{len(rounds)} kills, {acknowledged} acknowledged, rounds that lost something: {lost}")
+    sys.stdout.write(
+        f"{len(rounds)} kills, {acknowledged} acknowledged, rounds that lost something: {lost}\n"
+    )
     return bool(lost)
 
 

@@ -1,7 +1,6 @@
 """What was acknowledged survives `kill -9`; two processes share a database; disks fill up."""
 
 import asyncio
-import signal
 import subprocess
 import sys
 import time
@@ -20,7 +19,7 @@ from relguide_server.records.shelf import each_chunk
 
 from tests.server.flown import ideal_flight
 from tests.server.records.flown_cards import card
-from tests.server.records.killed import kill_once
+from tests.server.records.killed import FORKS, kill_once, record
 from tests.server.records.places import HAS_POSTGRES, NO_POSTGRES, Home, Postgres
 from tests.server.records.test_writer import row_of, wait_for
 
@@ -36,21 +35,25 @@ def test_what_was_acknowledged_survives_a_kill(url: str, after: float) -> None:
 @pytest.mark.slow
 def test_two_processes_share_a_database(url: str) -> None:
     """Both make its tables at once, and both record."""
-    command = [sys.executable, "-m", "tests.server.records.killed", "--url", url, "--record"]
+    pipes = [FORKS.Pipe(duplex=False) for _ in range(2)]
     both = [
-        subprocess.Popen([*command, run], stdout=subprocess.PIPE, text=True)
-        for run in ("one", "two")
+        FORKS.Process(target=record, args=(url, run, writer))
+        for run, (_, writer) in zip(("one", "two"), pipes, strict=True)
     ]
-    firsts = [process.stdout.readline() for process in both]
+    for process in both:
+        process.start()
+    firsts = [reader.recv()[0] for reader, _ in pipes]
     time.sleep(0.5)
     for process in both:
-        process.send_signal(signal.SIGKILL)
+        process.kill()
+        process.join()
     home = Home(url)
     store = home.store()
-    for first, process in zip(firsts, both, strict=True):
-        assert first
-        for name in (line.split()[0] for line in [first, *process.communicate()[0].splitlines()]):
-            assert row_of(store, name)["scenario"] == "ideal"
+    for (reader, writer), first in zip(pipes, firsts, strict=True):
+        names = {first, *(reader.recv()[0] for _ in iter(reader.poll, False))}
+        assert all(row_of(store, name)["scenario"] == "ideal" for name in names)
+        reader.close()
+        writer.close()
     home.close()
 
 

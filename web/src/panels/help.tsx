@@ -72,7 +72,7 @@ export function Help(props: { session: Session }) {
         The address of this page names the flight: all who open it see the same.
       </p>
       <p>
-        <a href="/docs">The service's interface</a> · version {__VERSION__}
+        <a href="docs">The service's interface</a> · version {__VERSION__}
       </p>
       <button
         type="button"
