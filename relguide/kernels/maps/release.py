@@ -14,6 +14,7 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI
+from relguide.kernels.base.false_position import Bracket, secant, tightened
 from relguide.kernels.base.records import Pose, Scene, Start
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.maps.final_leg import MovingPoint, keeps_clear, point_room
@@ -138,10 +139,9 @@ def _straight_to_release(
     """
     t_release = scene.t_release
     end_x = scene.alpha * t_release
-    low, high, gap_low, gap_high = 0.0, t_release, shortest - t_release, t_release
-    side = 0
+    bracket = Bracket(0.0, t_release, shortest - t_release, t_release, 0)
     for _ in range(_STEPS):
-        amount = (low * gap_high - high * gap_low) / (gap_high - gap_low)
+        amount = secant(bracket)
         if behind:
             length = word_from(start, end_x - amount, branch, piece)
         else:
@@ -151,12 +151,5 @@ def _straight_to_release(
         gap = length + amount - t_release
         if abs(gap) <= ON_TIME:
             return amount
-        if gap < 0.0:
-            low, gap_low = amount, gap
-            gap_high *= 0.5 if side < 0 else 1.0
-            side = -1
-        else:
-            high, gap_high = amount, gap
-            gap_low *= 0.5 if side > 0 else 1.0
-            side = 1
+        bracket = tightened(bracket, amount, gap)
     return -1.0

@@ -15,8 +15,9 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, turn_to
+from relguide.kernels.base.false_position import Bracket, secant, tightened
 from relguide.kernels.base.records import Pose, Start, start_at
-from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.base.roots import FloatArray, insert_cut
 from relguide.kernels.words.branches import TO_POINT, WORD_OF
 from relguide.kernels.words.extremals import SIGNS, fly_piece
 
@@ -205,21 +206,15 @@ def _cross_once(
         gap_high = lead + high + word - length
         if word < 0.0 or gap_high < 0.0:
             continue
-        amount, gap, side = high, gap_high, 0
-        for _ in range(60):  # regula falsi; an end that stays counts half (Illinois)
-            if abs(gap) <= _EXACT or high - low <= _EXACT * span:
+        amount, gap = high, gap_high
+        bracket = Bracket(low, high, gap_low, gap_high, 0)
+        for _ in range(60):
+            if abs(gap) <= _EXACT or bracket.high - bracket.low <= _EXACT * span:
                 break
-            amount = (low * gap_high - high * gap_low) / (gap_high - gap_low)
+            amount = secant(bracket)
             word = _word_between(px - amount * wx, py - amount * wy, h, branch, piece)
             gap = lead + amount + word - length
-            if gap < 0.0:
-                low, gap_low = amount, gap
-                gap_high *= 0.5 if side < 0 else 1.0
-                side = -1
-            else:
-                high, gap_high = amount, gap
-                gap_low *= 0.5 if side > 0 else 1.0
-                side = 1
+            bracket = tightened(bracket, amount, gap)
         if abs(gap) < _SAME:
             before, after = (lead, amount) if family.last else (amount, 0.0)
             n = _put_path(0.0, before, branch, piece, after, paths, n)
@@ -259,33 +254,19 @@ def _put_cuts(between: _Centres, h: float, branch: int, span: float, cuts: Float
     word = WORD_OF[branch]
     beside = SIGNS[word, 0] - SIGNS[word, 2]  # 2ε between opposite sides, else 0
     sin_h, cos_h = sin(h), cos(h)
-    n, cuts[0] = 1, 0.0
+    n, cuts[0], cuts[1] = 2, 0.0, span
     if wy != 0.0:
-        n = _insert(cuts, n, (py + beside) / wy, span)
+        n = insert_cut(cuts, n, (py + beside) / wy)
     across = sin_h * wx - cos_h * wy
     if across != 0.0:
-        n = _insert(cuts, n, (sin_h * px - cos_h * py - beside) / across, span)
+        n = insert_cut(cuts, n, (sin_h * px - cos_h * py - beside) / across)
     if beside != 0.0:  # circles that overlap have no straight between them
         along, off = px * wx + py * wy, px * wy - py * wx
         if abs(off) < 2.0:
             half = sqrt(4.0 - off * off)
-            n = _insert(cuts, n, along - half, span)
-            n = _insert(cuts, n, along + half, span)
-    cuts[n] = span
-    return n + 1
-
-
-@njit(cache=True, nogil=True)
-def _insert(cuts: FloatArray, n: int, cut: float, span: float) -> int:
-    """Put a cut into its place among the first n, if it is in the span; how many there are."""
-    if not 0.0 < cut < span:
-        return n
-    k = n
-    while cuts[k - 1] > cut:
-        cuts[k] = cuts[k - 1]
-        k -= 1
-    cuts[k] = cut
-    return n + 1
+            n = insert_cut(cuts, n, along - half)
+            n = insert_cut(cuts, n, along + half)
+    return n
 
 
 @njit(cache=True, nogil=True)
