@@ -2,6 +2,7 @@
 
 from relguide.kernels import cache as cache
 from relguide.kernels import compiling as compiling
+from relguide.kernels import distinct_names as distinct_names
 from relguide.kernels import loading as loading
 from relguide.kernels import plain_types as plain_types
 

@@ -42,8 +42,13 @@ HERE = Path(__file__).parent
 """The kernels' sources."""
 SHIPPED = HERE / "compiled"
 """Kernels that came with the wheel, if it brought any."""
-IMPORT = re.compile(rb"^from relguide\.(kernels\.\w+\.\w+|units) import", re.MULTILINE)
+IMPORT = re.compile(
+    rb"^from relguide\.(?:(kernels\.\w+\.\w+|units) import|(kernels\.\w+) import (\w+) as )",
+    re.MULTILINE,
+)
 """How our files name what they are made of."""
+FORMAT = b"2"
+"""Of what is kept: kernels kept in another format are compiled anew. Since 2 names are distinct."""
 RECORD = ".warm"
 """How the name of a record ends."""
 ADOPTED = "adopted"
@@ -200,7 +205,7 @@ def _stamp(files: tuple[Path, ...]) -> str:
         if file not in seen:
             seen.add(file)
             pending += _digest_and_imports(file)[1]
-    digest = sha256()
+    digest = sha256(FORMAT)
     for file in sorted(seen):
         digest.update(_digest_and_imports(file)[0])
     return digest.hexdigest()
@@ -210,7 +215,8 @@ def _stamp(files: tuple[Path, ...]) -> str:
 def _digest_and_imports(file: Path) -> tuple[bytes, tuple[Path, ...]]:
     """The digest of one file, and the files of ours that it names."""
     text = file.read_bytes()
-    names = {match[1].decode().replace(".", "/") for match in IMPORT.finditer(text)}
+    found = (match[1] or b".".join(match.groups()[1:]) for match in IMPORT.finditer(text))
+    names = {name.decode().replace(".", "/") for name in found}
     digest = sha256(file.name.encode() + b"\0" + text).digest()
     return digest, tuple(HERE.parent / f"{name}.py" for name in sorted(names))
 

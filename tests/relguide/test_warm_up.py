@@ -1,5 +1,6 @@
 """After `python -m relguide.warm_up` nothing is left to compile, and stale code is never run."""
 
+import ast
 import os
 import pickle
 import subprocess
@@ -281,6 +282,21 @@ def test_a_stamp_changes_with_what_is_imported(
     (tmp_path / "units.py").write_text("G0 = 9.80665\n")
     after = stamps()
     assert {name for name in before if before[name] != after[name]} == {"top", "middle", "turn"}
+
+
+def test_whatever_a_kernel_imports_of_ours_is_seen() -> None:
+    for file in (cache.HERE / "__init__.py").parent.glob("*/*.py"):
+        found = set[Path]()
+        for node in ast.walk(ast.parse(file.read_bytes())):
+            if isinstance(node, ast.ImportFrom) and str(node.module).startswith("relguide."):
+                place = cache.HERE.parent.joinpath(*str(node.module).split(".")[1:])
+                names = [alias.name for alias in node.names]
+                found |= (
+                    {place / f"{name}.py" for name in names}
+                    if place.is_dir()
+                    else {place.with_suffix(".py")}
+                )
+        assert set(cache._digest_and_imports(file)[1]) == found, file
 
 
 def test_a_folder_that_can_only_be_read_serves_if_it_was_filled(
