@@ -28,6 +28,7 @@ from relguide_server.mount import Mount
 from relguide_server.openapi import describe, json_answer, response, schema_of
 from relguide_server.pages import Page
 from relguide_server.plan_desk import PlanDesk
+from relguide_server.plan_lane import PlanLane
 from relguide_server.preparation import Preparation, PreparationOf, Readiness, steps_for
 from relguide_server.records.clock import Clock
 from relguide_server.records.keeper import Keeper, KeeperOf, keep
@@ -125,6 +126,7 @@ def create_app(
     install_handlers(app)
     describe(app, (Readiness, *plans.MODELS, *areas.MODELS, *flights.MODELS, *record_routes.MODELS))
     # The last one added is the first one passed.
+    app.add_middleware(PlanLane)
     app.add_middleware(Page)
     app.add_middleware(BodyLimit, max_body=settings.max_body)
     hosts = [name.strip() for name in settings.hosts.split(",") if name.strip()]

@@ -93,6 +93,11 @@ def install_handlers(app: FastAPI) -> None:
 
 async def _answer_refusal(request: Request, error: Exception) -> Response:
     assert isinstance(error, HTTPException)
+    return answer_refusal(request, error)
+
+
+def answer_refusal(request: Request, error: HTTPException) -> Response:
+    """The problem document of what is refused."""
     path, status = request.url.path, error.status_code
     errors = error.errors if isinstance(error, Refusal) else ()
     detail = error.detail
@@ -124,8 +129,12 @@ async def _answer_invalid(request: Request, error: Exception) -> Response:
 
 
 async def _note_left(request: Request, error: Exception) -> Response:
-    # nobody reads this answer
     del error
+    return answer_left(request)
+
+
+def answer_left(request: Request) -> Response:
+    """The answer to a client that left, which nobody reads; it is noted."""
     log.info("A client left before %s %s was answered.", request.method, request.url.path)
     return Response(status_code=400)
 

@@ -1,11 +1,10 @@
 """Routes that plan: a situation in, a plan with its proof out."""
 
-from collections.abc import AsyncIterator, Callable, Coroutine
+from collections.abc import AsyncIterator
 from time import monotonic
 from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Depends, Query, Request
-from fastapi.routing import APIRoute
 from pydantic import BaseModel, Field, RootModel, create_model
 from starlette.responses import Response, StreamingResponse
 
@@ -119,30 +118,11 @@ DeskOf = Annotated[PlanDesk, Depends(_desk_of)]
 WishOf = Annotated[Wish, Depends(_read_wish)]
 
 
-class AsUsual(APIRoute):
-    """A route that, asked without parameters, is called without looking for them.
-
-    FastAPI takes as long for that as the planner for its plan.
-    """
-
-    def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
-        """FastAPI's own handler, and the short way past it."""
-        usual, endpoint = super().get_route_handler(), self.endpoint
-
-        async def handle(request: Request) -> Response:
-            if request.scope["query_string"]:
-                return await usual(request)
-            answer: Response = await endpoint(request, request.app.state.desk, USUAL)
-            return answer
-
-        return handle
-
-
 USUAL = Wish(planner=None, include=(), budget=BUDGET_MS * 1e-3)
 """What is wished where the request says nothing."""
-router = APIRouter(
-    prefix="/api/v1", tags=["plans"], route_class=AsUsual, dependencies=[KNOWN_PARAMETERS_ONLY]
-)
+router = APIRouter(prefix="/api/v1", tags=["plans"], dependencies=[KNOWN_PARAMETERS_ONLY])
+PATH = "/api/v1/plans"
+"""Where a situation is posted; without parameters, `PlanLane` answers there."""
 
 
 @router.post(
@@ -156,6 +136,16 @@ router = APIRouter(
 )
 async def make_plan(request: Request, desk: DeskOf, wish: WishOf) -> Response:
     """The minimum-time plan with its proof, or the answer that there is no plan, and why."""
+    return await answer_situation(request, desk, wish)
+
+
+async def answer_situation(request: Request, desk: PlanDesk, wish: Wish) -> Response:
+    """The answer to a situation in the body of a request.
+
+    Raises:
+        Refusal: if it is no situation, or too many wait.
+        ClientDisconnect: if the client leaves.
+    """
     end = monotonic() + wish.budget
     body = await read_body(request, JSON, most=MAX_BODY)
     answered = desk.answer_at_once(body, wish)
