@@ -1,0 +1,1 @@
+"""The service under load and under attack: `speed`, `attacks` and `fuzz` are commands."""
