@@ -1,6 +1,7 @@
 """answer(situation): the plan, or why there is none, in JSON; `bulk.py` answers many."""
 
 from collections.abc import Collection
+from math import inf
 from typing import TYPE_CHECKING, Any, Literal
 
 from relguide.contract.bodies import Anchor, path_to_wire, plan_to_wire
@@ -67,14 +68,22 @@ def answer(
         ValueError: if the deadline is out of range.
     """
     until = end_of(deadline)
-    match planned := ask(planner, situation, deadline=left_until(until)).plan:
+    planned = ask(planner, situation, deadline=left_until(until)).plan
+    return answer_plan(planned, anchor, include=include, until=until)
+
+
+def answer_plan(
+    planned: Plan | NoPlan, anchor: Anchor, *, include: Collection[Include] = (), until: float = inf
+) -> dict[str, Any]:
+    """As `answer`, of what has been planned; alternatives end by then, of `end_of` [s]."""
+    match planned:
         case Plan():
             left = left_until(until)
             asked = not {"alternatives", "paths"}.isdisjoint(include)
             others = _alternatives(planned, left) if asked else ()
             reply = plan_to_wire(plan_card(planned, others), anchor)
             if "paths" in include:
-                wind = situation.wind
+                wind = planned.situation.wind
                 cards = other_path_cards(others, wind, later=0.0, most=MOST_PATHS)
                 reply["others"] = [path_to_wire(card, anchor) for card in cards]
             if "alternatives" not in include:

@@ -1,10 +1,10 @@
 """PlanDesk: answers situations, at once where that takes a millisecond, else by the workers.
 
 Most situations are planned within 0.1 ms, which is less than it takes to ask another process. So
-each is first tried here, on the event loop, with a deadline of `AT_ONCE`. What is proved by then,
-the least time or that there is no plan, is the answer. Everything else goes to a worker, with what
-is left of the budget. If that is spent before a worker has answered, the answer is what was found
-at first: it is certified as well, and says its bound.
+each is first tried here, on the event loop: without a search, and then by one with a deadline of
+`AT_ONCE`. What is proved by then, the least time or that there is no plan, is the answer.
+Everything else goes to a worker, with what is left of the budget. If that is spent before a worker
+has answered, the answer is what was found at first: it is certified as well, and says its bound.
 """
 
 import asyncio
@@ -24,8 +24,6 @@ from relguide_server.workers import Workers
 
 AT_ONCE: Second = 1e-3
 """How long a situation is tried on the event loop; of 4,000 extreme ones none took 3 ms."""
-INTERRUPTED: Second = 3e-3
-"""What took longer was interrupted: another process had the processor. It is tried once more."""
 GRACE: Second = 1.0
 """How much later than its deadline a worker may answer before it is taken to be stuck."""
 PROOF: Second = 5.0
@@ -99,11 +97,12 @@ class PlanDesk:
         if not self._quick or wish.planner not in (None, self._name):
             return None
         warm = self._preparation.can_plan_by(self._name)
+        if warm and self._name == "exact":
+            found = jobs.plan_at_once(situation, anchor)
+            if found is not None:
+                return found
         planner = self._planner if warm else self._guarded
-        first = jobs.plan_situation(situation, anchor, planner, (), AT_ONCE)
-        if not first.final and first.seconds > INTERRUPTED:
-            return jobs.plan_situation(situation, anchor, planner, (), AT_ONCE)
-        return first
+        return jobs.plan_situation(situation, anchor, planner, (), AT_ONCE)
 
     async def answer_by_worker(
         self, body: bytes, wish: Wish, first: Answered | None, end: float

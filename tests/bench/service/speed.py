@@ -64,7 +64,9 @@ def main(arguments: list[str] | None = None) -> int:
 
 async def _measure(service: Service, given: argparse.Namespace) -> None:
     ids = [
-        service.get("/api/v1/flights", "POST", {"scenario": "fig_6b", "engagement": "engaged"})["id"]
+        service.get("/api/v1/flights", "POST", {"scenario": "fig_6b", "engagement": "engaged"})[
+            "id"
+        ]
         for _ in range(given.flights)
     ]
     ticks: list[int] = [0] * given.watchers
@@ -76,18 +78,21 @@ async def _measure(service: Service, given: argparse.Namespace) -> None:
     for task in watchers:
         if task.done():
             task.result()
+    console = Console(width=110)
     counted, began = sum(ticks), perf_counter()
     rounds: dict[str, list[Round]] = {name: [] for name in ASKED}
     for _ in range(given.rounds):
-        for name, wanted in ASKED.items():
+        for name, asked in ASKED.items():
             before = service.processor_time()
-            load = await put_load(service.port, [wanted], seconds=given.seconds)
+            load = await put_load(service.port, [asked], seconds=given.seconds)
             spent = service.processor_time() - before
             rounds[name].append(Round(load, spent / max(len(load.latencies), 1)))
     if watchers:
         rate = (sum(ticks) - counted) / (perf_counter() - began) / len(watchers)
-        print(f"{len(ids)} flights, {len(watchers)} watchers: {rate:.1f} ticks a second each")
-    Console(width=110).print(table(rounds))
+        console.print(
+            f"{len(ids)} flights, {len(watchers)} watchers: {rate:.1f} ticks a second each"
+        )
+    console.print(table(rounds))
 
 
 def table(rounds: dict[str, Sequence[Round]]) -> Table:
