@@ -9,7 +9,11 @@ from starlette.responses import Response
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from relguide_server.errors import Refusal, answer_left, answer_refusal
-from relguide_server.plans import PATH, USUAL, answer_situation
+from relguide_server.mount import path_of
+from relguide_server.plans import PATH, USUAL, answer_situation, router
+
+ROUTE = next(route for route in router.routes if getattr(route, "path", "") == PATH)
+"""The framework's own."""
 
 
 class PlanLane:
@@ -24,10 +28,11 @@ class PlanLane:
             scope["type"] != "http"
             or scope["method"] != "POST"
             or scope["query_string"]
-            or scope["path"].removeprefix(scope.get("root_path", "")) != PATH
+            or path_of(scope) != PATH
         ):
             await self.app(scope, receive, send)
             return
+        scope["route"] = ROUTE  # what is counted of it is counted of the route
         request = Request(scope, receive)
         answer = await self._answer(request)
         await answer(scope, receive, send)

@@ -10,7 +10,7 @@ import asyncio
 import sys
 from time import perf_counter, thread_time
 
-from relguide_server.app import app
+from relguide_server.app import app_of
 from relguide_server.openapi import JSON, json_answer, read_body
 from relguide_server.serving import serve
 from starlette.requests import Request
@@ -51,6 +51,7 @@ async def answer_constant(request: Request) -> Response:
 
 
 if __name__ == "__main__":
+    app = app_of()
     app.add_route("/blocked", Watch().report)
     app.add_route("/constant", answer_constant, methods=["POST"])
     serve(app, host="127.0.0.1", port=int(sys.argv[1]))
