@@ -50,6 +50,7 @@ class Unanchored:
 
 
 Anchor = LocalPlane | Unanchored
+UNANCHORED = Unanchored()
 """How the world frame lies on the earth."""
 
 

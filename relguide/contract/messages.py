@@ -33,7 +33,6 @@ from relguide.flying.plan_documents import (
     NoPlanCard,
     OptimalityCard,
     OtherPathCard,
-    PathPoint,
     PathSegment,
     PlanCard,
 )
@@ -47,17 +46,11 @@ def _no_default(schema: dict[str, Any]) -> None:
     del schema["default"]  # the field is left out, never null
 
 
-_GEODETIC: dict[str, Any] = {
-    name: (
-        float,
-        Field(
-            default=None,
-            description="WGS84; there if the situation came with latitudes.",
-            json_schema_extra=_no_default,
-        ),
-    )
-    for name in ("lat_deg", "lon_deg")
-}
+_GEODETIC = Field(
+    default=None,
+    description="WGS84; there if the situation came with latitudes.",
+    json_schema_extra=_no_default,
+)
 _MODELS: dict[type[Any], type[BaseModel]] = {}
 _DATACLASSES: dict[type[BaseModel], type[Any]] = {}
 
@@ -81,8 +74,9 @@ def model_of(document_type: type[Any]) -> type[BaseModel]:
             list[_json_type(OtherPathCard)],  # type: ignore[misc]
             Field(default_factory=list, description=drawn),
         )
-    if document_type is PathPoint:
-        members |= _GEODETIC
+    if {"x_m", "y_m"} <= members.keys():
+        kind = members["x_m"][0]  # of a point, or columns of many
+        members |= {name: (kind, _GEODETIC) for name in ("lat_deg", "lon_deg")}
     if document_type is OptimalityCard:
         members |= _optional_members(OptimalityCheck)
     model = create_model(

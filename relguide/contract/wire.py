@@ -80,6 +80,7 @@ TAGS = ("kind", "status")
 """Fields that say which member of a union this is, and come first."""
 
 Convert = Callable[[Any], Any]
+Place = Callable[[float, float], tuple[float, float]]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -128,6 +129,7 @@ def tick(
     paused: bool,
     ended: bool,
     documents: "Sequence[Document]",
+    place: Place | None = None,
 ) -> bytes:
     """One frame of the stream: what happened since the last one, in order, as JSON text.
 
@@ -138,7 +140,11 @@ def tick(
         paused: whether the flight is paused.
         ended: whether it is over.
         documents: since the last tick.
+        place: x, y [m] → latitude, longitude [°], which every point then has as well.
     """
+    written = [to_wire(document) for document in documents]
+    if place is not None:
+        _add_places(written, place)
     return orjson.dumps(
         {
             "kind": "tick",
@@ -147,9 +153,26 @@ def tick(
             "rate": _expect_finite(rate),
             "paused": paused,
             "ended": ended,
-            "documents": [to_wire(document) for document in documents],
+            "documents": written,
         }
     )
+
+
+def _add_places(written: Any, place: Place) -> None:
+    """Give each point in something written its latitude and longitude."""
+    if isinstance(written, list):
+        for part in written:
+            _add_places(part, place)
+    elif isinstance(written, dict):
+        for part in written.values():
+            _add_places(part, place)
+        match written:
+            case {"x_m": [*xs], "y_m": [*ys]}:  # columns
+                places = [place(x, y) for x, y in zip(xs, ys, strict=True)]
+                written["lat_deg"] = [lat for lat, _ in places]
+                written["lon_deg"] = [lon for _, lon in places]
+            case {"x_m": x, "y_m": y}:
+                written["lat_deg"], written["lon_deg"] = place(x, y)
 
 
 _FIELDS: dict[type[Any], tuple[WireField, ...]] = {}

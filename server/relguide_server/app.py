@@ -14,7 +14,16 @@ from uvicorn.middleware.proxy_headers import ProxyHeadersMiddleware
 from relguide.learn.planners import make_planner
 from relguide.planning.acceptance import takes_deadline, with_deadline
 from relguide.planning.plan import Planner
-from relguide_server import areas, flights, logs, pages, plans, record_routes, scene_relay
+from relguide_server import (
+    areas,
+    flights,
+    logs,
+    pages,
+    plans,
+    record_routes,
+    scene_relay,
+    stream_docs,
+)
 from relguide_server.access import Access, read_tokens
 from relguide_server.accounts import Accounts
 from relguide_server.departures import Departures, library_departures
@@ -38,8 +47,8 @@ from relguide_server.workers import Workers
 DESCRIPTION = """Minimum-time relative guidance: plans with a proof, and flights that fly them.
 
 Every field names its unit. Headings count clockwise from true north. Errors are problem documents
-(RFC 9457). A flight is watched by WebSocket at `/api/v1/flights/{id}/stream`, and in 3D at
-`/scene/{id}/`."""
+(RFC 9457). A flight is watched by WebSocket at `/api/v1/flights/{id}/stream` (see `/docs/stream`),
+and in 3D at `/scene/{id}/`."""
 
 IN_FLIGHT = 2.0
 """How long a flight may plan at a time [s]: it waits meanwhile, and the service cannot stop it."""
@@ -120,6 +129,7 @@ def create_app(
         flights.router,
         record_routes.router,
         scene_relay.router,
+        stream_docs.router,
         pages.router,
     ):
         app.include_router(part)

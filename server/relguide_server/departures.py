@@ -8,7 +8,12 @@ from typing import Annotated
 from fastapi import Depends
 from starlette.requests import HTTPConnection
 
-from relguide.contract.bodies import intent_from_body, situation_from_body
+from relguide.contract.bodies import (
+    UNANCHORED,
+    Anchor,
+    intent_from_body,
+    situation_from_body,
+)
 from relguide.contract.messages import (
     FlightRequest,
     ScenarioFlightRequest,
@@ -39,6 +44,8 @@ class Departure:
     """Its name; empty for a situation of your own."""
     title: str
     source: Source
+    anchor: Anchor = UNANCHORED
+    """How its world lies on the earth."""
     first: Situation | None = None
     """What is planned first, if that is known."""
 
@@ -71,8 +78,9 @@ def library_departures(planner: Planner) -> Departures:
         match wanted:
             case ScenarioFlightRequest():
                 name, found = wanted.scenario, _find_scenario(wanted.scenario)
+                anchor: Anchor = UNANCHORED
             case SituationFlightRequest():
-                name, found = "", _own_scenario(wanted)
+                name, (found, anchor) = "", _own_scenario(wanted)
         if wanted.intent_known is not None:
             found = replace(found, intent_known=wanted.intent_known)
         if wanted.spacing_time_s is not None:
@@ -85,6 +93,7 @@ def library_departures(planner: Planner) -> Departures:
             source=lambda commands: fly(
                 found, planner, commands=commands, seed=seed, engagement=engagement
             ),
+            anchor=anchor,
             first=_known_situation(found),
         )
 
@@ -129,16 +138,16 @@ def _find_scenario(name: str) -> Scenario:
         raise ContractError([("scenario", str(error))]) from None
 
 
-def _own_scenario(wanted: SituationFlightRequest) -> Scenario:
+def _own_scenario(wanted: SituationFlightRequest) -> tuple[Scenario, Anchor]:
     try:
-        situation, _ = situation_from_body(wanted.situation)
+        situation, anchor = situation_from_body(wanted.situation)
     except ContractError as error:
         under = [(f"situation.{path}".rstrip("."), said) for path, said in error.problems]
         raise ContractError(under) from None
     try:
         if wanted.flown_intent is None:
-            return own_scenario(situation)
+            return own_scenario(situation), anchor
         flown = _with_intent(situation, intent_from_body(wanted.flown_intent))
-        return replace(own_scenario(flown), declared_intent=situation.leader.intent)
+        return replace(own_scenario(flown), declared_intent=situation.leader.intent), anchor
     except ValueError as error:  # no level at which the aircraft could fly it, in a sentence
         raise ContractError([("situation.pursuer", str(error))]) from None

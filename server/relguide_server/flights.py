@@ -23,7 +23,7 @@ from relguide.contract.messages import (
     SetEngagementCommand,
     SetRateCommand,
 )
-from relguide.contract.protocol import PROTOCOL
+from relguide.contract.protocol import PROTOCOL, STREAM
 from relguide.contract.refusal import ContractError, parse
 from relguide.flying.aircraft_documents import GuidanceSample
 from relguide.flying.engagement import Engagement, refusal
@@ -134,6 +134,7 @@ async def start_flight(
         paused=wanted.paused,
         record=record,
         owner=owner_of(request),
+        anchor=departure.anchor,
     )
     status = status_of(flight, request)
     headers = {
@@ -221,12 +222,13 @@ async def command_flight(
 @router.websocket("/flights/{flight_id}/stream")
 async def stream(websocket: WebSocket, flight_id: str, fleet: FleetOf) -> None:
     """Ticks of a flight; the sub-protocol says for which form of them the client was built."""
-    if PROTOCOL not in websocket.scope["subprotocols"]:
+    spoken = [name for name in websocket.scope["subprotocols"] if name in (PROTOCOL, STREAM)]
+    if not spoken:
         await websocket.accept()
-        sentence = f"This server speaks {PROTOCOL}: load the page again."
+        sentence = f"This server speaks {PROTOCOL} and {STREAM}: load the page again."
         await websocket.close(WRONG_PROTOCOL, sentence)
         return
-    await websocket.accept(PROTOCOL)
+    await websocket.accept(spoken[0])
     if not fleet.knows(flight_id):
         await websocket.close(UNKNOWN_FLIGHT, "There is no such flight: it has been removed.")
         return

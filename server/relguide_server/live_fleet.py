@@ -9,6 +9,7 @@ from typing import Annotated
 from fastapi import Depends
 from starlette.requests import HTTPConnection
 
+from relguide.contract.bodies import UNANCHORED, Anchor
 from relguide_server.errors import Refusal
 from relguide_server.live_flight import FlightLabel, LiveFlight, Source
 from relguide_server.metrics import Metrics
@@ -84,6 +85,7 @@ class Fleet:
         record: Callable[[str], Recording],
         replay: bool = False,
         owner: str = "",
+        anchor: Anchor = UNANCHORED,
     ) -> LiveFlight:
         """Start a flight, and wait until it is in the air.
 
@@ -96,6 +98,7 @@ class Fleet:
             record: what records it, given its id.
             replay: whether it is a recording.
             owner: who starts it, and may command it.
+            anchor: how its world lies on the earth.
 
         Raises:
             Refusal: 429, if too many fly already; 500, if it broke before its first sample.
@@ -107,6 +110,7 @@ class Fleet:
             title=title,
             replay=replay,
             owner=owner,
+            anchor=anchor,
         )
         flight = LiveFlight(
             label,

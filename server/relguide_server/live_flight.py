@@ -6,9 +6,11 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
+from relguide.contract.bodies import UNANCHORED, Anchor
 from relguide.contract.wire import tick
 from relguide.flying.documents import Document, Sample
 from relguide.flying.orders import Command
+from relguide.planning.frames import LocalPlane
 from relguide_server.errors import run_logged
 from relguide_server.history import History
 from relguide_server.inbox import Inbox
@@ -36,6 +38,8 @@ class FlightLabel:
     title: str
     replay: bool = False
     """Whether it is a recording, which takes no orders."""
+    anchor: Anchor = UNANCHORED
+    """How its world lies on the earth."""
     owner: str = ""
     """Who started it, as `access.owner_of` says it."""
 
@@ -196,6 +200,7 @@ class LiveFlight:
     # -- inside -----------------------------------------------------------------------------------
 
     def _text(self, documents: Sequence[Document]) -> str:
+        anchor = self.label.anchor
         return tick(
             self.label.id,
             t=self.t,
@@ -203,6 +208,7 @@ class LiveFlight:
             paused=self.pace.paused,
             ended=self.over,
             documents=documents,
+            place=anchor.to_geodetic if isinstance(anchor, LocalPlane) else None,
         ).decode()
 
     def _run(self) -> None:

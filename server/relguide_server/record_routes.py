@@ -7,7 +7,7 @@ from fastapi import APIRouter, Query, Request
 from pydantic import AwareDatetime, RootModel
 from starlette.responses import Response, StreamingResponse
 
-from relguide.contract.bodies import SituationBody, situation_from_body
+from relguide.contract.bodies import UNANCHORED, Anchor, SituationBody, situation_from_body
 from relguide.contract.messages import FlightStatus, from_wire
 from relguide.contract.recorder import VERSION
 from relguide.contract.refusal import ContractError, parse
@@ -206,6 +206,7 @@ async def replay_flight(
         record=lambda _: Recording(),
         replay=True,
         owner=owner_of(request),
+        anchor=_anchor(about["request"]),
     )
     headers = {"Location": f"{root_of(request.scope)}/api/v1/flights/{flight.label.id}"}
     return json_answer(status_of(flight, request).model_dump(), 201, headers=headers)
@@ -313,12 +314,17 @@ async def _parts(keeper: Keeper, flight_id: str, form: int, kind: str) -> AsyncI
         yield part
 
 
+def _anchor(request: dict[str, Any]) -> Anchor:
+    if "situation" not in request:
+        return UNANCHORED
+    return situation_from_body(SituationBody.model_validate(request["situation"]))[1]
+
+
 def _plane(request: dict[str, Any], lat_deg: float | None, lon_deg: float | None) -> LocalPlane:
     """How a flight lies on the earth: as its situation says, or as is asked."""
-    if "situation" in request:
-        _, anchor = situation_from_body(SituationBody.model_validate(request["situation"]))
-        if isinstance(anchor, LocalPlane):
-            return anchor
+    anchor = _anchor(request)
+    if isinstance(anchor, LocalPlane):
+        return anchor
     if lat_deg is None or lon_deg is None:
         raise Refusal(
             422, "This flight has no latitudes: say by lat_deg and lon_deg where its x = y = 0 is."

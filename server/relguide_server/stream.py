@@ -15,6 +15,15 @@ TOO_MANY = 4429
 """Close codes of a stream, each sent with a sentence."""
 RESTART = 1012
 """The same, of the protocol itself: the page dials again."""
+CLOSE_CODES = {
+    WRONG_PROTOCOL: "the client offered no sub-protocol that this server speaks",
+    UNKNOWN_FLIGHT: "there is no such flight",
+    FLIGHT_GONE: "the flight was removed",
+    TOO_MANY: "as many watch the flight as may",
+    FLIGHT_BROKEN: "the flight was stopped by a mistake of the server",
+    RESTART: "the service stops: it may be back in a moment",
+}
+"""What each says."""
 
 
 class StreamClient:

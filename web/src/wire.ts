@@ -1,7 +1,7 @@
 // Made by `python -m relguide_server.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-7c3e4a3e2836";
+export const PROTOCOL = "relguide-d5a7a4ea221d";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -151,6 +151,10 @@ export interface AircraftSample {
   tas_mps: number;
   ground_speed_mps: number;
   altitude_m: number;
+  /** WGS84; there if the situation came with latitudes. */
+  lat_deg?: number;
+  /** WGS84; there if the situation came with latitudes. */
+  lon_deg?: number;
 }
 
 /**
@@ -408,6 +412,10 @@ export interface ForecastChanged {
   pursuer_at_closest: PathPoint;
   /** Where its leader is then. */
   leader_at_closest: PathPoint;
+  /** WGS84; there if the situation came with latitudes. */
+  lat_deg?: number[];
+  /** WGS84; there if the situation came with latitudes. */
+  lon_deg?: number[];
 }
 
 /** The aircraft to be joined, at t = 0, placed on the earth (WGS84). */
@@ -840,6 +848,10 @@ export interface SeparationLost {
   cause: string;
   /** When the first alert or `Unable` that came before it was given; empty if there was none. */
   announced_s: number[];
+  /** WGS84; there if the situation came with latitudes. */
+  lat_deg?: number;
+  /** WGS84; there if the situation came with latitudes. */
+  lon_deg?: number;
 }
 
 /** Designate the leader, accept what is proposed, engage it, or disconnect. */
