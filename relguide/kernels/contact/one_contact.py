@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.records import Contact, Pose, Scene
 from relguide.kernels.base.roots import FloatArray
@@ -30,7 +31,7 @@ from relguide.kernels.words.extremals import MAX_ROWS, solve
 
 _BASINS = 8  # refined: the best of them wins in every reference case; the rest is insurance
 _HIDDEN = 0.14  # how much a basin may fall below what the scan sees of it [R/V_P]
-_PARTS = 4  # into which the bearings beside a basin without a neighbour are cut
+_HALVINGS = 10  # of the bearings between a node and a neighbour without an arrival: to 0.005°
 
 
 class Workspace(NamedTuple):
@@ -125,7 +126,6 @@ def descend_basins(
         if at < 0:
             break
         taken[at] = 1.0
-        before, after = _neighbours(nodes, at)
         here, contact = nodes.arrival[at], contact_of(nodes, at)
         if here > best and here - _hidden_below(nodes, at, width) >= best:
             continue
@@ -133,13 +133,15 @@ def descend_basins(
         if least < best:
             best = least
             path[:] = nearby
-        if len(scene.leader) == 1:
-            continue
-        # while the leader turns windows are narrow: it may fall towards either end of this one
-        if nodes.arrival[before] == inf:
-            best = _descend_edge(start, scene, contact, -width, best, room, path)
-        if nodes.arrival[after] == inf:
-            best = _descend_edge(start, scene, contact, width, best, room, path)
+    # while the leader turns windows are narrow: it may fall towards the end of one
+    if len(scene.leader) > 1:
+        for n in range(len(nodes.bearings)):
+            for after in _neighbours(nodes, n):
+                if nodes.arrival[n] < inf and nodes.arrival[after] == inf:
+                    away = wrap_signed(nodes.bearings[after] - nodes.bearings[n])
+                    contact = contact_of(nodes, n)
+                    stride = 0.25 * width
+                    best = _descend_edge(start, scene, contact, away, stride, best, room, path)
     return best
 
 
@@ -177,24 +179,28 @@ def _hidden_below(nodes: Nodes, at: int, width: float) -> float:
 
 @njit(cache=True, nogil=True)
 def _descend_edge(
-    start: Pose, scene: Scene, contact: Contact, away: float, best: float, room: Workspace,
-    path: FloatArray,
+    start: Pose, scene: Scene, contact: Contact, away: float, stride: float, best: float,
+    room: Workspace, path: FloatArray,
 ) -> float:  # fmt: skip
-    """The least arrival on the way from a contact to a bearing with none: best or less."""
-    edge, there = inf, contact
-    for part in range(1, _PARTS):
-        moved = Contact(contact.piece, contact.bearing + away * part / _PARTS, contact.side)
-        value = through_contact(start, scene, moved, best + _HIDDEN, room)
-        if value >= best + _HIDDEN:
-            break
-        edge, there = value, moved
-        if edge < best:
-            best = edge
-            path[:] = room.path
-    if edge == inf:
-        return best
-    nearby = np.empty((2, 5))
-    least = _descend(start, scene, there, edge, 0.5 * abs(away) / _PARTS, room, nearby)
+    """The least arrival between a contact and a bearing with none, so far away: best or less.
+
+    The edge is bisected, and the least arrival seen on the way descended from.
+    """
+    piece, inside, side = contact
+    outside = inside + away
+    least, there, nearby = inf, inside, np.empty((2, 5))
+    for _ in range(_HALVINGS):
+        bearing, beat = 0.5 * (inside + outside), best + _HIDDEN
+        value = through_contact(start, scene, Contact(piece, bearing, side), beat, room)
+        if value >= beat:
+            outside = bearing
+            continue
+        inside = bearing
+        if value < least:
+            least, there = value, bearing
+            nearby[:] = room.path
+    if least < inf:
+        least = _descend(start, scene, Contact(piece, there, side), least, stride, room, nearby)
     if least < best:
         best = least
         path[:] = nearby

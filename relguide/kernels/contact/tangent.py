@@ -13,7 +13,7 @@ Lengths in R, times in R/V_P, angles counter-clockwise; positions are relative t
 keeps heading 0.
 """
 
-from math import atan2, cos, hypot, inf, pi, sin
+from math import atan2, ceil, cos, hypot, inf, isnan, pi, sin
 from typing import NamedTuple
 
 import numpy as np
@@ -33,16 +33,31 @@ NEAR = 8.0
 """Farther from the disc than this [R] the windows of bearings are wide."""
 _TURNS = 60  # sizes of the first turn: every 6°
 _STEP = 0.2  # step along the second turn: 11°
+_HALVINGS = 30  # down to where a closest approach ceases to exist
+_MOST_STEPS = 64  # through one turn of the leader's
 _SIN_STEP, _COS_STEP = sin(_STEP), cos(_STEP)
+
+
+class Leg(NamedTuple):
+    """One leg of the leader's, seen from where it would be on it at t = 0, and heads."""
+
+    alpha: float
+    """V_L/V_P."""
+    turning: float
+    """The leader's turn rate ω [V_P/R]."""
+    begin: float
+    """When it begins [R/V_P]."""
+    end: float
+    """When it ends; infinite on the final leg [R/V_P]."""
 
 
 class _Approach(NamedTuple):
     """A turn and what follows it, to be flown past the leader."""
 
     pose: Pose
-    """Where the turn begins, seen from the leader."""
-    alpha: float
-    """V_L/V_P."""
+    """Where the turn begins, at t = 0, as `Leg` sees it."""
+    leg: Leg
+    """The leader's."""
     distance: float
     """Of the contact, δ [R]."""
     first: float
@@ -88,14 +103,73 @@ def _first_approach(pose: Pose, alpha: float, sign: float) -> float:
 
 
 @njit(cache=True, nogil=True)
+def _seen_turning(pose: Pose, leg: Leg, t: float) -> tuple[float, float, float]:
+    """Where the leader sees a pursuer of that pose as it turns, and the rate of d²/2."""
+    half = 0.5 * leg.turning * t
+    chord = leg.alpha * sin(half) / (0.5 * leg.turning)
+    dx, dy = pose.x - chord * cos(half), pose.y - chord * sin(half)
+    c, s = cos(2.0 * half), sin(2.0 * half)
+    rate = dx * (cos(pose.h) - leg.alpha * c) + dy * (sin(pose.h) - leg.alpha * s)
+    return dx * c + dy * s, dy * c - dx * s, rate
+
+
+@njit(cache=True, nogil=True)
+def _first_approach_while_turning(pose: Pose, leg: Leg, sign: float, t: float) -> float:
+    """When a piece begun at time t first stops closing in on a leader that turns; −1 if never."""
+    low, end = max(t, leg.begin), leg.end
+    if sign != 0.0:
+        end = min(end, t + TWO_PI)
+    if end <= low:
+        return -1.0
+    steps = min(ceil((end - low) / _STEP), _MOST_STEPS)
+    _, _, at_low = _seen_turning(fly_piece(pose, sign, low - t), leg, low)
+    for k in range(1, steps + 1):
+        high = end - (steps - k) * (end - low) / (steps - k + 1)
+        _, _, at_high = _seen_turning(fly_piece(pose, sign, high - t), leg, high)
+        if at_low < 0.0 <= at_high:
+            return _root_of_rate(pose, leg, sign, t, Bracket(low, high, at_low, at_high))
+        low, at_low = high, at_high
+    return -1.0
+
+
+@njit(cache=True, nogil=True)
+def _root_of_rate(pose: Pose, leg: Leg, sign: float, t: float, times: Bracket) -> float:
+    """When d stops falling between two times (Illinois)."""
+    low, high, at_low, at_high = times
+    middle = high
+    for k in range(60):
+        share = 0.5 if k % 4 == 3 else at_high / (at_high - at_low)
+        middle = high - share * (high - low)
+        _, _, rate = _seen_turning(fly_piece(pose, sign, middle - t), leg, middle)
+        if abs(rate) < 1e-15 or high - low < 1e-14:
+            break
+        if rate < 0.0:
+            low, at_low = middle, rate
+            at_high *= 0.5
+        else:
+            high, at_high = middle, rate
+            at_low *= 0.5
+    return middle
+
+
+@njit(cache=True, nogil=True)
 def _miss(approach: _Approach, turned: float, contact: FloatArray) -> float:
     """Closest approach of what follows a first turn, less δ; NaN if it only moves away.
 
-    `contact` takes the relative position and the time of the closest approach.
+    `contact` takes the relative position, the time of the closest approach, and the side.
     """
-    alpha, second = approach.alpha, approach.second
-    px, py, ph = fly_piece(approach.pose, approach.first, turned)
-    px -= alpha * turned
+    leg, second = approach.leg, approach.second
+    begun = fly_piece(approach.pose, approach.first, turned)
+    if leg.turning != 0.0:
+        t = _first_approach_while_turning(begun, leg, second, turned)
+        if t < 0.0:
+            return np.nan
+        at = fly_piece(begun, second, t - turned)
+        contact[0], contact[1], _ = _seen_turning(at, leg, t)
+        contact[2], contact[3] = t, at.h - leg.turning * t
+        return hypot(contact[0], contact[1]) - approach.distance
+    alpha = leg.alpha
+    px, py, ph = begun.x - alpha * turned, begun.y, begun.h
     if second == 0.0:
         vx, vy = cos(ph) - alpha, sin(ph)
         speed_squared = vx * vx + vy * vy
@@ -104,9 +178,28 @@ def _miss(approach: _Approach, turned: float, contact: FloatArray) -> float:
         after = _first_approach(Pose(px, py, ph), alpha, second)
     if after <= 0.0:
         return np.nan
-    qx, qy, _ = fly_piece(Pose(px, py, ph), second, after)
-    contact[0], contact[1], contact[2] = qx - alpha * after, qy, turned + after
+    qx, qy, qh = fly_piece(Pose(px, py, ph), second, after)
+    contact[0], contact[1], contact[2], contact[3] = qx - alpha * after, qy, turned + after, qh
     return hypot(contact[0], contact[1]) - approach.distance
+
+
+@njit(cache=True, nogil=True)
+def _to_edge(approach: _Approach, turns: Bracket, contact: FloatArray) -> Bracket:
+    """The part of a bracket with a closest approach, which one of its ends has not."""
+    low, high, at_low, at_high = turns
+    has_low = isnan(at_high)
+    seen, blind, at_seen = (low, high, at_low) if has_low else (high, low, at_high)
+    edge, at_edge = seen, at_seen
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (edge + blind)
+        value = _miss(approach, middle, contact)
+        if isnan(value):
+            blind = middle
+        else:
+            edge, at_edge = middle, value
+    return (
+        Bracket(seen, edge, at_seen, at_edge) if has_low else Bracket(edge, seen, at_edge, at_seen)
+    )
 
 
 @njit(cache=True, nogil=True)
@@ -131,40 +224,38 @@ def _touch(approach: _Approach, turns: Bracket, contact: FloatArray) -> float:
 
 
 @njit(cache=True, nogil=True)
-def tangent_contacts(pose: Pose, alpha: float, distance: float, found: FloatArray) -> int:
+def tangent_contacts(pose: Pose, leg: Leg, distance: float, found: FloatArray) -> int:
     """Contacts reached by a turn and a straight, or by a turn and one the other way.
 
     Args:
-        pose: where the turn begins, seen from the leader.
-        alpha: V_L/V_P.
+        pose: where the turn begins, at t = 0, as the leg sees it.
+        leg: of the leader; contacts at other times do not count.
         distance: of the contact, δ [R].
         found: takes bearing [rad, in [0, 2π)], side and time of each. shape (MAX_TANGENTS, 3)
 
     Returns:
         how many.
     """
-    contact = np.empty(3)
+    contact = np.empty(4)
     n = 0
     for k in range(4):
         first = 1.0 - 2.0 * (k % 2)
         second = 0.0 if k < 2 else -first
-        approach = _Approach(pose, alpha, distance, first, second)
+        approach = _Approach(pose, leg, distance, first, second)
         last = np.nan
         for j in range(_TURNS + 1):
-            turned = TWO_PI * j / _TURNS
-            gap = _miss(approach, turned, contact)
-            if last * gap < 0.0 and n < MAX_TANGENTS:
-                high = _touch(
-                    approach, Bracket(turned - TWO_PI / _TURNS, turned, last, gap), contact
-                )
-                value = _miss(approach, high, contact)
-                if abs(value) < 1e-9:
-                    heading = fly_piece(pose, first, high).h
-                    if second != 0.0:
-                        heading += second * (contact[2] - high)
-                    across = contact[0] * sin(heading) - contact[1] * (cos(heading) - alpha)
+            low, high = TWO_PI * (j - 1) / _TURNS, TWO_PI * j / _TURNS
+            gap = _miss(approach, high, contact)
+            between = Bracket(low, high, last, gap)
+            if leg.turning != 0.0 and j > 0 and isnan(last) != isnan(gap):
+                between = _to_edge(approach, between, contact)
+            if between.at_low * between.at_high < 0.0 and n < MAX_TANGENTS:
+                turned = _touch(approach, between, contact)
+                value = _miss(approach, turned, contact)
+                if abs(value) < 1e-9 and leg.begin <= contact[2] <= leg.end:
+                    vx, vy = cos(contact[3]) - leg.alpha, sin(contact[3])
                     found[n, 0] = wrap(atan2(contact[1], contact[0]))
-                    found[n, 1] = 1.0 if across > 0.0 else -1.0
+                    found[n, 1] = 1.0 if contact[0] * vy > contact[1] * vx else -1.0
                     found[n, 2] = contact[2]
                     n += 1
             last = gap
@@ -175,8 +266,8 @@ def tangent_contacts(pose: Pose, alpha: float, distance: float, found: FloatArra
 def tangents(start: Pose, scene: Scene) -> FloatArray:
     """Tangent contacts of the start and of the slot, in the slot frame.
 
-    Of the start while the leader keeps straight, on any of its pieces; not where it keeps straight
-    for ever and is so far away that the scan sees all there is. Of the slot on the final leg.
+    Of the start on any leg of the leader's; not where it keeps straight for ever and is so far away
+    that the scan sees all there is. Of the slot on the final leg.
 
     Returns:
         rows of bearing [rad], side, time [R/V_P], number of the leader's piece.
@@ -190,19 +281,15 @@ def tangents(start: Pose, scene: Scene) -> FloatArray:
         if time_is_up(scene.until):
             return kept[:n]
         at = leader_at(scene, i, 0.0)
-        if leader[i, 4] != 0.0 or (
-            pieces == 1 and hypot(start.x - at.x, start.y - at.y) > distance + NEAR
-        ):
+        if pieces == 1 and hypot(start.x - at.x, start.y - at.y) > distance + NEAR:
             continue
         end = leader[i + 1, 0] if i + 1 < pieces else inf
-        m = tangent_contacts(to_frame_of(start, at), scene.alpha, distance, found)
-        for j in range(m):
-            if leader[i, 0] <= found[j, 2] <= end:
-                kept[n, :3] = found[j]
-                kept[n, 3] = i
-                n += 1
+        leg = Leg(scene.alpha, leader[i, 4], leader[i, 0], end)
+        m = tangent_contacts(to_frame_of(start, at), leg, distance, found)
+        kept[n : n + m, :3], kept[n : n + m, 3] = found[:m], i
+        n += m
     at = leader_at(scene, pieces - 1, 0.0)
-    m = tangent_contacts(Pose(at.x, at.y, 0.0), scene.alpha, distance, found)
+    m = tangent_contacts(Pose(at.x, at.y, 0.0), Leg(scene.alpha, 0.0, 0.0, inf), distance, found)
     for j in range(m):
         kept[n, 0], kept[n, 1] = wrap(found[j, 0] + pi), -found[j, 1]
         kept[n, 2], kept[n, 3] = found[j, 2], pieces - 1

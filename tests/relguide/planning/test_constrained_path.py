@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from relguide import (
+    LEFT,
     RIGHT,
     BoundaryArc,
     FlyStraight,
@@ -219,6 +220,33 @@ def test_two_contacts_move_along_an_edge_together(monkeypatch: pytest.MonkeyPatc
     answer = plan(LEAVING_STRAIGHT)
     assert isinstance(answer, Plan)
     assert answer.time_to_converge == pytest.approx(655.925, abs=2e-3)
+
+
+TOUCHING_IN_A_TURN = Situation(
+    pursuer=Pursuer(
+        x=0.0, y=0.0, heading=1.097526997840734, tas=174.96391813502817,
+        max_bank=0.5647016768430044,
+    ),
+    leader=Leader(
+        x=14_505.162544302524,
+        y=689.5066676947836,
+        heading=6.045073714662826,
+        tas=160.14381440471865,
+        intent=(
+            FlyStraight(duration=17.22716483198244),
+            TurnTo(heading=4.5335191512579, turn=LEFT, bank=0.45544488616501055),
+        ),
+    ),
+    slot_distance=12_058.542431972224,
+    min_separation=9_218.144901337122,
+)  # fmt: skip
+"""Two turns touch d_min while the leader turns, in a window of 1°."""
+
+
+def test_two_turns_that_touch_while_the_leader_turns_are_found() -> None:
+    answer = plan(TOUCHING_IN_A_TURN)
+    assert isinstance(answer, Plan)
+    assert answer.time_to_converge == pytest.approx(205.641, abs=2e-3)
 
 
 def search(situation: Situation, effort: int = 1) -> float:

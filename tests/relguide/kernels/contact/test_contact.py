@@ -7,7 +7,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from relguide.kernels.base.records import Disc, Pose, Scene
+from relguide.kernels.base.records import Contact, Disc, Pose, Scene
 from relguide.kernels.contact.boundary_arc import (
     MAX_NODES,
     boundary_arc_arrival,
@@ -23,8 +23,10 @@ from relguide.kernels.contact.contact import (
     disc_on,
     slide_within,
 )
-from relguide.kernels.contact.tangent import tangent_contacts
+from relguide.kernels.contact.paths_to_contact import paths_to_contact
+from relguide.kernels.contact.tangent import MAX_TANGENTS, Leg, tangent_contacts
 from relguide.kernels.separation.clearance import fly_rate, leader_at
+from relguide.kernels.words.extremals import MAX_ROWS
 from tests.situations import headings, numbers
 
 sides = st.sampled_from([1.0, -1.0])
@@ -129,9 +131,32 @@ def test_where_the_leader_is_faster_some_bearings_cannot_be_touched() -> None:
 
 def test_tangent_contacts_touch() -> None:
     found = np.empty((32, 3))
-    n = tangent_contacts(Pose(6.0, 1.0, 2.5), 0.8, 2.0, found)
+    n = tangent_contacts(Pose(6.0, 1.0, 2.5), Leg(0.8, 0.0, 0.0, inf), 2.0, found)
     assert n >= 2
     for bearing, side, time in found[:n]:
         assert 0.0 <= bearing < 2.0 * pi
         assert side in (1.0, -1.0)
         assert time > 0.0
+
+
+@pytest.mark.parametrize("turning", [0.4, -0.8])
+def test_tangent_contacts_are_reached_while_the_leader_turns(turning: float) -> None:
+    rng = np.random.default_rng(3)
+    leader = np.array([[0.0, 0.0, 0.0, 0.0, turning], [3.0, 2.0, 1.0, 3.0 * turning, 0.0]])
+    scene = Scene(leader, 0.8, 2.0, 0.0)
+    leg, distance = Leg(0.8, turning, 0.0, 3.0), contact_distance(2.0)
+    found, rows, seen = np.empty((MAX_TANGENTS, 3)), np.empty((MAX_ROWS, 5)), 0
+    for _ in range(20):
+        away, around, heading = rng.uniform(2.1, 5.0), *rng.uniform(0.0, 2.0 * pi, 2)
+        start = Pose(away * cos(around), away * sin(around), heading)
+        for bearing, side, time in found[: tangent_contacts(start, leg, distance, found)]:
+            assert 0.0 <= time <= 3.0
+            # beside it the word has a last turn, which vanishes in it
+            times = []
+            for beside in (-1e-6, 1e-6):
+                contact = Contact(0, bearing + beside, side)
+                n = paths_to_contact(start, 0.0, scene, contact, rows)
+                times += rows[:n, 0].tolist()
+            assert min(abs(reached - time) for reached in times) < 1e-4
+            seen += 1
+    assert seen > 10
