@@ -16,7 +16,7 @@ import { NM } from "../../src/units";
 import type { PlanCard } from "../../src/wire";
 import { mount } from "../nd/draw";
 import { documentsOf, flightAt } from "../nd/fixture";
-import { noPlan } from "../samples";
+import { noPlan, point, rightTurn, straight } from "../samples";
 
 const { plan } = documentsOf("fig_6b").plan;
 
@@ -197,4 +197,17 @@ test("the name of a region keeps clear of the rings' numbers and of the flight's
   if (name === undefined) throw new Error("It is not named.");
   const box = { ...name.placement.box, x: x + name.placement.box.x, y: y + name.placement.box.y };
   expect(overlap(box, { x: x - 14, y: y - 14, width: 28, height: 28 })).toBeLessThan(1);
+});
+
+test("what a path is stands apart from the names of its turns", () => {
+  const { pursuer } = FIRST;
+  const lead = straight(point(0, pursuer.x_m, pursuer.y_m, 90), 300, 240);
+  const turn = { ...rightTurn(20), start: lead.end };
+  const rolled = { ...turn, end: { ...lead.end, t_s: lead.end.t_s + turn.duration_s } };
+  const segments = [lead, rolled, straight(rolled.end, 550, 240)];
+  const map = answered({ ...plan, segments, time_to_converge_s: 300 / 0.35 });
+  const labels = chooseLabels({ shown: map.shown, view: mapView(map) }).map(({ label }) => label);
+  const [name, first] = ["proposal", "T1"].map((id) => labels.find((each) => each.id === id)?.at);
+  if (name === undefined || first === undefined) throw new Error("It is not named.");
+  expect(Math.hypot(first.x - name.x, first.y - name.y)).toBeGreaterThan(90);
 });

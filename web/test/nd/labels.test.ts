@@ -4,7 +4,6 @@ import { type Label, placeLabels } from "../../src/nd/labels";
 import { type Box, layoutOf, overlap, READOUTS } from "../../src/nd/view";
 import { screenOf } from "./draw";
 import { type FlightName, flightAt } from "./fixture";
-import { flightIn } from "./in-state";
 
 const NO_SURROUNDINGS = { layout: layoutOf("ROSE", 40), boxes: [], points: [] };
 
@@ -67,18 +66,3 @@ test.each(FLIGHTS)("no label of %s covers another or a readout, %s %i", (name, m
     });
   }
 });
-
-test.each(["proposed", "armed"] as const)(
-  "what a path is stands apart from its turns: %s",
-  (state) => {
-    for (const range of [20, 40, 80]) {
-      const labels = chooseLabels(screenOf(flightIn(state), "ROSE", range)).map(
-        ({ label }) => label,
-      );
-      const name = labels.find(({ id }) => id === "proposal");
-      if (name === undefined) throw new Error("It is not named.");
-      for (const { at } of labels.filter(({ id }) => /^T\d/.test(id)))
-        expect(Math.hypot(at.x - name.at.x, at.y - name.at.y), `${range} NM`).toBeGreaterThan(60);
-    }
-  },
-);
