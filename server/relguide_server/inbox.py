@@ -28,14 +28,26 @@ class Inbox:
             documents, self._documents = self._documents, []
             return documents
 
-    def wait(self) -> list[Document]:
-        """Take all as soon as there is something; nothing once the inbox is closed."""
+    def wait(self, patience: float | None = None) -> list[Document]:
+        """Take all as soon as there is something.
+
+        Args:
+            patience: how long to wait [s]; `None` for as long as it takes.
+
+        Returns:
+            Nothing once the inbox is closed, or when it took too long.
+        """
         with self._filled:
-            self._filled.wait_for(lambda: self._documents or self._closed)
+            self._filled.wait_for(lambda: self._documents or self._closed, patience)
             if self._closed:
                 return []
             documents, self._documents = self._documents, []
             return documents
+
+    @property
+    def closed(self) -> bool:
+        """Whether nothing will come any more."""
+        return self._closed
 
     def close(self) -> None:
         """End all waiting."""

@@ -6,6 +6,7 @@ camera, which belongs to the viewer, then follows the flight without being moved
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 from math import cos, sin
 from typing import NamedTuple, assert_never
 
@@ -37,14 +38,15 @@ from relguide.flying.documents import (
     SeparationLost,
     Unable,
 )
-from relguide.flying.modes import Mode
-from relguide.units import NM
+from relguide.flying.plan_documents import PathPoint
+from relguide.units import NM, Metre, Second
 from relguide_server import scene_paint as paint
 from relguide_server import scene_shapes as shapes
-from relguide_server.scene_aircraft import ENLARGED, AircraftFigure, height_of
+from relguide_server.glide import carry, onward
+from relguide_server.scene_aircraft import AircraftFigure, height_of, place_of
 from relguide_server.scene_camera import Cameras
-from relguide_server.scene_paint import label, lines
-from relguide_server.scene_shapes import ALTITUDE_SCALE, KM
+from relguide_server.scene_paint import lines
+from relguide_server.scene_shapes import KM, GateLook
 
 CELL = 5.0 * NM / KM
 """Cell of the ground grid [scene units]."""
@@ -54,14 +56,18 @@ WALL = 0.8
 """Half the height of the cylinder of radius d_min [scene units]; separation is horizontal."""
 
 
-GATES: dict[Mode, paint.Colour] = {
-    "heading": paint.SLOT,
-    "converge": paint.PLAN,
-    "capture": paint.PLAN,
-    "follow": paint.PLAN,
-    "escape": paint.CAUTION,
-}
-"""The slot's colour, as on the navigation display."""
+DASHED = (2.4, 2.0)
+"""A path that is proposed or accepted."""
+DECLARED = (2.4, 0.8, 0.4, 0.8)
+"""The leader's route as it declared it: dash-dot."""
+GUESSED = (0.4, 1.6)
+"""Where it goes if it flies straight on: dots."""
+THIN = (1.6, 1.0)
+"""Distances: the minimum, the closest approach."""
+HALO = 1.0
+"""Radius of the rings that mark both aircraft when they are closest [scene units]."""
+GRAZE = 20.0
+"""Plans may graze d_min: this much below it is no loss yet [m]."""
 
 
 class _Cast(NamedTuple):
@@ -70,6 +76,14 @@ class _Cast(NamedTuple):
     link: LinkCard
     pursuer: AircraftCard
     leader: AircraftCard
+
+
+class _Closest(NamedTuple):
+    """When the two are closest, and where."""
+
+    t: Second
+    pursuer: PathPoint
+    leader: PathPoint
 
 
 class _Pair(NamedTuple):
@@ -88,21 +102,24 @@ class Scene:
         self._scene = server.scene
         self._wind = (0.0, 0.0)
         self._height = 0.0
+        self._radius = 0.0
         self._own_height = 0.0
         self._forecast: ForecastChanged | None = None
         self._proposal: PlanProposed | None = None
+        self._plan: PlanChanged | None = None
         self._drawn_from = 0.0
-        self._promise = ""
+        self._closest: _Closest | None = None
+        self._pair: _Pair | None = None
         self._cast: _Cast | None = None
         self._figures: dict[str, AircraftFigure] = {}
-        self._separation_lost = False
-        self._gate = (paint.SLOT, "")
+        self._drawn: set[str] = set()
+        self._min_colour = paint.LEADER
+        self._gate: tuple[paint.Colour, GateLook] | None = None
         server.gui.configure_theme(dark_mode=True, show_logo=False, show_share_button=False)
         server.scene.set_background_image(np.full((1, 1, 3), paint.BACKGROUND, dtype=np.uint8))
         server.scene.set_up_direction("+z")
         server.scene.configure_default_lights(cast_shadow=False)
         self._world = server.scene.add_frame("/world", show_axes=False)
-        self._scale = server.scene.add_frame("/world/scale", show_axes=False)
         self._slot = server.scene.add_frame("/world/slot", show_axes=False)
         self._cameras = Cameras(server)
 
@@ -111,6 +128,7 @@ class Scene:
         for document in documents:
             if isinstance(document, FlightStarted):
                 self._cast = _cast(document)
+                self._radius = self._cast.link.min_separation / KM
         if self._cast is None:
             return
         # Paths are drawn at the heights of those who fly them: a sample behind may bring these.
@@ -133,14 +151,15 @@ class Scene:
                     self._draw_route(document)
             case PlanChanged():
                 if document.ident == link.pursuer:
-                    self._draw_plan(document)
+                    self._plan = document
+                    self._draw_plan(document.t)
             case PlanUnavailable():
                 if document.ident != link.pursuer:
                     return
-                self._scene.remove_by_name("/world/plan")
+                self._forget_plan()
             case ModeChanged(ident=ident, mode="heading" | "escape" | "capture" | "follow"):
                 if ident == link.pursuer:
-                    self._scene.remove_by_name("/world/plan")
+                    self._forget_plan()
             case ForecastChanged():
                 if document.ident == link.pursuer:
                     self._forecast = document
@@ -161,13 +180,19 @@ class Scene:
             case _:
                 assert_never(document)
 
+    def glide(self, ahead: Second) -> None:
+        """Carry the picture on from the newest sample: both turn on as they did then."""
+        if self._pair is None:
+            return
+        pursuer, leader, guidance = self._pair
+        slot = onward(guidance.slot, leader.ground_speed, guidance.slot.heading, ahead)
+        moved = _Pair(carry(pursuer, ahead), carry(leader, ahead), replace(guidance, slot=slot))
+        with self._server.atomic():
+            self._place(moved)
+
     def _start(self, started: FlightStarted) -> None:
         wind = started.wind
         self._wind = (-wind.speed * sin(wind.from_), -wind.speed * cos(wind.from_))
-        self._draw_ground()
-
-    def _draw_ground(self) -> None:
-        """The grid, and a scale on it: two cells long, with north beside it."""
         self._scene.add_grid(
             "/world/grid",
             infinite_grid=True,
@@ -180,24 +205,18 @@ class Scene:
             fade_distance=300.0,
             shadow_opacity=0.0,
         )
-        bar = [
-            [(0, 0, 0), (2 * CELL, 0, 0)],
-            *([(k * CELL, -0.7, 0), (k * CELL, 0.7, 0)] for k in range(3)),
-            [(0, 0, 0), (0, CELL, 0)],
-            [(0, CELL, 0), (-0.8, CELL - 2.0, 0)],
-            [(0, CELL, 0), (0.8, CELL - 2.0, 0)],
-        ]
-        lines(self._scene, "/world/scale/bar", np.array(bar, dtype=float), paint.LEADER, 2.0)
-        for k, text in ((0, "0"), (1, "5"), (2, "10 NM")):
-            label(self._scene, f"/world/scale/{k}", text, (k * CELL, -1.0, 0), "top-center")
-        label(self._scene, "/world/scale/north", "N", (0, CELL + 0.4, 0), "bottom-center")
-        note = f"grid 5 NM · heights ×{ALTITUDE_SCALE:.0f} · aircraft ×{ENLARGED:.0f}: NOT TO SCALE"
-        label(self._scene, "/world/scale/note", note, (0, -4.5, 0), "top-left")
 
-    def _draw_plan(self, changed: PlanChanged) -> None:
-        """The plan's ideal path, a thin line beside the one that will be flown."""
-        points = shapes.path_points(changed.plan.segments, self._wind, self._own_height)
+    def _draw_plan(self, t: Second) -> None:
+        """What is left of the plan's ideal path, a thin line beside the one that will be flown."""
+        if self._plan is None:
+            return
+        segments, since = self._plan.plan.segments, t - self._plan.t
+        points = shapes.path_points(segments, self._wind, self._own_height, since=since)
         lines(self._scene, "/world/plan", shapes.polyline(points), paint.PLAN, 1.0)
+
+    def _forget_plan(self) -> None:
+        self._plan = None
+        self._scene.remove_by_name("/world/plan")
 
     def _draw_proposal(self, colour: paint.Colour) -> None:
         """The path that could be flown, dashed."""
@@ -206,7 +225,7 @@ class Scene:
             return
         segments = self._proposal.plan.segments
         points = shapes.path_points(segments, self._wind, self._own_height)
-        lines(self._scene, "/world/proposal", shapes.dashes(points, dash=2.4, gap=2.0), colour, 2.5)
+        lines(self._scene, "/world/proposal", shapes.dashes(points, DASHED), colour, 2.5)
 
     def _change_engagement(self, changed: EngagementChanged) -> None:
         """A proposal is accepted, or taken back, or there is none any more."""
@@ -228,84 +247,100 @@ class Scene:
         shadow = shapes.polyline(points * (1.0, 1.0, 0.0))
         lines(self._scene, "/world/forecast_shadow", shadow, paint.PLAN_SHADOW, 1.5)
 
-    def _draw_promise(self, t: float, guidance: GuidanceSample) -> None:
-        """Where it joins, and how long until then, as the navigation display has it."""
-        forecast, left = self._forecast, guidance.time_to_go
-        minutes, seconds = divmod(round(left), 60)
-        text = f"CNV {minutes:02d}:{seconds:02d}"
-        if left <= 0.0 or forecast is None or t + left > forecast.times[-1] + 0.5:
-            text = ""
-        if text == self._promise:
+    def _draw_closest(self, t: Second, guidance: GuidanceSample) -> None:
+        """Where both are when they are closest, while that is to come and is not the join."""
+        found = self._closest_ahead(t, guidance)
+        if found == self._closest:
             return
-        self._promise = text
-        if not text or forecast is None:
-            self._scene.remove_by_name("/world/join")
+        self._closest = found
+        if found is None:
+            for name in ("/world/closest", "/world/closest_min"):
+                self._scene.remove_by_name(name)
             return
-        x = float(np.interp(t + left, forecast.times, forecast.x)) / KM
-        y = float(np.interp(t + left, forecast.times, forecast.y)) / KM
-        label(self._scene, "/world/join", text, (x, y, self._own_height), "bottom-left")
+        own = np.array((found.pursuer.x / KM, found.pursuer.y / KM, self._own_height))
+        leader = np.array((found.leader.x / KM, found.leader.y / KM, self._height))
+        marks = [shapes.ring(HALO) + own, shapes.ring(HALO) + leader, np.array([[own, leader]])]
+        lines(self._scene, "/world/closest", np.concatenate(marks), paint.LEADER, 1.5)
+        then = shapes.dashes(shapes.circle(self._radius) + leader, GUESSED)
+        lines(self._scene, "/world/closest_min", then, paint.LEADER, 1.2)
+
+    def _closest_ahead(self, t: Second, guidance: GuidanceSample) -> _Closest | None:
+        proposal, forecast = self._proposal, self._forecast
+        if proposal is not None and guidance.engagement in ("designated", "armed"):
+            closest = proposal.plan.separation.at
+            at, join = proposal.t + closest, proposal.t + proposal.plan.time_to_converge
+            own, leader = proposal.pursuer_at_closest, proposal.leader_at_closest
+        elif forecast is not None and guidance.time_to_go > 0.0:
+            own, leader = forecast.pursuer_at_closest, forecast.leader_at_closest
+            at, join = own.t, t + guidance.time_to_go
+        else:
+            return None
+        return _Closest(at, own, leader) if t < at < join - 1.0 else None
 
     def _draw_route(self, route: LeaderRoute) -> None:
         points = shapes.path_points(route.segments, self._wind, self._height)
-        # The style carries the state: long dashes are a declared intent, dots are a guess.
-        dash, gap = (2.4, 1.4) if route.intent_known else (0.4, 1.6)
-        segments = shapes.dashes(points, dash=dash, gap=gap)
-        lines(self._scene, "/world/route", segments, paint.LEADER, 2.0)
+        # The style carries the state: dash-dot is a declared intent, dots are a guess.
+        pattern = DECLARED if route.intent_known else GUESSED
+        lines(self._scene, "/world/route", shapes.dashes(points, pattern), paint.LEADER, 2.0)
 
-    def _sample(self, t: float, pair: _Pair, cast: _Cast) -> None:
-        guidance, min_separation = pair.guidance, cast.link.min_separation
+    def _sample(self, t: Second, pair: _Pair, cast: _Cast) -> None:
+        guidance = pair.guidance
         if not self._figures:
-            self._first(pair, cast)
-        self._figures["pursuer"].move(pair.pursuer, t)
-        self._figures["leader"].move(pair.leader, t)
+            self._first(pair)
+        self._pair = pair
+        self._figures["pursuer"].mark(pair.pursuer, t)
+        self._figures["leader"].mark(pair.leader, t)
         if t - self._drawn_from >= FLOWN_PART:
             self._draw_forecast(t)
-        self._draw_promise(t, guidance)
-        self._centre(pair)
-        self._cameras.frame(guidance.separation / KM, self._height)
-        slot = guidance.slot
+            self._draw_plan(t)
+        self._draw_closest(t, guidance)
+        self._slot.visible = guidance.engagement != "off"
+        self._draw_gate(guidance)
+        self._draw_min_separation(guidance, cast.link.min_separation)
+        self._place(pair)
+
+    def _place(self, pair: _Pair) -> None:
+        """Put what moves where it is, and the middle of the two at the origin."""
+        self._figures["pursuer"].move(pair.pursuer)
+        self._figures["leader"].move(pair.leader)
+        slot = pair.guidance.slot
         self._slot.position = (slot.x / KM, slot.y / KM, self._height)
         self._slot.wxyz = shapes.attitude(slot.heading, 0.0)
-        self._slot.visible = guidance.engagement != "off"
-        colour = GATES[guidance.mode] if guidance.engagement == "engaged" else paint.SLOT
-        gate = (colour, "SLOT · joined" if guidance.joined else "SLOT")
-        if gate != self._gate:
-            self._draw_gate(*gate)
-        lost = guidance.separation < min_separation
-        if lost != self._separation_lost:
-            self._draw_min_separation(min_separation, lost=lost)
+        own, leader = place_of(pair.pursuer), place_of(pair.leader)
+        x, y = (own[0] + leader[0]) / 2.0, (own[1] + leader[1]) / 2.0
+        self._world.position = (-x, -y, 0.0)
+        self._cameras.frame(
+            (own[0] - x, own[1] - y, own[2]),
+            (leader[0] - x, leader[1] - y, leader[2]),
+            self._radius,
+        )
 
-    def _first(self, pair: _Pair, cast: _Cast) -> None:
+    def _first(self, pair: _Pair) -> None:
         scene = self._scene
         self._figures = {
-            "pursuer": AircraftFigure(scene, "pursuer", paint.PURSUER, cast.pursuer, pair.pursuer),
-            "leader": AircraftFigure(scene, "leader", paint.LEADER, cast.leader, pair.leader),
+            "pursuer": AircraftFigure(scene, "pursuer", paint.PURSUER, pair.pursuer),
+            "leader": AircraftFigure(scene, "leader", paint.LEADER, pair.leader),
         }
-        self._draw_min_separation(cast.link.min_separation, lost=False)
 
-    def _centre(self, pair: _Pair) -> None:
-        x = (pair.pursuer.x + pair.leader.x) / 2.0 / KM
-        y = (pair.pursuer.y + pair.leader.y) / 2.0 / KM
-        self._world.position = (-x, -y, 0.0)
-        # The scale moves in whole cells, so that it stays on the lines of the grid.
-        south = y - max(0.35 * pair.guidance.separation / KM, CELL)
-        self._scale.position = (CELL * round(x / CELL - 1.5), CELL * round(south / CELL), 0.0)
-
-    def _draw_gate(self, colour: paint.Colour, text: str) -> None:
-        self._gate = (colour, text)
-        lines(self._scene, "/world/slot/gate", shapes.gate(3.6, 2.4), colour, 3.0)
-        lines(self._scene, "/world/slot/drop", shapes.drop(self._height, 0.5), colour, 0.8)
-        label(self._scene, "/world/slot/text", text, (0, 0, -1.4), "top-center")
-
-    def _draw_min_separation(self, min_separation: float, *, lost: bool) -> None:
-        """d_min round the leader, at its altitude."""
-        self._separation_lost = lost
-        radius = min_separation / KM
-        if radius <= 0.0:
+    def _draw_gate(self, guidance: GuidanceSample) -> None:
+        gate = _gate_of(guidance)
+        if gate == self._gate:
             return
-        colour = paint.ALERT if lost else paint.LEADER
+        self._gate = colour, look = gate
+        lines(self._scene, "/world/slot/gate", shapes.gate(3.6, 2.4, look), colour, 3.0)
+        lines(self._scene, "/world/slot/drop", shapes.drop(self._height, 0.5), colour, 0.8)
+
+    def _draw_min_separation(self, guidance: GuidanceSample, min_separation: Metre) -> None:
+        """d_min round the leader, at its altitude."""
+        colour = _min_colour(guidance, min_separation)
+        radius = min_separation / KM
+        name = "/world/leader/min_separation"
+        if radius <= 0.0 or (colour == self._min_colour and name in self._drawn):
+            return
+        self._drawn.add(name)
+        self._min_colour = colour
         self._scene.add_cylinder(
-            "/world/leader/min_separation",
+            name,
             radius,
             2.0 * WALL,
             colour,
@@ -315,16 +350,22 @@ class Scene:
             cast_shadow=False,
             receive_shadow=False,
         )
-        edges = np.concatenate((shapes.ring(radius, WALL), shapes.ring(radius, -WALL)))
-        lines(self._scene, "/world/leader/edge", edges, colour, 1.5)
-        text = f"MIN {min_separation / NM:.1f} NM"
-        label(
-            self._scene,
-            "/world/leader/min_separation_text",
-            text,
-            (0.8 * radius, -0.6 * radius, -WALL),
-            "top-left",
-        )
+        edges = [shapes.dashes(shapes.circle(radius, z), THIN) for z in (WALL, -WALL)]
+        lines(self._scene, "/world/leader/edge", np.concatenate(edges), colour, 1.5)
+
+
+def _gate_of(guidance: GuidanceSample) -> tuple[paint.Colour, GateLook]:
+    """The slot's colour and look, as on the navigation display."""
+    if guidance.mode == "escape":
+        return paint.CAUTION, "crossed"
+    colour = paint.PLAN if guidance.engagement == "engaged" else paint.SLOT
+    return colour, "filled" if guidance.joined else "open"
+
+
+def _min_colour(guidance: GuidanceSample, min_separation: Metre) -> paint.Colour:
+    if guidance.separation < min_separation - GRAZE:
+        return paint.ALERT
+    return paint.CAUTION if guidance.alert in ("caution", "warning") else paint.LEADER
 
 
 def _cast(started: FlightStarted) -> _Cast:

@@ -1,34 +1,42 @@
 """Where the cameras of a scene are: both aircraft are in the picture, until a viewer moves one.
 
-The origin of the scene is the middle between the two aircraft, so a camera that stands still
-follows them. As they close in, each camera that is still where we put it comes nearer; one that was
-moved by hand stays until a view is chosen again.
+The origin of the scene is the middle between the two aircraft. Each viewer has a view of its own
+and a window of its own shape; the camera stands as near as both fields of view allow.
 """
 
-from math import tan
+from math import cos, hypot, sin, tan
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from viser import CameraHandle, ClientHandle, GuiEvent, ViserServer
 
 from relguide.units import DEG
 
 Vector = tuple[float, float, float]
+Array = NDArray[np.float64]
 
 FOV = 45.0 * DEG
 """Vertical field of view [rad]."""
-VIEWS: dict[str, Vector] = {
-    "Overview": (0.0, -0.85, 0.53),
-    "From above": (0.0, -0.02, 1.0),
-    "From the side": (0.0, -1.0, 0.02),
-}
-"""Directions from the middle of the two aircraft to the camera; north is up or ahead in all."""
+ROOM = 0.74
+"""What must be seen lies within this part of half the picture: texts have room beside it."""
+CHASE = "Chase"
+FREE = "Free"
+VIEWS = (CHASE, "Top", "Side", FREE)
+"""Behind own ship towards the leader; north up; with both aircraft side by side; where it is."""
+ELEVATION = {CHASE: 21.0 * DEG, "Side": 4.0 * DEG}
 LEAST_REACH = 12.0
 """Nearer than this [scene units] the picture would show the aircraft and nothing else."""
-REFIT = 0.02
-"""A change of the reach by this share is worth moving the cameras."""
-STILL = 0.01
-"""A camera this near to where we put it, relative to its distance, has not been moved by hand."""
+MOVED = 0.004
+"""A camera is moved when it would go this far, relative to its distance."""
+SWING = 0.15
+"""Share of a change of the line of sight that a camera follows at once: it does not jerk."""
+ROUND = np.array(
+    [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (-1.0, 0.0, 0.0), (0.0, -1.0, 0.0)]
+)
+"""The middle of a circle, and points on it."""
+SHAPE = 1.6
+"""Width of a window by its height, before its viewer has said so."""
 
 
 class Cameras:
@@ -36,61 +44,105 @@ class Cameras:
 
     def __init__(self, server: ViserServer) -> None:
         self._server = server
-        self._reach = 0.0
-        self._height = 0.0
-        self._views: dict[int, Vector] = {}
+        self._sight = (1.0, 0.0)
+        self._middle: Vector = (0.0, 0.0, 0.0)
+        self._places: Array = np.zeros((1, 3))
+        self._views: dict[int, str] = {}
+        self._eyes: dict[int, Vector] = {}
+        self._initial: Vector | None = None
         server.initial_camera.fov = FOV
         server.initial_camera.far = 2000.0
         server.gui.set_panel_label("VIEW")
-        for name, direction in VIEWS.items():
-            self._offer(name, direction)
+        for name in VIEWS:
+            self._offer(name)
 
-    def frame(self, separation: float, height: float) -> None:
-        """Get both aircraft into the picture.
+    def frame(self, own: Vector, leader: Vector, radius: float) -> None:
+        """Get both aircraft into the picture, and the minimum round the leader [scene units]."""
+        self._look_along(leader[0] - own[0], leader[1] - own[1])
+        self._middle = (0.0, 0.0, (own[2] + leader[2]) / 2.0)
+        self._places = np.array([own, *(leader + radius * ROUND)]) - self._middle
+        clients = self._server.get_clients()
+        self._eyes = {key: eye for key, eye in self._eyes.items() if key in clients}
+        for client in clients.values():
+            view = self._views.get(client.client_id, CHASE)
+            if view == FREE:
+                continue
+            eye = self.eye(view, client.camera.aspect)
+            if _is_far(eye, self._eyes.get(client.client_id)):
+                self._eyes[client.client_id] = eye
+                self._point(client.camera, eye)
+        eye = self.eye(CHASE, SHAPE)
+        if _is_far(eye, self._initial):
+            self._initial = eye
+            self._server.initial_camera.position = eye
+            self._server.initial_camera.look_at = self._middle
 
-        Args:
-            separation: between them [scene units].
-            height: of the leader [scene units].
+    def eye(self, view: str, aspect: float) -> Vector:
+        """Where the camera of a view stands, in a window so wide by its height [scene units].
+
+        |r·P| ≤ tan(h) (d + f·P),  |u·P| ≤ tan(v) (d + f·P)   for every place P in the picture
         """
-        reach = max(0.7 * separation, LEAST_REACH)
-        if abs(reach - self._reach) < REFIT * reach:
-            return
-        still = [client for client in self._server.get_clients().values() if self._is_still(client)]
-        self._reach, self._height = reach, height
-        for client in still:
-            self._point(client.camera, self._view_of(client))
-        initial = self._server.initial_camera
-        initial.position = self._eye(VIEWS["Overview"])
-        initial.look_at = self._middle()
+        away = np.array(self._direction(view))
+        forward = -away
+        right = np.cross(forward, (0.0, 0.0, 1.0))
+        right /= np.linalg.norm(right)
+        up = np.cross(right, forward)
+        high = ROOM * tan(FOV / 2.0)
+        depth = self._places @ forward
+        needed = np.maximum(
+            np.abs(self._places @ right) / (high * aspect), np.abs(self._places @ up) / high
+        )
+        distance = max(float(np.max(needed - depth)), LEAST_REACH / tan(FOV / 2.0))
+        x, y, z = away * distance + self._middle
+        return float(x), float(y), float(z)
 
-    def _offer(self, name: str, direction: Vector) -> None:
+    def _look_along(self, x: float, y: float) -> None:
+        """Turn the line of sight from own ship to the leader towards where it is now."""
+        length = hypot(x, y)
+        if length < 1e-6:  # one over the other: as before
+            return
+        was_x, was_y = self._sight
+        share = SWING if self._initial is not None else 1.0
+        x, y = was_x + share * (x / length - was_x), was_y + share * (y / length - was_y)
+        length = hypot(x, y)
+        # opposite to what it was: no way round is the shorter one
+        self._sight = (x / length, y / length) if length > 1e-3 else (-was_y, was_x)
+
+    def _direction(self, view: str) -> Vector:
+        """From the middle of the two aircraft to the camera, as a unit vector."""
+        x, y = self._sight
+        if view == "Top":
+            return 0.0, -0.02, 0.9998
+        across, level = cos(ELEVATION[view]), sin(ELEVATION[view])
+        if view == CHASE:
+            return -x * across, -y * across, level
+        return y * across, -x * across, level
+
+    def _offer(self, name: str) -> None:
         """A button in viser's panel, which the cockpit hides and presses from its own."""
 
         def show(event: GuiEvent[Any]) -> None:
             if event.client is not None:
-                self._views[event.client.client_id] = direction
-                self._point(event.client.camera, direction)
+                self._choose(event.client, name)
 
         self._server.gui.add_button(name).on_click(show)
 
-    def _view_of(self, client: ClientHandle) -> Vector:
-        return self._views.get(client.client_id, VIEWS["Overview"])
+    def _choose(self, client: ClientHandle, view: str) -> None:
+        self._views[client.client_id] = view
+        if view != FREE:
+            eye = self.eye(view, client.camera.aspect)
+            self._eyes[client.client_id] = eye
+            self._point(client.camera, eye)
 
-    def _is_still(self, client: ClientHandle) -> bool:
-        eye = np.array(self._eye(self._view_of(client)))
-        away = float(np.linalg.norm(client.camera.position - eye))
-        return away < STILL * float(np.linalg.norm(eye))
-
-    def _point(self, camera: CameraHandle, direction: Vector) -> None:
+    def _point(self, camera: CameraHandle, eye: Vector) -> None:
         with camera.client.atomic():
             # In this order: a new position carries along what the camera looks at.
-            camera.position = self._eye(direction)
-            camera.look_at = self._middle()
+            camera.position = eye
+            camera.look_at = self._middle
 
-    def _middle(self) -> Vector:
-        return 0.0, 0.0, 0.6 * self._height
 
-    def _eye(self, direction: Vector) -> Vector:
-        distance = self._reach / tan(FOV / 2.0)
-        x, y, z = (part * distance for part in direction)
-        return x, y, z + self._middle()[2]
+def _is_far(eye: Vector, before: Vector | None) -> bool:
+    if before is None:
+        return True
+    away = np.subtract(eye, before)
+    return float(np.linalg.norm(away)) > MOVED * float(np.linalg.norm(before))

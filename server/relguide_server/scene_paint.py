@@ -1,8 +1,9 @@
-"""The few brushes of the 3D scene: colours by meaning, lines and labels of constant size."""
+"""The brushes of the 3D scene: colours by meaning, as on the navigation display, and lines.
 
-from typing import Literal
+Texts are written by the cockpit's page over the picture, where they keep apart.
+"""
 
-from viser import LabelHandle, LineSegmentsHandle, SceneApi
+from viser import LineSegmentsHandle, SceneApi
 
 from relguide_server.scene_shapes import Points
 
@@ -14,22 +15,12 @@ PLAN: Colour = (0, 255, 0)
 PLAN_SHADOW: Colour = (0, 92, 24)
 SLOT: Colour = (23, 233, 242)
 PROPOSED: Colour = (255, 255, 0)
-PURSUER: Colour = (255, 226, 61)
+PURSUER: Colour = (255, 255, 0)
 LEADER: Colour = (229, 223, 214)
 CAUTION: Colour = (235, 136, 12)
 ALERT: Colour = (255, 59, 48)
 GRID: Colour = (38, 44, 54)
 GRID_SECTION: Colour = (66, 76, 92)
-
-Anchor = Literal[
-    "top-left",
-    "top-right",
-    "top-center",
-    "bottom-left",
-    "bottom-center",
-    "center-left",
-    "center-right",
-]
 
 
 def dim(colour: Colour, share: float) -> Colour:
@@ -45,16 +36,3 @@ def lines(
     return scene.add_line_segments(
         name, segments, colour, thickness=pixels, thickness_units="screen"
     )
-
-
-def label(
-    scene: SceneApi,
-    name: str,
-    text: str,
-    position: tuple[float, float, float],
-    anchor: Anchor,
-    *,
-    size: float = 1.0,
-) -> LabelHandle:
-    """A text that always faces the camera, as large at any distance."""
-    return scene.add_label(name, text, position=position, anchor=anchor, font_screen_scale=size)

@@ -42,6 +42,23 @@ SCENE_CSP = (
 )
 """What viser's page may load: it holds its scripts, a decoder and workers within itself, and it
 evaluates text."""
+WRITTEN_ON = b"""<script>
+  // The cockpit's page writes on the picture: with each one it is given the camera's matrices.
+  // three.js shows its renderers to whoever listens here.
+  window.__THREE_DEVTOOLS__ = new EventTarget();
+  window.__THREE_DEVTOOLS__.addEventListener("observe", ({ detail: renderer }) => {
+    if (!renderer.isWebGLRenderer) return;
+    queueMicrotask(() => {
+      const render = renderer.render;
+      renderer.render = (scene, camera) => {
+        renderer.toneMapping = 0; // colours as they are: green is the display's green
+        render.call(renderer, scene, camera);
+        window.onpicture?.(camera.projectionMatrix.elements, camera.matrixWorldInverse.elements);
+      };
+    });
+  });
+</script>"""
+"""Put before the scripts of viser's page."""
 NOT_PASSED_ON = (1008, "The scene takes camera and button messages only.")
 
 
@@ -169,5 +186,6 @@ def _client_page() -> tuple[bytes, bytes, str]:
     viser = find_spec("viser")
     assert viser is not None
     assert viser.origin is not None
-    html = (Path(viser.origin).parent / "client" / "build" / "index.html").read_bytes()
+    built = (Path(viser.origin).parent / "client" / "build" / "index.html").read_bytes()
+    html = built.replace(b"<head>", b"<head>" + WRITTEN_ON, 1)
     return html, gzip.compress(html, 9), f'"{sha256(html).hexdigest()[:20]}"'

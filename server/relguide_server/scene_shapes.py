@@ -5,6 +5,7 @@ Scene frame: x east, y north, z up, 1 unit = 1 km. Body frame: x forward, y left
 
 from collections.abc import Sequence
 from math import cos, hypot, pi, sin
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -116,7 +117,11 @@ def attitude(heading: float, bank: float) -> tuple[float, float, float, float]:
 
 
 def path_points(
-    segments: Sequence[PathSegment], wind: tuple[float, float], height: float
+    segments: Sequence[PathSegment],
+    wind: tuple[float, float],
+    height: float,
+    *,
+    since: float = 0.0,
 ) -> Points:
     """Points along a path over the ground [scene units].
 
@@ -126,8 +131,10 @@ def path_points(
         segments: in the order they are flown.
         wind: velocity of the air mass, east and north [m/s].
         height: z of all points [scene units].
+        since: what is flown before is left out [s, from the beginning of the path].
     """
-    pieces = [_piece_points(segment, wind) for segment in segments]
+    coming = [segment for segment in segments if segment.end.t > since]
+    pieces = [_piece_points(segment, wind, since) for segment in coming]
     if not pieces:
         return np.empty((0, 3))
     plane = np.concatenate(pieces) / KM  # (n, 2)
@@ -157,16 +164,19 @@ def timed_points(
     return np.column_stack((plane, np.full(len(plane), height)))
 
 
-def _piece_points(segment: PathSegment, wind: tuple[float, float]) -> Points:
+def _piece_points(segment: PathSegment, wind: tuple[float, float], since: float) -> Points:
+    duration = segment.end.t - segment.start.t
+    first = min(max(0.0, (since - segment.start.t) / duration), 1.0) if duration > 0.0 else 0.0
     match segment:
         case StraightSegment():
             a, b = segment.start, segment.end
             # Lines that reach far behind the camera are drawn broken, so none is long.
             count = max(2, int(hypot(b.x - a.x, b.y - a.y) / LONGEST) + 2)
-            return np.column_stack((np.linspace(a.x, b.x, count), np.linspace(a.y, b.y, count)))
+            share = np.linspace(first, 1.0, count)
+            return np.column_stack((a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)))
         case TurnSegment():
             count = max(2, int(segment.angle / 0.05) + 2)  # 0.05 rad: 4 m off the arc at R = 12 km
-            share = np.linspace(0.0, 1.0, count)
+            share = np.linspace(first, 1.0, count)
             side = 1.0 if segment.direction == "right" else -1.0
             h0 = segment.start.heading
             h = h0 + side * segment.angle * share
@@ -176,7 +186,7 @@ def _piece_points(segment: PathSegment, wind: tuple[float, float]) -> Points:
             return np.column_stack((x + wind[0] * t, y + wind[1] * t))
         case BoundarySegment():
             points = (segment.start, *segment.via, segment.end)
-            return np.array([(point.x, point.y) for point in points])
+            return np.array([(point.x, point.y) for point in points if point.t >= since])
 
 
 def polyline(points: Points) -> Points:
@@ -184,37 +194,50 @@ def polyline(points: Points) -> Points:
     return np.stack((points[:-1], points[1:]), axis=1) if len(points) > 1 else np.empty((0, 2, 3))
 
 
-def dashes(points: Points, *, dash: float, gap: float) -> Points:
+def dashes(points: Points, pattern: Sequence[float]) -> Points:
     """The dashes along a line, as line segments.
 
     Args:
         points: (n, 3) [scene units].
-        dash: length of a dash [scene units].
-        gap: length between two dashes [scene units].
+        pattern: lengths of a dash, of the gap after it, and so on, again and again [scene units].
     """
     if len(points) < 2:
         return np.empty((0, 2, 3))
     along = np.concatenate(([0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))))
-    starts = np.arange(0.0, along[-1], dash + gap)
-    ends = np.minimum(starts + dash, along[-1])
+    edges = np.concatenate(([0.0], np.cumsum(pattern)))
+    rounds = np.arange(0.0, along[-1], edges[-1])
+    starts = np.add.outer(rounds, edges[0:-1:2]).ravel()
+    starts = starts[starts < along[-1]]
+    ends = np.minimum(np.add.outer(rounds, edges[1::2]).ravel()[: len(starts)], along[-1])
     at = [np.column_stack([np.interp(s, along, points[:, k]) for k in range(3)])
           for s in (starts, ends)]  # fmt: skip
     return np.stack(at, axis=1)
 
 
-def ring(radius: float, z: float = 0.0, sides: int = 72) -> Points:
+def ring(radius: float, z: float = 0.0) -> Points:
     """A circle about the origin as line segments."""
+    return polyline(circle(radius, z))
+
+
+def circle(radius: float, z: float = 0.0, sides: int = 72) -> Points:
+    """Points (n, 3) of a circle about the origin, the first one again at the end."""
     angle = np.linspace(0.0, 2.0 * pi, sides + 1)
-    return polyline(
-        np.column_stack((radius * np.cos(angle), radius * np.sin(angle), np.full(sides + 1, z)))
-    )
+    return np.column_stack((radius * np.cos(angle), radius * np.sin(angle), np.full(sides + 1, z)))
 
 
-def gate(width: float, height: float) -> Points:
+GateLook = Literal["open", "filled", "crossed"]
+
+
+def gate(width: float, height: float, look: GateLook = "open") -> Points:
     """An upright frame across the x axis (the way through it), as line segments."""
     w, h = width / 2.0, height / 2.0
     corners = np.array([(0, -w, -h), (0, w, -h), (0, w, h), (0, -w, h), (0, -w, -h)], dtype=float)
-    return polyline(corners)
+    inside: list[list[tuple[float, float, float]]] = []
+    if look == "filled":
+        inside = [[(0.0, -w, k * h), (0.0, w, k * h)] for k in np.linspace(-1.0, 1.0, 9)[1:-1]]
+    elif look == "crossed":
+        inside = [[(0.0, -w, -h), (0.0, w, h)], [(0.0, -w, h), (0.0, w, -h)]]
+    return np.concatenate((polyline(corners), np.array(inside).reshape(-1, 2, 3)))
 
 
 def drop(height: float, foot: float) -> Points:

@@ -2,12 +2,14 @@
 
 import asyncio
 import threading
+import time
 from collections.abc import Sequence
 
 import rich
 
 from relguide.flying.documents import Document
 from relguide_server.errors import run_logged
+from relguide_server.glide import Glide
 from relguide_server.inbox import Inbox
 
 
@@ -55,8 +57,13 @@ class SceneStage:
             scene = Scene(server)
             scene.draw(self._past)
             self._answer(server.get_port())
-            while documents := self._inbox.wait():
-                scene.draw(documents)
+            glide = Glide()
+            while not self._inbox.closed:
+                if documents := self._inbox.wait(glide.patience(time.monotonic())):
+                    scene.draw(documents)
+                    glide.note(documents, time.monotonic())
+                else:
+                    scene.glide(glide.ahead(time.monotonic()))
         finally:
             server.stop()
 

@@ -54,6 +54,14 @@ def test_the_scene_shows_nothing_but_the_flight_and_obeys_the_pages_buttons(
     scene = page.locator("iframe").content_frame
     expect(scene.locator("[class*=Paper-root]:visible")).to_have_count(0)
     expect(scene.locator("[class*=Notification-root]:visible")).to_have_count(0)
-    expect(scene.get_by_text("From above", exact=True)).to_have_count(1)
-    page.get_by_role("button", name="From above").click()
+    written = page.locator(".scene-writing .nd-label")
+    expect(written.filter(has_text="PURSUER")).to_be_visible()
+    expect(written.filter(has_text="LEADER")).to_be_visible()
+    page.get_by_role("button", name="Top", exact=True).click()
+    expect(page.get_by_role("button", name="Top", exact=True)).to_have_attribute(
+        "aria-pressed", "true"
+    )
+    page.locator("iframe").hover()
+    page.mouse.wheel(0, 200)
+    expect(page.get_by_role("button", name="Free")).to_have_attribute("aria-pressed", "true")
     assert watched.complaints == []

@@ -114,7 +114,7 @@ def test_the_path_that_will_be_flown_is_drawn_at_the_height_of_own_ship(
     assert nodes(viser_server)["/world/plan"].thickness < 1.5
 
 
-def test_the_flown_part_of_the_path_goes_and_the_time_to_join_counts_down(
+def test_the_flown_part_of_the_path_goes(
     viser_server: ViserServer, documents: list[Document]
 ) -> None:
     scene = Scene(viser_server)
@@ -125,10 +125,8 @@ def test_the_flown_part_of_the_path_goes_and_the_time_to_join_counts_down(
     scene.draw([replace(sample, t=120.0, guidance=(guidance,))])
     points = np.asarray(nodes(viser_server)["/world/forecast"].points)
     assert points[0, 0, 0] == pytest.approx((ahead.x[0] + 24_000.0) / 1000.0, abs=0.01)
-    assert nodes(viser_server)["/world/join"].text == "CNV 08:21"
     joined = replace(guidance, time_to_go=0.0)
     scene.draw([replace(sample, t=901.0, guidance=(joined,))])
-    assert "/world/join" not in nodes(viser_server)
     assert "/world/forecast" not in nodes(viser_server)
 
 
@@ -173,3 +171,57 @@ def test_the_first_picture_has_both_aircraft_in_it(
     sample = next(d for d in reversed(documents) if isinstance(d, Sample))
     away = np.linalg.norm(viser_server.initial_camera.position)
     assert away > sample.guidance[0].separation / 1000.0
+
+
+def test_it_glides_on_from_the_newest_sample(
+    viser_server: ViserServer, documents: list[Document]
+) -> None:
+    scene = Scene(viser_server)
+    scene.draw(documents)
+    sample = next(d for d in reversed(documents) if isinstance(d, Sample))
+    own, leader = sample.aircraft
+    scene.glide(0.5)
+    known = nodes(viser_server)
+    for aircraft, name in ((own, "pursuer"), (leader, "leader")):
+        x, y, _ = known[f"/world/{name}"].position
+        moved = np.hypot(x - aircraft.x / 1000.0, y - aircraft.y / 1000.0) * 1000.0
+        assert moved == pytest.approx(0.5 * aircraft.ground_speed, abs=0.1)
+    both = known["/world/pursuer"].position + known["/world/leader"].position
+    assert known["/world"].position[:2] == pytest.approx(-both[:2] / 2.0)
+
+
+def test_the_closest_approach_is_drawn_until_it_is_passed(
+    viser_server: ViserServer, documents: list[Document]
+) -> None:
+    scene = Scene(viser_server)
+    ahead = forecast(documents, t=20.0, until=900.0)
+    own, leader = ahead.pursuer_at_closest, ahead.leader_at_closest
+    soon = replace(
+        ahead, pursuer_at_closest=replace(own, t=100.0), leader_at_closest=replace(leader, t=100.0)
+    )
+    scene.draw([*documents, soon])
+    sample = next(d for d in reversed(documents) if isinstance(d, Sample))
+    guided = replace(sample.guidance[0], time_to_go=500.0)
+    scene.draw([replace(sample, t=50.0, guidance=(guided,))])
+    points = np.asarray(nodes(viser_server)["/world/closest"].points).reshape(-1, 3)
+    assert np.array((own.x / 1000.0, own.y / 1000.0)) == pytest.approx(points[-2, :2], abs=1e-3)
+    assert np.array((leader.x / 1000.0, leader.y / 1000.0)) == pytest.approx(
+        points[-1, :2], abs=1e-3
+    )
+    scene.draw([replace(sample, t=101.0, guidance=(guided,))])
+    assert "/world/closest" not in nodes(viser_server)
+
+
+def test_the_past_is_marks_and_the_slot_is_filled_when_joined(
+    viser_server: ViserServer, documents: list[Document]
+) -> None:
+    scene = Scene(viser_server)
+    scene.draw(documents)
+    marks = np.asarray(nodes(viser_server)["/world/leader_past"].points)
+    assert marks.shape == (3, 2, 3)  # at 0, 10 and 20 s
+    assert np.linalg.norm(marks[0, 1] - marks[0, 0]) < 0.2 * np.linalg.norm(marks[1] - marks[0])
+    hollow = np.asarray(nodes(viser_server)["/world/slot/gate"].points)
+    sample = next(d for d in reversed(documents) if isinstance(d, Sample))
+    scene.draw([replace(sample, guidance=(replace(sample.guidance[0], joined=True),))])
+    filled = np.asarray(nodes(viser_server)["/world/slot/gate"].points)
+    assert len(filled) > len(hollow)

@@ -10,7 +10,7 @@ import msgspec
 import pytest
 import viser
 import zstandard
-from relguide_server.scene_relay import may_pass
+from relguide_server.scene_relay import WRITTEN_ON, may_pass
 from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.typing import Subprotocol
@@ -58,6 +58,8 @@ def test_the_page_is_visers_own_packed_once(address: str, flight_id: str) -> Non
     url = f"http://{address}/scene/{flight_id}/"
     page = httpx.get(url)
     assert page.status_code == 200
+    assert page.content.count(WRITTEN_ON) == 1
+    assert page.content.index(WRITTEN_ON) < page.content.index(b"<script data-p")
     assert page.headers["content-encoding"] == "gzip"
     assert page.headers["content-type"].startswith("text/html")
     assert "viser" in page.text.lower()

@@ -65,11 +65,25 @@ def test_a_timed_path_begins_where_the_aircraft_is_and_has_no_long_piece() -> No
 
 def test_dashes_cover_their_share_of_the_line() -> None:
     line = np.array([[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [10.0, 10.0, 0.0]])
-    dashes = shapes.dashes(line, dash=2.0, gap=2.0)
+    dashes = shapes.dashes(line, (2.0, 2.0))
     assert dashes.shape == (5, 2, 3)
     assert np.linalg.norm(dashes[0, 1] - dashes[0, 0]) == pytest.approx(2.0)
 
 
 def test_a_point_is_no_line() -> None:
     assert shapes.polyline(np.zeros((1, 3))).shape == (0, 2, 3)
-    assert shapes.dashes(np.zeros((1, 3)), dash=1.0, gap=1.0).shape == (0, 2, 3)
+    assert shapes.dashes(np.zeros((1, 3)), (1.0, 1.0)).shape == (0, 2, 3)
+
+
+def test_what_is_flown_of_a_path_is_left_out() -> None:
+    answer = plan(SITUATION)
+    assert isinstance(answer, Plan)
+    segments = plan_card(answer).segments
+    wind = (SITUATION.wind.east, SITUATION.wind.north)
+    for since in (0.3, 0.8):
+        t = since * answer.time_to_converge
+        here = answer.trajectory.sample(np.array([t]))
+        points = shapes.path_points(segments, wind, 1.0, since=t)
+        blown = [here.x[0] + wind[0] * t, here.y[0] + wind[1] * t]
+        assert points[0, :2] * 1000.0 == pytest.approx(blown, abs=1.0)
+    assert shapes.path_points(segments, wind, 1.0, since=1e6).shape == (0, 3)

@@ -21,7 +21,7 @@ import { LeaderControls } from "./panels/leader-controls";
 import { OutageNotice } from "./panels/outage";
 import { PlanNumbers } from "./panels/plan";
 import { ScenarioPicker } from "./panels/scenario-picker";
-import { Scene } from "./panels/scene";
+import { Scene } from "./scene/scene";
 import type { Actions, Session } from "./session";
 
 /** Where the panels stand in two columns instead of three: as in styles/layout.css. */

@@ -10,7 +10,7 @@ import { LeaderControls } from "../src/panels/leader-controls";
 import { OutageNotice } from "../src/panels/outage";
 import { PlanNumbers } from "../src/panels/plan";
 import { ScenarioPicker } from "../src/panels/scenario-picker";
-import { Scene } from "../src/panels/scene";
+import { Scene } from "../src/scene/scene";
 import { createSession } from "../src/session";
 import { createFlightStore } from "../src/store/flight";
 import { NM } from "../src/units";

@@ -15,7 +15,7 @@ import { proposalLabel } from "./proposal";
 import { LETTERS, letterPoint, ringLabelPoints } from "./rings";
 import { ink } from "./style";
 import { turnLabels } from "./turns";
-import { type Box, type Point, placeAt, project } from "./view";
+import { type Box, onMap, type Point, placeAt, project, SIZE } from "./view";
 
 /** All labels of the map, the most important first. */
 function labelsOf(props: LayerProps): Label[] {
@@ -110,7 +110,7 @@ interface LabelTextProps {
   readonly placements: ReadonlySignal<ReadonlyMap<string, Placement>>;
 }
 
-function LabelText({ id, labels, placements }: LabelTextProps) {
+export function LabelText({ id, labels, placements }: LabelTextProps) {
   const count = useComputed(() =>
     placements.value.has(id) ? (labels.value.get(id)?.lines.length ?? 0) : 0,
   );
@@ -154,9 +154,10 @@ function choose(
   before: ReadonlyMap<string, Placement>,
   points: readonly Point[] = [],
 ) {
+  const layout = props.view.layout.value;
   const around = {
-    layout: props.view.layout.value,
-    boxes: [...props.view.layout.value.readouts, ...symbols(props)],
+    isSeen: (point: Point) => onMap(layout, point, 4) && point.x > 4 && point.x < SIZE - 4,
+    boxes: [...layout.readouts, ...symbols(props)],
     points: [...linePoints(props), ...points],
   };
   return placeLabels(labels, around, before);
@@ -185,7 +186,7 @@ function symbols({ shown, view }: LayerProps): Box[] {
   return boxes;
 }
 
-function square({ x, y }: Point, half: number): Box {
+export function square({ x, y }: Point, half: number): Box {
   return { x: x - half, y: y - half, width: 2 * half, height: 2 * half };
 }
 

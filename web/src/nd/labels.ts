@@ -7,7 +7,7 @@
 
 import type { Colour } from "../store/colours";
 import { DEG } from "../units";
-import { type Box, type Layout, onMap, overlap, type Point, SIZE, within } from "./view";
+import { type Box, overlap, type Point, within } from "./view";
 
 export interface LabelLine {
   readonly text: string;
@@ -31,7 +31,8 @@ export interface Label {
 
 /** What labels keep clear of. */
 export interface Surroundings {
-  readonly layout: Layout;
+  /** Whether what stands at a point of the glass is seen. */
+  readonly isSeen: (point: Point) => boolean;
   /** Symbols and readouts: no text over them. */
   readonly boxes: readonly Box[];
   /** Points along the lines of the map: better no text over them. */
@@ -134,12 +135,8 @@ function costOf(
     else if (overlap(roomy, other) > 0) cost += CLOSE;
   }
   for (const point of around.points) if (within(box, point, 2)) cost += ON_LINE;
-  for (const corner of corners(box)) if (!visible(around.layout, corner)) cost += OUTSIDE;
+  for (const corner of corners(box)) if (!around.isSeen(corner)) cost += OUTSIDE;
   return cost;
-}
-
-function visible(layout: Layout, point: Point): boolean {
-  return onMap(layout, point, 4) && point.x > 4 && point.x < SIZE - 4;
 }
 
 function corners({ x, y, width, height }: Box): Point[] {

@@ -1,11 +1,11 @@
 import { expect, test } from "vitest";
 import { chooseLabels } from "../../src/nd/labelled";
 import { type Label, placeLabels } from "../../src/nd/labels";
-import { type Box, layoutOf, overlap, READOUTS } from "../../src/nd/view";
+import { type Box, overlap, READOUTS } from "../../src/nd/view";
 import { screenOf } from "./draw";
 import { type FlightName, flightAt } from "./fixture";
 
-const NO_SURROUNDINGS = { layout: layoutOf("ROSE", 40), boxes: [], points: [] };
+const NO_SURROUNDINGS = { isSeen: () => true, boxes: [], points: [] };
 
 function label(id: string, x: number, y: number, more: Partial<Label> = {}): Label {
   const lines = [{ text: "LABEL", colour: "label" as const }];

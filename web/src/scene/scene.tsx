@@ -1,12 +1,22 @@
 /** The 3D scene beside the ND: the same flight, seen from anywhere. */
 
-import { useComputed, useSignal } from "@preact/signals";
+import { type Signal, useComputed, useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { Icon } from "../parts";
 import type { Session } from "../session";
+import type { Camera } from "./camera";
+import { Writing } from "./writing";
 
 /** Where the camera can be put, by the names of the scene's own views. */
-const VIEWS = ["Overview", "From above", "From the side"] as const;
+const VIEWS = ["Chase", "Top", "Side", "Free"] as const;
+type ViewName = (typeof VIEWS)[number];
+/** What each of them shows. */
+const SHOWS: Record<ViewName, string> = {
+  Chase: "Behind own ship, towards the leader",
+  Top: "From above, north up",
+  Side: "With both aircraft side by side",
+  Free: "Where you put it: drag to turn, wheel to zoom",
+};
 /** What the scene's page shows besides the picture: it has a place in ours, or none. */
 const CHROME = "[class*=Notification], [class*=Paper-root] { display: none !important }";
 /** How often it is looked whether the scene is drawn [ms]. */
@@ -24,13 +34,18 @@ export function Scene(props: { session: Session }) {
   const maximised = sceneMaximised.value;
   const frame = useRef<HTMLIFrameElement>(null);
   const isDrawn = useSignal(false);
+  const view = useSignal<ViewName>("Chase");
+  const camera = useSignal<Camera | null>(null);
   const isOpen = flying.value && url !== undefined;
   useEffect(() => {
     isDrawn.value = false;
+    camera.value = null;
+    view.value = "Chase";
     if (!isOpen || url === undefined) return;
     const timer = setInterval(() => {
       const page = frame.current?.contentDocument ?? null;
       if (!dress(page)) return;
+      listen(page, camera, view);
       // After the scene's own drawing of the same frame: only then can its picture be read.
       page?.defaultView?.requestAnimationFrame(() => {
         if (!isDark(page)) return;
@@ -39,21 +54,26 @@ export function Scene(props: { session: Session }) {
       });
     }, LOOK);
     return () => clearInterval(timer);
-  }, [url, isOpen, isDrawn]);
+  }, [url, isOpen, isDrawn, camera, view]);
   return (
     <section class="scene" aria-labelledby="scene-title">
       <header>
         <h2 id="scene-title">3D scene</h2>
         <fieldset class="choice views">
           <legend class="visually-hidden">Where the scene is seen from</legend>
-          {VIEWS.map((view) => (
+          {VIEWS.map((each) => (
             <button
               type="button"
-              key={view}
+              key={each}
+              title={SHOWS[each]}
+              aria-pressed={view.value === each}
               disabled={!isDrawn.value}
-              onClick={() => look(frame.current?.contentDocument ?? null, view)}
+              onClick={() => {
+                view.value = each;
+                press(frame.current?.contentDocument ?? null, each);
+              }}
             >
-              {view}
+              {each}
             </button>
           ))}
         </fieldset>
@@ -78,6 +98,7 @@ export function Scene(props: { session: Session }) {
             title="3D scene of the flight: drag to turn, wheel to zoom"
           />
         )}
+        {isDrawn.value && <Writing shown={shown} camera={camera} />}
         {!isDrawn.value && (
           <p class="poster">
             {isOpen ? "The scene is being drawn." : "The scene opens with the first position."}
@@ -97,6 +118,24 @@ function dress(page: Document | null): page is Document {
   style.textContent = CHROME;
   page.body.append(style);
   return true;
+}
+
+/** Takes the camera of each picture, and notes when a hand moves it. */
+function listen(page: Document, camera: Signal<Camera | null>, view: Signal<ViewName>): void {
+  const window: (Window & { onpicture?: unknown }) | null = page.defaultView;
+  if (window === null || window.onpicture !== undefined) return;
+  window.onpicture = (projection: readonly number[], seen: readonly number[]) => {
+    camera.value = { projection: [...projection], view: [...seen] };
+  };
+  const free = () => {
+    if (view.value === "Free") return;
+    view.value = "Free";
+    press(page, "Free");
+  };
+  page.addEventListener("wheel", free, { passive: true });
+  page.addEventListener("pointermove", ({ buttons }) => {
+    if (buttons !== 0) free();
+  });
 }
 
 function canvasOf(page: Document): HTMLCanvasElement | null {
@@ -123,7 +162,7 @@ function isDark(page: Document): boolean {
 }
 
 /** Presses the scene's own button of a view. */
-function look(page: Document | null, view: (typeof VIEWS)[number]): void {
+function press(page: Document | null, view: ViewName): void {
   const buttons = [...(page?.querySelectorAll("button") ?? [])];
   buttons.find((button) => button.textContent === view)?.click();
 }
