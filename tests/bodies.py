@@ -30,6 +30,12 @@ BODY: dict[str, Any] = {
 def change(path: str, value: Any) -> dict[str, Any]:
     """BODY with one field set, or removed if the value is `...`."""
     body = copy.deepcopy(BODY)
+    put(body, path, value)
+    return body
+
+
+def put(body: dict[str, Any], path: str, value: Any) -> None:
+    """Set one field of a body, or remove it if the value is `...`."""
     *way, last = path.split(".")
     here: Any = body
     for step in way:
@@ -38,7 +44,6 @@ def change(path: str, value: Any) -> dict[str, Any]:
         del here[last]
     else:
         here[last] = value
-    return body
 
 
 def on_earth(pursuer: tuple[float, float], leader: tuple[float, float]) -> dict[str, Any]:

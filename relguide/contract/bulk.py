@@ -10,15 +10,24 @@ from relguide.contract.bodies import (
     MAX_INTEGER,
     Anchor,
     NamedSituationBody,
+    Unanchored,
     situation_from_body,
 )
-from relguide.contract.plain import Row, columns_of, plain_row, quick_loads, take
+from relguide.contract.plain import (
+    Row,
+    columns_of,
+    plain_row,
+    quick_loads,
+    situation_of,
+    take,
+)
 from relguide.contract.refusal import ContractError, make_printable, parse
 from relguide.planning.acceptance import ask
 from relguide.planning.batch import VERDICTS, Times, plan_arrays
 from relguide.planning.plan import AS_FAST, NoPlan, Plan, Planner, Proof, Reason
 from relguide.planning.plan import plan as exact_plan
 from relguide.planning.situation import Situation
+from relguide.planning.turning_batch import TurningTimes, turning_times
 from relguide.units import Second
 
 Fields = Literal["times", "plan", "full"]
@@ -42,7 +51,7 @@ class Wanted:
 
     @property
     def in_columns(self) -> bool:
-        """Whether `plan_arrays` gives what is wanted."""
+        """Whether times are wanted that many situations can be given at once."""
         return self.fields == "times" and self.planner is exact_plan and self.deadline is None
 
 
@@ -68,12 +77,12 @@ def answer_all(records: Iterable[Record], wanted: Wanted) -> list[dict[str, Any]
         row: Row | None = None
         if isinstance(content, dict):
             reply = _name(content)
-            if wanted.in_columns and ("id" in reply or "id" not in content):
+            if "id" in reply or "id" not in content:
                 row = plain_row(content)
-        if row is None:
-            reply |= _answer_one(record, wanted)
-        else:
+        if row is not None and wanted.in_columns:
             plain.append(_Plain(len(answers), record, row))
+        else:
+            reply |= _answer_one(record, row, wanted)
         answers.append(reply)
     for one, reply in zip(plain, _answer_plain(plain, wanted), strict=True):
         answers[one.at] |= reply
@@ -105,12 +114,16 @@ def answer_line(
     return reply
 
 
-def _answer_one(record: Record, wanted: Wanted) -> dict[str, Any]:
+def _answer_one(record: Record, row: Row | None, wanted: Wanted) -> dict[str, Any]:
+    """The answer to a record, and to its row if it is plain."""
     line, content = record
-    try:
-        situation, anchor = _read(content)
-    except ContractError as error:
-        return {"status": "invalid", "line": line, "message": str(error)}
+    anchor: Anchor = Unanchored()
+    situation = None if row is None else situation_of(row)
+    if situation is None:
+        try:
+            situation, anchor = _read(content)
+        except ContractError as error:
+            return {"status": "invalid", "line": line, "message": str(error)}
     if wanted.fields == "times":
         return _time_of(ask(wanted.planner, situation, deadline=wanted.deadline).plan)
     return answer(
@@ -146,16 +159,20 @@ def _answer_plain(plain: Sequence[_Plain], wanted: Wanted) -> Iterator[dict[str,
     """The times of plain situations, all at once."""
     if not plain:
         return
-    situations, sound = columns_of([one.row for one in plain])
-    times = _times(plan_arrays(take(situations, sound), threads=1))
-    for one, fine in zip(plain, sound.tolist(), strict=True):
-        reply = next(times) if fine else None
-        # the careful way says what is wrong, and `plan` looks closer before it gives up
-        yield reply or _answer_one(one.record, wanted)
+    situations, intents, sound = columns_of([one.row for one in plain])
+    turning = intents.counts > 0
+    straight = _times(plan_arrays(take(situations, sound & ~turning), threads=1))
+    turned = _turning(turning_times(take(situations, sound & turning), intents[sound & turning]))
+    for one, fine, turns in zip(plain, sound.tolist(), turning.tolist(), strict=True):
+        reply = None
+        if fine:
+            reply = next(turned if turns else straight)
+        # the careful way says what is wrong, and searches where cheap tests do not decide
+        yield reply or _answer_one(one.record, one.row, wanted)
 
 
-def _times(found: Times) -> Iterator[dict[str, Any] | None]:
-    """Each time as an answer; `None` where no path keeps d_min that `plan_arrays` knows of."""
+def _times(found: Times) -> Iterator[dict[str, Any]]:
+    """Each time as an answer."""
     for verdict, time, bound in zip(
         found.verdicts.tolist(),
         found.time_to_converge.tolist(),
@@ -166,10 +183,19 @@ def _times(found: Times) -> Iterator[dict[str, Any] | None]:
             case "planned":
                 proof: Proof = "relaxation" if time <= bound + AS_FAST else "bound"
                 yield _planned(time, proof, min(bound, time))
-            case Reason.SEPARATION_UNAVOIDABLE:
-                yield None
+            case Reason.BEYOND_HORIZON | Reason.SEPARATION_UNAVOIDABLE as reason:
+                yield _unplanned(reason, bound)
             case reason:
-                yield _unplanned(reason, bound if reason == Reason.BEYOND_HORIZON else 0.0)
+                yield _unplanned(reason, 0.0)
+
+
+def _turning(found: TurningTimes) -> Iterator[dict[str, Any] | None]:
+    """The same behind leaders that turn; `None` where it takes a search."""
+    for time, decided, lost in zip(*(column.tolist() for column in found), strict=True):
+        if lost:
+            yield _unplanned(Reason.SEPARATION_ALREADY_LOST, 0.0)
+        else:
+            yield _planned(time, "relaxation", time) if decided else None
 
 
 def _time_of(planned: Plan | NoPlan) -> dict[str, Any]:

@@ -21,7 +21,7 @@ from relguide.kernels.base.turn import turn_radii
 from relguide.kernels.contact import time_rows as kernel
 from relguide.kernels.words.extremals import WORDS
 from relguide.planning import limits
-from relguide.planning.constrained_path import BEARINGS
+from relguide.planning.constrained_path import BEARINGS, HARDER
 from relguide.planning.inputs import expect, expect_function, expect_whole, truth
 from relguide.planning.situation import Leader, Pursuer, Situation, Wind
 from relguide.planning.words import HORIZON
@@ -107,6 +107,10 @@ class Situations:
         """
         blocks = [_can_be_flown(block) for _, block in _blocks(self._full())]
         return np.concatenate(blocks) if blocks else np.empty(0, np.bool_)
+
+    def full_columns(self) -> tuple[Floats, ...]:
+        """All columns at full length, unchecked."""
+        return tuple(self._full().values())
 
     def _full(self) -> dict[str, Floats]:
         given = {f.name: _column(f.name, getattr(self, f.name)) for f in fields(self)}
@@ -247,11 +251,13 @@ def plan_arrays(
         for start in range(0, size, BLOCK):
             block = slice(start, min(start + BLOCK, size))
             rows, scale = _to_slot_frame(*(column[block] for column in columns))
-            answers = np.empty((len(rows), 4))
+            latest, answers = HORIZON / scale, np.empty((len(rows), 4))
 
-            def work(first: int, rows: Floats = rows, answers: Floats = answers) -> int:
+            def work(
+                first: int, rows: Floats = rows, latest: Floats = latest, answers: Floats = answers
+            ) -> int:
                 last = min(first + chunk, len(rows))
-                kernel.plan_rows(rows, BEARINGS, limited, first, last, answers)
+                kernel.plan_rows(rows, latest, BEARINGS, HARDER, limited, first, last, answers)
                 return last - first
 
             for done in pool.map(work, range(0, len(rows), chunk)):

@@ -30,7 +30,7 @@ BEARINGS = 60
 """How finely the disc is scanned round a leader that keeps straight: every 6°."""
 TURNING_BEARINGS = 72
 """Round one that turns: every 5°, since contacts must fall into the time of one piece."""
-_HARDER = 5
+HARDER = 5
 """So many times the bearings round a leader that keeps straight, where nothing is found at first:
 one as fast as the pursuer is met in windows narrower than 6°."""
 
@@ -93,7 +93,7 @@ def _through_contacts(found: Candidates, scene: Scene, beat: Second) -> Candidat
     legs, near = np.zeros((MAX_LEGS, 6)), tangents(start, scene)
     time, count = best_constrained_path(start, scene, bearings, near, longest, legs)
     if count == 0 and beat >= HORIZON and keeps_straight:
-        bearings *= _HARDER
+        bearings *= HARDER
         time, count = best_constrained_path(start, scene, bearings, near, longest, legs)
     if count == 0:
         return None

@@ -5,6 +5,8 @@ from dataclasses import dataclass, replace
 from itertools import islice
 from math import pi, radians
 
+import numpy as np
+
 from relguide.planning.situation import (
     FlyStraight,
     IntentPiece,
@@ -108,13 +110,15 @@ def _compile_proofs() -> None:
 def _compile_bulk() -> None:
     from relguide.maps.isochrones import Grid, isochrones
     from relguide.planning.batch import Situations, plan_arrays
+    from relguide.planning.turning_batch import Intents, turning_times
 
-    plan_arrays(
-        Situations(
-            pursuer_x=-20e3, pursuer_y=9e3, pursuer_heading=0.0, pursuer_tas=240.0,
-            max_bank=radians(25), leader_tas=200.0, slot_distance=12e3, min_separation=9e3,
-        )
+    one = Situations(
+        pursuer_x=-20e3, pursuer_y=9e3, pursuer_heading=0.0, pursuer_tas=240.0,
+        max_bank=radians(25), leader_tas=200.0, slot_distance=12e3, min_separation=9e3,
     )  # fmt: skip
+    plan_arrays(one)
+    turn = np.array([[1.0, 1.0, radians(20)]])
+    turning_times(one, Intents(counts=np.array([1]), pieces=turn))
     isochrones(LIMITED[0], Grid(x=0.0, y=0.0, columns=3, rows=3), exact=True)
 
 

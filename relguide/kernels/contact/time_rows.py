@@ -1,8 +1,8 @@
 """Many situations with a straight leader, one after another: time, bound and proof of each.
 
 The same steps as `plan`: the fastest extremal, alone; where that breaks the limit all others in
-order of time, and the paths that touch d_min or slide along it. Slot frame: lengths in R, times in
-R/V_P, angles counter-clockwise.
+order of time, and the paths that touch d_min or slide along it; where nothing is found, any path.
+Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
 from math import hypot, inf
@@ -13,12 +13,14 @@ from numba import njit
 from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.records import Pose, Scene, with_limit
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.contact.any_path import any_path
 from relguide.kernels.contact.chain import MAX_LEGS
 from relguide.kernels.contact.clear_words import word_clears
 from relguide.kernels.contact.constrained_search import (
     best_constrained_path,
     ease_to_start,
 )
+from relguide.kernels.contact.path_pieces import pieces_of
 from relguide.kernels.contact.tangent import tangents
 from relguide.kernels.separation.clearance import SLACK
 from relguide.kernels.words.extremals import MAX_ROWS, solve
@@ -33,13 +35,16 @@ CONSTRAINED = -1.0
 
 @njit(cache=True, nogil=True)
 def plan_rows(
-    situations: FloatArray, bearings: int, limited: bool, first: int, last: int, answers: FloatArray
-) -> None:
+    situations: FloatArray, latest: FloatArray, bearings: int, harder: int, limited: bool,
+    first: int, last: int, answers: FloatArray,
+) -> None:  # fmt: skip
     """Plan situations first … last − 1.
 
     Args:
         situations: x, y, h of the pursuer; α; x, y of the leader; d_min. shape (n, 7)
+        latest: later arrivals do not count [R/V_P]. shape (n,)
         bearings: how finely the disc is scanned for constrained paths.
+        harder: so many times as finely where nothing is found.
         limited: whether the separation limit counts at all.
         first: from this row on.
         last: up to this row.
@@ -58,30 +63,47 @@ def plan_rows(
             answer[2] = UNREACHABLE
         else:
             scene = Scene(leader, alpha, d_min, 0.0, inf)
-            _plan_row(pose, scene, bearings, limited, rows, legs, answer)
+            if not limited or word_clears(pose, 0.0, rows[0], with_limit(scene, d_min - SLACK)):
+                answer[0] = answer[1] = rows[0, 0]
+                answer[2], answer[3] = PROVED, rows[0, 1]
+            else:
+                _plan_row(pose, scene, latest[n], bearings, harder, rows, legs, answer)
 
 
 @njit(cache=True, nogil=True)
 def _plan_row(
-    pose: Pose, scene: Scene, bearings: int, limited: bool, rows: FloatArray, legs: FloatArray,
-    answer: FloatArray,
+    pose: Pose, scene: Scene, latest: float, bearings: int, harder: int, rows: FloatArray,
+    legs: FloatArray, answer: FloatArray,
 ) -> None:  # fmt: skip
-    """Plan a situation whose fastest extremal, with or without the limit, is in the first row."""
+    """Plan a situation whose fastest extremal is in the first row, and breaks the limit."""
     eased = with_limit(scene, scene.d_min - SLACK)
-    answer[1] = rows[0, 0]
-    if not limited or word_clears(pose, 0.0, rows[0], eased):
-        answer[0], answer[2], answer[3] = rows[0, 0], PROVED, rows[0, 1]
+    answer[1], answer[2] = rows[0, 0], NO_PATH
+    if rows[0, 0] > latest:
         return
-    answer[2] = NO_PATH
+    beat = latest
     for k in range(1, solve(pose, scene.alpha, 0.0, rows)):
+        if rows[k, 0] > latest:
+            break
         if word_clears(pose, 0.0, rows[k], eased):
-            answer[0], answer[2], answer[3] = rows[k, 0], BOUNDED, rows[k, 1]
+            beat = rows[k, 0]
+            answer[0], answer[2], answer[3] = beat, BOUNDED, rows[k, 1]
             break
     if scene.d_min <= 0.0:
         return
     met = ease_to_start(pose, scene)
-    arrival, count = best_constrained_path(
-        pose, met, bearings, tangents(pose, met), answer[0], legs
-    )
+    near = tangents(pose, met)
+    found, count = best_constrained_path(pose, met, bearings, near, beat, legs)
+    if count == 0 and beat == latest:
+        found, count = best_constrained_path(pose, met, harder * bearings, near, beat, legs)
+    arrival = inf
     if count > 0:
+        # in pieces, as it is flown, it takes a little less or more; with R = 1 angles are lengths
+        pieces = pieces_of(pose, met, 1.0, 1.0, found, legs[:count])
+        if pieces.shape[1] > 0:
+            arrival = pieces[2].sum()
+    if arrival == inf and beat == latest:
+        found, _, _, _ = any_path(pose, met, beat, rows[0])
+        if found < beat:
+            arrival = found
+    if arrival < inf:
         answer[0], answer[2], answer[3] = arrival, BOUNDED, CONSTRAINED

@@ -9,12 +9,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from relguide import NoPlan, Plan, plan
+from relguide import FlyStraight, NoPlan, Plan, plan
 from relguide.contract.bodies import situation_from_json
 from relguide.contract.bulk import Wanted, answer_all, answer_line
-from relguide.contract.plain import columns_of, plain_row, quick_loads
+from relguide.contract.plain import columns_of, plain_row, quick_loads, situation_of
 from relguide.contract.refusal import ContractError, loads
-from tests.bodies import BODY, change, on_earth
+from tests.bodies import BODY, change, on_earth, put
 
 PLAIN = change("leader.intent", ...)
 TIMES, PLANS = Wanted(planner=plan, fields="times"), Wanted(planner=plan)
@@ -155,7 +155,8 @@ RANGES = {
     "pursuer.x_m": 1e6, "pursuer.y_m": 1e6, "pursuer.heading_deg": 360.0, "pursuer.tas_mps": 400.0,
     "pursuer.max_bank_deg": 60.0, "leader.x_m": 1e6, "leader.y_m": 1e6, "leader.heading_deg": 360.0,
     "leader.tas_mps": 400.0, "slot_distance_m": 200e3, "min_separation_m": 200e3,
-    "wind.from_deg": 360.0, "wind.speed_mps": 150.0,
+    "wind.from_deg": 360.0, "wind.speed_mps": 150.0, "leader.intent.0.straight_s": 86_400.0,
+    "leader.intent.1.turn_to_heading_deg": 360.0, "leader.intent.1.bank_deg": 60.0,
 }  # fmt: skip
 """Where values of a field end, or wrap."""
 values = st.one_of(
@@ -167,35 +168,52 @@ values = st.one_of(
 @given(
     changes=st.dictionaries(st.sampled_from(list(RANGES)), values, max_size=3),
     whole=st.booleans(),
+    turns=st.booleans(),
 )
 @settings(max_examples=300)
-def test_a_plain_row_is_what_the_models_read(changes: dict[str, float], whole: bool) -> None:
-    body = deepcopy(PLAIN)
+def test_a_plain_row_is_what_the_models_read(
+    changes: dict[str, float], whole: bool, turns: bool
+) -> None:
+    body = deepcopy(BODY if turns else PLAIN)
     for path, share in changes.items():
-        *way, last = path.split(".")
-        here = body[way[0]] if way else body
-        here[last] = round(share * RANGES[path]) if whole else share * RANGES[path]
+        if turns or "intent" not in path:
+            put(body, path, round(share * RANGES[path]) if whole else share * RANGES[path])
     row = plain_row(body)
     assert row is not None
-    columns, sound = columns_of([row])
+    columns, intents, sound = columns_of([row])
     try:
         situation = situation_from_json(body)[0]
     except ContractError:
         assert not sound[0]
+        assert situation_of(row) is None
         return
     p, l, wind = situation.pursuer, situation.leader, situation.wind
     if sound[0]:  # what it does not take is left to the models
-        assert [column[0] for column in columns.columns()] == [
+        assert [float(column[0]) for column in columns.full_columns()] == [
             p.x, p.y, p.heading, p.tas, p.max_bank, l.x, l.y, l.heading, l.tas,
             situation.slot_distance, situation.min_separation, wind.east, wind.north,
         ]  # fmt: skip
-    assert sound[0] or changes
+        assert intents.pieces.tolist() == [
+            [0.0, piece.duration, 0.0]
+            if isinstance(piece, FlyStraight)
+            else [piece.turn, piece.heading, piece.bank]
+            for piece in l.intent
+        ]
+        assert intents.final_headings(np.array([l.heading]))[0] == l.final_heading
+    assert situation_of(row) in (situation, None)
+    assert changes or (sound[0] and situation_of(row) == situation)
+
+
+def with_intent(*pieces: Any) -> dict[str, Any]:
+    return change("leader.intent", list(pieces))
+
+
+TURN = {"turn_to_heading_deg": 90.0, "direction": "left", "bank_deg": 20.0}
 
 
 @pytest.mark.parametrize(
     "body",
     [
-        BODY,
         on_earth((48.0, 2.0), (48.3, 2.5)),
         change("pursuer.x_m", ...),
         change("pursuer.x_m", True),
@@ -204,15 +222,30 @@ def test_a_plain_row_is_what_the_models_read(changes: dict[str, float], whole: b
         change("pursuer", []),
         change("wind", None),
         change("wind.speed_mps", ...),
-        {**PLAIN, "leader": {**PLAIN["leader"], "intent": None}},
-        {**PLAIN, "leader": {**PLAIN["leader"], "intent": 0}},
-        {**PLAIN, "leader": {**PLAIN["leader"], "more": 0}},
+        change("leader.intent", None),
+        change("leader.intent", 0),
+        change("leader.more", 0),
         {**PLAIN, "more": 0},
+        with_intent(None),
+        with_intent({}),
+        with_intent({"straight_s": True}),
+        with_intent({"straight_s": 1.0, "bank_deg": 1.0}),
+        with_intent({**TURN, "direction": "up"}),
+        with_intent({**TURN, "direction": ["left"]}),
+        with_intent({**TURN, "bank_deg": None}),
+        with_intent({**TURN, "turn_to_heading_deg": 10**400}),
     ],
 )
 def test_what_is_not_plain_is_left_to_the_models(body: dict[str, Any]) -> None:
     assert plain_row(body) is None
-    assert plain_row(PLAIN) is not None
+    assert plain_row(with_intent(TURN)) is not None
+
+
+def test_an_intent_of_too_many_pieces_is_left_to_the_models() -> None:
+    row = plain_row(with_intent(*[TURN] * 21))
+    assert row is not None
+    assert situation_of(row) is None
+    assert not columns_of([row])[2][0]
 
 
 @pytest.mark.parametrize(

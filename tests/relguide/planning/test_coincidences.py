@@ -20,7 +20,7 @@ from relguide import (
     plan,
 )
 from relguide.kernels.separation.clearance import SLACK
-from relguide.planning.batch import Situations, plan_arrays
+from relguide.planning.batch import Situations, TimeRow, plan_arrays
 from relguide.planning.slot import slot_frame
 from relguide.units import DEG
 from tests.bench import draws
@@ -68,8 +68,8 @@ def test_every_plan_arrives_and_keeps_its_distance(situation: Situation) -> None
         assert least > situation.min_separation - 0.5  # interpolated between samples
 
 
-@given(coincidences())
-def test_a_row_of_a_batch_says_the_same(situation: Situation) -> None:
+def row_of(situation: Situation) -> TimeRow:
+    """The answer in a batch of one."""
     pursuer, leader = situation.pursuer, situation.leader
     columns = Situations(
         pursuer_x=np.array([pursuer.x]),
@@ -82,8 +82,13 @@ def test_a_row_of_a_batch_says_the_same(situation: Situation) -> None:
         slot_distance=situation.slot_distance,
         min_separation=situation.min_separation,
     )
-    row = plan_arrays(columns)
-    assert row.time_to_converge[0] == pytest.approx(arrival_time(situation), abs=1e-3)
+    return plan_arrays(columns, threads=1)[0]
+
+
+@given(coincidences())
+def test_a_row_of_a_batch_says_the_same(situation: Situation) -> None:
+    row = row_of(situation)
+    assert row.time_to_converge == pytest.approx(arrival_time(situation), abs=1e-6)
 
 
 def at_contact(plan: Plan) -> Situation:
@@ -169,6 +174,24 @@ AS_FAST = (
         slot_distance=546.1486787131306,
         min_separation=546.0259302427723,
     ),
+    Situation(
+        pursuer=Pursuer(
+            x=344.06684107161334, y=235.120711528252, heading=5.466709657370013,
+            tas=117.72046811329858, max_bank=0.4399879473620255,
+        ),
+        leader=Leader(x=0.0, y=0.0, heading=5.513402321038784, tas=117.72046811329857),
+        slot_distance=132.26615458177528,
+        min_separation=132.26475462814352,
+    ),
+    Situation(
+        pursuer=Pursuer(
+            x=5_513.807403357707, y=-14_241.338124102482, heading=2.2848847084911474,
+            tas=154.0430226103182, max_bank=0.14599557706510385,
+        ),
+        leader=Leader(x=0.0, y=0.0, heading=1.4852799068236142, tas=154.0430226103182),
+        slot_distance=2_529.1961069439394,
+        min_separation=2_529.113696966463,
+    ),
 )  # fmt: skip
 """Behind leaders as fast or hardly faster, the slot hardly outside d_min."""
 
@@ -179,6 +202,23 @@ def test_round_a_leader_as_fast_narrow_windows_are_searched(situation: Situation
     assert isinstance(answer, Plan)
     assert answer.certificate.holds
     assert answer.arrival.holds
+    row = row_of(situation)
+    assert row.time_to_converge == pytest.approx(answer.time_to_converge, abs=1e-6)
+
+
+def test_what_arrives_beyond_the_horizon_is_no_answer_of_a_batch_either() -> None:
+    situation = Situation(
+        pursuer=Pursuer(
+            x=-6_251.356642579378, y=7_102.544464905643, heading=35.89479677048652 * DEG,
+            tas=48.116830059940845, max_bank=60.0 * DEG,
+        ),
+        leader=Leader(x=0.0, y=0.0, heading=232.9581181303487 * DEG, tas=48.11683005994084),
+        slot_distance=2_993.622865751593,
+        min_separation=2_993.622865751593,
+    )  # fmt: skip
+    row, answer = row_of(situation), plan(situation)
+    assert isinstance(answer, NoPlan)
+    assert (row.verdict, row.lower_bound) == (answer.reason, pytest.approx(answer.lower_bound))
 
 
 @pytest.mark.parametrize("faster", [0.0, 20.0], ids=["as fast", "faster"])
