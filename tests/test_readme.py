@@ -10,12 +10,14 @@ from pathlib import Path
 import pytest
 from fastapi.testclient import TestClient
 from relguide_server.app import create_app
+from relguide_server.settings import Settings
 
 from relguide import plan
 from relguide.__main__ import main
 from relguide.flying.documents import FlightEnded
 from relguide.flying.flight import fly
 from relguide.flying.scenarios import scenario
+from tests.server.serving import serve
 
 ROOT = Path(__file__).parents[1]
 README = (ROOT / "README.md").read_text()
@@ -26,7 +28,7 @@ def blocks(language: str) -> list[str]:
 
 
 def test_twelve_lines_of_python() -> None:
-    (code,) = blocks("python")
+    code, _ = blocks("python")
     shown = blocks("text")[0]
     assert len([line for line in code.splitlines() if line.strip()]) == 12
     printed = io.StringIO()
@@ -44,6 +46,17 @@ def test_one_request() -> None:
         answer = client.post(path[1], json=body)
     assert answer.status_code == 200
     assert answer.json()["status"] == "planned"
+
+
+@pytest.mark.slow
+def test_the_client() -> None:
+    _, code = blocks("python")
+    printed = io.StringIO()
+    with serve(create_app(Settings(workers=0))) as address, redirect_stdout(printed):
+        exec(compile(code.replace("127.0.0.1:8000", address), "README.md", "exec"), {})
+    word, *modes = printed.getvalue().splitlines()
+    assert word in ("LSL", "LSR", "RSL", "RSR")
+    assert all(re.fullmatch(r"\d+ s: \w+", mode) for mode in modes)
 
 
 def test_commands_are_there(capsys: pytest.CaptureFixture[str]) -> None:

@@ -7,7 +7,7 @@ for reading them back, for the OpenAPI document and for the browser's types.
 from collections.abc import Mapping
 from dataclasses import is_dataclass
 from enum import Enum
-from functools import reduce
+from functools import cache, reduce
 from operator import or_
 from types import UnionType
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
@@ -153,6 +153,26 @@ def from_wire(source: bytes | str | Mapping[str, object]) -> Document:
         raise refusal(error, content) from None
     document: Document = _from_model(model)
     return document
+
+
+def plan_from_wire(source: bytes | str | Mapping[str, object]) -> PlanCard | NoPlanCard:
+    """Read the answer to a situation back from its JSON.
+
+    Raises:
+        ContractError: naming each field that is wrong.
+    """
+    content = loads(source) if isinstance(source, bytes | str) else source
+    try:
+        model = _plan_answers().validate_python(content)
+    except ValidationError as error:
+        raise refusal(error, content) from None
+    answer: PlanCard | NoPlanCard = _from_model(model)
+    return answer
+
+
+@cache
+def _plan_answers() -> TypeAdapter[Any]:
+    return TypeAdapter(PlanAnswer)
 
 
 def _from_model(model: BaseModel) -> Any:

@@ -23,6 +23,7 @@ EXTRAS = {
     "uvicorn": "serve",
     "viser": "serve",
     "websockets": "serve",
+    "httpx2": "client",
     "torch": "learn",
     "matplotlib": "figures",
     "distributed": "cluster",

@@ -1,0 +1,221 @@
+"""What a program asks of the service, before it is sent, and what it gets: for both clients."""
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import islice
+from typing import Any, Generic, Literal, TypeVar
+
+import httpx2
+import orjson
+
+from relguide.client.bodies import Asked, body_of
+from relguide.contract.area_bodies import AreaAnswer
+from relguide.contract.messages import FlightStatus, from_wire, plan_from_wire
+from relguide.flying.documents import Document
+from relguide.flying.engagement import Engagement
+from relguide.flying.plan_documents import NoPlanCard, PlanCard
+from relguide.units import Second
+
+T = TypeVar("T")
+JSON, LINES = "application/json", "application/x-ndjson"
+AT_A_TIME = 1000
+"""Most situations in one request."""
+Include = Literal["alternatives", "optimality"]
+PlannerName = Literal["exact", "network"]
+
+
+@dataclass(frozen=True, slots=True)
+class Invalid:
+    """What was asked is no situation."""
+
+    message: str
+    """What is wrong, and what would be right."""
+
+
+Answer = PlanCard | NoPlanCard
+"""A plan, or why there is none."""
+
+
+class Refused(Exception):
+    """The service understood a request and did not serve it, or made a mistake."""
+
+    def __init__(self, status: int, detail: str, retry_after: Second | None) -> None:
+        super().__init__(detail)
+        self.status = status
+        """Of HTTP, e.g. 503."""
+        self.retry_after = retry_after
+        """When to ask again, if the service says so [s]."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Call(Generic[T]):
+    """A request, and how its answer is read."""
+
+    method: str
+    path: str
+    read: Callable[[bytes], T]
+    params: Mapping[str, str | int | float] = field(default_factory=dict)
+    content: bytes = b""
+    content_type: str = JSON
+
+    def options(self) -> dict[str, Any]:
+        """What httpx takes beside method and path."""
+        headers = {"content-type": self.content_type} if self.content else {}
+        params = {name: value for name, value in self.params.items() if value not in ("", None)}
+        return {"params": params, "content": self.content or None, "headers": headers}
+
+
+def expect_served(response: httpx2.Response) -> None:
+    """Go on with what was served; its body has been read.
+
+    Raises:
+        Refused: otherwise, with the sentence of the problem document.
+    """
+    if response.is_success:
+        return
+    try:
+        detail = str(response.json()["detail"])
+    except (ValueError, KeyError, TypeError):  # not this service's answer: a proxy's, perhaps
+        detail = f"{response.status_code} {response.reason_phrase}"
+    after = response.headers.get("retry-after", "")
+    raise Refused(response.status_code, detail, float(after) if after.isdecimal() else None)
+
+
+def plan(
+    asked: Asked,
+    *,
+    max_ms: float | None,
+    include: Sequence[Include],
+    planner: PlannerName | None,
+) -> Call[Answer]:
+    """Plan a situation."""
+    return Call(
+        method="POST",
+        path="api/v1/plans",
+        params=_wish(max_ms, include, planner),
+        content=orjson.dumps(body_of(asked)),
+        read=plan_from_wire,
+    )
+
+
+def plan_batch(
+    asked: Iterable[Asked], *, max_ms: float | None, planner: PlannerName | None
+) -> Iterator[Call[Answer | Invalid]]:
+    """Plan situations, a thousand a request; each line of an answer is read by itself."""
+    rest = iter(asked)
+    while some := list(islice(rest, AT_A_TIME)):
+        yield Call(
+            method="POST",
+            path="api/v1/plans/batch",
+            params=_wish(max_ms, (), planner),
+            content=b"\n".join(orjson.dumps(body_of(one)) for one in some),
+            content_type=LINES,
+            read=_read_line,
+        )
+
+
+def area(asked: Asked, **wanted: Any) -> Call[AreaAnswer]:
+    """Draw a convergence area."""
+    body = {"situation": body_of(asked), **wanted}
+    return Call(
+        method="POST",
+        path="api/v1/areas",
+        content=orjson.dumps(body),
+        read=AreaAnswer.model_validate_json,
+    )
+
+
+def fly(
+    what: str | Asked,
+    *,
+    rate: float,
+    paused: bool,
+    seed: int,
+    engagement: Engagement,
+) -> Call[FlightStatus]:
+    """Start a flight of a scenario by its name, or of a situation."""
+    first = {"scenario": what} if isinstance(what, str) else {"situation": body_of(what)}
+    body = {**first, "rate": rate, "paused": paused, "seed": seed, "engagement": engagement}
+    return Call(method="POST", path="api/v1/flights", content=orjson.dumps(body), read=_read_status)
+
+
+def status(flight_id: str) -> Call[FlightStatus]:
+    """Where a flight stands."""
+    return Call(method="GET", path=f"api/v1/flights/{flight_id}", read=_read_status)
+
+
+def command(flight_id: str, name: str, **members: Any) -> Call[FlightStatus]:
+    """Tell a flight something."""
+    return Call(
+        method="POST",
+        path=f"api/v1/flights/{flight_id}/commands",
+        content=orjson.dumps({"command": name, **members}),
+        read=_read_status,
+    )
+
+
+def end(flight_id: str) -> Call[None]:
+    """End a flight."""
+    return Call(method="DELETE", path=f"api/v1/flights/{flight_id}", read=_read_nothing)
+
+
+def records(**sought: str | int) -> Call[list[dict[str, Any]]]:
+    """Flights on record."""
+    return Call(
+        method="GET",
+        path="api/v1/records/flights",
+        params=sought,
+        read=lambda content: list(orjson.loads(content)["flights"]),
+    )
+
+
+def recorded(flight_id: str, first: int) -> Call[list[tuple[int, Document]]]:
+    """Documents of a flight on record, from a number on, as many as one answer holds."""
+    return Call(
+        method="GET",
+        path=f"api/v1/records/flights/{flight_id}/documents",
+        params={"first": first},
+        read=lambda content: [
+            (one["number"], from_wire(one["document"]))
+            for one in orjson.loads(content)["documents"]
+        ],
+    )
+
+
+def documents_of(text: str | bytes) -> tuple[list[Document], bool]:
+    """What a message of the stream holds, and whether the flight is over."""
+    tick = orjson.loads(text)
+    return [from_wire(document) for document in tick["documents"]], tick["ended"]
+
+
+def stream_url(base: str, flight_id: str) -> str:
+    """Where a flight is watched.
+
+    Args:
+        base: of the service, http:// or https://, with a slash at its end.
+        flight_id: of the flight.
+    """
+    return f"ws{base.removeprefix('http')}api/v1/flights/{flight_id}/stream"
+
+
+def _wish(
+    max_ms: float | None, include: Sequence[Include], planner: PlannerName | None
+) -> dict[str, str | float]:
+    wish: dict[str, str | float] = {"include": ",".join(include), "planner": planner or ""}
+    return wish if max_ms is None else {**wish, "max_ms": max_ms}
+
+
+def _read_line(line: bytes) -> Answer | Invalid:
+    content = orjson.loads(line)
+    if content.get("status") == "invalid":
+        return Invalid(str(content["message"]))
+    content.pop("id", None)
+    return plan_from_wire(content)
+
+
+def _read_status(content: bytes) -> FlightStatus:
+    return FlightStatus.model_validate_json(content)
+
+
+def _read_nothing(content: bytes) -> None:
+    del content

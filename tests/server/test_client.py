@@ -1,0 +1,149 @@
+"""The client asks the service as a program does, waiting and not waiting alike."""
+
+import asyncio
+from collections.abc import Iterator
+from math import radians
+
+import pytest
+from hypothesis import given, settings
+from relguide_server.app import create_app
+from relguide_server.records.keeper import keep
+from relguide_server.settings import Settings
+
+from relguide.client import AsyncClient, Client, Invalid, Refused, calls
+from relguide.client.bodies import body_of
+from relguide.contract.bodies import situation_from_json
+from relguide.flying.documents import FlightStarted, Sample
+from relguide.flying.plan_documents import NoPlanCard, PlanCard
+from relguide.planning.plan import plan
+from relguide.planning.situation import Situation
+from relguide.planning.trajectory import LEFT
+from tests.bodies import BODY
+from tests.server.records.test_writer import wait_for
+from tests.server.serving import ideal_app, ideal_departures, serve
+from tests.situations import situations
+
+SITUATION, _ = situation_from_json(BODY)
+
+
+@pytest.fixture(scope="module")
+def url(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    keeper = keep(
+        records="on", database_url="", data=str(tmp_path_factory.mktemp("records")),
+        record_plans=0, keep_days=1.0, keep_mb=10.0,
+    )  # fmt: skip
+    app = create_app(
+        Settings(workers=0, root_path="/relguide"), departures=ideal_departures(), keeper=keeper
+    )
+    with serve(app) as address:
+        yield f"http://{address}/relguide"
+
+
+@pytest.fixture(scope="module")
+def client(url: str) -> Iterator[Client]:
+    with Client(url) as client:
+        yield client
+
+
+@given(situation=situations())
+@settings(max_examples=50, deadline=None)
+def test_a_situation_is_sent_as_it_is(situation: Situation) -> None:
+    read, _ = situation_from_json(body_of(situation))
+    for ours, theirs in (
+        (situation.pursuer, read.pursuer),
+        (situation.leader, read.leader),
+    ):
+        for name in ("x", "y", "heading", "tas"):
+            assert getattr(theirs, name) == pytest.approx(getattr(ours, name), abs=1e-12)
+    assert len(read.leader.intent) == len(situation.leader.intent)
+    for piece, again in zip(situation.leader.intent, read.leader.intent, strict=True):
+        assert type(piece) is type(again)
+        assert getattr(piece, "turn", LEFT) == getattr(again, "turn", LEFT)
+    assert (read.wind.east, read.wind.north) == pytest.approx(
+        (situation.wind.east, situation.wind.north), abs=1e-9
+    )
+
+
+def test_a_plan_is_the_librarys_own(client: Client) -> None:
+    ours = plan(SITUATION)
+    for asked in (SITUATION, BODY):
+        theirs = client.plan(asked, max_ms=10_000, include=["alternatives"])
+        assert isinstance(theirs, PlanCard)
+        assert theirs.word == ours.word
+        assert theirs.time_to_converge == pytest.approx(ours.time_to_converge, abs=1e-6)
+        assert theirs.segments[0].start.heading == pytest.approx(radians(90.0))
+        assert theirs.alternatives
+    far = {**BODY, "leader": {**BODY["leader"], "tas_mps": 300.0}}
+    assert isinstance(client.plan(far, max_ms=10_000), NoPlanCard)
+
+
+def test_a_batch_has_an_answer_a_line(client: Client) -> None:
+    asked = [SITUATION, {"pursuer": {}}, BODY]
+    first, wrong, last = client.plan_batch(asked, max_ms=10_000)
+    assert isinstance(first, PlanCard)
+    assert isinstance(wrong, Invalid)
+    assert "leader" in wrong.message
+    assert isinstance(last, PlanCard)
+
+
+def test_what_is_refused_is_a_sentence(client: Client) -> None:
+    with pytest.raises(Refused, match="slot_distance_m") as refused:
+        client.plan({**BODY, "slot_distance_m": -1.0})
+    assert refused.value.status == 422
+    with pytest.raises(Refused, match="There is no flight"):
+        client.ask(calls.status("none"))
+
+
+def test_an_area_is_drawn(client: Client) -> None:
+    area = client.area({**BODY, "leader": {**BODY["leader"], "intent": []}}, columns=9, rows=9)
+    assert (area.grid.columns, area.grid.rows) == (9, 9)
+
+
+def test_a_flight_is_watched_commanded_recorded_and_ended(client: Client) -> None:
+    flight = client.fly("ideal", rate=60.0)
+    documents = []
+    for document in flight.documents():
+        documents.append(document)
+        if isinstance(document, Sample) and document.t > 3.0:
+            break
+    assert isinstance(documents[0], FlightStarted)
+    assert flight.command("set_rate", rate=2.0).rate == 2.0
+    assert flight.status().id == flight.id
+    flight.end()
+    with pytest.raises(Refused):
+        flight.status()
+    wait_for(lambda: [one["id"] for one in client.records(outcome="removed")] == [flight.id])
+    kept = list(client.recorded(flight.id))
+    assert isinstance(kept[0], FlightStarted)
+    assert len([one for one in kept if isinstance(one, Sample)]) >= 3
+
+
+def test_the_same_without_waiting(url: str) -> None:
+    async def ask() -> None:
+        async with AsyncClient(url) as client:
+            one, other = await asyncio.gather(
+                client.plan(SITUATION, max_ms=10_000), client.plan(BODY, max_ms=10_000)
+            )
+            assert one.word == other.word
+            assert [type(a) async for a in client.plan_batch([BODY, BODY])] == [PlanCard] * 2
+            flight = await client.fly("ideal", rate=60.0)
+            async for document in flight.documents():
+                if isinstance(document, Sample) and document.t > 1.0:
+                    break
+            assert (await flight.command("pause")).paused
+            await flight.end()
+            assert (await client.records(limit=1))[0]["id"] == flight.id
+            assert [d async for d in client.recorded(flight.id)]
+            assert (await client.area(BODY, columns=5, rows=5)).grid.columns == 5
+
+    asyncio.run(ask())
+
+
+def test_a_token_is_shown() -> None:
+    token = "v" * 16
+    with serve(ideal_app(tokens=f"fly:{token}")) as address:
+        with Client(f"http://{address}") as nobody, pytest.raises(Refused, match="needs a token"):
+            nobody.plan(BODY)
+        with Client(f"http://{address}/", token=token) as client:
+            flight = client.fly("ideal")
+            assert isinstance(next(flight.documents()), FlightStarted)
