@@ -162,7 +162,11 @@ class Belief:
         """
         x, y, tas, intent = self.leader.x, self.leader.y, self.leader.tas, self.intent
         heading = wrap(self._straight_heading)
-        if intent and seconds > 0.0:
+        if intent and isinstance(intent[0], FlyStraight) and intent[0].duration > seconds > 0.0:
+            left = FlyStraight(duration=intent[0].duration - seconds)
+            x, y, heading = advance(x, y, heading, tas, 0.0, seconds)
+            intent = (left, *intent[1:])
+        elif intent and seconds > 0.0:
             now = Leader(x=x, y=y, heading=heading, tas=tas, intent=intent)
             then, intent = now.trajectory.pose_at(seconds), intent_after(now, seconds)
             x, y, heading = then.x, then.y, then.heading

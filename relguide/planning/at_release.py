@@ -6,6 +6,7 @@ length is the plan. So the paths that a straight makes long enough are tried bef
 
 import numpy as np
 
+from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.clearest_delay import clearest_delay
 from relguide.kernels.separation.clearance import SLACK
 from relguide.kernels.words.delay import DELAY_PIECES
@@ -13,17 +14,19 @@ from relguide.planning.candidate import Candidate, assemble
 from relguide.planning.certificate import TOLERANCE
 from relguide.planning.situation import Situation
 from relguide.planning.slot import slot_frame
-from relguide.planning.tables import path_of
 from relguide.planning.words import HORIZON
 from relguide.units import Metre, Second
 
 
-def first_at_release(situation: Situation, radius: Metre) -> tuple[Candidate, Second] | None:
+def first_at_release(
+    situation: Situation, radius: Metre, leading: FloatArray
+) -> tuple[Candidate, Second] | None:
     """The first of `candidates(situation).at_release` that keeps d_min, and when the slot opens.
 
     Args:
         situation: what is to be planned.
         radius: R, which callers have at hand [m].
+        leading: the situation's `leader_path`.
 
     Returns:
         `None` where the slot is open from the start, where there is no path within the horizon, and
@@ -32,8 +35,7 @@ def first_at_release(situation: Situation, radius: Metre) -> tuple[Candidate, Se
     pursuer, leader = situation.pursuer, situation.leader
     if not leader.intent:
         return None
-    flown = leader.trajectory
-    frame = slot_frame(situation, flown)
+    frame = slot_frame(situation, leader.trajectory)
     opens = frame.t_release * radius / pursuer.tas
     if not 0.0 < opens <= HORIZON:
         return None
@@ -42,7 +44,7 @@ def first_at_release(situation: Situation, radius: Metre) -> tuple[Candidate, Se
     limit = situation.min_separation - SLACK * radius
     if not clearest_delay(
         frame.x, frame.y, frame.h, frame.alpha, frame.t_release, start, radius,
-        path_of(flown), limit, TOLERANCE * radius, chosen,
+        leading, limit, TOLERANCE * radius, chosen,
     ):  # fmt: skip
         return None
     signs, amounts = chosen.tolist()

@@ -17,6 +17,7 @@ from relguide.planning.inputs import expect_within
 from relguide.planning.least_bad import least_bad, restore
 from relguide.planning.situation import Leader, Pursuer, Situation, TurnTo
 from relguide.planning.straight_ahead import first_candidate
+from relguide.planning.tables import leader_path
 from relguide.planning.trajectory import RIGHT
 from relguide.planning.words import HORIZON, candidates
 from relguide.units import DEG, Second
@@ -84,7 +85,7 @@ def load_kernels() -> None:
     """Call all kernels of a plan once."""
     for situation in LOADING:
         first_candidate(situation, situation.pursuer.turn_radius)
-        first_at_release(situation, situation.pursuer.turn_radius)
+        first_at_release(situation, situation.pursuer.turn_radius, leader_path(situation))
         found = candidates(situation)
         for candidate in islice(found, 1):
             certify(candidate.trajectory, situation)

@@ -241,11 +241,12 @@ def _plan_of(chosen: _Chosen, situation: Situation, started: int) -> Plan:
 
 def _plan_at_once(situation: Situation, radius: Metre) -> _Chosen | None:
     """The fastest extremal to an open slot, or a path just as it opens, if it keeps d_min."""
-    first = first_candidate(situation, radius) or first_at_release(situation, radius)
+    leading = leader_path(situation)
+    first = first_candidate(situation, radius) or first_at_release(situation, radius, leading)
     if first is None:
         return None
     candidate, time = first
-    certificate = judge(candidate.trajectory, situation, radius, leader_path(situation))
+    certificate = judge(candidate.trajectory, situation, radius, leading)
     if not certificate.holds:
         return None
     return candidate, certificate, Optimality(proof="relaxation", lower_bound=time)

@@ -40,6 +40,17 @@ def _settle(piece: object, name: str, value: object) -> None:
 
 
 def _settle_aircraft(name: str, aircraft: "Pursuer | Leader") -> None:
+    x, y, heading, tas = aircraft.x, aircraft.y, aircraft.heading, aircraft.tas
+    if type(x) is type(y) is type(heading) is type(tas) is float and (
+        abs(x) <= POSITION.high
+        and abs(y) <= POSITION.high
+        and abs(heading) <= HEADING.high
+        and TAS.low <= tas <= TAS.high
+        and x != 0.0
+        and y != 0.0
+        and heading != 0.0
+    ):
+        return  # nearly always: nothing to be made a float, nor −0 to be made 0
     _settle(aircraft, "x", expect_within(f"{name}.x", aircraft.x, *POSITION))
     _settle(aircraft, "y", expect_within(f"{name}.y", aircraft.y, *POSITION))
     _settle(aircraft, "heading", expect_within(f"{name}.heading", aircraft.heading, *HEADING))

@@ -7,6 +7,7 @@ from hypothesis import given, settings
 from relguide.planning.at_release import first_at_release
 from relguide.planning.certificate import certify
 from relguide.planning.situation import Situation
+from relguide.planning.tables import leader_path
 from relguide.planning.words import candidates
 from tests.situations import situations
 
@@ -14,7 +15,8 @@ from tests.situations import situations
 @settings(max_examples=150)
 @given(situation=situations(reach=80_000.0, with_intent=True))
 def test_the_clearest_of_those_with_the_fewest_turns_is_chosen(situation: Situation) -> None:
-    first = first_at_release(situation, situation.pursuer.turn_radius)
+    radius, leading = situation.pursuer.turn_radius, leader_path(situation)
+    first = first_at_release(situation, radius, leading)
     kept = [
         (candidate.trajectory.turns, certify(candidate.trajectory, situation))
         for candidate in takewhile(
