@@ -29,6 +29,7 @@ from relguide_server.live_fleet import Fleet, FleetOf
 from relguide_server.openapi import (
     JSON,
     KNOWN_PARAMETERS_ONLY,
+    address_of,
     json_answer,
     parse_json,
     problem_of,
@@ -205,6 +206,7 @@ async def _draw(
         asked.exact,
         asked.times,
         patience=LONGEST,
+        client=address_of(request),
     )
     return json_answer(await unless_left(request, drawing))
 

@@ -43,6 +43,7 @@ from relguide_server.live_flight import LiveFlight
 from relguide_server.mount import root_of
 from relguide_server.openapi import (
     KNOWN_PARAMETERS_ONLY,
+    address_of,
     json_answer,
     problem_of,
     problem_responses,
@@ -241,11 +242,6 @@ async def stream(websocket: WebSocket, flight_id: str, fleet: FleetOf) -> None:
         await client.pump(websocket)
     finally:
         flight.leave(client)
-
-
-def address_of(request: Request) -> str:
-    """Address of the client; empty if it is not known."""
-    return request.client.host[:255] if request.client else ""
 
 
 def status_of(flight: LiveFlight, request: Request) -> FlightStatus:

@@ -80,7 +80,7 @@ def read_situation(body: bytes) -> tuple[Situation, Anchor]:
 
 
 def plan_body(
-    body: bytes, planner: str | Planner, include: tuple[Include, ...], end: float
+    body: bytes, planner: str | Planner, include: tuple[Include, ...], end: float, most: Second
 ) -> Answered:
     """Plan the situation in the body of a request.
 
@@ -89,10 +89,12 @@ def plan_body(
         planner: who plans.
         include: as in `answer`.
         end: when planning is to end, by `time.monotonic`, which is one for all processes [s].
+        most: how long it may take from now on [s].
     """
     situation, anchor = read_situation(body)
     least = LEAST_WITH_MORE if include else LEAST
-    return plan_situation(situation, anchor, planner, include, max(end - monotonic(), least))
+    deadline = max(min(end - monotonic(), most), least)
+    return plan_situation(situation, anchor, planner, include, deadline)
 
 
 def plan_at_once(situation: Situation, anchor: Anchor) -> Answered | None:

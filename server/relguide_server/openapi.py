@@ -92,6 +92,12 @@ async def _wait_until_left(request: Request) -> None:
         pass
 
 
+def address_of(request: Request) -> str:
+    """Address of the client; empty if it is not known."""
+    client: tuple[str, int] | None = request.scope.get("client")
+    return client[0][:255] if client else ""
+
+
 def content_type(request: Request) -> str:
     """The declared type of a body, without parameters."""
     return request.headers.get("content-type", "").partition(";")[0].strip().lower()

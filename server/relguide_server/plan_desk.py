@@ -28,6 +28,11 @@ GRACE: Second = 1.0
 """How much later than its deadline a worker may answer before it is taken to be stuck."""
 PROOF: Second = 5.0
 """How much longer Pontryagin's conditions may take, which know no deadline."""
+SHORT: Second = 0.04
+"""What a worker has not planned in this time is put back behind what is planned sooner, and begun
+anew: so those who ask for what takes long wait for each other, and nobody else for them."""
+CUT_SHORT = 0.9
+"""What took a smaller share of its time than this came to its end by itself."""
 HANDING_OVER: Second = 0.02
 """How long an answer takes from a worker at most."""
 SLICE: Second = 0.05
@@ -105,7 +110,7 @@ class PlanDesk:
         return jobs.plan_situation(situation, anchor, planner, (), AT_ONCE)
 
     async def answer_by_worker(
-        self, body: bytes, wish: Wish, first: Answered | None, end: float
+        self, body: bytes, wish: Wish, first: Answered | None, end: float, *, client: str
     ) -> Answered:
         """The answer to a situation in JSON.
 
@@ -114,30 +119,40 @@ class PlanDesk:
             wish: how it is to be answered.
             first: the answer if no worker gives one in time.
             end: when the budget is spent, by `time.monotonic` [s].
+            client: who asks.
 
         Raises:
             Refusal: if it is no situation, or too many wait.
         """
         self._require(wish)
-        left = max(end - monotonic(), 0.0)
-        job = self._workers.do(
-            "plans",
-            jobs.plan_body,
-            body,
-            self._whom(wish),
-            wish.include,
-            end,
-            patience=left + wish.patience,
-        )
+        job = self._plan_in_turn(body, wish, end, client)
         if first is None:
-            answered: Answered = await job
-            return answered
+            return await job
         try:
-            return await asyncio.wait_for(job, left + HANDING_OVER)
+            return await asyncio.wait_for(job, max(end - monotonic(), 0.0) + HANDING_OVER)
         except TimeoutError:
             return first
 
-    async def answer_batch(self, lines: Sequence[bytes], wish: Wish) -> AsyncIterator[list[bytes]]:
+    async def _plan_in_turn(self, body: bytes, wish: Wish, end: float, client: str) -> Answered:
+        """What workers make of it: quickly if it can be, else after others that can be."""
+        job = body, self._whom(wish), wish.include, end
+        if (wish.planner or self._quick) and "optimality" not in wish.include:
+            quick: Answered = await self._workers.do(
+                "plans", jobs.plan_body, *job, SHORT, patience=SHORT + GRACE, client=client
+            )
+            if quick.seconds < CUT_SHORT * SHORT or end - monotonic() < SHORT:
+                return quick
+            if not self._workers.has_room("long_plans", client):
+                return quick  # certified, with its bound: better than nothing
+        left = max(end - monotonic(), 0.0)
+        answered: Answered = await self._workers.do(
+            "long_plans", jobs.plan_body, *job, left, patience=left + wish.patience, client=client
+        )
+        return answered
+
+    async def answer_batch(
+        self, lines: Sequence[bytes], wish: Wish, *, client: str
+    ) -> AsyncIterator[list[bytes]]:
         """The answers to the lines of a batch, in their order, as they come.
 
         Raises:
@@ -155,14 +170,15 @@ class PlanDesk:
                 wish.budget,
                 SLICE,
                 patience=SLICE + wish.budget + wish.patience,
+                client=client,
             )
             done += len(answers)
             yield [self.count(answered) for answered in answers]
 
-    async def split(self, body: bytes) -> list[bytes]:
+    async def split(self, body: bytes, *, client: str) -> list[bytes]:
         """The situations of a batch as lines; refused as a whole if one is wrong."""
         lines: list[bytes] = await self._workers.do(
-            "batches", jobs.split_batch, body, patience=READING
+            "batches", jobs.split_batch, body, patience=READING, client=client
         )
         return lines
 

@@ -17,6 +17,7 @@ from relguide_server.jobs import MAX_BATCH
 from relguide_server.openapi import (
     JSON,
     KNOWN_PARAMETERS_ONLY,
+    address_of,
     content_type,
     json_answer,
     list_schema,
@@ -150,13 +151,14 @@ async def answer_situation(request: Request, desk: PlanDesk, wish: Wish) -> Resp
     body = await read_body(request, JSON, most=MAX_BODY)
     answered = desk.answer_at_once(body, wish)
     if answered is None or not answered.final:
-        answered = await unless_left(request, desk.answer_by_worker(body, wish, answered, end))
+        planning = desk.answer_by_worker(body, wish, answered, end, client=address_of(request))
+        answered = await unless_left(request, planning)
     request.app.state.keeper.note_plan(
         body,
         planner=wish.planner or "",
         status=answered.status,
         seconds=answered.seconds,
-        asked_by=request.client.host if request.client else "",
+        asked_by=address_of(request),
     )
     return json_answer(desk.count(answered))
 
@@ -199,10 +201,11 @@ async def make_plans(request: Request, desk: DeskOf, wish: WishOf) -> Response:
         lines = [line for line in body.splitlines() if line.strip()]
         if len(lines) > MAX_BATCH:
             raise Refusal(422, f"At most {MAX_BATCH} situations a request, not {len(lines)}.")
-        answers = desk.answer_batch(lines, wish)
+        answers = desk.answer_batch(lines, wish, client=address_of(request))
         first = await unless_left(request, anext(answers, []))
         return StreamingResponse(_write_lines(first, answers), media_type=NDJSON)
-    return json_answer(await unless_left(request, _answer_list(body, desk, wish)))
+    listed = _answer_list(body, desk, wish, address_of(request))
+    return json_answer(await unless_left(request, listed))
 
 
 async def _write_lines(
@@ -213,7 +216,8 @@ async def _write_lines(
         yield b"".join(text + b"\n" for text in answers)
 
 
-async def _answer_list(body: bytes, desk: PlanDesk, wish: Wish) -> bytes:
-    lines = await desk.split(body)
-    answers = [text async for texts in desk.answer_batch(lines, wish) for text in texts]
+async def _answer_list(body: bytes, desk: PlanDesk, wish: Wish, client: str) -> bytes:
+    lines = await desk.split(body, client=client)
+    batch = desk.answer_batch(lines, wish, client=client)
+    answers = [text async for texts in batch for text in texts]
     return b"[" + b",".join(answers) + b"]"

@@ -1,8 +1,9 @@
 """The workers of the service: a bounded queue for each kind of job, and the hands that do them.
 
-Kinds take turns, so that no kind starves another; and of several hands one is kept from the long
-kinds, so that a plan never waits for an area. A job that takes longer than it may is killed with
-its hand, which is replaced. A client that leaves takes its job with it.
+Kinds take turns, and so do the clients of a kind, so that none starves another; and of several
+hands one is kept from the long kinds, so that a plan never waits for an area. A job that takes
+longer than it may is killed with its hand, which is replaced. A client that leaves takes its job
+with it.
 """
 
 import asyncio
@@ -15,11 +16,13 @@ from typing import Any, Literal, get_args
 from relguide_server.errors import Refusal, log
 from relguide_server.hands import Hand, ProcessHand, ThreadHand
 from relguide_server.outcomes import Outcome, value_of
+from relguide_server.turns import Turns
 
-Kind = Literal["plans", "flights", "areas", "batches"]
-"""What waits in one queue."""
+Kind = Literal["plans", "long_plans", "simulations", "areas", "batches"]
+"""What waits in one queue. `plans` take some hundredths of a second; those that would take longer
+are begun anew as `long_plans`."""
 KINDS: tuple[Kind, ...] = get_args(Kind)
-LONG: frozenset[Kind] = frozenset(("areas", "batches"))
+LONG: frozenset[Kind] = frozenset(kind for kind in KINDS if kind != "plans")
 """Kinds that leave one hand free."""
 ABANDONED = 0.5
 """How long a job goes on whose client has left, before its hand is killed [s]: a new hand costs a
@@ -70,8 +73,7 @@ class Workers:
         self._hands: Sequence[Hand] = (
             [ProcessHand() for _ in range(count)] or [ThreadHand() for _ in range(THREADS)]
         )  # fmt: skip
-        self._room = queue
-        self._waiting: dict[Kind, deque[_Job]] = {kind: deque() for kind in KINDS}
+        self._waiting: dict[Kind, Turns[_Job]] = {kind: Turns(queue) for kind in KINDS}
         self._turn = deque(KINDS)
         self._open: set[_Job] = set()
         self._stopped = False
@@ -102,6 +104,10 @@ class Workers:
         hands = [hand for hand in self._hands if isinstance(hand, ProcessHand)]
         return [hand.pid for hand in hands if hand.pid]
 
+    def has_room(self, kind: Kind, client: str) -> bool:
+        """Whether one more job of a client may wait."""
+        return self._waiting[kind].has_room(client)
+
     def start(self, is_warm: Callable[[], bool], load: Callable[[], None]) -> None:
         """Begin to do jobs.
 
@@ -130,7 +136,12 @@ class Workers:
         self._ready.clear()
 
     async def do(
-        self, kind: Kind, work: Callable[..., Any], *arguments: Any, patience: float
+        self,
+        kind: Kind,
+        work: Callable[..., Any],
+        *arguments: Any,
+        patience: float,
+        client: str = "",
     ) -> Any:
         """Do a job, and give what it returns.
 
@@ -139,6 +150,7 @@ class Workers:
             work: a function of a module.
             arguments: that can be pickled.
             patience: how long it may take once it is begun [s].
+            client: whose it is.
 
         Raises:
             Refusal: 503, if too many wait, or it took too long; or what the job refuses.
@@ -146,15 +158,12 @@ class Workers:
         queue = self._waiting[kind]
         if self._stopped:
             raise Refusal(503, STOPPING, headers={"Retry-After": "5"})
-        if len(queue) >= self._room:
+        if not self.has_room(kind, client):
             self.full[kind] += 1
-            raise Refusal(
-                503,
-                f"{len(queue)} {kind} wait already, the most that may: try again in a moment.",
-                headers={"Retry-After": "1"},
-            )
+            said = f"{len(queue)} {kind.replace('_', ' ')} wait already, the most that may"
+            raise Refusal(503, f"{said}: try again in a moment.", headers={"Retry-After": "1"})
         job = _Job((work, arguments), patience)
-        queue.append(job)
+        queue.put(job, client)
         self._open.add(job)
         async with self._wake:
             self._wake.notify()
@@ -166,8 +175,7 @@ class Workers:
         finally:
             self._open.discard(job)
             job.outcome.cancel()  # has no effect on one that is done
-            with suppress(ValueError):
-                queue.remove(job)
+            queue.drop(job, client)
 
     async def _serve(
         self, hand: Hand, is_warm: Callable[[], bool], load: Callable[[], None]
@@ -231,7 +239,7 @@ class Workers:
                         continue
                     if kind in LONG:
                         self._long += 1
-                    return kind, jobs.popleft()
+                    return kind, jobs.take()
                 await self._wake.wait()
 
 

@@ -61,10 +61,11 @@ def test_nothing_is_left_after_shutdown() -> None:
 def test_processes_plan_what_takes_longer_and_leave_with_it() -> None:
     app = create_app(Settings(workers=1), departures=ideal_departures())
     with serve(app) as address:
+        wait_until(lambda: app.state.workers.ready)  # else an answer comes without it
         answer = httpx.post(f"http://{address}/api/v1/plans?max_ms=10000", json=HARD, timeout=60.0)
         assert answer.json()["status"] == "planned"
         (process,) = app.state.workers.processes
-        assert app.state.workers.done["plans"] == 1
+        assert app.state.workers.done["plans"] == 1  # and "long_plans" too on a busy machine
     assert not os.path.exists(f"/proc/{process}")
 
 

@@ -99,10 +99,11 @@ def test_a_full_queue_refuses_and_says_when_to_come_again() -> None:
         jobs = []
         for count in (3, 8):  # of four threads one is kept from areas
             for _ in range(count):
-                jobs.append(asyncio.create_task(workers.do("areas", gate.wait, patience=ANY)))
+                job = workers.do("areas", gate.wait, patience=ANY, client=str(len(jobs)))
+                jobs.append(asyncio.create_task(job))
             await asyncio.sleep(0.05)
         with pytest.raises(Refusal) as refused:
-            await workers.do("areas", gate.wait, patience=ANY)
+            await workers.do("areas", gate.wait, patience=ANY, client="another")
         assert refused.value.status_code == 503
         assert refused.value.headers == {"Retry-After": "1"}
         assert workers.full["areas"] == 1
@@ -143,3 +144,23 @@ def test_a_mistake_of_ours_in_a_job_is_a_sentence() -> None:
         assert refused.value.status_code == 500
 
     with_workers(0, scene)
+
+
+def test_clients_of_a_kind_take_turns() -> None:
+    done: list[str] = []
+
+    async def scene(workers: Workers) -> None:
+        gate = asyncio.create_task(workers.do("plans", time.sleep, 0.2, patience=ANY))
+        await asyncio.sleep(0.05)
+
+        async def ask(client: str) -> None:
+            await workers.do("plans", int, patience=ANY, client=client)
+            done.append(client)
+
+        async with asyncio.TaskGroup() as group:
+            for client in ("greedy",) * 4 + ("modest",):
+                group.create_task(ask(client))
+        await gate
+
+    with_workers(1, scene)
+    assert done.index("modest") <= 1

@@ -28,8 +28,8 @@ from relguide.contract.protocol import PROTOCOL
 from tests.bench.options import positive
 from tests.bench.service.load import Load, put_load, request
 from tests.bench.service.service import Service, running
+from tests.bench.service.situations import STRAIGHT
 
-STRAIGHT = {**EXAMPLE, "leader": {**EXAMPLE["leader"], "intent": []}}
 PLANS = "/api/v1/plans"
 ASKED = {
     "GET /healthz": request("GET", "/healthz"),

@@ -1,0 +1,91 @@
+"""The desk: what takes long is begun anew behind what does not, and everybody gets an answer."""
+
+import asyncio
+import json
+from collections.abc import Awaitable, Callable
+from time import monotonic, sleep
+
+from relguide_server.metrics import Metrics
+from relguide_server.plan_desk import SHORT, PlanDesk, Wish
+from relguide_server.plans import EXAMPLE
+from relguide_server.preparation import Preparation
+from relguide_server.workers import Workers
+
+from relguide import NoPlan, Plan, Situation, plan
+from relguide.planning.plan import Reason
+from relguide.units import Second
+
+BODY = json.dumps(EXAMPLE).encode()
+WISH = Wish(planner=None, include=(), budget=5.0)
+
+
+def at_desk(
+    planner: Callable[..., Plan | NoPlan], scene: Callable[[PlanDesk, Workers], Awaitable[None]]
+) -> None:
+    """Play a scene at a desk whose planner is given, with threads that do the jobs."""
+
+    async def play() -> None:
+        workers = Workers(0, queue=4)
+        workers.start(lambda: True, int)
+        desk = PlanDesk(
+            "",
+            planner,
+            quick=True,
+            preparation=Preparation(),
+            workers=workers,
+            metrics=Metrics(),
+        )
+        try:
+            await scene(desk, workers)
+        finally:
+            await workers.stop()
+
+    asyncio.run(play())
+
+
+def dawdle(situation: Situation, *, deadline: Second | None = None) -> Plan | NoPlan:
+    """Takes all the time it has, up to half a second, and plans if it was that much."""
+    sleep(min(deadline or 0.0, 0.5))
+    if deadline is None or deadline < 0.5:
+        return NoPlan(reason=Reason.DEADLINE, message="Not yet.", lower_bound=1.0)
+    return plan(situation)
+
+
+def test_what_takes_long_is_begun_anew_and_gets_its_time() -> None:
+    async def scene(desk: PlanDesk, workers: Workers) -> None:
+        answered = await desk.answer_by_worker(BODY, WISH, None, monotonic() + 5.0, client="a")
+        assert answered.status == "planned"
+        assert (workers.done["plans"], workers.done["long_plans"]) == (1, 1)
+
+    at_desk(dawdle, scene)
+
+
+def test_with_no_time_left_the_first_answer_is_given() -> None:
+    async def scene(desk: PlanDesk, workers: Workers) -> None:
+        end = monotonic() + SHORT
+        answered = await desk.answer_by_worker(BODY, WISH, None, end, client="a")
+        assert answered.status == "no_plan"
+        assert workers.done["long_plans"] == 0
+
+    at_desk(dawdle, scene)
+
+
+def test_with_no_room_for_what_takes_long_the_short_answer_is_given() -> None:
+    async def scene(desk: PlanDesk, workers: Workers) -> None:
+        async def ask() -> str:
+            answered = await desk.answer_by_worker(BODY, WISH, None, monotonic() + 5.0, client="a")
+            return answered.status
+
+        # of four threads one is kept for what is short, and two jobs of a client may wait
+        answers = await asyncio.gather(*(ask() for _ in range(2)), *(ask() for _ in range(2)))
+        assert set(answers) == {"planned"}
+        many = [asyncio.create_task(workers.do("long_plans", sleep, 0.3, patience=9, client="b"))
+                for _ in range(3)]  # fmt: skip
+        await asyncio.sleep(0.05)
+        many += [asyncio.create_task(workers.do("long_plans", sleep, 0.3, patience=9, client="a"))
+                 for _ in range(2)]  # fmt: skip
+        await asyncio.sleep(0.05)
+        assert await ask() == "no_plan"
+        await asyncio.gather(*many)
+
+    at_desk(dawdle, scene)
