@@ -1,10 +1,10 @@
 """PlanDesk: answers situations, at once where that takes a millisecond, else by the workers.
 
 Most situations are planned within 0.1 ms, which is less than it takes to ask another process. So
-each is first tried here, on the event loop: without a search, and then by one with a deadline of
-`AT_ONCE`. What is proved by then, the least time or that there is no plan, is the answer.
+each is first tried here, on the event loop, without a search. What is proved by that is the answer.
 Everything else goes to a worker, with what is left of the budget. If that is spent before a worker
-has answered, the answer is what was found at first: it is certified as well, and says its bound.
+has answered, the answer is what is found here in no time: it is certified as well, or says that no
+plan was found by the deadline, with its bound.
 """
 
 import asyncio
@@ -91,7 +91,7 @@ class PlanDesk:
         self._quick = quick
 
     def answer_at_once(self, body: bytes, wish: Wish) -> Answered | None:
-        """A first answer to a situation in JSON; `None` where even that may take too long.
+        """The answer to a situation in JSON; `None` where that may take too long.
 
         Raises:
             Refusal: if it is no situation.
@@ -99,25 +99,24 @@ class PlanDesk:
         if wish.include or len(body) > SMALL:
             return None
         situation, anchor = jobs.read_situation(body)
-        if not self._quick or wish.planner not in (None, self._name):
+        if not self._is_own(wish):
             return None
-        warm = self._preparation.can_plan_by(self._name)
-        if warm and self._name == "exact":
-            found = jobs.plan_at_once(situation, anchor)
-            if found is not None:
-                return found
-        planner = self._planner if warm else self._guarded
-        return jobs.plan_situation(situation, anchor, planner, (), AT_ONCE)
+        if not self._preparation.can_plan_by(self._name):
+            found = jobs.plan_situation(situation, anchor, self._guarded, (), AT_ONCE)
+        elif self._name != "exact":
+            found = jobs.plan_situation(situation, anchor, self._planner, (), AT_ONCE)
+        else:
+            return jobs.plan_at_once(situation, anchor)
+        return found if found.final else None
 
     async def answer_by_worker(
-        self, body: bytes, wish: Wish, first: Answered | None, end: float, *, client: str
+        self, body: bytes, wish: Wish, end: float, *, client: str
     ) -> Answered:
         """The answer to a situation in JSON.
 
         Args:
             body: the situation.
             wish: how it is to be answered.
-            first: the answer if no worker gives one in time.
             end: when the budget is spent, by `time.monotonic` [s].
             client: who asks.
 
@@ -126,27 +125,32 @@ class PlanDesk:
         """
         self._require(wish)
         job = self._plan_in_turn(body, wish, end, client)
-        if first is None:
+        if wish.include or not self._is_own(wish):
             return await job
         try:
             return await asyncio.wait_for(job, max(end - monotonic(), 0.0) + HANDING_OVER)
         except TimeoutError:
-            return first
+            situation, anchor = jobs.read_situation(body)
+            return jobs.plan_situation(situation, anchor, self._planner, (), 0.0)
+
+    def _is_own(self, wish: Wish) -> bool:
+        """Whether the service's own planner is wanted, and it takes a deadline."""
+        return self._quick and wish.planner in (None, self._name)
 
     async def _plan_in_turn(self, body: bytes, wish: Wish, end: float, client: str) -> Answered:
         """What workers make of it: quickly if it can be, else after others that can be."""
         job = body, self._whom(wish), wish.include, end
+        patience = max(end - monotonic(), 0.0) + wish.patience
         if (wish.planner or self._quick) and "optimality" not in wish.include:
             quick: Answered = await self._workers.do(
-                "plans", jobs.plan_body, *job, SHORT, patience=SHORT + GRACE, client=client
+                "plans", jobs.plan_body, *job, SHORT, patience=patience, client=client
             )
             if quick.seconds < CUT_SHORT * SHORT or end - monotonic() < SHORT:
                 return quick
             if not self._workers.has_room("long_plans", client):
                 return quick  # certified, with its bound: better than nothing
-        left = max(end - monotonic(), 0.0)
         answered: Answered = await self._workers.do(
-            "long_plans", jobs.plan_body, *job, left, patience=left + wish.patience, client=client
+            "long_plans", jobs.plan_body, *job, wish.budget, patience=patience, client=client
         )
         return answered
 

@@ -150,8 +150,8 @@ async def answer_situation(request: Request, desk: PlanDesk, wish: Wish) -> Resp
     end = monotonic() + wish.budget
     body = await read_body(request, JSON, most=MAX_BODY)
     answered = desk.answer_at_once(body, wish)
-    if answered is None or not answered.final:
-        planning = desk.answer_by_worker(body, wish, answered, end, client=address_of(request))
+    if answered is None:
+        planning = desk.answer_by_worker(body, wish, end, client=address_of(request))
         answered = await unless_left(request, planning)
     request.app.state.keeper.note_plan(
         body,

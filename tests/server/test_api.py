@@ -11,6 +11,7 @@ import pytest
 from relguide_server.app import create_app
 from relguide_server.plans import EXAMPLE, MAX_BATCH
 from relguide_server.settings import Settings
+from relguide_server.workers import KINDS
 
 from relguide.planning.plan import NoPlan, Plan, plan
 from relguide.planning.situation import Situation
@@ -310,7 +311,7 @@ def test_health_readiness_and_numbers(client: TestClient) -> None:
         time.sleep(0.01)
     report = client.get("/readyz").json()
     assert (report["status"], report["warm"], report["preparing"]) == ("ready", {}, None)
-    waiting = dict.fromkeys(("plans", "flights", "areas", "batches"), 0)
+    waiting = dict.fromkeys(KINDS, 0)
     assert report["planning"] == {"answers": True, "processes": 0, "waiting": waiting}
     client.post("/api/v1/plans", json=EXAMPLE)
     page = client.get("/metrics")

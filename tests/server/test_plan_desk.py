@@ -2,6 +2,7 @@
 
 import asyncio
 import json
+import threading
 from collections.abc import Awaitable, Callable
 from time import monotonic, sleep
 
@@ -53,7 +54,7 @@ def dawdle(situation: Situation, *, deadline: Second | None = None) -> Plan | No
 
 def test_what_takes_long_is_begun_anew_and_gets_its_time() -> None:
     async def scene(desk: PlanDesk, workers: Workers) -> None:
-        answered = await desk.answer_by_worker(BODY, WISH, None, monotonic() + 5.0, client="a")
+        answered = await desk.answer_by_worker(BODY, WISH, monotonic() + 5.0, client="a")
         assert answered.status == "planned"
         assert (workers.done["plans"], workers.done["long_plans"]) == (1, 1)
 
@@ -63,7 +64,7 @@ def test_what_takes_long_is_begun_anew_and_gets_its_time() -> None:
 def test_with_no_time_left_the_first_answer_is_given() -> None:
     async def scene(desk: PlanDesk, workers: Workers) -> None:
         end = monotonic() + SHORT
-        answered = await desk.answer_by_worker(BODY, WISH, None, end, client="a")
+        answered = await desk.answer_by_worker(BODY, WISH, end, client="a")
         assert answered.status == "no_plan"
         assert workers.done["long_plans"] == 0
 
@@ -71,21 +72,44 @@ def test_with_no_time_left_the_first_answer_is_given() -> None:
 
 
 def test_with_no_room_for_what_takes_long_the_short_answer_is_given() -> None:
+    gate = threading.Event()
+
     async def scene(desk: PlanDesk, workers: Workers) -> None:
-        async def ask() -> str:
-            answered = await desk.answer_by_worker(BODY, WISH, None, monotonic() + 5.0, client="a")
-            return answered.status
-
+        held = []
         # of four threads one is kept for what is short, and two jobs of a client may wait
-        answers = await asyncio.gather(*(ask() for _ in range(2)), *(ask() for _ in range(2)))
-        assert set(answers) == {"planned"}
-        many = [asyncio.create_task(workers.do("long_plans", sleep, 0.3, patience=9, client="b"))
-                for _ in range(3)]  # fmt: skip
-        await asyncio.sleep(0.05)
-        many += [asyncio.create_task(workers.do("long_plans", sleep, 0.3, patience=9, client="a"))
-                 for _ in range(2)]  # fmt: skip
-        await asyncio.sleep(0.05)
-        assert await ask() == "no_plan"
-        await asyncio.gather(*many)
+        for client in ("b", "c", "d", "a", "a"):
+            job = workers.do("long_plans", gate.wait, patience=60.0, client=client)
+            held.append(asyncio.create_task(job))
+            await asyncio.sleep(0.05)
+        answered = await desk.answer_by_worker(BODY, WISH, monotonic() + 5.0, client="a")
+        assert answered.status == "no_plan"
+        gate.set()
+        await asyncio.gather(*held)
 
-    at_desk(dawdle, scene)
+    try:
+        at_desk(dawdle, scene)
+    finally:
+        gate.set()
+
+
+def test_what_no_worker_answers_in_time_is_answered_by_what_is_found_in_no_time() -> None:
+    gate = threading.Event()
+
+    async def scene(desk: PlanDesk, workers: Workers) -> None:
+        held = [
+            asyncio.create_task(workers.do("plans", gate.wait, patience=60.0, client=str(k)))
+            for k in range(4)
+        ]
+        await asyncio.sleep(0.05)
+        began = monotonic()
+        answered = await desk.answer_by_worker(BODY, WISH, began + 0.1, client="a")
+        assert answered.status == "no_plan"
+        assert workers.waiting["plans"] == 0
+        assert 0.1 <= monotonic() - began < 2.0
+        gate.set()
+        await asyncio.gather(*held)
+
+    try:
+        at_desk(dawdle, scene)
+    finally:
+        gate.set()
