@@ -1,23 +1,29 @@
-# The service and its cockpit on port 8000: docker build -t relguide . && docker run -p 8000:8000 relguide
+# The service and its cockpit on port 8000:
+#   docker build -t relguide . && docker run --read-only -p 8000:8000 -v relguide:/data relguide
+# A base that is pinned: --build-arg BASE=python:3.12-slim@sha256:…
+ARG BASE=python:3.12-slim
 
-FROM python:3.12-slim AS build
+FROM ${BASE} AS build
 ENV PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_NO_CACHE_DIR=1 NUMBA_CPU_NAME=generic
 WORKDIR /src
 RUN python -m venv /opt/relguide
 ENV PATH=/opt/relguide/bin:$PATH
 
+# What it depends on, each file by its hash (`make lock`): torch is not among it.
+COPY requirements.lock ./
+RUN pip install --no-deps --require-hashes --requirement requirements.lock
 # What is installed carries the web page, built here with a Node that pip brings.
 COPY . .
 # It is this source tree that is installed, so there is no version to pin.
 # hadolint ignore=DL3013
-RUN pip install '.[serve]'
+RUN pip install --no-deps .
 # The kernels are compiled beside what is installed, for any CPU of this kind: that costs no speed,
 # and the image may run elsewhere than it was built, as any user, with a read-only disk.
 WORKDIR /
 RUN relguide warm-up
 
 
-FROM python:3.12-slim
+FROM ${BASE}
 LABEL org.opencontainers.image.title="relguide" \
       org.opencontainers.image.description="Minimum-time relative guidance of aircraft" \
       org.opencontainers.image.licenses="Apache-2.0"
@@ -26,16 +32,17 @@ COPY --from=build /opt/relguide /opt/relguide
 # NUMBA_CPU_NAME: whom the kernels were compiled for.
 ENV PATH=/opt/relguide/bin:$PATH \
     PYTHONUNBUFFERED=1 \
+    PYTHONDONTWRITEBYTECODE=1 \
     NUMBA_CPU_NAME=generic \
     RELGUIDE_DATA=/data
-# What is on record; without a volume it goes with the container.
+# What is on record; without a volume it goes with the container. Nothing else is written.
 VOLUME /data
 USER 10001
 WORKDIR /home/relguide
 
 EXPOSE 8000
-# Healthy once it can plan all that it is asked.
-HEALTHCHECK --interval=10s --timeout=3s --start-period=20s \
-    CMD ["python", "-c", "from urllib.request import urlopen; urlopen('http://127.0.0.1:8000/readyz', timeout=2)"]
+STOPSIGNAL SIGTERM
+# Healthy while it plans.
+HEALTHCHECK --interval=10s --timeout=5s --start-period=20s CMD ["python", "-m", "relguide_server.health"]
 ENTRYPOINT ["relguide"]
 CMD ["serve", "--host", "0.0.0.0", "--port", "8000"]

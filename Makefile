@@ -34,6 +34,7 @@ help:
 	@echo 'make planner-figures  measure as bench does, and draw and write docs/planner.md anew'
 	@echo 'make wheel    build a wheel with the page and compiled kernels, which serves at once, into dist/'
 	@echo 'make image    build the container image (needs Docker)'
+	@echo 'make lock     resolve anew what the container installs, into requirements.lock'
 	@echo 'make clean    remove all that was installed and built'
 	@echo 'Variables: PYTHON, HOST, PORT, TORCH_INDEX (an index with CPU wheels of torch)'
 
@@ -171,6 +172,14 @@ wheel: .make/dev
 .PHONY: image
 image:
 	docker build --tag relguide .
+
+# What the container installs, each file by its hash: after a change of what relguide depends on.
+.PHONY: lock
+lock: .make/dev
+	@$(PIP) install --quiet uv
+	@$(BIN)/uv pip compile pyproject.toml --extra serve --extra postgres --python-version 3.12 \
+		--python-platform linux --generate-hashes --upgrade --quiet --no-header \
+		--no-emit-index-url --no-emit-find-links --output-file requirements.lock
 
 .PHONY: clean
 clean:

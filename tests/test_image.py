@@ -1,0 +1,189 @@
+"""The container without an engine: what it installs, and its steps in an empty directory."""
+
+import os
+import re
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import sysconfig
+import time
+import tomllib
+from collections.abc import Iterator
+from fnmatch import fnmatch
+from pathlib import Path
+
+import pytest
+import yaml
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+from relguide_server import health
+from relguide_server.app import create_app
+from relguide_server.settings import Settings
+
+from tests.server.serving import ideal_app, serve
+
+ROOT = Path(__file__).parents[1]
+LOCK = (ROOT / "requirements.lock").read_text()
+COMPOSE = yaml.safe_load((ROOT / "compose.yaml").read_text())
+TOKEN = "v" * 16
+
+
+def steps() -> Iterator[tuple[str, str]]:
+    """The instructions of the Dockerfile, one of several lines as one."""
+    text = re.sub(r"^#.*\n", "", (ROOT / "Dockerfile").read_text(), flags=re.MULTILINE)
+    for line in text.replace("\\\n", " ").splitlines():
+        if line.strip():
+            name, _, rest = line.partition(" ")
+            yield name, " ".join(rest.split())
+
+
+def test_the_lock_is_what_the_service_needs_by_hash_and_without_torch() -> None:
+    pinned = dict(re.findall(r"^([\w.-]+)==(\S+)", LOCK, re.MULTILINE))
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    extras = project["optional-dependencies"]
+    for line in [*project["dependencies"], *extras["serve"], *extras["postgres"]]:
+        wanted = Requirement(line)
+        name = canonicalize_name(wanted.name)
+        assert name in pinned, f"make lock: {name} is missing"
+        assert wanted.specifier.contains(pinned[name]), f"make lock: {name}=={pinned[name]}"
+    assert "torch" not in pinned
+    parts = re.split(r"^(?=[\w.-]+==)", LOCK, flags=re.MULTILINE)[1:]
+    assert all("--hash=sha256:" in part for part in parts)
+    assert "://" not in LOCK
+
+
+def copied_by(patterns: list[str]) -> list[Path]:
+    """The files that `COPY . .` takes, by `.dockerignore`."""
+    listed = subprocess.run(
+        ["git", "ls-files", "--cached", "--others", "--exclude-standard"],
+        cwd=ROOT, capture_output=True, text=True, check=True,
+    ).stdout.splitlines()  # fmt: skip
+    found = []
+    for name in listed:
+        ignored = False
+        for pattern in patterns:
+            said = pattern.removeprefix("!")
+            deep = said.removeprefix("**/")
+            parts = name.split("/")
+            prefixes = ["/".join(parts[: k + 1]) for k in range(len(parts))]
+            hit = any(fnmatch(p, said) for p in prefixes) or (deep != said and deep in parts)
+            ignored = not pattern.startswith("!") if hit else ignored
+        if not ignored and (ROOT / name).is_file():
+            found.append(Path(name))
+    return found
+
+
+@pytest.mark.slow
+def test_its_steps_work_in_an_empty_directory(tmp_path: Path) -> None:
+    """Those of the Dockerfile, with the packages and kernels of this machine, and started so."""
+    ignore = [line for line in (ROOT / ".dockerignore").read_text().splitlines() if line[:1] != "#"]
+    places = {name: f"{tmp_path}{name}" for name in ("/opt/relguide", "/src", "/data")}
+    environment = {"PATH": os.environ["PATH"], "HOME": str(tmp_path), "RELGUIDE_SKIP_WEB": "1"}
+    here = tmp_path / "src"
+    here.mkdir()
+    seen: dict[str, str] = {}
+    for name, given in steps():
+        for path, place in places.items():
+            given = re.sub(rf"(?<=[\s=]){path}\b", place, f" {given}").strip()
+        match name:
+            case "RUN" if given.startswith("python -m venv"):
+                subprocess.run([sys.executable, *given.split()[1:]], check=True)
+                (site,) = Path(places["/opt/relguide"]).glob("lib/python*/site-packages")
+                # in place of what the lock names: what is installed here
+                (site / "here.pth").write_text(sysconfig.get_path("purelib"))
+            case "COPY" if given == ". .":
+                for file in copied_by(ignore):
+                    (here / file).parent.mkdir(parents=True, exist_ok=True)
+                    shutil.copy(ROOT / file, here / file)
+            case "COPY" if given.startswith("requirements.lock"):
+                assert Path("requirements.lock") in copied_by(ignore)
+            case "RUN" if "requirements.lock" in given or given.startswith("useradd"):
+                pass  # downloads what the lock's test has judged; makes a user
+            case "RUN" if given == "pip install --no-deps .":
+                offline = given.replace("install", "install --no-build-isolation --quiet")
+                subprocess.run(offline, shell=True, check=True, cwd=here, env=environment)
+                installed = site / "relguide" / "kernels" / "__pycache__"
+                shutil.copytree(
+                    ROOT / "relguide/kernels/__pycache__", installed, dirs_exist_ok=True
+                )
+            case "RUN" if given == "relguide warm-up":
+                pass  # minutes: the kernels of this machine were copied
+            case "ENV":
+                pairs = re.findall(r"(\w+)=(\S+)", given)
+                known = {k: v.replace("$PATH", environment["PATH"]) for k, v in pairs}
+                known.pop("NUMBA_CPU_NAME", None)  # these kernels are for this CPU
+                environment |= known
+            case "RUN":
+                pytest.fail(f"This test does not know the step {given}.")
+            case _:
+                seen[name] = given
+    assert seen["STOPSIGNAL"] == "SIGTERM"
+    assert seen["USER"] == "10001"
+    assert seen["FROM"].startswith("${BASE}")
+    run_as_in_the_container(tmp_path, environment, seen)
+
+
+def run_as_in_the_container(
+    folder: Path, environment: dict[str, str], seen: dict[str, str]
+) -> None:
+    (folder / "data").mkdir()
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    command = [*yaml.safe_load(seen["ENTRYPOINT"]), *yaml.safe_load(seen["CMD"])]
+    command[-1] = str(port)
+    program = folder / "opt/relguide/bin" / command[0]
+    before = sorted(folder.rglob("*"))
+    check = yaml.safe_load(seen["HEALTHCHECK"].partition("CMD ")[2])
+    python = str(folder / "opt/relguide/bin/python")
+    with subprocess.Popen([program, *command[1:]], cwd=folder, env=environment) as service:
+        try:
+            end = time.monotonic() + 90.0
+            healthy = [python, *check[1:], f"http://127.0.0.1:{port}"]
+            while subprocess.run(healthy, env=environment, capture_output=True).returncode:
+                assert service.poll() is None, "The service has ended."
+                assert time.monotonic() < end
+                time.sleep(0.3)
+            stopping = time.monotonic()
+            service.send_signal(getattr(signal, seen["STOPSIGNAL"]))
+            service.wait(10.0)
+            assert time.monotonic() - stopping < 3.0
+        finally:
+            service.kill()
+    written = {path for path in folder.rglob("*") if path not in set(before)}
+    assert {path.relative_to(folder).parts[0] for path in written} <= {"data"}
+    assert (folder / "data/records.sqlite3").is_file()
+
+
+@pytest.mark.parametrize("tokens", ["", f"view:{TOKEN}"])
+def test_healthy_is_who_plans(tokens: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("RELGUIDE_TOKENS", tokens)
+    with serve(ideal_app(tokens=tokens)) as address:
+        assert health.main([f"http://{address}"]) == 0
+        monkeypatch.setenv("RELGUIDE_TOKENS", "view:another")
+        assert health.main([f"http://{address}"]) == bool(tokens)
+    assert health.main([f"http://{address}"]) == 1
+
+
+def test_who_cannot_plan_is_not_healthy() -> None:
+    def broken(situation: object) -> None:
+        raise RuntimeError("on purpose")
+
+    with serve(create_app(Settings(workers=0), planner=broken)) as address:
+        assert health.main([f"http://{address}"]) == 1
+
+
+def test_compose_names_settings_that_exist_and_writes_nowhere() -> None:
+    services = COMPOSE["services"]
+    assert set(services) == {"database", "flights", "planner", "proxy"}
+    assert services["planner"]["deploy"]["replicas"] == 2
+    known = {f"RELGUIDE_{name.upper()}" for name in Settings.model_fields}
+    for name in ("flights", "planner"):
+        assert services[name]["read_only"] is True
+        assert set(services[name]["environment"]) <= known
+    proxy = COMPOSE["configs"]["proxy"]["content"]
+    for upstream in re.findall(r"server (\w+):8000;", proxy):
+        assert upstream in services
+    assert "proxy_set_header Host $$http_host;" in proxy
