@@ -206,7 +206,11 @@ export function createActions(
       // A click on a leader that is designated already takes nothing back.
       if (engagement === "designated" && session.shown.numbers.value.state !== "off") return;
       const { doing, done } = ENGAGING[engagement];
-      void command({ command: "set_engagement", engagement }, doing, done);
+      session.flight.isSent.value = engagement === "armed";
+      void command({ command: "set_engagement", engagement }, doing, done).then(() => {
+        // what it refuses at once brings no document
+        if (session.feedback.value.kind === "refused") session.flight.isSent.value = false;
+      });
     },
     ownHeading(heading) {
       const text = `Own heading ${sayHeading(heading)} selected`;

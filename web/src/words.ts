@@ -18,6 +18,12 @@ export const ELEMENTS: readonly Element[] = [
     key: "",
   },
   {
+    name: "atc",
+    title: "Validation",
+    what: "of the path you accepted: sent, valid, or rejected; the service stands for air traffic control",
+    key: "",
+  },
+  {
     name: "message",
     title: "Message",
     what: "the most urgent one; an arrow if there are more",

@@ -4,6 +4,7 @@ import { type Signal, useComputed } from "@preact/signals";
 import { useEffect, useId, useMemo, useRef } from "preact/hooks";
 import type { Shown } from "../store/picture";
 import { AirData } from "./air";
+import { OrderStatus } from "./atc";
 import { CapturePoint } from "./capture";
 import { SeparationCircle } from "./circle";
 import { ClosestApproach } from "./closest";
@@ -71,6 +72,7 @@ export const GLASS_LAYERS = [
   Spacing,
   TimingScale,
   ModeStrip,
+  OrderStatus,
   Flags,
   MessageLine,
 ] as const;

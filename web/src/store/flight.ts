@@ -85,6 +85,8 @@ export interface Flight {
   readonly belowSince: Signal<number>;
   /** What the crew last ordered, and what became of it. */
   readonly engagement: Signal<EngagementChanged | null>;
+  /** Whether the crew has accepted a path and the service has not answered yet. */
+  readonly isSent: Signal<boolean>;
   /** The newest sample that heard of the leader: it is expected to fly on from there. */
   readonly heard: Signal<PairSample | null>;
   /** The newest sample, as it came; of a leader that is not heard of, what is expected. */
@@ -217,6 +219,7 @@ export function emptyFlight(): Flight {
     joinedSince: signal(-Infinity),
     belowSince: signal(-Infinity),
     engagement: signal(null),
+    isSent: signal(false),
     heard: signal(null),
     sample: signal(null),
     now: signal(null),
@@ -251,6 +254,7 @@ function clear(flight: Flight): void {
   flight.joinedSince.value = -Infinity;
   flight.belowSince.value = -Infinity;
   flight.engagement.value = null;
+  flight.isSent.value = false;
   flight.heard.value = null;
   flight.sample.value = null;
   flight.now.value = null;

@@ -50,6 +50,9 @@ export interface TurnAhead extends Turn {
   readonly to: PathPoint;
 }
 
+/** Sent to the service, validated by it in the place of air traffic control, or rejected. */
+export type Order = "" | "SENT" | "VALID" | "REJECTED";
+
 /** A whole minute of the plan, and where both will be. */
 export interface MinuteAhead {
   readonly minute: number;
@@ -122,6 +125,8 @@ export interface Picture {
   readonly places: readonly Place[];
   /** The direction in which the slot moves over the ground, as a unit vector. */
   readonly slotTrack: Vector;
+  /** What became of the path that the crew accepted. */
+  readonly order: Order;
   /** A new mode is boxed for a while. */
   readonly boxed: boolean;
   readonly notices: readonly Notice[];
@@ -197,10 +202,22 @@ export function pictureOf(flight: Flight): Picture {
     gate: GATE,
     places: placesOf(flight, now, look),
     slotTrack: slotTrack(flight),
+    order: guided === null ? "" : orderOf(flight, state),
     boxed: look !== null && flight.wall.value - flight.modeSince.value < BOXED,
     notices: noticesOf(flight),
     ended: flight.clock.value.ended,
   };
+}
+
+/** A rejection is shown this long [s]. */
+const REJECTION_SHOWN = 10;
+
+function orderOf(flight: Flight, state: Guidance): Order {
+  if (flight.isSent.value) return "SENT";
+  const answer = flight.engagement.value;
+  const since = answer === null ? Number.POSITIVE_INFINITY : flight.simTime.value - answer.t_s;
+  if (answer?.engagement === answer?.previous && since < REJECTION_SHOWN) return "REJECTED";
+  return state === "armed" || state === "converge" ? "VALID" : "";
 }
 
 /** Within so much of the slot, along and across the leader's route, own ship has joined [m]. */

@@ -115,6 +115,7 @@ function takePlan(flight: Flight, changed: PlanChanged, { joining, wall, since }
 
 function takeEngagement(flight: Flight, changed: EngagementChanged): void {
   flight.engagement.value = changed;
+  flight.isSent.value = false;
   const isRefused = changed.engagement === changed.previous;
   const kind = isRefused ? "refused" : "engagement";
   log(flight, { t: changed.t_s, kind, text: changed.message });

@@ -1,32 +1,10 @@
 /** Every element of the display in every state of guidance, from one table. */
 
-import { signal } from "@preact/signals";
+import { writeFileSync } from "node:fs";
 import { expect, test } from "vitest";
-import { NavigationDisplay } from "../../src/nd/nd";
-import { createShown } from "../../src/store/picture";
-import { GUIDANCES, type Guidance } from "../../src/store/states";
-import { mount } from "./draw";
+import { GUIDANCES } from "../../src/store/states";
 import { ELEMENT_ROWS } from "./elements";
-import { flightIn } from "./in-state";
-
-const ROOTS = new Map<Guidance, Element>(
-  GUIDANCES.map((state) => [
-    state,
-    mount(NavigationDisplay, {
-      shown: createShown(flightIn(state)),
-      mode: signal<"ROSE" | "ARC">("ROSE"),
-      range: signal(80),
-    }),
-  ]),
-);
-
-/** Whether something of it is drawn: a line that leads somewhere, a circle, or text. */
-function isDrawn(root: Element, selector: string): boolean {
-  return [...root.querySelectorAll(selector)].some((mark) => {
-    if (mark.matches("path")) return (mark.getAttribute("d") ?? "") !== "";
-    return mark.matches("text") ? (mark.textContent ?? "") !== "" : true;
-  });
-}
+import { isDrawn, pageOfStates, ROOTS } from "./pictures";
 
 const CELLS = ELEMENT_ROWS.flatMap((row) =>
   row.selector === null ? [] : GUIDANCES.map((state) => ({ ...row, state })),
@@ -51,4 +29,14 @@ const EVENTS = [16, 18, 24, 39, 46];
 test("each element that is drawn is drawn in some state, or comes with an event", () => {
   for (const { number, selector, states } of ELEMENT_ROWS)
     if (selector !== null) expect(states.size > 0, `${number}`).toBe(!EVENTS.includes(number));
+});
+
+test("a page of full pictures has each state, and what is drawn in it", () => {
+  const page = pageOfStates();
+  for (const state of GUIDANCES) expect(page).toContain(`<h2>${state}</h2>`);
+  expect(page.match(/<svg/g)).toHaveLength(GUIDANCES.length);
+  expect(page.match(/<tr>/g)).toHaveLength(ELEMENT_ROWS.length + 1);
+  // `make picture` says where it is to be written, to be looked at
+  const { PICTURES } = process.env;
+  if (PICTURES !== undefined) writeFileSync(PICTURES, page);
 });

@@ -96,7 +96,7 @@ export const ELEMENT_ROWS: readonly ElementRow[] = [
     "unable",
     "data_lost",
   ]),
-  none(45, "ATC status", "there is no data link"),
+  row(45, "validation", ".nd-atc text", ["armed", "converge"]),
   row(46, "flags", ".nd-flag text", []),
   none(47, "simulated time and rate", "it stands outside the instrument, in the page's head"),
 ];

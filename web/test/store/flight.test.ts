@@ -1,5 +1,6 @@
 import { describe, expect, test } from "vitest";
 import { createFlightStore } from "../../src/store/flight";
+import { pictureOf } from "../../src/store/picture";
 import type { Engagement, EngagementChanged, PlanProposed } from "../../src/wire";
 import {
   aircraft,
@@ -293,6 +294,21 @@ describe("engagement", () => {
     expect(store.flight.proposal.value?.t_s).toBe(1);
     store.receive(tick(3, [changed(3, "armed", "engaged")]), 3000);
     expect(store.flight.proposal.value).toBeNull();
+  });
+
+  test("what was accepted is sent, then valid; what is refused is said so for ten seconds", () => {
+    const store = proposing();
+    const order = () => pictureOf(store.flight).order;
+    expect(order()).toBe("");
+    store.flight.isSent.value = true;
+    expect(order()).toBe("SENT");
+    const armed = sample(2, { mode: "heading", engagement: "armed" });
+    store.receive(tick(2, [changed(2, "designated", "armed"), armed]), 2000);
+    expect(order()).toBe("VALID");
+    store.receive(tick(3, [changed(3, "armed", "armed"), { ...armed, t_s: 3 }]), 3000);
+    expect(order()).toBe("REJECTED");
+    store.receive(tick(14, [{ ...armed, t_s: 14 }]), 14_000);
+    expect(order()).toBe("VALID");
   });
 
   test("without a path there is no proposal, and with one no reason against it", () => {
