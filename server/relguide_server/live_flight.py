@@ -159,16 +159,16 @@ class LiveFlight:
         self.clients.discard(client)
         self.note_seen()
 
-    async def enter_scene(self) -> int:
+    async def enter_scene(self) -> str:
         """Count one more viewer of the scene, which is set up for the first.
 
         Returns:
-            The port of the scene's own server; 0 if it could not be set up.
+            Host and port of the scene's own server; empty if it could not be set up.
         """
         self.scene_viewers += 1
         if self._stage is None:
             self._stage = SceneStage(self.label.id, self.history.documents())
-        return await self._stage.port()
+        return await self._stage.address()
 
     async def leave_scene(self) -> None:
         """Count one viewer less; the scene is closed after the last."""

@@ -106,11 +106,11 @@ async def relay(websocket: WebSocket, flight_id: str, fleet: FleetOf) -> None:
 
 
 async def _relay(websocket: WebSocket, flight: LiveFlight) -> None:
-    port = await flight.enter_scene()
+    address = await flight.enter_scene()
     offered = [Subprotocol(name) for name in websocket.scope["subprotocols"]]
     try:
         scene = await connect(
-            f"ws://127.0.0.1:{port}",
+            f"ws://{address}",
             subprotocols=offered or None,
             compression=None,
             max_size=None,

@@ -1,6 +1,8 @@
 """The thread that draws a flight in 3D, as long as it has viewers."""
 
 import asyncio
+import secrets
+import sys
 import threading
 import time
 from collections.abc import Sequence
@@ -19,7 +21,7 @@ class SceneStage:
     def __init__(self, name: str, past: Sequence[Document]) -> None:
         self._name = name
         self._loop = asyncio.get_running_loop()
-        self._port: asyncio.Future[int] = self._loop.create_future()
+        self._address: asyncio.Future[str] = self._loop.create_future()
         self._inbox = Inbox()
         self._past = list(past)
         self._thread = threading.Thread(target=self._run, name=f"scene {name}", daemon=True)
@@ -30,20 +32,20 @@ class SceneStage:
         for document in documents:
             self._inbox.put(document)
 
-    async def port(self) -> int:
-        """The port of its viser server, once the first picture is drawn; 0 if it failed."""
-        return await asyncio.shield(self._port)
+    async def address(self) -> str:
+        """Where its viser server is, once the first picture is drawn; empty if it failed."""
+        return await asyncio.shield(self._address)
 
     async def close(self) -> None:
         """Close the scene; the connections of its viewers are closed."""
         self._inbox.close()
         await asyncio.to_thread(self._thread.join, 1.0)
-        if not self._port.done():
-            self._port.set_result(0)
+        if not self._address.done():
+            self._address.set_result("")
 
     def _run(self) -> None:
         if not run_logged(f"The 3D scene of flight {self._name}", self._draw_all):
-            self._answer(0)
+            self._answer("")
 
     def _draw_all(self) -> None:
         # Imported here because it takes a third of a second, and the page must not wait for it.
@@ -52,11 +54,12 @@ class SceneStage:
         from relguide_server.scene import Scene
 
         rich.get_console().quiet = True  # viser says goodbye there each time a scene closes
-        server = ViserServer(host="127.0.0.1", port=0, verbose=False)
+        host = _hidden_host()
+        server = ViserServer(host=host, port=0, verbose=False)
         try:
             scene = Scene(server)
             scene.draw(self._past)
-            self._answer(server.get_port())
+            self._answer(f"{host}:{server.get_port()}")
             glide = Glide()
             while not self._inbox.closed:
                 if documents := self._inbox.wait(glide.patience(time.monotonic())):
@@ -67,9 +70,20 @@ class SceneStage:
         finally:
             server.stop()
 
-    def _answer(self, port: int) -> None:
+    def _answer(self, address: str) -> None:
         def settle() -> None:
-            if not self._port.done():
-                self._port.set_result(port)
+            if not self._address.done():
+                self._address.set_result(address)
 
         self._loop.call_soon_threadsafe(settle)
+
+
+def _hidden_host() -> str:
+    """An address of this machine's own for a scene, which nobody guesses.
+
+    Viser takes commands from every page that finds it, whatever its origin. Of the addresses from
+    127.0.0.0 to 127.255.255.255, all of which Linux answers to, one is drawn.
+    """
+    if sys.platform != "linux":
+        return "127.0.0.1"
+    return ".".join(map(str, (127, *(1 + secrets.randbelow(254) for _ in range(3)))))

@@ -6,6 +6,7 @@ from typing import Any
 
 import uvicorn
 from fastapi import FastAPI
+from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol
 
 from relguide_server.live_fleet import Fleet
 from relguide_server.workers import Workers
@@ -14,6 +15,46 @@ TO_SAY_GOODBYE = 0.3
 """How long streams may take to be told why they end [s]."""
 TO_FINISH = 1.0
 """How long requests may take to be answered once the service is to stop [s]."""
+
+
+HEAD_PATIENCE = 15.0
+"""How long the head of a request may take to come [s]."""
+LONGEST_HEAD = 64 * 1024
+"""How long it may be [bytes]."""
+
+
+class Connection(HttpToolsProtocol):
+    """Uvicorn's connection, which ends where the head of a request is endless, or never comes."""
+
+    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+        """Wait for a request."""
+        super().connection_made(transport)
+        self._head = 0
+        self._late = self.loop.call_later(HEAD_PATIENCE, transport.close)
+
+    def on_message_begin(self) -> None:
+        """A request begins."""
+        super().on_message_begin()
+        self._head = 0
+        self._late.cancel()
+        self._late = self.loop.call_later(HEAD_PATIENCE, self.transport.close)
+
+    def on_header(self, name: bytes, value: bytes) -> None:
+        """A line of the head; an error makes the parser refuse the request."""
+        self._head += len(name) + len(value)
+        if self._head > LONGEST_HEAD:
+            raise ValueError(f"The head of a request may have at most {LONGEST_HEAD:,} bytes.")
+        super().on_header(name, value)
+
+    def on_headers_complete(self) -> None:
+        """The head is there."""
+        self._late.cancel()
+        super().on_headers_complete()
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        """The connection has ended."""
+        self._late.cancel()
+        super().connection_lost(exc)
 
 
 class Server(uvicorn.Server):
@@ -42,14 +83,14 @@ def serve(app: FastAPI, *, host: str, port: int) -> None:
 def uvicorn_options(*, host: str, port: int) -> dict[str, Any]:
     """How uvicorn is configured.
 
-    uvloop and httptools are taken when installed ("auto"). Compressing each of 20 messages a second
+    uvloop is taken where it is installed ("auto"). Compressing each of 20 messages a second
     would cost more than the stream itself, so per-message deflate is off.
     """
     return {
         "host": host,
         "port": port,
         "loop": "auto",
-        "http": "auto",
+        "http": Connection,
         "ws_per_message_deflate": False,
         "ws_max_size": 1024 * 1024,  # a browser sends us camera positions, nothing larger
         "timeout_graceful_shutdown": TO_FINISH,
