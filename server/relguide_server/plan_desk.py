@@ -102,7 +102,7 @@ class PlanDesk:
         if not self._is_own(wish):
             return None
         if not self._preparation.can_plan_by(self._name):
-            found = jobs.plan_situation(situation, anchor, self._guarded, (), AT_ONCE)
+            found = jobs.plan_situation(situation, anchor, self._guarded, (), None)
         elif self._name != "exact":
             found = jobs.plan_situation(situation, anchor, self._planner, (), AT_ONCE)
         else:
