@@ -196,8 +196,7 @@ def plan(situation: Situation, *, deadline: Second | None = None) -> Plan | NoPl
     until = end_of(deadline)
     started = perf_counter_ns()
     radius = situation.pursuer.turn_radius
-    pursuer, leader = situation.pursuer, situation.leader
-    separation = hypot(pursuer.x - leader.x, pursuer.y - leader.y)
+    separation = _separation(situation)
     if separation < situation.min_separation - SLACK * radius:
         lost = (
             f"The aircraft are {separation:,.0f} m ({distance(separation)}) apart, closer "
@@ -210,20 +209,31 @@ def plan(situation: Situation, *, deadline: Second | None = None) -> Plan | NoPl
     return chosen if isinstance(chosen, NoPlan) else _plan_of(chosen, situation, started)
 
 
-def plan_at_once(situation: Situation) -> Plan | None:
-    """The plan where the limit costs nothing, as `plan` gives it; `None` if a search is needed.
+def plan_at_once(situation: Situation) -> Plan | NoPlan | None:
+    """What `plan` answers without a search; `None` if one is needed.
 
-    It runs a small part of the planner's machine code.
+    That is the plan where the limit costs nothing, or that the slot cannot be reached in time. It
+    runs a small part of the planner's machine code.
     """
     expect("situation", situation, Situation)
     started = perf_counter_ns()
     radius = situation.pursuer.turn_radius
+    if _separation(situation) < situation.min_separation - SLACK * radius:
+        return None
     chosen = _plan_at_once(situation, radius)
     if chosen is None:
         found = candidates(situation)
-        if found and found.bound <= HORIZON:
-            chosen = _fastest_extremal(found, situation, radius, path_of(found.leader), inf)
+        beyond = _out_of_reach(found, situation)
+        if beyond is not None:
+            return beyond
+        chosen = _fastest_extremal(found, situation, radius, path_of(found.leader), inf)
     return None if chosen is None else _plan_of(chosen, situation, started)
+
+
+def _separation(situation: Situation) -> Metre:
+    """Between the two aircraft now [m]."""
+    pursuer, leader = situation.pursuer, situation.leader
+    return hypot(pursuer.x - leader.x, pursuer.y - leader.y)
 
 
 def _plan_of(chosen: _Chosen, situation: Situation, started: int) -> Plan:
@@ -255,15 +265,9 @@ def _plan_at_once(situation: Situation, radius: Metre) -> _Chosen | None:
 def _search(situation: Situation, radius: Metre, until: float) -> _Chosen | NoPlan:
     """The fastest of all extremals and of all paths that touch d_min, or why there is none."""
     found = candidates(situation)
-    if not found:
-        return NoPlan(reason=Reason.SLOT_UNREACHABLE, message=_unreachable(situation))
-    if found.bound > HORIZON:
-        return NoPlan(
-            reason=Reason.BEYOND_HORIZON,
-            message=f"The slot is reached only after {found.bound / 3600.0:,.0f} h, beyond the "
-            f"horizon of {HORIZON / 3600.0:.0f} h: a larger speed difference helps.",
-            lower_bound=found.bound,
-        )
+    beyond = _out_of_reach(found, situation)
+    if beyond is not None:
+        return beyond
     chosen, cut_short = _find_certified(found, situation, radius, until)
     if chosen is not None:
         return chosen
@@ -281,6 +285,20 @@ def _search(situation: Situation, radius: Metre, until: float) -> _Chosen | NoPl
         f"{_why_none_round(situation)} {least_bad_sentence(least_bad(situation))}",
         lower_bound=found.bound,
     )
+
+
+def _out_of_reach(found: Candidates, situation: Situation) -> NoPlan | None:
+    """That the slot is never reached, or too late; `None` if it is in time."""
+    if not found:
+        return NoPlan(reason=Reason.SLOT_UNREACHABLE, message=_unreachable(situation))
+    if found.bound > HORIZON:
+        return NoPlan(
+            reason=Reason.BEYOND_HORIZON,
+            message=f"The slot is reached only after {found.bound / 3600.0:,.0f} h, beyond the "
+            f"horizon of {HORIZON / 3600.0:.0f} h: a larger speed difference helps.",
+            lower_bound=found.bound,
+        )
+    return None
 
 
 def _why_none_round(situation: Situation) -> str:

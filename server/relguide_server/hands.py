@@ -3,10 +3,12 @@
 import asyncio
 import os
 import pickle
+import subprocess
 import sys
 import threading
 from collections.abc import Callable
-from typing import Any, Protocol, cast
+from dataclasses import dataclass
+from typing import Any, Protocol
 
 from relguide_server.outcomes import Outcome, outcome_of
 from relguide_server.worker import LENGTH
@@ -37,23 +39,22 @@ class Hand(Protocol):
         ...
 
 
-class _Pipes(asyncio.SubprocessProtocol):
-    """The ends of a process's pipes, and the one outcome that is awaited."""
+class _Outcomes(asyncio.Protocol):
+    """What a process writes: the one outcome that is awaited."""
 
     def __init__(self) -> None:
         self.outcome: asyncio.Future[bytes] = asyncio.get_running_loop().create_future()
-        self.closed: asyncio.Future[None] = asyncio.get_running_loop().create_future()
         self._came = bytearray()
+        self._ended = False
 
     def expect(self) -> "asyncio.Future[bytes]":
         """The next outcome, once it comes."""
-        if not self.closed.done():
+        if not self._ended:
             self.outcome = asyncio.get_running_loop().create_future()
         return self.outcome
 
-    def pipe_data_received(self, fd: int, data: bytes) -> None:
+    def data_received(self, data: bytes) -> None:
         """A part of an outcome."""
-        del fd
         self._came += data
         size = LENGTH + int.from_bytes(self._came[:LENGTH], "big")
         if len(self._came) >= size > LENGTH:
@@ -62,42 +63,46 @@ class _Pipes(asyncio.SubprocessProtocol):
             if not self.outcome.done():
                 self.outcome.set_result(text)
 
-    def pipe_connection_lost(self, fd: int, exc: Exception | None) -> None:
-        """It writes or reads no more."""
-        del fd, exc
+    def connection_lost(self, exc: Exception | None) -> None:
+        """It writes no more."""
+        del exc
+        self._ended = True
         if not self.outcome.done():
             self.outcome.set_exception(HandLostError("A worker ended in the middle of a job."))
 
-    def connection_lost(self, exc: Exception | None) -> None:
-        """It is gone, and its pipes are closed."""
-        del exc
-        self.closed.set_result(None)
+
+@dataclass(frozen=True, slots=True)
+class _Process:
+    """A process that does jobs, with both its pipes."""
+
+    process: "subprocess.Popen[bytes]"
+    jobs: asyncio.WriteTransport
+    outcomes: _Outcomes
+    reading: asyncio.ReadTransport
 
 
 class ProcessHand:
     """A process, started with its first job and killed when it is stuck."""
 
     def __init__(self) -> None:
-        self._started: asyncio.Task[tuple[asyncio.SubprocessTransport, _Pipes]] | None = None
+        self._started: asyncio.Task[_Process] | None = None
 
     @property
     def pid(self) -> int:
         """Of its process; 0 while there is none."""
         if self._started is None or not self._started.done():
             return 0
-        return self._started.result()[0].get_pid()
+        return self._started.result().process.pid
 
     async def do(self, job: Job) -> Outcome:
         """As in `Hand`."""
         if self._started is None:
             self._started = asyncio.create_task(_start_process())
         # one that is cancelled meanwhile is ended by `drop`
-        transport, pipes = await asyncio.shield(self._started)
-        # uvloop's is no subclass of asyncio's
-        jobs = cast(asyncio.WriteTransport, transport.get_pipe_transport(0))
+        started = await asyncio.shield(self._started)
         text = pickle.dumps(job, pickle.HIGHEST_PROTOCOL)
-        outcome = pipes.expect()
-        jobs.write(len(text).to_bytes(LENGTH, "big") + text)
+        outcome = started.outcomes.expect()
+        started.jobs.write(len(text).to_bytes(LENGTH, "big") + text)
         done: Outcome = pickle.loads(await outcome)
         return done
 
@@ -106,21 +111,26 @@ class ProcessHand:
         started, self._started = self._started, None
         if started is None:
             return
-        transport, pipes = await started
-        transport.close()  # kills it
-        async with asyncio.timeout(END_PATIENCE):
-            await pipes.closed
+        ended = await started
+        ended.process.kill()
+        ended.jobs.abort()
+        ended.reading.close()
+        await asyncio.to_thread(ended.process.wait, END_PATIENCE)
 
 
-async def _start_process() -> tuple[asyncio.SubprocessTransport, _Pipes]:
-    return await asyncio.get_running_loop().subprocess_exec(
-        _Pipes,
-        sys.executable,
-        "-m",
-        "relguide_server.worker",
-        stderr=None,
+async def _start_process() -> _Process:
+    # Not by the loop: uvloop forks, and to copy a large process takes it tens of milliseconds.
+    process = await asyncio.to_thread(
+        subprocess.Popen,
+        [sys.executable, "-m", "relguide_server.worker"],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
         env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
     )
+    loop = asyncio.get_running_loop()
+    jobs, _ = await loop.connect_write_pipe(asyncio.BaseProtocol, process.stdin)
+    reading, outcomes = await loop.connect_read_pipe(_Outcomes, process.stdout)
+    return _Process(process, jobs, outcomes, reading)
 
 
 class ThreadHand:

@@ -4,6 +4,7 @@ import threading
 from collections.abc import Callable, Iterator
 from queue import Queue
 
+import numpy as np
 import pytest
 from relguide_server import preparation as module
 from relguide_server.app import create_app
@@ -13,8 +14,9 @@ from relguide_server.plans import EXAMPLE
 from relguide_server.preparation import Preparation, steps_for
 from relguide_server.settings import Settings
 
-from relguide.planning.plan import Plan, plan, plan_at_once
+from relguide.planning.plan import NoPlan, Plan, Reason, plan, plan_at_once
 from relguide.warm_up import STEPS, Preparing, WarmUpError
+from tests.bench.deadline import draw
 from tests.server.serving import TestClient
 from tests.situations import golden
 
@@ -59,10 +61,22 @@ def test_a_plan_at_once_is_the_plan_where_the_limit_costs_nothing() -> None:
         planned, at_once = plan(situation), plan_at_once(situation)
         if at_once is not None:
             assert isinstance(planned, Plan)
+            assert isinstance(at_once, Plan)
             assert planned.optimality.proof == "relaxation"
             assert planned.trajectory == at_once.trajectory
             relaxed += 1
     assert relaxed > 50
+
+
+def test_what_is_out_of_reach_is_said_at_once_in_the_words_of_the_plan() -> None:
+    reasons = set()
+    for case in range(200):
+        situation = draw(np.random.default_rng([5, case]))
+        at_once = plan_at_once(situation)
+        if isinstance(at_once, NoPlan):
+            assert plan(situation, deadline=1e-3) == at_once
+            reasons.add(at_once.reason)
+    assert reasons == {Reason.SLOT_UNREACHABLE, Reason.BEYOND_HORIZON}
 
 
 def test_a_first_start_answers_what_it_can(compiled: Callable[..., None]) -> None:

@@ -52,6 +52,10 @@ class Answer:
     body: dict[str, Any]
 
 
+Reply = tuple[bytes, int, float, dict[str, Any]]
+"""What came, its status, how long it took [s], and what was asked."""
+
+
 def main(arguments: list[str] | None = None) -> int:
     """Draw, post and report; 1 if an answer was late, wrong or no answer."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
@@ -60,12 +64,12 @@ def main(arguments: list[str] | None = None) -> int:
     given = parser.parse_args(arguments)
     cases = iter(range(given.count))
     with running(record_plans=0) as service:
-        answers = uvloop.run(_ask_all(service.port, cases, given.seed))
-    return report(answers)
+        replies = uvloop.run(_ask_all(service.port, cases, given.seed))
+    return report([_judge(*reply) for reply in replies])
 
 
-async def _ask_all(port: int, cases: Iterator[int], seed: int) -> list[Answer]:
-    answers: list[Answer] = []
+async def _ask_all(port: int, cases: Iterator[int], seed: int) -> list[Reply]:
+    replies: list[Reply] = []
 
     async def ask() -> None:
         reader, writer = await asyncio.open_connection("127.0.0.1", port)
@@ -76,16 +80,16 @@ async def _ask_all(port: int, cases: Iterator[int], seed: int) -> list[Answer]:
             writer.write(wanted)
             head = (await reader.readuntil(b"\r\n\r\n")).lower()
             size = int(head.partition(b"content-length:")[2].partition(b"\r\n")[0])
-            reply = json.loads(await reader.readexactly(size))
-            seconds = perf_counter() - began
-            answers.append(_judge(reply, int(head[9:12]), seconds, body))
+            came = await reader.readexactly(size)
+            replies.append((came, int(head[9:12]), perf_counter() - began, body))
         writer.close()
 
     await asyncio.gather(*(ask() for _ in range(CONNECTIONS)))
-    return answers
+    return replies
 
 
-def _judge(reply: dict[str, Any], status: int, seconds: float, body: dict[str, Any]) -> Answer:
+def _judge(came: bytes, status: int, seconds: float, body: dict[str, Any]) -> Answer:
+    reply = json.loads(came)
     outcome = reply.get("reason") or reply.get("optimality", {}).get("proof", "problem")
     below = below_limit(reply, body) if reply.get("status") == "planned" else 0.0
     return Answer(seconds=seconds, status=status, outcome=outcome, below=below, body=body)
