@@ -7,6 +7,7 @@ import numpy as np
 
 from relguide.kernels.base.clock import now, time_is_up
 from relguide.kernels.base.records import Scene
+from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.any_path import any_path
 from relguide.kernels.contact.chain import MAX_LEGS
 from relguide.kernels.contact.constrained_search import (
@@ -95,9 +96,22 @@ def _through_contacts(found: Candidates, scene: Scene, beat: Second) -> Candidat
     if count == 0 and beat >= HORIZON and keeps_straight:
         bearings *= HARDER
         time, count = best_constrained_path(start, scene, bearings, near, longest, legs)
-    if count == 0:
-        return None
-    pieces = pieces_of(start, scene, frame.radius, 1.0, time, legs[:count])
+    return None if count == 0 else candidate_of_legs(found, scene, time, legs[:count])
+
+
+def candidate_of_legs(
+    found: Candidates, scene: Scene, time: float, legs: FloatArray
+) -> Candidate | None:
+    """A path through contacts as it is flown; `None` if that takes longer than it should.
+
+    Args:
+        found: all candidates of the situation.
+        scene: of `tables.scene_of`, with the limit that the start keeps.
+        time: when it arrives [R/V_P].
+        legs: as in `chain.Chain`. shape (n, 6)
+    """
+    situation, frame = found.situation, found.frame
+    pieces = pieces_of(frame.pose, scene, frame.radius, 1.0, time, legs)
     if pieces.shape[1] == 0:
         return None
     return candidate_of(situation.pursuer, segments_of_pieces(frame.radius, pieces))

@@ -21,6 +21,7 @@ from relguide.kernels.base.clock import now
 from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.bounds.contact_bound import Cell, Goal, times_round, untouched_bound
 from relguide.kernels.bounds.contact_tree import Problem
+from relguide.kernels.bounds.probe import Find, begin_find
 from relguide.kernels.bounds.proof_search import SEARCHING, begin, go_on
 
 _QUADRANT_CELLS = 2
@@ -63,6 +64,16 @@ class Question:
 
     def bounds(self, beat: float) -> Iterator[float]:
         """Ever better bounds of the time of all paths, up to `beat`, where they end."""
+        return self.search(beat, begin_find(self.start, self.scene, -inf, 0.0, False), 0.0)
+
+    def search(self, beat: float, find: Find, gap: float) -> Iterator[float]:
+        """The same; paths that are found on the way lower `beat`.
+
+        Args:
+            beat: arrivals from here on do not matter at first [R/V_P].
+            find: takes the fastest path found.
+            gap: nor do those from so much before its arrival on [R/V_P].
+        """
         # no path that nowhere touches d_min arrives sooner than the first of these
         beat = untouched_bound(self.start, self.scene, self.goal, beat)
         table = times_round(self.scene.alpha, self.scene.d_min)
@@ -70,7 +81,9 @@ class Question:
         first, last = np.array([*self.first_contacts()]), np.array([*self.last_contacts()])
         search, state = begin(problem, first, last), SEARCHING
         while state == SEARCHING:
-            bound, state = go_on(search, problem, now() + _ROUND)
+            bound, state = go_on(search, problem, find, now() + _ROUND)
+            if find.best[1] > 0.0:
+                problem = problem._replace(beat=min(beat, float(find.best[0]) - gap))
             yield bound
 
     def _windows(self) -> Iterator[tuple[float, float]]:

@@ -1,6 +1,7 @@
 """prove(plan, seconds=…): a better lower bound of the time, for a plan that d_min made longer.
 
-The bound is that of `contact_search`; it rises the longer the search runs. If the slot could be
+The bound is that of `contact_search`; it rises the longer the search runs. A faster path that is
+found on the way takes the plan's place. If the slot could be
 reached before it opens, arriving just as it opens is a case of its own, in which no path need be an
 extremal. It is ruled out, where it can be, by how soon a point can be met that moves along the
 slot's track at V_P and is at the slot as it opens: a search of the same kind.
@@ -12,6 +13,9 @@ from math import inf
 from time import perf_counter
 
 from relguide.kernels.bounds.contact_bound import Goal, track_of
+from relguide.kernels.bounds.probe import Find, begin_find
+from relguide.planning.certificate import certify
+from relguide.planning.constrained_path import candidate_of_legs
 from relguide.planning.contact_search import Question
 from relguide.planning.inputs import expect, expect_function, expect_within
 from relguide.planning.plan import Optimality, Plan, Proof
@@ -43,6 +47,8 @@ class Bound:
     """No plan that keeps d_min is faster than this [s]."""
     gap: Second
     """How much slower the plan is [s]."""
+    plan: Plan
+    """The one that was to be proved, or the fastest that was found since."""
 
 
 def prove(
@@ -51,7 +57,7 @@ def prove(
     seconds: Second,
     progress: Callable[[Iterator[Bound]], Iterable[Bound]] = iter,
 ) -> Plan:
-    """The plan with a better lower bound of its time; the longer it may take, the better.
+    """The plan with a better lower bound of its time, or a faster one that was found on the way.
 
     A plan already proved optimal is returned as it is. Within `CERTIFIED` of its bound a plan is
     `certified`. The search ends early once it is within `TOLERANCE`.
@@ -69,12 +75,12 @@ def prove(
     expect_function("progress", progress)
     if plan.optimality.proof == "relaxation" or plan.situation.min_separation == 0.0:
         return plan
-    lower_bound = plan.optimality.lower_bound
+    best, lower_bound = plan, plan.optimality.lower_bound
     for bound in progress(bounds(plan, seconds=seconds)):
-        lower_bound = bound.lower_bound
-    certified = plan.time_to_converge - lower_bound <= CERTIFIED
+        best, lower_bound = bound.plan, bound.lower_bound
+    certified = best.time_to_converge - lower_bound <= CERTIFIED
     proof: Proof = "certified" if certified else "bound"
-    return replace(plan, optimality=Optimality(proof=proof, lower_bound=lower_bound))
+    return replace(best, optimality=Optimality(proof=proof, lower_bound=lower_bound))
 
 
 def check_seconds(seconds: object) -> Second:
@@ -87,46 +93,88 @@ def check_seconds(seconds: object) -> Second:
 
 
 def bounds(plan: Plan, *, seconds: Second) -> Iterator[Bound]:
-    """Reports of rising bounds, some twenty a second."""
-    pursuer = plan.situation.pursuer
-    scale = pursuer.turn_radius / pursuer.tas
-    time = plan.time_to_converge
-    best = min(plan.optimality.lower_bound, time)
-    yield Bound(elapsed=0.0, lower_bound=best, gap=time - best)
-    steps = _rising_bounds(plan, time / scale, scale)
+    """Reports of rising bounds, some twenty a second, and of faster plans."""
+    search = _Search(plan)
+    best = min(plan.optimality.lower_bound, plan.time_to_converge)
+
+    def report(elapsed: Second) -> Bound:
+        gap = search.plan.time_to_converge - best
+        return Bound(elapsed=elapsed, lower_bound=best, gap=gap, plan=search.plan)
+
+    yield report(0.0)
+    steps = search.rising_bounds()
     next(steps)  # loads the kernels
     started = reported = perf_counter()
     for proved in steps:
         now = perf_counter()
         if now - started > seconds:
             break
-        best = min(max(best, proved * scale), time)
-        if time - best <= TOLERANCE:
+        best = min(max(best, proved * search.scale), search.plan.time_to_converge)
+        if search.plan.time_to_converge - best <= TOLERANCE:
             break
         if now - reported > _REPORT:
             reported = now
-            yield Bound(elapsed=now - started, lower_bound=best, gap=time - best)
-    yield Bound(elapsed=perf_counter() - started, lower_bound=best, gap=time - best)
+            yield report(now - started)
+    yield report(perf_counter() - started)
 
 
-def _rising_bounds(plan: Plan, time: float, scale: float) -> Iterator[float]:
-    """Bounds of the plan's time [R/V_P], round after round until there is no better one."""
-    found = candidates(plan.situation)
-    slot = question_of(found)
-    _load(slot)
-    yield 0.0
-    if found.reachable_at_release:
-        track, after = at_release(slot)
-        soonest = 0.0
-        for soonest in track.bounds(after):
-            yield min(soonest, track.horizon)
-        if soonest < after:
-            return
-    # paths that arrive within the gap of the plan are left out at once: so a small gap, which takes
-    # a hundred times as long, does not delay a larger one
-    for gap in _GAPS:
-        aimed = replace(slot, paired=max(slot.paired * (gap / CERTIFIED) ** 3, _FINEST_PAIRED))
-        yield from aimed.bounds(time - _SHARE * gap / scale)
+class _Search:
+    """A proof, and the fastest plan that it has found."""
+
+    def __init__(self, plan: Plan) -> None:
+        pursuer = plan.situation.pursuer
+        self.plan = plan
+        self.scale = pursuer.turn_radius / pursuer.tas
+        """R/V_P [s]."""
+        self._found = candidates(plan.situation)
+        self._slot = question_of(self._found)
+        time = plan.time_to_converge / self.scale
+        start, scene, gain = self._slot.start, self._slot.scene, TOLERANCE / self.scale
+        self._find = begin_find(start, scene, time, gain, False)
+        self._find_at_release = begin_find(start, scene, inf, 0.0, True)
+
+    def rising_bounds(self) -> Iterator[float]:
+        """Bounds of the plan's time [R/V_P], round after round until there is no better one."""
+        slot, scale = self._slot, self.scale
+        _load(slot)
+        yield 0.0
+        if self._found.reachable_at_release:
+            track, after = at_release(slot)
+            soonest = 0.0
+            for soonest in track.search(after, self._find_at_release, 0.0):
+                yield min(soonest, track.horizon)
+                if self._take_faster(self._find_at_release):
+                    yield track.horizon
+                    return
+            if soonest < after:
+                return
+        # paths that arrive within the gap of the plan are left out at once: so a small gap, which
+        # takes a hundred times as long, does not delay a larger one
+        for gap in _GAPS:
+            aimed = replace(slot, paired=max(slot.paired * (gap / CERTIFIED) ** 3, _FINEST_PAIRED))
+            left_out = _SHARE * gap / scale
+            beat = self.plan.time_to_converge / scale - left_out
+            for bound in aimed.search(beat, self._find, left_out):
+                self._take_faster(self._find)
+                yield bound
+
+    def _take_faster(self, find: Find) -> bool:
+        """Whether a faster path has been found and certifies: it takes the plan's place."""
+        time, count = find.best.tolist()
+        if count == 0.0 or time * self.scale >= self.plan.time_to_converge:
+            return False
+        situation, legs = self.plan.situation, find.legs[: int(count)]
+        path = candidate_of_legs(self._found, find.scene, time, legs)
+        if path is None:
+            return False
+        certificate = certify(path.trajectory, situation)
+        if certificate.holds:
+            trajectory, word = path.trajectory, path.word
+            self.plan = replace(
+                self.plan,
+                trajectory=trajectory, word=word, certificate=certificate, planner="exact",
+            )  # fmt: skip
+        return certificate.holds
 
 
 def at_release(slot: Question) -> tuple[Question, float]:

@@ -26,11 +26,14 @@ from relguide.kernels.bounds.contact_tree import (
     round_from,
     round_to,
 )
+from relguide.kernels.bounds.probe import Find, probe, probe_between
 
 MAX_BUNDLES = 400_000
 """Most bundles of paths kept, and cells; the search ends there."""
 SEARCHING, CLOSED, STUCK = 0, 1, 2
 """What a round ends with: there is more to do; no bundle is left; nothing more can be done."""
+_PROBED = (0.06, 8e-3, 1e-3)
+"""Cells are probed when their bearings differ by this, or down to half as much [rad]."""
 _SMALLEST = 1e-10  # a cell no wider than this is not halved: rounding counts for more [rad]
 _EASED = 0.03  # cells narrower than this are looked at closely [rad]
 _SLACK = 1e-6  # of `round_time`, as part of a whole round
@@ -73,12 +76,13 @@ def begin(problem: Problem, first: FloatArray, last: FloatArray) -> Search:
 
 
 @njit(cache=True, nogil=True)
-def go_on(search: Search, problem: Problem, until: float) -> tuple[float, int]:
-    """Halve the bundles with the least bounds.
+def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[float, int]:
+    """Halve the bundles with the least bounds, and look for paths in small ones.
 
     Args:
         search: goes on.
-        problem: as it began with.
+        problem: as it began with, or with an earlier `beat`.
+        find: the fastest path known; takes a faster one.
         until: when to end, by `clock.now` [s].
 
     Returns:
@@ -87,6 +91,8 @@ def go_on(search: Search, problem: Problem, until: float) -> tuple[float, int]:
     final = len(problem.scene.leader) - 1
     while search.size[0] > 0:
         bound = search.bounds[0]
+        if bound >= problem.beat:
+            break
         if search.size[0] + 2 * search.roots >= MAX_BUNDLES:
             return bound, STUCK
         if time_is_up(until):
@@ -95,6 +101,8 @@ def go_on(search: Search, problem: Problem, until: float) -> tuple[float, int]:
         half = search.first.cells[n, 3]
         if max(half, search.last.cells[m, 3] if m >= 0 else 0.0) < _SMALLEST:
             return bound, STUCK
+        if eased == 0 and find.best[0] > bound:
+            _probe(search, problem, find, n, m)
         _drop_least(search)
         if m < 0:
             # elsewhere than on the final leg the cells of last contacts are very many
@@ -115,6 +123,19 @@ def go_on(search: Search, problem: Problem, until: float) -> tuple[float, int]:
         if not _halve(search, problem, n, m, bound):
             return bound, STUCK
     return problem.beat, CLOSED
+
+
+@njit(cache=True, nogil=True)
+def _probe(search: Search, problem: Problem, find: Find, n: int, m: int) -> None:
+    """Look for a path in a bundle that has become small."""
+    half = max(search.first.cells[n, 3], search.last.cells[m, 3] if m >= 0 else 0.0)
+    for probed in _PROBED:
+        if 0.5 * probed < half <= probed:
+            cell = cell_at(search.first, n)
+            if m < 0:
+                probe(problem.start, find, cell)
+            else:
+                probe_between(problem.start, find, cell, cell_at(search.last, m))
 
 
 @njit(cache=True, nogil=True)

@@ -106,7 +106,7 @@ def _search(
     if kept > 0 and chains[0, 0, 0] == scene.t_release:
         contacts = int(chains[0, 0, 1])
         chain = chain_of(chains[0, 1 : contacts + 1], np.zeros((MAX_LEGS, 6)))
-        if _fly_to_delay(start, with_time(scene, inf), chain):
+        if fly_to_delay(start, with_time(scene, inf), chain):
             legs[: contacts + 1] = chain.legs[: contacts + 1]
             return scene.t_release, contacts + 1
         nodes.time[:], nodes.lower[:] = reached, lower
@@ -124,7 +124,7 @@ def _is_slot_at_limit(scene: Scene) -> bool:
 
 
 @njit(cache=True, nogil=True)
-def _fly_to_delay(start: Pose, scene: Scene, chain: Chain) -> bool:
+def fly_to_delay(start: Pose, scene: Scene, chain: Chain) -> bool:
     """Fly a chain to a last contact from which a delay path arrives as the slot opens.
 
     While the leader turns, that may be another word to the contact than the earliest: a later one

@@ -129,7 +129,7 @@ def descend_basins(
         here, contact = nodes.arrival[at], contact_of(nodes, at)
         if here > best and here - _hidden_below(nodes, at, width) >= best:
             continue
-        least = _descend(start, scene, contact, here, 0.5 * width, room, nearby)
+        least = descend(start, scene, contact, here, 0.5 * width, room, nearby)
         if least < best:
             best = least
             path[:] = nearby
@@ -200,7 +200,7 @@ def _descend_edge(
             least, there = value, bearing
             nearby[:] = room.path
     if least < inf:
-        least = _descend(start, scene, Contact(piece, there, side), least, stride, room, nearby)
+        least = descend(start, scene, Contact(piece, there, side), least, stride, room, nearby)
     if least < best:
         best = least
         path[:] = nearby
@@ -208,11 +208,21 @@ def _descend_edge(
 
 
 @njit(cache=True, nogil=True)
-def _descend(
+def descend(
     start: Pose, scene: Scene, contact: Contact, here: float, stride: float, room: Workspace,
     path: FloatArray,
 ) -> float:  # fmt: skip
-    """The least arrival near a contact whose own is `here`; `path` takes the path if it is less."""
+    """The least arrival near a contact whose own is `here`; `path` takes the path if it is less.
+
+    Args:
+        start: where the path begins, at t = 0.
+        scene: what it has to reckon with.
+        contact: where it begins to look.
+        here: the arrival through that [R/V_P].
+        stride: how far is looked at first [rad].
+        room: to work in.
+        path: takes the two rows of a faster path. shape (2, 5)
+    """
     piece, bearing, side = contact
     while stride > FINEST:
         moved = False

@@ -15,6 +15,7 @@ from hypothesis import assume, given
 from relguide import NoPlan, Plan, Situation, plan, prove
 from relguide.__main__ import main
 from relguide.kernels.words.extremals import MAX_ROWS, solve_and_measure
+from relguide.planning import constrained_path
 from relguide.planning.prove import (
     MAX_SECONDS,
     TOLERANCE,
@@ -24,7 +25,7 @@ from relguide.planning.prove import (
     question_of,
 )
 from relguide.planning.words import candidates
-from tests.bench import draws
+from tests.bench import draws, proofs
 from tests.bodies import BODY
 from tests.plans import golden_plan, straight_behind
 from tests.situations import GOLDEN, golden, situations
@@ -38,6 +39,7 @@ ACTIVE = [
 NAMES = [answer["id"] for _, _, answer in ACTIVE]
 SHORTFALL = 0.05
 """Golden plans keep d_min but for half a metre, which is worth some hundredths of a second."""
+TURNING = proofs.KINDS[2]
 QUICK = "R051"
 """Its plan is proved optimal at once."""
 
@@ -118,6 +120,31 @@ def test_where_the_slot_cannot_be_met_as_it_opens_the_next_path_is_optimal() -> 
         answer = plan(situation)
         assert isinstance(answer, Plan)
         assert answer.optimality.lower_bound == found.bound
+
+
+@pytest.mark.parametrize(
+    ("case", "late", "best", "proof"),
+    [
+        (24, 505.4, 439.282, "bound"),
+        (84, 726.2, 719.485, "certified"),
+        (92, 656.1, 596.319, "certified"),
+    ],
+)
+def test_what_a_coarse_search_misses_the_proof_finds(
+    case: int, late: float, best: float, proof: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A path through two contacts, and two that delay after one until the slot opens."""
+    situation = proofs.draw(TURNING, np.random.default_rng([102, 2, case]), case)
+    monkeypatch.setattr(constrained_path, "TURNING_BEARINGS", 6)
+    planned = plan(situation)
+    assert isinstance(planned, Plan)
+    assert planned.time_to_converge == pytest.approx(late, abs=0.1)
+    proved = prove(planned, seconds=2.0)
+    assert proved.time_to_converge == pytest.approx(best, abs=0.01)
+    assert proved.certificate.holds
+    assert proved.arrival.holds
+    assert proved.optimality.proof in (proof, "certified")
+    assert proved.optimality.lower_bound <= proved.time_to_converge
 
 
 def test_reports_never_get_worse() -> None:

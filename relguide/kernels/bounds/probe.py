@@ -1,0 +1,146 @@
+"""Paths through small cells of contacts: what branch and bound finds while it proves.
+
+A path through the middle of a cell, or from the middle of one to that of another, by a word or a
+boundary arc, is flown; if it arrives sooner than any known, it is refined. Slot frame: lengths in
+R, times in R/V_P, angles counter-clockwise.
+"""
+
+from math import inf
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from relguide.kernels.base.angles import wrap
+from relguide.kernels.base.records import Contact, Pose, Scene, with_time
+from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.bounds.contact_bound import Cell
+from relguide.kernels.contact.chain import BOUNDARY_ARC, MAX_CONTACTS, MAX_LEGS, WORD, chain_of
+from relguide.kernels.contact.chain_refinement import fly_links, refine_chains
+from relguide.kernels.contact.constrained_search import ease_to_start, fly_to_delay
+from relguide.kernels.contact.contact import boundary_arc_sense, disc_on
+from relguide.kernels.contact.one_contact import Workspace, descend, through_contact, workspace
+
+IntArray = np.ndarray[tuple[int, ...], np.dtype[np.int64]]
+
+_SEEN = 4096  # so many probed cells are remembered
+_MOST_DELAYS = 400  # cells from which a delay path is looked for, 0.3 ms each
+
+
+class Find(NamedTuple):
+    """The fastest path known."""
+
+    scene: Scene
+    """What it has to reckon with; it keeps the limit that the start keeps."""
+    best: FloatArray
+    """Its arrival [R/V_P] and the number of its legs; 0 if it is not one of these. shape (2,)"""
+    legs: FloatArray
+    """Its legs, as `chain.Chain`. shape (MAX_LEGS, 6)"""
+    room: Workspace
+    """To work in."""
+    gain: float
+    """A path must arrive so much sooner to be taken [R/V_P]."""
+    at_release: bool
+    """Whether paths are looked for that delay after their last contact and arrive as the slot
+    opens, and none but those."""
+    seen: IntArray
+    """Which cells have been probed. shape (_SEEN + 1,), the last counts them"""
+
+
+@njit(cache=True, nogil=True)
+def begin_find(start: Pose, scene: Scene, time: float, gain: float, at_release: bool) -> Find:
+    """Nothing is found yet that arrives before `time`."""
+    best = np.zeros(2)
+    best[0] = time
+    met = with_time(ease_to_start(start, scene), inf)
+    seen = np.zeros(_SEEN + 1, np.int64)
+    return Find(met, best, np.zeros((MAX_LEGS, 6)), workspace(), gain, at_release, seen)
+
+
+@njit(cache=True, nogil=True)
+def _number(cell: Cell) -> int:
+    """A number of the cell's piece, side and bearings, whatever its window of time."""
+    return int((cell.bearing + 2.0 * cell.half + 4.0) * 1e6) * 64 + 2 * cell.piece + (cell.side > 0)
+
+
+@njit(cache=True, nogil=True)
+def _is_new(find: Find, number: int) -> bool:
+    """Whether a cell has not been probed yet, as far as is remembered; it is now."""
+    place = number % _SEEN
+    if find.seen[place] == number or (find.at_release and find.seen[_SEEN] == _MOST_DELAYS):
+        return False
+    find.seen[place] = number
+    find.seen[_SEEN] += 1
+    return True
+
+
+@njit(cache=True, nogil=True)
+def probe(start: Pose, find: Find, cell: Cell) -> None:
+    """Take a path through the middle bearing of a cell, refined, if it is faster than any known."""
+    if not _is_new(find, _number(cell)):
+        return
+    beat = find.best[0] - find.gain
+    if find.at_release:
+        _probe_delay(start, find, _contacts_of(cell, cell)[:1])
+        return
+    contact, path = Contact(cell.piece, cell.bearing, cell.side), np.empty((2, 5))
+    arrival = through_contact(start, find.scene, contact, beat, find.room)
+    if arrival >= beat:
+        return
+    path[:] = find.room.path
+    arrival = descend(start, find.scene, contact, arrival, cell.half, find.room, path)
+    find.best[0], find.best[1] = arrival, 2.0
+    find.legs[:2, 0], find.legs[:2, 1:6] = WORD, path
+
+
+@njit(cache=True, nogil=True)
+def probe_between(start: Pose, find: Find, cell: Cell, other: Cell) -> None:
+    """The same for a path from the middle of one cell to that of another."""
+    if not _is_new(find, 31 * _number(cell) + _number(other)):
+        return
+    for link in (WORD, BOUNDARY_ARC):
+        contacts = _contacts_of(cell, other)
+        if link == BOUNDARY_ARC:
+            disc = disc_on(find.scene, cell.piece, cell.side)
+            sense = boundary_arc_sense(cell.bearing, disc)
+            if cell.side != other.side or sense == 0.0:
+                break
+            contacts[1, 2] = cell.bearing + sense * wrap(sense * (other.bearing - cell.bearing))
+            contacts[1, 3] = link
+        if find.at_release:
+            _probe_delay(start, find, contacts)
+        else:
+            _probe_chain(start, find, contacts, max(cell.half, other.half))
+
+
+@njit(cache=True, nogil=True)
+def _contacts_of(cell: Cell, other: Cell) -> FloatArray:
+    """Contacts in the middle of two cells, with words to both, as in `chain.Chain`."""
+    contacts = np.empty((2, 4))
+    contacts[0, 0], contacts[0, 1], contacts[0, 2] = cell.piece, cell.side, cell.bearing
+    contacts[1, 0], contacts[1, 1], contacts[1, 2] = other.piece, other.side, other.bearing
+    contacts[:, 3] = WORD
+    return contacts
+
+
+@njit(cache=True, nogil=True)
+def _probe_chain(start: Pose, find: Find, contacts: FloatArray, stride: float) -> None:
+    """Take a path through two contacts, refined, if it is faster than any known."""
+    beat = find.best[0] - find.gain
+    chains = np.zeros((1, MAX_CONTACTS + 1, 4))
+    chains[0, 0, 1], chains[0, 1:3] = 2.0, contacts
+    chain = chain_of(contacts, np.zeros((MAX_LEGS, 6)))
+    _, arrival = fly_links(start, 0.0, find.scene, chain, 0, 2, beat)
+    if arrival < beat:
+        time, count = refine_chains(start, find.scene, chains, stride, beat, find.legs)
+        if count > 0:
+            find.best[0], find.best[1] = time, count
+
+
+@njit(cache=True, nogil=True)
+def _probe_delay(start: Pose, find: Find, contacts: FloatArray) -> None:
+    """Take a path through contacts, and a delay from the last one, that arrives at t_release."""
+    chain = chain_of(contacts, np.zeros((MAX_LEGS, 6)))
+    if find.best[1] == 0.0 and fly_to_delay(start, find.scene, chain):
+        find.best[0], find.best[1] = find.scene.t_release, len(contacts) + 1.0
+        find.legs[:] = chain.legs
