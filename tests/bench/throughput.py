@@ -63,9 +63,9 @@ def measure(count: int, limited: int, active: list[Case]) -> list[Throughput]:
     return found
 
 
-def draw_columns(count: int) -> Situations:
+def draw_columns(count: int, seed: int = SEED) -> Situations:
     """As `draws.anywhere`, by the column."""
-    rng = np.random.default_rng(SEED)
+    rng = np.random.default_rng(seed)
     far, bearing = rng.uniform(15e3, 150e3, count), rng.uniform(0.0, 2.0 * pi, count)
     tas = rng.uniform(180.0, 250.0, count)
     return Situations(
