@@ -40,10 +40,15 @@ def add_planner(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def add_workers(parser: argparse.ArgumentParser) -> None:
-    """Let it be chosen where parts are made: `workers.start_workers` takes what is chosen."""
+def add_workers(parser: "argparse._ActionsContainer", kind: str = "threads") -> None:
+    """Let it be chosen where parts are made: `workers.start_workers` takes what is chosen.
+
+    Args:
+        parser: of the command, or a group of its options.
+        kind: what is counted on this machine: threads or processes.
+    """
     workers = parser.add_mutually_exclusive_group()
-    workers.add_argument("--threads", metavar="N", type=count, help="how many; default: all cores")
+    workers.add_argument(f"--{kind}", metavar="N", type=count, help="how many; default: all cores")
     workers.add_argument(
         "--dask",
         metavar="tcp://HOST:PORT",

@@ -220,7 +220,7 @@ def situation_from_body(body: SituationBody) -> tuple[Situation, Anchor]:
                 leader=leader,
                 slot_distance=body.slot_distance_m,
                 min_separation=body.min_separation_m,
-                wind=_wind(body.wind),
+                wind=wind_of(body.wind.from_deg, body.wind.speed_mps),
             ),
             anchor,
         )
@@ -293,10 +293,9 @@ def _piece(body: StraightPiece | TurnPiece) -> IntentPiece:
             )
 
 
-def _wind(body: WindBody) -> Wind:
-    if body.speed_mps == 0.0:
-        return CALM
-    return wind_from(heading_of(body.from_deg), body.speed_mps)
+def wind_of(from_deg: float, speed: float) -> Wind:
+    """A wind as reports give it: from where [°], and its speed [m/s]."""
+    return wind_from(heading_of(from_deg), speed) if speed != 0.0 else CALM
 
 
 def _project_near(plane: LocalPlane, pursuer: GeodeticPursuer) -> tuple[float, float]:

@@ -13,21 +13,19 @@ import numpy as np
 import orjson
 from numpy.typing import NDArray
 
-from relguide.contract.bodies import LocalLeader, LocalPursuer, StraightPiece, TurnPiece, WindBody
+from relguide.contract.bodies import (
+    LocalLeader,
+    LocalPursuer,
+    StraightPiece,
+    TurnPiece,
+    WindBody,
+    wind_of,
+)
 from relguide.contract.compass import heading_of
 from relguide.contract.refusal import loads
 from relguide.planning import limits
 from relguide.planning.batch import Floats, Situations
-from relguide.planning.situation import (
-    CALM,
-    FlyStraight,
-    IntentPiece,
-    Leader,
-    Pursuer,
-    Situation,
-    TurnTo,
-    wind_from,
-)
+from relguide.planning.situation import FlyStraight, IntentPiece, Leader, Pursuer, Situation, TurnTo
 from relguide.planning.trajectory import LEFT, RIGHT
 from relguide.planning.turning_batch import Intents, can_be_flown
 
@@ -145,7 +143,7 @@ def situation_of(row: Row) -> Situation | None:
             ),
             slot_distance=slot,
             min_separation=nearest,
-            wind=wind_from(heading_of(wind), speed) if speed != 0.0 else CALM,
+            wind=wind_of(wind, speed),
         )  # fmt: skip
     except ValueError:  # the models say what is wrong
         return None

@@ -68,6 +68,19 @@ class ContractError(ValueError):
         super().__init__("; ".join(said))
 
 
+def decode(text: bytes) -> str:
+    """Read UTF-8.
+
+    Raises:
+        ContractError: naming the first byte that is none.
+    """
+    try:
+        return text.decode("utf-8")
+    except UnicodeDecodeError as error:
+        message = f"This is not UTF-8 text: byte {error.start} cannot be read."
+        raise ContractError([("", message)]) from None
+
+
 def loads(text: bytes | str) -> object:
     """Parse JSON text, refusing what JSON does not have: NaN, infinities, a key given twice.
 
@@ -76,7 +89,7 @@ def loads(text: bytes | str) -> object:
     """
     try:
         if isinstance(text, bytes):
-            text = text.decode("utf-8")
+            text = decode(text)
         parsed: object = json.loads(
             text, object_pairs_hook=_unique_keys, parse_constant=_refuse_constant
         )
@@ -84,9 +97,6 @@ def loads(text: bytes | str) -> object:
         raise
     except RecursionError:
         raise ContractError([("", "This is nested too deeply to be read.")]) from None
-    except UnicodeDecodeError as error:
-        message = f"This is not UTF-8 text: byte {error.start} cannot be read."
-        raise ContractError([("", message)]) from None
     except json.JSONDecodeError as error:
         message = f"This is not JSON: {error.msg} at line {error.lineno}, column {error.colno}."
         raise ContractError([("", message)]) from None

@@ -11,9 +11,9 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
-from relguide import Situation
 from relguide.planning.batch import Situations, plan_arrays
 from tests.bench.cases import SEED, Case
+from tests.columns import columns_of
 
 COLUMNS = (TextColumn("{task.description}"), BarColumn(), TimeRemainingColumn())
 HEADINGS = ("", "situations", "a second", "a second of CPU")
@@ -44,10 +44,10 @@ def measure(count: int, limited: int, active: list[Case]) -> list[Throughput]:
     repeated = [active[i % len(active)].situation for i in range(limited)]
     batches = (
         ("without the limit", draw_columns(count), False),
-        ("where it binds", _columns(repeated), True),
+        ("where it binds", columns_of(repeated), True),
     )
     plan_arrays(draw_columns(1), limited=False)  # compiles
-    plan_arrays(_columns(repeated[:1]))
+    plan_arrays(columns_of(repeated[:1]))
     found = []
     for name, situations, keeps in batches:
         size = limited if keeps else count
@@ -78,22 +78,6 @@ def draw_columns(count: int, seed: int = SEED) -> Situations:
         leader_tas=tas * rng.uniform(0.6, 0.98, count),
         slot_distance=rng.uniform(10e3, 20e3, count),
         min_separation=rng.uniform(5.5e3, 9.3e3, count),
-    )
-
-
-def _columns(situations: list[Situation]) -> Situations:
-    return Situations(
-        pursuer_x=[s.pursuer.x for s in situations],
-        pursuer_y=[s.pursuer.y for s in situations],
-        pursuer_heading=[s.pursuer.heading for s in situations],
-        pursuer_tas=[s.pursuer.tas for s in situations],
-        max_bank=[s.pursuer.max_bank for s in situations],
-        leader_x=[s.leader.x for s in situations],
-        leader_y=[s.leader.y for s in situations],
-        leader_heading=[s.leader.heading for s in situations],
-        leader_tas=[s.leader.tas for s in situations],
-        slot_distance=[s.slot_distance for s in situations],
-        min_separation=[s.min_separation for s in situations],
     )
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from relguide.cli.batch.order import FORMS, Order, form_of
-from relguide.cli.shared_options import count
+from relguide.cli.shared_options import add_workers
 from relguide.planning.extras import need
 
 if TYPE_CHECKING:
@@ -55,15 +55,7 @@ def add_batch_options(parser: argparse.ArgumentParser) -> None:
         help="go on from FILE.part, which a stopped run leaves beside --out; the result is the "
         "same",
     )
-    workers = options.add_mutually_exclusive_group()
-    workers.add_argument(
-        "--processes", metavar="N", type=count, help="how many; default: all cores"
-    )
-    workers.add_argument(
-        "--dask",
-        metavar="tcp://HOST:PORT",
-        help="work on the Dask cluster of this scheduler: the same answers, from many machines",
-    )
+    add_workers(options, "processes")
 
 
 def refuse_batch_options(chosen: argparse.Namespace) -> None:

@@ -14,7 +14,7 @@ from relguide.cli.proving import prove_after
 from relguide.contract.bulk import Record, Wanted, answer_all
 from relguide.contract.flat import Kind, answer_columns, row_of_answer, situation_of_row
 from relguide.contract.plain import quick_loads
-from relguide.contract.refusal import ContractError
+from relguide.contract.refusal import ContractError, decode
 from relguide.learn.planners import make_planner
 
 if TYPE_CHECKING:
@@ -73,10 +73,7 @@ def _records(order: Order, chunk: Chunk) -> Iterator[Record]:
 def _csv_row(line: bytes, header: Sequence[str]) -> dict[str, Any]:
     """A line of CSV by itself: a quote that is not closed spoils no other line."""
     try:
-        (cells,) = csv.reader([line.decode().rstrip("\r")], strict=True)
-    except UnicodeDecodeError as error:
-        message = f"This is not UTF-8 text: byte {error.start} cannot be read."
-        raise ContractError([("", message)]) from None
+        (cells,) = csv.reader([decode(line).rstrip("\r")], strict=True)
     except csv.Error as error:
         message = f"This is not a line of CSV: {error}."
         raise ContractError([("", message)]) from None

@@ -20,10 +20,11 @@ from relguide import (
     plan,
 )
 from relguide.kernels.separation.clearance import SLACK
-from relguide.planning.batch import Situations, TimeRow, plan_arrays
+from relguide.planning.batch import TimeRow, plan_arrays
 from relguide.planning.slot import slot_frame
 from relguide.units import DEG
 from tests.bench import draws
+from tests.columns import columns_of
 from tests.oracle import arrival_error
 from tests.situations import coincidences
 
@@ -70,19 +71,7 @@ def test_every_plan_arrives_and_keeps_its_distance(situation: Situation) -> None
 
 def row_of(situation: Situation) -> TimeRow:
     """The answer in a batch of one."""
-    pursuer, leader = situation.pursuer, situation.leader
-    columns = Situations(
-        pursuer_x=np.array([pursuer.x]),
-        pursuer_y=pursuer.y,
-        pursuer_heading=pursuer.heading,
-        pursuer_tas=pursuer.tas,
-        max_bank=pursuer.max_bank,
-        leader_heading=leader.heading,
-        leader_tas=leader.tas,
-        slot_distance=situation.slot_distance,
-        min_separation=situation.min_separation,
-    )
-    return plan_arrays(columns, threads=1)[0]
+    return plan_arrays(columns_of([situation]), threads=1)[0]
 
 
 @given(coincidences())

@@ -23,6 +23,7 @@ from relguide import (
 from relguide.planning.batch import Situations
 from relguide.planning.turning_batch import Intents, TurningTimes, can_be_flown, turning_times
 from relguide.units import DEG
+from tests.columns import columns_of
 from tests.situations import coincidences, situations
 
 BEHIND = Situation(
@@ -39,22 +40,7 @@ BEHIND = Situation(
 )
 
 
-def columns_of(many: Sequence[Situation]) -> tuple[Situations, Intents]:
-    situations = Situations(
-        pursuer_x=[s.pursuer.x for s in many],
-        pursuer_y=[s.pursuer.y for s in many],
-        pursuer_heading=[s.pursuer.heading for s in many],
-        pursuer_tas=[s.pursuer.tas for s in many],
-        max_bank=[s.pursuer.max_bank for s in many],
-        leader_x=[s.leader.x for s in many],
-        leader_y=[s.leader.y for s in many],
-        leader_heading=np.array([s.leader.heading for s in many]),
-        leader_tas=[s.leader.tas for s in many],
-        slot_distance=[s.slot_distance for s in many],
-        min_separation=[s.min_separation for s in many],
-        wind_east=[s.wind.east for s in many],
-        wind_north=[s.wind.north for s in many],
-    )
+def columns_with_intents(many: Sequence[Situation]) -> tuple[Situations, Intents]:
     pieces = [
         (0.0, piece.duration, 0.0)
         if isinstance(piece, FlyStraight)
@@ -63,12 +49,12 @@ def columns_of(many: Sequence[Situation]) -> tuple[Situations, Intents]:
         for piece in s.leader.intent
     ]
     counts = np.array([len(s.leader.intent) for s in many], np.int64)
-    return situations, Intents(counts=counts, pieces=np.array(pieces, float).reshape(-1, 3))
+    return columns_of(many), Intents(counts=counts, pieces=np.array(pieces, float).reshape(-1, 3))
 
 
 def check_against_plan(many: Sequence[Situation]) -> TurningTimes:
     """Each that is decided is what `plan` says, and the others at least have no time."""
-    found = turning_times(*columns_of(many))
+    found = turning_times(*columns_with_intents(many))
     for i, situation in enumerate(many):
         answer = plan(situation)
         lost = isinstance(answer, NoPlan) and answer.reason == Reason.SEPARATION_ALREADY_LOST
@@ -114,7 +100,7 @@ def test_near_the_leader_nine_of_ten_optima_are_decided() -> None:
 
 def test_what_arrives_beyond_the_horizon_is_left_to_plan() -> None:
     late = replace(BEHIND.leader, intent=(FlyStraight(duration=86_400.0), *BEHIND.leader.intent))
-    found = turning_times(*columns_of([BEHIND, replace(BEHIND, leader=late), BEHIND]))
+    found = turning_times(*columns_with_intents([BEHIND, replace(BEHIND, leader=late), BEHIND]))
     assert found.decided.tolist() == [True, False, True]
 
 
@@ -130,7 +116,7 @@ def test_what_arrives_beyond_the_horizon_is_left_to_plan() -> None:
     ],
 )
 def test_which_intents_can_be_flown(piece: tuple[float, float, float]) -> None:
-    situations, intents = columns_of([BEHIND, BEHIND, BEHIND])
+    situations, intents = columns_with_intents([BEHIND, BEHIND, BEHIND])
     assert can_be_flown(situations, intents).all()
     intents.pieces[3] = piece
     assert can_be_flown(situations, intents).tolist() == [True, False, True]
@@ -138,7 +124,7 @@ def test_which_intents_can_be_flown(piece: tuple[float, float, float]) -> None:
 
 def test_headway_is_made_on_the_final_leg_alone() -> None:
     against = replace(BEHIND.leader, tas=80.0)
-    situations, intents = columns_of([replace(BEHIND, leader=against)])
+    situations, intents = columns_with_intents([replace(BEHIND, leader=against)])
     for north, flown in ((-79.5, True), (-30.0, True)):
         blown = replace(situations, wind_north=[north])
         assert can_be_flown(blown, intents).tolist() == [flown]
@@ -147,7 +133,9 @@ def test_headway_is_made_on_the_final_leg_alone() -> None:
 
 
 def test_the_last_turn_alone_says_where_an_intent_leads() -> None:
-    _, intents = columns_of([BEHIND, replace(BEHIND, leader=replace(BEHIND.leader, intent=()))])
+    _, intents = columns_with_intents(
+        [BEHIND, replace(BEHIND, leader=replace(BEHIND.leader, intent=()))]
+    )
     assert intents.final_headings(np.array([0.5, 0.25])).tolist() == [1.0, 0.25]
     assert intents[np.array([True, False])].counts.tolist() == [2]
     assert len(intents[np.array([False, True])].pieces) == 0
