@@ -2,10 +2,9 @@
 
 import re
 from logging import DEBUG
+from random import getrandbits
 from time import perf_counter
-from uuid import uuid4
 
-from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from relguide_server.errors import log
@@ -37,8 +36,7 @@ class Accounts:
         if scope["type"] not in ("http", "websocket"):
             await self.app(scope, receive, send)
             return
-        sent = Headers(scope=scope).get("x-request-id", "")
-        name = sent if SOUND.fullmatch(sent) else uuid4().hex
+        name = _sent(scope) or f"{getrandbits(128):032x}"
         # never taken back: each connection is a task, and what goes wrong in it is logged last
         request_id.set(name)
         if scope["type"] == "http":
@@ -76,3 +74,12 @@ class Accounts:
                     "client": (scope.get("client") or ("",))[0],
                 }
                 log.debug("%s %s: %d", method, scope["path"], status, extra={"fields": fields})
+
+
+def _sent(scope: Scope) -> str:
+    """The id that a request brings; empty if it brings none that can be taken."""
+    for name, value in scope["headers"]:
+        if name == HEADER:
+            text: str = value.decode("latin-1")
+            return text if SOUND.fullmatch(text) else ""
+    return ""
