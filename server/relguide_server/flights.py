@@ -54,7 +54,8 @@ from relguide_server.openapi import (
 )
 from relguide_server.preparation import PreparationOf
 from relguide_server.records.entries import FlightCard
-from relguide_server.records.keeper import KeeperOf, Recording
+from relguide_server.records.keeper import KeeperOf
+from relguide_server.records.tape import Recording
 from relguide_server.stream import TOO_MANY, UNKNOWN_FLIGHT, WRONG_PROTOCOL
 
 

@@ -14,7 +14,7 @@ from relguide_server.errors import Refusal
 from relguide_server.live_flight import FlightLabel, LiveFlight, Source
 from relguide_server.metrics import Metrics
 from relguide_server.records.entries import Outcome
-from relguide_server.records.keeper import Recording
+from relguide_server.records.tape import Recording
 from relguide_server.settings import Settings
 from relguide_server.stream import RESTART
 

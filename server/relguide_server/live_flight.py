@@ -17,7 +17,7 @@ from relguide_server.inbox import Inbox
 from relguide_server.metrics import Metrics
 from relguide_server.pace import Pace
 from relguide_server.records.entries import Outcome
-from relguide_server.records.keeper import Recording
+from relguide_server.records.tape import Recording
 from relguide_server.scene_stage import SceneStage
 from relguide_server.stream import FLIGHT_BROKEN, FLIGHT_GONE, StreamClient
 

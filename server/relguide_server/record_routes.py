@@ -38,9 +38,10 @@ from relguide_server.records.bodies import (
     ReplayRequest,
 )
 from relguide_server.records.entries import Outcome
-from relguide_server.records.keeper import Keeper, KeeperOf, Recording
+from relguide_server.records.keeper import Keeper, KeeperOf
 from relguide_server.records.shelf import Search
 from relguide_server.records.store import Store
+from relguide_server.records.tape import Recording
 
 MOST = 500
 """Most flights or plans in an answer."""

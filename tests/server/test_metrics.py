@@ -6,6 +6,7 @@ import re
 import pytest
 from prometheus_client.openmetrics.parser import text_string_to_metric_families
 from relguide_server.metrics import PLAN_BUCKETS, Metrics
+from relguide_server.workers import KINDS
 
 from tests.bodies import BODY
 from tests.server.flown import ideal_flight
@@ -51,7 +52,7 @@ def test_requests_plans_queues_and_errors_are_counted() -> None:
     assert 0.0 < metrics.value("relguide_request_seconds_sum", **seconds) < 20.0
     assert metrics.value("relguide_plans_total", status="no_plan") == 1
     assert re.search(r'^relguide_no_plans_total\{reason="\w+"\} 1\.0$', text, re.MULTILINE)
-    for kind in ("plans", "flights", "areas", "batches"):
+    for kind in KINDS:
         assert f'relguide_jobs_waiting{{kind="{kind}"}} 0.0' in text
         assert f'relguide_jobs_refused_total{{kind="{kind}"}} 0.0' in text
     assert open_text.headers["content-type"].startswith("application/openmetrics-text")

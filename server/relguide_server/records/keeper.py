@@ -1,4 +1,4 @@
-"""The keeper: what the service asks of the records, and what a flight is recorded by."""
+"""The keeper: what the service asks of the records."""
 
 import asyncio
 import secrets
@@ -16,27 +16,16 @@ from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily, Metri
 from pydantic import BaseModel, Field
 from starlette.requests import HTTPConnection
 
-from relguide.flying.documents import Document, Sample
 from relguide.units import Second
 from relguide_server.errors import Refusal
 from relguide_server.records.clock import Clock
 from relguide_server.records.database import url_of
-from relguide_server.records.entries import (
-    Began,
-    Commanded,
-    Ended,
-    FlightCard,
-    Flown,
-    Outcome,
-    PlanAsked,
-    Unavailable,
-)
+from relguide_server.records.entries import Began, Commanded, FlightCard, PlanAsked, Unavailable
 from relguide_server.records.store import Store
+from relguide_server.records.tape import Recording, Tape
 from relguide_server.records.writer import Limits, Writer
 
 T = TypeVar("T")
-SAMPLE_PERIOD: Second = 1.0
-"""Flight time between two samples that are kept; of all other documents each is kept."""
 SOON: Second = 1.0
 """How long an answer waits at most until what it acknowledges is saved."""
 READERS = 2
@@ -52,46 +41,6 @@ class RecordsReport(BaseModel):
         description="waiting: the database cannot be written now; what fits is kept until it can."
     )
     message: str = Field(description="Why nothing is saved now; empty if everything is.")
-
-
-class Recording:
-    """Takes the documents of one flight. This one keeps nothing."""
-
-    def add(self, document: Document) -> None:
-        """Record a document, which is newer than all before."""
-
-    def end(self, outcome: Outcome) -> None:
-        """Nothing follows."""
-
-
-class Tape(Recording):
-    """Passes the documents of one flight to the writer; of samples, one a second."""
-
-    def __init__(self, flight_id: str, writer: Writer, clock: Clock) -> None:
-        self._flight_id, self._writer, self._clock = flight_id, writer, clock
-        self._number = self._lost = 0
-        self._due = 0.0
-        self._over = False
-
-    def add(self, document: Document) -> None:
-        """Record a document; called by the flight's own thread."""
-        if isinstance(document, Sample):
-            if document.t < self._due:
-                return
-            # 20 steps of 0.05 s are less than a second by a rounding error
-            self._due = document.t + SAMPLE_PERIOD - 1e-6
-        if not self._writer.put(Flown(self._flight_id, self._number, document)):
-            self._lost += 1
-        self._number += 1
-
-    def end(self, outcome: Outcome) -> None:
-        """Nothing follows; said once more, it changes nothing."""
-        if self._over:
-            return
-        self._over = True
-        self._writer.put(
-            Ended(flight_id=self._flight_id, at=self._clock.now(), outcome=outcome, lost=self._lost)
-        )
 
 
 class Keeper:

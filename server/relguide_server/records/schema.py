@@ -19,6 +19,13 @@ HEAD = "0002"
 
 metadata = MetaData()
 
+
+def _of_flight() -> Column[str]:
+    """The column of what goes with its flight."""
+    flight = ForeignKey("flights.id", ondelete="CASCADE")
+    return Column("flight_id", String(32), flight, primary_key=True)
+
+
 runs = Table(
     "runs",
     metadata,
@@ -58,7 +65,7 @@ flights = Table(
 chunks = Table(
     "chunks",
     metadata,
-    Column("flight_id", String(32), ForeignKey("flights.id", ondelete="CASCADE"), primary_key=True),
+    _of_flight(),
     # number of the first document in it
     Column("first", Integer, primary_key=True, autoincrement=False),
     Column("count", Integer, nullable=False),
@@ -72,7 +79,7 @@ chunks = Table(
 commands = Table(
     "commands",
     metadata,
-    Column("flight_id", String(32), ForeignKey("flights.id", ondelete="CASCADE"), primary_key=True),
+    _of_flight(),
     Column("number", Integer, primary_key=True, autoincrement=False),
     Column("at", Double, nullable=False),
     Column("t", Double, nullable=False),

@@ -9,33 +9,20 @@ import threading
 from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import asdict, dataclass
-from typing import Any
+from dataclasses import dataclass
 
 from relguide.flying.documents import Sample
 from relguide.units import Second
 from relguide_server.errors import log, run_logged
+from relguide_server.records.backlog import Backlog
 from relguide_server.records.clock import Clock
-from relguide_server.records.entries import (
-    Began,
-    Commanded,
-    Ended,
-    Entry,
-    Flown,
-    PlanAsked,
-    Unavailable,
-)
-from relguide_server.records.reel import Reel, Rows
+from relguide_server.records.entries import Began, Ended, Entry, Flown, PlanAsked, Unavailable
 from relguide_server.records.store import Store
 
 FLUSH: Second = 0.5
 """How long something waits at most until it is saved."""
 QUEUE = 20_000
 """Most entries that wait to be looked at: samples are refused from half of it on."""
-HELD = 32 * 1024 * 1024
-"""Most bytes of JSON that wait to be saved: samples are refused from half of it on."""
-PLANS_HELD = 10_000
-"""Most plans that wait to be saved."""
 RETRY, RETRY_MOST = 0.5, 5.0
 """How long until a database that failed is tried again at first, and at most [s]."""
 LAST: Second = 2.0
@@ -44,20 +31,6 @@ WATCH: Second = 3.0
 """How long the count of another run is watched before it is taken to be killed."""
 SWEEP: Second = 60.0
 """How often killed runs and old records are looked for."""
-
-
-@dataclass(slots=True)
-class Counts:
-    """What the writer has done, and what was lost."""
-
-    saved: int = 0
-    """Batches."""
-    failed: int = 0
-    """Attempts to save that failed."""
-    documents: int = 0
-    documents_lost: int = 0
-    commands_lost: int = 0
-    plans_lost: int = 0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -84,12 +57,12 @@ class Writer:
         limits: Limits,
         clock: Clock,
     ) -> None:
-        self.counts = Counts()
+        self._backlog = Backlog(run=run, version=version)
+        self.counts = self._backlog.counts
         self.trouble = ""
         """Why nothing can be saved now; empty if it can, or has not been tried yet."""
         self.store: Store | None = None
         self._open_store = open_store
-        self._run_id, self._version = run, version
         self._limits, self._clock = limits, clock
         self._changed = threading.Condition()
         self._queue: deque[Entry] = deque()
@@ -97,9 +70,6 @@ class Writer:
         self._ticket = 0
         """Number of the newest entry."""
         self._waiting: list[tuple[int, asyncio.Future[bool]]] = []
-        self._reels: dict[str, Reel] = {}
-        self._plans: list[dict[str, Any]] = []
-        self._planned = 0
         self._retry_at = 0.0
         self._backoff = RETRY
         self._census_at = 0.0
@@ -141,7 +111,7 @@ class Writer:
             if isinstance(entry, Flown) and not isinstance(entry.document, Sample):
                 full = QUEUE
             if len(self._queue) >= full and not isinstance(entry, Began | Ended):
-                self._count_lost(entry)
+                self._backlog.count_lost(entry)
                 return False
             self._queue.append(entry)
             self._ticket += 1
@@ -178,7 +148,7 @@ class Writer:
                 self._hurry = False
                 ticket, stopping = self._ticket, self._stopping
             for entry in entries:
-                self._take(entry)
+                self._backlog.take(entry, trouble=bool(self.trouble))
             if stopping or self._clock.elapsed() >= self._retry_at:
                 self._try(ticket)
             self._answer(0)
@@ -202,74 +172,16 @@ class Writer:
     def _save(self, ticket: int) -> None:
         if self.store is None:
             self.store = self._open_store()
-            for reel in self._reels.values():
-                reel.note_replaced()
-        rows = self._rows()
-        if rows or self._reels:
+            self._backlog.note_replaced()
+        rows = self._backlog.rows()
+        if rows or self._backlog.flying:
             self.store.save(rows, now=self._clock.now())
-            self.counts.saved += 1
-            self.counts.documents += sum(row["count"] for row in rows.chunks)
-        self._plans = []
-        for reel in list(self._reels.values()):
-            reel.note_saved()
-            if reel.over:
-                del self._reels[reel.card.id]
+        self._backlog.note_saved(rows)
         if self.trouble:
             log.warning("Flights are recorded again.")
             self.trouble, self._backoff = "", RETRY
         self._answer(ticket)
         self._look_around(self.store)
-
-    def _rows(self) -> Rows:
-        rows = Rows(plans=[*self._plans])
-        for reel in self._reels.values():
-            rows.add(reel.rows(self._run_id, self._version))
-        return rows
-
-    def _take(self, entry: Entry) -> None:
-        match entry:
-            case Began(card=card):
-                self._reels[card.id] = Reel(entry)
-            case Flown(flight_id=flight_id) if flight_id in self._reels:
-                self._add(self._reels[flight_id], entry)
-            case Commanded(flight_id=flight_id) if flight_id in self._reels:
-                self._reels[flight_id].command(entry)
-            case Ended(flight_id=flight_id) if flight_id in self._reels:
-                self._reels[flight_id].end(entry)
-            case PlanAsked():
-                self._add_plan(entry)
-            case _:
-                pass  # of a flight that is over
-
-    def _add(self, reel: Reel, flown: Flown) -> None:
-        most = HELD // 2 if isinstance(flown.document, Sample) else HELD
-        if self.trouble and sum(other.held for other in self._reels.values()) > most:
-            reel.skip(flown.number)
-            self.counts.documents_lost += 1
-            return
-        try:
-            reel.add(flown)
-        except ValueError:  # a number in it is not finite: the stream says so as well
-            reel.skip(flown.number)
-            self.counts.documents_lost += 1
-
-    def _add_plan(self, asked: PlanAsked) -> None:
-        if len(self._plans) >= PLANS_HELD:
-            self.counts.plans_lost += 1
-            return
-        self._plans.append({"run": self._run_id, "number": self._planned, **asdict(asked)})
-        self._planned += 1
-
-    def _count_lost(self, entry: Entry) -> None:
-        match entry:
-            case Flown():
-                self.counts.documents_lost += 1
-            case Commanded():
-                self.counts.commands_lost += 1
-            case PlanAsked():
-                self.counts.plans_lost += 1
-            case Began() | Ended():
-                pass
 
     def _answer(self, ticket: int) -> None:
         """Tell those who wait that all up to a number is saved; or, in trouble, that it is not."""

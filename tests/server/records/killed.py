@@ -16,8 +16,8 @@ from multiprocessing.connection import Connection
 
 from relguide_server.records.clock import Clock
 from relguide_server.records.entries import Began, Commanded
-from relguide_server.records.keeper import Tape
 from relguide_server.records.shelf import each_chunk, read_flight
+from relguide_server.records.tape import Tape
 
 from tests.server.flown import ideal_flight
 from tests.server.records.flown_cards import card

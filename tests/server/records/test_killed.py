@@ -13,9 +13,9 @@ from alembic.config import Config
 from relguide_server.records import database
 from relguide_server.records.clock import Clock
 from relguide_server.records.entries import Began, Unavailable
-from relguide_server.records.keeper import Tape
 from relguide_server.records.schema import HEAD, flights, metadata
 from relguide_server.records.shelf import each_chunk
+from relguide_server.records.tape import Tape
 
 from tests.server.flown import ideal_flight
 from tests.server.records.flown_cards import card
@@ -61,7 +61,7 @@ FULL = """
 import resource, signal, sys, time
 from relguide_server.records.clock import Clock
 from relguide_server.records.entries import Began
-from relguide_server.records.keeper import Tape
+from relguide_server.records.tape import Tape
 from tests.server.flown import ideal_flight
 from tests.server.records.flown_cards import card
 from tests.server.records.places import Home

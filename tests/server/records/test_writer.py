@@ -16,10 +16,10 @@ from relguide_server.records.entries import (
     PlanAsked,
     Unavailable,
 )
-from relguide_server.records.keeper import Tape
 from relguide_server.records.reel import lines_of
 from relguide_server.records.schema import chunks, commands, flights, plans
 from relguide_server.records.store import Store
+from relguide_server.records.tape import Tape
 from relguide_server.records.writer import Limits, Writer
 
 from relguide.contract.wire import dumps
@@ -144,7 +144,7 @@ def test_what_does_not_fit_is_counted_samples_first(
             raise Unavailable("It is gone.")
         return home.store(run="this run")
 
-    monkeypatch.setattr("relguide_server.records.writer.HELD", 60_000)
+    monkeypatch.setattr("relguide_server.records.backlog.HELD", 60_000)
     writer = home.writer(opening=opening)
     tape = begin(writer)
     wait_for(lambda: writer.trouble)

@@ -40,12 +40,7 @@ def upgrade() -> None:
     )
     op.create_table(
         "chunks",
-        sa.Column(
-            "flight_id",
-            sa.String(32),
-            sa.ForeignKey("flights.id", ondelete="CASCADE"),
-            primary_key=True,
-        ),
+        _of_flight(),
         sa.Column("first", sa.Integer, primary_key=True, autoincrement=False),
         sa.Column("count", sa.Integer, nullable=False),
         sa.Column("t", sa.Double, nullable=False),
@@ -53,15 +48,15 @@ def upgrade() -> None:
     )
     op.create_table(
         "commands",
-        sa.Column(
-            "flight_id",
-            sa.String(32),
-            sa.ForeignKey("flights.id", ondelete="CASCADE"),
-            primary_key=True,
-        ),
+        _of_flight(),
         sa.Column("number", sa.Integer, primary_key=True, autoincrement=False),
         sa.Column("at", sa.Double, nullable=False),
         sa.Column("t", sa.Double, nullable=False),
         sa.Column("body", sa.Text, nullable=False),
         sa.Column("sent_by", sa.String(255), nullable=False),
     )
+
+
+def _of_flight() -> sa.Column[str]:
+    flight = sa.ForeignKey("flights.id", ondelete="CASCADE")
+    return sa.Column("flight_id", sa.String(32), flight, primary_key=True)
