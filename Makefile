@@ -79,6 +79,9 @@ define stage
 @{ $(2); } || { printf '\nmake $@: failed at "%s".\n' '$(1)'; exit 1; }
 endef
 
+# Each file of tests in one process, on all cores but no more than memory has room for.
+PARALLEL := --numprocesses=auto --maxprocesses=4 --dist=loadfile
+
 define static_stages
 @date +%s > .make/started
 $(call stage,ruff,$(BIN)/ruff check . && $(BIN)/ruff format --check .)
@@ -100,7 +103,7 @@ check: .make/dev page .make/kernels .make/traffic
 .PHONY: test
 test: .make/dev page .make/kernels .make/browser .make/postgresql .make/traffic
 	$(static_stages)
-	$(call stage,library and server,$(BIN)/python -m pytest --durations=5)
+	$(call stage,library and server,$(BIN)/python -m pytest $(PARALLEL) --durations=5)
 	$(call stage,browser,$(BIN)/python -m pytest tests/browser)
 	@echo; echo "make test: all passed in $$(($$(date +%s) - $$(cat .make/started))) s."
 

@@ -80,7 +80,7 @@ NO_NUMBERS = (
     [PURSUER, LEADER, SITUATION, STRAIGHT, TURN, CALM, PATH],
     ids=lambda w: type(w).__name__,
 )
-@pytest.mark.parametrize("value", NO_NUMBERS, ids=repr)
+@pytest.mark.parametrize("value", NO_NUMBERS, ids=lambda value: repr(value).split(" at ")[0])
 def test_what_is_no_number_is_refused_by_name(whole: Any, value: object) -> None:
     for field in fields(whole):
         if isinstance(getattr(whole, field.name), float):
