@@ -108,7 +108,7 @@ def loads(text: bytes | str) -> object:
 M = TypeVar("M", bound=BaseModel)
 
 
-def parse(model: type[M], source: bytes | str | Mapping[str, object]) -> M:
+def parse(model: type[M], source: bytes | str | Mapping[str, object] | list[object]) -> M:
     """Read one outside shape from JSON text, or from JSON already parsed.
 
     Raises:

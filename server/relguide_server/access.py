@@ -31,7 +31,7 @@ COOKIE = "relguide_token"
 SAFE = ("GET", "HEAD", "OPTIONS")
 OPEN = ("/healthz", "/readyz")
 """Answered without a token."""
-CALCULATIONS = ("/api/v1/plans", "/api/v1/areas")
+CALCULATIONS = ("/api/v1/plans", "/api/v1/areas", "/api/v1/simulations")
 """What changes nothing, though it is posted."""
 RECORDS = "/api/v1/records"
 """Nobody removes from there but who may command all flights."""

@@ -22,6 +22,7 @@ from relguide_server import (
     plans,
     record_routes,
     scene_relay,
+    simulations,
     stream_docs,
 )
 from relguide_server.access import Access, read_tokens
@@ -127,6 +128,7 @@ def create_app(
         plans.router,
         areas.router,
         flights.router,
+        simulations.router,
         record_routes.router,
         scene_relay.router,
         stream_docs.router,
@@ -134,7 +136,17 @@ def create_app(
     ):
         app.include_router(part)
     install_handlers(app)
-    describe(app, (Readiness, *plans.MODELS, *areas.MODELS, *flights.MODELS, *record_routes.MODELS))
+    describe(
+        app,
+        (
+            Readiness,
+            *plans.MODELS,
+            *areas.MODELS,
+            *flights.MODELS,
+            *simulations.MODELS,
+            *record_routes.MODELS,
+        ),
+    )
     # The last one added is the first one passed.
     app.add_middleware(PlanLane)
     app.add_middleware(Page)

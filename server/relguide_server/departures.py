@@ -8,24 +8,13 @@ from typing import Annotated
 from fastapi import Depends
 from starlette.requests import HTTPConnection
 
-from relguide.contract.bodies import (
-    UNANCHORED,
-    Anchor,
-    intent_from_body,
-    situation_from_body,
-)
-from relguide.contract.messages import (
-    FlightRequest,
-    ScenarioFlightRequest,
-    ScenarioInfo,
-    ScenarioList,
-    SituationFlightRequest,
-)
-from relguide.contract.refusal import ContractError
+from relguide.contract.bodies import UNANCHORED, Anchor
+from relguide.contract.messages import FlightRequest, ScenarioInfo, ScenarioList
 from relguide.flying.flight import Scenario, fly
-from relguide.flying.scenarios import SCENARIOS, own_scenario, scenario
+from relguide.flying.scenarios import SCENARIOS, scenario
 from relguide.planning.plan import Planner
-from relguide.planning.situation import IntentPiece, Situation
+from relguide.planning.situation import Situation
+from relguide_server.asked_flights import scenario_of, with_intent
 from relguide_server.live_flight import Source
 
 ENDLESS = 1e9
@@ -75,16 +64,7 @@ def library_departures(planner: Planner) -> Departures:
     """The library's scenarios, guided by a planner."""
 
     def find(wanted: FlightRequest) -> Departure:
-        match wanted:
-            case ScenarioFlightRequest():
-                name, found = wanted.scenario, _find_scenario(wanted.scenario)
-                anchor: Anchor = UNANCHORED
-            case SituationFlightRequest():
-                name, (found, anchor) = "", _own_scenario(wanted)
-        if wanted.intent_known is not None:
-            found = replace(found, intent_known=wanted.intent_known)
-        if wanted.spacing_time_s is not None:
-            found = replace(found, spacing=wanted.spacing_time_s)
+        name, found, anchor = scenario_of(wanted)
         found = replace(found, duration_limit=ENDLESS, after_joining=ENDLESS)
         seed, engagement = wanted.seed, wanted.engagement
         return Departure(
@@ -107,14 +87,10 @@ def library_departures(planner: Planner) -> Departures:
 def _known_situation(flown: Scenario) -> Situation:
     """Its situation, with as much of the leader's intent as the pursuer knows."""
     if not flown.intent_known:
-        return _with_intent(flown.situation, ())
+        return with_intent(flown.situation, ())
     if flown.declared_intent is not None:
-        return _with_intent(flown.situation, flown.declared_intent)
+        return with_intent(flown.situation, flown.declared_intent)
     return flown.situation
-
-
-def _with_intent(situation: Situation, intent: tuple[IntentPiece, ...]) -> Situation:
-    return replace(situation, leader=replace(situation.leader, intent=intent))
 
 
 def _scenarios() -> ScenarioList:
@@ -129,25 +105,3 @@ def _scenarios() -> ScenarioList:
         for named in SCENARIOS.values()
     ]
     return ScenarioList(scenarios=infos)
-
-
-def _find_scenario(name: str) -> Scenario:
-    try:
-        return scenario(name)
-    except ValueError as error:  # unknown, or its data are not installed: the error says which
-        raise ContractError([("scenario", str(error))]) from None
-
-
-def _own_scenario(wanted: SituationFlightRequest) -> tuple[Scenario, Anchor]:
-    try:
-        situation, anchor = situation_from_body(wanted.situation)
-    except ContractError as error:
-        under = [(f"situation.{path}".rstrip("."), said) for path, said in error.problems]
-        raise ContractError(under) from None
-    try:
-        if wanted.flown_intent is None:
-            return own_scenario(situation), anchor
-        flown = _with_intent(situation, intent_from_body(wanted.flown_intent))
-        return replace(own_scenario(flown), declared_intent=situation.leader.intent), anchor
-    except ValueError as error:  # no level at which the aircraft could fly it, in a sentence
-        raise ContractError([("situation.pursuer", str(error))]) from None

@@ -4,6 +4,7 @@ import json
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache
+from importlib.metadata import version
 from time import monotonic, perf_counter
 from typing import Any, Literal
 
@@ -19,7 +20,10 @@ from relguide.contract.bodies import (
     situation_from_body,
 )
 from relguide.contract.bulk import answer_line
+from relguide.contract.messages import FlightRequest
 from relguide.contract.refusal import ContractError, parse
+from relguide.contract.story import figures, story_of
+from relguide.flying.flight import fly
 from relguide.learn.planners import make_planner
 from relguide.learn.words.area_words import area_words
 from relguide.learn.words.branch_network import BranchNetwork, load_network
@@ -29,6 +33,7 @@ from relguide.planning.plan import Planner
 from relguide.planning.plan import plan_at_once as exact_plan_at_once
 from relguide.planning.situation import Situation
 from relguide.units import Second
+from relguide_server.asked_flights import scenario_of
 from relguide_server.errors import Refusal
 from relguide_server.openapi import parse_json, problem_of
 
@@ -185,6 +190,22 @@ def draw_area(
     evaluate = times_around(situation, words=words)
     area = isochrones(situation, grid, levels, evaluate=evaluate, exact=exact)
     return orjson.dumps(area_to_wire(area, situation, anchor, exact=exact, times=times))
+
+
+def simulate(wanted: FlightRequest, planner: str | Planner) -> bytes:
+    """Fly a flight to its end, as fast as it goes, and give its figures as JSON text."""
+    started = perf_counter()
+    name, flown, _ = scenario_of(wanted)
+    documents = fly(flown, planner_of(planner), seed=wanted.seed, sample_period=1.0)
+    (ended,) = story_of(documents).ended
+    about = {
+        "scenario": name,
+        "seed": wanted.seed,
+        "version": version("relguide"),
+        "reason": ended.reason,
+        "message": ended.message,
+    }
+    return orjson.dumps(about | figures(ended) | {"wall_s": perf_counter() - started})
 
 
 def _answered(given: dict[str, Any], started: float) -> Answered:

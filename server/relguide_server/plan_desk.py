@@ -83,7 +83,8 @@ class PlanDesk:
             workers: do what takes longer.
             metrics: count the answers.
         """
-        self._name = name
+        self.name = name
+        """Of the service's own planner; empty if it has none."""
         self._planner, self._guarded = planner, preparation.guard(planner, name, waiting=False)
         self._preparation = preparation
         self._workers = workers
@@ -101,9 +102,9 @@ class PlanDesk:
         situation, anchor = jobs.read_situation(body)
         if not self._is_own(wish):
             return None
-        if not self._preparation.can_plan_by(self._name):
+        if not self._preparation.can_plan_by(self.name):
             found = jobs.plan_situation(situation, anchor, self._guarded, (), None)
-        elif self._name != "exact":
+        elif self.name != "exact":
             found = jobs.plan_situation(situation, anchor, self._planner, (), AT_ONCE)
         else:
             return jobs.plan_at_once(situation, anchor)
@@ -124,22 +125,23 @@ class PlanDesk:
             Refusal: if it is no situation, or too many wait.
         """
         self._require(wish)
-        job = self._plan_in_turn(body, wish, end, client)
+        # it comes back some milliseconds after it was planned
+        job = self._plan_in_turn(body, wish, end - min(HANDING_OVER, 0.1 * wish.budget), client)
         if wish.include or not self._is_own(wish):
             return await job
         try:
-            return await asyncio.wait_for(job, max(end - monotonic(), 0.0) + HANDING_OVER)
+            return await asyncio.wait_for(job, max(end - monotonic(), HANDING_OVER))
         except TimeoutError:
             situation, anchor = jobs.read_situation(body)
             return jobs.plan_situation(situation, anchor, self._planner, (), 0.0)
 
     def _is_own(self, wish: Wish) -> bool:
         """Whether the service's own planner is wanted, and it takes a deadline."""
-        return self._quick and wish.planner in (None, self._name)
+        return self._quick and wish.planner in (None, self.name)
 
     async def _plan_in_turn(self, body: bytes, wish: Wish, end: float, client: str) -> Answered:
         """What workers make of it: quickly if it can be, else after others that can be."""
-        job = body, self._whom(wish), wish.include, end
+        job = body, self.planner_for(wish.planner), wish.include, end
         patience = max(end - monotonic(), 0.0) + wish.patience
         if (wish.planner or self._quick) and "optimality" not in wish.include:
             quick: Answered = await self._workers.do(
@@ -169,7 +171,7 @@ class PlanDesk:
                 "batches",
                 jobs.plan_lines,
                 lines[done : done + AT_A_TIME],
-                self._whom(wish),
+                self.planner_for(wish.planner),
                 wish.include,
                 wish.budget,
                 SLICE,
@@ -193,10 +195,10 @@ class PlanDesk:
 
     def _require(self, wish: Wish) -> None:
         """Refuse what is not compiled yet."""
-        self._preparation.require_planner(wish.planner or self._name)
+        self._preparation.require_planner(wish.planner or self.name)
         if "optimality" in wish.include:
             self._preparation.require("proofs")
 
-    def _whom(self, wish: Wish) -> str | Planner:
-        """The planner as a worker takes it."""
-        return wish.planner or self._name or self._planner
+    def planner_for(self, name: str | None) -> str | Planner:
+        """A planner as a worker takes it: the service's own, or another by its name."""
+        return name or self.name or self._planner

@@ -1,0 +1,82 @@
+"""Flights flown without anybody watching, as outsiders ask for them and get their figures."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field, RootModel
+
+from relguide.contract.messages import FlightRequest
+from relguide.contract.refusal import ContractError, Strict
+
+MAX_SIMULATIONS = 32
+"""Most flights in one request."""
+WATCHED = ("rate", "paused", "engagement")
+"""What only a flight has that somebody watches."""
+
+
+Flights = Annotated[list[FlightRequest], Field(min_length=1, max_length=MAX_SIMULATIONS)]
+
+
+class SimulationRequest(RootModel[Flights]):
+    """Flights, each as `POST /flights` takes it, without `rate`, `paused` and `engagement`."""
+
+
+class SimulationLoss(Strict):
+    """One time at which the minimum separation was lost."""
+
+    t_s: float
+    separation_m: float
+    """The least."""
+    cause: str
+    """Whose doing it was."""
+    announced_s: float | None
+    """When it was announced; null if it was not."""
+
+
+class SimulationAnswer(Strict):
+    """The figures of a flight, as `relguide fly --json` gives them."""
+
+    scenario: str
+    """Its name; empty for a situation of your own."""
+    seed: int
+    """As asked for: with the same version it gives the same flight."""
+    version: str
+    """Of the software that flew it."""
+    reason: Literal["joined", "time_over", "recording_over", "plane_left"]
+    """Why it ended."""
+    message: str
+    """The same as a sentence."""
+    joined: bool
+    join_time_s: float
+    """When it joined."""
+    planned_time_s: float
+    """Time to converge of the plan at engagement."""
+    promised_s: float
+    """The same, braking included."""
+    least_separation_m: float
+    heading_swing_deg: float
+    """Total variation of heading until joined."""
+    bank_reversals: int
+    replans: int
+    replans_announced: int
+    fallbacks: int
+    """Plans by the exact planner in place of another's."""
+    track_nm: float
+    """Flown until joined."""
+    simulated_s: float
+    """Time flown."""
+    wall_s: float
+    """Time it took."""
+    losses: list[SimulationLoss]
+
+
+def expect_unwatched(flights: SimulationRequest) -> None:
+    """Refuse what has no meaning where nobody watches.
+
+    Raises:
+        ContractError: for the first such field.
+    """
+    for index, wanted in enumerate(flights.root):
+        for name in WATCHED:
+            if name in wanted.model_fields_set:
+                said = "has no meaning in a simulation, which nobody watches: leave it out."
+                raise ContractError([(f"[{index}].{name}", said)])

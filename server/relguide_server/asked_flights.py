@@ -1,0 +1,69 @@
+"""From a request for a flight to the scenario that it asks for."""
+
+from dataclasses import replace
+
+from relguide.contract.bodies import (
+    UNANCHORED,
+    Anchor,
+    intent_from_body,
+    situation_from_body,
+)
+from relguide.contract.messages import (
+    FlightRequest,
+    ScenarioFlightRequest,
+    SituationFlightRequest,
+)
+from relguide.contract.refusal import ContractError
+from relguide.flying.flight import Scenario
+from relguide.flying.scenarios import own_scenario, scenario
+from relguide.planning.situation import IntentPiece, Situation
+
+
+def scenario_of(wanted: FlightRequest) -> tuple[str, Scenario, Anchor]:
+    """What a request asks for.
+
+    Returns:
+        the scenario's name, empty for a situation of one's own; the scenario; and how its world
+        frame lies on the earth.
+
+    Raises:
+        ContractError: for what cannot be flown.
+    """
+    match wanted:
+        case ScenarioFlightRequest():
+            name, found = wanted.scenario, _find_scenario(wanted.scenario)
+            anchor: Anchor = UNANCHORED
+        case SituationFlightRequest():
+            name, (found, anchor) = "", _own_scenario(wanted)
+    if wanted.intent_known is not None:
+        found = replace(found, intent_known=wanted.intent_known)
+    if wanted.spacing_time_s is not None:
+        found = replace(found, spacing=wanted.spacing_time_s)
+    return name, found, anchor
+
+
+def with_intent(situation: Situation, intent: tuple[IntentPiece, ...]) -> Situation:
+    """A situation whose leader declares another intent."""
+    return replace(situation, leader=replace(situation.leader, intent=intent))
+
+
+def _find_scenario(name: str) -> Scenario:
+    try:
+        return scenario(name)
+    except ValueError as error:  # unknown, or its data are not installed: the error says which
+        raise ContractError([("scenario", str(error))]) from None
+
+
+def _own_scenario(wanted: SituationFlightRequest) -> tuple[Scenario, Anchor]:
+    try:
+        situation, anchor = situation_from_body(wanted.situation)
+    except ContractError as error:
+        under = [(f"situation.{path}".rstrip("."), said) for path, said in error.problems]
+        raise ContractError(under) from None
+    try:
+        if wanted.flown_intent is None:
+            return own_scenario(situation), anchor
+        flown = with_intent(situation, intent_from_body(wanted.flown_intent))
+        return replace(own_scenario(flown), declared_intent=situation.leader.intent), anchor
+    except ValueError as error:  # no level at which the aircraft could fly it, in a sentence
+        raise ContractError([("situation.pursuer", str(error))]) from None
