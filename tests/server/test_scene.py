@@ -40,6 +40,11 @@ def nodes(server: ViserServer) -> dict:
     return server.scene._handle_from_node_name
 
 
+def middle_of_both(known: dict) -> np.ndarray:
+    both = known["/world/pursuer"].position + known["/world/leader"].position
+    return both[:2] / 2.0
+
+
 def test_a_flight_is_drawn_whole(viser_server: ViserServer, documents: list[Document]) -> None:
     Scene(viser_server).draw(documents)
     for name in (
@@ -65,8 +70,7 @@ def test_the_middle_of_the_two_stays_at_the_origin(
     for document in documents:
         scene.draw([document])
     known = nodes(viser_server)
-    both = known["/world/pursuer"].position + known["/world/leader"].position
-    assert known["/world"].position[:2] == pytest.approx(-both[:2] / 2.0)
+    assert known["/world"].position[:2] == pytest.approx(-middle_of_both(known))
 
 
 def test_what_is_about_others_or_only_for_the_crew_changes_nothing(
@@ -186,8 +190,7 @@ def test_it_glides_on_from_the_newest_sample(
         x, y, _ = known[f"/world/{name}"].position
         moved = np.hypot(x - aircraft.x / 1000.0, y - aircraft.y / 1000.0) * 1000.0
         assert moved == pytest.approx(0.5 * aircraft.ground_speed, abs=0.1)
-    both = known["/world/pursuer"].position + known["/world/leader"].position
-    assert known["/world"].position[:2] == pytest.approx(-both[:2] / 2.0)
+    assert known["/world"].position[:2] == pytest.approx(-middle_of_both(known))
 
 
 def test_the_closest_approach_is_drawn_until_it_is_passed(

@@ -1,6 +1,7 @@
 /** The keys of the page. A key typed into a field, or with Ctrl, Alt or Meta, is not ours. */
 
 import { type Editor, halfExtent, pan, showAll, zoom } from "./map/editor";
+import { set } from "./parts";
 import { type Actions, type Session, stepRange } from "./session";
 
 /** An arrow moves the map by this part of what is seen. */
@@ -13,80 +14,52 @@ function panBy(map: Editor, arrow: string): void {
   pan(map, east, north);
 }
 
-/** What a key does, or null if it is not ours. */
-export function keyAction(key: string, session: Session, actions: Actions): (() => void) | null {
-  if (!session.letterKeys.value && /^[a-z]$/i.test(key)) return null;
-  const { flight, ndMode, ndRange, map, sceneMaximised, helpOpen } = session;
-  const isMap = ndMode.value === "PLAN";
-  switch (key) {
-    case " ":
-      return () => (flight.clock.value.paused ? actions.play() : actions.pause());
-    case "r":
-    case "R":
-      return () => {
-        ndMode.value = "ROSE";
-      };
-    case "a":
-    case "A":
-      return () => {
-        ndMode.value = "ARC";
-      };
-    case "p":
-    case "P":
-      return () => {
-        ndMode.value = "PLAN";
-      };
-    case "f":
-    case "F":
-      return isMap ? () => showAll(map) : null;
-    case "ArrowLeft":
-    case "ArrowRight":
-    case "ArrowUp":
-    case "ArrowDown":
-      return isMap ? () => panBy(map, key) : null;
-    case "+":
-    case "=":
-      if (isMap) return () => zoom(map, 1);
-      return () => {
-        session.ndAuto.value = false;
-        ndRange.value = stepRange(ndRange.value, 1);
-      };
-    case "-":
-    case "−":
-      if (isMap) return () => zoom(map, -1);
-      return () => {
-        session.ndAuto.value = false;
-        ndRange.value = stepRange(ndRange.value, -1);
-      };
-    case "d":
-    case "D":
-      return () => actions.engage("designated");
-    case "c":
-    case "C":
-      return () => actions.engage("armed");
-    case "e":
-    case "E":
-      return () => actions.engage("engaged");
-    case "x":
-    case "X":
-      return () => actions.engage("off");
-    case "m":
-    case "M":
-      return () => {
-        sceneMaximised.value = !sceneMaximised.value;
-      };
-    case "?":
-      return () => {
-        helpOpen.value = !helpOpen.value;
-      };
-    case "Escape":
-      return () => {
-        helpOpen.value = false;
-        sceneMaximised.value = false;
-      };
-    default:
-      return null;
+type Act = (() => void) | null;
+
+/** What each key does; a letter is the same whatever its case. */
+const KEYS: Record<string, (session: Session, actions: Actions) => Act> = {
+  " ": ({ flight }, actions) => (flight.clock.value.paused ? actions.play : actions.pause),
+  r: ({ ndMode }) => set(ndMode, "ROSE"),
+  a: ({ ndMode }) => set(ndMode, "ARC"),
+  p: ({ ndMode }) => set(ndMode, "PLAN"),
+  f: (session) => (isMap(session) ? () => showAll(session.map) : null),
+  "+": (session) => () => changeRange(session, 1),
+  "=": (session) => () => changeRange(session, 1),
+  "-": (session) => () => changeRange(session, -1),
+  "−": (session) => () => changeRange(session, -1),
+  d: (_, actions) => () => actions.engage("designated"),
+  c: (_, actions) => () => actions.engage("armed"),
+  e: (_, actions) => () => actions.engage("engaged"),
+  x: (_, actions) => () => actions.engage("off"),
+  m: ({ sceneMaximised }) => set(sceneMaximised, !sceneMaximised.value),
+  "?": ({ helpOpen }) => set(helpOpen, !helpOpen.value),
+  Escape: ({ helpOpen, sceneMaximised }) => {
+    return () => {
+      helpOpen.value = false;
+      sceneMaximised.value = false;
+    };
+  },
+};
+
+function isMap({ ndMode }: Session): boolean {
+  return ndMode.value === "PLAN";
+}
+
+function changeRange(session: Session, step: 1 | -1): void {
+  if (isMap(session)) {
+    zoom(session.map, step);
+    return;
   }
+  session.ndAuto.value = false;
+  session.ndRange.value = stepRange(session.ndRange.value, step);
+}
+
+/** What a key does, or null if it is not ours. */
+export function keyAction(key: string, session: Session, actions: Actions): Act {
+  const isLetter = /^[a-z]$/i.test(key);
+  if (!session.letterKeys.value && isLetter) return null;
+  if (key.startsWith("Arrow")) return isMap(session) ? () => panBy(session.map, key) : null;
+  return KEYS[isLetter ? key.toLowerCase() : key]?.(session, actions) ?? null;
 }
 
 /** Whether a key press belongs to what has the focus: typing in a field, or pressing a button. */

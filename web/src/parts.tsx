@@ -1,5 +1,6 @@
 /** Small building blocks of the panels. */
 
+import type { Signal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 
 /** A titled panel. `name` is its place in the grid and its class. */
@@ -97,4 +98,11 @@ export function Icon(props: { name: keyof typeof ICONS }) {
       <path d={ICONS[props.name]} fill="currentColor" fill-rule="evenodd" />
     </svg>
   );
+}
+
+/** What a button does that only sets something. */
+export function set<T>(signal: Signal<T>, value: T): () => void {
+  return () => {
+    signal.value = value;
+  };
 }

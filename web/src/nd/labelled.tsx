@@ -47,6 +47,22 @@ const IDS = [
   ...[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11].map(regionId),
 ];
 
+/** What a label names, as words.ts calls it, by the beginning of its id. */
+const NAMED = {
+  capture: "capture",
+  proposal: "proposed",
+  intent: "intent",
+  leg: "intent",
+  minute: "minutes",
+  region: "area",
+  T: "turns",
+} as const;
+
+function elementOfLabel(id: string): string {
+  const found = Object.entries(NAMED).find(([begin]) => id.startsWith(begin));
+  return found?.[1] ?? id;
+}
+
 /** The name of a region under the map. */
 export function regionId(number: number): string {
   return `region ${number}`;
@@ -122,7 +138,13 @@ export function LabelText({ id, labels, placements }: LabelTextProps) {
   const size = useComputed(() => labels.value.get(id)?.size ?? 0);
   if (count.value === 0) return null;
   return (
-    <g class="nd-label" font-size={size} text-anchor="middle" transform={place}>
+    <g
+      class="nd-label"
+      data-element={elementOfLabel(id)}
+      font-size={size}
+      text-anchor="middle"
+      transform={place}
+    >
       {Array.from({ length: count.value }, (_, i) => (
         <LabelRow key={i} id={id} row={i} labels={labels} />
       ))}

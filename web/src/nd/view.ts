@@ -141,7 +141,7 @@ export function createView(
     ),
     tapeTransform: computed(() => {
       const { centre } = layout.value;
-      return `translate(${centre.x} ${centre.y}) rotate(${round(-(pose.value?.heading_deg ?? 0))})`;
+      return `translate(${centre.x} ${centre.y}) rotate(${roundAngle(-(pose.value?.heading_deg ?? 0))})`;
     }),
     beat: computed(() => {
       const { readAt } = shown.numbers.value;
@@ -159,8 +159,8 @@ export function mapTransform(layout: Layout, pose: Pose): string {
   const own = toMap(layout, pose);
   const { x, y } = layout.centre;
   return (
-    `translate(${x} ${y}) rotate(${round(-pose.heading_deg)})` +
-    ` translate(${round(-own.x)} ${round(-own.y)})`
+    `translate(${x} ${y}) rotate(${roundAngle(-pose.heading_deg)})` +
+    ` translate(${roundPlace(-own.x)} ${roundPlace(-own.y)})`
   );
 }
 
@@ -252,13 +252,23 @@ export function offNose(pose: Pose, direction: number): number {
   return wrap180(direction - pose.heading_deg);
 }
 
-/** A number for an attribute: a hundredth of a pixel is enough, and text stays short. */
+/** A number for an attribute: a fiftieth of a pixel is enough, and what has moved by less stands still. */
 export function round(value: number): number {
+  return Math.round(value * 50) / 50 + 0;
+}
+
+/** The same for what is carried as a whole: a twentieth. */
+function roundPlace(value: number): number {
+  return Math.round(value * 20) / 20 + 0;
+}
+
+/** An angle for an attribute: a hundredth of a degree is a tenth of a pixel at the rim. */
+function roundAngle(value: number): number {
   return Math.round(value * 100) / 100 + 0;
 }
 
 /** Puts a symbol at a point, turned `angle` [deg] clockwise. */
 export function placeAt({ x, y }: Point, angle = 0): string {
-  const turn = angle === 0 ? "" : ` rotate(${round(angle)})`;
-  return `translate(${round(x)} ${round(y)})${turn}`;
+  const turn = angle === 0 ? "" : ` rotate(${roundAngle(angle)})`;
+  return `translate(${roundPlace(x)} ${roundPlace(y)})${turn}`;
 }

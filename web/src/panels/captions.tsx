@@ -1,6 +1,7 @@
 /** Five captions for a first minute: each says what is seen now and what can be done, until it is done. */
 
 import { useSignal } from "@preact/signals";
+import { set } from "../parts";
 import type { Session } from "../session";
 import type { Guidance } from "../store/states";
 
@@ -34,24 +35,21 @@ export function Captions(props: { session: Session }) {
   const at = AT[shown.numbers.value.state];
   const isFlying = at === 3;
   const number = isFlying && isTurned.value ? 4 : at;
-  const close = () => {
-    captions.value = false;
-  };
   return (
     <aside class="first-minute" aria-label="First steps">
       <b>{number + 1} of 5</b>
       <p>{CAPTIONS[number]}</p>
       {isFlying && !isTurned.value && (
-        <button
-          type="button"
-          onClick={() => {
-            isTurned.value = true;
-          }}
-        >
+        <button type="button" onClick={set(isTurned, true)}>
           Next
         </button>
       )}
-      <button type="button" class="quiet" aria-label="Close the first steps" onClick={close}>
+      <button
+        type="button"
+        class="quiet"
+        aria-label="Close the first steps"
+        onClick={set(captions, false)}
+      >
         ×
       </button>
     </aside>

@@ -2,6 +2,7 @@
 
 import type { Signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
+import { set } from "../parts";
 import type { Session } from "../session";
 import { ELEMENTS } from "../words";
 
@@ -74,12 +75,7 @@ export function Help(props: { session: Session }) {
       <p>
         <a href="docs">The service's interface</a> · version {__VERSION__}
       </p>
-      <button
-        type="button"
-        onClick={() => {
-          helpOpen.value = false;
-        }}
-      >
+      <button type="button" onClick={set(helpOpen, false)}>
         Close
       </button>
     </div>

@@ -3,6 +3,7 @@
 import { writeFileSync } from "node:fs";
 import { expect, test } from "vitest";
 import { GUIDANCES } from "../../src/store/states";
+import { ELEMENTS, elementOf } from "../../src/words";
 import { ELEMENT_ROWS } from "./elements";
 import { isDrawn, pageOfStates, ROOTS } from "./pictures";
 
@@ -39,4 +40,14 @@ test("a page of full pictures has each state, and what is drawn in it", () => {
   // `make picture` says where it is to be written, to be looked at
   const { PICTURES } = process.env;
   if (PICTURES !== undefined) writeFileSync(PICTURES, page);
+});
+
+test("whatever is drawn says what it is when it is pointed at, texts as well", () => {
+  for (const { number, selector } of ELEMENT_ROWS) {
+    if (selector === null) continue;
+    const marks = [...ROOTS.values()].flatMap((root) => [...root.querySelectorAll(selector)]);
+    for (const mark of marks)
+      expect(elementOf(mark), `${number}: ${mark.outerHTML}`).not.toBeNull();
+  }
+  expect(ELEMENTS.some(({ name }) => name === "flag")).toBe(true);
 });
