@@ -19,10 +19,13 @@ import numpy as np
 
 from relguide.kernels.base.clock import now
 from relguide.kernels.base.records import Pose, Scene
-from relguide.kernels.bounds.contact_bound import Cell, Goal, times_round, untouched_bound
+from relguide.kernels.bounds.cells import Cell
 from relguide.kernels.bounds.contact_tree import Problem
+from relguide.kernels.bounds.goal import Goal
 from relguide.kernels.bounds.probe import Find, begin_find
 from relguide.kernels.bounds.proof_search import SEARCHING, begin, go_on
+from relguide.kernels.bounds.round_time import times_round
+from relguide.kernels.bounds.untouched import untouched_bound
 
 _QUADRANT_CELLS = 2
 """Cells a quadrant is cut into at first; none may reach into two."""

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from math import inf
 from time import perf_counter
 
-from relguide.kernels.bounds.contact_bound import Goal, track_of
+from relguide.kernels.bounds.goal import Goal, track_of
 from relguide.kernels.bounds.probe import Find, begin_find
 from relguide.planning.certificate import certify
 from relguide.planning.constrained_path import candidate_of_legs

@@ -14,7 +14,8 @@ from relguide.kernels.words.extremals import fly_piece
 
 ROUNDING = 2e-7
 """Added to every blur: twice what an accepted path may miss its end by, `extremals.CLOSURE` [R]."""
-
+INSIDE = 2e-6
+"""A path must come this much closer than d_min to count as breaking it [R]: 2 cm at R = 12 km."""
 MOST_LOOKS = 20_000
 """At a path that follows the leader for hours, hardly outside the limit: some milliseconds."""
 

@@ -13,7 +13,10 @@ from numba import njit
 
 from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.bounds.contact_bound import Cell, Goal, cell_bound, leaving_bound, round_time
+from relguide.kernels.bounds.cells import Cell
+from relguide.kernels.bounds.contact_bound import cell_bound, leaving_bound
+from relguide.kernels.bounds.goal import Goal
+from relguide.kernels.bounds.round_time import round_time
 
 IntArray = np.ndarray[tuple[int, ...], np.dtype[np.int64]]
 

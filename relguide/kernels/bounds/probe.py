@@ -14,7 +14,7 @@ from numba import njit
 from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.records import Contact, Pose, Scene, with_time
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.bounds.contact_bound import Cell
+from relguide.kernels.bounds.cells import Cell
 from relguide.kernels.contact.chain import BOUNDARY_ARC, MAX_CONTACTS, MAX_LEGS, WORD, chain_of
 from relguide.kernels.contact.chain_refinement import fly_links, refine_chains
 from relguide.kernels.contact.constrained_search import ease_to_start, fly_to_delay

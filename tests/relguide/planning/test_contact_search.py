@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 from relguide.kernels.base.records import Pose, Scene
-from relguide.kernels.bounds.contact_bound import Cell, Goal
+from relguide.kernels.bounds.cells import Cell
 from relguide.kernels.bounds.contact_tree import cell_at, halve, plant
+from relguide.kernels.bounds.goal import Goal
 from relguide.planning.contact_search import Question
 
 LEADER = np.array(

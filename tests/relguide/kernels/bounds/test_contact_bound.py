@@ -12,19 +12,11 @@ from scipy.integrate import quad
 
 from relguide.kernels.base.records import Contact, Pose, Scene, Velocity
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.bounds.contact_bound import (
-    Cell,
-    Goal,
-    arrives_at_release,
-    cell_bound,
-    contacts_within,
-    leaving_bound,
-    round_bound,
-    times_round,
-    turning_blur,
-    untouched_bound,
-    word_between,
-)
+from relguide.kernels.bounds.cells import Cell, contacts_within, turning_blur
+from relguide.kernels.bounds.contact_bound import cell_bound, leaving_bound, word_between
+from relguide.kernels.bounds.goal import Goal, arrives_at_release
+from relguide.kernels.bounds.round_time import round_bound, times_round
+from relguide.kernels.bounds.untouched import untouched_bound
 from relguide.kernels.contact.contact import (
     contact_exists,
     contact_heading,

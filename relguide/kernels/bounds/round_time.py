@@ -1,0 +1,81 @@
+"""How long it takes at least to go round the disc, for something that needs no time to turn.
+
+Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
+"""
+
+from math import cos, pi, sqrt
+
+import numpy as np
+from numba import njit
+
+from relguide.kernels.base.angles import TWO_PI, wrap
+from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.bounds.cells import Cell
+
+_FAST = 0.999  # for a leader faster than this the time round the disc is not bounded
+_ROUND = 16_384
+"""Points of `times_round`: every 0.02°."""
+_ROUND_SLACK = 1e-6
+"""What is between two points of it may differ by, as part of a whole round: ten times the square of
+the step, which is more than the curvature makes of it."""
+
+
+@njit(cache=True, nogil=True)
+def times_round(alpha: float, d_min: float) -> FloatArray:
+    """How long it takes at least to go round the disc, by bearing from −π on.
+
+    For something that needs no time to turn. Outside the disc it is fastest along its edge, since
+    that is convex and the leader's motion is the same everywhere: as a boundary arc (see
+    `contact`), so
+
+        dt/db = d / (√(1 − α² cos² b) + s α sin b) = d (√(1 − α² cos² b) − s α sin b) / (1 − α²)
+
+    with d = d_min.
+
+    Row 0 is counter-clockwise (s = 1), row 1 clockwise, both growing with b. shape (2, ·)
+    """
+    table = np.zeros((2, _ROUND + 1))
+    if alpha > _FAST:
+        return table
+    step = TWO_PI / _ROUND
+    # |d²/db² √(1 − α² cos² b)| is less than this: what the trapezia may be too large by
+    bend = 2.0 * alpha * alpha / sqrt(1.0 - alpha * alpha)
+    scale = d_min / (1.0 - alpha * alpha)
+    arc, last = 0.0, sqrt(1.0 - alpha * alpha)
+    for k in range(1, _ROUND + 1):
+        b = k * step - pi
+        here = sqrt(1.0 - (alpha * cos(b)) ** 2)
+        arc += 0.5 * step * (last + here) - bend * step * step * step / 12.0
+        last = here
+        table[0, k] = scale * (arc + alpha * (cos(b) + 1.0))
+        table[1, k] = scale * (arc - alpha * (cos(b) + 1.0))
+    return table
+
+
+@njit(cache=True, nogil=True)
+def round_time(table: FloatArray, way: int, bearing: float) -> float:
+    """A row of `times_round` at any bearing of [−π, π]; differences are right to `_ROUND_SLACK`."""
+    place = min(max((bearing + pi) / TWO_PI, 0.0), 1.0) * _ROUND
+    k = min(int(place), _ROUND - 1)
+    return float(table[way, k] + (place - k) * (table[way, k + 1] - table[way, k]))
+
+
+@njit(cache=True, nogil=True)
+def round_bound(table: FloatArray, way: int, cell: Cell, other: Cell) -> float:
+    """The least time from any bearing of one cell to any of another, outside the disc.
+
+    Args:
+        table: of `times_round`.
+        way: 0 counter-clockwise round the leader, 1 clockwise.
+        cell: its bearing in [−π, π].
+        other: its bearing in [−π, π].
+    """
+    sign = 1.0 - 2.0 * way
+    gap = wrap(sign * (other.bearing - cell.bearing)) - cell.half - other.half
+    if gap <= 0.0 or gap + 2.0 * (cell.half + other.half) >= TWO_PI:
+        return 0.0
+    begin, end = cell.bearing + sign * cell.half, other.bearing - sign * other.half
+    took = sign * (round_time(table, way, end) - round_time(table, way, begin))
+    if sign * (end - begin) < 0.0:
+        took += table[way, _ROUND]
+    return float(max(took - _ROUND_SLACK * table[way, _ROUND], 0.0))
