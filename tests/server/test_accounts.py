@@ -64,7 +64,7 @@ def test_a_mistake_is_one_line_with_its_traceback_and_the_id_of_its_answer(
 
     app = create_app(Settings(workers=0), planner=broken, departures=ideal_departures())
     with serve(app) as address:
-        answer = httpx.post(f"http://{address}/api/v1/plans", json=BODY)
+        answer = httpx.post(f"http://{address}/api/v1/plans?max_ms=10000", json=BODY, timeout=30.0)
     assert answer.status_code == 500
     found = [json.loads(line) for line in lines.getvalue().splitlines()]
     (mistake,) = [line for line in found if line["level"] == "error"]
