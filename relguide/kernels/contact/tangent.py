@@ -21,6 +21,8 @@ from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, wrap
 from relguide.kernels.base.clock import time_is_up
+from relguide.kernels.base.false_position import Bracket as Crossing
+from relguide.kernels.base.false_position import secant, tightened
 from relguide.kernels.base.records import Bracket, Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.contact import contact_distance, to_frame_of
@@ -126,30 +128,25 @@ def _first_approach_while_turning(pose: Pose, leg: Leg, sign: float, t: float) -
     for k in range(1, steps + 1):
         high = end - (steps - k) * (end - low) / (steps - k + 1)
         _, _, at_high = _seen_turning(fly_piece(pose, sign, high - t), leg, high)
-        if at_low < 0.0 <= at_high:
-            return _root_of_rate(pose, leg, sign, t, Bracket(low, high, at_low, at_high))
+        if at_high == 0.0 > at_low:
+            return high
+        if at_low < 0.0 < at_high:
+            return _root_of_rate(pose, leg, sign, t, Crossing(low, high, at_low, at_high, 0))
         low, at_low = high, at_high
     return -1.0
 
 
 @njit(cache=True, nogil=True)
-def _root_of_rate(pose: Pose, leg: Leg, sign: float, t: float, times: Bracket) -> float:
-    """When d stops falling between two times (Illinois)."""
-    low, high, at_low, at_high = times
-    middle = high
-    for k in range(60):
-        share = 0.5 if k % 4 == 3 else at_high / (at_high - at_low)
-        middle = high - share * (high - low)
-        _, _, rate = _seen_turning(fly_piece(pose, sign, middle - t), leg, middle)
-        if abs(rate) < 1e-15 or high - low < 1e-14:
+def _root_of_rate(pose: Pose, leg: Leg, sign: float, t: float, times: Crossing) -> float:
+    """When d stops falling between two times."""
+    at = times.high
+    for _ in range(60):
+        at = secant(times)
+        _, _, rate = _seen_turning(fly_piece(pose, sign, at - t), leg, at)
+        if abs(rate) < 1e-15 or times.high - times.low < 1e-14:
             break
-        if rate < 0.0:
-            low, at_low = middle, rate
-            at_high *= 0.5
-        else:
-            high, at_high = middle, rate
-            at_low *= 0.5
-    return middle
+        times = tightened(times, at, rate)
+    return at
 
 
 @njit(cache=True, nogil=True)
