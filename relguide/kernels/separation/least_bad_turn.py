@@ -15,6 +15,7 @@ from relguide.kernels.separation.approach import least_separation
 
 _TURNS = 120  # sizes of the turn tried each way: every 3°
 _ESCAPES = 18  # … and of an escape: every 10°, finer than a crew would be asked for
+_MOST = 17  # so 170° at most: a heading is turned to the shorter way, with the roll-in before it
 _SAME = 1.0  # separations nearer than this are one, and found to this [m]
 _STEP = 0.5  # s; separations change by V_P + V_L in a second, so times are right to half of one
 
@@ -113,7 +114,7 @@ def escape_path(
     """
     best, best_side, best_angle = -1.0, 0, 0.0
     pieces = np.empty((2, 2))
-    for k in range(_ESCAPES + 1):
+    for k in range(_MOST + 1):
         angle = pi * k / _ESCAPES
         for side in (-1, 1) if k > 0 else (0, 0):
             pieces[0] = before[side + 1]
@@ -125,7 +126,7 @@ def escape_path(
                 kept = min(kept, least)
                 if kept <= best:
                     break
-            if kept > best:
+            if kept > best + _SAME or kept >= d_min:
                 best, best_side, best_angle = kept, side, angle
             if best >= d_min:
                 return best_side, best_angle, best

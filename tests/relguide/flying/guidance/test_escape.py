@@ -6,9 +6,10 @@ from math import inf
 import pytest
 
 from relguide.flying.guidance.escape import escape, separation_on_heading
+from relguide.flying.scenarios import own_scenario
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.flight.flight_records import HOLD_HEADING, Control
-from relguide.planning.situation import TurnTo
+from relguide.planning.situation import FlyStraight, Leader, Pursuer, Situation, TurnTo
 from relguide.planning.trajectory import LEFT
 from relguide.units import DEG, NM
 from tests.relguide.flying.guidance.beliefs import Watched, behind
@@ -68,6 +69,23 @@ def test_where_no_heading_keeps_clear_it_goes_where_most_is_kept() -> None:
     for degrees in range(-120, 121, 10):
         kept = separation_on_heading(watched.belief, watched.assignment, degrees * DEG)
         assert kept <= out.least_separation + 250.0  # its turns are 10° apart
+
+
+def test_no_turn_is_so_far_that_the_shorter_way_is_the_other_one() -> None:
+    """All great turns keep the same here; at 180° the autopilot hesitated, and lost the limit."""
+    turn = TurnTo(heading=1.5 * DEG, turn=LEFT, bank=22.4 * DEG)
+    situation = Situation(
+        pursuer=Pursuer(x=19_414.0, y=-11_558.0, heading=5.026, tas=202.4, max_bank=25.0 * DEG),
+        leader=Leader(
+            x=0.0, y=0.0, heading=2.662, tas=196.5, intent=(FlyStraight(duration=152.7), turn)
+        ),
+        slot_distance=11_368.0,
+        min_separation=8_934.0,
+    )
+    watched = Watched(own_scenario(situation))
+    out = escape(watched.belief, watched.assignment, watched.assignment.buffered_separation)
+    assert 20.0 * DEG < wrap_signed(out.heading - situation.pursuer.heading) < 179.0 * DEG
+    assert flown_least(watched, out.heading, 70) >= 8_934.0
 
 
 def test_the_heading_nearest_to_the_present_one_is_taken() -> None:
