@@ -140,6 +140,8 @@ def test_a_scene_is_not_where_a_page_would_look_for_it() -> None:
     "path",
     [
         "/../pyproject.toml",
+        "/../../pyproject.toml",
+        "/%2e%2e/%2e%2e/pyproject.toml",
         "/%2e%2e/pyproject.toml",
         "/assets/..%2f..%2fpackage.json",
         "/docs/..%2fapp.py",

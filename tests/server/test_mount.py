@@ -76,10 +76,10 @@ def test_a_token_is_kept_for_its_path_alone() -> None:
 
 def test_a_path_is_believed_from_a_proxy_alone() -> None:
     headers = {"X-Forwarded-Prefix": "/fly"}
-    # the test's client has no address: only a service that believes anybody believes it
-    for proxies, path in (("*", "/fly"), ("127.0.0.1", "")):
-        with TestClient(ideal_app(proxies=proxies)) as client:
-            flight = client.post("/api/v1/flights", json=FLIGHT, headers=headers).json()
+    for proxies, path in (("127.0.0.1", "/fly"), ("10.0.0.0/8", ""), ("*", "/fly")):
+        with serve(ideal_app(proxies=proxies)) as address:
+            url = f"http://{address}/api/v1/flights"
+            flight = httpx.post(url, json=FLIGHT, headers=headers).json()
             assert flight["stream_url"] == f"{path}/api/v1/flights/{flight['id']}/stream"
     with TestClient(ideal_app(proxies="*")) as client:
         for evil in ("//evil.example", "/a b", "https://evil.example", '/"><script>'):
