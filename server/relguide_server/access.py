@@ -73,11 +73,19 @@ class Access:
         """The answer that refuses; `None` for what may pass."""
         path, host = path_of(scope), headers.get("host", "")
         if not self._is_ours(host):
-            return problem(path, 421, UNKNOWN_HOST.format(name=_name(host)[:100]))
+            return problem(
+                path, 421, UNKNOWN_HOST.format(name=_name(host)[:100]), root=root_of(scope)
+            )
         origin = headers.get("origin")
         changes = scope["type"] == "websocket" or scope["method"] not in SAFE
         if changes and origin is not None and not self._is_own_page(origin, host):
-            return problem(path, 403, FOREIGN.format(origin=origin[:100]))
+            return problem(
+                path,
+                403,
+                FOREIGN.format(origin=origin[:100]),
+                kind="foreign-page",
+                root=root_of(scope),
+            )
         if not self.tokens or path in OPEN:
             return None
         return self._judge_token(scope, headers)
@@ -105,10 +113,12 @@ class Access:
         role = self._role(token)
         if role is None:
             said = {"WWW-Authenticate": "Bearer"}
-            return problem(path, 401, NO_TOKEN, headers=said)
+            return problem(path, 401, NO_TOKEN, root=root_of(scope), headers=said)
         needed = _needed(scope)
         if ROLES.index(role) < ROLES.index(needed):
-            return problem(path, 403, TOO_LITTLE.format(role=role, needed=needed))
+            return problem(
+                path, 403, TOO_LITTLE.format(role=role, needed=needed), root=root_of(scope)
+            )
         scope.setdefault("state", {})
         scope["state"]["owner"] = "" if role == "control" else sha256(token.encode()).hexdigest()
         return None

@@ -20,6 +20,7 @@ from relguide_server import (
     logs,
     pages,
     plans,
+    problem_docs,
     record_routes,
     scene_relay,
     simulations,
@@ -132,6 +133,7 @@ def create_app(
         record_routes.router,
         scene_relay.router,
         stream_docs.router,
+        problem_docs.router,
         pages.router,
     ):
         app.include_router(part)

@@ -20,6 +20,7 @@ from starlette.requests import ClientDisconnect
 from starlette.responses import Response
 
 from relguide_server.logs import request_id
+from relguide_server.problem_kinds import BY_STATUS, KINDS, PAGE
 
 log = logging.getLogger("relguide.server")
 
@@ -36,7 +37,7 @@ class ProblemError(BaseModel):
 class Problem(BaseModel):
     """A problem document, RFC 9457."""
 
-    type: str = "about:blank"
+    type: str = Field(description="Leads to what is known of this kind of problem.")
     title: str
     status: int
     detail: str
@@ -52,10 +53,21 @@ class Refusal(HTTPException):
         status: int,
         detail: str,
         *,
+        kind: str = "",
         errors: Sequence[ProblemError] = (),
         headers: dict[str, str] | None = None,
     ) -> None:
+        """Refuse.
+
+        Args:
+            status: of the answer.
+            detail: what is wrong, and what would be right.
+            kind: one of `KINDS`; the usual one of the status if left out.
+            errors: each thing wrong.
+            headers: more of them.
+        """
         super().__init__(status, detail, headers)
+        self.kind = kind
         self.errors = tuple(errors)
 
 
@@ -64,12 +76,26 @@ def problem(
     status: int,
     detail: str,
     *,
+    kind: str = "",
+    root: str = "",
     errors: Sequence[ProblemError] = (),
     headers: dict[str, str] | None = None,
 ) -> Response:
-    """The answer that carries a problem document."""
+    """The answer that carries a problem document.
+
+    Args:
+        instance: what was asked.
+        status: of the answer.
+        detail: what is wrong, and what would be right.
+        kind: one of `KINDS`; the usual one of the status if left out.
+        root: the path below which the service is served.
+        errors: each thing wrong.
+        headers: more of them.
+    """
+    kind = kind or BY_STATUS.get(status, "")
     document = Problem(
-        title=HTTPStatus(status).phrase,
+        type=f"{root}{PAGE}#{kind}" if kind else "about:blank",
+        title=KINDS[kind].title if kind else HTTPStatus(status).phrase,
         status=status,
         detail=detail,
         instance=instance,
@@ -104,7 +130,13 @@ def answer_refusal(request: Request, error: HTTPException) -> Response:
     if not isinstance(error, Refusal) and detail == HTTPStatus(status).phrase:
         detail = _sentence(request, status)
     return problem(
-        path, status, detail, errors=errors, headers=dict(error.headers) if error.headers else None
+        path,
+        status,
+        detail,
+        kind=error.kind if isinstance(error, Refusal) else "",
+        root=request.scope.get("root_path", ""),
+        errors=errors,
+        headers=dict(error.headers) if error.headers else None,
     )
 
 
@@ -125,7 +157,8 @@ async def _answer_invalid(request: Request, error: Exception) -> Response:
         for item in error.errors()
     ]
     detail = "; ".join(f"{e.path}: {e.message}" for e in errors)
-    return problem(request.url.path, 422, detail, errors=errors)
+    root = request.scope.get("root_path", "")
+    return problem(request.url.path, 422, detail, root=root, errors=errors)
 
 
 async def _note_left(request: Request, error: Exception) -> Response:
@@ -146,6 +179,7 @@ async def _answer_broken(request: Request, error: Exception) -> Response:
         request.url.path,
         500,
         "The server made a mistake: its log has the details. The request may be right.",
+        root=request.scope.get("root_path", ""),
         headers={"X-Request-ID": request_id.get()},
     )
 

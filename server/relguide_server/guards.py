@@ -59,7 +59,13 @@ class BodyLimit:
             return
         declared = Headers(scope=scope).get("content-length", "0")
         if declared.isdecimal() and int(declared) > self.max_body:
-            answer = problem(scope["path"], 413, self.detail, headers={"Connection": "close"})
+            answer = problem(
+                scope["path"],
+                413,
+                self.detail,
+                root=scope.get("root_path", ""),
+                headers={"Connection": "close"},
+            )
             await answer(scope, receive, send)
             return
         seen = 0

@@ -138,7 +138,8 @@ async def refuse_unknown_parameters(connection: HTTPConnection) -> None:
             for name in connection.query_params:
                 if name not in known:
                     has = f"It has {', '.join(sorted(known))}." if known else "It has none."
-                    raise Refusal(422, f"{path} has no parameter {name[:100]!r}. {has}")
+                    wrong = f"{path} has no parameter {name[:100]!r}. {has}"
+                    raise Refusal(422, wrong, kind="unknown-parameter")
         case _:
             return
 

@@ -123,6 +123,7 @@ class Preparation:
             f"First start: {self._progress()}. What you ask for needs "
             f"{next(STEPS[step].title for step in steps if not self.has(step))}: "
             "try again in a moment.",
+            kind="preparing",
             headers={"Retry-After": str(self.seconds_left(*steps))},
         )
 
@@ -162,6 +163,7 @@ class Preparation:
                 503,
                 f"The planner {name} is not compiled here: `relguide warm-up` does that, or start "
                 f"the service with RELGUIDE_PLANNER={name}.",
+                kind="preparing",
                 headers={"Retry-After": "30"},
             )
         self._usable.add(name)

@@ -110,7 +110,7 @@ def _page(root: str) -> str:
         '<!doctype html><html lang="en"><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width"><title>relguide streams</title>'
         f"<style>{STYLE}</style><body><main><h1>relguide streams</h1>"
-        f"<p>{_prose(DESCRIPTION)}<p>"
+        f"<p>{prose(DESCRIPTION)}<p>"
         f'<a href="{root}/asyncapi.json">AsyncAPI</a> · <a href="{root}/docs">REST</a>'
         "<h2><code>/api/v1/flights/{flight_id}/stream</code></h2>"
         f"<p>{LISTEN} A WebSocket that sends a <a href='#Tick'>Tick</a> at a time."
@@ -122,10 +122,10 @@ def _section(name: str, schema: dict[str, Any]) -> str:
     needed = schema.get("required", ())
     rows = "".join(
         f"<tr><td><code>{escape(field)}</code><td>{_kind(about)}"
-        f"<td>{'' if field in needed else 'if known. '}{_prose(about.get('description', ''))}"
+        f"<td>{'' if field in needed else 'if known. '}{prose(about.get('description', ''))}"
         for field, about in schema.get("properties", {}).items()
     )
-    said = _prose(schema.get("description", ""))
+    said = prose(schema.get("description", ""))
     return f'<h2 id="{name}">{name}</h2><p>{said}<table>{rows}</table>'
 
 
@@ -149,7 +149,7 @@ def _kind(about: dict[str, Any]) -> str:
             return "any"
 
 
-def _prose(text: str) -> str:
+def prose(text: str) -> str:
     """Markdown's code marks as HTML's."""
     parts = escape(text).split("`")
     return "".join(f"<code>{part}</code>" if k % 2 else part for k, part in enumerate(parts))

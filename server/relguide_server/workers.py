@@ -125,7 +125,7 @@ class Workers:
         """End all hands at once, whatever they do, and refuse all jobs."""
         self._stopped = True
         for job in self._open:
-            job.end(Refusal(503, STOPPING, headers={"Retry-After": "5"}))
+            job.end(Refusal(503, STOPPING, kind="stopping", headers={"Retry-After": "5"}))
         for task in self._tasks:
             task.cancel()
         for task in self._tasks:
@@ -157,7 +157,7 @@ class Workers:
         """
         queue = self._waiting[kind]
         if self._stopped:
-            raise Refusal(503, STOPPING, headers={"Retry-After": "5"})
+            raise Refusal(503, STOPPING, kind="stopping", headers={"Retry-After": "5"})
         if not self.has_room(kind, client):
             self.full[kind] += 1
             said = f"{len(queue)} {kind.replace('_', ' ')} wait already, the most that may"

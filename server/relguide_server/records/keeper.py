@@ -122,7 +122,9 @@ class Keeper:
         try:
             return await asyncio.get_running_loop().run_in_executor(self._readers, job)
         except Unavailable as error:
-            raise Refusal(503, str(error), headers={"Retry-After": "5"}) from None
+            raise Refusal(
+                503, str(error), kind="records-unavailable", headers={"Retry-After": "5"}
+            ) from None
 
     def opened(self) -> bool:
         """Whether the records can be read."""
@@ -138,7 +140,7 @@ class Keeper:
             raise Refusal(404, OFF)
         if self._writer.store is None:
             trouble = self._writer.trouble or "The database is being opened."
-            raise Refusal(503, trouble, headers={"Retry-After": "5"})
+            raise Refusal(503, trouble, kind="records-unavailable", headers={"Retry-After": "5"})
         return self._writer.store
 
     def report(self) -> RecordsReport:
