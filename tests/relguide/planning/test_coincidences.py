@@ -29,6 +29,7 @@ from tests.oracle import arrival_error
 from tests.situations import coincidences
 
 MILLIMETRE = 1e-3
+BILLIONTH = 1e-9  # [rad]
 ALIKE = 0.01
 """What a millimetre may cost, where it makes no other path best [s]."""
 
@@ -52,6 +53,21 @@ def test_a_slot_at_the_limit_is_reached_as_soon_as_one_a_millimetre_behind(tight
 def test_so_it_is_in_wind(situation: Situation) -> None:
     farther = replace(situation, slot_distance=situation.slot_distance + MILLIMETRE)
     assert arrival_time(situation) <= arrival_time(farther) + ALIKE
+
+
+@given(coincidences(with_intent=True, with_wind=True))
+def test_with_a_millimetre_less_to_keep_it_is_reached_no_later(situation: Situation) -> None:
+    """What keeps d_min keeps less, so this holds where a little more of it makes the time jump."""
+    limit = situation.min_separation - MILLIMETRE
+    assert arrival_time(replace(situation, min_separation=limit)) <= arrival_time(situation) + ALIKE
+
+
+@given(coincidences(with_intent=True, with_wind=True))
+def test_with_a_billionth_more_bank_it_is_reached_no_later(situation: Situation) -> None:
+    """Who can turn more steeply need not, so this holds everywhere, too."""
+    pursuer = situation.pursuer
+    steeper = replace(pursuer, max_bank=pursuer.max_bank + BILLIONTH)
+    assert arrival_time(replace(situation, pursuer=steeper)) <= arrival_time(situation) + ALIKE
 
 
 @given(coincidences(with_intent=True, with_wind=True))
