@@ -54,7 +54,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         type=_proof_time,
         default=0.0,
         help="where d_min makes the plan longer, look this long for a better lower bound of its "
-        "time, or a faster one",
+        "time, or for a faster plan",
     )
     parser.add_argument(
         "--deadline",
