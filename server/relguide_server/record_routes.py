@@ -1,9 +1,9 @@
 """Routes of what is on record: find flights, read, replay, export and remove them."""
 
 from collections.abc import AsyncIterator, Iterator
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from fastapi import APIRouter, Query, Request
+from fastapi import APIRouter, Depends, Query, Request
 from pydantic import AwareDatetime, RootModel
 from starlette.responses import Response, StreamingResponse
 
@@ -29,7 +29,7 @@ from relguide_server.openapi import (
     response,
     schema_of,
 )
-from relguide_server.records import exports, shelf
+from relguide_server.records import exports
 from relguide_server.records.bodies import (
     RecordedDocuments,
     RecordedFlightDetails,
@@ -37,11 +37,12 @@ from relguide_server.records.bodies import (
     RecordedPlanList,
     ReplayRequest,
 )
-from relguide_server.records.entries import Outcome
+from relguide_server.records.entries import Outcome, Search
 from relguide_server.records.keeper import Keeper, KeeperOf
-from relguide_server.records.shelf import Search
-from relguide_server.records.store import Store
 from relguide_server.records.tape import Recording
+
+if TYPE_CHECKING:  # with SQLAlchemy: a service that records nothing does not load it
+    from relguide_server.records.store import Store
 
 MOST = 500
 """Most flights or plans in an answer."""
@@ -69,7 +70,18 @@ MODELS = (
     FlightStatus,
 )
 """What the OpenAPI document needs for these routes."""
-router = APIRouter(prefix="/api/v1/records", tags=["records"], dependencies=[KNOWN_PARAMETERS_ONLY])
+
+
+async def _expect_open(keeper: KeeperOf) -> None:
+    """Refuse first where nothing is recorded, or cannot be read: routes load what reads records."""
+    keeper.reading()
+
+
+router = APIRouter(
+    prefix="/api/v1/records",
+    tags=["records"],
+    dependencies=[KNOWN_PARAMETERS_ONLY, Depends(_expect_open)],
+)
 
 Since = Annotated[AwareDatetime | None, Query(description="Begun at this time or later.")]
 Until = Annotated[AwareDatetime | None, Query(description="Begun before this time.")]
@@ -97,6 +109,8 @@ async def list_recorded(
     offset: Offset = 0,
 ) -> Response:
     """Those in the air as well; what is new of them is here within a second."""
+    from relguide_server.records import shelf
+
     search = Search(
         since=since.timestamp() if since else None,
         until=until.timestamp() if until else None,
@@ -127,6 +141,8 @@ async def list_plans(
     offset: Offset = 0,
 ) -> Response:
     """The situations of `POST /plans`, at most as many a second as the service is set to keep."""
+    from relguide_server.records import shelf
+
     search = Search(
         since=since.timestamp() if since else None,
         until=until.timestamp() if until else None,
@@ -167,6 +183,8 @@ async def list_documents(
     ] = MOST_DOCUMENTS,
 ) -> Response:
     """As the stream sends them, each with its number; of samples one a second of flight."""
+    from relguide_server.records import shelf
+
     await _find(flight_id, keeper)
     found = await keeper.read(lambda s: shelf.read_documents(s, flight_id, first, limit))
     following = found[-1][0] + 1 if found else first
@@ -188,6 +206,8 @@ async def replay_flight(
     flight_id: str, request: Request, keeper: KeeperOf, fleet: FleetOf
 ) -> Response:
     """A flight with a stream and a scene of its own, which takes `play`, `pause` and `set_rate`."""
+    from relguide_server.records import shelf
+
     try:
         wanted = parse(NewReplay, _content(await read_json(request))).root
     except ContractError as error:
@@ -246,6 +266,8 @@ async def export_flight(
     ] = None,
 ) -> Response:  # fmt: skip
     """What is on record of it now."""
+    from relguide_server.records import shelf
+
     about = await _find(flight_id, keeper)
     headers = {"Content-Disposition": f'attachment; filename="flight-{about["id"]}.{form}"'}
     match form:
@@ -275,6 +297,8 @@ async def export_flight(
 )
 async def remove_recorded(flight_id: str, keeper: KeeperOf) -> Response:
     """With its documents and commands; one that flies must be ended first."""
+    from relguide_server.records import shelf
+
     match await keeper.read(lambda s: shelf.remove_flight(s, flight_id)):
         case None:
             raise _unknown(flight_id)
@@ -284,6 +308,8 @@ async def remove_recorded(flight_id: str, keeper: KeeperOf) -> Response:
 
 
 async def _find(flight_id: str, keeper: Keeper) -> dict[str, Any]:
+    from relguide_server.records import shelf
+
     found = await keeper.read(lambda s: shelf.read_flight(s, flight_id))
     if found is None:
         raise _unknown(flight_id)
@@ -297,7 +323,9 @@ def _unknown(flight_id: str) -> Refusal:
     )
 
 
-def _documents(store: Store, flight_id: str) -> Iterator[Document]:
+def _documents(store: "Store", flight_id: str) -> Iterator[Document]:
+    from relguide_server.records import shelf
+
     for lines in shelf.each_chunk(store, flight_id):
         for line in lines:
             yield from_wire(line)
@@ -305,8 +333,9 @@ def _documents(store: Store, flight_id: str) -> Iterator[Document]:
 
 async def _parts(keeper: Keeper, flight_id: str, form: int, kind: str) -> AsyncIterator[bytes]:
     """A file, a chunk at a time."""
+    from relguide_server.records import shelf
 
-    def begin(store: Store) -> Iterator[bytes]:
+    def begin(store: "Store") -> Iterator[bytes]:
         chunks = shelf.each_chunk(store, flight_id)
         return exports.as_recording(form, chunks) if kind == "jsonl" else exports.as_csv(chunks)
 

@@ -101,3 +101,18 @@ class PlanAsked:
 
 
 Entry = Began | Flown | Commanded | Ended | PlanAsked
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Search:
+    """Which records are wanted, the newest first."""
+
+    since: float | None = None
+    """Begun at this time or later [Unix time, s]."""
+    until: float | None = None
+    """Begun before this time [Unix time, s]."""
+    scenario: str | None = None
+    outcome: str | None = None
+    """Of a flight; the status of a plan."""
+    limit: int = 100
+    offset: int = 0

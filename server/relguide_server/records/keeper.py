@@ -8,7 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from importlib.metadata import version
 from pathlib import Path
-from typing import Annotated, Literal, TypeVar
+from typing import TYPE_CHECKING, Annotated, Literal, TypeVar
 
 from fastapi import Depends
 from platformdirs import user_data_path
@@ -19,11 +19,12 @@ from starlette.requests import HTTPConnection
 from relguide.units import Second
 from relguide_server.errors import Refusal
 from relguide_server.records.clock import Clock
-from relguide_server.records.database import url_of
 from relguide_server.records.entries import Began, Commanded, FlightCard, PlanAsked, Unavailable
-from relguide_server.records.store import Store
 from relguide_server.records.tape import Recording, Tape
 from relguide_server.records.writer import Limits, Writer
+
+if TYPE_CHECKING:  # with SQLAlchemy, which takes 0.3 s to import: the writer's thread does that
+    from relguide_server.records.store import Store
 
 T = TypeVar("T")
 SOON: Second = 1.0
@@ -112,7 +113,7 @@ class Keeper:
             )
         )  # fmt: skip
 
-    async def read(self, work: Callable[[Store], T]) -> T:
+    async def read(self, work: "Callable[[Store], T]") -> T:
         """Do some reading, on a thread of its own.
 
         Raises:
@@ -130,7 +131,7 @@ class Keeper:
         """Whether the records can be read."""
         return self._writer is not None and self._writer.store is not None
 
-    def reading(self) -> Store:
+    def reading(self) -> "Store":
         """The open database.
 
         Raises:
@@ -197,7 +198,10 @@ def keep(
     run, started_at, software = secrets.token_hex(8), time.time(), version("relguide")
     folder = Path(data) if data else user_data_path("relguide", appauthor=False)
 
-    def open_store() -> Store:
+    def open_store() -> "Store":
+        from relguide_server.records.database import url_of
+        from relguide_server.records.store import Store
+
         return Store(url_of(database_url, folder), run=run, version=software, started_at=started_at)
 
     writer = Writer(

@@ -1,7 +1,6 @@
 """What is on record: flights to find and read, and plans asked for."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import Any
 
@@ -10,24 +9,10 @@ import sqlalchemy as sa
 from sqlalchemy.engine import Connection
 
 from relguide_server.records import database
+from relguide_server.records.entries import Search
 from relguide_server.records.reel import lines_of
 from relguide_server.records.schema import chunks, commands, flights, plans
 from relguide_server.records.store import Store
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Search:
-    """Which records are wanted, the newest first."""
-
-    since: float | None = None
-    """Begun at this time or later [Unix time, s]."""
-    until: float | None = None
-    """Begun before this time [Unix time, s]."""
-    scenario: str | None = None
-    outcome: str | None = None
-    """Of a flight; the status of a plan."""
-    limit: int = 100
-    offset: int = 0
 
 
 def find_flights(store: Store, search: Search) -> list[dict[str, Any]]:

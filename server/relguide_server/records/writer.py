@@ -10,6 +10,7 @@ from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from relguide.flying.documents import Sample
 from relguide.units import Second
@@ -17,7 +18,9 @@ from relguide_server.errors import log, run_logged
 from relguide_server.records.backlog import Backlog
 from relguide_server.records.clock import Clock
 from relguide_server.records.entries import Began, Ended, Entry, Flown, PlanAsked, Unavailable
-from relguide_server.records.store import Store
+
+if TYPE_CHECKING:  # with SQLAlchemy: loaded when the database is opened
+    from relguide_server.records.store import Store
 
 FLUSH: Second = 0.5
 """How long something waits at most until it is saved."""
@@ -50,7 +53,7 @@ class Writer:
 
     def __init__(
         self,
-        open_store: Callable[[], Store],
+        open_store: "Callable[[], Store]",
         *,
         run: str,
         version: str,
@@ -192,7 +195,7 @@ class Writer:
             with suppress(RuntimeError):  # the loop is closed: nobody waits any more
                 future.get_loop().call_soon_threadsafe(_resolve, future, number <= ticket)
 
-    def _look_around(self, store: Store) -> None:
+    def _look_around(self, store: "Store") -> None:
         """Notice killed runs, a while after the start and now and then, and forget what is old."""
         elapsed = self._clock.elapsed()
         if elapsed < self._census_at:

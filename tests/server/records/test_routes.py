@@ -3,6 +3,8 @@
 import csv
 import io
 import json
+import subprocess
+import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -218,3 +220,11 @@ def test_a_mistake_in_the_recording_ends_no_flight(
     wait_for(lambda: client.get("/readyz").json()["records"]["status"] == "waiting")
     assert "mistake" in client.get("/readyz").json()["records"]["message"]
     assert client.get(answer.headers["location"]).json()["ended"] is False
+
+
+def test_a_service_that_records_nothing_loads_no_database() -> None:
+    program = "import sys, relguide_server.app; print('sqlalchemy' in sys.modules)"
+    done = subprocess.run(
+        [sys.executable, "-c", program], check=True, capture_output=True, text=True
+    )  # fmt: skip
+    assert done.stdout == "False\n"
