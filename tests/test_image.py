@@ -167,6 +167,14 @@ def test_healthy_is_who_plans(tokens: str, monkeypatch: pytest.MonkeyPatch) -> N
     assert health.main([f"http://{address}"]) == 1
 
 
+def test_who_finds_no_plan_is_not_healthy(monkeypatch: pytest.MonkeyPatch) -> None:
+    faster = {**health.SITUATION["leader"], "tas_mps": 300}
+    with serve(ideal_app()) as address:
+        assert health.main([f"http://{address}"]) == 0
+        monkeypatch.setattr(health, "SITUATION", {**health.SITUATION, "leader": faster})
+        assert health.main([f"http://{address}"]) == 1
+
+
 def test_who_cannot_plan_is_not_healthy() -> None:
     def broken(situation: object) -> None:
         raise RuntimeError("on purpose")
