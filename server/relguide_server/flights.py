@@ -47,7 +47,7 @@ from relguide_server.openapi import (
     json_answer,
     problem_of,
     problem_responses,
-    read_json,
+    read_object,
     request_body,
     response,
     schema_of,
@@ -106,7 +106,7 @@ async def start_flight(
     whether it is on record already (`yes`) or not, or not yet (`no`).
     """
     try:
-        wanted = parse(NewFlight, _content(await read_json(request))).root
+        wanted = parse(NewFlight, await read_object(request)).root
         # A recorded leader is read from a file: not on the event loop.
         departure = await asyncio.to_thread(departures.find, wanted)
     except ContractError as error:
@@ -206,7 +206,7 @@ async def command_flight(
     flight = fleet.find(flight_id)
     expect_owner(request, flight.label.owner)
     try:
-        command = parse(FlightCommand, _content(await read_json(request))).root
+        command = parse(FlightCommand, await read_object(request)).root
     except ContractError as error:
         raise problem_of(error) from None
     if flight.over:
@@ -306,9 +306,3 @@ def _refuse_engagement(flight: LiveFlight, engagement: Engagement) -> None:
 def _leader_heading(command: LeaderHeadingCommand) -> LeaderHeading:
     direction = command.direction or "shorter"
     return LeaderHeading(heading=heading_of(command.heading_deg), direction=direction)
-
-
-def _content(parsed: object) -> dict[str, object]:
-    if isinstance(parsed, dict):
-        return parsed
-    raise ContractError([("", "The body must be an object with fields.")])

@@ -115,13 +115,17 @@ def parse_json(body: bytes) -> object:
         raise problem_of(error, 400) from None
 
 
-async def read_json(request: Request) -> object:
-    """The parsed body of a request, for a route that takes a small one.
+async def read_object(request: Request) -> dict[str, object]:
+    """The body of a request, for a route that takes a small object.
 
     Raises:
         Refusal: if it is not declared to be JSON, or is no JSON.
+        ContractError: if it is no object.
     """
-    return parse_json(await read_body(request, JSON))
+    content = parse_json(await read_body(request, JSON))
+    if isinstance(content, dict):
+        return content
+    raise ContractError([("", "The body must be an object with fields.")])
 
 
 async def refuse_unknown_parameters(connection: HTTPConnection) -> None:

@@ -24,7 +24,7 @@ from relguide_server.openapi import (
     json_answer,
     problem_of,
     problem_responses,
-    read_json,
+    read_object,
     request_body,
     response,
     schema_of,
@@ -209,7 +209,7 @@ async def replay_flight(
     from relguide_server.records import shelf
 
     try:
-        wanted = parse(NewReplay, _content(await read_json(request))).root
+        wanted = parse(NewReplay, await read_object(request)).root
     except ContractError as error:
         raise problem_of(error) from None
     about = await _find(flight_id, keeper)
@@ -360,9 +360,3 @@ def _plane(request: dict[str, Any], lat_deg: float | None, lon_deg: float | None
             422, "This flight has no latitudes: say by lat_deg and lon_deg where its x = y = 0 is."
         )
     return LocalPlane(lat_deg=lat_deg, lon_deg=lon_deg)
-
-
-def _content(parsed: object) -> dict[str, object]:
-    if isinstance(parsed, dict):
-        return parsed
-    raise ContractError([("", "The body must be an object with fields.")])
