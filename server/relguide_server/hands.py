@@ -113,7 +113,8 @@ class ProcessHand:
             return
         ended = await started
         ended.process.kill()
-        ended.jobs.abort()
+        if not ended.jobs.is_closing():  # it is, once the process has died
+            ended.jobs.abort()
         ended.reading.close()
         await asyncio.to_thread(ended.process.wait, END_PATIENCE)
 

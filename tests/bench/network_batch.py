@@ -13,7 +13,7 @@ from rich.table import Table
 from relguide import Situation
 from relguide.kernels.contact.time_rows import plan_rows
 from relguide.learn.boundary.template_network import load_template_network
-from relguide.planning.constrained_path import BEARINGS
+from relguide.planning.constrained_path import BEARINGS, HARDER
 from relguide.planning.progress import progress_bar
 from relguide.planning.slot import slot_frame
 from tests.bench.network_rows import BY_NETWORK, answer_rows
@@ -54,12 +54,16 @@ def measure(drawn: dict[str, list[Situation]]) -> list[Batch]:
         for name, situations in drawn.items():
             rows = _with_a_plan(np.array([as_row(situation) for situation in situations]))
             asked, exact = np.empty((len(rows), 4)), np.empty((len(rows), 4))
+            latest = np.full(len(rows), inf)
 
             def ask(first: int, last: int, rows: Floats = rows, out: Floats = asked) -> None:
                 answer_rows(rows, ways, BEARINGS, first, last, out)
 
-            def search(first: int, last: int, rows: Floats = rows, out: Floats = exact) -> None:
-                plan_rows(rows, BEARINGS, True, first, last, out)
+            def search(
+                first: int, last: int,
+                rows: Floats = rows, latest: Floats = latest, out: Floats = exact,
+            ) -> None:  # fmt: skip
+                plan_rows(rows, latest, BEARINGS, HARDER, True, first, last, out)
 
             ask(0, 1)  # compiles
             took: dict[Work, float] = {ask: inf, search: inf}
@@ -82,11 +86,13 @@ def _with_a_plan(rows: Floats) -> Floats:
 
     They come as often as it takes for the search to be busy for a while.
     """
-    answers = np.empty((len(rows), 4))
-    plan_rows(rows, BEARINGS, True, 0, 1, answers)  # what was compiled is read from disk
-    wall = _wall(
-        lambda first, last: plan_rows(rows, BEARINGS, True, first, last, answers), len(rows)
-    )
+    latest, answers = np.full(len(rows), inf), np.empty((len(rows), 4))
+
+    def search(first: int, last: int) -> None:
+        plan_rows(rows, latest, BEARINGS, HARDER, True, first, last, answers)
+
+    search(0, 1)  # what was compiled is read from disk
+    wall = _wall(search, len(rows))
     return np.tile(rows[answers[:, 0] < inf], (max(int(BUSY / wall), 1), 1))
 
 

@@ -27,6 +27,7 @@ from relguide.kernels.words.fastest import fastest
 from relguide.kernels.words.sooner import make_scratch
 from relguide.learn.boundary.template_network import TemplateNetwork
 from relguide.planning.certificate import TOLERANCE
+from relguide.planning.constrained_path import HARDER
 
 BY_NETWORK = -1.0
 """Verdict of an answer that the networks gave."""
@@ -64,6 +65,7 @@ def _answer_rows(
 ) -> None:  # fmt: skip
     free, scratch = np.empty(5), make_scratch()
     legs, leader = np.zeros((LEGS, 6)), np.zeros((1, 5))
+    latest = np.full(last, inf)
     for n in range(first, last):
         x, y, h, alpha, slot, _, limit = situations[n]
         if needs_mirror(y, h):
@@ -101,7 +103,7 @@ def _answer_rows(
         if pieces.shape[1] > 0 and _keeps(x, y, h, slot, alpha, limit, pieces):
             answers[n, 0], answers[n, 2] = time, BY_NETWORK
         else:
-            plan_rows(situations, bearings, True, n, n + 1, answers)
+            plan_rows(situations, latest, bearings, HARDER, True, n, n + 1, answers)
 
 
 @njit(nogil=True)

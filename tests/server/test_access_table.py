@@ -41,6 +41,7 @@ TABLE = {
     ("POST", "/api/v1/plans/batch"): "view",
     ("GET", "/api/v1/areas"): "view",
     ("POST", "/api/v1/areas"): "view",
+    ("POST", "/api/v1/simulations"): "view",
     ("GET", "/api/v1/scenarios"): "view",
     ("GET", "/api/v1/flights"): "view",
     ("POST", "/api/v1/flights"): "fly",

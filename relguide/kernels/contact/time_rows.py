@@ -31,6 +31,7 @@ PROVED, BOUNDED, UNREACHABLE, ALREADY_LOST, NO_PATH = 0.0, 1.0, 2.0, 3.0, 4.0
 """What a row of the answer says: the optimum, proved; a plan with its bound; no plan, and why."""
 CONSTRAINED = -1.0
 """In place of a word's number: the path touches d_min, or slides along it."""
+_AS_FAST = 1e-8  # times nearer than this are equal [R/V_P]
 
 
 @njit(cache=True, nogil=True)
@@ -77,16 +78,21 @@ def _plan_row(
 ) -> None:  # fmt: skip
     """Plan a situation whose fastest extremal is in the first row, and breaks the limit."""
     eased = with_limit(scene, scene.d_min - SLACK)
-    answer[1], answer[2] = rows[0, 0], NO_PATH
-    if rows[0, 0] > latest:
+    bound, refused = rows[0, 0], rows[0, 1]
+    answer[1], answer[2] = bound, NO_PATH
+    if bound > latest:
         return
     beat = latest
-    for k in range(1, solve(pose, scene.alpha, 0.0, rows)):
+    for k in range(solve(pose, scene.alpha, 0.0, rows)):
         if rows[k, 0] > latest:
             break
+        as_fast = rows[k, 0] <= bound + _AS_FAST
+        if as_fast and rows[k, 1] == refused:
+            continue  # of several that are equally fast any may come first
         if word_clears(pose, 0.0, rows[k], eased):
             beat = rows[k, 0]
-            answer[0], answer[2], answer[3] = beat, BOUNDED, rows[k, 1]
+            answer[0], answer[3] = beat, rows[k, 1]
+            answer[2] = PROVED if as_fast else BOUNDED
             break
     if scene.d_min <= 0.0:
         return
