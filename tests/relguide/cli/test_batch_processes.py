@@ -26,9 +26,9 @@ from tests.bodies import BODY, change
 from tests.command_line import NEAR, UNREACHABLE, Run
 from tests.relguide.cli.test_batch import lines_of, without_time
 
-COUNT = 400
+COUNT = 3000
 BODIES = [{"id": n, **(BODY, NEAR, change("leader.intent", []))[n % 3]} for n in range(COUNT)]
-"""Every third takes some milliseconds, as the limit binds there."""
+"""They take a second: every third some milliseconds, as the limit binds there."""
 SMALL = """
 import sys
 from relguide.__main__ import main
@@ -118,7 +118,7 @@ def test_a_killed_run_goes_on_where_it_was(run: Run, situations: str, out: str) 
 
     code, said, err = run(*again, "--resume")
     assert (code, err) == (0, "")
-    assert said.startswith(f"{out}: {COUNT} answers, in ")
+    assert said.startswith(f"{out}: {COUNT:,} answers, in ")
     assert not part.exists()
     assert not record.exists()
     whole = ("--out", f"whole{Path(out).suffix}", "--processes", "1")
