@@ -5,6 +5,7 @@ page is shown, and flies as soon as what flights need is compiled. A request tha
 refused with 503 and the time to try again; a flight under way that needs more waits.
 """
 
+import gc
 import os
 import threading
 from collections.abc import Callable, Sequence
@@ -230,6 +231,8 @@ class Preparation:
 
     def _rehearse(self, rehearse: Callable[[], None]) -> None:
         self._rehearsed = run_logged("The rehearsal of a flight", rehearse)
+        if self._steps:  # what is loaded by now stays: to look through it takes the loop 0.1 s
+            gc.freeze()
 
     def _note(self, state: Preparing | None, left: tuple[str, ...]) -> None:
         with self._changed:
