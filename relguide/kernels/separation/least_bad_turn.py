@@ -126,7 +126,7 @@ def escape_path(
                 kept = min(kept, least)
                 if kept <= best:
                     break
-            if kept > best + _SAME or kept >= d_min:
+            if kept > best:
                 best, best_side, best_angle = kept, side, angle
             if best >= d_min:
                 return best_side, best_angle, best
