@@ -24,8 +24,15 @@ class Turns(Generic[T]):
 
     def has_room(self, client: str) -> bool:
         """Whether one more job of a client may wait."""
-        own = len(self._clients.get(client, ()))
-        return self._count < self._room and own < max(self._room // 2, 1)
+        return self._count < self._room and self.count_of(client) < max(self._room // 2, 1)
+
+    def count_of(self, client: str) -> int:
+        """How many jobs of a client wait."""
+        return len(self._clients.get(client, ()))
+
+    def is_full(self) -> bool:
+        """Whether no more jobs may wait, whoever's they are."""
+        return self._count >= self._room
 
     def put(self, job: T, client: str) -> None:
         """Let a job wait."""

@@ -160,7 +160,12 @@ class Workers:
             raise Refusal(503, STOPPING, kind="stopping", headers={"Retry-After": "5"})
         if not self.has_room(kind, client):
             self.full[kind] += 1
-            said = f"{len(queue)} {kind.replace('_', ' ')} wait already, the most that may"
+            name = kind.replace("_", " ")
+            said = f"{len(queue)} {name} wait already, the most that may"
+            if not queue.is_full():
+                said = (
+                    f"{queue.count_of(client)} {name} of yours wait already, the most of a client's"
+                )
             raise Refusal(503, f"{said}: try again in a moment.", headers={"Retry-After": "1"})
         job = _Job((work, arguments), patience)
         queue.put(job, client)

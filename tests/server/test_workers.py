@@ -106,9 +106,28 @@ def test_a_full_queue_refuses_and_says_when_to_come_again() -> None:
             await workers.do("areas", gate.wait, patience=ANY, client="another")
         assert refused.value.status_code == 503
         assert refused.value.headers == {"Retry-After": "1"}
+        said = "8 areas wait already, the most that may: try again in a moment."
+        assert str(refused.value.detail) == said
         assert workers.full["areas"] == 1
         # others have a queue of their own, and a hand
         assert await workers.do("plans", int, "7", patience=ANY) == 7
+        gate.set()
+        assert await asyncio.gather(*jobs) == [True] * len(jobs)
+
+    with held(gate):
+        with_workers(0, scene)
+
+
+def test_a_client_is_told_that_its_own_jobs_are_too_many() -> None:
+    gate = threading.Event()
+
+    async def scene(workers: Workers) -> None:
+        jobs = []
+        for _ in range(3 + 4):  # three areas at once; of a queue of eight a client has half
+            jobs.append(asyncio.create_task(workers.do("areas", gate.wait, patience=ANY)))
+            await asyncio.sleep(0.02)
+        with pytest.raises(Refusal, match="4 areas of yours wait already, the most of a client's"):
+            await workers.do("areas", gate.wait, patience=ANY)
         gate.set()
         assert await asyncio.gather(*jobs) == [True] * len(jobs)
 
