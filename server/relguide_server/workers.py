@@ -215,13 +215,13 @@ class Workers:
                 await asyncio.wait((doing,), timeout=ABANDONED)
             if not doing.done():
                 self.killed += 1
-                await self._replace(hand, doing)
                 log.warning("A job took longer than %.1f s and was ended.", job.patience)
                 job.end(_too_long(job.patience))
+                await self._replace(hand, doing)
             elif (error := doing.exception()) is not None:
                 log.error("A job was interrupted", exc_info=error)
-                await self._replace(hand, doing)
                 job.end(Refusal(503, INTERRUPTED, headers={"Retry-After": "1"}))
+                await self._replace(hand, doing)
             else:
                 job.end(doing.result())
         finally:

@@ -161,3 +161,14 @@ def test_the_first_scenario_never_needs_the_search() -> None:
     library_departures(planner).rehearse()  # type: ignore[arg-type]
     assert asked
     assert None not in asked
+
+
+@pytest.mark.parametrize("steps", [STEPS_SERVED, ()])
+def test_what_a_service_has_loaded_is_not_looked_through_again(
+    steps: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A full collection of it holds the event loop for 0.1 s; who embeds the app decides."""
+    frozen = []
+    monkeypatch.setattr(module.gc, "freeze", lambda: frozen.append(True))
+    Preparation(steps)._rehearse(lambda: None)
+    assert frozen == [True] * bool(steps)
