@@ -13,7 +13,7 @@ from relguide.flying.world import Aircraft, Declared, Guided, Link, Pilot, World
 from relguide.kernels.flight.flight_records import Drift
 from relguide.kernels.flight.laws import ground_track
 from relguide.kernels.flight.program import roll_lead
-from relguide.planning.situation import CALM, FlyStraight, Leader, TurnTo, Wind
+from relguide.planning.situation import CALM, FlyStraight, IntentPiece, Leader, TurnTo, Wind
 from relguide.planning.trajectory import LEFT, RIGHT
 from relguide.units import DEG, NM
 from tests.aloft import level
@@ -112,6 +112,29 @@ def test_the_leader_later_is_where_it_will_be_over_the_ground() -> None:
     assert expected.heading == pytest.approx(then.heading, abs=1.0 * DEG)
     assert expected.intent == ()
     assert leader_after(0).leader_after(70.0).intent == (TURN,)
+
+
+@pytest.mark.parametrize(
+    "intent", [(), (STRAIGHT,), (STRAIGHT, TURN), (STRAIGHT, STRAIGHT, TURN), (TURN, STRAIGHT)]
+)
+def test_the_leader_later_is_where_its_whole_trajectory_leads(
+    intent: tuple[IntentPiece, ...],
+) -> None:
+    """On the piece being flown, which guidance asks for most, no trajectory is laid out."""
+    belief = leader_after(0, pilot=Declared(intent=intent))
+    now = belief.leader_after(0.0)
+    for seconds in (1e-9, 1.0, 59.999, 60.0, 60.001, 100.0, 300.0):
+        then, pose = belief.leader_after(seconds), now.trajectory.pose_at(seconds)
+        drifted = pose.x + WIND.east * seconds, pose.y + WIND.north * seconds
+        assert (then.x, then.y) == pytest.approx(drifted, abs=1e-6)
+        assert cos(then.heading - pose.heading) == pytest.approx(1.0, abs=1e-15)
+        left = intent_after(now, seconds)
+        assert [piece.kind for piece in then.intent] == [piece.kind for piece in left]
+        for has, had in zip(then.intent, left, strict=True):
+            if isinstance(has, FlyStraight) and isinstance(had, FlyStraight):
+                assert has.duration == pytest.approx(had.duration, abs=1e-9)
+            else:
+                assert has == had
 
 
 def test_of_an_intent_so_much_is_left_after_a_while() -> None:

@@ -1,5 +1,6 @@
 """Whatever is given: an answer, or a ValueError with a sentence, and never much work."""
 
+import re
 from dataclasses import fields, replace
 from decimal import Decimal
 from fractions import Fraction
@@ -34,7 +35,8 @@ from relguide import (
     plan,
     wind_from,
 )
-from relguide.planning.limits import DISTANCE, POSITION, WIND
+from relguide.planning.inputs import expect_within
+from relguide.planning.limits import DISTANCE, HEADING, POSITION, TAS, WIND
 from relguide.planning.optimality import check
 from relguide.planning.regular import (
     RegularTrajectory,
@@ -99,6 +101,25 @@ def test_other_numbers_become_floats(value: Any) -> None:
 
 def test_there_is_one_zero() -> None:
     assert str(replace(PURSUER, x=-0.0).x) == "0.0"
+
+
+@pytest.mark.parametrize("name", ["x", "y", "heading", "tas"])
+@pytest.mark.parametrize("whole", [PURSUER, LEADER], ids=lambda w: type(w).__name__)
+def test_floats_within_the_limits_are_judged_as_any_number_is(whole: Any, name: str) -> None:
+    """Aircraft of plain floats are judged in one look, which must judge as `expect_within` does."""
+    limits = {"heading": HEADING, "tas": TAS}.get(name, POSITION)
+    edges = {*limits[:2], *limits.ends, *(-end for end in limits.ends), 0.0, 5e-324, 1.0, 250.0}
+    tried = [
+        toward for edge in edges for toward in (edge, nextafter(edge, inf), nextafter(edge, -inf))
+    ]
+    for value in (*tried, -0.0, nan, inf, -inf):
+        try:
+            right = repr(expect_within(f"{type(whole).__name__.lower()}.{name}", value, *limits))
+        except ValueError as refused:
+            with pytest.raises(ValueError, match=f"^{re.escape(str(refused))}$"):
+                replace(whole, **{name: value})
+        else:
+            assert repr(getattr(replace(whole, **{name: value}), name)) == right
 
 
 @pytest.mark.parametrize("turn", [0, 2, 1.0, "left", None, True, nan, (1,), np.array([1, -1])])
