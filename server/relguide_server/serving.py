@@ -15,12 +15,11 @@ TO_SAY_GOODBYE = 0.3
 """How long streams may take to be told why they end [s]."""
 TO_FINISH = 1.0
 """How long requests may take to be answered once the service is to stop [s]."""
-
-
 HEAD_PATIENCE = 15.0
 """How long the head of a request may take to come [s]."""
 LONGEST_HEAD = 64 * 1024
-"""How long it may be [bytes]."""
+"""How much of it may have come before it is whole, or of anything else that is no body [bytes]."""
+TOO_LONG = f"The head of a request may have at most {LONGEST_HEAD:,} bytes."
 
 
 class Connection(HttpToolsProtocol):
@@ -29,27 +28,41 @@ class Connection(HttpToolsProtocol):
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         """Wait for a request."""
         super().connection_made(transport)
-        self._head = 0
+        self._unread = 0
         self._late = self.loop.call_later(HEAD_PATIENCE, transport.close)
 
     def on_message_begin(self) -> None:
         """A request begins."""
         super().on_message_begin()
-        self._head = 0
         self._late.cancel()
         self._late = self.loop.call_later(HEAD_PATIENCE, self.transport.close)
 
-    def on_header(self, name: bytes, value: bytes) -> None:
-        """A line of the head; an error makes the parser refuse the request."""
-        self._head += len(name) + len(value)
-        if self._head > LONGEST_HEAD:
-            raise ValueError(f"The head of a request may have at most {LONGEST_HEAD:,} bytes.")
-        super().on_header(name, value)
+    def data_received(self, data: bytes) -> None:
+        """Read on, unless too much has come that is neither a whole head nor a part of a body.
+
+        The parser collects a line until it ends: one that never does would fill the memory, and
+        keep everybody waiting while it is copied.
+        """
+        self._unread += len(data)
+        super().data_received(data)
+        if self._unread > LONGEST_HEAD and not self.transport.is_closing():
+            self.send_400_response(TOO_LONG)
 
     def on_headers_complete(self) -> None:
         """The head is there."""
         self._late.cancel()
+        self._unread = 0
         super().on_headers_complete()
+
+    def on_body(self, body: bytes) -> None:
+        """A part of the body is there."""
+        self._unread = 0
+        super().on_body(body)
+
+    def on_message_complete(self) -> None:
+        """The request is there."""
+        self._unread = 0
+        super().on_message_complete()
 
     def connection_lost(self, exc: Exception | None) -> None:
         """The connection has ended."""

@@ -12,6 +12,7 @@ import pytest
 from relguide_server.access import ROLES
 from relguide_server.app import create_app
 from relguide_server.plans import EXAMPLE
+from relguide_server.serving import LONGEST_HEAD
 from relguide_server.settings import Settings
 from websockets.asyncio.client import connect
 from websockets.exceptions import InvalidStatus
@@ -22,6 +23,8 @@ from tests.server.serving import TestClient, ideal_app, serve
 from tests.server.test_access import FLIGHT, SETTING, TOKENS
 from tests.server.test_api import is_problem
 
+FLOOD = 32 * 1024 * 1024
+"""More than the system's own buffers hold [bytes]."""
 TABLE = {
     # who may at least; nobody needs a token for "open"
     ("GET", "/healthz"): "open",
@@ -209,6 +212,38 @@ def test_headers_without_end_are_refused() -> None:
             except OSError:
                 answer = b""  # it has hung up
     assert not answer.startswith(b"HTTP/1.1 200")
+
+
+@pytest.mark.parametrize(
+    "begun",
+    [
+        "GET /",
+        "GET /healthz HTTP/1.1\r\nX",
+        "GET /healthz HTTP/1.1\r\nX: ",
+        "POST /api/v1/plans HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
+        "Transfer-Encoding: chunked\r\n\r\n1\r\n{\r\n0\r\nX: ",
+    ],
+    ids=["address", "name", "value", "trailer"],
+)
+def test_a_line_without_end_is_not_collected(begun: str) -> None:
+    with serve(ideal_app()) as address:
+        host, _, port = address.partition(":")
+        with socket.create_connection((host, int(port)), 10.0) as raw:
+            raw.sendall(begun.encode())
+            with pytest.raises(ConnectionError):
+                raw.sendall(b"x" * FLOOD)
+        assert httpx.get(f"http://{address}/healthz").is_success
+
+
+def test_a_large_body_is_no_head() -> None:
+    padded = b" " * 8 * LONGEST_HEAD + b"[]"
+    with serve(ideal_app()) as address:
+        answer = httpx.post(
+            f"http://{address}/api/v1/plans/batch",
+            content=padded,
+            headers={"Content-Type": "application/json"},
+        )
+    assert (answer.status_code, answer.json()) == (200, [])
 
 
 def test_a_head_that_never_comes_is_not_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
