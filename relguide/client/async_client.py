@@ -10,7 +10,7 @@ from websockets.typing import Subprotocol
 
 from relguide.client import calls
 from relguide.client.bodies import Asked
-from relguide.client.calls import Answer, Call, Include, Invalid, PlannerName, expect_served
+from relguide.client.calls import Answer, Call, Include, Invalid, Lines, PlannerName, expect_served
 from relguide.contract.area_bodies import AreaAnswer
 from relguide.contract.messages import FlightStatus
 from relguide.contract.protocol import STREAM
@@ -71,8 +71,10 @@ class AsyncClient:
                 if not response.is_success:
                     await response.aread()
                 expect_served(response)
-                async for line in response.aiter_lines():
-                    yield call.read(line.encode())
+                lines = Lines()
+                async for part in response.aiter_bytes():
+                    for line in lines.add(part):
+                        yield call.read(line)
 
     async def area(self, asked: Asked, **wanted: Any) -> AreaAnswer:
         """As `Client.area`."""

@@ -65,6 +65,18 @@ class Call(Generic[T]):
         return {"params": params, "content": self.content or None, "headers": headers}
 
 
+class Lines:
+    """The lines of an answer that comes in parts. They end at a line feed and nowhere else."""
+
+    def __init__(self) -> None:
+        self._begun = b""
+
+    def add(self, part: bytes) -> list[bytes]:
+        """The lines that end in the next part."""
+        *lines, self._begun = (self._begun + part).split(b"\n")
+        return lines
+
+
 def expect_served(response: httpx2.Response) -> None:
     """Go on with what was served; its body has been read.
 

@@ -10,7 +10,7 @@ from websockets.typing import Subprotocol
 
 from relguide.client import calls
 from relguide.client.bodies import Asked
-from relguide.client.calls import Answer, Call, Include, Invalid, PlannerName, expect_served
+from relguide.client.calls import Answer, Call, Include, Invalid, Lines, PlannerName, expect_served
 from relguide.contract.area_bodies import AreaAnswer
 from relguide.contract.messages import FlightStatus
 from relguide.contract.protocol import STREAM
@@ -94,8 +94,10 @@ class Client:
                 if not response.is_success:
                     response.read()
                 expect_served(response)
-                for line in response.iter_lines():
-                    yield call.read(line.encode())
+                lines = Lines()
+                for part in response.iter_bytes():
+                    for line in lines.add(part):
+                        yield call.read(line)
 
     def area(self, asked: Asked, **wanted: Any) -> AreaAnswer:
         """The convergence area of a situation; `wanted` are further members of `AreaRequest`."""

@@ -27,6 +27,8 @@ Role = Literal["view", "fly", "control"]
 """`view`: read, plan and watch; `fly`: start flights, and command and end one's own; `control`: all
 flights."""
 ROLES: tuple[Role, ...] = get_args(Role)
+SHORTEST = 16
+"""Characters of a token, at least."""
 COOKIE = "relguide_token"
 SAFE = ("GET", "HEAD", "OPTIONS")
 OPEN = ("/healthz", "/readyz")
@@ -73,19 +75,11 @@ class Access:
         """The answer that refuses; `None` for what may pass."""
         path, host = path_of(scope), headers.get("host", "")
         if not self._is_ours(host):
-            return problem(
-                path, 421, UNKNOWN_HOST.format(name=_name(host)[:100]), root=root_of(scope)
-            )
+            return _refuse(scope, 421, UNKNOWN_HOST.format(name=_name(host)[:100]))
         origin = headers.get("origin")
         changes = scope["type"] == "websocket" or scope["method"] not in SAFE
         if changes and origin is not None and not self._is_own_page(origin, host):
-            return problem(
-                path,
-                403,
-                FOREIGN.format(origin=origin[:100]),
-                kind="foreign-page",
-                root=root_of(scope),
-            )
+            return _refuse(scope, 403, FOREIGN.format(origin=origin[:100]), kind="foreign-page")
         if not self.tokens or path in OPEN:
             return None
         return self._judge_token(scope, headers)
@@ -112,13 +106,10 @@ class Access:
         token = _token(headers)
         role = self._role(token)
         if role is None:
-            said = {"WWW-Authenticate": "Bearer"}
-            return problem(path, 401, NO_TOKEN, root=root_of(scope), headers=said)
+            return _refuse(scope, 401, NO_TOKEN, headers={"WWW-Authenticate": "Bearer"})
         needed = _needed(scope)
         if ROLES.index(role) < ROLES.index(needed):
-            return problem(
-                path, 403, TOO_LITTLE.format(role=role, needed=needed), root=root_of(scope)
-            )
+            return _refuse(scope, 403, TOO_LITTLE.format(role=role, needed=needed))
         scope.setdefault("state", {})
         scope["state"]["owner"] = "" if role == "control" else sha256(token.encode()).hexdigest()
         return None
@@ -129,6 +120,17 @@ class Access:
             if secrets.compare_digest(known.encode(), token.encode()):
                 found = role
         return found
+
+
+def _refuse(
+    scope: Scope,
+    status: int,
+    detail: str,
+    *,
+    kind: str = "",
+    headers: dict[str, str] | None = None,
+) -> Response:
+    return problem(scope["path"], status, detail, kind=kind, root=root_of(scope), headers=headers)
 
 
 def owner_of(connection: HTTPConnection) -> str:
@@ -165,10 +167,6 @@ def read_tokens(text: str) -> dict[str, Role]:
             )
         tokens[token] = role
     return tokens
-
-
-SHORTEST = 16
-"""Characters of a token, at least."""
 
 
 def _needed(scope: Scope) -> Role:

@@ -33,7 +33,9 @@ class Mount:
         root = self.root_path if root is None else root
         if scope["type"] == "http" and root and path == root and not stripped:
             # addresses in the page are relative to its own
-            await RedirectResponse(f"{root}/", 308)(scope, receive, send)
+            query = scope["query_string"].decode("latin-1")
+            where = f"{root}/?{query}" if query else f"{root}/"
+            await RedirectResponse(where, 308)(scope, receive, send)
             return
         if stripped or not path.startswith(f"{root}/"):
             path = root + path

@@ -91,7 +91,12 @@ async def simulate_flights(
             )
             return figures
 
-    texts = await unless_left(request, asyncio.gather(*map(fly, wanted)))
+    flying = [asyncio.ensure_future(fly(one)) for one in wanted]
+    try:
+        texts = await unless_left(request, asyncio.gather(*flying))
+    finally:
+        for other in flying:  # where one is refused, nobody waits for the others
+            other.cancel()
     return json_answer(b"[" + b",".join(texts) + b"]")
 
 

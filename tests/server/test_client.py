@@ -17,7 +17,6 @@ from relguide.flying.documents import FlightStarted, Sample
 from relguide.flying.plan_documents import NoPlanCard, PlanCard
 from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
-from relguide.planning.trajectory import LEFT
 from tests.bodies import BODY
 from tests.server.records.test_writer import wait_for
 from tests.server.serving import ideal_app, ideal_departures, serve
@@ -49,16 +48,20 @@ def client(url: str) -> Iterator[Client]:
 @settings(max_examples=50, deadline=None)
 def test_a_situation_is_sent_as_it_is(situation: Situation) -> None:
     read, _ = situation_from_json(body_of(situation))
+    assert (read.slot_distance, read.min_separation) == (
+        situation.slot_distance,
+        situation.min_separation,
+    )
     for ours, theirs in (
         (situation.pursuer, read.pursuer),
         (situation.leader, read.leader),
+        *zip(situation.leader.intent, read.leader.intent, strict=True),
     ):
-        for name in ("x", "y", "heading", "tas"):
-            assert getattr(theirs, name) == pytest.approx(getattr(ours, name), abs=1e-12)
-    assert len(read.leader.intent) == len(situation.leader.intent)
-    for piece, again in zip(situation.leader.intent, read.leader.intent, strict=True):
-        assert type(piece) is type(again)
-        assert getattr(piece, "turn", LEFT) == getattr(again, "turn", LEFT)
+        assert type(theirs) is type(ours)
+        for name in ("x", "y", "heading", "tas", "max_bank", "duration", "turn", "bank"):
+            assert getattr(theirs, name, None) == pytest.approx(
+                getattr(ours, name, None), abs=1e-12
+            )
     assert (read.wind.east, read.wind.north) == pytest.approx(
         (situation.wind.east, situation.wind.north), abs=1e-9
     )
@@ -84,6 +87,17 @@ def test_a_batch_has_an_answer_a_line(client: Client) -> None:
     assert isinstance(wrong, Invalid)
     assert "leader" in wrong.message
     assert isinstance(last, PlanCard)
+
+
+def test_a_line_of_a_batch_ends_at_a_line_feed_alone(url: str, client: Client) -> None:
+    odd = {**BODY, "id": "\u2028 \u2029 \x85 \v \f \x1c \r \n"}
+
+    async def ask() -> list[type]:
+        async with AsyncClient(url) as waiting:
+            return [type(answer) async for answer in waiting.plan_batch([odd, odd])]
+
+    assert [type(answer) for answer in client.plan_batch([odd, odd])] == [PlanCard] * 2
+    assert asyncio.run(ask()) == [PlanCard] * 2
 
 
 def test_what_is_refused_is_a_sentence(client: Client) -> None:

@@ -61,8 +61,12 @@ def test_streams_and_scenes_work_below_a_path() -> None:
 
 def test_its_page_is_where_relative_addresses_are_right() -> None:
     with TestClient(ideal_app(root_path="/relguide/")) as client:
-        redirected = client.get("/relguide", follow_redirects=False)
-        assert (redirected.status_code, redirected.headers["location"]) == (308, "/relguide/")
+        for asked, page in (
+            ("/relguide", "/relguide/"),
+            ("/relguide?engaged", "/relguide/?engaged"),
+        ):
+            redirected = client.get(asked, follow_redirects=False)
+            assert (redirected.status_code, redirected.headers["location"]) == (308, page)
 
 
 def test_a_token_is_kept_for_its_path_alone() -> None:
@@ -71,7 +75,9 @@ def test_a_token_is_kept_for_its_path_alone() -> None:
         assert opened.headers["location"] == "/relguide/"
         assert "Path=/relguide/;" in opened.headers["set-cookie"]
         assert client.get("/relguide/api/v1/flights").status_code == 200
-        assert client.post("/relguide/api/v1/flights", json=FLIGHT).status_code == 403
+        refused = client.post("/relguide/api/v1/flights", json=FLIGHT)
+        assert refused.status_code == 403
+        assert refused.json()["instance"] == "/relguide/api/v1/flights"
 
 
 def test_a_path_is_believed_from_a_proxy_alone() -> None:

@@ -1,12 +1,15 @@
 """Simulations: flown to their end by workers, with the figures of `relguide fly --json`."""
 
+import asyncio
 from collections.abc import Iterator
 from importlib.metadata import version
 
 import pytest
-from relguide_server.simulations import EXAMPLE
+from relguide_server.errors import Refusal
+from relguide_server.simulations import AT_A_TIME, EXAMPLE
 
 from relguide import plan
+from relguide.contract.messages import ScenarioFlightRequest
 from relguide.contract.simulation_bodies import MAX_SIMULATIONS, SimulationAnswer
 from relguide.contract.story import figures, story_of
 from relguide.flying.flight import fly
@@ -56,3 +59,25 @@ def test_what_cannot_be_flown_is_refused_by_its_path(
     answer = client.post(PATH, json=body)
     assert answer.status_code == 422
     assert answer.json()["errors"][0]["path"] == path
+
+
+def test_where_one_is_refused_the_others_are_not_flown(monkeypatch: pytest.MonkeyPatch) -> None:
+    begun: set[int] = set()
+    left: set[int] = set()
+
+    async def do(kind: str, work: object, wanted: ScenarioFlightRequest, *_: object, **__: object):
+        begun.add(wanted.seed)
+        if len(begun) == AT_A_TIME:
+            raise Refusal(503, "Too many wait: try again in a moment.")
+        try:
+            await asyncio.Event().wait()
+        finally:
+            left.add(wanted.seed)
+
+    app = ideal_app()
+    monkeypatch.setattr(app.state.workers, "do", do)
+    with TestClient(app) as client:
+        flights = [{"scenario": "fig_6b", "seed": seed} for seed in range(MAX_SIMULATIONS)]
+        assert client.post(PATH, json=flights).status_code == 503
+        assert client.get("/healthz").status_code == 200
+        assert left == begun - {AT_A_TIME - 1}
