@@ -5,6 +5,7 @@ few: `quick`, as in `make check`.
 """
 
 import random
+import signal
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -23,6 +24,9 @@ settings.register_profile(
 settings.register_profile("explore", settings.get_profile("same"), derandomize=False)
 settings.register_profile("quick", settings.get_profile("same"), max_examples=10)
 settings.load_profile("same")
+
+# Who runs tests in the background may have Ctrl-C ignored, which programs would inherit.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # What is compiled on the way is not what a test asks about.
 first_use.announced = True
