@@ -76,7 +76,9 @@ class AreaRequest(Strict):
     height_m: Extent = HEIGHT
     """From the first row to the last."""
     columns: Count = COLUMNS
+    """Of the grid, from west to east."""
     rows: Count = ROWS
+    """Of the grid, from south to north."""
     levels_s: Annotated[Levels, Field(default_factory=list)]
     """Times of the lines; if left out, some round ones."""
     exact: bool = False
@@ -101,13 +103,16 @@ class AreaGrid(Strict):
     height_m: float
     """From the first row to the last."""
     columns: int
+    """From west to east."""
     rows: int
+    """From south to north."""
 
 
 class AreaContour(Strict):
     """The places from which the time-to-converge is equal to a level."""
 
     level_s: float
+    """The time."""
     lines: list[list[list[float]]]
     """Lines of [x_m, y_m], or of [x_m, y_m, lat_deg, lon_deg] if the situation came with latitudes;
     closed where the first vertex is also the last."""
@@ -134,23 +139,28 @@ class AreaCount(Strict):
     limited: int
     """There is a plan, and a lower bound of the time."""
     no_plan: int
+    """There is no plan."""
 
 
 class AreaAnswer(Strict):
     """A convergence area: lines of equal time-to-converge, and regions of equal word."""
 
     grid: AreaGrid
+    """Where the pursuer was put."""
     pursuer_heading_deg: float
     """Clockwise from true north; the same at all nodes."""
     levels_s: list[float]
+    """Times of the lines."""
     contours: list[AreaContour]
     """One for each level, in the same order."""
     regions: list[AreaRegion]
     """Together they cover the grid."""
     count: AreaCount
+    """How many nodes have which kind of answer."""
     notes: list[str]
     """What is exact here and what is a bound, in sentences."""
     compute_ms: float
+    """How long it took."""
     times_s: list[list[float | None]] | None = None
     """Times of the nodes, if asked for: one list for each row, from the south; null where there is
     no plan."""

@@ -73,7 +73,9 @@ class GeodeticPursuer(Strict):
     """The aircraft that is guided, at t = 0, placed on the earth (WGS84)."""
 
     lat_deg: Annotated[float, Field(ge=-90.0, le=90.0)]
+    """WGS84."""
     lon_deg: Annotated[float, Field(ge=-180.0, le=180.0)]
+    """WGS84."""
     heading_deg: float
     """Clockwise from true north."""
     tas_mps: Tas
@@ -140,7 +142,9 @@ class GeodeticLeader(Strict):
     """The aircraft to be joined, at t = 0, placed on the earth (WGS84)."""
 
     lat_deg: Annotated[float, Field(ge=-90.0, le=90.0)]
+    """WGS84."""
     lon_deg: Annotated[float, Field(ge=-180.0, le=180.0)]
+    """WGS84."""
     heading_deg: float
     """Clockwise from true north."""
     tas_mps: Tas
@@ -155,6 +159,7 @@ class WindBody(Strict):
     from_deg: float
     """Where it comes from, clockwise from true north."""
     speed_mps: Annotated[float, Accepted(limits.WIND)]
+    """How strong it is."""
 
 
 class SituationBody(Strict):
@@ -164,10 +169,12 @@ class SituationBody(Strict):
         Annotated[LocalPursuer, Tag("#local")] | Annotated[GeodeticPursuer, Tag("#geodetic")],
         Discriminator(_which_position),
     ]
+    """The aircraft that is guided."""
     leader: Annotated[
         Annotated[LocalLeader, Tag("#local")] | Annotated[GeodeticLeader, Tag("#geodetic")],
         Discriminator(_which_position),
     ]
+    """The aircraft to be joined."""
     slot_distance_m: Distance
     """D: how far behind the leader the pursuer is to be."""
     min_separation_m: Distance

@@ -212,8 +212,11 @@ class ScenarioInfo(Strict):
     """A scenario that can be flown."""
 
     name: str
+    """To start it by."""
     title: str
+    """For people."""
     description: str
+    """What it shows."""
     available: bool
     """Whether what it needs is installed."""
     message: str
@@ -224,6 +227,7 @@ class ScenarioList(Strict):
     """All scenarios."""
 
     scenarios: list[ScenarioInfo]
+    """The paper's, and ours."""
 
 
 class _HowToFly(Strict):
@@ -255,6 +259,7 @@ class SituationFlightRequest(_HowToFly):
     """Start a flight from a situation of your own."""
 
     situation: SituationBody
+    """As `POST /plans` takes it."""
     flown_intent: Intent | None = None
     """What the leader flies if that is not what it declares in `situation`: it breaks its word."""
 
@@ -278,48 +283,63 @@ class FlightStatus(Strict):
     """Where a flight stands."""
 
     id: str
+    """To ask for it by."""
     scenario: str
     """Its name; empty for a situation of your own."""
     title: str
+    """For people."""
     t_s: float
     """Flight time."""
     rate: float
     """Simulated seconds per second."""
     paused: bool
+    """Whether it waits for `play`."""
     ended: bool
+    """Whether it is over."""
     mode: Mode
+    """What guidance does now."""
     engagement: Engagement
     """How far the crew has engaged guidance."""
     joined: bool
+    """Whether the pursuer has joined."""
     separation_m: float
+    """Between pursuer and leader now."""
     stream_url: str
     """Path of its WebSocket."""
     scene_url: str
     """Path of its 3D scene."""
+    seed: int
+    """Of its random numbers, as asked for: with the same version it gives the same flight."""
+    version: str
+    """Of the software that flies it."""
 
 
 class FlightList(Strict):
     """All flights."""
 
     flights: list[FlightStatus]
+    """In the order they were started."""
 
 
 class PlayCommand(Strict):
     """Continue the flight."""
 
     command: Literal["play"]
+    """Which command it is."""
 
 
 class PauseCommand(Strict):
     """Pause the flight."""
 
     command: Literal["pause"]
+    """Which command it is."""
 
 
 class SetRateCommand(Strict):
     """Change how fast simulated time runs."""
 
     command: Literal["set_rate"]
+    """Which command it is."""
     rate: Rate
     """Simulated seconds per second."""
 
@@ -328,6 +348,7 @@ class LeaderHeadingCommand(Strict):
     """Instruct the leader to turn to a heading."""
 
     command: Literal["leader_heading"]
+    """Which command it is."""
     heading_deg: float
     """Clockwise from true north."""
     direction: Direction | None = None
@@ -338,6 +359,7 @@ class LeaderSpeedCommand(Strict):
     """Instruct the leader to fly at a speed."""
 
     command: Literal["leader_speed"]
+    """Which command it is."""
     tas_mps: Tas
     """True airspeed."""
 
@@ -346,20 +368,25 @@ class IntentKnownCommand(Strict):
     """Give the leader's intent to the pursuer, or withdraw it."""
 
     command: Literal["intent_known"]
+    """Which command it is."""
     known: bool
+    """Whether the pursuer knows it from now on."""
 
 
 class LeaderDataCommand(Strict):
     """Let the leader's reports be received, or not."""
 
     command: Literal["leader_data"]
+    """Which command it is."""
     received: bool
+    """Whether they are received from now on."""
 
 
 class PursuerHeadingCommand(Strict):
     """Select a heading for the pursuer, while guidance is not engaged."""
 
     command: Literal["pursuer_heading"]
+    """Which command it is."""
     heading_deg: float
     """Clockwise from true north."""
 
@@ -368,7 +395,9 @@ class SetEngagementCommand(Strict):
     """Designate the leader, accept what is proposed, engage it, or disconnect."""
 
     command: Literal["set_engagement"]
+    """Which command it is."""
     engagement: Engagement
+    """How far guidance is engaged from now on."""
 
 
 Command = Annotated[

@@ -24,6 +24,7 @@ class SimulationLoss(Strict):
     """One time at which the minimum separation was lost."""
 
     t_s: float
+    """When it was lost."""
     separation_m: float
     """The least."""
     cause: str
@@ -46,6 +47,7 @@ class SimulationAnswer(Strict):
     message: str
     """The same as a sentence."""
     joined: bool
+    """Whether the pursuer joined."""
     join_time_s: float
     """When it joined."""
     planned_time_s: float
@@ -53,11 +55,15 @@ class SimulationAnswer(Strict):
     promised_s: float
     """The same, braking included."""
     least_separation_m: float
+    """Between the two aircraft."""
     heading_swing_deg: float
     """Total variation of heading until joined."""
     bank_reversals: int
+    """Rolls from one side to the other."""
     replans: int
+    """Plans that took another's place."""
     replans_announced: int
+    """Those that the crew was told of."""
     fallbacks: int
     """Plans by the exact planner in place of another's."""
     track_nm: float
@@ -67,6 +73,7 @@ class SimulationAnswer(Strict):
     wall_s: float
     """Time it took."""
     losses: list[SimulationLoss]
+    """Times at which the minimum separation was lost."""
 
 
 def expect_unwatched(flights: SimulationRequest) -> None:

@@ -18,9 +18,13 @@ class PathPoint:
     """A place and a heading along a path, over the ground."""
 
     t: Second
+    """From the beginning of the path."""
     x: Metre
+    """East."""
     y: Metre
+    """North."""
     heading: Radian
+    """Where the nose points."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -28,14 +32,21 @@ class TurnSegment:
     """A turn at constant bank. In wind its ground path is a trochoid: air-mass arc + wind × t."""
 
     direction: Direction
+    """Which way round."""
     angle: Radian
+    """How far it turns."""
     bank: Radian
     """|φ| [rad]."""
     radius: Metre
+    """In the air mass."""
     duration: Second
+    """How long it takes."""
     start: PathPoint
+    """Where it begins."""
     end: PathPoint
+    """Where it ends."""
     kind: Literal["turn"] = "turn"
+    """A turn."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,9 +56,13 @@ class StraightSegment:
     length: Metre
     """In the air mass [m]."""
     duration: Second
+    """How long it takes."""
     start: PathPoint
+    """Where it begins."""
     end: PathPoint
+    """Where it ends."""
     kind: Literal["straight"] = "straight"
+    """A straight."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,11 +72,15 @@ class BoundarySegment:
     side: Direction
     """The side it turns to: left boundary arcs counter-clockwise round the leader."""
     duration: Second
+    """How long it takes."""
     start: PathPoint
+    """Where it begins."""
     end: PathPoint
+    """Where it ends."""
     via: tuple[PathPoint, ...]
     """Points between, close enough to draw straight lines."""
     kind: Literal["boundary"] = "boundary"
+    """A boundary arc."""
 
 
 PathSegment = TurnSegment | StraightSegment | BoundarySegment
@@ -72,8 +91,11 @@ class Separation:
     """Least separation along a plan, and what is proved of it."""
 
     least: Metre
+    """The least distance between the two aircraft."""
     at: Second
+    """When it is so."""
     proved_above: Metre
+    """They are proved never to be closer."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -93,7 +115,10 @@ class OptimalityCard:
     """What is proved of a plan's time; and, if asked for, how it meets Pontryagin's conditions."""
 
     proof: Proof
+    """`relaxation`: it is the fastest. `certified`: within 0.1 s of it. `bound`: nothing is faster
+    than the lower bound. `none`: nothing is known."""
     lower_bound: Second
+    """No plan that keeps d_min is faster."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -105,7 +130,9 @@ class AlternativeCard:
     """
 
     word: str
+    """Its letters, e.g. `LSR`: L and R are turns, S a straight, B slides along d_min."""
     time_to_converge: Second
+    """When the pursuer is at the slot, on the leader's heading."""
     turning: Radian
     """How much it turns in all, left and right added."""
     passes: Passes
@@ -115,6 +142,7 @@ class AlternativeCard:
     why: str
     """Why it is not flown, e.g. `38 s slower`."""
     rejected: Literal["slower", "as_fast", "faster"] = "slower"
+    """Why, in a word."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -122,7 +150,9 @@ class UnsafeAlternativeCard:
     """Another path to the slot that lost because it comes too close."""
 
     word: str
+    """Its letters, e.g. `LSR`: L and R are turns, S a straight, B slides along d_min."""
     time_to_converge: Second
+    """When the pursuer is at the slot, on the leader's heading."""
     turning: Radian
     """How much it turns in all, left and right added."""
     passes: Passes
@@ -130,10 +160,13 @@ class UnsafeAlternativeCard:
     side: Direction
     """How it goes round the leader: left is counter-clockwise, with the leader on its left hand."""
     least_separation: Metre
+    """How close it comes."""
     at: Second
+    """When it is closest."""
     why: str
     """Why it is not flown, e.g. `comes within 4.22 NM at 212 s`."""
     rejected: Literal["separation"] = "separation"
+    """It loses the separation."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -141,11 +174,15 @@ class EarlyAlternativeCard:
     """A word that reaches the place of the slot before it opens."""
 
     word: str
+    """Its letters, e.g. `LSR`: L and R are turns, S a straight, B slides along d_min."""
     time_to_converge: Second
+    """When it is there."""
     release_time: Second
     """When the slot opens."""
     why: str
+    """Why it is not flown."""
     rejected: Literal["not_open"] = "not_open"
+    """The slot is not open then."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -153,8 +190,11 @@ class MissingAlternativeCard:
     """A word of which no path reaches the slot."""
 
     word: str
+    """Its letters, e.g. `LSR`: L and R are turns, S a straight, B slides along d_min."""
     why: str
+    """Why there is none."""
     rejected: Literal["no_root"] = "no_root"
+    """No root."""
 
 
 AnyAlternativeCard = (
@@ -167,7 +207,9 @@ class OtherPathCard:
     """Another path to the slot, to be drawn beside a proposal."""
 
     word: str
+    """Its letters, e.g. `LSR`: L and R are turns, S a straight, B slides along d_min."""
     time_to_converge: Second
+    """When the pursuer is at the slot, on the leader's heading."""
     segments: tuple[PathSegment, ...]
     """Times count from the instant of the proposal."""
     why: str
@@ -181,17 +223,25 @@ class PlanCard:
     planner: str
     """Who made it: `exact`, `network`, `regular_dp`, or the name of a planner of one's own."""
     word: str
+    """Its letters, e.g. `LSR`: L and R are turns, S a straight, B slides along d_min."""
     time_to_converge: Second
+    """When the pursuer is at the slot, on the leader's heading."""
     length: Metre
     """Path length in the air mass [m]."""
     segments: tuple[PathSegment, ...]
+    """In the order they are flown."""
     separation: Separation
+    """From the leader, along the path."""
     arrival: ArrivalCard
+    """How its end meets the slot."""
     optimality: OptimalityCard
+    """What is proved of its time."""
     alternatives: tuple[AnyAlternativeCard, ...] = ()
     """By time; words without any path last. In an answer only if asked for."""
     compute: Millisecond
+    """How long planning took."""
     status: Literal["planned"] = "planned"
+    """There is a plan."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -199,7 +249,10 @@ class NoPlanCard:
     """No plan, why, and what would help."""
 
     reason: Reason
+    """In a word."""
     message: str
+    """A sentence that says what would help."""
     lower_bound: Second = 0.0
     """No plan that keeps d_min is faster than this [s]; 0 where nothing is known."""
     status: Literal["no_plan"] = "no_plan"
+    """There is none."""

@@ -15,6 +15,7 @@ class ContactCard:
     """A contact with d = d_min, or the beginning or end of a boundary arc."""
 
     t: Second
+    """When."""
     bearing: Radian
     """From pursuer to leader, clockwise from north, in [−180°, 180°]."""
     jump: SecondPerMetre
@@ -26,7 +27,9 @@ class BoundaryArcCard:
     """A segment flown along d = d_min at partial bank."""
 
     start: Second
+    """When it begins."""
     end: Second
+    """When it ends."""
     least_multiplier: PerMetre
     """Least μ on it; 0 or more by eq. (10)."""
 

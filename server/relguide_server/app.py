@@ -5,9 +5,11 @@ from collections.abc import AsyncIterator, Iterator
 from contextlib import asynccontextmanager
 from functools import partial
 from importlib.metadata import version
+from typing import Literal
 
 from fastapi import APIRouter, FastAPI, Request
 from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily, Metric
+from pydantic import BaseModel, Field
 from starlette.responses import PlainTextResponse, Response
 from uvicorn.middleware.proxy_headers import ProxyHeadersMiddleware
 
@@ -31,12 +33,13 @@ from relguide_server.accounts import Accounts
 from relguide_server.departures import Departures, library_departures
 from relguide_server.drift import DriftCheck
 from relguide_server.errors import install_handlers
+from relguide_server.exchange import json_answer
 from relguide_server.guards import BodyLimit, HeadAsGet, StrictHeaders
 from relguide_server.jobs import load
 from relguide_server.live_fleet import Fleet
 from relguide_server.metrics import Metrics
 from relguide_server.mount import Mount
-from relguide_server.openapi import describe, json_answer, response, schema_of
+from relguide_server.openapi import describe, response, schema_of
 from relguide_server.pages import Page
 from relguide_server.plan_desk import PlanDesk
 from relguide_server.plan_lane import PlanLane
@@ -55,6 +58,15 @@ and in 3D at `/scene/{id}/`."""
 IN_FLIGHT = 2.0
 """How long a flight may plan at a time [s]: it waits meanwhile, and the service cannot stop it."""
 router = APIRouter(tags=["service"])
+
+
+TEXTS = ("text/plain", "application/openmetrics-text")
+
+
+class Alive(BaseModel):
+    """The service answers."""
+
+    status: Literal["ok"] = Field(description="Nothing else is ever said.")
 
 
 def create_app(
@@ -114,6 +126,7 @@ def create_app(
         summary="Minimum-time relative guidance of aircraft",
         description=DESCRIPTION,
         lifespan=lifespan,
+        generate_unique_id_function=lambda route: route.name,
         docs_url=None,
         redoc_url=None,
     )
@@ -138,17 +151,7 @@ def create_app(
     ):
         app.include_router(part)
     install_handlers(app)
-    describe(
-        app,
-        (
-            Readiness,
-            *plans.MODELS,
-            *areas.MODELS,
-            *flights.MODELS,
-            *simulations.MODELS,
-            *record_routes.MODELS,
-        ),
-    )
+    describe(app)
     # The last one added is the first one passed.
     app.add_middleware(PlanLane)
     app.add_middleware(Page)
@@ -163,8 +166,12 @@ def create_app(
     return app
 
 
-@router.get("/healthz", summary="Is it alive?")
-async def healthz() -> Response:
+@router.get(
+    "/healthz",
+    summary="Is it alive?",
+    responses=response(200, "It is.", schema_of(Alive)),
+)
+async def show_health() -> Response:
     """It answers, so it is."""
     return json_answer({"status": "ok"})
 
@@ -179,7 +186,9 @@ async def healthz() -> Response:
         ),
     },
 )
-async def readyz(request: Request, preparation: PreparationOf, keeper: KeeperOf) -> Response:
+async def show_readiness(
+    request: Request, preparation: PreparationOf, keeper: KeeperOf
+) -> Response:
     """Ready once all that it serves is compiled, a flight has been rehearsed and workers answer.
 
     Records do not count: a service whose database is gone plans and flies as ever.
@@ -200,8 +209,18 @@ async def readyz(request: Request, preparation: PreparationOf, keeper: KeeperOf)
     return json_answer(report, 503, headers=again)
 
 
-@router.get("/metrics", summary="Numbers for Prometheus", response_class=PlainTextResponse)
-async def metrics_page(request: Request) -> Response:
+@router.get(
+    "/metrics",
+    summary="Numbers for Prometheus",
+    response_class=PlainTextResponse,
+    responses={
+        200: {
+            "description": "As text, or as OpenMetrics where that is accepted.",
+            "content": {media: {"schema": {"type": "string"}} for media in TEXTS},
+        }
+    },
+)
+async def show_metrics(request: Request) -> Response:
     """What the service counts of itself, and what it measures now."""
     metrics: Metrics = request.app.state.metrics
     page, media_type = metrics.page(request.headers.get("accept", ""))

@@ -6,7 +6,7 @@ from fastapi import APIRouter, Query, Request
 from starlette.responses import Response
 
 from relguide.contract.area_bodies import AreaAnswer, AreaRequest
-from relguide.contract.bodies import Anchor, SituationBody, Unanchored, situation_from_body
+from relguide.contract.bodies import Anchor, SituationBody, situation_from_body
 from relguide.contract.refusal import ContractError, parse
 from relguide.flying.present import situation_now
 from relguide.maps.isochrones import (
@@ -24,22 +24,19 @@ from relguide.planning.limits import POSITION
 from relguide.planning.situation import Situation
 from relguide.planning.words import HORIZON
 from relguide_server.errors import Refusal
-from relguide_server.jobs import draw_area
-from relguide_server.live_fleet import Fleet, FleetOf
-from relguide_server.openapi import (
+from relguide_server.exchange import (
     JSON,
     KNOWN_PARAMETERS_ONLY,
     address_of,
     json_answer,
     parse_json,
     problem_of,
-    problem_responses,
     read_body,
-    request_body,
-    response,
-    schema_of,
     unless_left,
 )
+from relguide_server.jobs import draw_area
+from relguide_server.live_fleet import Fleet, FleetOf
+from relguide_server.openapi import BODY, WORK, problem_responses, request_body, response, schema_of
 from relguide_server.plans import EXAMPLE
 from relguide_server.preparation import Preparation, PreparationOf
 from relguide_server.workers import Workers
@@ -51,8 +48,6 @@ ONE_OF_BOTH = "Give either flight or situation, and not both: whose area is it?"
 LONGEST = 20.0
 """An area that takes longer is ended [s]."""
 
-MODELS = (AreaAnswer, AreaRequest)
-"""What the OpenAPI document needs for this route."""
 router = APIRouter(prefix="/api/v1", tags=["areas"], dependencies=[KNOWN_PARAMETERS_ONLY])
 
 FlightAsked = Annotated[
@@ -74,8 +69,12 @@ Place = Annotated[
     float | None, Query(ge=POSITION.low, le=POSITION.high, allow_inf_nan=False,
                         description="Centre of the grid; if left out, the leader."),
 ]  # fmt: skip
-Extent = Annotated[float, Query(ge=MIN_EXTENT, le=MAX_EXTENT, allow_inf_nan=False)]
-Count = Annotated[int, Query(ge=2, le=MAX_NODES)]
+Extent = Annotated[
+    float,
+    Query(ge=MIN_EXTENT, le=MAX_EXTENT, allow_inf_nan=False,
+          description="From the first column or row of the grid to the last."),
+]  # fmt: skip
+Count = Annotated[int, Query(ge=2, le=MAX_NODES, description="Columns or rows of the grid.")]
 Levels = Annotated[
     list[Annotated[float, Query(ge=0.0, le=HORIZON, allow_inf_nan=False)]],
     Query(max_length=MAX_LEVELS, description="Times of the lines; if left out, some round ones."),
@@ -102,7 +101,7 @@ TimesAsked = Annotated[bool, Query(description="Whether to give the times of all
     summary="Lines of equal time-to-converge",
     responses={
         **response(200, "Lines, and regions of words.", schema_of(AreaAnswer)),
-        **problem_responses(404, 409, 422, 503),
+        **problem_responses("not-found", "conflict", "invalid", *WORK),
     },
 )
 async def show_area(
@@ -156,7 +155,7 @@ async def show_area(
     summary="Lines of equal time-to-converge",
     responses={
         **response(200, "Lines, and regions of words.", schema_of(AreaAnswer)),
-        **problem_responses(400, 404, 408, 409, 413, 415, 422, 503),
+        **problem_responses(*BODY, "not-found", "conflict", *WORK),
     },
     openapi_extra=request_body(schema_of(AreaRequest), {"situation": EXAMPLE, "levels_s": [600.0]}),
 )
@@ -215,10 +214,12 @@ def _situation_of(
     fleet: Fleet, flight: str | None, situation: SituationBody | None
 ) -> tuple[Situation, Anchor]:
     if flight is not None and situation is None:
-        past = fleet.find(flight).history
+        found = fleet.find(flight)
+        past = found.history
         try:
             started, newest = past.started[0], past.newest[0]
-            return situation_now(started, started.links[0], past.routes(), newest), Unanchored()
+            situation_then = situation_now(started, started.links[0], past.routes(), newest)
+            return situation_then, found.label.anchor
         except ValueError as error:  # e.g. slower than what is planned for
             raise Refusal(409, f"This flight cannot be planned for now: {error}") from None
     if situation is not None and flight is None:

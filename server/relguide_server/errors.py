@@ -38,11 +38,11 @@ class Problem(BaseModel):
     """A problem document, RFC 9457."""
 
     type: str = Field(description="Leads to what is known of this kind of problem.")
-    title: str
-    status: int
-    detail: str
-    instance: str
-    errors: list[ProblemError] = []
+    title: str = Field(description="Of the kind.")
+    status: int = Field(description="Of HTTP.")
+    detail: str = Field(description="What is wrong here, and what would be right.")
+    instance: str = Field(description="What was asked for.")
+    errors: list[ProblemError] = Field(default=[], description="Each thing wrong, twenty at most.")
 
 
 class Refusal(HTTPException):

@@ -1,8 +1,9 @@
 """Routes of flights: start one, watch it, command it, end it."""
 
 import asyncio
+from typing import Annotated, Any
 
-from fastapi import APIRouter, Request, WebSocket
+from fastapi import APIRouter, Path, Request, WebSocket
 from pydantic import RootModel
 from starlette.responses import Response
 
@@ -38,20 +39,18 @@ from relguide.flying.orders import (
 from relguide_server.access import expect_owner, owner_of
 from relguide_server.departures import DeparturesOf
 from relguide_server.errors import Refusal
-from relguide_server.live_fleet import FleetOf
-from relguide_server.live_flight import LiveFlight
-from relguide_server.mount import root_of
-from relguide_server.openapi import (
+from relguide_server.exchange import (
     KNOWN_PARAMETERS_ONLY,
     address_of,
     json_answer,
     problem_of,
-    problem_responses,
     read_object,
-    request_body,
-    response,
-    schema_of,
 )
+from relguide_server.guards import VERSION
+from relguide_server.live_fleet import FleetOf
+from relguide_server.live_flight import LiveFlight
+from relguide_server.mount import root_of
+from relguide_server.openapi import BODY, problem_responses, request_body, response, schema_of
 from relguide_server.preparation import PreparationOf
 from relguide_server.records.entries import FlightCard
 from relguide_server.records.keeper import KeeperOf
@@ -67,8 +66,10 @@ class FlightCommand(RootModel[Command]):
     """A command to a flight."""
 
 
-MODELS = (NewFlight, FlightCommand, FlightStatus, FlightList, ScenarioList)
-"""What the OpenAPI document needs for these routes."""
+FlightId = Annotated[
+    str, Path(description="As `POST /flights` gave it.", examples=["3f2a9c0d71be"])
+]
+ENDED: dict[int | str, dict[str, Any]] = {204: {"description": "It is over."}}
 
 router = APIRouter(prefix="/api/v1", tags=["flights"], dependencies=[KNOWN_PARAMETERS_ONLY])
 
@@ -88,8 +89,13 @@ async def list_scenarios(departures: DeparturesOf) -> Response:
     status_code=201,
     summary="Start a flight",
     responses={
-        **response(201, "It is in the air.", schema_of(FlightStatus)),
-        **problem_responses(400, 408, 413, 415, 422, 429, 500, 503),
+        **response(
+            201,
+            "It is in the air.",
+            schema_of(FlightStatus),
+            headers=("Location", "Relguide-Recorded"),
+        ),
+        **problem_responses(*BODY, "too-many-flights", "mistake", "preparing"),
     },
     openapi_extra=request_body(schema_of(NewFlight), {"scenario": "fig_6b", "rate": 10.0}),
 )
@@ -137,6 +143,7 @@ async def start_flight(
         record=record,
         owner=owner_of(request),
         anchor=departure.anchor,
+        seed=wanted.seed,
     )
     status = status_of(flight, request)
     headers = {
@@ -162,10 +169,10 @@ async def list_flights(request: Request, fleet: FleetOf) -> Response:
     summary="One flight",
     responses={
         **response(200, "Where it stands.", schema_of(FlightStatus)),
-        **problem_responses(404),
+        **problem_responses("not-found"),
     },
 )
-async def show_flight(flight_id: str, request: Request, fleet: FleetOf) -> Response:
+async def show_flight(flight_id: FlightId, request: Request, fleet: FleetOf) -> Response:
     """Where it stands now."""
     return json_answer(status_of(fleet.find(flight_id), request).model_dump())
 
@@ -174,9 +181,9 @@ async def show_flight(flight_id: str, request: Request, fleet: FleetOf) -> Respo
     "/flights/{flight_id}",
     status_code=204,
     summary="End a flight",
-    responses=problem_responses(403, 404),
+    responses=ENDED | problem_responses("not-allowed", "not-found"),
 )
-async def end_flight(flight_id: str, request: Request, fleet: FleetOf) -> Response:
+async def end_flight(flight_id: FlightId, request: Request, fleet: FleetOf) -> Response:
     """Its streams and its scene close with it."""
     expect_owner(request, fleet.find(flight_id).label.owner)
     await fleet.remove(flight_id)
@@ -188,15 +195,20 @@ async def end_flight(flight_id: str, request: Request, fleet: FleetOf) -> Respon
     status_code=202,
     summary="Tell a flight something",
     responses={
-        **response(202, "The command was passed on.", schema_of(FlightStatus)),
-        **problem_responses(400, 403, 404, 408, 409, 413, 415, 422),
+        **response(
+            202,
+            "The command was passed on.",
+            schema_of(FlightStatus),
+            headers=("Relguide-Recorded",),
+        ),
+        **problem_responses(*BODY, "not-allowed", "not-found", "conflict"),
     },
     openapi_extra=request_body(
         schema_of(FlightCommand), {"command": "leader_heading", "heading_deg": 135.0}
     ),
 )
 async def command_flight(
-    flight_id: str, request: Request, fleet: FleetOf, keeper: KeeperOf
+    flight_id: FlightId, request: Request, fleet: FleetOf, keeper: KeeperOf
 ) -> Response:
     """Pause, go on, another rate; what the leader flies and tells; and what the crew engages.
 
@@ -263,6 +275,8 @@ def status_of(flight: LiveFlight, request: Request) -> FlightStatus:
         separation_m=guidance.separation,
         stream_url=f"{root}/api/v1/flights/{label.id}/stream",
         scene_url=f"{root}/scene/{label.id}/",
+        seed=label.seed,
+        version=VERSION,
     )
 
 

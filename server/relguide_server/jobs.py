@@ -10,7 +10,7 @@ from typing import Any, Literal
 
 import orjson
 
-from relguide.contract.answers import Include, answer, answer_plan
+from relguide.contract.answers import Form, Include, answer, answer_plan
 from relguide.contract.area_bodies import area_to_wire
 from relguide.contract.bodies import (
     Anchor,
@@ -35,7 +35,7 @@ from relguide.planning.situation import Situation
 from relguide.units import Second
 from relguide_server.asked_flights import scenario_of
 from relguide_server.errors import Refusal
-from relguide_server.openapi import parse_json, problem_of
+from relguide_server.exchange import parse_json, problem_of
 
 MAX_BATCH = 1000
 """Most situations in one request."""
@@ -85,7 +85,12 @@ def read_situation(body: bytes) -> tuple[Situation, Anchor]:
 
 
 def plan_body(
-    body: bytes, planner: str | Planner, include: tuple[Include, ...], end: float, most: Second
+    body: bytes,
+    planner: str | Planner,
+    include: tuple[Include, ...],
+    end: float,
+    most: Second,
+    form: Form = "json",
 ) -> Answered:
     """Plan the situation in the body of a request.
 
@@ -95,11 +100,15 @@ def plan_body(
         include: as in `answer`.
         end: when planning is to end, by `time.monotonic`, which is one for all processes [s].
         most: how long it may take from now on [s].
+        form: as in `answer`.
+
+    Raises:
+        Refusal: if it is no situation, or cannot be written so.
     """
     situation, anchor = read_situation(body)
     least = LEAST_WITH_MORE if include else LEAST
     deadline = max(min(end - monotonic(), most), least)
-    return plan_situation(situation, anchor, planner, include, deadline)
+    return plan_situation(situation, anchor, planner, include, deadline, form)
 
 
 def plan_at_once(situation: Situation, anchor: Anchor) -> Answered | None:
@@ -118,10 +127,19 @@ def plan_situation(
     planner: str | Planner,
     include: tuple[Include, ...],
     deadline: Second | None,
+    form: Form = "json",
 ) -> Answered:
-    """Plan a situation."""
+    """Plan a situation.
+
+    Raises:
+        Refusal: if it cannot be written in this form.
+    """
     started = perf_counter()
-    given = answer(situation, anchor, planner_of(planner), include=include, deadline=deadline)
+    make = planner_of(planner)
+    try:
+        given = answer(situation, anchor, make, include=include, deadline=deadline, form=form)
+    except ContractError as error:
+        raise problem_of(error) from None
     return _answered(given, started)
 
 

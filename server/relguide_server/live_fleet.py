@@ -86,6 +86,7 @@ class Fleet:
         replay: bool = False,
         owner: str = "",
         anchor: Anchor = UNANCHORED,
+        seed: int = 0,
     ) -> LiveFlight:
         """Start a flight, and wait until it is in the air.
 
@@ -99,6 +100,7 @@ class Fleet:
             replay: whether it is a recording.
             owner: who starts it, and may command it.
             anchor: how its world lies on the earth.
+            seed: of its random numbers.
 
         Raises:
             Refusal: 429, if too many fly already; 500, if it broke before its first sample.
@@ -111,6 +113,7 @@ class Fleet:
             replay=replay,
             owner=owner,
             anchor=anchor,
+            seed=seed,
         )
         flight = LiveFlight(
             label,

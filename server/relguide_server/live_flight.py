@@ -42,6 +42,8 @@ class FlightLabel:
     """How its world lies on the earth."""
     owner: str = ""
     """Who started it, as `access.owner_of` says it."""
+    seed: int = 0
+    """Of its random numbers."""
 
 
 class LiveFlight:

@@ -1,240 +1,213 @@
-"""Bodies in and out by the contract's own reader, and their place in the OpenAPI document.
+"""The OpenAPI document: what a route takes and gives, and what is true of every answer.
 
-The contract reads the bytes itself, so REST, command line and files refuse with the same words.
+A route names the model of each body, and the document holds the models that routes name. What every
+request passes before its route, and every answer after it, stands here once. Examples of answers
+are what the service sent (`emit_examples`).
 """
 
-import asyncio
-from collections.abc import Awaitable, Sequence
-from typing import Any, TypeVar
+from collections.abc import Iterable, Iterator
+from functools import cache
+from importlib.resources import files
+from typing import Any
 
 import orjson
-from fastapi import Depends, FastAPI, Request
-from fastapi.dependencies.models import Dependant
+from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
-from fastapi.routing import APIRoute
+from fastapi.routing import iter_route_contexts
 from pydantic import BaseModel
-from pydantic.json_schema import JsonSchemaMode, models_json_schema
-from starlette.requests import ClientDisconnect, HTTPConnection
-from starlette.responses import Response
+from pydantic.json_schema import models_json_schema
 
-from relguide.contract.refusal import ContractError, loads
-from relguide_server.errors import PROBLEM_JSON, Problem, ProblemError, Refusal
+from relguide_server.access import CALCULATIONS, OPEN, SAFE
+from relguide_server.errors import PROBLEM_JSON, Problem
+from relguide_server.exchange import JSON, refuse_unknown_parameters
+from relguide_server.problem_kinds import KINDS, PAGE
 
-T = TypeVar("T")
-_REF = "#/components/schemas/{model}"
-
-
-SMALL = 16 * 1024
-"""Bodies of at most so many bytes are read on the event loop: some milliseconds, whatever they
-hold."""
-BODY_PATIENCE = 15.0
-"""How long a body may take to come [s]."""
-JSON = "application/json"
-
-
-async def read_body(request: Request, *types: str, most: int = SMALL) -> bytes:
-    """The body of a request.
-
-    Args:
-        request: of a route.
-        types: what it may be declared to be.
-        most: how long it may be [bytes].
-
-    Raises:
-        Refusal: 415, if it is declared to be something else; 413, if it is longer; 408, if it does
-            not come.
-    """
-    # A page of another site can send most other types without the browser's permission.
-    if content_type(request) not in types:
-        raise Refusal(415, f"The body must be sent with Content-Type: {' or '.join(types)}.")
-    declared = request.headers.get("content-length", "0")
-    if declared.isdecimal() and int(declared) > most:
-        raise _too_long(most)
-    parts, size = [], 0
-    try:
-        async with asyncio.timeout(BODY_PATIENCE):
-            async for part in request.stream():
-                size += len(part)
-                if size > most:
-                    raise _too_long(most)
-                parts.append(part)
-    except TimeoutError:
-        late = f"The body did not come within {BODY_PATIENCE:.0f} s."
-        raise Refusal(408, late, headers={"Connection": "close"}) from None
-    return b"".join(parts)
+EXAMPLES = "api_examples.json"
+"""By operation, an answer to it."""
+_SCHEMA, _HEADER = "#/components/schemas/{model}", "#/components/headers/{name}"
+TAGS = {
+    "plans": "Plans with their proof, of one situation or of many.",
+    "areas": "How long it takes to converge, from all places round a leader.",
+    "flights": "Flights that are watched and commanded, and flights flown to their end at once.",
+    "records": "What was flown and planned: to search, replay, export and remove.",
+    "service": "Whether the service is well.",
+}
+BODY = ("not-json", "body-late", "body-too-long", "wrong-media-type", "invalid")
+"""Problems of a route with a body."""
+WORK = ("busy", "preparing", "stopping")
+"""Problems of a route whose answer workers make, or that needs compiled kernels."""
+HEADERS = {
+    "X-Request-ID": "Of the request, if it brought one, or made for it: it stands in each line of "
+    "the log that the request caused.",
+    "Relguide-Version": "Of the software. With the same version and seed a request has the same "
+    "answer, but for times of computing and for what a deadline cut short.",
+    "Location": "Path of the flight.",
+    "Relguide-Recorded": "Whether what is acknowledged is on record already: `yes` or `no`.",
+    "Retry-After": "When to try again [s].",
+    "WWW-Authenticate": "`Bearer`: how to show a token.",
+    "Content-Disposition": "A name for the file.",
+}
+"""All headers of answers that the API gives a meaning, and what they say."""
+_EVERY = ("X-Request-ID", "Relguide-Version")
+_BY_STATUS = {"401": ("WWW-Authenticate",), "429": ("Retry-After",), "503": ("Retry-After",)}
 
 
-def _too_long(most: int) -> Refusal:
-    detail = f"The body of this request may have at most {most:,} bytes."
-    return Refusal(413, detail, headers={"Connection": "close"})
+class Shape(dict[str, Any]):
+    """A schema that leads to models, which the document will hold."""
+
+    def __init__(self, schema: dict[str, Any], models: tuple[type[BaseModel], ...]) -> None:
+        super().__init__(schema)
+        self.models = models
 
 
-async def unless_left(request: Request, work: Awaitable[T]) -> T:
-    """What some work gives, whose request has been read; it is cancelled if the client leaves.
-
-    Raises:
-        ClientDisconnect: if the client left.
-    """
-    working = asyncio.ensure_future(work)
-    leaving = asyncio.ensure_future(_wait_until_left(request))
-    try:
-        await asyncio.wait((working, leaving), return_when=asyncio.FIRST_COMPLETED)
-        if working.done():
-            return working.result()
-        raise ClientDisconnect
-    finally:
-        leaving.cancel()
-        working.cancel()
+def schema_of(*models: type[BaseModel]) -> Shape:
+    """A reference to the schema of a model, or of any of several."""
+    references = [{"$ref": _SCHEMA.format(model=model.__name__)} for model in models]
+    return Shape(references[0] if len(references) == 1 else {"anyOf": references}, models)
 
 
-async def _wait_until_left(request: Request) -> None:
-    while (await request.receive())["type"] != "http.disconnect":
-        pass
-
-
-def address_of(request: Request) -> str:
-    """Address of the client; empty if it is not known."""
-    client: tuple[str, int] | None = request.scope.get("client")
-    return client[0][:255] if client else ""
-
-
-def content_type(request: Request) -> str:
-    """The declared type of a body, without parameters."""
-    return request.headers.get("content-type", "").partition(";")[0].strip().lower()
-
-
-def parse_json(body: bytes) -> object:
-    """The content of a body.
-
-    Raises:
-        Refusal: if it is no JSON.
-    """
-    try:
-        return loads(body)
-    except ContractError as error:
-        raise problem_of(error, 400) from None
-
-
-async def read_object(request: Request) -> dict[str, object]:
-    """The body of a request, for a route that takes a small object.
-
-    Raises:
-        Refusal: if it is not declared to be JSON, or is no JSON.
-        ContractError: if it is no object.
-    """
-    content = parse_json(await read_body(request, JSON))
-    if isinstance(content, dict):
-        return content
-    raise ContractError([("", "The body must be an object with fields.")])
-
-
-async def refuse_unknown_parameters(connection: HTTPConnection) -> None:
-    """Refuse query parameters that the route does not have, and name those it has.
-
-    Raises:
-        Refusal: 422, for the first of them.
-    """
-    match connection.scope["route"]:
-        case APIRoute(path=path, dependant=dependant):
-            if not connection.scope["query_string"]:
-                return
-            known = _parameters(dependant)
-            for name in connection.query_params:
-                if name not in known:
-                    has = f"It has {', '.join(sorted(known))}." if known else "It has none."
-                    wrong = f"{path} has no parameter {name[:100]!r}. {has}"
-                    raise Refusal(422, wrong, kind="unknown-parameter")
-        case _:
-            return
-
-
-def _parameters(dependant: Dependant) -> set[str]:
-    below = (_parameters(part) for part in dependant.dependencies)
-    return {field.alias for field in dependant.query_params}.union(*below)
-
-
-KNOWN_PARAMETERS_ONLY = Depends(refuse_unknown_parameters)
-"""What a router depends on."""
-
-
-def problem_of(error: ContractError, status: int = 422, *, under: str = "") -> Refusal:
-    """What the contract refuses, as a problem document.
-
-    Args:
-        error: what is wrong.
-        status: 422, or 400 for a body that is no JSON at all.
-        under: where in the body the refused part is, e.g. `[3]`.
-    """
-    errors = [
-        ProblemError(path=f"{under}.{path}".strip(".") if under else path, message=message)
-        for path, message in error.problems
-    ]
-    first = f"{errors[0].path}: {errors[0].message}" if errors[0].path else errors[0].message
-    more = f" (and {error.count - 1} more)" if error.count > 1 else ""
-    return Refusal(status, first + more, errors=errors)
-
-
-def json_answer(
-    content: object, status: int = 200, *, headers: dict[str, str] | None = None
-) -> Response:
-    """An answer in JSON; content that is already encoded goes out as it is."""
-    body = content if isinstance(content, bytes) else orjson.dumps(content)
-    return Response(body, status, headers, media_type="application/json")
+def list_schema(schema: Shape, *, most: int) -> Shape:
+    """The schema of a list."""
+    return Shape({"type": "array", "items": schema, "maxItems": most}, schema.models)
 
 
 def request_body(schema: dict[str, Any], example: object) -> dict[str, Any]:
     """The `openapi_extra=` of a route that reads its body through the contract."""
-    content = {"application/json": {"schema": schema, "example": example}}
+    content = {JSON: {"schema": schema, "example": example}}
     return {"requestBody": {"required": True, "content": content}}
 
 
 def response(
-    status: int, description: str, schema: dict[str, Any]
+    status: int, description: str, schema: dict[str, Any], *, headers: Iterable[str] = ()
 ) -> dict[int | str, dict[str, Any]]:
-    """One entry of the `responses=` of a route."""
-    return {
-        status: {"description": description, "content": {"application/json": {"schema": schema}}}
-    }
+    """One entry of the `responses=` of a route.
+
+    Args:
+        status: of the answer.
+        description: a sentence.
+        schema: of its body.
+        headers: of `HEADERS`, beyond those that all answers have.
+    """
+    said = {"description": description, "content": {JSON: {"schema": schema}}}
+    return {status: {**said, "headers": header_references(headers)}}
 
 
-def problem_responses(*statuses: int) -> dict[int | str, dict[str, Any]]:
-    """The entries of `responses=` for the problems a route may answer."""
-    content = {PROBLEM_JSON: {"schema": schema_of(Problem)}}
-    return {
-        status: {"description": "A problem document.", "content": content} for status in statuses
-    }
+def header_references(names: Iterable[str]) -> dict[str, Any]:
+    """Headers of an answer, of `HEADERS`."""
+    return {name: {"$ref": _HEADER.format(name=name)} for name in names}
 
 
-def schema_of(*models: type[BaseModel]) -> dict[str, Any]:
-    """A reference to the schema of a model, or of any of several."""
-    references = [{"$ref": _REF.format(model=model.__name__)} for model in models]
-    return references[0] if len(references) == 1 else {"anyOf": references}
+def problem_responses(*kinds: str) -> dict[int | str, dict[str, Any]]:
+    """The entries of `responses=` for the problems a route may answer, of `KINDS`."""
+    found: dict[int | str, dict[str, Any]] = {}
+    for name in kinds:
+        kind = KINDS[name]
+        example = Problem(
+            type=f"{PAGE}#{name}",
+            title=kind.title,
+            status=kind.status,
+            detail=kind.advice,
+            instance="/api/v1/…",
+        )
+        here = found.setdefault(kind.status, _no_problem())
+        examples = here["content"][PROBLEM_JSON]["examples"]
+        examples[name] = {"summary": kind.title, "value": example.model_dump()}
+        here["description"] = ", or ".join(said["summary"] for said in examples.values())
+    return found
 
 
-def list_schema(schema: dict[str, Any], *, most: int) -> dict[str, Any]:
-    """The schema of a list."""
-    return {"type": "array", "items": schema, "maxItems": most}
+def _no_problem() -> dict[str, Any]:
+    return {"content": {PROBLEM_JSON: {"schema": schema_of(Problem), "examples": {}}}}
 
 
-def describe(app: FastAPI, models: Sequence[type[BaseModel]]) -> None:
-    """Give the app an OpenAPI document that holds these models."""
+def describe(app: FastAPI) -> None:
+    """Give the app its OpenAPI document."""
 
     def openapi() -> dict[str, Any]:
         if app.openapi_schema is None:
-            document = get_openapi(
-                title=app.title,
-                version=app.version,
-                summary=app.summary,
-                description=app.description,
-                routes=app.routes,
-            )
-            mode: JsonSchemaMode = "validation"
-            shapes: tuple[type[BaseModel], ...] = (*models, Problem)
-            wanted = [(shape, mode) for shape in shapes]
-            _, schemas = models_json_schema(wanted, ref_template=_REF)
-            components = document.setdefault("components", {}).setdefault("schemas", {})
-            components.update(schemas["$defs"])
-            app.openapi_schema = document
+            app.openapi_schema = _document(app)
         return app.openapi_schema
 
     app.openapi = openapi  # type: ignore[method-assign]
+
+
+def _document(app: FastAPI) -> dict[str, Any]:
+    document = get_openapi(
+        title=app.title,
+        version=app.version,
+        summary=app.summary,
+        description=app.description,
+        routes=app.routes,
+        tags=[{"name": name, "description": said} for name, said in TAGS.items()],
+    )
+    models: set[type[BaseModel]] = {Problem}
+    for route in iter_route_contexts(app.routes):
+        if getattr(route, "include_in_schema", False) and hasattr(route, "dependant"):
+            models.update(_models_in([route.responses, route.openapi_extra]))
+            for method in route.methods or ():
+                operation = document["paths"][route.path_format][method.lower()]
+                _complete(operation, method, route)
+    components = document.setdefault("components", {})
+    ordered = sorted(models, key=lambda model: model.__name__)
+    _, schemas = models_json_schema(
+        [(model, "validation") for model in ordered], ref_template=_SCHEMA
+    )
+    components["schemas"] = schemas["$defs"]
+    components["headers"] = {
+        name: {"description": said, "schema": {"type": "string"}} for name, said in HEADERS.items()
+    }
+    components["securitySchemes"] = {
+        "token": {
+            "type": "http",
+            "scheme": "bearer",
+            "description": "Asked for where the operator has set tokens.",
+        }
+    }
+    document["security"] = [{}, {"token": []}]
+    return document
+
+
+def _models_in(said: object) -> Iterator[type[BaseModel]]:
+    if isinstance(said, Shape):
+        yield from said.models
+    match said:
+        case dict():
+            yield from _models_in(list(said.values()))
+        case list():
+            for part in said:
+                yield from _models_in(part)
+
+
+def _complete(operation: dict[str, Any], method: str, route: Any) -> None:
+    """Add what is true of every route."""
+    kinds = ["unknown-host"]
+    if route.path not in OPEN:
+        kinds.append("token-missing")
+    if method not in SAFE:
+        kinds.append("foreign-page")
+        if not route.path.startswith(CALCULATIONS):
+            kinds.append("not-allowed")
+    asked = [part.call for part in route.dependant.dependencies]
+    if refuse_unknown_parameters in asked:
+        kinds.append("unknown-parameter")
+    answers = operation["responses"]
+    if JSON in answers.get("422", {}).get("content", {}):
+        del answers["422"]  # the framework's own words for what it refuses, which are not sent
+    for status, refused in problem_responses(*kinds).items():
+        known = answers.setdefault(str(status), refused)
+        examples = known["content"][PROBLEM_JSON]["examples"]
+        examples |= refused["content"][PROBLEM_JSON]["examples"]
+        known["description"] = ", or ".join(said["summary"] for said in examples.values())
+    operation["responses"] = dict(sorted(answers.items()))
+    for status, answer in operation["responses"].items():
+        names = (*_EVERY, *_BY_STATUS.get(status, ()))
+        answer["headers"] = {**answer.get("headers", {}), **header_references(names)}
+        if (example := _examples().get(operation["operationId"])) and status.startswith("2"):
+            answer["content"][JSON]["example"] = example
+
+
+@cache
+def _examples() -> dict[str, Any]:
+    found = files(__package__).joinpath(EXAMPLES)
+    examples: dict[str, Any] = orjson.loads(found.read_bytes()) if found.is_file() else {}
+    return examples

@@ -12,13 +12,13 @@ from collections.abc import AsyncIterator, Sequence
 from dataclasses import dataclass
 from time import monotonic
 
-from relguide.contract.answers import Include
+from relguide.contract.answers import Form, Include
 from relguide.planning.plan import Planner
 from relguide.units import Second
 from relguide_server import jobs
+from relguide_server.exchange import SMALL
 from relguide_server.jobs import Answered
 from relguide_server.metrics import Metrics
-from relguide_server.openapi import SMALL
 from relguide_server.preparation import Preparation
 from relguide_server.workers import Workers
 
@@ -52,6 +52,8 @@ class Wish:
     include: tuple[Include, ...]
     budget: Second
     """How long planning may take, waiting included; for a batch, each situation."""
+    form: Form = "json"
+    """How a plan is written."""
 
     @property
     def patience(self) -> Second:
@@ -97,7 +99,7 @@ class PlanDesk:
         Raises:
             Refusal: if it is no situation.
         """
-        if wish.include or len(body) > SMALL:
+        if wish.include or wish.form != "json" or len(body) > SMALL:
             return None
         situation, anchor = jobs.read_situation(body)
         if not self._is_own(wish):
@@ -133,7 +135,7 @@ class PlanDesk:
             return await asyncio.wait_for(job, max(end - monotonic(), HANDING_OVER))
         except TimeoutError:
             situation, anchor = jobs.read_situation(body)
-            return jobs.plan_situation(situation, anchor, self._planner, (), 0.0)
+            return jobs.plan_situation(situation, anchor, self._planner, (), 0.0, wish.form)
 
     def _is_own(self, wish: Wish) -> bool:
         """Whether the service's own planner is wanted, and it takes a deadline."""
@@ -145,14 +147,20 @@ class PlanDesk:
         patience = max(end - monotonic(), 0.0) + wish.patience
         if (wish.planner or self._quick) and "optimality" not in wish.include:
             quick: Answered = await self._workers.do(
-                "plans", jobs.plan_body, *job, SHORT, patience=patience, client=client
+                "plans", jobs.plan_body, *job, SHORT, wish.form, patience=patience, client=client
             )
             if quick.seconds < CUT_SHORT * SHORT or end - monotonic() < SHORT:
                 return quick
             if not self._workers.has_room("long_plans", client):
                 return quick  # certified, with its bound: better than nothing
         answered: Answered = await self._workers.do(
-            "long_plans", jobs.plan_body, *job, wish.budget, patience=patience, client=client
+            "long_plans",
+            jobs.plan_body,
+            *job,
+            wish.budget,
+            wish.form,
+            patience=patience,
+            client=client,
         )
         return answered
 

@@ -1,32 +1,38 @@
 """Routes that plan: a situation in, a plan with its proof out."""
 
 from collections.abc import AsyncIterator
+from dataclasses import replace
 from time import monotonic
 from typing import Annotated, Any, Literal
 
+import orjson
 from fastapi import APIRouter, Depends, Query, Request
-from pydantic import BaseModel, Field, RootModel, create_model
+from pydantic import BaseModel, ConfigDict, Field, RootModel, create_model
 from starlette.responses import Response, StreamingResponse
 
-from relguide.contract.answers import read_include
+from relguide.contract.answers import Form, read_include
 from relguide.contract.bodies import NamedSituationBody, SituationBody
 from relguide.contract.messages import PlanAnswer, model_of
 from relguide.flying.plan_documents import NoPlanCard, PlanCard
 from relguide_server.errors import Refusal
-from relguide_server.jobs import MAX_BATCH
-from relguide_server.openapi import (
+from relguide_server.exchange import (
+    GEOJSON,
     JSON,
     KNOWN_PARAMETERS_ONLY,
     address_of,
     content_type,
     json_answer,
+    read_body,
+    unless_left,
+)
+from relguide_server.jobs import MAX_BATCH
+from relguide_server.openapi import (
+    BODY,
+    WORK,
     list_schema,
     problem_responses,
-    read_body,
     request_body,
-    response,
     schema_of,
-    unless_left,
 )
 from relguide_server.plan_desk import PlanDesk, Wish
 
@@ -68,11 +74,26 @@ class Answer(RootModel[PlanAnswer]):
     """A plan, or why there is none."""
 
 
+class PlanFeatures(BaseModel):
+    """A plan on the earth (RFC 7946); all members of the plan are there as well."""
+
+    model_config = ConfigDict(extra="allow")
+
+    type: Literal["FeatureCollection"] = Field(description="Always the same.")
+    features: list[dict[str, Any]] = Field(description="None where there is no plan.")
+    status: Literal["planned", "no_plan"] = Field(description="Whether there is a plan.")
+
+
 _ID: dict[str, Any] = {"id": (str | int, Field(default="", description="As in the request."))}
-NamedPlan: type[BaseModel] = create_model("NamedPlan", __base__=model_of(PlanCard), **_ID)
-NamedNoPlan: type[BaseModel] = create_model("NamedNoPlan", __base__=model_of(NoPlanCard), **_ID)
-MODELS = (SituationBody, NamedSituationBody, Answer, NamedPlan, NamedNoPlan)
-"""What the OpenAPI document needs for these routes."""
+NamedPlan: type[BaseModel] = create_model(
+    "NamedPlan", __base__=model_of(PlanCard), __doc__="A plan of a batch.", **_ID
+)
+NamedNoPlan: type[BaseModel] = create_model(
+    "NamedNoPlan",
+    __base__=model_of(NoPlanCard),
+    __doc__="No plan for a situation of a batch, and why.",
+    **_ID,
+)
 
 
 async def _desk_of(request: Request) -> PlanDesk:
@@ -115,6 +136,16 @@ async def _read_wish(
     return Wish(planner=planner, include=included, budget=max_ms * 1e-3)
 
 
+FormAsked = Annotated[
+    Form,
+    Query(
+        alias="format",
+        description="`geojson`: a FeatureCollection with the path (`path`), that of the leader "
+        "until it is joined (`leader`), where it is joined (`slot`) and, with `include=paths`, the "
+        "other paths (`other-0` …), each point with its time (`t_s`), beside the members of the "
+        "plan. For situations by latitude and longitude.",
+    ),
+]
 DeskOf = Annotated[PlanDesk, Depends(_desk_of)]
 WishOf = Annotated[Wish, Depends(_read_wish)]
 
@@ -130,14 +161,25 @@ PATH = "/api/v1/plans"
     "/plans",
     summary="Plan a situation",
     responses={
-        **response(200, "A plan, or why there is none.", schema_of(Answer)),
-        **problem_responses(400, 408, 413, 415, 422, 503),
+        200: {
+            "description": "A plan, or why there is none.",
+            "content": {
+                JSON: {"schema": schema_of(Answer)},
+                GEOJSON: {"schema": schema_of(PlanFeatures)},
+            },
+        },
+        **problem_responses(*BODY, *WORK),
     },
     openapi_extra=request_body(schema_of(SituationBody), EXAMPLE),
 )
-async def make_plan(request: Request, desk: DeskOf, wish: WishOf) -> Response:
-    """The minimum-time plan with its proof, or the answer that there is no plan, and why."""
-    return await answer_situation(request, desk, wish)
+async def make_plan(
+    request: Request, desk: DeskOf, wish: WishOf, form: FormAsked = "json"
+) -> Response:
+    """The minimum-time plan with its proof, or the answer that there is no plan, and why.
+
+    A plan depends on its situation alone: there is no seed.
+    """
+    return await answer_situation(request, desk, replace(wish, form=form))
 
 
 async def answer_situation(request: Request, desk: PlanDesk, wish: Wish) -> Response:
@@ -160,7 +202,8 @@ async def answer_situation(request: Request, desk: PlanDesk, wish: Wish) -> Resp
         seconds=answered.seconds,
         asked_by=address_of(request),
     )
-    return json_answer(desk.count(answered))
+    media_type = GEOJSON if wish.form == "geojson" else JSON
+    return json_answer(desk.count(answered), media_type=media_type)
 
 
 @router.post(
@@ -174,7 +217,7 @@ async def answer_situation(request: Request, desk: PlanDesk, wish: Wish) -> Resp
                 NDJSON: {"schema": {"type": "string", "description": "An answer a line."}},
             },
         },
-        **problem_responses(400, 408, 413, 415, 422, 503),
+        **problem_responses(*BODY, *WORK),
     },
     openapi_extra={
         "requestBody": {
@@ -184,7 +227,10 @@ async def answer_situation(request: Request, desk: PlanDesk, wish: Wish) -> Resp
                     "schema": list_schema(schema_of(NamedSituationBody), most=MAX_BATCH),
                     "example": [EXAMPLE],
                 },
-                NDJSON: {"schema": {"type": "string", "description": "A situation a line."}},
+                NDJSON: {
+                    "schema": {"type": "string", "description": "A situation a line."},
+                    "example": orjson.dumps(EXAMPLE).decode() + "\n",
+                },
             },
         }
     },

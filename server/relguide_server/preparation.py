@@ -53,11 +53,11 @@ class PlanningReport(BaseModel):
 class Readiness(BaseModel):
     """What a service can answer already."""
 
-    status: Literal["ready", "preparing"]
+    status: Literal["ready", "preparing"] = Field(description="Whether all of it can.")
     warm: dict[str, bool] = Field(description="Parts of the planner, and whether each is compiled.")
-    preparing: NowPreparing | None
-    planning: PlanningReport
-    records: RecordsReport
+    preparing: NowPreparing | None = Field(description="What is compiled now; null if nothing is.")
+    planning: PlanningReport = Field(description="The workers.")
+    records: RecordsReport = Field(description="The database; what it says changes nothing here.")
 
 
 class Preparation:

@@ -3,7 +3,7 @@
 from collections.abc import AsyncIterator, Iterator
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from fastapi import APIRouter, Depends, Query, Request
+from fastapi import APIRouter, Depends, Path, Query, Request
 from pydantic import AwareDatetime, RootModel
 from starlette.responses import Response, StreamingResponse
 
@@ -16,15 +16,14 @@ from relguide.planning.extras import MissingExtra
 from relguide.planning.frames import LocalPlane
 from relguide_server.access import owner_of
 from relguide_server.errors import Refusal
+from relguide_server.exchange import KNOWN_PARAMETERS_ONLY, json_answer, problem_of, read_object
 from relguide_server.flights import status_of
 from relguide_server.live_fleet import FleetOf
 from relguide_server.mount import root_of
 from relguide_server.openapi import (
-    KNOWN_PARAMETERS_ONLY,
-    json_answer,
-    problem_of,
+    BODY,
+    header_references,
     problem_responses,
-    read_object,
     request_body,
     response,
     schema_of,
@@ -61,15 +60,8 @@ class NewReplay(RootModel[ReplayRequest]):
     """Fly a recording again."""
 
 
-MODELS = (
-    NewReplay,
-    RecordedDocuments,
-    RecordedFlightDetails,
-    RecordedFlightList,
-    RecordedPlanList,
-    FlightStatus,
-)
-"""What the OpenAPI document needs for these routes."""
+READING = ("not-found", "records-unavailable")
+"""Problems of every route of records."""
 
 
 async def _expect_open(keeper: KeeperOf) -> None:
@@ -83,6 +75,9 @@ router = APIRouter(
     dependencies=[KNOWN_PARAMETERS_ONLY, Depends(_expect_open)],
 )
 
+RecordedId = Annotated[
+    str, Path(description="As `GET /records/flights` lists it.", examples=["3f2a9c0d71be"])
+]
 Since = Annotated[AwareDatetime | None, Query(description="Begun at this time or later.")]
 Until = Annotated[AwareDatetime | None, Query(description="Begun before this time.")]
 Limit = Annotated[int, Query(ge=1, le=MOST, description="How many at most.")]
@@ -94,7 +89,7 @@ Offset = Annotated[int, Query(ge=0, le=10**9, description="How many of the newes
     summary="Flights on record",
     responses={
         **response(200, "The newest first.", schema_of(RecordedFlightList)),
-        **problem_responses(404, 422, 503),
+        **problem_responses(*READING, "invalid"),
     },
 )
 async def list_recorded(
@@ -127,7 +122,7 @@ async def list_recorded(
     summary="Plans on record",
     responses={
         **response(200, "The newest first.", schema_of(RecordedPlanList)),
-        **problem_responses(404, 422, 503),
+        **problem_responses(*READING, "invalid"),
     },
 )
 async def list_plans(
@@ -158,10 +153,10 @@ async def list_plans(
     summary="One flight on record",
     responses={
         **response(200, "All but its documents.", schema_of(RecordedFlightDetails)),
-        **problem_responses(404, 503),
+        **problem_responses(*READING),
     },
 )
-async def show_recorded(flight_id: str, keeper: KeeperOf) -> Response:
+async def show_recorded(flight_id: RecordedId, keeper: KeeperOf) -> Response:
     """What was asked, by whom, with which settings; the commands given; and how it went."""
     return json_answer(await _find(flight_id, keeper))
 
@@ -171,11 +166,11 @@ async def show_recorded(flight_id: str, keeper: KeeperOf) -> Response:
     summary="Documents of a flight",
     responses={
         **response(200, "In order.", schema_of(RecordedDocuments)),
-        **problem_responses(404, 422, 503),
+        **problem_responses(*READING, "invalid"),
     },
 )
 async def list_documents(
-    flight_id: str,
+    flight_id: RecordedId,
     keeper: KeeperOf,
     first: Annotated[int, Query(ge=0, le=10**9, description="From this number on.")] = 0,
     limit: Annotated[
@@ -197,13 +192,13 @@ async def list_documents(
     status_code=201,
     summary="Fly a recording again",
     responses={
-        **response(201, "It is in the air.", schema_of(FlightStatus)),
-        **problem_responses(400, 404, 408, 409, 413, 415, 422, 429, 500, 503),
+        **response(201, "It is in the air.", schema_of(FlightStatus), headers=("Location",)),
+        **problem_responses(*BODY, *READING, "conflict", "too-many-flights", "mistake"),
     },
     openapi_extra=request_body(schema_of(NewReplay), {"rate": 10.0}),
 )
 async def replay_flight(
-    flight_id: str, request: Request, keeper: KeeperOf, fleet: FleetOf
+    flight_id: RecordedId, request: Request, keeper: KeeperOf, fleet: FleetOf
 ) -> Response:
     """A flight with a stream and a scene of its own, which takes `play`, `pause` and `set_rate`."""
     from relguide_server.records import shelf
@@ -228,6 +223,7 @@ async def replay_flight(
         replay=True,
         owner=owner_of(request),
         anchor=_anchor(about["request"]),
+        seed=about["seed"],
     )
     headers = {"Location": f"{root_of(request.scope)}/api/v1/flights/{flight.label.id}"}
     return json_answer(status_of(flight, request).model_dump(), 201, headers=headers)
@@ -240,12 +236,13 @@ async def replay_flight(
         200: {
             "description": "The file.",
             "content": {media: {"schema": {"type": "string"}} for media in MEDIA.values()},
+            "headers": header_references(["Content-Disposition"]),
         },
-        **problem_responses(404, 422, 501, 503),
+        **problem_responses(*READING, "invalid", "not-installed"),
     },
 )
 async def export_flight(
-    flight_id: str,
+    flight_id: RecordedId,
     keeper: KeeperOf,
     form: Annotated[
         Literal["jsonl", "csv", "geojson", "parquet"],
@@ -269,6 +266,8 @@ async def export_flight(
     from relguide_server.records import shelf
 
     about = await _find(flight_id, keeper)
+    if form != "geojson" and (lat_deg, lon_deg) != (None, None):
+        raise Refusal(422, f"lat_deg and lon_deg have no meaning for {form}: leave them out.")
     headers = {"Content-Disposition": f'attachment; filename="flight-{about["id"]}.{form}"'}
     match form:
         case "jsonl" | "csv":
@@ -293,9 +292,12 @@ async def export_flight(
     "/flights/{flight_id}",
     status_code=204,
     summary="Remove a flight from the records",
-    responses=problem_responses(404, 409, 503),
+    responses={
+        204: {"description": "It is removed."},
+        **problem_responses(*READING, "conflict"),
+    },
 )
-async def remove_recorded(flight_id: str, keeper: KeeperOf) -> Response:
+async def remove_recorded(flight_id: RecordedId, keeper: KeeperOf) -> Response:
     """With its documents and commands; one that flies must be ended first."""
     from relguide_server.records import shelf
 
@@ -354,6 +356,10 @@ def _plane(request: dict[str, Any], lat_deg: float | None, lon_deg: float | None
     """How a flight lies on the earth: as its situation says, or as is asked."""
     anchor = _anchor(request)
     if isinstance(anchor, LocalPlane):
+        if (lat_deg, lon_deg) != (None, None):
+            raise Refusal(
+                422, "This flight has latitudes of its own: leave lat_deg and lon_deg out."
+            )
         return anchor
     if lat_deg is None or lon_deg is None:
         raise Refusal(

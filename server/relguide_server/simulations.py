@@ -15,21 +15,25 @@ from relguide.contract.simulation_bodies import (
     expect_unwatched,
 )
 from relguide_server.asked_flights import scenario_of
-from relguide_server.jobs import simulate
-from relguide_server.openapi import (
+from relguide_server.exchange import (
     JSON,
     KNOWN_PARAMETERS_ONLY,
     address_of,
     json_answer,
-    list_schema,
     parse_json,
     problem_of,
-    problem_responses,
     read_body,
+    unless_left,
+)
+from relguide_server.jobs import simulate
+from relguide_server.openapi import (
+    BODY,
+    WORK,
+    list_schema,
+    problem_responses,
     request_body,
     response,
     schema_of,
-    unless_left,
 )
 from relguide_server.plan_desk import PlanDesk
 from relguide_server.preparation import PreparationOf
@@ -41,8 +45,6 @@ AT_A_TIME = 4
 """Most flights of a request that wait or fly at once."""
 EXAMPLE: list[dict[str, Any]] = [{"scenario": "fig_6b"}, {"scenario": "fig_6b", "seed": 7}]
 
-MODELS = (SimulationRequest, SimulationAnswer)
-"""What the OpenAPI document needs for this route."""
 router = APIRouter(prefix="/api/v1", tags=["flights"], dependencies=[KNOWN_PARAMETERS_ONLY])
 
 
@@ -55,7 +57,7 @@ router = APIRouter(prefix="/api/v1", tags=["flights"], dependencies=[KNOWN_PARAM
             "The figures of each, in order.",
             list_schema(schema_of(SimulationAnswer), most=MAX_SIMULATIONS),
         ),
-        **problem_responses(400, 408, 413, 415, 422, 503),
+        **problem_responses(*BODY, *WORK),
     },
     openapi_extra=request_body(schema_of(SimulationRequest), EXAMPLE),
 )

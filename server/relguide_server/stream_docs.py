@@ -10,9 +10,9 @@ from starlette.responses import HTMLResponse, Response
 
 from relguide.contract.messages import Tick
 from relguide.contract.protocol import PROTOCOL, STREAM
+from relguide_server.exchange import json_answer
 from relguide_server.guards import VERSION
 from relguide_server.mount import root_of
-from relguide_server.openapi import json_answer
 from relguide_server.stream import CLOSE_CODES
 
 DESCRIPTION = f"""A flight's stream sends a tick each twentieth of a second. The first holds a

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 from relguide_server.app import create_app
+from relguide_server.guards import VERSION
 from relguide_server.plans import EXAMPLE, MAX_BATCH
 from relguide_server.settings import Settings
 from relguide_server.workers import KINDS
@@ -52,6 +53,48 @@ def test_a_situation_is_planned(client: TestClient) -> None:
     assert plan["status"] == "planned"
     assert plan["separation"]["proved_above_m"] >= EXAMPLE["min_separation_m"] - 1.0
     assert plan["segments"][0]["start"]["x_m"] == EXAMPLE["pursuer"]["x_m"]
+
+
+def test_a_plan_is_drawn_on_the_earth_on_request(client: TestClient) -> None:
+    aircraft = {
+        name: {k: v for k, v in EXAMPLE[name].items() if k not in ("x_m", "y_m")}
+        | {"lat_deg": 50.0 + 0.3 * (name == "pursuer"), "lon_deg": 8.0}
+        for name in ("pursuer", "leader")
+    }
+    answer = client.post("/api/v1/plans?format=geojson&max_ms=10000", json={**EXAMPLE, **aircraft})
+    assert answer.status_code == 200
+    assert answer.headers["content-type"] == "application/geo+json"
+    assert [f["id"] for f in answer.json()["features"]] == ["path", "leader", "slot"]
+    assert answer.json()["word"]
+    hard = {**HARD, **aircraft, "slot_distance_m": 9260.0}
+    late = client.post("/api/v1/plans?format=geojson&max_ms=1", json=hard).json()
+    assert late["type"] == "FeatureCollection"
+    nowhere = client.post("/api/v1/plans?format=geojson", json=EXAMPLE)
+    document = is_problem(nowhere, 422, "/api/v1/plans")
+    assert [error["path"] for error in document["errors"]] == ["pursuer", "leader"]
+
+
+def test_a_parameter_given_twice_is_refused(client: TestClient) -> None:
+    asked = "/api/v1/plans?max_ms=5&max_ms=500"
+    document = is_problem(client.post(asked, json=EXAMPLE), 422, "/api/v1/plans")
+    assert document["detail"] == "max_ms is given more than once: give it once."
+    situation = json.dumps({**EXAMPLE, "leader": {**EXAMPLE["leader"], "intent": []}})
+    grid = {"columns": 3, "rows": 3, "level_s": [500.0, 600.0]}
+    levels = client.get("/api/v1/areas", params={"situation": situation, **grid})
+    assert levels.json()["levels_s"] == [500.0, 600.0]
+
+
+def test_every_answer_names_its_version_and_a_flight_its_seed(client: TestClient) -> None:
+    for answer in (
+        client.post("/api/v1/plans", json=EXAMPLE),
+        client.post("/api/v1/plans/batch", json=[EXAMPLE]),
+        client.post("/api/v1/plans", json={}),
+        client.get("/api/v1/flights/none"),
+    ):
+        assert answer.headers["relguide-version"] == VERSION
+    flight = client.post("/api/v1/flights", json={"scenario": "ideal", "seed": 7}).json()
+    assert (flight["seed"], flight["version"]) == (7, VERSION)
+    assert client.get(f"/api/v1/flights/{flight['id']}").json()["seed"] == 7
 
 
 def test_no_plan_is_an_answer(client: TestClient) -> None:
@@ -148,7 +191,7 @@ def test_what_cannot_be_included_is_refused(client: TestClient, path: str) -> No
     wrong = is_problem(client.post(f"{path}?include=wings", json=EXAMPLE), 422, path)
     assert "include must be alternatives, paths or optimality" in wrong["detail"]
     unknown = is_problem(client.post(f"{path}?optimality=true", json=EXAMPLE), 422, path)
-    assert "has no parameter 'optimality'. It has include, max_ms, planner." in unknown["detail"]
+    assert "include, max_ms, planner." in unknown["detail"]
 
 
 def test_parameters_that_a_route_does_not_have_are_refused(client: TestClient) -> None:

@@ -1,7 +1,7 @@
 // Made by `python -m relguide_server.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
-export const PROTOCOL = "relguide-d5a7a4ea221d";
+export const PROTOCOL = "relguide-4f7a2ee3ec4d";
 
 /** Which way round. */
 export type Direction = "left" | "right";
@@ -188,7 +188,9 @@ export interface Alert {
  * a planner that is not exact lets happen.
  */
 export interface AlternativeCard {
+  /** Its letters, e.g. `LSR`: L and R are turns, S a straight, B slides along d_min. */
   word: string;
+  /** When the pursuer is at the slot, on the leader's heading. */
   time_to_converge_s: number;
   /** How much it turns in all, left and right added. */
   turning_deg: number;
@@ -198,6 +200,7 @@ export interface AlternativeCard {
   side: Direction;
   /** Why it is not flown, e.g. `38 s slower`. */
   why: string;
+  /** Why, in a word. */
   rejected: "slower" | "as_fast" | "faster";
 }
 
@@ -273,7 +276,9 @@ export interface ArrivalCard {
 
 /** A segment flown along d = d_min at partial bank. */
 export interface BoundaryArcCard {
+  /** When it begins. */
   start_s: number;
+  /** When it ends. */
   end_s: number;
   /** Least μ on it; 0 or more by eq. (10). */
   least_multiplier_per_m: number;
@@ -281,11 +286,15 @@ export interface BoundaryArcCard {
 
 /** A boundary arc along d = d_min with less than full bank. */
 export interface BoundarySegment {
+  /** A boundary arc. */
   kind: "boundary";
   /** The side it turns to: left boundary arcs counter-clockwise round the leader. */
   side: Direction;
+  /** How long it takes. */
   duration_s: number;
+  /** Where it begins. */
   start: PathPoint;
+  /** Where it ends. */
   end: PathPoint;
   /** Points between, close enough to draw straight lines. */
   via: PathPoint[];
@@ -293,6 +302,7 @@ export interface BoundarySegment {
 
 /** A contact with d = d_min, or the beginning or end of a boundary arc. */
 export interface ContactCard {
+  /** When. */
   t_s: number;
   /** From pursuer to leader, clockwise from north, in [−180°, 180°]. */
   bearing_deg: number;
@@ -321,11 +331,15 @@ export interface CostatesCard {
 
 /** A word that reaches the place of the slot before it opens. */
 export interface EarlyAlternativeCard {
+  /** Its letters, e.g. `LSR`: L and R are turns, S a straight, B slides along d_min. */
   word: string;
+  /** When it is there. */
   time_to_converge_s: number;
   /** When the slot opens. */
   release_time_s: number;
+  /** Why it is not flown. */
   why: string;
+  /** The slot is not open then. */
   rejected: "not_open";
 }
 
@@ -390,6 +404,8 @@ export interface FlightStatus {
   separation_m: number;
   stream_url: string;
   scene_url: string;
+  seed: number;
+  version: string;
 }
 
 /**
@@ -600,8 +616,11 @@ export interface Loss {
 
 /** A word of which no path reaches the slot. */
 export interface MissingAlternativeCard {
+  /** Its letters, e.g. `LSR`: L and R are turns, S a straight, B slides along d_min. */
   word: string;
+  /** Why there is none. */
   why: string;
+  /** No root. */
   rejected: "no_root";
 }
 
@@ -618,8 +637,11 @@ export interface ModeChanged {
 
 /** No plan, why, and what would help. */
 export interface NoPlanCard {
+  /** There is none. */
   status: "no_plan";
+  /** In a word. */
   reason: Reason;
+  /** A sentence that says what would help. */
   message: string;
   /** No plan that keeps d_min is faster than this [s]; 0 where nothing is known. */
   lower_bound_s: number;
@@ -627,7 +649,12 @@ export interface NoPlanCard {
 
 /** What is proved of a plan's time; and, if asked for, how it meets Pontryagin's conditions. */
 export interface OptimalityCard {
+  /**
+   * `relaxation`: it is the fastest. `certified`: within 0.1 s of it. `bound`: nothing is faster
+   * than the lower bound. `none`: nothing is known.
+   */
   proof: Proof;
+  /** No plan that keeps d_min is faster. */
   lower_bound_s: number;
   /**
    * What sets t_f: the plan alone, the slot's release time, or that it is in the slot at once.
@@ -661,7 +688,9 @@ export interface OptimalityCard {
 
 /** Another path to the slot, to be drawn beside a proposal. */
 export interface OtherPathCard {
+  /** Its letters, e.g. `LSR`: L and R are turns, S a straight, B slides along d_min. */
   word: string;
+  /** When the pursuer is at the slot, on the leader's heading. */
   time_to_converge_s: number;
   /** Times count from the instant of the proposal. */
   segments: PathSegment[];
@@ -671,9 +700,13 @@ export interface OtherPathCard {
 
 /** A place and a heading along a path, over the ground. */
 export interface PathPoint {
+  /** From the beginning of the path. */
   t_s: number;
+  /** East. */
   x_m: number;
+  /** North. */
   y_m: number;
+  /** Where the nose points. */
   heading_deg: number;
   /** WGS84; there if the situation came with latitudes. */
   lat_deg?: number;
@@ -688,19 +721,27 @@ export interface PauseCommand {
 
 /** A plan as outsiders read it: the answer of REST, of the command line, and of the display. */
 export interface PlanCard {
+  /** There is a plan. */
   status: "planned";
   /** Who made it: `exact`, `network`, `regular_dp`, or the name of a planner of one's own. */
   planner: string;
+  /** Its letters, e.g. `LSR`: L and R are turns, S a straight, B slides along d_min. */
   word: string;
+  /** When the pursuer is at the slot, on the leader's heading. */
   time_to_converge_s: number;
   /** Path length in the air mass [m]. */
   length_m: number;
+  /** In the order they are flown. */
   segments: PathSegment[];
+  /** From the leader, along the path. */
   separation: Separation;
+  /** How its end meets the slot. */
   arrival: ArrivalCard;
+  /** What is proved of its time. */
   optimality: OptimalityCard;
   /** By time; words without any path last. In an answer only if asked for. */
   alternatives?: Alternative[];
+  /** How long planning took. */
   compute_ms: number;
   /**
    * The other paths to be drawn, the fastest first.
@@ -825,8 +866,11 @@ export interface ScenarioList {
 
 /** Least separation along a plan, and what is proved of it. */
 export interface Separation {
+  /** The least distance between the two aircraft. */
   least_m: number;
+  /** When it is so. */
   at_s: number;
+  /** They are proved never to be closer. */
   proved_above_m: number;
 }
 
@@ -894,11 +938,15 @@ export interface StraightPiece {
 
 /** A piece at constant heading. */
 export interface StraightSegment {
+  /** A straight. */
   kind: "straight";
   /** In the air mass [m]. */
   length_m: number;
+  /** How long it takes. */
   duration_s: number;
+  /** Where it begins. */
   start: PathPoint;
+  /** Where it ends. */
   end: PathPoint;
 }
 
@@ -928,14 +976,21 @@ export interface TurnRateReference {
 
 /** A turn at constant bank. In wind its ground path is a trochoid: air-mass arc + wind × t. */
 export interface TurnSegment {
+  /** A turn. */
   kind: "turn";
+  /** Which way round. */
   direction: Direction;
+  /** How far it turns. */
   angle_deg: number;
   /** |φ| [rad]. */
   bank_deg: number;
+  /** In the air mass. */
   radius_m: number;
+  /** How long it takes. */
   duration_s: number;
+  /** Where it begins. */
   start: PathPoint;
+  /** Where it ends. */
   end: PathPoint;
 }
 
@@ -951,7 +1006,9 @@ export interface Unable {
 
 /** Another path to the slot that lost because it comes too close. */
 export interface UnsafeAlternativeCard {
+  /** Its letters, e.g. `LSR`: L and R are turns, S a straight, B slides along d_min. */
   word: string;
+  /** When the pursuer is at the slot, on the leader's heading. */
   time_to_converge_s: number;
   /** How much it turns in all, left and right added. */
   turning_deg: number;
@@ -959,10 +1016,13 @@ export interface UnsafeAlternativeCard {
   passes: "behind" | "ahead";
   /** How it goes round the leader: left is counter-clockwise, with the leader on its left hand. */
   side: Direction;
+  /** How close it comes. */
   least_separation_m: number;
+  /** When it is closest. */
   at_s: number;
   /** Why it is not flown, e.g. `comes within 4.22 NM at 212 s`. */
   why: string;
+  /** It loses the separation. */
   rejected: "separation";
 }
 

@@ -20,6 +20,7 @@ class FlightFigures(Strict):
     """How a flight went so far."""
 
     simulated_s: float
+    """Time flown."""
     joined: bool
     """Whether it was joined at some time."""
     join_time_s: float | None
@@ -38,9 +39,11 @@ class RecordedFlight(Strict):
     """A flight on record, in short."""
 
     id: str
+    """To ask for it by."""
     scenario: str
     """Its name; empty for a situation of the client's own."""
     title: str
+    """For people."""
     outcome: Outcome
     """What became of it. flying: it is in the air; removed: somebody ended it; unwatched: nobody
     looked at it any more; broken: by a mistake of the server; stopped: with the service;
@@ -50,6 +53,7 @@ class RecordedFlight(Strict):
     ended_at: str | None
     """The same; null while it flies. Of an interrupted one, when it was seen last."""
     seed: int
+    """Of its random numbers."""
     version: str
     """Of relguide."""
     requested_by: str
@@ -61,23 +65,27 @@ class RecordedFlight(Strict):
     bytes: int
     """What they take."""
     figures: FlightFigures
+    """How it went."""
 
 
 class RecordedFlightList(Strict):
     """Flights on record, the newest first."""
 
     flights: list[RecordedFlight]
+    """At most as many as were asked for."""
 
 
 class RecordedCommand(Strict):
     """A command that a flight was given."""
 
     number: int
+    """In the flight, from 0."""
     at: str
     """RFC 3339, UTC."""
     t_s: float
     """Flight time."""
     command: dict[str, Any]
+    """As it was sent."""
     sent_by: str
     """Address of the client."""
 
@@ -92,6 +100,7 @@ class RecordedFlightDetails(RecordedFlight):
     form: int
     """Version of the form of its documents."""
     commands: list[RecordedCommand]
+    """In the order they were given."""
 
 
 class NumberedDocument(Strict):
@@ -107,6 +116,7 @@ class RecordedDocuments(Strict):
     """Documents of a flight, in order."""
 
     documents: list[NumberedDocument]
+    """At most as many as were asked for."""
     next: int
     """Ask for this number on for what follows."""
 
@@ -117,11 +127,13 @@ class RecordedPlan(Strict):
     at: str
     """RFC 3339, UTC."""
     situation: dict[str, Any]
+    """As it was sent."""
     planner: str
     """Who was asked; empty: the service's own."""
     status: str
     """Of the answer."""
     compute_ms: float
+    """How long planning took."""
     asked_by: str
     """Address of the client."""
 
@@ -130,3 +142,4 @@ class RecordedPlanList(Strict):
     """Plans that were asked for, the newest first."""
 
     plans: list[RecordedPlan]
+    """At most as many as were asked for."""

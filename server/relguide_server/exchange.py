@@ -1,0 +1,193 @@
+"""Bodies in and out by the contract's own reader.
+
+The contract reads the bytes itself, so REST, command line and files refuse with the same words.
+"""
+
+import asyncio
+from collections.abc import Awaitable
+from typing import TypeVar, get_origin
+
+import orjson
+from fastapi import Depends, Request
+from fastapi.dependencies.models import Dependant
+from fastapi.routing import APIRoute, APIWebSocketRoute
+from starlette.requests import ClientDisconnect, HTTPConnection
+from starlette.responses import Response
+
+from relguide.contract.refusal import ContractError, loads
+from relguide_server.errors import ProblemError, Refusal
+
+T = TypeVar("T")
+SMALL = 16 * 1024
+"""Bodies of at most so many bytes are read on the event loop: some milliseconds, whatever they
+hold."""
+BODY_PATIENCE = 15.0
+"""How long a body may take to come [s]."""
+JSON = "application/json"
+GEOJSON = "application/geo+json"
+
+
+async def read_body(request: Request, *types: str, most: int = SMALL) -> bytes:
+    """The body of a request.
+
+    Args:
+        request: of a route.
+        types: what it may be declared to be.
+        most: how long it may be [bytes].
+
+    Raises:
+        Refusal: 415, if it is declared to be something else; 413, if it is longer; 408, if it does
+            not come.
+    """
+    # A page of another site can send most other types without the browser's permission.
+    if content_type(request) not in types:
+        raise Refusal(415, f"The body must be sent with Content-Type: {' or '.join(types)}.")
+    declared = request.headers.get("content-length", "0")
+    if declared.isdecimal() and int(declared) > most:
+        raise _too_long(most)
+    parts, size = [], 0
+    try:
+        async with asyncio.timeout(BODY_PATIENCE):
+            async for part in request.stream():
+                size += len(part)
+                if size > most:
+                    raise _too_long(most)
+                parts.append(part)
+    except TimeoutError:
+        late = f"The body did not come within {BODY_PATIENCE:.0f} s."
+        raise Refusal(408, late, headers={"Connection": "close"}) from None
+    return b"".join(parts)
+
+
+def _too_long(most: int) -> Refusal:
+    detail = f"The body of this request may have at most {most:,} bytes."
+    return Refusal(413, detail, headers={"Connection": "close"})
+
+
+async def unless_left(request: Request, work: Awaitable[T]) -> T:
+    """What some work gives, whose request has been read; it is cancelled if the client leaves.
+
+    Raises:
+        ClientDisconnect: if the client left.
+    """
+    working = asyncio.ensure_future(work)
+    leaving = asyncio.ensure_future(_wait_until_left(request))
+    try:
+        await asyncio.wait((working, leaving), return_when=asyncio.FIRST_COMPLETED)
+        if working.done():
+            return working.result()
+        raise ClientDisconnect
+    finally:
+        leaving.cancel()
+        working.cancel()
+
+
+async def _wait_until_left(request: Request) -> None:
+    while (await request.receive())["type"] != "http.disconnect":
+        pass
+
+
+def address_of(request: Request) -> str:
+    """Address of the client; empty if it is not known."""
+    client: tuple[str, int] | None = request.scope.get("client")
+    return client[0][:255] if client else ""
+
+
+def content_type(request: Request) -> str:
+    """The declared type of a body, without parameters."""
+    return request.headers.get("content-type", "").partition(";")[0].strip().lower()
+
+
+def parse_json(body: bytes) -> object:
+    """The content of a body.
+
+    Raises:
+        Refusal: if it is no JSON.
+    """
+    try:
+        return loads(body)
+    except ContractError as error:
+        raise problem_of(error, 400) from None
+
+
+async def read_object(request: Request) -> dict[str, object]:
+    """The body of a request, for a route that takes a small object.
+
+    Raises:
+        Refusal: if it is not declared to be JSON, or is no JSON.
+        ContractError: if it is no object.
+    """
+    content = parse_json(await read_body(request, JSON))
+    if isinstance(content, dict):
+        return content
+    raise ContractError([("", "The body must be an object with fields.")])
+
+
+async def refuse_unknown_parameters(connection: HTTPConnection) -> None:
+    """Refuse query parameters that the route does not have, or that are given twice.
+
+    Raises:
+        Refusal: 422, for the first of them.
+    """
+    match connection.scope["route"]:
+        case (
+            APIRoute(path=path, dependant=dependant)
+            | APIWebSocketRoute(path=path, dependant=dependant)
+        ):
+            if not connection.scope["query_string"]:
+                return
+            known = _parameters(dependant)
+            given = [name for name, _ in connection.query_params.multi_items()]
+            for name in given:
+                if name not in known:
+                    has = f"It has {', '.join(sorted(known))}." if known else "It has none."
+                    wrong = f"{path} has no parameter {name[:100]!r}. {has}"
+                    raise Refusal(422, wrong, kind="unknown-parameter")
+                if given.count(name) > 1 and not known[name]:
+                    raise Refusal(422, f"{name} is given more than once: give it once.")
+        case _:
+            return
+
+
+def _parameters(dependant: Dependant) -> dict[str, bool]:
+    """The query parameters of a route, and whether each is a list."""
+    known = {
+        field.alias: get_origin(field.field_info.annotation) is list
+        for field in dependant.query_params
+    }
+    for part in dependant.dependencies:
+        known |= _parameters(part)
+    return known
+
+
+KNOWN_PARAMETERS_ONLY = Depends(refuse_unknown_parameters)
+"""What a router depends on."""
+
+
+def problem_of(error: ContractError, status: int = 422, *, under: str = "") -> Refusal:
+    """What the contract refuses, as a problem document.
+
+    Args:
+        error: what is wrong.
+        status: 422, or 400 for a body that is no JSON at all.
+        under: where in the body the refused part is, e.g. `[3]`.
+    """
+    errors = [
+        ProblemError(path=f"{under}.{path}".strip(".") if under else path, message=message)
+        for path, message in error.problems
+    ]
+    first = f"{errors[0].path}: {errors[0].message}" if errors[0].path else errors[0].message
+    more = f" (and {error.count - 1} more)" if error.count > 1 else ""
+    return Refusal(status, first + more, errors=errors)
+
+
+def json_answer(
+    content: object,
+    status: int = 200,
+    *,
+    headers: dict[str, str] | None = None,
+    media_type: str = JSON,
+) -> Response:
+    """An answer in JSON; content that is already encoded goes out as it is."""
+    body = content if isinstance(content, bytes) else orjson.dumps(content)
+    return Response(body, status, headers, media_type=media_type)

@@ -1,0 +1,132 @@
+"""A plan as GeoJSON: lines on the earth that are the plan's path, the leader's, and the others'."""
+
+import itertools
+from math import cos, hypot, radians
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from relguide.contract.answers import answer
+from relguide.contract.bodies import situation_from_json
+from relguide.contract.refusal import ContractError
+from relguide.planning.frames import LocalPlane
+from relguide.planning.plan import plan
+from tests.bodies import BODY
+
+PURSUER = {"heading_deg": 90.0, "tas_mps": 240.0, "max_bank_deg": 25.0}
+LEADER = {
+    "heading_deg": 90.0,
+    "tas_mps": 200.0,
+    "intent": [
+        {"straight_s": 60.0},
+        {"turn_to_heading_deg": 135.0, "direction": "right", "bank_deg": 20.0},
+    ],
+}
+
+
+def placed(lat: float, lon: float) -> dict[str, Any]:
+    return {
+        "pursuer": {"lat_deg": lat + 0.4, "lon_deg": lon, **PURSUER},
+        "leader": {"lat_deg": lat, "lon_deg": lon, **LEADER},
+        "slot_distance_m": 12e3,
+        "min_separation_m": 9260.0,
+        "wind": {"from_deg": 270.0, "speed_mps": 15.0},
+    }
+
+
+def drawn(lat: float, lon: float, **asked: Any) -> tuple[dict[str, Any], Any, LocalPlane]:
+    situation, anchor = situation_from_json(placed(lat, lon))
+    assert isinstance(anchor, LocalPlane)
+    given = answer(situation, anchor, plan, form="geojson", **asked)
+    return given, plan(situation), anchor
+
+
+def lines_of(feature: dict[str, Any]) -> list[list[list[float]]]:
+    geometry = feature["geometry"]
+    cut = geometry["type"] == "MultiLineString"
+    return geometry["coordinates"] if cut else [geometry["coordinates"]]
+
+
+def test_its_features_and_the_members_of_the_plan() -> None:
+    given, planned, _ = drawn(50.0, 8.0)
+    assert given["type"] == "FeatureCollection"
+    assert [feature["id"] for feature in given["features"]] == ["path", "leader", "slot"]
+    plain = answer(planned.situation, situation_from_json(placed(50.0, 8.0))[1], plan)
+    assert given.keys() - plain.keys() == {"type", "features"}
+    assert {**given, "compute_ms": 0.0}.items() >= {**plain, "compute_ms": 0.0}.items()
+    slot = given["features"][2]
+    end = plain["segments"][-1]["end"]
+    assert slot["geometry"]["coordinates"] == pytest.approx([end["lon_deg"], end["lat_deg"]])
+    assert slot["properties"]["t_s"] == pytest.approx(plain["time_to_converge_s"])
+
+
+@given(lat=st.floats(-70.0, 70.0), lon=st.floats(-180.0, 180.0))
+@settings(max_examples=25, deadline=None)
+def test_points_and_chords_lie_on_the_path(lat: float, lon: float) -> None:
+    given, planned, plane = drawn(lat, lon)
+    for feature, flown in zip(
+        given["features"], (planned.trajectory, planned.situation.leader.trajectory), strict=False
+    ):
+        times = feature["properties"]["t_s"]
+        assert times[0] == 0.0
+        assert times[-1] == pytest.approx(planned.time_to_converge, abs=1e-3)
+        exact = flown.over_ground(planned.situation.wind, np.linspace(0.0, times[-1], 2000))
+        for line in lines_of(feature):
+            for (lon_a, lat_a), (lon_b, lat_b) in itertools.pairwise(line):
+                assert abs(lon_b - lon_a) < 180.0
+                x, y = plane.to_local((lat_a + lat_b) / 2.0, (lon_a + lon_b) / 2.0)
+                assert np.hypot(exact.x - x, exact.y - y).min() < 250.0
+        apart = [
+            hypot((b[0] - a[0]) * cos(radians(a[1])), b[1] - a[1]) * 111e3
+            for line in lines_of(feature)
+            for a, b in itertools.pairwise(line)
+        ]
+        assert max(apart) < 5.2e3
+
+
+def test_a_chord_strays_by_metres() -> None:
+    given, planned, plane = drawn(60.0, 8.0)
+    for feature, flown in zip(
+        given["features"], (planned.trajectory, planned.situation.leader.trajectory), strict=False
+    ):
+        (line,) = lines_of(feature)
+        times = np.array(feature["properties"]["t_s"])
+        middle = flown.over_ground(planned.situation.wind, (times[:-1] + times[1:]) / 2.0)
+        for k, ((lon_a, lat_a), (lon_b, lat_b)) in enumerate(itertools.pairwise(line)):
+            x, y = plane.to_local((lat_a + lat_b) / 2.0, (lon_a + lon_b) / 2.0)
+            assert hypot(x - middle.x[k], y - middle.y[k]) < 5.0
+
+
+def test_lines_are_cut_where_they_pass_the_date_line() -> None:
+    given, _, _ = drawn(50.0, 179.9)
+    path, leader = (lines_of(feature) for feature in given["features"][:2])
+    for lines in (path, leader):
+        assert [len(lines)] == [2]
+        assert lines[0][-1][0] == 180.0
+        assert lines[1][0] == [-180.0, lines[0][-1][1]]
+
+
+def test_other_paths_are_drawn_if_asked_for() -> None:
+    given, _, _ = drawn(50.0, 8.0, include=["paths"])
+    others = [f for f in given["features"] if f["id"].startswith("other-")]
+    assert [f["properties"]["why"] for f in others] == [other["why"] for other in given["others"]]
+    assert others
+
+
+def test_what_lies_nowhere_on_the_earth_is_refused() -> None:
+    situation, anchor = situation_from_json(BODY)
+    with pytest.raises(ContractError, match="lat_deg, lon_deg in both aircraft"):
+        answer(situation, anchor, plan, form="geojson")
+
+
+def test_no_plan_has_no_features() -> None:
+    body = placed(50.0, 8.0)
+    situation, anchor = situation_from_json(
+        {**body, "leader": {**body["leader"], "tas_mps": 390.0, "intent": []}}
+    )
+    given = answer(situation, anchor, plan, form="geojson")
+    assert (given["type"], given["features"]) == ("FeatureCollection", [])
+    assert given["status"] == "no_plan"
