@@ -126,7 +126,7 @@ def test_a_flight_is_watched_commanded_recorded_and_ended(client: Client) -> Non
     flight.end()
     with pytest.raises(Refused):
         flight.status()
-    wait_for(lambda: [one["id"] for one in client.records(outcome="removed")] == [flight.id])
+    wait_for(lambda: flight.id in [one["id"] for one in client.records(outcome="removed")])
     kept = list(client.recorded(flight.id))
     assert isinstance(kept[0], FlightStarted)
     assert len([one for one in kept if isinstance(one, Sample)]) >= 3
