@@ -61,7 +61,7 @@ def earliest_contact(
     Infinite and −1 if none arrives before `beat`.
     """
     best, at = beat, -1
-    n = paths_to_contact(pose, t, scene, contact, rows)
+    n = paths_to_contact(pose, t, scene, contact, beat, rows)
     for k in range(n):
         if rows[k, 0] < best and word_clears(pose, t, rows[k], scene):
             best, at = rows[k, 0], k

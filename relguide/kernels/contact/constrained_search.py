@@ -142,7 +142,7 @@ def fly_to_delay(start: Pose, scene: Scene, chain: Chain) -> bool:
     contact = Contact(int(contacts[last, 0]), contacts[last, 2], contacts[last, 1])
     if not contact_exists(contact.bearing, scene.alpha):
         return False
-    for k in range(paths_to_contact(pose, t, scene, contact, rows)):
+    for k in range(paths_to_contact(pose, t, scene, contact, inf, rows)):
         there = contact_at(scene, rows[k, 0], contact.bearing, contact.side)
         if word_clears(pose, t, rows[k], scene) and delay_until_release(
             there, rows[k, 0], scene, pieces

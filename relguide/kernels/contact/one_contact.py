@@ -276,7 +276,7 @@ def through_contact(
         return inf
     if time_is_up(scene.until):
         return beat
-    n = paths_to_contact(start, 0.0, scene, contact, room.rows)
+    n = paths_to_contact(start, 0.0, scene, contact, beat, room.rows)
     m = -1
     for k in range(n):
         t = room.rows[k, 0]

@@ -201,22 +201,17 @@ def _to_edge(approach: _Approach, turns: Bracket, contact: FloatArray) -> Bracke
 
 @njit(cache=True, nogil=True)
 def _touch(approach: _Approach, turns: Bracket, contact: FloatArray) -> float:
-    """Where the closest approach is δ: the secant, kept inside the bracket (Illinois)."""
-    low, high, at_low, at_high = turns
-    middle = high
+    """Where the closest approach is δ, between two turns of which one comes nearer (Illinois)."""
+    rising = 1.0 if turns.at_low < turns.at_high else -1.0
+    between = Crossing(turns.low, turns.high, rising * turns.at_low, rising * turns.at_high, 0)
+    middle = turns.high
     for k in range(60):
         # every third step halves: a jump is then found out soon, too
-        share = 0.5 if k % 3 == 2 else at_high / (at_high - at_low)
-        middle = high - share * (high - low)
+        middle = 0.5 * (between.low + between.high) if k % 3 == 2 else secant(between)
         value = _miss(approach, middle, contact)
-        if abs(value) < 1e-14 or high - low < 1e-15:
+        if abs(value) < 1e-14 or between.high - between.low < 1e-15:
             break
-        if (value < 0.0) == (at_low < 0.0):
-            low, at_low = middle, value
-            at_high *= 0.5
-        else:
-            high, at_high = middle, value
-            at_low *= 0.5
+        between = tightened(between, middle, rising * value)
     return middle
 
 

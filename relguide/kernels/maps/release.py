@@ -20,7 +20,7 @@ from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.maps.final_leg import MovingPoint, keeps_clear, point_room
 from relguide.kernels.separation.clearance import piece_at, piece_clears
 from relguide.kernels.words.branches import TO_POINT
-from relguide.kernels.words.delay import word_from
+from relguide.kernels.words.to_point import word_from
 
 ON_TIME = 1e-9
 """A path this much too long still arrives when the slot opens [R]: rounding."""

@@ -8,18 +8,19 @@ refined; those of a straight and a word with a straight in its middle come one t
 The grid may miss a path: these are some of many, and no proof rests on them.
 """
 
-from math import asin, atan2, cos, hypot, sin, sqrt
+from math import cos, hypot, sin, sqrt
 from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
-from relguide.kernels.base.angles import TWO_PI, turn_to
+from relguide.kernels.base.angles import TWO_PI
 from relguide.kernels.base.false_position import Bracket, secant, tightened
-from relguide.kernels.base.records import Pose, Start, start_at
+from relguide.kernels.base.records import Pose
 from relguide.kernels.base.roots import FloatArray, insert_cut
 from relguide.kernels.words.branches import TO_POINT, WORD_OF
 from relguide.kernels.words.extremals import SIGNS, fly_piece
+from relguide.kernels.words.to_point import word_between, word_to_point
 
 MAX_DELAYS = 1024
 """Room for exact-length paths."""
@@ -41,61 +42,6 @@ class _Family(NamedTuple):
     """Length of another one, before the word [R]."""
     last: bool
     """Whether it comes after the word; else it comes first."""
-
-
-@njit(cache=True, nogil=True)
-def word_to_point(pose: Pose, end_x: float, branch: int, piece: FloatArray) -> float:
-    """One Dubins word from a pose to (end_x, 0) on heading 0.
-
-    Args:
-        pose: where it starts.
-        end_x: where to [R].
-        branch: number of `branches.BRANCHES`.
-        piece: takes the three amounts [rad or R]. shape (3,)
-
-    Returns:
-        the length [R]; negative if the word does not reach.
-    """
-    return word_from(start_at(pose), end_x, branch, piece)
-
-
-@njit(cache=True, nogil=True)
-def word_from(start: Start, end_x: float, branch: int, piece: FloatArray) -> float:
-    """As `word_to_point`, for maps."""
-    x, y, h, sin_h, cos_h = start
-    word = WORD_OF[branch]
-    first, last = SIGNS[word, 0], SIGNS[word, 2]
-    return _word_between(end_x - (x - first * sin_h), last - (y + first * cos_h), h, branch, piece)
-
-
-@njit(cache=True, nogil=True)
-def _word_between(dx: float, dy: float, h: float, branch: int, piece: FloatArray) -> float:
-    """The same by the vector from the centre of its first circle to that of its last one."""
-    word = WORD_OF[branch]
-    first = SIGNS[word, 0]
-    gap = hypot(dx, dy)
-    bearing = atan2(dy, dx)
-    if word < 2:
-        course, middle = bearing, gap
-        piece[0], piece[2] = turn_to(first * (course - h)), turn_to(-first * course)
-    elif word < 4:
-        if gap < 2.0:
-            return -1.0
-        course, middle = bearing + first * asin(2.0 / gap), sqrt(gap * gap - 4.0)
-        piece[0], piece[2] = turn_to(first * (course - h)), turn_to(first * course)
-    else:
-        if gap > 4.0:
-            return -1.0
-        middle = 2.0 * asin(0.25 * gap)
-        if branch % 2 == 1:
-            middle = TWO_PI - middle
-        crossing = bearing + 0.5 * first * middle
-        piece[0], piece[2] = (
-            turn_to(first * (crossing - h)),
-            turn_to(-first * (crossing - first * middle)),
-        )
-    piece[1] = middle
-    return float(piece[0] + middle + piece[2])
 
 
 @njit(cache=True, nogil=True)
@@ -198,11 +144,11 @@ def _cross_once(
         high = cuts[i + 1] - (_BESIDE if i + 2 < n_cuts else 0.0)
         if high <= low or n == MAX_DELAYS:
             continue
-        word = _word_between(px - low * wx, py - low * wy, h, branch, piece)
+        word = word_between(px - low * wx, py - low * wy, h, branch, piece)
         gap_low = lead + low + word - length
         if word < 0.0 or gap_low > 0.0:
             continue
-        word = _word_between(px - high * wx, py - high * wy, h, branch, piece)
+        word = word_between(px - high * wx, py - high * wy, h, branch, piece)
         gap_high = lead + high + word - length
         if word < 0.0 or gap_high < 0.0:
             continue
@@ -212,7 +158,7 @@ def _cross_once(
             if abs(gap) <= _EXACT or bracket.high - bracket.low <= _EXACT * span:
                 break
             amount = secant(bracket)
-            word = _word_between(px - amount * wx, py - amount * wy, h, branch, piece)
+            word = word_between(px - amount * wx, py - amount * wy, h, branch, piece)
             gap = lead + amount + word - length
             bracket = tightened(bracket, amount, gap)
         if abs(gap) < _SAME:

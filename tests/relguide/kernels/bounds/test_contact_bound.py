@@ -309,7 +309,7 @@ def test_no_contact_follows_another_sooner_while_the_leader_turns(seed: int) -> 
             contacts.append((Contact(int(piece), b, cell.side), t))
         (contact, t), (other, _) = contacts
         rows = np.empty((MAX_ROWS, 5))
-        n = paths_to_contact(contact_on(scene, contact, t), t, scene, other, rows)
+        n = paths_to_contact(contact_on(scene, contact, t), t, scene, other, inf, rows)
         for row in rows[:n]:
             if cells[1].start <= row[0] <= cells[1].end:
                 assert word_between(scene, *cells, FAR) <= row[0] - t + 1e-5

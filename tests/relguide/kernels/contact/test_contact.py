@@ -155,7 +155,7 @@ def test_tangent_contacts_are_reached_while_the_leader_turns(turning: float) -> 
             times = []
             for beside in (-1e-6, 1e-6):
                 contact = Contact(0, bearing + beside, side)
-                n = paths_to_contact(start, 0.0, scene, contact, rows)
+                n = paths_to_contact(start, 0.0, scene, contact, inf, rows)
                 times += rows[:n, 0].tolist()
             assert min(abs(reached - time) for reached in times) < 1e-4
             seen += 1

@@ -32,7 +32,7 @@ def paths(start: Pose, scene: Scene, bearing: float, side: float) -> list[list[f
     """Rows to a contact on any piece but the last, in order of time."""
     rows, found = np.empty((MAX_ROWS, 5)), []
     for i in range(len(scene.leader) - 1):
-        n = paths_to_contact(start, 0.0, scene, Contact(i, bearing, side), rows)
+        n = paths_to_contact(start, 0.0, scene, Contact(i, bearing, side), inf, rows)
         found += rows[:n].tolist()
     return sorted(found)
 

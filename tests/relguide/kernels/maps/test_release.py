@@ -10,8 +10,9 @@ from relguide.kernels.contact.clear_words import pieces_clear
 from relguide.kernels.maps.final_leg import keeps_clear
 from relguide.kernels.maps.release import reaches, release_clears
 from relguide.kernels.words.branches import TO_POINT
-from relguide.kernels.words.delay import DELAY_PIECES, MAX_DELAYS, delay_paths, word_to_point
+from relguide.kernels.words.delay import DELAY_PIECES, MAX_DELAYS, delay_paths
 from relguide.kernels.words.extremals import SIGNS, fly_piece
+from relguide.kernels.words.to_point import word_to_point
 from tests.relguide.kernels.maps.test_final_leg import turning
 
 PIECE, ROW = np.empty(3), np.empty(5)

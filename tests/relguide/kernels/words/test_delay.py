@@ -13,9 +13,9 @@ from relguide.kernels.words.delay import (
     MAX_DELAYS,
     straight_delays,
     turning_delays,
-    word_to_point,
 )
 from relguide.kernels.words.extremals import SIGNS, fly_piece
+from relguide.kernels.words.to_point import word_to_point
 
 FINE = 4_000
 """Steps of the free length."""
