@@ -141,7 +141,8 @@ def longest_chain(t: Array, values: Array, max_rate: float, slack: float) -> NDA
 
     Neighbours in the chain are at most `MAX_GAP` apart, not at the same time, and differ by no
     more than max_rate·Δt + slack. Dynamic programming: the longest chain that ends at i is one
-    longer than the longest that ends at a point i can follow.
+    longer than the longest that ends at a point i can follow. Mostly that is the point before it,
+    where none of the chains so far is longer.
 
     Args:
         t: rising [s], repeats allowed.
@@ -152,7 +153,14 @@ def longest_chain(t: Array, values: Array, max_rate: float, slack: float) -> NDA
     n = len(t)
     longest, before = np.ones(n, dtype=np.intp), np.full(n, -1, dtype=np.intp)
     first = np.searchsorted(t, t - MAX_GAP)
+    steps, jumps = np.diff(t), np.sqrt(np.sum(np.diff(values, axis=0) ** 2, axis=1))
+    near = (steps > 0.0) & (jumps <= max_rate * steps + slack) & (first[1:] < np.arange(1, n))
+    top = 1
     for i in range(1, n):
+        top = max(top, int(longest[i - 1]))
+        if near[i - 1] and longest[i - 1] == top:
+            longest[i], before[i] = top + 1, i - 1
+            continue
         window = slice(int(first[i]), i)
         jump = np.sqrt(np.sum((values[window] - values[i]) ** 2, axis=1))
         elapsed = t[i] - t[window]

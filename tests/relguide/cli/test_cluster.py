@@ -81,13 +81,13 @@ def test_a_worker_killed_half_way_loses_nothing_and_doubles_nothing(
 
 
 def test_the_commands_give_what_they_give_here(run: Run, machines: LocalCluster) -> None:
-    exact = ("dataset", "--method", "exact", "--count", "25000", "--json", "--out")
+    exact = ("dataset", "--method", "exact", "--count", "12000", "--json", "--out")
     assert run(*exact, "here.npz")[::2] == (0, "")
     assert run(*exact, "there.npz", "--dask", machines.address)[::2] == (0, "")
     here, there = (load_labels(Path(name))[0] for name in ("here.npz", "there.npz"))
     assert np.array_equal(here.situations, there.situations)
     assert np.array_equal(here.times, there.times)
-    audit = ("audit", "--count", "12000")
+    audit = ("audit", "--count", "12000", "--beside", "0")
     code, told_here, err = run(*audit)
     assert (code, err) == (0, "")
     code, told_there, err = run(*audit, "--dask", machines.address)

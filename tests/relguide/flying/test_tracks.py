@@ -16,7 +16,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from relguide.flying import tracks
-from relguide.flying.smoothing import longest_chain
 from relguide.flying.tracks import DEFAULT_LEADER, RecordedTrack, load_sample, load_track
 from relguide.planning.frames import LocalPlane
 from relguide.units import DEG, FT, KT
@@ -191,23 +190,6 @@ def test_what_is_not_airborne_is_left_out(file: Path) -> None:
     track = load_track(write_csv(file, landed))
     assert track.duration == pytest.approx(499.0, abs=6.0)
     assert min(track.ground_speed) >= tracks.AIRBORNE
-
-
-@given(
-    wrong=st.sets(st.integers(0, 99), max_size=30),
-    by=st.floats(1000.0, 1e6),
-)
-@settings(max_examples=30)
-def test_the_longest_believable_chain_has_no_jump(wrong: set[int], by: float) -> None:
-    t = np.arange(100.0)
-    values = np.column_stack([100.0 * t, np.zeros(100)])
-    for n in wrong:
-        values[n, 1] = by * (1 + n % 3)
-    chain = longest_chain(t, values, 200.0, 100.0)
-    steps = np.hypot(*np.diff(values[chain], axis=0).T)
-    assert np.all(steps <= 200.0 * np.diff(t[chain]) + 100.0)
-    assert np.all(np.diff(t[chain]) <= 30.0)
-    assert len(chain) >= (100 - len(wrong)) // 2
 
 
 # --- files that are none ------------------------------------------------------------------------
