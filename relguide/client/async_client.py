@@ -1,6 +1,6 @@
 """The client for programs that do other things meanwhile: as `Client`, awaited."""
 
-from collections.abc import AsyncIterator, Iterable, Sequence
+from collections.abc import AsyncIterator, Iterable, Mapping, Sequence
 from types import TracebackType
 from typing import Any, Self, TypeVar
 
@@ -10,10 +10,21 @@ from websockets.typing import Subprotocol
 
 from relguide.client import calls
 from relguide.client.bodies import Asked
-from relguide.client.calls import Answer, Call, Include, Invalid, Lines, PlannerName, expect_served
+from relguide.client.calls import (
+    Answer,
+    Call,
+    Include,
+    IncludeDrawn,
+    Invalid,
+    Lines,
+    PlannerName,
+    expect_served,
+    streaming,
+)
 from relguide.contract.area_bodies import AreaAnswer
 from relguide.contract.messages import FlightStatus
 from relguide.contract.protocol import STREAM
+from relguide.contract.simulation_bodies import SimulationAnswer
 from relguide.flying.documents import Document
 from relguide.flying.engagement import Engagement
 from relguide.units import Second
@@ -57,6 +68,27 @@ class AsyncClient:
     ) -> Answer:
         """As `Client.plan`."""
         return await self.ask(calls.plan(asked, max_ms=max_ms, include=include, planner=planner))
+
+    async def plan_geojson(
+        self,
+        asked: Asked,
+        *,
+        max_ms: float | None = None,
+        include: Sequence[IncludeDrawn] = (),
+        planner: PlannerName | None = None,
+    ) -> dict[str, Any]:
+        """As `Client.plan_geojson`."""
+        call = calls.plan_geojson(asked, max_ms=max_ms, include=include, planner=planner)
+        return await self.ask(call)
+
+    async def simulate(
+        self,
+        flights: Iterable[str | Asked | Mapping[str, Any]],
+        *,
+        planner: PlannerName | None = None,
+    ) -> list[SimulationAnswer]:
+        """As `Client.simulate`."""
+        return await self.ask(calls.simulate(flights, planner=planner))
 
     async def plan_batch(
         self,
@@ -114,18 +146,19 @@ class AsyncClient:
     async def watch(self, flight_id: str) -> AsyncIterator[Document]:
         """As `AsyncFlight.documents`."""
         address = calls.stream_url(self._url, flight_id)
-        async with connect(
-            address,
-            subprotocols=[Subprotocol(STREAM)],
-            additional_headers=self._headers,
-            max_size=None,
-        ) as stream:
-            async for message in stream:
-                documents, ended = calls.documents_of(message)
-                for document in documents:
-                    yield document
-                if ended:
-                    return
+        with streaming():
+            async with connect(
+                address,
+                subprotocols=[Subprotocol(STREAM)],
+                additional_headers=self._headers,
+                max_size=None,
+            ) as stream:
+                async for message in stream:
+                    documents, ended = calls.documents_of(message)
+                    for document in documents:
+                        yield document
+                    if ended:
+                        return
 
 
 class AsyncFlight:

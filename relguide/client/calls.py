@@ -1,19 +1,24 @@
 """What a program asks of the service, before it is sent, and what it gets: for both clients."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from itertools import islice
 from typing import Any, Generic, Literal, TypeVar
 
 import httpx2
 import orjson
+from pydantic import TypeAdapter
+from websockets.exceptions import ConnectionClosedError, InvalidStatus
 
 from relguide.client.bodies import Asked, body_of
 from relguide.contract.area_bodies import AreaAnswer
-from relguide.contract.messages import FlightStatus, from_wire, plan_from_wire
+from relguide.contract.messages import FlightStatus, from_wire, knows, plan_from_wire
+from relguide.contract.simulation_bodies import SimulationAnswer
 from relguide.flying.documents import Document
 from relguide.flying.engagement import Engagement
 from relguide.flying.plan_documents import NoPlanCard, PlanCard
+from relguide.planning.situation import Situation
 from relguide.units import Second
 
 T = TypeVar("T")
@@ -21,6 +26,7 @@ JSON, LINES = "application/json", "application/x-ndjson"
 AT_A_TIME = 1000
 """Most situations in one request."""
 Include = Literal["alternatives", "optimality"]
+IncludeDrawn = Literal["alternatives", "optimality", "paths"]
 PlannerName = Literal["exact", "network"]
 
 
@@ -42,7 +48,7 @@ class Refused(Exception):
     def __init__(self, status: int, detail: str, retry_after: Second | None) -> None:
         super().__init__(detail)
         self.status = status
-        """Of HTTP, e.g. 503."""
+        """Of HTTP, e.g. 503; or what a stream was closed with, e.g. 4404."""
         self.retry_after = retry_after
         """When to ask again, if the service says so [s]."""
 
@@ -93,6 +99,25 @@ def expect_served(response: httpx2.Response) -> None:
     raise Refused(response.status_code, detail, float(after) if after.isdecimal() else None)
 
 
+@contextmanager
+def streaming() -> Iterator[None]:
+    """Say what a stream refuses as requests do.
+
+    Raises:
+        Refused: if it is not opened, or closed before the flight is over.
+    """
+    try:
+        yield
+    except InvalidStatus as error:
+        sent = error.response
+        said = sent.body.decode("utf-8", "replace")[:200] or sent.reason_phrase
+        raise Refused(sent.status_code, said, None) from None
+    except ConnectionClosedError as error:
+        if error.rcvd is None:
+            raise
+        raise Refused(error.rcvd.code, error.rcvd.reason, None) from None
+
+
 def plan(
     asked: Asked,
     *,
@@ -106,8 +131,46 @@ def plan(
         path="api/v1/plans",
         params=_wish(max_ms, include, planner),
         content=orjson.dumps(body_of(asked)),
-        read=plan_from_wire,
+        read=_read_plan,
     )
+
+
+def plan_geojson(
+    asked: Asked,
+    *,
+    max_ms: float | None,
+    include: Sequence[IncludeDrawn],
+    planner: PlannerName | None,
+) -> Call[dict[str, Any]]:
+    """Plan a situation that lies on the earth, to be drawn."""
+    return Call(
+        method="POST",
+        path="api/v1/plans",
+        params={**_wish(max_ms, include, planner), "format": "geojson"},
+        content=orjson.dumps(body_of(asked)),
+        read=orjson.loads,
+    )
+
+
+def simulate(
+    flights: Iterable[str | Asked | Mapping[str, Any]], *, planner: PlannerName | None
+) -> Call[list[SimulationAnswer]]:
+    """Fly to the end at once."""
+    return Call(
+        method="POST",
+        path="api/v1/simulations",
+        params={"planner": planner or ""},
+        content=orjson.dumps([_flight(one) for one in flights]),
+        read=_read_figures,
+    )
+
+
+def _flight(asked: str | Asked | Mapping[str, Any]) -> Mapping[str, Any]:
+    if isinstance(asked, str):
+        return {"scenario": asked}
+    if isinstance(asked, Situation):
+        return {"situation": body_of(asked)}
+    return asked
 
 
 def plan_batch(
@@ -133,7 +196,7 @@ def area(asked: Asked, **wanted: Any) -> Call[AreaAnswer]:
         method="POST",
         path="api/v1/areas",
         content=orjson.dumps(body),
-        read=AreaAnswer.model_validate_json,
+        read=lambda said: AreaAnswer.model_validate_json(said, extra="ignore"),
     )
 
 
@@ -188,8 +251,9 @@ def recorded(flight_id: str, first: int) -> Call[list[tuple[int, Document]]]:
         path=f"api/v1/records/flights/{flight_id}/documents",
         params={"first": first},
         read=lambda content: [
-            (one["number"], from_wire(one["document"]))
+            (one["number"], from_wire(one["document"], extra="ignore"))
             for one in orjson.loads(content)["documents"]
+            if knows(one["document"])
         ],
     )
 
@@ -197,7 +261,8 @@ def recorded(flight_id: str, first: int) -> Call[list[tuple[int, Document]]]:
 def documents_of(text: str | bytes) -> tuple[list[Document], bool]:
     """What a message of the stream holds, and whether the flight is over."""
     tick = orjson.loads(text)
-    return [from_wire(document) for document in tick["documents"]], tick["ended"]
+    known = [document for document in tick["documents"] if knows(document)]
+    return [from_wire(document, extra="ignore") for document in known], tick["ended"]
 
 
 def stream_url(base: str, flight_id: str) -> str:
@@ -211,7 +276,7 @@ def stream_url(base: str, flight_id: str) -> str:
 
 
 def _wish(
-    max_ms: float | None, include: Sequence[Include], planner: PlannerName | None
+    max_ms: float | None, include: Sequence[str], planner: PlannerName | None
 ) -> dict[str, str | float]:
     wish: dict[str, str | float] = {"include": ",".join(include), "planner": planner or ""}
     return wish if max_ms is None else {**wish, "max_ms": max_ms}
@@ -222,11 +287,19 @@ def _read_line(line: bytes) -> Answer | Invalid:
     if content.get("status") == "invalid":
         return Invalid(str(content["message"]))
     content.pop("id", None)
-    return plan_from_wire(content)
+    return plan_from_wire(content, extra="ignore")
+
+
+def _read_plan(content: bytes) -> Answer:
+    return plan_from_wire(content, extra="ignore")
 
 
 def _read_status(content: bytes) -> FlightStatus:
-    return FlightStatus.model_validate_json(content)
+    return FlightStatus.model_validate_json(content, extra="ignore")
+
+
+def _read_figures(content: bytes) -> list[SimulationAnswer]:
+    return TypeAdapter(list[SimulationAnswer]).validate_json(content, extra="ignore")
 
 
 def _read_nothing(content: bytes) -> None:

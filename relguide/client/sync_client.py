@@ -1,6 +1,7 @@
 """The client for programs that wait: each method asks, and gives the answer."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import partial
 from types import TracebackType
 from typing import Any, Self, TypeVar
 
@@ -10,10 +11,21 @@ from websockets.typing import Subprotocol
 
 from relguide.client import calls
 from relguide.client.bodies import Asked
-from relguide.client.calls import Answer, Call, Include, Invalid, Lines, PlannerName, expect_served
+from relguide.client.calls import (
+    Answer,
+    Call,
+    Include,
+    IncludeDrawn,
+    Invalid,
+    Lines,
+    PlannerName,
+    expect_served,
+    streaming,
+)
 from relguide.contract.area_bodies import AreaAnswer
 from relguide.contract.messages import FlightStatus
 from relguide.contract.protocol import STREAM
+from relguide.contract.simulation_bodies import SimulationAnswer
 from relguide.flying.documents import Document
 from relguide.flying.engagement import Engagement
 from relguide.units import Second
@@ -74,6 +86,36 @@ class Client:
             planner: who plans; the service's own if left out.
         """
         return self.ask(calls.plan(asked, max_ms=max_ms, include=include, planner=planner))
+
+    def plan_geojson(
+        self,
+        asked: Asked,
+        *,
+        max_ms: float | None = None,
+        include: Sequence[IncludeDrawn] = (),
+        planner: PlannerName | None = None,
+    ) -> dict[str, Any]:
+        """Plan a situation that lies on the earth (latitudes in its body), as GeoJSON.
+
+        The object has the features and the members of the plan. Arguments as `plan`, and `paths` in
+        `include` draws the other paths.
+        """
+        call = calls.plan_geojson(asked, max_ms=max_ms, include=include, planner=planner)
+        return self.ask(call)
+
+    def simulate(
+        self,
+        flights: Iterable[str | Asked | Mapping[str, Any]],
+        *,
+        planner: PlannerName | None = None,
+    ) -> list[SimulationAnswer]:
+        """Fly flights to their end at once, up to 32, and give the figures of each.
+
+        Args:
+            flights: names of scenarios, situations, or bodies as `POST /simulations` takes them.
+            planner: who plans.
+        """
+        return self.ask(calls.simulate(flights, planner=planner))
 
     def plan_batch(
         self,
@@ -145,12 +187,14 @@ class Client:
     def watch(self, flight_id: str) -> Iterator[Document]:
         """As `Flight.documents`."""
         address = calls.stream_url(self._url, flight_id)
-        with connect(
+        opened = partial(
+            connect,
             address,
             subprotocols=[Subprotocol(STREAM)],
             additional_headers=self._headers,
             max_size=None,
-        ) as stream:
+        )
+        with streaming(), opened() as stream:
             for message in stream:
                 documents, ended = calls.documents_of(message)
                 yield from documents

@@ -5,12 +5,21 @@ for reading them back, for the OpenAPI document and for the browser's types.
 """
 
 from collections.abc import Mapping
-from dataclasses import is_dataclass
+from dataclasses import fields, is_dataclass, make_dataclass
 from enum import Enum
 from functools import cache, reduce
 from operator import or_
 from types import UnionType
-from typing import Annotated, Any, Literal, Union, get_args, get_origin
+from typing import (
+    Annotated,
+    Any,
+    Literal,
+    Protocol,
+    Union,
+    get_args,
+    get_origin,
+    runtime_checkable,
+)
 
 from pydantic import (
     BaseModel,
@@ -39,6 +48,8 @@ from relguide.flying.plan_documents import (
 from relguide.flying.verdicts import OptimalityCheck
 from relguide.planning.limits import SPACING
 
+Extra = Literal["forbid", "ignore"]
+"""What to do with fields that are not known: a newer program's are ignored by who only reads."""
 _TAGS = ("kind", "status", "rejected")
 
 
@@ -53,6 +64,7 @@ _GEODETIC = Field(
 )
 _MODELS: dict[type[Any], type[BaseModel]] = {}
 _DATACLASSES: dict[type[BaseModel], type[Any]] = {}
+_PLACED: dict[type[Any], type[Any]] = {}
 
 
 def model_of(document_type: type[Any]) -> type[BaseModel]:
@@ -131,6 +143,12 @@ AlternativeModel: Any = _json_type(AnyAlternativeCard)
 ReferenceModel: Any = _json_type(ReferenceCard)
 """What guidance asks of the autopilot."""
 _DOCUMENT: TypeAdapter[BaseModel] = TypeAdapter(DocumentModel)
+_KINDS = {
+    field.default
+    for document_type in get_args(Document)
+    for field in fields(document_type)
+    if field.name == "kind"
+}
 
 Rate = Annotated[float, Field(ge=1.0, le=60.0)]
 """Accepted simulated seconds per second."""
@@ -140,30 +158,36 @@ SpacingTime = Annotated[float, Field(gt=0.0, le=SPACING.high)]
 """Accepted times behind the leader [s]."""
 
 
-def from_wire(source: bytes | str | Mapping[str, object]) -> Document:
-    """Read a document back from its JSON.
+def from_wire(source: bytes | str | Mapping[str, object], *, extra: Extra = "forbid") -> Document:
+    """Read a document back from its JSON. A point with latitude and longitude is a `Placed` one.
+
+    Args:
+        source: its JSON.
+        extra: what to do with fields that are not known.
 
     Raises:
         ContractError: naming each field that is wrong.
     """
     content = loads(source) if isinstance(source, bytes | str) else source
     try:
-        model = _DOCUMENT.validate_python(content)
+        model = _DOCUMENT.validate_python(content, extra=extra)
     except ValidationError as error:
         raise refusal(error, content) from None
     document: Document = _from_model(model)
     return document
 
 
-def plan_from_wire(source: bytes | str | Mapping[str, object]) -> PlanCard | NoPlanCard:
-    """Read the answer to a situation back from its JSON.
+def plan_from_wire(
+    source: bytes | str | Mapping[str, object], *, extra: Extra = "forbid"
+) -> PlanCard | NoPlanCard:
+    """Read the answer to a situation back from its JSON, as `from_wire`.
 
     Raises:
         ContractError: naming each field that is wrong.
     """
     content = loads(source) if isinstance(source, bytes | str) else source
     try:
-        model = _plan_answers().validate_python(content)
+        model = _plan_answers().validate_python(content, extra=extra)
     except ValidationError as error:
         raise refusal(error, content) from None
     answer: PlanCard | NoPlanCard = _from_model(model)
@@ -177,9 +201,28 @@ def _plan_answers() -> TypeAdapter[Any]:
 
 def _from_model(model: BaseModel) -> Any:
     document_type = _DATACLASSES[type(model)]
-    return document_type(
-        **{f.name: _decode(f, getattr(model, f.wire_name)) for f in wire_fields(document_type)}
+    members = {f.name: _decode(f, getattr(model, f.wire_name)) for f in wire_fields(document_type)}
+    lat, lon = getattr(model, "lat_deg", None), getattr(model, "lon_deg", None)
+    if lat is None or lon is None:
+        return document_type(**members)
+    kind = type(lat) if isinstance(lat, float) else tuple
+    return _placed(document_type)(**members, lat_deg=kind(lat), lon_deg=kind(lon))
+
+
+def _placed(document_type: type[Any]) -> type[Any]:
+    """A document type with a place on the earth."""
+    if (known := _PLACED.get(document_type)) is not None:
+        return known
+    made = make_dataclass(
+        document_type.__name__,
+        [(name, float) for name in ("lat_deg", "lon_deg")],
+        bases=(document_type,),
+        namespace={"__doc__": document_type.__doc__, "__module__": document_type.__module__},
+        frozen=True,
+        slots=True,
+        kw_only=True,
     )
+    return _PLACED.setdefault(document_type, made)
 
 
 def _decode(field: WireField, value: Any) -> Any:
@@ -191,6 +234,24 @@ def _decode(field: WireField, value: Any) -> Any:
     if isinstance(field.annotation, type) and issubclass(field.annotation, Enum):
         return field.annotation(value)
     return field.decode_number(value)
+
+
+@runtime_checkable
+class Placed(Protocol):
+    """What has a place on the earth (WGS84); of columns of points each is a tuple."""
+
+    @property
+    def lat_deg(self) -> Any:
+        """Latitude [°]."""
+
+    @property
+    def lon_deg(self) -> Any:
+        """Longitude [°]."""
+
+
+def knows(content: Mapping[str, object]) -> bool:
+    """Whether an object in JSON is a kind of document that `from_wire` reads."""
+    return content.get("kind") in _KINDS
 
 
 class Tick(Strict):

@@ -3,18 +3,22 @@
 import asyncio
 from collections.abc import Iterator
 from math import radians
+from typing import Any
 
+import orjson
 import pytest
 from hypothesis import given, settings
 from relguide_server.app import create_app
 from relguide_server.records.keeper import keep
 from relguide_server.settings import Settings
 
-from relguide.client import AsyncClient, Client, Invalid, Refused, calls
+from relguide.client import AsyncClient, Client, Invalid, Placed, Refused, calls
 from relguide.client.bodies import body_of
-from relguide.contract.bodies import situation_from_json
+from relguide.contract.bodies import UNANCHORED, plan_to_wire, situation_from_json
+from relguide.contract.wire import to_wire
+from relguide.flying.cards import plan_card
 from relguide.flying.documents import FlightStarted, Sample
-from relguide.flying.plan_documents import NoPlanCard, PlanCard
+from relguide.flying.plan_documents import NoPlanCard, PathPoint, PlanCard
 from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
 from tests.bodies import BODY
@@ -23,6 +27,10 @@ from tests.server.serving import ideal_app, ideal_departures, serve
 from tests.situations import situations
 
 SITUATION, _ = situation_from_json(BODY)
+AIRCRAFT = {
+    name: {k: v for k, v in BODY[name].items() if k not in ("x_m", "y_m")}
+    for name in ("pursuer", "leader")
+}
 
 
 @pytest.fixture(scope="module")
@@ -78,6 +86,77 @@ def test_a_plan_is_the_librarys_own(client: Client) -> None:
         assert theirs.alternatives
     far = {**BODY, "leader": {**BODY["leader"], "tas_mps": 300.0}}
     assert isinstance(client.plan(far, max_ms=10_000), NoPlanCard)
+
+
+PLACED = {
+    **BODY,
+    "pursuer": {**AIRCRAFT["pursuer"], "lat_deg": 50.3, "lon_deg": 8.0},
+    "leader": {**AIRCRAFT["leader"], "lat_deg": 50.0, "lon_deg": 8.0},
+}
+
+
+def test_latitudes_are_kept(client: Client) -> None:
+    card = client.plan(PLACED, max_ms=10_000)
+    assert isinstance(card, PlanCard)
+    start = card.segments[0].start
+    assert isinstance(start, PathPoint)
+    assert isinstance(start, Placed)
+    assert (start.lat_deg, start.lon_deg) == pytest.approx((50.3, 8.0))
+    assert isinstance(card.segments[-1].end, Placed)
+    plain = client.plan(BODY, max_ms=10_000)
+    assert isinstance(plain, PlanCard)
+    assert not isinstance(plain.segments[0].start, Placed)
+
+
+def test_a_plan_is_drawn(client: Client) -> None:
+    drawn = client.plan_geojson(PLACED, max_ms=10_000, include=["paths"])
+    assert drawn["status"] == "planned"
+    assert {"path", "leader", "slot"} < {feature["id"] for feature in drawn["features"]}
+    with pytest.raises(Refused, match="lat_deg"):
+        client.plan_geojson(SITUATION)
+
+
+def test_flights_are_flown_at_once(client: Client) -> None:
+    by_name, by_situation = client.simulate(["fig_6b", SITUATION])
+    assert (by_name.scenario, by_situation.scenario) == ("fig_6b", "")
+    assert by_name.joined
+
+
+def test_what_a_newer_service_adds_is_passed_over(client: Client) -> None:
+    plan_read = calls.plan(BODY, max_ms=None, include=(), planner=None).read
+    sent = plan_to_wire(plan_card(plan(SITUATION)), UNANCHORED)
+    assert plan_read(orjson.dumps(sent)) == plan_read(orjson.dumps(with_news(sent)))
+    flight = client.fly("ideal", rate=60.0)
+    status = orjson.dumps(with_news(flight.status().model_dump()))
+    assert calls.status("").read(status).id == flight.id
+    started, *_ = flight.documents()
+    tick = {"ended": False, "documents": [with_news(to_wire(started)), {"kind": "weather_changed"}]}
+    assert calls.documents_of(orjson.dumps(tick)) == ([started], False)
+    flight.end()
+
+
+def with_news(said: Any) -> Any:
+    """An object with a member in it that nobody knows, and so in each object of it."""
+    match said:
+        case dict():
+            return {name: with_news(part) for name, part in said.items()} | {"news": [1]}
+        case list():
+            return [with_news(part) for part in said]
+        case _:
+            return said
+
+
+def test_a_stream_that_is_refused_says_why(client: Client, url: str) -> None:
+    with pytest.raises(Refused, match="There is no such flight") as refused:
+        next(client.watch("none"))
+    assert refused.value.status == 4404
+
+    async def ask() -> None:
+        async with AsyncClient(url) as waiting:
+            with pytest.raises(Refused, match="There is no such flight"):
+                await anext(aiter(waiting.watch("none")))
+
+    asyncio.run(ask())
 
 
 def test_a_batch_has_an_answer_a_line(client: Client) -> None:
@@ -148,6 +227,8 @@ def test_the_same_without_waiting(url: str) -> None:
             await flight.end()
             assert (await client.records(limit=1))[0]["id"] == flight.id
             assert [d async for d in client.recorded(flight.id)]
+            assert (await client.plan_geojson(PLACED, max_ms=10_000))["status"] == "planned"
+            assert [one.joined for one in await client.simulate(["fig_6b"])] == [True]
             assert (await client.area(BODY, columns=5, rows=5)).grid.columns == 5
 
     asyncio.run(ask())
