@@ -9,6 +9,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, is_dataclass
 from enum import Enum
 from math import degrees, isfinite, radians
+from operator import attrgetter
 from types import UnionType
 from typing import (
     TYPE_CHECKING,
@@ -113,7 +114,11 @@ def to_wire(document: "Document | Card") -> dict[str, Any]:
     Raises:
         ValueError: if a number in it is not finite; JSON has no such numbers.
     """
-    return {f.wire_name: f.encode(getattr(document, f.name)) for f in wire_fields(type(document))}
+    names, encoders, values_of = _encoding(type(document))
+    return {
+        name: encode(value)
+        for name, encode, value in zip(names, encoders, values_of(document), strict=True)
+    }
 
 
 def dumps(document: "Document | Card") -> bytes:
@@ -186,6 +191,23 @@ def wire_fields(document_type: type[Any]) -> tuple[WireField, ...]:
     described = [_describe(f.name, hints[f.name], document_type) for f in fields(document_type)]
     described.sort(key=lambda f: f.name not in TAGS)
     return _FIELDS.setdefault(document_type, tuple(described))
+
+
+_ENCODINGS: dict[type[Any], tuple[tuple[str, ...], tuple[Convert, ...], Convert]] = {}
+
+
+def _encoding(document_type: type[Any]) -> tuple[tuple[str, ...], tuple[Convert, ...], Convert]:
+    """Names in JSON, what encodes each value, and what takes all values out of a document."""
+    if (known := _ENCODINGS.get(document_type)) is not None:
+        return known
+    every = wire_fields(document_type)
+    names = tuple(f.wire_name for f in every)
+    values_of: Convert = attrgetter(*(f.name for f in every))
+    if len(every) == 1:
+        (only,) = every
+        values_of = lambda document: (getattr(document, only.name),)  # noqa: E731
+    found = names, tuple(f.encode for f in every), values_of
+    return _ENCODINGS.setdefault(document_type, found)
 
 
 def _describe(name: str, hint: Any, owner: type[Any]) -> WireField:

@@ -3,7 +3,7 @@
 The paper numbers the pieces backward from the slot; here they run forward from 0.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import chain
 from math import inf, isfinite
 from typing import Literal
@@ -116,6 +116,10 @@ class Trajectory:
     """True airspeed [m/s], > 0."""
     segments: tuple[Segment, ...]
     """In the order they are flown."""
+    _breakpoints: tuple[Pose, ...] | None = field(
+        default=None, init=False, repr=False, compare=False
+    )
+    """Found when first asked for."""
 
     def __post_init__(self) -> None:
         """Refuse what no aircraft could fly."""
@@ -153,6 +157,7 @@ class Trajectory:
         settle(made, "heading", heading)
         settle(made, "tas", tas)
         settle(made, "segments", segments)
+        settle(made, "_breakpoints", None)
         return made
 
     @property
@@ -229,13 +234,17 @@ class Trajectory:
 
     def breakpoints(self) -> tuple[Pose, ...]:
         """Start of the first segment, then the end of each."""
+        if self._breakpoints is not None:
+            return self._breakpoints
         poses = [Pose(x=self.x, y=self.y, heading=wrap(self.heading))]
         x, y, heading = self.x, self.y, self.heading
         for segment in self.segments:
             for length, curvature in segment.bends:
                 x, y, heading = advance(x, y, heading, 1.0, curvature, length)
             poses.append(Pose(x=x, y=y, heading=wrap(heading)))
-        return tuple(poses)
+        found = tuple(poses)
+        object.__setattr__(self, "_breakpoints", found)
+        return found
 
 
 def pieces_text(trajectory: Trajectory) -> str:

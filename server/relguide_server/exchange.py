@@ -45,10 +45,15 @@ async def read_body(request: Request, *types: str, most: int = SMALL) -> bytes:
     declared = request.headers.get("content-length", "0")
     if declared.isdecimal() and int(declared) > most:
         raise _too_long(most)
-    parts, size = [], 0
+    parts, size, more = [], 0, True
     try:
         async with asyncio.timeout(BODY_PATIENCE):
-            async for part in request.stream():
+            while more:
+                message = await request.receive()
+                if message["type"] == "http.disconnect":
+                    raise ClientDisconnect
+                part = message.get("body", b"")
+                more = message.get("more_body", False)
                 size += len(part)
                 if size > most:
                     raise _too_long(most)
@@ -56,7 +61,7 @@ async def read_body(request: Request, *types: str, most: int = SMALL) -> bytes:
     except TimeoutError:
         late = f"The body did not come within {BODY_PATIENCE:.0f} s."
         raise Refusal(408, late, headers={"Connection": "close"}) from None
-    return b"".join(parts)
+    return parts[0] if len(parts) == 1 else b"".join(parts)
 
 
 def _too_long(most: int) -> Refusal:

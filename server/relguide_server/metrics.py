@@ -85,6 +85,7 @@ class Metrics:
             registry=self.registry,
         )
         self._largest_loss = 0.0
+        self._plans: dict[str, Counter] = {}
         self._requests: dict[tuple[str, str, int], tuple[Counter, Histogram]] = {}
         for status in ("planned", "no_plan", "invalid"):
             self.plans.labels(status)
@@ -108,7 +109,9 @@ class Metrics:
             reason: why there is no plan; empty if there is one.
             seconds: how long it took.
         """
-        self.plans.labels(status).inc()
+        if (counted := self._plans.get(status)) is None:
+            counted = self._plans[status] = self.plans.labels(status)
+        counted.inc()
         if reason:
             self.no_plans.labels(reason).inc()
         self.plan_seconds.observe(seconds)
