@@ -10,6 +10,7 @@ from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
+from math import inf
 from typing import TYPE_CHECKING
 
 from relguide.flying.documents import Sample
@@ -84,7 +85,7 @@ class Writer:
         """Begin to save."""
         self._stopping = False
         self._thread = threading.Thread(
-            target=run_logged, args=("Recording", self._write), name="records", daemon=True
+            target=run_logged, args=("Recording", self._run), name="records", daemon=True
         )
         self._thread.start()
 
@@ -143,6 +144,12 @@ class Writer:
 
     # -- its thread -------------------------------------------------------------------------------
 
+    def _run(self) -> None:
+        try:
+            self._write()
+        finally:  # whatever ended it, nothing more is saved
+            self._tell(inf, saved=False)
+
     def _write(self) -> None:
         while True:
             with self._changed:
@@ -154,7 +161,8 @@ class Writer:
                 self._backlog.take(entry, trouble=bool(self.trouble))
             if stopping or self._clock.elapsed() >= self._retry_at:
                 self._try(ticket)
-            self._answer(0)
+            if self.trouble:
+                self._tell(inf, saved=False)
             if stopping:
                 break
 
@@ -183,17 +191,17 @@ class Writer:
         if self.trouble:
             log.warning("Flights are recorded again.")
             self.trouble, self._backoff = "", RETRY
-        self._answer(ticket)
+        self._tell(ticket, saved=True)
         self._look_around(self.store)
 
-    def _answer(self, ticket: int) -> None:
-        """Tell those who wait that all up to a number is saved; or, in trouble, that it is not."""
+    def _tell(self, last: float, *, saved: bool) -> None:
+        """Tell those who wait for entries up to a number whether these are saved."""
         with self._changed:
-            done = [(n, future) for n, future in self._waiting if n <= ticket or self.trouble]
-            self._waiting = [(n, f) for n, f in self._waiting if not (n <= ticket or self.trouble)]
-        for number, future in done:
+            told = [future for number, future in self._waiting if number <= last]
+            self._waiting = [(number, f) for number, f in self._waiting if number > last]
+        for future in told:
             with suppress(RuntimeError):  # the loop is closed: nobody waits any more
-                future.get_loop().call_soon_threadsafe(_resolve, future, number <= ticket)
+                future.get_loop().call_soon_threadsafe(_resolve, future, saved)
 
     def _look_around(self, store: "Store") -> None:
         """Notice killed runs, a while after the start and now and then, and forget what is old."""

@@ -216,7 +216,8 @@ def test_a_mistake_in_the_recording_ends_no_flight(
 ) -> None:
     monkeypatch.delattr("relguide_server.records.reel.Reel.add")
     answer = client.post("/api/v1/flights", json={"scenario": "ideal"})
-    assert answer.status_code == 201
+    assert (answer.status_code, answer.headers["relguide-recorded"]) == (201, "no")
+    assert answer.elapsed.total_seconds() < 5.0  # it does not wait for what has ended
     wait_for(lambda: client.get("/readyz").json()["records"]["status"] == "waiting")
     assert "mistake" in client.get("/readyz").json()["records"]["message"]
     assert client.get(answer.headers["location"]).json()["ended"] is False
