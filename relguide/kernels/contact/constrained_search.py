@@ -39,7 +39,7 @@ from relguide.kernels.words.delay import DELAY_PIECES
 
 _AT_LIMIT = 1.02  # a slot less far out, in d_min, is reached by boundary arcs of a few degrees
 _CHAINS = 4  # of the graph, refined
-_PER_HOP = 5  # so many bearings on the disc let one contact be followed to all others
+_PER_HOP = 2  # so many bearings on the disc let one contact be followed to all others
 _NEARLY = 0.07  # how much a chain may fall below what the graph sees of it [R/V_P]
 
 

@@ -36,7 +36,7 @@ from relguide.kernels.words.extremals import MAX_ROWS, solve
 
 _TRIES = 4  # times the hops of a round: so many nodes are left by a delay path, 0.3 ms each
 _ROUNDS = 3  # of hops, with boundary arcs before and after: chains with up to two hops
-_BESIDE = 0.05  # nodes this close lead to the same places: 3° [rad]
+_BESIDE = 0.1  # nodes this close lead to the same places: 6° [rad]
 _BETTER = 1e-9  # a label must fall by more than this [R/V_P], or rounding goes round in circles
 
 

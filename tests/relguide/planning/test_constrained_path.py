@@ -322,3 +322,62 @@ def test_round_a_leader_who_turns_with_a_slot_at_the_limit_narrow_windows_are_se
     answer = plan(situation)
     assert isinstance(answer, Plan)
     assert answer.time_to_converge < best + 0.01
+
+
+BEHIND_TURNS = (
+    (
+        Situation(
+            pursuer=Pursuer(
+                x=0.0, y=0.0, heading=4.34571206841025, tas=241.04196093889954,
+                max_bank=0.3674458466660752,
+            ),
+            leader=Leader(
+                x=-41_872.08835332739, y=47_097.954555520584, heading=1.8023260507096657,
+                tas=207.66135829002053,
+                intent=(
+                    FlyStraight(duration=32.94053620109171),
+                    TurnTo(heading=3.4860417234537806, turn=RIGHT, bank=0.40897735006415353),
+                    FlyStraight(duration=95.55064115785514),
+                    TurnTo(heading=0.7759944676968817, turn=RIGHT, bank=0.3411091037205833),
+                ),
+            ),
+            slot_distance=56_309.244026398825,
+            min_separation=54_896.88342595833,
+            wind=Wind(east=32.612681586135395, north=15.979047468656772),
+        ),
+        656.378,
+    ),
+    (
+        Situation(
+            pursuer=Pursuer(
+                x=0.0, y=0.0, heading=0.4194349037400808, tas=200.10099243328776,
+                max_bank=0.5105160761794332,
+            ),
+            leader=Leader(
+                x=-23_317.956723638228, y=13_434.85317022307, heading=0.9287222656243013,
+                tas=123.59661314118085,
+                intent=(
+                    FlyStraight(duration=29.939066971509764),
+                    TurnTo(heading=5.12741017860453, turn=RIGHT, bank=0.3380396935639912),
+                    FlyStraight(duration=11.952859804729336),
+                    TurnTo(heading=1.1398331640294928, turn=RIGHT, bank=0.29130593377044267),
+                ),
+            ),
+            slot_distance=33_447.0085481179,
+            min_separation=26_183.183948430888,
+        ),
+        559.534,
+    ),
+)  # fmt: skip
+"""With what the release leaves of the time: a few contacts followed to others were not enough."""
+
+
+@pytest.mark.parametrize(("situation", "best"), BEHIND_TURNS)
+def test_many_contacts_are_followed_to_others_before_a_late_plan_is_taken(
+    situation: Situation, best: float
+) -> None:
+    answer = plan(situation)
+    assert isinstance(answer, Plan)
+    assert answer.certificate.holds
+    assert answer.arrival.holds
+    assert answer.time_to_converge == pytest.approx(best, abs=0.1)
