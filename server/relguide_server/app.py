@@ -33,7 +33,7 @@ from relguide_server.accounts import Accounts
 from relguide_server.departures import Departures, library_departures
 from relguide_server.drift import DriftCheck
 from relguide_server.errors import install_handlers
-from relguide_server.exchange import json_answer
+from relguide_server.exchange import Bodies, json_answer
 from relguide_server.guards import BodyLimit, HeadAsGet, StrictHeaders
 from relguide_server.jobs import load
 from relguide_server.live_fleet import Fleet
@@ -130,7 +130,7 @@ def create_app(
         docs_url=None,
         redoc_url=None,
     )
-    app.state.workers = workers
+    app.state.workers, app.state.bodies = workers, Bodies()
     app.state.desk = PlanDesk(
         name, planner, quick=quick, preparation=preparation, workers=workers, metrics=metrics
     )

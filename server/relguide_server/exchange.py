@@ -23,8 +23,24 @@ SMALL = 16 * 1024
 hold."""
 BODY_PATIENCE = 15.0
 """How long a body may take to come [s]."""
+STOPPING = "The service is stopping, and waits for the rest of the body no longer."
 JSON = "application/json"
 GEOJSON = "application/geo+json"
+
+
+class Bodies:
+    """Bodies that are still to come. Lives on the event loop."""
+
+    def __init__(self) -> None:
+        self.coming: set[asyncio.Timeout] = set()
+        self.stopped = False
+
+    def stop(self) -> None:
+        """Wait for none of them any more."""
+        self.stopped = True
+        now = asyncio.get_running_loop().time()
+        for patience in self.coming:
+            patience.reschedule(now)
 
 
 async def read_body(request: Request, *types: str, most: int = SMALL) -> bytes:
@@ -37,7 +53,7 @@ async def read_body(request: Request, *types: str, most: int = SMALL) -> bytes:
 
     Raises:
         Refusal: 415, if it is declared to be something else; 413, if it is longer; 408, if it does
-            not come.
+            not come; 503, if the service stops before it has come.
     """
     # A page of another site can send most other types without the browser's permission.
     if content_type(request) not in types:
@@ -46,8 +62,11 @@ async def read_body(request: Request, *types: str, most: int = SMALL) -> bytes:
     if declared.isdecimal() and int(declared) > most:
         raise _too_long(most)
     parts, size, more = [], 0, True
+    bodies: Bodies = request.app.state.bodies
+    patience = asyncio.timeout(0.0 if bodies.stopped else BODY_PATIENCE)
+    bodies.coming.add(patience)
     try:
-        async with asyncio.timeout(BODY_PATIENCE):
+        async with patience:
             while more:
                 message = await request.receive()
                 if message["type"] == "http.disconnect":
@@ -59,8 +78,13 @@ async def read_body(request: Request, *types: str, most: int = SMALL) -> bytes:
                     raise _too_long(most)
                 parts.append(part)
     except TimeoutError:
+        if bodies.stopped:
+            again = {"Retry-After": "5", "Connection": "close"}
+            raise Refusal(503, STOPPING, kind="stopping", headers=again) from None
         late = f"The body did not come within {BODY_PATIENCE:.0f} s."
         raise Refusal(408, late, headers={"Connection": "close"}) from None
+    finally:
+        bodies.coming.discard(patience)
     return parts[0] if len(parts) == 1 else b"".join(parts)
 
 

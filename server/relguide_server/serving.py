@@ -74,13 +74,14 @@ class Server(uvicorn.Server):
     """Uvicorn's server, which tells streams and requests why they end."""
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
-        """Stop: streams end with a sentence, and so do jobs; requests have a second."""
+        """Stop: streams, jobs and bodies to come end with a sentence; requests have a second."""
         app = self.config.loaded_app
         while not isinstance(app, FastAPI):
             app = app.app
         fleet: Fleet = app.state.fleet
         workers: Workers = app.state.workers
         fleet.dismiss()
+        app.state.bodies.stop()
         await workers.stop()
         await asyncio.sleep(TO_SAY_GOODBYE)
         await super().shutdown(sockets)

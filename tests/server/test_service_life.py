@@ -11,6 +11,7 @@ import time
 from collections.abc import Callable
 
 import httpx2 as httpx
+import pytest
 import viser
 from relguide_server.app import create_app
 from relguide_server.settings import Settings
@@ -56,6 +57,32 @@ def test_nothing_is_left_after_shutdown() -> None:
     assert time.monotonic() - stopping < 5.0
     assert threading.active_count() <= threads
     assert len(os.listdir("/proc/self/fd")) <= descriptors
+
+
+def test_bodies_that_do_not_come_are_answered_as_it_stops(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    head = (
+        "POST {path} HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
+        "Content-Length: 100\r\n\r\n{{"
+    )
+    with serve(ideal_app()) as address, contextlib.ExitStack() as opened:
+        host, _, port = address.partition(":")
+        sockets = []
+        for path in ("/api/v1/plans", "/api/v1/plans/batch", "/api/v1/flights", "/api/v1/areas"):
+            sockets.append(opened.enter_context(socket.create_connection((host, int(port)))))
+            sockets[-1].sendall(head.format(path=path).encode())
+        kept = opened.pop_all()
+        time.sleep(0.3)
+        stopping = time.monotonic()
+    with kept:
+        assert time.monotonic() - stopping < 3.0
+        for waiting in sockets:
+            answer = waiting.recv(4096).decode()
+            assert answer.startswith("HTTP/1.1 503")
+            assert "retry-after: 5" in answer
+            assert "#stopping" in answer
+    assert not [record for record in caplog.records if record.exc_info]
 
 
 def test_processes_plan_what_takes_longer_and_leave_with_it() -> None:
