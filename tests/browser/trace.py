@@ -21,6 +21,12 @@ PARTS = {
     "LayoutDuration": "layout",
 }
 """What a browser tells apart."""
+COUNT = """() => {
+  window.pictures = 0;
+  const request = window.requestAnimationFrame.bind(window);
+  window.requestAnimationFrame = (draw) => { pictures += 1; return request(draw); };
+}"""
+"""Counts the pictures that the page asks for, and asks for none itself."""
 
 
 def main(seconds: int) -> None:
@@ -43,28 +49,25 @@ def main(seconds: int) -> None:
 
 
 def cost(page: Page, seconds: int) -> str:
-    """Share of a core on the main thread, frames, and layouts, in so many seconds."""
+    """Share of a core on the main thread, pictures, and layouts, in so many seconds."""
     session = page.context.new_cdp_session(page)
     # its own time on the processor: what others take from it on a busy machine is not counted
     session.send("Performance.enable", {"timeDomain": "threadTicks"})
-    page.evaluate(
-        "() => { window.frames60 = 0; const f = () => { frames60 += 1; requestAnimationFrame(f); };"
-        " requestAnimationFrame(f); }"
-    )
+    page.evaluate(COUNT)
 
     def read() -> dict[str, float]:
         metrics = session.send("Performance.getMetrics")["metrics"]
         return {each["name"]: each["value"] for each in metrics}
 
-    before, first = read(), page.evaluate("frames60")
+    before, first = read(), page.evaluate("pictures")
     page.wait_for_timeout(1000 * seconds)
-    after, last = read(), page.evaluate("frames60")
-    frames, layouts = last - first, after["LayoutCount"] - before["LayoutCount"]
+    after, last = read(), page.evaluate("pictures")
+    pictures, layouts = last - first, after["LayoutCount"] - before["LayoutCount"]
     shares = ", ".join(
         f"{100.0 * (after[name] - before[name]) / seconds:.1f} % {said}"
         for name, said in PARTS.items()
     )
-    return f"{shares} of a core; {frames} frames and {layouts:.0f} layouts in {seconds} s"
+    return f"{shares} of a core; {pictures} pictures and {layouts:.0f} layouts in {seconds} s"
 
 
 if __name__ == "__main__":

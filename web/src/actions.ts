@@ -47,7 +47,7 @@ function sayHeading(heading: number): string {
 /** The actions of a page, and `open`, which begins: joins the flight of the address, or starts one. */
 export function createActions(
   session: Session,
-  store: FlightStore,
+  store: Pick<FlightStore, "receive" | "link">,
 ): Actions & { open(address: URLSearchParams): Promise<void> } {
   let stream: Stream | null = null;
   let again: ReturnType<typeof setTimeout> | null = null;

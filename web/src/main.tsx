@@ -1,4 +1,4 @@
-/** Puts the cockpit together: store, stream, page, and the one loop that moves the picture. */
+/** Puts the cockpit together: store, stream, page, and what draws the picture again and again. */
 
 import "@fontsource/b612/latin-400.css";
 import "@fontsource/b612/latin-700.css";
@@ -19,6 +19,7 @@ import { followFirstStart } from "./first-start";
 import { isTaken, keyAction } from "./keyboard";
 import { followAddress } from "./map/address";
 import { followMap } from "./map/asking";
+import { drawPictures } from "./pace";
 import { keepPreferences } from "./preferences";
 import { createSession } from "./session";
 import { soundAlerts } from "./sound";
@@ -26,7 +27,8 @@ import { createFlightStore } from "./store/flight";
 
 const store = createFlightStore();
 const session = createSession(store.flight, followFirstStart());
-const actions = createActions(session, store);
+const receive = drawPictures(store, session);
+const actions = createActions(session, { link: store.link, receive });
 keepPreferences(session);
 soundAlerts(session);
 followRange(session);
@@ -44,11 +46,5 @@ addEventListener("keydown", (event) => {
   event.preventDefault();
   act();
 });
-
-function animate(wall: number): void {
-  requestAnimationFrame(animate);
-  store.advance(wall);
-}
-requestAnimationFrame(animate);
 
 void actions.open(new URL(location.href).searchParams);
