@@ -17,7 +17,13 @@ from relguide.flying.guidance.announcements import (
     leader_change,
 )
 from relguide.flying.guidance.assignment import Assignment
-from relguide.flying.guidance.committed import Committed, place_on, situation_now, slot_mismatch
+from relguide.flying.guidance.committed import (
+    Committed,
+    begun_now,
+    place_on,
+    situation_now,
+    slot_mismatch,
+)
 from relguide.flying.guidance.converge import NoProposal, NotBetter, Proposal
 from relguide.flying.guidance.forecast import NO_COURSE
 from relguide.flying.guidance.leader_news import (
@@ -116,8 +122,11 @@ def _try_to_plan(
         clear = min(assignment.min_separation + settings.escape_room, assignment.aim)
         if not rested or belief.separation < clear:
             return memory, []
-    found = converge.propose(belief, assignment, None, planner)
-    memory = memory._replace(asked=t)
+    # Of two ways round that are as fast, the one that the crew accepted is flown.
+    accepted = memory.proposed
+    like = None if accepted is None else begun_now(accepted.path, belief)
+    found = converge.propose(belief, assignment, None, planner, like=like, stay=settings.shown_time)
+    memory = memory._replace(asked=t, proposed=None)
     memory, events = count_refusal(memory, found)
     if isinstance(found, NoProposal):
         return say_no_plan(memory, belief, assignment, found.answer, events)

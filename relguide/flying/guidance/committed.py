@@ -129,6 +129,12 @@ def lead_in(belief: Belief, assignment: Assignment, committed: Committed | None)
     return LeadIn(seconds=seconds, pursuer=pursuer, leader=leader, pieces=pieces, start=start)
 
 
+def begun_now(path: Trajectory, belief: Belief) -> Trajectory:
+    """A path with the same turns and lengths, from where the aircraft is."""
+    own = belief.own
+    return replace(path, x=own.x, y=own.y, heading=wrap(own.heading))
+
+
 def situation_now(belief: Belief, assignment: Assignment) -> Situation:
     """The situation as it is, with V_P and the bank of the plans."""
     own = belief.own

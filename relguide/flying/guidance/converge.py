@@ -77,6 +77,7 @@ def propose(
     committed: Committed | None,
     planner: Planner,
     *,
+    like: Trajectory | None = None,
     stay: Second = 0.0,
 ) -> Proposal | NoProposal:
     """A path to fly from now on, whatever was flown before.
@@ -86,13 +87,16 @@ def propose(
         assignment: what was asked.
         committed: what is tracked now, which the lead-in goes on with; `None` if nothing is.
         planner: makes plans; they are judged before they are flown, whoever made them.
-        stay: the path nearest to the committed one is preferred unless the planner's is faster by
-            more than this [s].
+        like: a path that a crew has accepted and that is not flown yet, begun now: another way
+            round is none of it; `None` if there is no such path.
+        stay: the path nearest to the committed one, or else to `like`, is preferred unless the
+            planner's is faster by more than this [s].
     """
     lead = lead_in(belief, assignment, committed)
     pursuer, leader, apart = lead.pursuer, lead.leader, lead.separation
     limit = assignment.buffered_separation
     limits = [limit] if apart >= limit else []
+    before = like if committed is None else _left_of(committed, lead, assignment)
     fell_back, refusal = False, None
     closest: Metre = 0.0
     while len(limits) <= BUFFERS:
@@ -101,8 +105,8 @@ def propose(
         answer = ask(planner, situation)
         fell_back, refusal = fell_back or answer.fell_back, refusal or answer.refusal
         plan = answer.plan
-        if isinstance(plan, Plan) and committed is not None and stay > 0.0:
-            plan = _nearest(plan, committed, lead, assignment, stay)
+        if isinstance(plan, Plan) and before is not None and stay > 0.0:
+            plan = plan if _turns_like(plan, like) else _nearest(plan, before, stay)
         if isinstance(plan, NoPlan):
             if limits and wanted > assignment.min_separation:
                 return _propose_without_buffer(belief, assignment, committed, planner, lead, answer)
@@ -222,26 +226,36 @@ def may_be_improved(committed: Committed, t: Second, assignment: Assignment) -> 
     return committed.plan.time_to_converge - bound > margin
 
 
-def _nearest(
-    plan: Plan, committed: Committed, lead: LeadIn, assignment: Assignment, stay: Second
-) -> Plan:
-    """The plan, or the extremal nearest to the committed path if it is little slower."""
+def _left_of(committed: Committed, lead: LeadIn, assignment: Assignment) -> Trajectory | None:
+    """What is left of the committed path where the lead-in ends; `None` if nothing is."""
     path, cut = committed.course.path, committed.s + assignment.tas * lead.seconds
     end = float(path[-1, on.S])
     if cut >= end:
-        return plan
-    pieces = on.pieces_between(path, cut, end)
-    left = lead.pursuer.flying(segments_of(pieces))
-    if is_same_path(left, plan.trajectory):
+        return None
+    return lead.pursuer.flying(segments_of(on.pieces_between(path, cut, end)))
+
+
+def _turns_like(plan: Plan, like: Trajectory | None) -> bool:
+    """Whether a plan turns to the same sides as an accepted path, one after the other."""
+    return like is not None and _sides(plan.trajectory) == _sides(like)
+
+
+def _sides(path: Trajectory) -> str:
+    return path.letters.replace("S", "")
+
+
+def _nearest(plan: Plan, before: Trajectory, stay: Second) -> Plan:
+    """The plan, or the extremal nearest to the path before if it is little slower."""
+    if is_same_path(before, plan.trajectory):
         return plan
     found = candidates(plan.situation)
     near: list[Trajectory] = [
         candidate.trajectory
         for candidate in (*found.at_release, *found.later)
-        if is_same_path(left, candidate.trajectory, share=LIKE_BEFORE)
+        if is_same_path(before, candidate.trajectory, share=LIKE_BEFORE)
         and candidate.time_to_converge < plan.time_to_converge + stay
     ]
-    near.sort(key=lambda trajectory: distance_between(left, trajectory))
+    near.sort(key=lambda trajectory: distance_between(before, trajectory))
     for trajectory in near:
         kept = _as_plan(trajectory, plan.situation, found.bound)
         if kept.certificate.holds:

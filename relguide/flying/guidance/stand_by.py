@@ -10,7 +10,7 @@ from relguide.flying.guidance.announcements import (
     summary,
 )
 from relguide.flying.guidance.assignment import Assignment
-from relguide.flying.guidance.committed import shown_plan
+from relguide.flying.guidance.committed import begun_now, shown_plan
 from relguide.flying.guidance.converge import NoProposal, Proposal, propose
 from relguide.flying.guidance.memory import LONG_AGO, Announced, Memory, enter
 from relguide.flying.guidance.plan_news import (
@@ -23,7 +23,10 @@ from relguide.flying.modes import NUMBERS
 from relguide.kernels.flight.guide import Progress
 from relguide.planning.phrases import compass
 from relguide.planning.plan import Planner
-from relguide.units import MetrePerSecond, Radian
+from relguide.units import MetrePerSecond, Radian, Second
+
+ENGAGES_WITHIN: Second = 30.0
+"""How long a crew may take from accepting a path to engaging it: two calls and a look outside."""
 
 
 def order_engagement(memory: Memory, belief: Belief, to: Engagement) -> tuple[Memory, list[Event]]:
@@ -42,7 +45,8 @@ def order_engagement(memory: Memory, belief: Belief, to: Engagement) -> tuple[Me
         return stop(memory, belief, to, "Relative guidance is disconnected")
     said = EngagementChange(engagement=to, previous=now, message=message)
     if to == "engaged":
-        return memory._replace(engagement=to, proposed=None, asked=LONG_AGO), [said]
+        # What was accepted is what is looked for: the first path that is flown is held against it.
+        return memory._replace(engagement=to, asked=LONG_AGO), [said]
     proposed = memory.proposed if to == "armed" else None
     asked = memory.asked if to == "armed" else LONG_AGO
     memory = memory._replace(engagement=to, proposed=proposed, asked=asked, missing=None)
@@ -63,6 +67,7 @@ def stop(memory: Memory, belief: Belief, to: Engagement, why: str) -> tuple[Memo
         announced=None,
         pending="engaged",
         asked=LONG_AGO,
+        proposed=None,
         missing=None,
         unable=None,
     )
@@ -86,7 +91,7 @@ def give_up_old_data(
         return memory, []
     message = f"Unable: nothing was heard of the leader for {belief.leader_age:.0f} s."
     memory, events = stop(memory, belief, "designated", "The leader's data are lost")
-    return memory._replace(proposed=None), [UnableTo(reason="data", message=message), *events]
+    return memory, [UnableTo(reason="data", message=message), *events]
 
 
 def stand_by(
@@ -102,7 +107,11 @@ def stand_by(
         wait = retry_pause(memory, belief, assignment)
     if belief.t - memory.asked < wait:
         return memory, []
-    found = propose(belief, assignment, None, planner)
+    accepted = memory.proposed if memory.engagement == "armed" else None
+    like = None if accepted is None else begun_now(accepted.path, belief)
+    # Two paths may be as fast: a crew that has accepted one of them is not offered them in turn.
+    stay = assignment.settings.shown_time
+    found = propose(belief, assignment, None, planner, like=like, stay=stay)
     memory, events = count_refusal(memory._replace(asked=belief.t), found)
     if isinstance(found, NoProposal):
         memory, events = say_no_plan(memory, belief, assignment, found.answer, events)
@@ -118,7 +127,8 @@ def _say_proposal(
     """The path proposed now; one that was accepted is not exchanged for another in silence.
 
     While armed, each proposal is held against the one that was accepted, not against the one
-    before: many small steps away from it are a large one.
+    before: many small steps away from it are a large one. It leads to the same places at the same
+    times or, for as long as a crew takes to engage, it may be the same path begun later.
     """
     committed = found.committed
     accepted = memory.proposed if memory.engagement == "armed" else None
@@ -133,9 +143,17 @@ def _say_proposal(
     memory = memory._replace(missing=None)
     if accepted is None:
         return memory._replace(proposed=proposed), [said]
+    same = [accepted]
+    if belief.t - accepted.t <= ENGAGES_WITHIN:
+        waited = accepted.joins + belief.t - accepted.t
+        path = begun_now(accepted.path, belief)
+        same.append(Announced(belief.t, waited, path, belief.t))
     settings = assignment.settings
-    later = joins - accepted.joins > settings.shown_time
-    if not later and not leads_elsewhere(accepted, shown.trajectory, belief, settings):
+    if any(
+        joins - each.joins <= settings.shown_time
+        and not leads_elsewhere(each, shown.trajectory, belief, settings)
+        for each in same
+    ):
         return memory, [said]
     message = "The proposal is another one now: accept it again."
     change = EngagementChange(engagement="designated", previous="armed", message=message)

@@ -17,7 +17,7 @@ from relguide.flying.documents import (
     Unable,
 )
 from relguide.flying.engagement import MAY_BECOME, Engagement, refusal
-from relguide.flying.flight import fly
+from relguide.flying.flight import Scenario, fly
 from relguide.flying.orders import (
     Command,
     LeaderData,
@@ -25,24 +25,52 @@ from relguide.flying.orders import (
     PursuerHeading,
     SetEngagement,
 )
-from relguide.flying.scenarios import scenario
+from relguide.flying.scenarios import own_scenario, scenario
 from relguide.planning.plan import plan
-from relguide.units import DEG
+from relguide.planning.situation import Leader, Pursuer, Situation
+from relguide.units import DEG, KT, NM
 
 T = TypeVar("T")
 Orders = dict[float, Command]
 
 
+def _beside(east: float, north: float, tas: float) -> Situation:
+    """Both fly east, own ship so far from the leader [NM] and so fast [kt]."""
+    east_bound = 90.0 * DEG
+    return Situation(
+        pursuer=Pursuer(
+            x=east * NM, y=north * NM, heading=east_bound, tas=tas * KT, max_bank=25.0 * DEG
+        ),
+        leader=Leader(x=0.0, y=0.0, heading=east_bound, tas=390.0 * KT, intent=()),
+        slot_distance=6.0 * NM,
+        min_separation=5.0 * NM,
+    )
+
+
+TIES = {"beside": _beside(0.0, 12.0, 420.0), "overtaking": _beside(14.0, -7.0, 465.0)}
+"""Two encounters of the cockpit's gallery."""
+
+
 def flown(
-    orders: Orders, until: float, *, name: str = "fig_6b", engagement: Engagement = "off"
+    orders: Orders,
+    until: float,
+    *,
+    flight: Scenario | None = None,
+    engagement: Engagement = "off",
 ) -> list[Document]:
-    """A flight that begins at OFF, up to a time [s], with orders at their times."""
+    """A flight, fig. 6b's if no other, up to a time [s], with orders at their times."""
     documents = []
 
     def commands(t: float) -> Iterable[Command]:
         return [orders[t]] if t in orders else []
 
-    found = fly(scenario(name), plan, commands=commands, sample_period=1.0, engagement=engagement)
+    found = fly(
+        flight or scenario("fig_6b"),
+        plan,
+        commands=commands,
+        sample_period=1.0,
+        engagement=engagement,
+    )
     for document in found:
         if document.t > until:
             break
@@ -145,6 +173,20 @@ def test_an_accepted_proposal_lapses_when_either_drifts_slowly_from_it(order: Co
     assert engagements(documents)[-1] == "designated"
     assert "accept it again" in of(documents, EngagementChanged)[-1].message
     assert of(documents, PlanProposed)[-1].t > 230.0
+
+
+@pytest.mark.parametrize("accepted", [4.0, 5.0, 11.0])
+@pytest.mark.parametrize("encounter", ["beside", "overtaking"])
+def test_a_crew_has_time_to_engage_what_it_accepted(encounter: str, accepted: float) -> None:
+    """Left and right are as fast here, by tenths of a second that change with every proposal."""
+    orders: Orders = {accepted: to("armed"), accepted + 15.0: to("engaged")}
+    documents = flown(
+        orders, accepted + 20.0, flight=own_scenario(TIES[encounter]), engagement="designated"
+    )
+    assert [each.engagement for each in of(documents, EngagementChanged)] == ["armed", "engaged"]
+    offered = {each.plan.word for each in of(documents, PlanProposed) if each.t > accepted}
+    flown_word = of(documents, PlanChanged)[0].plan.word
+    assert offered == {flown_word}
 
 
 def test_a_crew_flies_headings_until_it_engages() -> None:

@@ -114,8 +114,8 @@ export const GALLERY: readonly Entry[] = [
   {
     name: "slow",
     title: "A slow leader",
-    what: "Twice as fast as the leader, and nearly there: time has to be lost.",
-    situation: lay({ own: [-7, 4, 60, 440], leader: [0, 0, 90, 220] }),
+    what: "Much faster than the leader, and nearly there: time has to be lost.",
+    situation: lay({ own: [-7, 4, 60, 465], leader: [0, 0, 90, 290] }),
   },
   {
     name: "tight",

@@ -25,20 +25,31 @@ const AT: Record<Guidance, number> = {
   escape: 3,
   infeasible: 1,
   unable: 3,
-  data_lost: 0,
+  data_lost: 1,
+};
+
+/** What is said in its place where there is nothing of that kind to be seen. */
+const INSTEAD: Partial<Record<Guidance, string>> = {
+  designated: "A path to the leader's slot is looked for.",
+  infeasible:
+    "There is no path to the leader's slot: the panel says why. PLAN is a map, where you can move either of you.",
+  unable: "There is no path to fly now, so the heading is held: the panel says why.",
+  escape: "Own ship turns away to keep the minimum, and goes on to the slot when that is clear.",
+  data_lost: "Nothing is heard of the leader, so you fly. Let its reports be received again.",
 };
 
 export function Captions(props: { session: Session }) {
   const { captions, shown } = props.session;
   const isTurned = useSignal(false);
   if (!captions.value || shown.numbers.value.readAt === null) return null;
-  const at = AT[shown.numbers.value.state];
-  const isFlying = at === 3;
+  const { state } = shown.numbers.value;
+  const [at, instead] = [AT[state], INSTEAD[state]];
+  const isFlying = at === 3 && instead === undefined;
   const number = isFlying && isTurned.value ? 4 : at;
   return (
     <aside class="first-minute" aria-label="First steps">
       <b>{number + 1} of 5</b>
-      <p>{CAPTIONS[number]}</p>
+      <p>{instead ?? CAPTIONS[number]}</p>
       {isFlying && !isTurned.value && (
         <button type="button" onClick={set(isTurned, true)}>
           Next

@@ -12,6 +12,9 @@ interface Steps {
   readonly back: string;
 }
 
+/** Said of a proposal that has taken the place of the accepted path. */
+const LAPSED = "The path has become another one since you accepted it: accept it again.";
+
 const STEPS: Record<Guidance, Steps> = {
   off: {
     says: "Designate the leader: here, or by a click on it.",
@@ -40,12 +43,12 @@ const STEPS: Record<Guidance, Steps> = {
 
 export function Engage(props: { session: Session; actions: Actions }) {
   const { session, actions } = props;
-  const { state, readAt } = session.shown.numbers.value;
+  const { state, readAt, hasLapsed } = session.shown.numbers.value;
   const { says, next, back } = STEPS[state];
   const absent = readAt === null || session.flight.ended.value !== null;
   return (
     <Panel name="engage" title="Relative guidance">
-      <p class="hint">{says}</p>
+      <p class="hint">{state === "proposed" && hasLapsed ? LAPSED : says}</p>
       <div class="row">
         <button
           type="button"

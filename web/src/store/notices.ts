@@ -5,7 +5,7 @@ import type { Alert, AlertSubject, Mode, PlanReason, Reason, UnableReason } from
 import type { Colour } from "./colours";
 import type { Flight } from "./flight";
 import { AGE, GUIDANCE } from "./looks";
-import { age, type Guidance, guidance, leaderAge, separation } from "./states";
+import { age, type Guidance, guidance, hasLapsed, leaderAge, separation } from "./states";
 
 export interface Notice {
   readonly level: "warning" | "caution" | "prompt" | "advice";
@@ -130,6 +130,7 @@ function promptOf(flight: Flight, state: Guidance): Notice | null {
       return { level: "advice", text: `LDR ${ident} ${apart} NM` };
     }
     case "proposed":
+      if (hasLapsed(flight)) return { level: "prompt", text: "PATH CHANGED – ACCEPT AGAIN" };
       return { level: "prompt", text: "CONV PROPOSED – CONFIRM" };
     case "armed":
       return { level: "prompt", text: "CONV ACCEPTED – ENGAGE" };

@@ -27,7 +27,7 @@ import type { Flight } from "./flight";
 import { AGE, GUIDANCE } from "./looks";
 import type { PairSample } from "./pair";
 import { closureText, crossTrackText, spacingText } from "./reading";
-import { age, ageOf, type Guidance, guidance, leaderAge } from "./states";
+import { age, ageOf, type Guidance, guidance, hasLapsed, leaderAge } from "./states";
 
 /** The next turn, or the join: bearing, distance and how long until then. */
 export interface NextPoint {
@@ -103,6 +103,8 @@ export interface Numbers {
   /** The plan that is flown, and what became of it when there is none. */
   readonly plan: Planned | null;
   readonly state: Guidance;
+  /** Whether what is proposed has taken the place of a path that the crew had accepted. */
+  readonly hasLapsed: boolean;
   readonly trouble: Trouble | null;
   /** Least separation so far, and whether that is less than the minimum. */
   readonly leastSoFar: string;
@@ -155,6 +157,7 @@ export function numbersOf(flight: Flight): Numbers {
     least: guided === null ? null : leastAhead(flight, guided),
     plan: guided === null ? null : shownPlan(flight),
     state: guidance(flight),
+    hasLapsed: hasLapsed(flight),
     trouble: guided === null ? null : troubleOf(flight),
     leastSoFar: sample === null ? NOTHING : formatMiles(sample.least_separation_m),
     wasLost: sample !== null && sample.least_separation_m < (started?.min_separation_m ?? 0),

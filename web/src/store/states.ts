@@ -48,6 +48,12 @@ export function guidance(flight: Flight): Guidance {
   return sample.engagement === "armed" ? "armed" : "proposed";
 }
 
+/** Whether the crew had accepted a path, and what is proposed has become another one. */
+export function hasLapsed(flight: Flight): boolean {
+  const last = flight.engagement.value;
+  return last?.previous === "armed" && last.engagement === "designated";
+}
+
 /** How old all that is shown is. */
 export function age(flight: Flight): Age {
   if (flight.now.value === null) return "none";

@@ -1,5 +1,7 @@
 import { describe, expect, test } from "vitest";
 import { createFlightStore } from "../../src/store/flight";
+import { noticesOf } from "../../src/store/notices";
+import { numbersOf } from "../../src/store/numbers";
 import { pictureOf } from "../../src/store/picture";
 import type { Engagement, EngagementChanged, PlanProposed } from "../../src/wire";
 import {
@@ -294,6 +296,25 @@ describe("engagement", () => {
     expect(store.flight.proposal.value?.t_s).toBe(1);
     store.receive(tick(3, [changed(3, "armed", "engaged")]), 3000);
     expect(store.flight.proposal.value).toBeNull();
+  });
+
+  test("an acceptance that has lapsed is said until it is given anew, or all is called off", () => {
+    const store = proposing();
+    const prompts = () =>
+      noticesOf(store.flight).flatMap(({ level, text }) => (level === "prompt" ? [text] : []));
+    expect(prompts()).toEqual(["CONV PROPOSED – CONFIRM"]);
+    const state = { mode: "heading" } as const;
+    store.receive(
+      tick(2, [changed(2, "designated", "armed"), sample(2, { ...state, engagement: "armed" })]),
+      2000,
+    );
+    expect(prompts()).toEqual(["CONV ACCEPTED – ENGAGE"]);
+    const lapsed = sample(9, { ...state, engagement: "designated" });
+    store.receive(tick(9, [changed(9, "armed", "designated"), lapsed]), 9000);
+    expect(prompts()).toEqual(["PATH CHANGED – ACCEPT AGAIN"]);
+    expect(numbersOf(store.flight).hasLapsed).toBe(true);
+    store.receive(tick(12, [changed(12, "designated", "armed")]), 12_000);
+    expect(numbersOf(store.flight).hasLapsed).toBe(false);
   });
 
   test("what was accepted is sent, then valid; what is refused is said so for ten seconds", () => {
