@@ -28,6 +28,12 @@ PAGE = """
 
 The page that the wheel and the container hold contains these packages, fonts included.
 """
+EARTH = ROOT / "server" / "relguide_server" / "earth.licence.txt"
+GROUND = """
+## On the ground of the 3D scene
+
+`earth.npz` holds coast lines and airports; `tests/earth.py` makes it of these data.
+"""
 PYTHON = """
 ## Beside it in Python
 
@@ -65,12 +71,16 @@ class Notice(NamedTuple):
 def main() -> None:
     lines = [HEAD, PAGE]
     for notice in bundled_notices():
-        text = (MODULES / notice.name / "LICENSE").read_text("utf-8").strip()
-        shown = indent(text, "    ", lambda line: bool(line.strip()))
+        shown = _quoted(MODULES / notice.name / "LICENSE")
         lines.append(f"\n### {notice.name}\n\n{notice.licence}, <{notice.home}>\n\n{shown}\n")
+    lines += [GROUND, "\n", _quoted(EARTH), "\n"]
     lines.append(PYTHON)
     lines += [f"| {n.name} | {n.licence} | <{n.home}> |\n" for n in installed_notices()]
     NOTICES.write_text("".join(lines), "utf-8")
+
+
+def _quoted(licence: Path) -> str:
+    return indent(licence.read_text("utf-8").strip(), "    ", lambda line: bool(line.strip()))
 
 
 def installed_notices() -> list[Notice]:

@@ -23,3 +23,10 @@ def test_each_package_in_the_page_has_the_text_of_its_licence() -> None:
         assert text.startswith(f"\n{notice.licence}, <"), RENEW
         assert "Copyright" in text, RENEW
         assert "AS IS" in text, RENEW
+
+
+def test_the_data_of_the_ground_have_theirs() -> None:
+    _, _, section = SHOWN.partition("\n## On the ground of the 3D scene\n")
+    text = section.partition("\n##")[0]
+    for said in ("Natural Earth", "world-atlas 2.0.2", "airportsdata", "Copyright", "AS IS"):
+        assert said in text, RENEW

@@ -16,6 +16,7 @@ from relguide.contract.messages import (
 from relguide.contract.refusal import ContractError
 from relguide.flying.flight import Scenario
 from relguide.flying.scenarios import own_scenario, scenario
+from relguide.flying.tracks import RecordedTrack
 from relguide.planning.situation import IntentPiece, Situation
 
 
@@ -32,7 +33,8 @@ def scenario_of(wanted: FlightRequest) -> tuple[str, Scenario, Anchor]:
     match wanted:
         case ScenarioFlightRequest():
             name, found = wanted.scenario, _find_scenario(wanted.scenario)
-            anchor: Anchor = UNANCHORED
+            source = found.leader_source
+            anchor: Anchor = source.origin if isinstance(source, RecordedTrack) else UNANCHORED
         case SituationFlightRequest():
             name, (found, anchor) = "", _own_scenario(wanted)
     if wanted.intent_known is not None:

@@ -45,6 +45,11 @@ class FlightLabel:
     seed: int = 0
     """Of its random numbers."""
 
+    @property
+    def plane(self) -> LocalPlane | None:
+        """Where on the earth it is flown; `None` where nobody has said so."""
+        return self.anchor if isinstance(self.anchor, LocalPlane) else None
+
 
 class LiveFlight:
     """A flight and all that belongs to it. Lives on the event loop; `_fly` is another thread."""
@@ -169,7 +174,7 @@ class LiveFlight:
         """
         self.scene_viewers += 1
         if self._stage is None:
-            self._stage = SceneStage(self.label.id, self.history.documents())
+            self._stage = SceneStage(self.label.id, self.history.documents(), self.label.plane)
         return await self._stage.address()
 
     async def leave_scene(self) -> None:
@@ -202,7 +207,7 @@ class LiveFlight:
     # -- inside -----------------------------------------------------------------------------------
 
     def _text(self, documents: Sequence[Document]) -> str:
-        anchor = self.label.anchor
+        plane = self.label.plane
         return tick(
             self.label.id,
             t=self.t,
@@ -210,7 +215,7 @@ class LiveFlight:
             paused=self.pace.paused,
             ended=self.over,
             documents=documents,
-            place=anchor.to_geodetic if isinstance(anchor, LocalPlane) else None,
+            place=None if plane is None else plane.to_geodetic,
         ).decode()
 
     def _run(self) -> None:

@@ -39,12 +39,14 @@ from relguide.flying.documents import (
     Unable,
 )
 from relguide.flying.plan_documents import PathPoint
+from relguide.planning.frames import LocalPlane
 from relguide.units import NM, Metre, Second
 from relguide_server import scene_paint as paint
 from relguide_server import scene_shapes as shapes
 from relguide_server.glide import carry, onward
 from relguide_server.scene_aircraft import AircraftFigure, height_of, place_of
 from relguide_server.scene_camera import Cameras
+from relguide_server.scene_ground import draw_ground
 from relguide_server.scene_paint import lines
 from relguide_server.scene_shapes import KM, GateLook
 
@@ -95,9 +97,10 @@ class _Pair(NamedTuple):
 
 
 class Scene:
-    """Draws one flight, from one thread."""
+    """Draws one flight, from one thread; with coasts and airports, if it is somewhere on earth."""
 
-    def __init__(self, server: ViserServer) -> None:
+    def __init__(self, server: ViserServer, plane: LocalPlane | None = None) -> None:
+        self._plane = plane
         self._server = server
         self._scene = server.scene
         self._wind = (0.0, 0.0)
@@ -205,6 +208,8 @@ class Scene:
             fade_distance=300.0,
             shadow_opacity=0.0,
         )
+        if self._plane is not None:
+            draw_ground(self._scene, self._plane)
 
     def _draw_plan(self, t: Second) -> None:
         """What is left of the plan's ideal path, a thin line beside the one that will be flown."""

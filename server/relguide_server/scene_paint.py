@@ -19,6 +19,8 @@ PURSUER: Colour = (255, 255, 0)
 LEADER: Colour = (229, 223, 214)
 CAUTION: Colour = (235, 136, 12)
 ALERT: Colour = (255, 59, 48)
+COAST: Colour = (92, 122, 150)
+AIRPORT: Colour = (128, 138, 152)
 GRID: Colour = (38, 44, 54)
 GRID_SECTION: Colour = (66, 76, 92)
 

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 import rich
 
 from relguide.flying.documents import Document
+from relguide.planning.frames import LocalPlane
 from relguide_server.errors import run_logged
 from relguide_server.glide import Glide
 from relguide_server.inbox import Inbox
@@ -18,8 +19,11 @@ from relguide_server.inbox import Inbox
 class SceneStage:
     """One viser server and its thread. Made, fed and closed on the event loop."""
 
-    def __init__(self, name: str, past: Sequence[Document]) -> None:
+    def __init__(
+        self, name: str, past: Sequence[Document], plane: LocalPlane | None = None
+    ) -> None:
         self._name = name
+        self._plane = plane
         self._loop = asyncio.get_running_loop()
         self._address: asyncio.Future[str] = self._loop.create_future()
         self._inbox = Inbox()
@@ -57,7 +61,7 @@ class SceneStage:
         host = _hidden_host()
         server = ViserServer(host=host, port=0, verbose=False)
         try:
-            scene = Scene(server)
+            scene = Scene(server, self._plane)
             scene.draw(self._past)
             self._answer(f"{host}:{server.get_port()}")
             glide = Glide()

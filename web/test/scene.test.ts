@@ -1,8 +1,10 @@
 import { expect, test } from "vitest";
 import { placeLabels } from "../src/nd/labels";
 import { overlap } from "../src/nd/view";
-import { type Camera, see } from "../src/scene/camera";
+import { type Camera, chaseCamera, see } from "../src/scene/camera";
+import { posterCamera, strokesOf } from "../src/scene/poster";
 import { aroundTexts, northOf, textsOf } from "../src/scene/texts";
+import { emptyFlight } from "../src/store/flight";
 import { createShown } from "../src/store/picture";
 import { NM } from "../src/units";
 import { flightAt, forecastOf } from "./nd/fixture";
@@ -72,4 +74,66 @@ test("what is written is what the display says", () => {
       ({ id }) => id === "slot" || id === "min",
     ),
   ).toBe(false);
+});
+
+test("the poster's camera stands where the scene's does, and sees the same", () => {
+  const own = { x_m: -40_000, y_m: -20_000, altitude_m: 9000 };
+  const leader = { x_m: 40_000, y_m: 20_000, altitude_m: 6000 };
+  const { view } = chaseCamera(own, leader, 9260, 1.6);
+  // what the server's `Cameras.eye` gives for the same pair: east, north, up
+  const [east, north, up] = [-71.79093312354233, -35.895466561771165, 45.81073288587359 + 0];
+  const eye = [-north, up, -east];
+  for (const row of [0, 1, 2]) {
+    const at = [0, 1, 2].reduce((sum, k) => sum + (view[4 * k + row] ?? 0) * (eye[k] ?? 0), 0);
+    expect(at + (view[12 + row] ?? 0)).toBeCloseTo(0, 6);
+  }
+});
+
+test.each([
+  ["wide", { width: 900, height: 400 }],
+  ["narrow", { width: 400, height: 900 }],
+])("both aircraft and the minimum are in the poster, whatever its shape: %s", (_, size) => {
+  for (const t of [0, 200, 500, 800]) {
+    const flight = flightAt("fig_6b", t);
+    flight.forecast.value = forecastOf("fig_6b");
+    const picture = createShown(flight).picture.value;
+    const camera = posterCamera(picture, size);
+    if (camera === null) throw new Error("A flight without a position.");
+    const drawn = new Map(strokesOf(picture, camera, size).map(({ name, d }) => [name, d]));
+    for (const name of ["own", "leader", "min"]) {
+      const points = [...(drawn.get(name) ?? "").matchAll(/[ML](\S+) ([^MLZ]+)/g)];
+      expect(points.length, name).toBeGreaterThan(3);
+      // the tail of an aircraft that is drawn 80 times as large may reach a little further
+      const middle = { x: 0, y: 0 };
+      for (const [, x, y] of points) {
+        middle.x += Number(x) / points.length / size.width;
+        middle.y += Number(y) / points.length / size.height;
+        for (const part of [Number(x) / size.width, Number(y) / size.height])
+          expect(Math.abs(part - 0.5)).toBeLessThan(0.56);
+      }
+      for (const part of [middle.x, middle.y]) expect(Math.abs(part - 0.5)).toBeLessThan(0.5);
+    }
+  }
+});
+
+test("the poster draws the state: what is proposed is dashed, what is flown is solid", () => {
+  const size = { width: 600, height: 400 };
+  const pathIn = (state: "off" | "proposed" | "armed" | "converge") => {
+    const flight = flightIn(state);
+    flight.forecast.value = forecastOf("fig_6b");
+    const picture = createShown(flight).picture.value;
+    const camera = posterCamera(picture, size);
+    if (camera === null) throw new Error("A flight without a position.");
+    return strokesOf(picture, camera, size).find(({ name }) => name === "path");
+  };
+  expect(pathIn("off")).toBeUndefined();
+  expect([pathIn("proposed")?.colour, pathIn("proposed")?.dash]).toEqual(["proposed", "15 12"]);
+  expect([pathIn("armed")?.colour, pathIn("armed")?.dash]).toEqual(["armed", "15 12"]);
+  expect([pathIn("converge")?.colour, pathIn("converge")?.dash]).toEqual(["plan", ""]);
+});
+
+test("before the first position there is no poster", () => {
+  expect(
+    posterCamera(createShown(emptyFlight()).picture.value, { width: 9, height: 9 }),
+  ).toBeNull();
 });

@@ -81,7 +81,7 @@ export const GALLERY: readonly Entry[] = [
     name: "limit",
     title: "A limit that binds",
     what: "The direct ways pass too close: this one touches MIN and goes on.",
-    situation: lay({ own: [8, -6, 300, 465], d: 5.5 }),
+    situation: lay({ own: [24, -14, 340, 465], d: 5.5 }),
   },
   {
     name: "head-on",

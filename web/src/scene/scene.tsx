@@ -5,6 +5,8 @@ import { useEffect, useRef } from "preact/hooks";
 import { Icon } from "../parts";
 import type { Session } from "../session";
 import type { Camera } from "./camera";
+import { Poster, posterCamera } from "./poster";
+import type { Size } from "./texts";
 import { Writing } from "./writing";
 
 /** Where the camera can be put, by the names of the scene's own views. */
@@ -36,6 +38,13 @@ export function Scene(props: { session: Session }) {
   const isDrawn = useSignal(false);
   const view = useSignal<ViewName>("Chase");
   const camera = useSignal<Camera | null>(null);
+  const size = useSignal<Size>({ width: 0, height: 0 });
+  // The poster is drawn as often as numbers are read: it stands for seconds at most.
+  const stand = useComputed(() => {
+    void shown.numbers.value.readAt;
+    return isDrawn.value ? null : posterCamera(shown.picture.peek(), size.value);
+  });
+  const seen = useComputed(() => (isDrawn.value ? camera.value : stand.value));
   const isOpen = flying.value && url !== undefined;
   useEffect(() => {
     isDrawn.value = false;
@@ -98,12 +107,9 @@ export function Scene(props: { session: Session }) {
             title="3D scene of the flight: drag to turn, wheel to zoom"
           />
         )}
-        {isDrawn.value && <Writing shown={shown} camera={camera} />}
-        {!isDrawn.value && (
-          <p class="poster">
-            {isOpen ? "The scene is being drawn." : "The scene opens with the first position."}
-          </p>
-        )}
+        {!isDrawn.value && <Poster shown={shown} camera={stand} size={size} />}
+        {!flying.value && <p class="scene-waits">The scene opens with the first position.</p>}
+        {flying.value && <Writing shown={shown} camera={seen} size={size} />}
       </div>
     </section>
   );
@@ -148,7 +154,7 @@ function isDark(page: Document): boolean {
   const glass = document.createElement("canvas");
   [glass.width, glass.height] = [PARTS.length, PARTS.length];
   const pen = glass.getContext("2d", { willReadFrequently: true });
-  if (canvas === null || pen === null) return false;
+  if (canvas === null || pen === null || isFading(canvas)) return false;
   for (const [i, x] of PARTS.entries())
     for (const [j, y] of PARTS.entries())
       pen.drawImage(canvas, x * canvas.width, y * canvas.height, 1, 1, i, j, 1, 1);
@@ -159,6 +165,12 @@ function isDark(page: Document): boolean {
     if (there > 200 && Math.max(red, green, blue) < DARK) dark += 1;
   }
   return dark > 5; // of nine: lines and labels may be bright
+}
+
+/** The vendor's page fades its canvas in: until then the poster is what can be seen. */
+function isFading(canvas: HTMLCanvasElement): boolean {
+  const style = canvas.ownerDocument.defaultView?.getComputedStyle(canvas);
+  return Number(style?.opacity ?? 1) < 0.9;
 }
 
 /** Presses the scene's own button of a view. */

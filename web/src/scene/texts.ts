@@ -40,6 +40,7 @@ export function textsOf(shown: Shown, camera: Camera, size: Size): Label[] {
     lines: readonly string[],
     colour: Colour,
     side = 0,
+    gap = 14,
   ): Label[] => {
     const point = place === null ? null : at(place);
     if (point === null || lines.every((line) => line === "")) return [];
@@ -49,7 +50,7 @@ export function textsOf(shown: Shown, camera: Camera, size: Size): Label[] {
         at: point,
         lines: lines.map((line) => ({ text: line, colour })),
         side,
-        gap: 14,
+        gap,
         size: 13,
         optional: false,
       },
@@ -64,8 +65,17 @@ export function textsOf(shown: Shown, camera: Camera, size: Size): Label[] {
       pursuer,
       [started?.pursuer.ident ?? "OWN", `${numbers.gs} kt ${formatLevel(own)}`],
       "ownship",
+      0,
+      2 + halfOf(at, pursuer),
     ),
-    ...text("leader", leader, [ident, `${numbers.leaderSpeed} kt ${formatLevel(other)}`], "leader"),
+    ...text(
+      "leader",
+      leader,
+      [ident, `${numbers.leaderSpeed} kt ${formatLevel(other)}`],
+      "leader",
+      0,
+      leader === null ? 14 : 2 + halfOf(at, leader),
+    ),
     ...text(
       "join",
       join === null ? null : { ...join, altitude_m: own },
@@ -114,13 +124,31 @@ export function aroundTexts(shown: Shown, camera: Camera, size: Size): Surroundi
   const path = forecast === null ? [] : pointsAfter(forecast, forecastIndex(forecast, t), until);
   const boxes: Box[] = places.flatMap((place) => {
     const point = at(place);
-    return point === null ? [] : [square(point, 12)];
+    return point === null ? [] : [square(point, halfOf(at, place))];
   });
   const lines = [now.pursuer, now.leader].flatMap(alongTrack);
   const points = [...path.map((place) => ({ ...place, altitude_m })), ...lines].flatMap(
     (place) => at(place) ?? [],
   );
   return { isSeen, boxes, points };
+}
+
+/** Half of an aircraft's length and span as the scene draws them [m]: 54 m, 80 times as large. */
+const HALF = 2160;
+/** Smaller than this nothing is seen [px]. */
+const SMALLEST = 12;
+
+/** How far an aircraft there reaches on the glass [px]. */
+function halfOf(at: (place: High) => Point | null, place: High): number {
+  const middle = at(place);
+  const ends = [
+    { ...place, x_m: place.x_m + HALF },
+    { ...place, y_m: place.y_m + HALF },
+  ].map((end) => at(end));
+  const reach = ends.map((end) =>
+    middle === null || end === null ? 0 : Math.hypot(end.x - middle.x, end.y - middle.y),
+  );
+  return Math.max(SMALLEST, ...reach);
 }
 
 /** Where an aircraft was and will be, about: marks and routes lie there. */

@@ -1,6 +1,6 @@
 /** The texts on the scene's picture, moved with each picture and kept apart five times a second. */
 
-import { computed, type ReadonlySignal, useComputed, useSignal } from "@preact/signals";
+import { computed, type ReadonlySignal, type Signal, useComputed } from "@preact/signals";
 import { useEffect, useMemo, useRef } from "preact/hooks";
 import { LabelText } from "../nd/labelled";
 import { type Label, type Placement, placeLabels } from "../nd/labels";
@@ -13,10 +13,15 @@ const NO_LABELS: ReadonlyMap<string, Label> = new Map();
 const ARROW = "M0 12V-12M-5 -5L0 -13L5 -5";
 const CAPTION = "grid 5 NM · heights ×2 · aircraft ×80: not to scale";
 
-export function Writing(props: { shown: Shown; camera: ReadonlySignal<Camera | null> }) {
-  const { shown, camera } = props;
+interface Props {
+  readonly shown: Shown;
+  readonly camera: ReadonlySignal<Camera | null>;
+  /** Of the glass: noted here. */
+  readonly size: Signal<Size>;
+}
+
+export function Writing({ shown, camera, size }: Props) {
   const glass = useRef<SVGSVGElement>(null);
-  const size = useSignal<Size>({ width: 0, height: 0 });
   useEffect(() => {
     const { current } = glass;
     if (current === null) return;

@@ -87,7 +87,7 @@ export function noticesOf(flight: Flight): readonly Notice[] {
   const isLost = separation(flight).state === "lost" || isHeld(flight);
   if (seen.map && flight.now.value !== null && isLost)
     notices.push({ level: "warning", text: "SEPARATION" });
-  else if (flight.lost.value !== null && isRecent(flight.lostSince.value))
+  else if (flight.lost.value !== null && flight.wall.value - flight.lostSince.value < HELD)
     notices.push({ level: "warning", text: "SEPARATION" });
   const seconds = leaderAge(flight);
   const state = guidance(flight);

@@ -193,6 +193,10 @@ test("a loss of separation that was just given is a warning", () => {
   const text = show(flight, "ARC", 40).querySelector(".nd-message text");
   expect(text?.textContent).toBe("SEPARATION");
   expect(text?.getAttribute("fill")).toBe("var(--alert)");
+  // at ×60 three seconds are three minutes of flight: the two are far apart by then
+  flight.lostSince.value = 296_900;
+  const later = show(flight, "ARC", 40).querySelector(".nd-message text");
+  expect(later?.textContent ?? "").not.toBe("SEPARATION");
 });
 
 test("unable says why; escape is a mode of its own", () => {

@@ -298,6 +298,16 @@ describe("engagement", () => {
     expect(store.flight.proposal.value).toBeNull();
   });
 
+  test("a time to converge of hours has room in its line", () => {
+    const left = (time_to_go_s: number) => {
+      const store = joined();
+      store.receive(tick(1, [sample(1, { time_to_go_s })]), 2000);
+      return numbersOf(store.flight).toJoin;
+    };
+    expect(left(5999)).toBe("99:59");
+    expect(left(6660)).toBe("1h51");
+  });
+
   test("an acceptance that has lapsed is said until it is given anew, or all is called off", () => {
     const store = proposing();
     const prompts = () =>

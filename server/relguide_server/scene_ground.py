@@ -1,0 +1,110 @@
+"""The ground of the 3D scene where a flight has a place on the earth: coast lines and airports.
+
+Both come from `earth.npz`, which `tests/earth.py` makes: coast lines of Natural Earth, airports of
+airportsdata, longitudes and latitudes in steps of `STEP`, the lines as differences.
+"""
+
+from functools import cache
+from math import cos
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from viser import SceneApi
+
+from relguide.planning.frames import LocalPlane
+from relguide.units import DEG
+from relguide_server import scene_paint as paint
+from relguide_server.scene_paint import lines
+from relguide_server.scene_shapes import KM, Points
+from relguide_server.scene_writing import written
+
+EARTH = Path(__file__).with_name("earth.npz")
+STEP = 0.002
+"""Longitudes and latitudes are whole numbers of these [°]: 220 m."""
+DEGREE = 111.2
+"""A degree of latitude [km]."""
+COASTS_TO = 600.0
+AIRPORTS_TO = 250.0
+"""How far from the middle of the flight's plane each is drawn [km]."""
+RUNWAY = 1.6
+"""Half the size of an airport's mark [scene units]."""
+LETTER = 2.4
+"""Height of the letters beside it [scene units]."""
+GROUND = 0.02
+"""A little above the grid [scene units]."""
+
+
+class Earth(NamedTuple):
+    """What is known of the ground: longitudes and latitudes [°], (n, 2) each."""
+
+    coast: NDArray[np.float64]
+    """Both ends of each piece of coast, (n, 2, 2)."""
+    codes: list[str]
+    """Airports, by ICAO's code …"""
+    sites: NDArray[np.float64]
+    """… and where they are."""
+
+
+@cache
+def earth() -> Earth:
+    """All of it, read once."""
+    with np.load(EARTH) as found:
+        steps, lengths = found["steps"].astype(np.int32), found["lengths"]
+        ends = np.cumsum(steps, axis=0)
+        before = np.concatenate((np.zeros((1, 2), dtype=np.int32), ends))
+        begins = before[np.cumsum(lengths) - lengths]
+        ends += np.repeat(found["starts"] - begins, lengths, axis=0)
+        coast = np.stack((ends - steps, ends), axis=1) * STEP
+        codes = [code.decode() for code in found["codes"].tolist()]
+        return Earth(coast, codes, found["sites"] * STEP)
+
+
+def draw_ground(scene: SceneApi, plane: LocalPlane) -> None:
+    """Draw coast lines and airports round the point where a flight's plane touches the earth."""
+    known = earth()
+    near = known.coast[_is_near(known.coast[:, 0], plane, COASTS_TO)]
+    if len(near) > 0:
+        coast = np.stack((_on(plane, near[:, 0]), _on(plane, near[:, 1])), axis=1)
+        lines(scene, "/world/coast", coast, paint.COAST, 1.4)
+    chosen = np.flatnonzero(_is_near(known.sites, plane, AIRPORTS_TO))
+    if len(chosen) > 0:
+        marks = [
+            mark
+            for number, site in zip(chosen, _on(plane, known.sites[chosen]), strict=True)
+            for mark in (_AIRPORT + site, _code(known.codes[number]) + site)
+        ]
+        lines(scene, "/world/airports", np.concatenate(marks), paint.AIRPORT, 1.4)
+
+
+def _is_near(places: NDArray[np.float64], plane: LocalPlane, within: float) -> NDArray[np.bool_]:
+    """Which of some longitudes and latitudes [°] are within a box round the plane's point [km]."""
+    east = (places[:, 0] - plane.lon_deg + 180.0) % 360.0 - 180.0
+    north = places[:, 1] - plane.lat_deg
+    shrink = max(0.05, cos(plane.lat_deg * DEG))
+    near: NDArray[np.bool_] = (np.abs(east) * shrink < within / DEGREE) & (
+        np.abs(north) < within / DEGREE
+    )
+    return near
+
+
+def _on(plane: LocalPlane, places: NDArray[np.float64]) -> Points:
+    """Longitudes and latitudes [°], (n, 2), as points on the ground [scene units], (n, 3)."""
+    flat = [plane.to_local(lat, lon) for lon, lat in places.tolist()]
+    return np.column_stack((np.array(flat) / KM, np.full(len(flat), GROUND)))
+
+
+def _code(text: str) -> Points:
+    """Its letters, beside the mark."""
+    beside: Points = written(text, LETTER) + np.array([1.6 * RUNWAY, -0.5 * LETTER, 0.0])
+    return beside
+
+
+_AIRPORT: Points = RUNWAY * np.array(
+    [
+        [(-0.7, -0.7, 0.0), (0.7, 0.7, 0.0)],
+        [(-0.35, 0.7, 0.0), (0.35, -0.7, 0.0)],
+    ]
+)
+"""Two runways that cross."""
