@@ -26,6 +26,8 @@ function flying(answer: Response) {
     separation_m: 20000,
     stream_url: "",
     scene_url: "",
+    seed: 0,
+    version: "1.0.0",
   };
   return { asked, session, actions: createActions(session, store) };
 }

@@ -61,6 +61,8 @@ function flying() {
     separation_m: 20000,
     stream_url: "/api/v1/flights/one/stream",
     scene_url: "/scene/one/",
+    seed: 0,
+    version: "1.0.0",
   };
   return { store, session, actions: silentActions() };
 }
