@@ -8,6 +8,8 @@ from dataclasses import replace
 from math import atan2, ceil, pi
 from typing import TYPE_CHECKING, assert_never
 
+import numpy as np
+
 from relguide.flying.plan_documents import (
     AlternativeCard,
     AnyAlternativeCard,
@@ -219,21 +221,30 @@ def path_segments(
                     StraightSegment(length=piece.length, duration=duration, start=start, end=end)
                 )
             case BoundaryArc():
-                count = ceil(duration / VIA)
-                times = [t + duration * k / count for k in range(1, count)]
                 segments.append(
                     BoundarySegment(
                         side="left" if piece.side == LEFT else "right",
                         duration=duration,
                         start=start,
                         end=end,
-                        via=tuple(path_point(flown.pose_at(s), s, wind, start_time) for s in times),
+                        via=_points_between(flown, t, duration, wind, start_time),
                     )
                 )
             case _:
                 assert_never(piece)
         t += duration
     return tuple(segments)
+
+
+def _points_between(
+    flown: Trajectory, begin: Second, duration: Second, wind: Wind, start_time: Second
+) -> tuple[PathPoint, ...]:
+    """Points of a segment between its ends, over the ground: at once, there may be thousands."""
+    count = ceil(duration / VIA)
+    times = [begin + duration * k / count for k in range(1, count)]
+    found = flown.over_ground(wind, np.array(times))
+    columns = zip(times, found.x.tolist(), found.y.tolist(), found.heading.tolist(), strict=True)
+    return tuple(PathPoint(t=start_time + t, x=x, y=y, heading=h) for t, x, y, h in columns)
 
 
 def wind_card(wind: Wind) -> "WindCard":
