@@ -34,6 +34,7 @@ help:
 	@echo 'make planner-figures  measure as bench does, and draw and write docs/planner.md anew'
 	@echo 'make wheel    build a wheel with the page and compiled kernels, which serves at once, into dist/'
 	@echo 'make image    build the container image (needs Docker)'
+	@echo 'make container  take its steps and start it without Docker, and the services of compose.yaml (root, Debian)'
 	@echo 'make lock     resolve anew what the container installs, into requirements.lock'
 	@echo 'make clean    remove all that was installed and built'
 	@echo 'Variables: PYTHON, HOST, PORT, TORCH_INDEX (an index with CPU wheels of torch)'
@@ -179,6 +180,11 @@ wheel: .make/dev
 .PHONY: image
 image:
 	docker build --tag relguide .
+
+# In build/container, which is 3 GB; what was built there before is built anew.
+.PHONY: container
+container: .make/dev
+	@sh .ci/container
 
 # What the container installs, each file by its hash: after a change of what relguide depends on.
 .PHONY: lock

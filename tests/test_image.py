@@ -1,4 +1,8 @@
-"""The container without an engine: what it installs, and its steps in an empty directory."""
+"""The container without an engine: what it installs, and its steps in an empty directory.
+
+`make container` takes all of its steps, which is minutes; here those that download or compile are
+left out.
+"""
 
 import os
 import re
@@ -10,8 +14,6 @@ import sys
 import sysconfig
 import time
 import tomllib
-from collections.abc import Iterator
-from fnmatch import fnmatch
 from pathlib import Path
 
 import pytest
@@ -22,21 +24,13 @@ from relguide_server import health
 from relguide_server.app import create_app
 from relguide_server.settings import Settings
 
+from tests.container.composition import composition
+from tests.container.dockerfile import ROOT, copied, steps
 from tests.server.serving import ideal_app, serve
 
-ROOT = Path(__file__).parents[1]
 LOCK = (ROOT / "requirements.lock").read_text()
-COMPOSE = yaml.safe_load((ROOT / "compose.yaml").read_text())
+COMPOSE = composition()
 TOKEN = "v" * 16
-
-
-def steps() -> Iterator[tuple[str, str]]:
-    """The instructions of the Dockerfile, one of several lines as one."""
-    text = re.sub(r"^#.*\n", "", (ROOT / "Dockerfile").read_text(), flags=re.MULTILINE)
-    for line in text.replace("\\\n", " ").splitlines():
-        if line.strip():
-            name, _, rest = line.partition(" ")
-            yield name, " ".join(rest.split())
 
 
 def test_the_lock_is_what_the_service_needs_by_hash_and_without_torch() -> None:
@@ -54,31 +48,9 @@ def test_the_lock_is_what_the_service_needs_by_hash_and_without_torch() -> None:
     assert "://" not in LOCK
 
 
-def copied_by(patterns: list[str]) -> list[Path]:
-    """The files that `COPY . .` takes, by `.dockerignore`."""
-    listed = subprocess.run(
-        ["git", "ls-files", "--cached", "--others", "--exclude-standard"],
-        cwd=ROOT, capture_output=True, text=True, check=True,
-    ).stdout.splitlines()  # fmt: skip
-    found = []
-    for name in listed:
-        ignored = False
-        for pattern in patterns:
-            said = pattern.removeprefix("!")
-            deep = said.removeprefix("**/")
-            parts = name.split("/")
-            prefixes = ["/".join(parts[: k + 1]) for k in range(len(parts))]
-            hit = any(fnmatch(p, said) for p in prefixes) or (deep != said and deep in parts)
-            ignored = not pattern.startswith("!") if hit else ignored
-        if not ignored and (ROOT / name).is_file():
-            found.append(Path(name))
-    return found
-
-
 @pytest.mark.slow
 def test_its_steps_work_in_an_empty_directory(tmp_path: Path) -> None:
     """Those of the Dockerfile, with the packages and kernels of this machine, and started so."""
-    ignore = [line for line in (ROOT / ".dockerignore").read_text().splitlines() if line[:1] != "#"]
     places = {name: f"{tmp_path}{name}" for name in ("/opt/relguide", "/src", "/data")}
     environment = {"PATH": os.environ["PATH"], "HOME": str(tmp_path), "RELGUIDE_SKIP_WEB": "1"}
     here = tmp_path / "src"
@@ -94,11 +66,11 @@ def test_its_steps_work_in_an_empty_directory(tmp_path: Path) -> None:
                 # in place of what the lock names: what is installed here
                 (site / "here.pth").write_text(sysconfig.get_path("purelib"))
             case "COPY" if given == ". .":
-                for file in copied_by(ignore):
+                for file in copied():
                     (here / file).parent.mkdir(parents=True, exist_ok=True)
                     shutil.copy(ROOT / file, here / file)
             case "COPY" if given.startswith("requirements.lock"):
-                assert Path("requirements.lock") in copied_by(ignore)
+                assert Path("requirements.lock") in copied()
             case "RUN" if "requirements.lock" in given or given.startswith("useradd"):
                 pass  # downloads what the lock's test has judged; makes a user
             case "RUN" if given == "pip install --no-deps .":
@@ -194,4 +166,4 @@ def test_compose_names_settings_that_exist_and_writes_nowhere() -> None:
     proxy = COMPOSE["configs"]["proxy"]["content"]
     for upstream in re.findall(r"server (\w+):8000;", proxy):
         assert upstream in services
-    assert "proxy_set_header Host $$http_host;" in proxy
+    assert "proxy_set_header Host $http_host;" in proxy
