@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Protocol
 
+from relguide_server.errors import log
 from relguide_server.outcomes import Outcome, outcome_of
 from relguide_server.worker import LENGTH
 
@@ -84,7 +85,13 @@ class _Process:
 class ProcessHand:
     """A process, started with its first job and killed when it is stuck."""
 
-    def __init__(self) -> None:
+    def __init__(self, nice: int) -> None:
+        """One to be started.
+
+        Args:
+            nice: how much it gives way to other processes, 0 to 19.
+        """
+        self._nice = nice
         self._started: asyncio.Task[_Process] | None = None
 
     @property
@@ -97,7 +104,7 @@ class ProcessHand:
     async def do(self, job: Job) -> Outcome:
         """As in `Hand`."""
         if self._started is None:
-            self._started = asyncio.create_task(_start_process())
+            self._started = asyncio.create_task(_start_process(self._nice))
         # one that is cancelled meanwhile is ended by `drop`
         started = await asyncio.shield(self._started)
         text = pickle.dumps(job, pickle.HIGHEST_PROTOCOL)
@@ -116,14 +123,17 @@ class ProcessHand:
         if not ended.jobs.is_closing():  # it is, once the process has died
             ended.jobs.abort()
         ended.reading.close()
-        await asyncio.to_thread(ended.process.wait, END_PATIENCE)
+        try:
+            await asyncio.to_thread(ended.process.wait, END_PATIENCE)
+        except subprocess.TimeoutExpired:  # held by the kernel: Python reaps it some time later
+            log.warning("A worker that was killed is not gone yet (process %d).", ended.process.pid)
 
 
-async def _start_process() -> _Process:
+async def _start_process(nice: int) -> _Process:
     # Not by the loop: uvloop forks, and to copy a large process takes it tens of milliseconds.
     process = await asyncio.to_thread(
         subprocess.Popen,
-        [sys.executable, "-m", "relguide_server.worker"],
+        [sys.executable, "-m", "relguide_server.worker", str(nice)],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},

@@ -2,10 +2,10 @@
 
 import json
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from importlib.metadata import version
-from time import monotonic, perf_counter
+from time import monotonic, perf_counter, thread_time
 from typing import Any, Literal
 
 import orjson
@@ -63,6 +63,8 @@ class Answered:
     """How long it took."""
     final: bool
     """Whether more time would not change it: it is proved, or a network is sure of it."""
+    processor: Second = 0.0
+    """How much of it a worker was at work; the rest it waited for a processor."""
 
 
 def load(planner: str | Planner) -> None:
@@ -118,10 +120,12 @@ def plan_body(
     Raises:
         Refusal: if it is no situation, or cannot be written so.
     """
+    began = thread_time()
     situation, anchor = read_situation(body)
     least = LEAST_WITH_MORE if include else LEAST
     deadline = max(min(end - monotonic(), most), least)
-    return plan_situation(situation, anchor, planner, include, deadline, form)
+    answered = plan_situation(situation, anchor, planner, include, deadline, form)
+    return replace(answered, processor=thread_time() - began)
 
 
 def plan_at_once(situation: Situation, anchor: Anchor) -> Answered | None:

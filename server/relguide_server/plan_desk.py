@@ -17,10 +17,11 @@ from relguide.planning.plan import Planner
 from relguide.units import Second
 from relguide_server import jobs
 from relguide_server.exchange import SMALL
+from relguide_server.habits import Habits
 from relguide_server.jobs import Answered
 from relguide_server.metrics import Metrics
 from relguide_server.preparation import Preparation
-from relguide_server.workers import Workers
+from relguide_server.workers import Kind, Workers
 
 AT_ONCE: Second = 1e-3
 """How long a situation is tried on the event loop; of 4,000 extreme ones none took 3 ms."""
@@ -29,8 +30,16 @@ GRACE: Second = 1.0
 PROOF: Second = 5.0
 """How much longer Pontryagin's conditions may take, which know no deadline."""
 SHORT: Second = 0.04
-"""What a worker has not planned in this time is put back behind what is planned sooner, and begun
-anew: so those who ask for what takes long wait for each other, and nobody else for them."""
+"""What a worker has not planned in this time waits for those who plan what takes long, and is begun
+anew: so those who ask for it wait for each other, and nobody else for them."""
+LONG: Second = 0.75 * SHORT
+"""What takes this much of a processor takes long; what waits for one does not by that."""
+STARVED = 4.0
+"""Up to so many times `SHORT` is what waits for a processor given there."""
+FIRST: Second = 0.25
+"""What a plan that takes long is given at first, when its turn comes."""
+MORE = 4.0
+"""By how much more time it is begun anew."""
 CUT_SHORT = 0.9
 """What took a smaller share of its time than this came to its end by itself."""
 HANDING_OVER: Second = 0.02
@@ -92,6 +101,7 @@ class PlanDesk:
         self._workers = workers
         self._metrics = metrics
         self._quick = quick
+        self._habits = Habits()
 
     def answer_at_once(self, body: bytes, wish: Wish) -> Answered | None:
         """The answer to a situation in JSON; `None` where that may take too long.
@@ -142,27 +152,61 @@ class PlanDesk:
         return self._quick and wish.planner in (None, self.name)
 
     async def _plan_in_turn(self, body: bytes, wish: Wish, end: float, client: str) -> Answered:
-        """What workers make of it: quickly if it can be, else after others that can be."""
-        job = body, self.planner_for(wish.planner), wish.include, end
-        patience = max(end - monotonic(), 0.0) + wish.patience
+        """What workers make of it: quickly if it can be, else after others that can be.
+
+        A long plan is begun anew with four times the time, so long as there is any. Most of it is
+        spent on the last, a job ends soon after its client has left, and none keeps a worker from
+        all others for the whole of a long budget.
+        """
+        most = wish.budget
         if (wish.planner or self._quick) and "optimality" not in wish.include:
-            quick: Answered = await self._workers.do(
-                "plans", jobs.plan_body, *job, SHORT, wish.form, patience=patience, client=client
+            most = FIRST
+            short = SHORT
+            while not self._habits.asks_long(client):
+                quick = await self._try("plans", body, wish, end, short, client)
+                if _came_to_an_end(quick, short) or end - monotonic() < short:
+                    return quick
+                if quick.processor < LONG and short < STARVED * SHORT:
+                    short *= 2.0  # it waited for a processor
+                elif not self._workers.has_room("long_plans", client):
+                    return quick  # certified, with its bound: better than nothing
+                else:
+                    break
+        while True:
+            found = await self._try("long_plans", body, wish, end, most, client)
+            if _came_to_an_end(found, most) or end - monotonic() < most:
+                return found
+            most *= MORE
+
+    async def _try(
+        self, kind: Kind, body: bytes, wish: Wish, end: float, most: Second, client: str
+    ) -> Answered:
+        """What a worker makes of it in some time.
+
+        Who asks for what takes long is noted, and who does not wait for it.
+        """
+        found: Answered | None = None
+        try:
+            found = await self._workers.do(
+                kind,
+                jobs.plan_body,
+                body,
+                self.planner_for(wish.planner),
+                wish.include,
+                end,
+                most,
+                wish.form,
+                patience=max(end - monotonic(), 0.0) + wish.patience,
+                client=client,
             )
-            if quick.seconds < CUT_SHORT * SHORT or end - monotonic() < SHORT:
-                return quick
-            if not self._workers.has_room("long_plans", client):
-                return quick  # certified, with its bound: better than nothing
-        answered: Answered = await self._workers.do(
-            "long_plans",
-            jobs.plan_body,
-            *job,
-            wish.budget,
-            wish.form,
-            patience=patience,
-            client=client,
-        )
-        return answered
+        finally:
+            if found is None:  # what is still in the slow lane takes long, whoever gives up
+                long = kind == "long_plans" or monotonic() < end
+            else:
+                long = found.processor > LONG
+            if long:
+                self._habits.note_long(client)
+        return found
 
     async def answer_batch(
         self, lines: Sequence[bytes], wish: Wish, *, client: str
@@ -210,3 +254,8 @@ class PlanDesk:
     def planner_for(self, name: str | None) -> str | Planner:
         """A planner as a worker takes it: the service's own, or another by its name."""
         return name or self.name or self._planner
+
+
+def _came_to_an_end(found: Answered, most: Second) -> bool:
+    """Whether it ended by itself, not when its time was up."""
+    return found.seconds < CUT_SHORT * most

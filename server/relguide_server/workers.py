@@ -1,9 +1,9 @@
 """The workers of the service: a bounded queue for each kind of job, and the hands that do them.
 
 Kinds take turns, and so do the clients of a kind, so that none starves another; and of several
-hands one is kept from the long kinds, so that a plan never waits for an area. A job that takes
-longer than it may is killed with its hand, which is replaced. A client that leaves takes its job
-with it.
+hands one is kept for quick plans, so that these never wait for an area. The others give way to it
+where processors are scarce. A job that takes longer than it may is killed with its hand, which is
+replaced. A client that leaves takes its job with it.
 """
 
 import asyncio
@@ -22,8 +22,9 @@ Kind = Literal["plans", "long_plans", "simulations", "areas", "batches"]
 """What waits in one queue. `plans` take some hundredths of a second; those that would take longer
 are begun anew as `long_plans`."""
 KINDS: tuple[Kind, ...] = get_args(Kind)
-LONG: frozenset[Kind] = frozenset(kind for kind in KINDS if kind != "plans")
-"""Kinds that leave one hand free."""
+NICE, NICER = 5, 15
+"""How much the process that is kept for plans gives way to the streams and flights of the service,
+and the others to it: these get a tenth of a processor for which both compete."""
 ABANDONED = 0.5
 """How long a job goes on whose client has left, before its hand is killed [s]: a new hand costs a
 second of a processor."""
@@ -71,14 +72,16 @@ class Workers:
             queue: most jobs of a kind that wait.
         """
         self._hands: Sequence[Hand] = (
-            [ProcessHand() for _ in range(count)] or [ThreadHand() for _ in range(THREADS)]
+            [ProcessHand(NICER if k else NICE) for k in range(count)]
+            or [ThreadHand() for _ in range(THREADS)]
         )  # fmt: skip
+        self._kept = self._hands[0] if len(self._hands) > 1 else None
+        self._kept_is_free = False
         self._waiting: dict[Kind, Turns[_Job]] = {kind: Turns(queue) for kind in KINDS}
         self._turn = deque(KINDS)
         self._open: set[_Job] = set()
         self._stopped = False
         self._ready: set[Hand] = set()
-        self._long = 0
         self._wake = asyncio.Condition()
         self._tasks: list[asyncio.Task[None]] = []
         self.done: dict[Kind, int] = dict.fromkeys(KINDS, 0)
@@ -171,7 +174,7 @@ class Workers:
         queue.put(job, client)
         self._open.add(job)
         async with self._wake:
-            self._wake.notify()
+            self._wake.notify_all()
         try:
             async with asyncio.timeout(WAITING + patience):
                 return value_of(await job.outcome)
@@ -195,15 +198,9 @@ class Workers:
                     await asyncio.sleep(LOADING_AGAIN)
                     continue
             self._ready.add(hand)
-            kind, job = await self._next()
-            try:
-                await self._finish(hand, job)
-                self.done[kind] += 1
-            finally:
-                if kind in LONG:
-                    self._long -= 1
-                    async with self._wake:
-                        self._wake.notify()
+            kind, job = await self._next(hand)
+            await self._finish(hand, job)
+            self.done[kind] += 1
 
     async def _finish(self, hand: Hand, job: _Job) -> None:
         doing = asyncio.ensure_future(hand.do(job.work))
@@ -211,11 +208,14 @@ class Workers:
             await asyncio.wait(
                 (doing, job.outcome), timeout=job.patience, return_when=asyncio.FIRST_COMPLETED
             )
-            if not doing.done() and job.outcome.done():
+            if abandoned := not doing.done() and job.outcome.done():
                 await asyncio.wait((doing,), timeout=ABANDONED)
             if not doing.done():
                 self.killed += 1
-                log.warning("A job took longer than %.1f s and was ended.", job.patience)
+                if abandoned:
+                    log.info("A job whose client had left was ended.")
+                else:
+                    log.warning("A job took longer than %.1f s and was ended.", job.patience)
                 job.end(_too_long(job.patience))
                 await self._replace(hand, doing)
             elif (error := doing.exception()) is not None:
@@ -233,19 +233,28 @@ class Workers:
         await asyncio.wait((doing,))
         await hand.drop()
 
-    async def _next(self) -> tuple[Kind, _Job]:
+    async def _next(self, hand: Hand) -> tuple[Kind, _Job]:
+        """What a hand does next, once there is something for it."""
         async with self._wake:
-            while True:
-                for _ in KINDS:
-                    kind = self._turn[0]
-                    self._turn.rotate(-1)
-                    jobs = self._waiting[kind]
-                    if not jobs or (kind in LONG and self._long >= max(len(self._hands) - 1, 1)):
-                        continue
-                    if kind in LONG:
-                        self._long += 1
-                    return kind, jobs.take()
-                await self._wake.wait()
+            try:
+                while (kind := self._kind_for(hand)) is None:
+                    self._kept_is_free |= hand is self._kept
+                    await self._wake.wait()
+            finally:
+                self._kept_is_free &= hand is not self._kept
+            self._wake.notify_all()  # what the kept one leaves is for others
+            return kind, self._waiting[kind].take()
+
+    def _kind_for(self, hand: Hand) -> Kind | None:
+        """The kind whose turn it is, of those that a hand does; `None` if none waits."""
+        if hand is self._kept:
+            return "plans" if self._waiting["plans"] else None
+        for _ in KINDS:
+            kind = self._turn[0]
+            self._turn.rotate(-1)
+            if self._waiting[kind] and not (kind == "plans" and self._kept_is_free):
+                return kind
+        return None
 
 
 def _too_long(seconds: float) -> Refusal:

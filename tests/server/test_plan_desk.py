@@ -6,6 +6,7 @@ import threading
 from collections.abc import Awaitable, Callable
 from time import monotonic, sleep
 
+import pytest
 from relguide_server.metrics import Metrics
 from relguide_server.plan_desk import SHORT, PlanDesk, Wish
 from relguide_server.plans import EXAMPLE
@@ -18,6 +19,11 @@ from relguide.units import Second
 
 BODY = json.dumps(EXAMPLE).encode()
 WISH = Wish(planner=None, include=(), budget=5.0)
+
+
+@pytest.fixture(autouse=True)
+def _sleep_is_work(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("relguide_server.jobs.thread_time", monotonic)
 
 
 def at_desk(
@@ -56,7 +62,61 @@ def test_what_takes_long_is_begun_anew_and_gets_its_time() -> None:
     async def scene(desk: PlanDesk, workers: Workers) -> None:
         answered = await desk.answer_by_worker(BODY, WISH, monotonic() + 5.0, client="a")
         assert answered.status == "planned"
-        assert (workers.done["plans"], workers.done["long_plans"]) == (1, 1)
+        # 0.04 s, 0.25 s, and what it wants of 1 s
+        assert (workers.done["plans"], workers.done["long_plans"]) == (1, 2)
+
+    at_desk(dawdle, scene)
+
+
+def test_who_asked_for_what_takes_long_is_not_tried_quickly_for_a_while() -> None:
+    async def scene(desk: PlanDesk, workers: Workers) -> None:
+        for client in ("a", "a", "b"):
+            await desk.answer_by_worker(BODY, WISH, monotonic() + 0.2, client=client)
+        assert (workers.done["plans"], workers.done["long_plans"]) == (2, 3)
+
+    at_desk(dawdle, scene)
+
+
+def test_who_leaves_is_taken_to_have_asked_for_what_takes_long() -> None:
+    async def scene(desk: PlanDesk, workers: Workers) -> None:
+        end = monotonic() + 5.0
+        leaving = asyncio.create_task(desk.answer_by_worker(BODY, WISH, end, client="a"))
+        await asyncio.sleep(SHORT / 4)
+        leaving.cancel()
+        await asyncio.sleep(SHORT)
+        done = workers.done["plans"]
+        await desk.answer_by_worker(BODY, WISH, monotonic() + 0.2, client="a")
+        assert (workers.done["plans"], workers.done["long_plans"]) == (done, 1)
+
+    at_desk(dawdle, scene)
+
+
+def test_who_leaves_soon_costs_no_worker() -> None:
+    """What is begun for long is begun for a short while first."""
+
+    async def scene(desk: PlanDesk, workers: Workers) -> None:
+        for client in "abcd":
+            end = monotonic() + 10.0
+            leaving = asyncio.create_task(desk.answer_by_worker(BODY, WISH, end, client=client))
+            await asyncio.sleep(2.0 * SHORT)  # it is being planned at length
+            leaving.cancel()
+        await asyncio.sleep(0.6)
+        assert workers.done["long_plans"] == 4
+        assert workers.killed == 0
+
+    at_desk(dawdle, scene)
+
+
+def test_what_waits_for_a_processor_is_not_taken_to_take_long(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("relguide_server.jobs.thread_time", lambda: 0.0)
+
+    async def scene(desk: PlanDesk, workers: Workers) -> None:
+        for _ in range(2):
+            await desk.answer_by_worker(BODY, WISH, monotonic() + 0.3, client="a")
+        assert workers.done["plans"] == 6  # 0.04, 0.08 and 0.16 s, of which too little is left
+        assert workers.done["long_plans"] == 0
 
     at_desk(dawdle, scene)
 

@@ -2,6 +2,9 @@
 
 import asyncio
 import os
+import pickle
+import subprocess
+import sys
 import threading
 import time
 from collections.abc import Awaitable, Callable, Iterator
@@ -9,6 +12,7 @@ from contextlib import contextmanager
 
 import pytest
 from relguide_server.errors import Refusal
+from relguide_server.worker import LENGTH
 from relguide_server.workers import Workers
 
 ANY = 20.0
@@ -70,7 +74,9 @@ def test_a_process_that_dies_is_replaced() -> None:
     with_workers(1, scene)
 
 
-def test_a_client_that_leaves_takes_its_job_along() -> None:
+def test_a_client_that_leaves_takes_its_job_along(caplog: pytest.LogCaptureFixture) -> None:
+    caplog.set_level("INFO")
+
     async def scene(workers: Workers) -> None:
         before = await workers.do("plans", os.getpid, patience=ANY)
         running = asyncio.create_task(workers.do("plans", time.sleep, 3600.0, patience=ANY))
@@ -82,6 +88,7 @@ def test_a_client_that_leaves_takes_its_job_along() -> None:
         assert await workers.do("plans", os.getpid, patience=ANY) != before
 
     with_workers(1, scene)
+    assert caplog.messages == ["A job whose client had left was ended."]
 
 
 @contextmanager
@@ -133,6 +140,61 @@ def test_a_client_is_told_that_its_own_jobs_are_too_many() -> None:
 
     with held(gate):
         with_workers(0, scene)
+
+
+def test_quick_plans_have_a_hand_that_does_nothing_else() -> None:
+    """It is the one asked if it is free; the others are nicer, and help where it is not."""
+
+    async def scene(workers: Workers) -> None:
+        await asyncio.gather(*(workers.do("areas", time.sleep, 0.05, patience=ANY) for _ in "abcd"))
+        kept = {await workers.do("plans", os.getpid, patience=ANY) for _ in range(8)}
+        others = {await workers.do("areas", os.getpid, patience=ANY) for _ in range(8)}
+        assert len(kept) == 1
+        assert kept | others == set(workers.processes)
+        assert not kept & others
+        nice = await workers.do("plans", os.nice, 0, patience=ANY)
+        assert nice + 10 == await workers.do("areas", os.nice, 0, patience=ANY)
+        both = [workers.do("plans", nap, 0.3, patience=ANY) for _ in "ab"]
+        assert set(await asyncio.gather(*both)) == set(workers.processes)
+
+    with_workers(2, scene)
+
+
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")  # not waited for
+def test_a_killed_process_that_does_not_go_costs_no_hand(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    monkeypatch.setattr("relguide_server.hands.END_PATIENCE", -1.0)
+
+    async def scene(workers: Workers) -> None:
+        before = await workers.do("plans", os.getpid, patience=ANY)
+        with pytest.raises(Refusal, match="was ended"):
+            await workers.do("plans", time.sleep, 3600.0, patience=0.2)
+        assert await workers.do("plans", os.getpid, patience=ANY) != before
+
+    with_workers(1, scene)
+    assert "not gone yet" in caplog.text
+
+
+def nap(seconds: float) -> int:
+    time.sleep(seconds)
+    return os.getpid()
+
+
+def test_a_worker_whose_service_was_killed_leaves_without_a_word() -> None:
+    command = [sys.executable, "-m", "relguide_server.worker", "0"]
+    job = pickle.dumps((time.sleep, (0.5,)))
+    with subprocess.Popen(
+        command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    ) as worker:
+        assert worker.stdin
+        assert worker.stdout
+        assert worker.stderr
+        worker.stdin.write(len(job).to_bytes(LENGTH, "big") + job)
+        worker.stdin.flush()
+        worker.stdout.close()
+        assert worker.wait(20.0) == 1
+        assert worker.stderr.read() == b""
 
 
 def test_kinds_take_turns() -> None:
