@@ -24,11 +24,12 @@ from tests.campaign.families import FAMILIES, REACH, draw
 from tests.campaign.flights import failed_row, row_of
 from tests.campaign.paths import (
     circles,
-    circles_of,
     distance_from,
     lone_circles,
     path_in_air,
+    reversals,
     reversals_of,
+    turns_flown,
 )
 from tests.campaign.row import FIGURES, read_rows, row_from
 from tests.campaign.tables import distributions, ranking
@@ -254,8 +255,27 @@ def test_a_circle_behind_a_leader_that_circles_is_told_apart() -> None:
     assert lone_circles([*still, *right], [*back, *still], 1.0) == 1
 
 
+def test_plans_turn_only_as_far_as_they_are_flown() -> None:
+    segments = plan_card(golden_plan("R061")).segments
+    whole = list(turns_flown([(0.0, segments)], 1e6))
+    assert sum(seconds for _, seconds in whole) == pytest.approx(
+        sum(segment.duration for segment in segments)
+    )
+    assert reversals(angle for angle, _ in whole) == reversals_of(segments)
+    first = segments[0].duration
+    cut = list(turns_flown([(10.0, segments), (10.0 + 0.5 * first, segments)], 10.0 + 0.5 * first))
+    assert cut == [(pytest.approx(0.5 * whole[0][0]), pytest.approx(0.5 * first))]
+    again = list(turns_flown([(0.0, segments), (0.5 * first, segments)], 1.5 * first))
+    assert sum(angle for angle, _ in again) == pytest.approx(1.5 * whole[0][0])
+
+
+def test_small_corrections_are_no_reversals() -> None:
+    assert reversals(angle * DEG for angle in (30.0, 0.0, -0.6, 5.0, -0.6, 0.0, -0.6)) == 1
+    assert reversals(angle * DEG for angle in (30.0, -0.6, 5.0, -40.0, 0.0, 2.0)) == 2
+
+
 def test_a_plan_has_the_circles_and_reversals_of_its_turns() -> None:
     segments = plan_card(golden_plan("R061")).segments
     sides = [segment.direction for segment in segments if segment.kind == "turn"]
     assert reversals_of(segments) == sum(a != b for a, b in pairwise(sides))
-    assert circles_of(segments) == 0
+    assert circles(turns_flown([(0.0, segments)], 1e6)) == 0

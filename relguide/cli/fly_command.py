@@ -2,6 +2,7 @@
 
 import argparse
 from dataclasses import replace
+from functools import partial
 from itertools import islice
 from pathlib import Path
 from time import perf_counter
@@ -94,21 +95,18 @@ def run(chosen: argparse.Namespace) -> int:
         scenario = replace(scenario, spacing=chosen.spacing)
     settings = DEFAULT if chosen.settings is None else load_settings(chosen.settings)
     planner = make_planner(chosen.planner)
-    for _ in islice(fly(scenario, planner, sample_period=1.0), LOADING):
+    for _ in islice(fly(scenario, planner, sample_period=1.0, planner_name=""), LOADING):
         pass
-    commands = commands_of(orders)
+    flown = partial(
+        fly, scenario, planner, commands=commands_of(orders), seed=chosen.seed, settings=settings,
+        planner_name=chosen.planner,
+    )  # fmt: skip
     started = perf_counter()
     if chosen.record is None:
         # nobody looks at the samples: one a second is enough for the progress bar
-        documents = fly(
-            scenario, planner, commands=commands, seed=chosen.seed, sample_period=1.0,
-            settings=settings,
-        )  # fmt: skip
+        documents = flown(sample_period=1.0)
     else:
-        documents = record(
-            fly(scenario, planner, commands=commands, seed=chosen.seed, settings=settings),
-            chosen.record,
-        )
+        documents = record(flown(), chosen.record)
     flight = story_of(
         show_progress(
             documents,

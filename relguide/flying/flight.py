@@ -36,7 +36,7 @@ from relguide.planning.inputs import (
     truth,
 )
 from relguide.planning.limits import SPACING
-from relguide.planning.plan import Plan, Planner
+from relguide.planning.plan import Plan, Planner, plan
 from relguide.planning.situation import IntentPiece, Situation, TurnTo
 from relguide.units import DEG, Metre, Radian, Second
 
@@ -130,6 +130,7 @@ def fly(
     seed: int = 0,
     settings: Settings = DEFAULT,
     engagement: Engagement = "engaged",
+    planner_name: str | None = None,
 ) -> Iterator[Document]:
     """Fly a scenario and say what happens, in order of time.
 
@@ -144,6 +145,8 @@ def fly(
             10 % of them, unknown to its guidance.
         settings: of guidance.
         engagement: how far guidance is engaged at the start; commands change it.
+        planner_name: who makes the plans, as `FlightStarted` says; if left out, a planner other
+            than `plan` is asked once more, to learn what name its plans give it.
 
     Yields:
         `FlightStarted` first, `FlightEnded` last. What the planner raises is passed on as it is.
@@ -155,7 +158,9 @@ def fly(
     seed, step = expect_whole("seed", seed, 0), number("step", step)
     whole_steps(1.0, step)
     whole_steps(number("sample_period", sample_period), step)
-    return _fly(scenario, planner, commands, step, sample_period, seed, settings, engagement)
+    return _fly(
+        scenario, planner, commands, step, sample_period, seed, settings, engagement, planner_name
+    )
 
 
 def _fly(
@@ -167,14 +172,16 @@ def _fly(
     seed: int,
     settings: Settings,
     engagement: Engagement,
+    planner_name: str | None,
 ) -> Iterator[Document]:
-    answer = planner(scenario.situation)
+    if planner_name is None:
+        planner_name = _name_of(planner, scenario.situation)
     yield from simulate(
         world_of(scenario, settings, seed),
         planner,
         scenario=scenario.name,
         title=scenario.title,
-        planner_name=answer.planner if isinstance(answer, Plan) else "exact",
+        planner_name=planner_name,
         commands=commands,
         step=step,
         sample_period=sample_period,
@@ -183,6 +190,12 @@ def _fly(
         after_joining=scenario.after_joining,
         engagement=engagement,
     )
+
+
+def _name_of(planner: Planner, situation: Situation) -> str:
+    """The name that a planner gives itself in its plans."""
+    answer = None if planner is plan else planner(situation)
+    return answer.planner if isinstance(answer, Plan) else "exact"
 
 
 def world_of(scenario: Scenario, settings: Settings = DEFAULT, seed: int = 0) -> World:

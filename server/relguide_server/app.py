@@ -101,7 +101,7 @@ def create_app(
     patient = preparation.guard(planner, name, waiting=True)
     if quick:
         patient = with_deadline(patient, IN_FLIGHT)
-    departures = departures or library_departures(patient)
+    departures = departures or library_departures(patient, name or None)
     fleet = Fleet(settings, metrics)
     metrics.watch(partial(_measure, fleet, workers))
     metrics.watch(keeper.measure)

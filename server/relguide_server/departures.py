@@ -60,8 +60,8 @@ DeparturesOf = Annotated[Departures, Depends(departures_of)]
 """How a route asks for them."""
 
 
-def library_departures(planner: Planner) -> Departures:
-    """The library's scenarios, guided by a planner."""
+def library_departures(planner: Planner, name: str | None = None) -> Departures:
+    """The library's scenarios, guided by a planner, of that name if it has one."""
 
     def find(wanted: FlightRequest) -> Departure:
         name, found, anchor = scenario_of(wanted)
@@ -71,7 +71,12 @@ def library_departures(planner: Planner) -> Departures:
             scenario=name,
             title=found.title,
             source=lambda commands: fly(
-                found, planner, commands=commands, seed=seed, engagement=engagement
+                found,
+                planner,
+                commands=commands,
+                seed=seed,
+                engagement=engagement,
+                planner_name=name,
             ),
             anchor=anchor,
             first=_known_situation(found),

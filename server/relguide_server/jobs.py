@@ -231,7 +231,13 @@ def simulate(wanted: FlightRequest, planner: str | Planner) -> bytes:
     """Fly a flight to its end, as fast as it goes, and give its figures as JSON text."""
     started = perf_counter()
     name, flown, _ = scenario_of(wanted)
-    documents = fly(flown, planner_of(planner), seed=wanted.seed, sample_period=1.0)
+    documents = fly(
+        flown,
+        planner_of(planner),
+        seed=wanted.seed,
+        sample_period=1.0,
+        planner_name=planner if isinstance(planner, str) else None,
+    )
     (ended,) = story_of(documents).ended
     about = {
         "scenario": name,

@@ -30,12 +30,14 @@ from tests.campaign.case import Case
 from tests.campaign.evasion import AHEAD, best_turn
 from tests.campaign.paths import (
     Floats,
-    circles_of,
+    circles,
     count_circles,
     distance_from,
     lone_circles,
     path_in_air,
+    reversals,
     reversals_of,
+    turns_flown,
 )
 from tests.campaign.row import Loss, Row
 from tests.flights import Instant, instant
@@ -88,9 +90,9 @@ def failed_row(case: Case, error: BaseException) -> Row:
         planned_s=None, promised_s=None, join_over_plan=None, join_over_promise=None,
         least_share=_start_share(case.scenario.situation),
         start_share=_start_share(case.scenario.situation), below_s=0.0, losses=(),
-        shown_replans=0, all_replans=0, reversals=0, extra_reversals=None, loops=0, lone_loops=0,
-        heading_jump_deg=0.0, cross_track_m=0.0, off_forecast_m=None, fastest_mps=0.0, alerts=0,
-        cpu_s=0.0,
+        shown_replans=0, all_replans=0, reversals=0, extra_reversals=None, unplanned_reversals=None,
+        loops=0, lone_loops=0, heading_jump_deg=0.0, cross_track_m=0.0, off_forecast_m=None,
+        fastest_mps=0.0, alerts=0, cpu_s=0.0,
         error=f"{type(error).__name__}: {error}",
     )  # fmt: skip
 
@@ -109,9 +111,10 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
     joined = end.join_time if end.joined else None
     warnings = tuple(_warnings(documents))
     losses = tuple(_losses(situation.min_separation, samples, end, warnings))
+    paths = [(document.t, document.plan.segments) for document in changed]
+    turns = list(turns_flown(paths, last.t if joined is None else joined))
     loops = count_circles((s.pursuer.turn_rate for s in samples), EVERY) - max(
-        [count_circles((s.leader.turn_rate for s in samples), EVERY)]
-        + [circles_of(document.plan.segments) for document in changed]
+        count_circles((s.leader.turn_rate for s in samples), EVERY), circles(turns)
     )
     return Row(
         family=case.family,
@@ -133,6 +136,9 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
         all_replans=end.replans,
         reversals=end.bank_reversals,
         extra_reversals=end.bank_reversals - reversals_of(engaged.plan.segments)
+        if engaged
+        else None,
+        unplanned_reversals=end.bank_reversals - reversals(angle for angle, _ in turns)
         if engaged
         else None,
         loops=max(loops, 0),

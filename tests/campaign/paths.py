@@ -69,9 +69,28 @@ def distance_from(path: Floats, x: Metre, y: Metre) -> Metre:
     return float(np.min(np.hypot(*(away - share[:, None] * step).T)))
 
 
-def circles_of(segments: Sequence[PathSegment]) -> int:
-    """Full circles of a plan."""
-    return circles((_turn_angle(segment), segment.duration) for segment in segments)
+def turns_flown(
+    plans: Sequence[tuple[Second, Sequence[PathSegment]]], until: Second
+) -> Iterator[tuple[Radian, Second]]:
+    """What plans turn, each as far as it was flown before the next took its place.
+
+    Args:
+        plans: when each began to be flown [s], and its path; in order of time.
+        until: when the last was left [s].
+
+    Yields:
+        the heading change of each piece, positive to the right, and how long it took.
+    """
+    ends = [begun for begun, _ in plans[1:]] + [until]
+    for (begun, segments), end in zip(plans, ends, strict=True):
+        left = end - begun
+        for segment in segments:
+            if left <= 0.0:
+                break
+            flown = min(segment.duration, left)
+            share = flown / segment.duration if segment.duration > 0.0 else 0.0
+            yield _turn_angle(segment) * share, flown
+            left -= flown
 
 
 def count_circles(rates: Iterable[float], every: Second) -> int:
@@ -116,7 +135,20 @@ def _runs(turns: Iterable[tuple[Radian, Second]]) -> Iterator[tuple[Radian, int,
 
 def reversals_of(segments: Sequence[PathSegment]) -> int:
     """How often a plan changes from one side to the other."""
-    sides = [angle > 0.0 for angle in map(_turn_angle, segments) if abs(angle) > 1.0 * DEG]
+    return reversals(map(_turn_angle, segments))
+
+
+def reversals(turns: Iterable[Radian]) -> int:
+    """How often successive heading changes go from one side to the other.
+
+    What turns less than 1° to a side before it goes back is a correction.
+    """
+    runs = [0.0]
+    for angle in turns:
+        if angle * runs[-1] < 0.0:
+            runs.append(0.0)
+        runs[-1] += angle
+    sides = [run > 0.0 for run in runs if abs(run) > 1.0 * DEG]
     return sum(a != b for a, b in pairwise(sides))
 
 

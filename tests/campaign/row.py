@@ -56,8 +56,10 @@ class Row:
     """Of bank, until joined."""
     extra_reversals: int | None
     """Beyond those of the plan at engagement; `None` if there was none."""
+    unplanned_reversals: int | None
+    """Beyond those of all plans, each as far as it was flown; `None` if there was none."""
     loops: int
-    """Full circles that neither a plan nor the leader had."""
+    """Full circles that neither the plans, as far as they were flown, nor the leader had."""
     lone_loops: int
     """Those of them during which the leader turned less than half a circle."""
     heading_jump_deg: float
@@ -196,7 +198,8 @@ FIGURES = (
     Figure(name="silent_losses", heading="losses without a word"),
     Figure(name="shown_replans", heading="replans shown"),
     Figure(name="all_replans", heading="replans in all"),
-    Figure(name="extra_reversals", heading="bank reversals beyond the plan's"),
+    Figure(name="extra_reversals", heading="bank reversals beyond the first plan's"),
+    Figure(name="unplanned_reversals", heading="bank reversals beyond all plans'"),
     Figure(name="loops", heading="circles not planned"),
     Figure(name="lone_loops", heading="of these, leader turned < 180°"),
     Figure(name="heading_jump_deg", heading="jump of the held heading, °", decimals=1),

@@ -26,7 +26,7 @@ from relguide.planning.trajectory import (
     Straight,
     Trajectory,
 )
-from relguide.units import DEG, Metre, Radian, Second
+from relguide.units import DEG, Metre, MetrePerSecond, Radian, Second
 
 LEVEL: Radian = 1.0 * DEG
 """With less bank than this an aircraft is taken to fly straight on [rad]."""
@@ -111,7 +111,9 @@ def lead_in(belief: Belief, assignment: Assignment, committed: Committed | None)
         x, y, heading = advance(own.x, own.y, own.heading, 1.0, rate / own.tas, length)
     else:
         path, s = committed.course.path, committed.s
-        pieces = on.pieces_between(path, s, s + length)
+        pieces = _until_turn_ends(on.pieces_between(path, s, s + length), assignment.tas)
+        length = float(pieces[:, 0].sum())
+        seconds = length / assignment.tas
         drifted = belief.t - committed.course.begun
         east, north = wind.east * drifted, wind.north * drifted
         x, y, heading = on.pose_on(path, s)
@@ -127,6 +129,24 @@ def lead_in(belief: Belief, assignment: Assignment, committed: Committed | None)
     )
     leader = belief.leader_after(seconds)
     return LeadIn(seconds=seconds, pursuer=pursuer, leader=leader, pieces=pieces, start=start)
+
+
+def _until_turn_ends(pieces: FloatArray, tas: MetrePerSecond) -> FloatArray:
+    """Pieces without what follows a turn that ends in the last second of them.
+
+    That it ends there was planned a second ago, and the next plan may go on with it. Were the end
+    kept each time, a path made anew each second would put it off in steps, turning to and fro.
+
+    Args:
+        pieces: length [m] and curvature [rad/m] of each. shape (n, 2)
+        tas: the pursuer's [m/s].
+    """
+    ends = np.cumsum(pieces[:, 0])
+    for k in range(len(pieces) - 1):
+        before, after = pieces[k, 1], pieces[k + 1, 1]
+        if ends[k] > ends[-1] - tas and (before * after < 0.0 or (before != 0.0 and after == 0.0)):
+            return pieces[: k + 1]
+    return pieces
 
 
 def begun_now(path: Trajectory, belief: Belief) -> Trajectory:

@@ -251,6 +251,26 @@ def test_unannounced_turns_do_not_stop_it() -> None:
     assert flight.result.joined
 
 
+def test_a_planner_whose_name_is_known_is_not_asked_for_it() -> None:
+    asked = list[Situation]()
+
+    def listening(situation: Situation) -> Plan | NoPlan:
+        asked.append(situation)
+        return replace(plan(situation), planner="mine")
+
+    def begun(planner_name: str | None) -> str:
+        asked.clear()
+        flight = fly(FIG_6B, listening, engagement="off", planner_name=planner_name)
+        start = next(flight)
+        assert isinstance(start, FlightStarted)
+        return start.planner
+
+    assert begun("yours") == "yours"
+    assert not asked
+    assert begun(None) == "mine"
+    assert len(asked) == 1
+
+
 def test_what_a_planner_raises_ends_the_flight_there() -> None:
     class OwnError(Exception):
         pass

@@ -107,6 +107,25 @@ def test_a_new_course_goes_on_with_the_old_one_and_then_with_the_new_plan() -> N
     assert np.abs(np.diff(steps)).max() <= 50.0 * fastest * 1.01
 
 
+@pytest.mark.parametrize(("left_at_s", "seconds"), [(4.6, 6.0), (5.1, 5.1), (5.9, 5.9), (6.1, 6.0)])
+def test_it_ends_with_a_turn_that_ends_in_its_last_second(left_at_s: float, seconds: float) -> None:
+    """So the next plan may go on turning, and a turn is not put off by bits of the opposite one."""
+    watched = Watched(WINDY)
+    old = committed_at(watched).committed
+    turn = turn_rate(240.0, watched.assignment.planned_bank) / 240.0
+    lengths = 240.0 * np.array([left_at_s, 0.3, 60.0])
+    bends = np.column_stack([lengths, [turn, -turn, turn]])
+    path = on.lay_path(0.0, 0.0, 0.0, bends, 240.0, 0.0, watched.belief.limits.max_roll_rate)
+    course = old.course._replace(path=path)
+    lead = lead_in(watched.belief, watched.assignment, old._replace(course=course, s=0.0))
+    assert lead.seconds == pytest.approx(seconds)
+    assert lead.pieces[:, 0].sum() == pytest.approx(240.0 * seconds)
+    end = on.pose_on(path, 240.0 * seconds)
+    wind = watched.belief.wind
+    assert lead.pursuer.x == pytest.approx(end[0] + wind.east * seconds, abs=1e-6)
+    assert lead.leader.x == watched.belief.leader_after(seconds).x
+
+
 def _aloft(watched: Watched) -> tuple[float, float]:
     own, wind = watched.belief.own, watched.belief.wind
     return own.x - wind.east * watched.t, own.y - wind.north * watched.t
