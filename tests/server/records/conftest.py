@@ -1,7 +1,6 @@
 """Every database that the records can be kept in."""
 
-import secrets
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -26,8 +25,7 @@ def url(request: pytest.FixtureRequest, tmp_path: Path) -> str:
     if request.param == "sqlite":
         return f"sqlite:///{tmp_path}/records.sqlite3"
     server: Postgres = request.getfixturevalue("server")
-    new: Callable[[str], str] = server.database
-    return new(f"t{secrets.token_hex(4)}")
+    return server.empty_database()
 
 
 @pytest.fixture

@@ -113,7 +113,7 @@ def test_a_full_disk_is_said_and_what_was_flown_meanwhile_is_saved_later(tmp_pat
 
 @pytest.mark.skipif(not HAS_POSTGRES, reason=NO_POSTGRES)
 def test_a_server_that_stops_and_starts_again_is_caught_up_with(server: Postgres) -> None:
-    home = Home(server.database("stopped"))
+    home = Home(server.empty_database())
     writer = home.writer()
     writer.put(Began(card("one"), 1e9))
     tape = Tape("one", writer, Clock())
