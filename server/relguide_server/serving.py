@@ -2,6 +2,7 @@
 
 import asyncio
 import socket
+import sys
 from typing import Any
 
 import uvicorn
@@ -15,6 +16,9 @@ TO_SAY_GOODBYE = 0.3
 """How long streams may take to be told why they end [s]."""
 TO_FINISH = 1.0
 """How long requests may take to be answered once the service is to stop [s]."""
+SWITCH = 0.5e-3
+"""How long a thread may keep the interpreter from others that want it [s]: flights plan in threads,
+and with Python's own 5 ms each of them would hold up the event loop so long."""
 HEAD_PATIENCE = 15.0
 """How long the head of a request may take to come [s]."""
 LONGEST_HEAD = 64 * 1024
@@ -89,6 +93,7 @@ class Server(uvicorn.Server):
 
 def serve(app: FastAPI, *, host: str, port: int) -> None:
     """Serve until a signal says to stop; then end within three seconds."""
+    sys.setswitchinterval(SWITCH)
     most = app.state.settings.max_connections
     options = uvicorn_options(host=host, port=port)
     Server(uvicorn.Config(app, limit_concurrency=most, **options)).run()
