@@ -1,14 +1,20 @@
 /** Every number that stands twice on the page is the same number, in every frame. */
 
-import { signal } from "@preact/signals";
+import { batch, type Signal, signal } from "@preact/signals";
 import { render } from "preact";
 import { act } from "preact/test-utils";
 import { expect, test } from "vitest";
 import { NavigationDisplay } from "../src/nd/nd";
 import { Aircraft } from "../src/panels/aircraft";
 import { PlanNumbers } from "../src/panels/plan";
+import type { Camera } from "../src/scene/camera";
+import { textsOf } from "../src/scene/texts";
 import { createSession } from "../src/session";
-import { createFlightStore } from "../src/store/flight";
+import { createFlightStore, type Flight } from "../src/store/flight";
+import type { Shown } from "../src/store/picture";
+import { GUIDANCES } from "../src/store/states";
+import { forecastOf } from "./nd/fixture";
+import { flightIn } from "./nd/in-state";
 import {
   modeChanged,
   planChanged,
@@ -68,7 +74,8 @@ function standing(place: Element): Record<string, (string | undefined)[]> {
   return {
     "time to converge": [
       row("CNV"),
-      texts(".headline-figure")[0],
+      // without a time to converge the separation stands there
+      ...texts(".headline-figure").filter((text) => /^\d+:\d\d$/.test(text)),
       ...label(/^CNV (\d+:\d\d)$/),
       ...(name === "CNV" ? [left] : []),
     ],
@@ -137,4 +144,82 @@ test(`numbers that stand twice, in ${FRAMES} frames`, { timeout: 120_000 }, () =
     "until they are closest",
   ])
     expect(seen.get(name)?.size ?? 0, name).toBeGreaterThan(5);
+});
+
+/** Looks down on the scene from so high that all of it is seen. */
+const ABOVE: Camera = {
+  projection: [2.4, 0, 0, 0, 0, 2.4, 0, 0, 0, 0, -1, -1, 0, 0, -0.2, 0],
+  view: [0, -1, 0, 0, 0, 0, 1, 0, -1, 0, 0, 0, 0, 0, -900, 1],
+};
+
+/** What the scene says of the numbers that the page has as well. */
+function inScene(shown: Shown): Record<string, string[]> {
+  const texts = textsOf(shown, ABOVE, { width: 800, height: 600 });
+  const said = (id: string, found: RegExp) =>
+    texts
+      .filter((text) => text.id === id)
+      .flatMap(({ lines }) => lines.flatMap(({ text }) => text.match(found)?.slice(1, 2) ?? []));
+  return {
+    "time to converge": said("join", /^CNV (\d+:\d\d)$/),
+    MIN: said("min", /^MIN ([\d.]+)$/),
+    "least separation": said("closest", /^(\d+\.\d) NM/),
+    "ground speed": said("own", /^(\d+) kt/),
+  };
+}
+
+/** Whether a number stands there at all. */
+function isRead(text: string | undefined): text is string {
+  return text !== undefined && text !== "" && !/^-+:?-*$/.test(text);
+}
+
+/** Takes over what is known of another flight. */
+function become(flight: Flight, other: Flight): void {
+  batch(() => {
+    for (const key of Object.keys(flight) as (keyof Flight)[]) {
+      if (key === "trail") continue;
+      (flight[key] as Signal<unknown>).value = (other[key] as Signal<unknown>).value;
+    }
+  });
+}
+
+test(`… and in ${FRAMES} frames of a whole flight, in every state, scene included`, {
+  timeout: 240_000,
+}, () => {
+  const seen = new Map<string, Set<string>>();
+  const each = Math.ceil(FRAMES / GUIDANCES.length);
+  for (const state of GUIDANCES) {
+    const flight = flightIn(state, 0);
+    const session = createSession(flight);
+    const place = document.body.appendChild(document.createElement("div"));
+    act(() =>
+      render(
+        <>
+          <NavigationDisplay shown={session.shown} mode={signal("ROSE")} range={signal(160)} />
+          <PlanNumbers session={session} />
+          <Aircraft session={session} actions={silentActions()} />
+        </>,
+        place,
+      ),
+    );
+    for (let frame = 0; frame < each; frame += 1) {
+      // from the first second until after the join
+      const t = 0.5 + (frame * 960.3) / each;
+      const next = flightIn(state, t);
+      next.forecast.value = forecastOf("fig_6b");
+      act(() => become(flight, next));
+      const scene = inScene(session.shown);
+      for (const [name, there] of Object.entries(standing(place))) {
+        const texts = [...there, ...(scene[name] ?? [])].filter(isRead);
+        const what = `${name}, ${state} at ${t.toFixed(1)} s: ${texts.join(" | ")}`;
+        expect(new Set(texts).size, what).toBeLessThan(2);
+        if (texts.length > 1 && texts[0])
+          seen.set(name, (seen.get(name) ?? new Set()).add(texts[0]));
+      }
+    }
+    act(() => render(null, place));
+    place.remove();
+  }
+  for (const name of ["time to converge", "separation", "D", "MIN", "next turn", "ground speed"])
+    expect(seen.has(name), name).toBe(true);
+  expect(seen.get("time to converge")?.size ?? 0).toBeGreaterThan(150);
 });

@@ -27,11 +27,11 @@ export function proposal(): PlanProposed {
   };
 }
 
-/** A flight in a state. */
-export function flightIn(state: Guidance): Flight {
+/** A flight in a state, `t` [s] after its plan was made. */
+export function flightIn(state: Guidance, t = state === "follow" ? 900 : T): Flight {
   const mode =
     state === "converge" || state === "capture" || state === "follow" || state === "escape";
-  const flight = flightAt("fig_6b", state === "follow" ? 900 : T, mode ? state : "heading");
+  const flight = flightAt("fig_6b", t, mode ? state : "heading");
   const change = (sample: Partial<PairSample>) => {
     if (flight.sample.value === null) throw new Error("An empty flight.");
     const changed = { ...flight.sample.value, ...sample };
@@ -52,14 +52,14 @@ export function flightIn(state: Guidance): Flight {
       break;
     case "infeasible":
       change({ engagement: "designated", time_to_go_s: 0 });
-      flight.unavailable.value = noPlan(T);
+      flight.unavailable.value = noPlan(t);
       break;
     case "unable":
-      flight.unavailable.value = noPlan(T);
+      flight.unavailable.value = noPlan(t);
       break;
     case "data_lost":
       change({ engagement: "designated", leader_age_s: 15, time_to_go_s: 0 });
-      flight.unable.value = { ...unable(T), reason: "data" };
+      flight.unable.value = { ...unable(t), reason: "data" };
       break;
   }
   return flight;
