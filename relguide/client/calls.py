@@ -8,7 +8,6 @@ from typing import Any, Generic, Literal, TypeVar
 
 import httpx2
 import orjson
-from pydantic import TypeAdapter
 from websockets.exceptions import ConnectionClosedError, InvalidStatus
 
 from relguide.client.bodies import Asked, body_of
@@ -299,7 +298,10 @@ def _read_status(content: bytes) -> FlightStatus:
 
 
 def _read_figures(content: bytes) -> list[SimulationAnswer]:
-    return TypeAdapter(list[SimulationAnswer]).validate_json(content, extra="ignore")
+    return [
+        SimulationAnswer.model_validate_json(orjson.dumps(figures), extra="ignore")
+        for figures in orjson.loads(content)
+    ]
 
 
 def _read_nothing(content: bytes) -> None:

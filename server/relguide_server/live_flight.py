@@ -141,7 +141,7 @@ class LiveFlight:
         return documents
 
     def tick(self) -> None:
-        """Pass the new documents to all watchers: called each twentieth of a second."""
+        """Pass the new documents to all watchers; called `stream_rate` times a second."""
         documents = self.collect()
         if self.watched:
             self.note_seen()
