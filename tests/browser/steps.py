@@ -9,7 +9,7 @@ from tempfile import TemporaryDirectory
 
 from playwright.sync_api import Page, expect
 
-from tests.browser.picture import hide_toasts
+from tests.browser.picture import hide_toasts, take_picture
 from tests.browser.service import running_chromium, running_service
 from tests.browser.test_map import drag
 
@@ -41,22 +41,22 @@ def fly_an_encounter(page: Page, folder: Path) -> None:
     drag(page, "own", by=(0.6, 0.8))
     drag(page, "own-heading", by=(0.3, 0.5))
     page.wait_for_timeout(1500)
-    page.screenshot(path=folder / "1-lay-out.png")
+    take_picture(page, folder / "1-lay-out.png")
     page.get_by_role("button", name="Fly it").click()
     expect(page.locator(".nd-message")).to_contain_text("CONV PROPOSED")
     expect(page.locator(".poster")).to_have_count(0)
     hide_toasts(page)
     page.wait_for_timeout(1500)
-    page.screenshot(path=folder / "2-proposed.png")
+    take_picture(page, folder / "2-proposed.png")
     engage(page)
     expect(page.locator(".mode-name")).to_have_text("Converge")
     page.wait_for_timeout(3000)
-    page.screenshot(path=folder / "3-engaged.png")
+    take_picture(page, folder / "3-engaged.png")
     page.get_by_role("button", name="×60", exact=True).click()
     expect(page.locator(".mode-name")).to_have_text("Follow")
     page.get_by_role("button", name="×1", exact=True).click()
     page.wait_for_timeout(3000)
-    page.screenshot(path=folder / "4-following.png")
+    take_picture(page, folder / "4-following.png")
 
 
 def engage(page: Page) -> None:

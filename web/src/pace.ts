@@ -13,7 +13,7 @@ import { DEG } from "./units";
 import type { AircraftSample, Tick } from "./wire";
 
 /** What moves by less than this looks still, and what moves in steps of this glides [px]. */
-const STEP = 0.2;
+const STEP = 0.33;
 /** Numbers are read this often, whatever moves [ms]. */
 const LONGEST = 200;
 /** The screen's own period: sooner than this there is no next picture [ms]. */
