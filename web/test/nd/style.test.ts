@@ -20,11 +20,22 @@ test("every state has a look for every element", () => {
   }
 });
 
-test("without colour, what is flown, was flown, is declared and is guessed still differ", () => {
-  const apart = ["active", "superseded", "final", "declared", "extrapolated", "circle"] as const;
+test("without colour, what is flown, proposed, was flown, is declared and is guessed still differ", () => {
+  const apart = [
+    "active",
+    "proposed",
+    "ghost",
+    "superseded",
+    "final",
+    "declared",
+    "extrapolated",
+    "circle",
+  ] as const;
   const patterns = apart.map((name) => LINES[name].dash);
   expect(new Set(patterns).size).toBe(apart.length);
   expect(LINES.active.dash).toBe("");
+  // accepted is the same path, which is not flown yet either: a word beside it says which
+  expect(LINES.armed.dash).toBe(LINES.proposed.dash);
 });
 
 test("without colour, a lost separation differs from one that is kept", () => {
