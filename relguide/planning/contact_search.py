@@ -19,16 +19,21 @@ import numpy as np
 
 from relguide.kernels.base.clock import now
 from relguide.kernels.base.records import Pose, Scene
+from relguide.kernels.bounds.around import unknown_around
 from relguide.kernels.bounds.cells import Cell
 from relguide.kernels.bounds.contact_tree import Problem
 from relguide.kernels.bounds.goal import Goal
 from relguide.kernels.bounds.probe import Find, begin_find
-from relguide.kernels.bounds.proof_search import SEARCHING, begin, go_on
+from relguide.kernels.bounds.proof_search import SEARCHING, Search, begin, go_on, look_around
 from relguide.kernels.bounds.round_time import times_round
 from relguide.kernels.bounds.untouched import untouched_bound
 
 _QUADRANT_CELLS = 2
 """Cells a quadrant is cut into at first; none may reach into two."""
+_LOOKS_AT_TRACK = {12: 0.02, 13: 5e-3, 24: 2e-3}
+_LOOKS_AT_SLOT = {120: 0.02, 121: 5e-3}
+"""Before which rounds it is looked around a leader that turns, and how closely [rad]. Elsewhere
+than at d_min > R words say more: see `kernels/bounds/narrowing.py`."""
 _ROUND = 5e-3
 """Time from one report to the next [s]."""
 
@@ -69,25 +74,48 @@ class Question:
         """Ever better bounds of the time of all paths, up to `beat`, where they end."""
         return self.search(beat, begin_find(self.start, self.scene, -inf, 0.0, False), 0.0)
 
-    def search(self, beat: float, find: Find, gap: float) -> Iterator[float]:
+    def load(self) -> None:
+        """Load the kernels."""
+        for _ in self.bounds(0.0):
+            pass
+        search, problem, firsts = self._begin(0.0)
+        look_around(search, problem, firsts, 1.0, inf)
+
+    def search(self, beat: float, find: Find, gap: float, until: float = inf) -> Iterator[float]:
         """The same; paths that are found on the way lower `beat`.
 
         Args:
             beat: arrivals from here on do not matter at first [R/V_P].
             find: takes the fastest path found.
             gap: nor do those from so much before its arrival on [R/V_P].
+            until: when no more is wanted, by `clock.now` [s].
         """
-        # no path that nowhere touches d_min arrives sooner than the first of these
-        beat = untouched_bound(self.start, self.scene, self.goal, beat)
-        table = times_round(self.scene.alpha, self.scene.d_min)
-        problem = Problem(self.start, self.scene, self.goal, table, beat, self.paired)
-        first, last = np.array([*self.first_contacts()]), np.array([*self.last_contacts()])
-        search, state = begin(problem, first, last), SEARCHING
+        search, problem, firsts = self._begin(beat)
+        beat, state, rounds = problem.beat, SEARCHING, 0
+        looks = self._looks()
         while state == SEARCHING:
+            rounds += 1
+            if rounds in looks:
+                size = looks[rounds]
+                search, problem = look_around(search, problem, firsts, size, until)
             bound, state = go_on(search, problem, find, now() + _ROUND)
             if find.best[1] > 0.0:
                 problem = problem._replace(beat=min(beat, float(find.best[0]) - gap))
             yield bound
+
+    def _begin(self, beat: float) -> tuple[Search, Problem, int]:
+        """A search that has only begun, and how many cells of first contacts it has."""
+        # no path that nowhere touches d_min arrives sooner than the first of these
+        beat = untouched_bound(self.start, self.scene, self.goal, beat)
+        table, nothing = times_round(self.scene.alpha, self.scene.d_min), unknown_around()
+        problem = Problem(self.start, self.scene, self.goal, table, beat, self.paired, nothing)
+        first, last = np.array([*self.first_contacts()]), np.array([*self.last_contacts()])
+        return begin(problem, first, last), problem, len(first)
+
+    def _looks(self) -> dict[int, float]:
+        if len(self.scene.leader) == 1 or self.scene.d_min <= 1.0:
+            return {}
+        return _LOOKS_AT_SLOT if self.goal.speed == self.scene.alpha else _LOOKS_AT_TRACK
 
     def _windows(self) -> Iterator[tuple[float, float]]:
         """When the leader's pieces begin and end."""

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from math import inf
 from time import perf_counter
 
+from relguide.kernels.base.clock import now
 from relguide.kernels.bounds.goal import Goal, track_of
 from relguide.kernels.bounds.probe import Find, begin_find
 from relguide.planning.certificate import certify
@@ -104,17 +105,18 @@ def bounds(plan: Plan, *, seconds: Second) -> Iterator[Bound]:
     yield report(0.0)
     steps = search.rising_bounds()
     next(steps)  # loads the kernels
-    started = reported = perf_counter()
+    search.until = now() + seconds
+    started, reported = perf_counter(), 0.0
     for proved in steps:
-        now = perf_counter()
-        if now - started > seconds:
+        elapsed = perf_counter() - started
+        if elapsed > seconds:
             break
         best = min(max(best, proved * search.scale), search.plan.time_to_converge)
         if search.plan.time_to_converge - best <= TOLERANCE:
             break
-        if now - reported > _REPORT:
-            reported = now
-            yield report(now - started)
+        if elapsed - reported > _REPORT:
+            reported = elapsed
+            yield report(elapsed)
     yield report(perf_counter() - started)
 
 
@@ -126,6 +128,8 @@ class _Search:
         self.plan = plan
         self.scale = pursuer.turn_radius / pursuer.tas
         """R/V_P [s]."""
+        self.until = inf
+        """When no more is wanted, by `clock.now` [s]."""
         self._found = candidates(plan.situation)
         self._slot = question_of(self._found)
         time = plan.time_to_converge / self.scale
@@ -135,28 +139,38 @@ class _Search:
 
     def rising_bounds(self) -> Iterator[float]:
         """Bounds of the plan's time [R/V_P], round after round until there is no better one."""
-        slot, scale = self._slot, self.scale
-        _load(slot)
+        self._slot.load()
         yield 0.0
+        gaps = iter(_GAPS)
         if self._found.reachable_at_release:
-            track, after = at_release(slot)
-            soonest = 0.0
-            for soonest in track.search(after, self._find_at_release, 0.0):
-                yield min(soonest, track.horizon)
+            track, after = at_release(self._slot)
+            beyond, later, soonest = self._later_bounds(next(gaps)), 0.0, 0.0
+            # arrivals at that moment and later ones by turns: a faster path may be among these
+            for soonest in track.search(after, self._find_at_release, 0.0, self.until):
                 if self._take_faster(self._find_at_release):
                     yield track.horizon
                     return
-            if soonest < after:
+                later = next(beyond, later)
+                yield min(soonest, later, track.horizon)
+            is_excluded = soonest >= after
+            for later in beyond:
+                yield later if is_excluded else min(later, track.horizon)
+            if not is_excluded:
                 return
+            yield later
         # paths that arrive within the gap of the plan are left out at once: so a small gap, which
         # takes a hundred times as long, does not delay a larger one
-        for gap in _GAPS:
-            aimed = replace(slot, paired=max(slot.paired * (gap / CERTIFIED) ** 3, _FINEST_PAIRED))
-            left_out = _SHARE * gap / scale
-            beat = self.plan.time_to_converge / scale - left_out
-            for bound in aimed.search(beat, self._find, left_out):
-                self._take_faster(self._find)
-                yield bound
+        for gap in gaps:
+            yield from self._later_bounds(gap)
+
+    def _later_bounds(self, gap: Second) -> Iterator[float]:
+        """Bounds of the time of paths that arrive later than just as the slot opens [R/V_P]."""
+        slot, left_out = self._slot, _SHARE * gap / self.scale
+        aimed = replace(slot, paired=max(slot.paired * (gap / CERTIFIED) ** 3, _FINEST_PAIRED))
+        beat = self.plan.time_to_converge / self.scale - left_out
+        for bound in aimed.search(beat, self._find, left_out, self.until):
+            self._take_faster(self._find)
+            yield bound
 
     def _take_faster(self, find: Find) -> bool:
         """Whether a faster path has been found and certifies: it takes the plan's place."""
@@ -191,12 +205,6 @@ def at_release(slot: Question) -> tuple[Question, float]:
         paired=_PAIRED,
     )
     return track, t_release * (1.0 + _LATER)
-
-
-def _load(question: Question) -> None:
-    """Load the kernels."""
-    for _ in question.bounds(0.0):
-        pass
 
 
 def question_of(found: Candidates) -> Question:

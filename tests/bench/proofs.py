@@ -5,15 +5,21 @@
 draws situations of four kinds in which the separation limit binds, plans each and proves the plan
 until the gap is closed or so much CPU time is spent. A plan whose proof is `relaxation` without
 that counts as certified at once. The ten plans with the largest gaps are listed, as code to paste.
+In pieces, each of which says what all of them have come to:
+
+    python -m tests.bench.proofs --first 0 --count 250 --pieces proofs.jsonl
+    python -m tests.bench.proofs --first 250 --count 250 --pieces proofs.jsonl
 """
 
 import argparse
 import sys
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from functools import partial
+from json import dumps, loads
 from math import inf
+from pathlib import Path
 from time import thread_time
 
 import numpy as np
@@ -51,11 +57,16 @@ def main(arguments: list[str] | None = None) -> int:
     """Draw, plan, prove, and print a table."""
     wanted = _parser().parse_args(arguments)
     kinds = [kind for kind in KINDS if wanted.kind in kind]
-    cases = [(kind, case) for kind in kinds for case in range(wanted.count)]
+    numbers = range(wanted.first, wanted.first + wanted.count)
+    cases = [(kind, number) for kind in kinds for number in numbers]
     outcomes = [
         outcome for outcome in _outcomes(cases, wanted.seed, wanted.seconds, wanted.processes)
         if outcome is not None
     ]  # fmt: skip
+    if wanted.pieces is not None:
+        with wanted.pieces.open("a") as file:
+            file.writelines(dumps(asdict(outcome)) + "\n" for outcome in outcomes)
+        outcomes = [Outcome(**loads(line)) for line in wanted.pieces.read_text().splitlines()]
     report(outcomes)
     return 0
 
@@ -154,6 +165,8 @@ def _parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--count", type=positive, default=100, help="how many of each kind")
+    parser.add_argument("--first", type=int, default=0, help="number of the first of each kind")
+    parser.add_argument("--pieces", type=Path, metavar="FILE", help="adds to what it holds")
     parser.add_argument("--seconds", type=float, default=1.0, help="CPU time for each at most")
     parser.add_argument("--seed", type=positive, default=1)
     parser.add_argument("--kind", default="", help="a part of the kinds' names")

@@ -21,6 +21,7 @@ from relguide.kernels.bounds.breach import INSIDE, Sieve
 from relguide.kernels.bounds.cells import EDGE, Cell, Poses, poses_of
 from relguide.kernels.bounds.goal import ORIGIN, Goal, track_of
 from relguide.kernels.bounds.round_time import round_bound
+from relguide.kernels.bounds.round_turning import round_arrival
 from relguide.kernels.bounds.word_bound import Blur, soonest
 from relguide.kernels.contact.contact import to_frame_of
 
@@ -152,11 +153,13 @@ def between_bound(scene: Scene, table: FloatArray, cell: Cell, other: Cell, beat
     if other.end < cell.start:
         return inf
     apart = other.start - cell.end
+    beat = min(beat, other.end - cell.start + EDGE)
     if min(cell.piece, other.piece) + 1 == len(scene.leader):
         apart = max(
             apart, min(round_bound(table, 0, cell, other), round_bound(table, 1, cell, other))
         )
-    beat = min(beat, other.end - cell.start + EDGE)
+    elif apart < beat:
+        apart = max(apart, round_arrival(scene, cell, other, cell.start + beat) - cell.start)
     if apart >= beat:
         return inf
     return max(apart, word_between(scene, cell, other, beat))

@@ -13,6 +13,7 @@ from numba import njit
 
 from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.bounds.around import Around, is_last
 from relguide.kernels.bounds.cells import Cell
 from relguide.kernels.bounds.contact_bound import cell_bound, leaving_bound
 from relguide.kernels.bounds.goal import Goal
@@ -55,6 +56,8 @@ class Problem(NamedTuple):
     paired: float
     """How small a cell of first contacts, not on the final leg, must be before the last contacts
     that go with it are looked at, one by one [rad]."""
+    around: Around
+    """When contacts at a bearing can be reached and left."""
 
 
 @njit(cache=True, nogil=True)
@@ -103,6 +106,13 @@ def halve(tree: Tree, n: int, d_min: float) -> int:
 
 
 @njit(cache=True, nogil=True)
+def size_of(tree: Tree, n: int, d_min: float) -> float:
+    """The longer side of a cell [rad]."""
+    span = 0.5 * (tree.cells[n, 5] - tree.cells[n, 4])
+    return float(max(tree.cells[n, 3], span / (d_min + 1.0) if span < inf else 0.0))
+
+
+@njit(cache=True, nogil=True)
 def reach(tree: Tree, problem: Problem, n: int) -> tuple[float, float]:
     """How soon a first contact can be in the cell, and how soon the goal from there.
 
@@ -116,7 +126,10 @@ def reach(tree: Tree, problem: Problem, n: int) -> tuple[float, float]:
         if soon < inf and cell.end < inf:
             tree.cells[n, 4] = soon
             tree.cells[n, 5] = min(cell.end, max(problem.beat - onward, soon))
-    return float(known[_SOON]), float(known[_ONWARD])
+    soon, onward = float(known[_SOON]), float(known[_ONWARD])
+    if soon < inf and is_last(problem.around, problem.scene, cell_at(tree, n)):
+        onward = max(onward, leave(tree, problem, n))
+    return soon, onward
 
 
 @njit(cache=True, nogil=True)

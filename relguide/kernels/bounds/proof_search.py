@@ -13,6 +13,7 @@ from numba import njit
 
 from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.bounds.around import is_last, soonest_in
 from relguide.kernels.bounds.contact_bound import between_bound
 from relguide.kernels.bounds.contact_tree import (
     IntArray,
@@ -25,7 +26,9 @@ from relguide.kernels.bounds.contact_tree import (
     reach,
     round_from,
     round_to,
+    size_of,
 )
+from relguide.kernels.bounds.narrowing import lasts_left, narrow, with_around
 from relguide.kernels.bounds.probe import Find, probe, probe_between
 
 MAX_BUNDLES = 400_000
@@ -37,6 +40,8 @@ _PROBED = (0.06, 8e-3, 1e-3)
 _SMALLEST = 1e-10  # a cell no wider than this is not halved: rounding counts for more [rad]
 _EASED = 0.03  # cells narrower than this are looked at closely [rad]
 _SLACK = 1e-6  # of `round_time`, as part of a whole round
+_ROOTS = 0.1  # size of the cells of last contacts that are left [rad]
+_MOST_ROOTS = 256  # if there are more, they are kept larger
 _NO_LAST = -1  # of a bundle whose last contact does not matter
 
 
@@ -47,8 +52,8 @@ class Search(NamedTuple):
     """Of first contacts."""
     last: Tree
     """Of last contacts."""
-    roots: int
-    """How many cells that one began with."""
+    roots: IntArray
+    """Numbers of cells that hold all last contacts. shape (·,)"""
     bounds: FloatArray
     """A heap: no path of a bundle arrives before this [R/V_P]. shape (MAX_BUNDLES,)"""
     bundles: IntArray
@@ -67,8 +72,8 @@ def begin(problem: Problem, first: FloatArray, last: FloatArray) -> Search:
         last: cells that hold every last one. shape (·, 6)
     """
     search = Search(
-        plant(first, MAX_BUNDLES), plant(last, MAX_BUNDLES), len(last), np.empty(MAX_BUNDLES),
-        np.empty((MAX_BUNDLES, 3), np.int64), np.zeros(1, np.int64),
+        plant(first, MAX_BUNDLES), plant(last, MAX_BUNDLES), np.arange(len(last)),
+        np.empty(MAX_BUNDLES), np.empty((MAX_BUNDLES, 3), np.int64), np.zeros(1, np.int64),
     )  # fmt: skip
     for n in range(len(first)):
         _add(search, problem, n, _NO_LAST, 0.0)
@@ -93,7 +98,7 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
         bound = search.bounds[0]
         if bound >= problem.beat:
             break
-        if search.size[0] + 2 * search.roots >= MAX_BUNDLES:
+        if search.size[0] + 2 * len(search.roots) >= MAX_BUNDLES:
             return bound, STUCK
         if time_is_up(until):
             return bound, SEARCHING
@@ -108,9 +113,9 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
             # elsewhere than on the final leg the cells of last contacts are very many
             if (
                 search.first.cells[n, 0] == final
-                or _size(search.first, n, problem.scene.d_min) < problem.paired
-            ) and leave(search.first, problem, n) > reach(search.first, problem, n)[1] + _SMALLEST:
-                for k in range(search.roots):
+                or size_of(search.first, n, problem.scene.d_min) < problem.paired
+            ) and _goes_on(search, problem, n):
+                for k in search.roots:
                     _add(search, problem, n, k, bound)
                 continue
         elif eased == 0 and max(half, search.last.cells[m, 3]) < _EASED:
@@ -123,6 +128,34 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
         if not _halve(search, problem, n, m, bound):
             return bound, STUCK
     return problem.beat, CLOSED
+
+
+@njit(cache=True, nogil=True)
+def look_around(
+    search: Search, problem: Problem, firsts: int, size: float, until: float
+) -> tuple[Search, Problem]:
+    """Learn when contacts can be reached and left, and which can be last ones.
+
+    Args:
+        search: goes on with what is learned.
+        problem: likewise.
+        firsts: how many cells of first contacts it began with.
+        size: see `narrowing.narrow` [rad].
+        until: when to end without having learned anything, by `clock.now` [s].
+    """
+    around = narrow(
+        problem, search.first, search.last, np.arange(firsts), search.roots, size, until
+    )
+    problem = with_around(problem, around)
+    roots = lasts_left(problem, search.last, search.roots, _ROOTS, _MOST_ROOTS)
+    return Search(search.first, search.last, roots, *search[3:]), problem
+
+
+@njit(cache=True, nogil=True)
+def _goes_on(search: Search, problem: Problem, n: int) -> bool:
+    """Whether who touches in a cell first may have to touch again."""
+    leaves = leave(search.first, problem, n) > reach(search.first, problem, n)[1] + _SMALLEST
+    return leaves and not is_last(problem.around, problem.scene, cell_at(search.first, n))
 
 
 @njit(cache=True, nogil=True)
@@ -149,10 +182,13 @@ def _add(search: Search, problem: Problem, n: int, m: int, least: float) -> None
     else:
         leaving = leave(search.last, problem, m)
         cell, other = cell_at(search.first, n), cell_at(search.last, m)
+        at_last = max(other.start, soonest_in(problem.around, problem.scene, other))
+        if at_last > other.end or at_last + leaving >= problem.beat:
+            return
         between = between_bound(
             problem.scene, problem.table, cell, other, problem.beat - soon - leaving
         )
-        bound = max(soon + between, other.start) + leaving
+        bound = max(soon + between, at_last) + leaving
     bound = max(bound, least, problem.scene.t_release)
     if bound < problem.beat:
         _push(search, bound, n, m, 0)
@@ -162,7 +198,7 @@ def _add(search: Search, problem: Problem, n: int, m: int, least: float) -> None
 def _halve(search: Search, problem: Problem, n: int, m: int, bound: float) -> bool:
     """Keep both halves of the larger cell; whether there was room for them."""
     d_min = problem.scene.d_min
-    if m >= 0 and _size(search.last, m, d_min) >= _size(search.first, n, d_min):
+    if m >= 0 and size_of(search.last, m, d_min) >= size_of(search.first, n, d_min):
         half = halve(search.last, m, d_min)
         if half >= 0:
             _add(search, problem, n, half, bound)
@@ -173,13 +209,6 @@ def _halve(search: Search, problem: Problem, n: int, m: int, bound: float) -> bo
         _add(search, problem, half, m, bound)
         _add(search, problem, half + 1, m, bound)
     return half >= 0
-
-
-@njit(cache=True, nogil=True)
-def _size(tree: Tree, n: int, d_min: float) -> float:
-    """The longer side of a cell [rad]."""
-    span = 0.5 * (tree.cells[n, 5] - tree.cells[n, 4])
-    return float(max(tree.cells[n, 3], span / (d_min + 1.0) if span < inf else 0.0))
 
 
 @njit(cache=True, nogil=True)

@@ -1,0 +1,157 @@
+"""Round a leader that turns nobody is faster than the fronts say, who need not turn himself."""
+
+from collections.abc import Iterator
+from itertools import islice
+from math import acos, cos, hypot, inf, pi, sin
+
+import numpy as np
+import pytest
+
+from relguide.kernels.base.records import Scene
+from relguide.kernels.bounds.around import (
+    is_behind,
+    is_last,
+    no_fronts,
+    soonest_in,
+    sweep_from,
+    times_of,
+    unknown_around,
+)
+from relguide.kernels.bounds.cells import Cell
+from relguide.kernels.bounds.round_time import round_bound, times_round
+from relguide.kernels.bounds.round_turning import round_arrival
+from relguide.kernels.separation.clearance import leader_at, piece_at
+
+NARROW = 1e-9
+"""Half a cell that holds hardly more than one contact [rad]."""
+
+
+def turning(rng: np.random.Generator) -> Scene:
+    """A leader that turns once, between two straight legs."""
+    alpha, rate = rng.uniform(0.3, 0.98), rng.choice((-1.0, 1.0)) * rng.uniform(0.3, 1.5)
+    starts = np.cumsum((0.0, rng.uniform(0.5, 3.0), rng.uniform(0.5, 4.0)))
+    table = np.zeros((3, 5))
+    table[:, 0], table[1, 4] = starts, rate
+    scene = Scene(table, alpha, rng.uniform(1.0, 5.0), 0.0)
+    for i in (0, 1):
+        table[i + 1, 1:4] = leader_at(scene, i, starts[i + 1])
+    return scene
+
+
+def contact(scene: Scene, bearing: float, t: float) -> Cell:
+    """A cell that holds hardly more than the contact at this bearing from the leader, in the world,
+    at one time.
+    """
+    piece = piece_at(scene.leader, t)
+    turned = leader_at(scene, piece, t).h
+    return Cell(piece, 1.0, bearing - turned, NARROW, t, t)
+
+
+def place(scene: Scene, bearing: float, t: float) -> tuple[float, float]:
+    there = leader_at(scene, piece_at(scene.leader, t), t)
+    return there.x + scene.d_min * cos(bearing), there.y + scene.d_min * sin(bearing)
+
+
+def slide(scene: Scene, bearing: float, t: float, sense: float, angle: float) -> float:
+    """When who slides along the disc has gone round so far."""
+    step = 1e-3
+    while angle > 0.0:
+        there = leader_at(scene, piece_at(scene.leader, t), t)
+        heading = bearing + sense * acos(scene.alpha * cos(bearing - there.h))
+        rate = sin(heading - bearing) - scene.alpha * sin(there.h - bearing)
+        bearing += rate / scene.d_min * step
+        angle -= abs(rate) / scene.d_min * step
+        t += step
+    return t
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_nobody_slides_round_sooner_and_who_has_no_turn_to_wait_for_hardly_later(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    tight = 0
+    for _ in range(60):
+        scene = turning(rng)
+        bearing, t = rng.uniform(-pi, pi), rng.uniform(0.0, scene.leader[1, 0])
+        angle, sense = rng.uniform(0.1, 3.0), rng.choice((-1.0, 1.0))
+        came = slide(scene, bearing, t, sense, angle)
+        start, end = contact(scene, bearing, t), contact(scene, bearing + sense * angle, came)
+        soonest = round_arrival(scene, start, end, inf)
+        assert t <= soonest <= came + 0.01
+        tight += soonest > came - 0.02
+    assert tight > 10
+
+
+def straight_flights(rng: np.random.Generator) -> Iterator[tuple[Scene, Cell, Cell]]:
+    """From contact to contact in a straight line outside the disc, in the time it takes or more."""
+    for _ in range(20_000):
+        scene = turning(rng)
+        low, high = rng.uniform(-pi, pi, 2)
+        begin, took = rng.uniform(0.0, scene.leader[2, 0]), rng.uniform(0.2, 6.0)
+        (x, y), (to_x, to_y) = place(scene, low, begin), place(scene, high, begin + took)
+        if hypot(to_x - x, to_y - y) > took:
+            continue
+        gaps = []
+        for share in np.linspace(0.02, 0.98, 25):
+            t = begin + share * took
+            there = leader_at(scene, piece_at(scene.leader, t), t)
+            at = x + share * (to_x - x) - there.x, y + share * (to_y - y) - there.y
+            gaps.append(hypot(*at) - scene.d_min)
+        if min(gaps) > 1e-3:
+            yield scene, contact(scene, low, begin), contact(scene, high, begin + took)
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_nobody_flies_straight_from_contact_to_contact_sooner(seed: int) -> None:
+    flown = 0
+    for scene, start, end in straight_flights(np.random.default_rng(seed)):
+        assert round_arrival(scene, start, end, inf) <= end.start + 1e-6
+        flown += 1
+    assert flown > 100
+
+
+def test_fronts_from_all_contacts_are_ahead_of_who_flies_straight_in_time_and_back() -> None:
+    nothing = unknown_around()
+    for scene, start, end in islice(straight_flights(np.random.default_rng(2)), 60):
+        on, back = no_fronts(), no_fronts()
+        sweep_from(on, scene, start, start.start, 1.0, 99.0)
+        sweep_from(back, scene, end, -end.end, -1.0, 0.0)
+        assert soonest_in(nothing._replace(soonest=times_of(on)), scene, end) <= end.end
+        assert not is_last(nothing._replace(latest=-times_of(back)), scene, start)
+
+
+def test_who_is_behind_the_fronts_adds_nothing() -> None:
+    rng = np.random.default_rng(3)
+    behind = 0
+    for _ in range(40):
+        scene = turning(rng)
+        first, t = contact(scene, rng.uniform(-pi, pi), 0.1), rng.uniform(6.0, 90.0)
+        other = contact(scene, rng.uniform(-pi, pi), t)
+        swept = no_fronts()
+        sweep_from(swept, scene, first, 0.1, 1.0, 120.0)
+        before = times_of(swept)
+        if is_behind(swept, scene, other, t):
+            sweep_from(swept, scene, other, t, 1.0, 120.0)
+            assert np.all(times_of(swept) >= before - 0.02)
+            behind += 1
+    assert behind > 10
+
+
+def test_where_the_leader_keeps_straight_it_is_the_time_round() -> None:
+    rng = np.random.default_rng(4)
+    for _ in range(200):
+        scene = turning(rng)
+        scene.leader[1:, 0] += 1e6
+        scene.leader[1:, 1] += 1e6 * scene.alpha
+        table = times_round(scene.alpha, scene.d_min)
+        low, high = rng.uniform(-pi, pi, 2)
+        start, end = Cell(0, 1.0, low, NARROW, 0.0, 0.0), Cell(0, 1.0, high, NARROW, 0.0, 99.0)
+        least = min(round_bound(table, way, start, end) for way in (0, 1))
+        assert round_arrival(scene, start, end, inf) == pytest.approx(least, rel=0.01, abs=2e-3)
+
+
+def test_what_comes_too_late_comes_back_as_infinite() -> None:
+    scene = turning(np.random.default_rng(0))
+    start, end = contact(scene, 0.0, 0.0), contact(scene, 2.0, 9.0)
+    soonest = round_arrival(scene, start, end, inf)
+    assert round_arrival(scene, start, end, soonest - 0.1) == inf
+    assert round_arrival(scene, start, end, soonest + 0.1) == soonest
