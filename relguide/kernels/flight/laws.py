@@ -160,13 +160,6 @@ def closing_tas(
 
 
 @njit(cache=True, nogil=True)
-def braking_distance(closing: float, gains: Gains) -> float:
-    """How far behind the slot `closing_tas` begins to slow down [m], from a closing speed [m/s]."""
-    v = max(closing, 0.0)
-    return v * gains.speed_time + v * v / (2.0 * gains.braking)
-
-
-@njit(cache=True, nogil=True)
 def heading_for_track(track_angle: float, tas: float, wind: Drift) -> float:
     """The heading on which an aircraft moves along a ground track [rad, near the track].
 

@@ -6,7 +6,7 @@ switches. Only the heading is smoothed so; the ramps displace the path by Δκ h
 which the feedback removes.
 """
 
-from math import cos, inf, sin
+from math import cos, sin
 
 import numpy as np
 from numba import njit
@@ -124,16 +124,6 @@ def turning_after(path: FloatArray, s: float) -> float:
         if length > 0.0:
             turned += abs(path[k, CURVATURE]) * length
     return turned
-
-
-@njit(cache=True, nogil=True)
-def to_next_switch(path: FloatArray, s: float) -> float:
-    """How far it is to where the next ramp begins [m]; negative on a ramp, infinite behind all."""
-    nearest = inf
-    for k in range(1, len(path)):
-        if path[k, S] + path[k, RAMP] > s and path[k, RAMP] > 0.0:
-            nearest = min(nearest, path[k, S] - path[k, RAMP] - s)
-    return nearest
 
 
 @njit(cache=True, nogil=True)

@@ -1,6 +1,6 @@
 """A path is laid, measured and spliced as its pieces say, and its heading turns as one can roll."""
 
-from math import cos, hypot, inf, pi, sin
+from math import cos, hypot, pi, sin
 
 import numpy as np
 import pytest
@@ -23,7 +23,6 @@ from relguide.kernels.flight.path import (
     project,
     row_at,
     splice,
-    to_next_switch,
     turning_after,
 )
 from relguide.planning.trajectory import LEFT, RIGHT, Arc, Segment, Straight, Trajectory
@@ -135,15 +134,6 @@ def test_turning_left_over_counts_both_sides() -> None:
     assert turning_after(path, 4_000.0) == pytest.approx(17_000.0 / RADIUS)
     assert turning_after(path, 22_000.0) == pytest.approx(7_000.0 / RADIUS)
     assert turning_after(path, 1e6) == 0.0
-
-
-def test_the_next_switch_is_where_the_next_ramp_begins() -> None:
-    path = lay((20_000.0, 0.0), (20_000.0, 1.0))
-    ramp = path[1, RAMP]
-    assert to_next_switch(path, 0.0) == pytest.approx(20_000.0 - ramp)
-    assert to_next_switch(path, 20_000.0) == pytest.approx(-ramp)
-    assert to_next_switch(path, 20_001.0 + ramp) == pytest.approx(20_000.0 - 1.0 - 2.0 * ramp)
-    assert to_next_switch(path, 1e6) == inf
 
 
 @given(st.floats(0.0, 33_000.0), st.floats(100.0, 10_000.0))
