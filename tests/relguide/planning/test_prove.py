@@ -135,7 +135,7 @@ def test_what_a_coarse_search_misses_the_proof_finds(
 ) -> None:
     """A path through two contacts, and two that delay after one until the slot opens."""
     situation = proofs.draw(TURNING, np.random.default_rng([102, 2, case]), case)
-    monkeypatch.setattr(constrained_path, "TURNING_BEARINGS", 6)
+    monkeypatch.setattr(constrained_path, "TURNING_BEARINGS", 3)
     planned = plan(situation)
     assert isinstance(planned, Plan)
     assert planned.time_to_converge == pytest.approx(late, abs=0.1)
