@@ -38,6 +38,7 @@ from tests.campaign.paths import (
     reversals,
     reversals_of,
     turns_flown,
+    without_corrections,
 )
 from tests.campaign.row import Loss, Row
 from tests.flights import Instant, instant
@@ -112,9 +113,11 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
     warnings = tuple(_warnings(documents))
     losses = tuple(_losses(situation.min_separation, samples, end, warnings))
     paths = [(document.t, document.plan.segments) for document in changed]
-    turns = list(turns_flown(paths, last.t if joined is None else joined))
+    flown = list(turns_flown(paths, last.t if joined is None else joined))
+    turns = without_corrections(angle for angle, _ in flown)
     loops = count_circles((s.pursuer.turn_rate for s in samples), EVERY) - max(
-        count_circles((s.leader.turn_rate for s in samples), EVERY), circles(turns)
+        count_circles((s.leader.turn_rate for s in samples), EVERY),
+        circles(zip(turns, (seconds for _, seconds in flown), strict=True)),
     )
     return Row(
         family=case.family,
@@ -138,9 +141,7 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
         extra_reversals=end.bank_reversals - reversals_of(engaged.plan.segments)
         if engaged
         else None,
-        unplanned_reversals=end.bank_reversals - reversals(angle for angle, _ in turns)
-        if engaged
-        else None,
+        unplanned_reversals=end.bank_reversals - reversals(turns) if engaged else None,
         loops=max(loops, 0),
         lone_loops=lone_circles(
             [s.pursuer.turn_rate for s in samples], [s.leader.turn_rate for s in samples], EVERY

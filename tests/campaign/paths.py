@@ -25,6 +25,8 @@ PAUSE: Second = 30.0
 """A turn that goes on after so long a straight is the same circle: a racetrack."""
 TURNING = 0.2 * DEG
 """Less is a correction, not a turn [rad/s]."""
+CORRECTION: Radian = 1.0 * DEG
+"""Less to a side is none of a plan's turns."""
 EVERY: Second = 1.0
 """Between two points of a path: at 240 m/s the chord of a turn is 0.6 m inside."""
 
@@ -139,17 +141,19 @@ def reversals_of(segments: Sequence[PathSegment]) -> int:
 
 
 def reversals(turns: Iterable[Radian]) -> int:
-    """How often successive heading changes go from one side to the other.
-
-    What turns less than 1° to a side before it goes back is a correction.
-    """
-    runs = [0.0]
-    for angle in turns:
-        if angle * runs[-1] < 0.0:
-            runs.append(0.0)
-        runs[-1] += angle
-    sides = [run > 0.0 for run in runs if abs(run) > 1.0 * DEG]
+    """How often successive heading changes go from one side to the other, corrections apart."""
+    sides = [angle > 0.0 for angle in without_corrections(turns) if angle != 0.0]
     return sum(a != b for a, b in pairwise(sides))
+
+
+def without_corrections(turns: Iterable[Radian]) -> list[Radian]:
+    """Successive heading changes, with 0 for what turns less than 1° to a side and then back."""
+    runs: list[list[Radian]] = [[]]
+    for angle in turns:
+        if angle * sum(runs[-1]) < 0.0:
+            runs.append([])
+        runs[-1].append(angle)
+    return [angle if abs(sum(run)) > CORRECTION else 0.0 for run in runs for angle in run]
 
 
 def _whole(run: Radian) -> int:
