@@ -111,9 +111,12 @@ def lead_in(belief: Belief, assignment: Assignment, committed: Committed | None)
         x, y, heading = advance(own.x, own.y, own.heading, 1.0, rate / own.tas, length)
     else:
         path, s = committed.course.path, committed.s
-        pieces = _until_turn_ends(on.pieces_between(path, s, s + length), assignment.tas)
-        length = float(pieces[:, 0].sum())
-        seconds = length / assignment.tas
+        pieces = on.pieces_between(path, s, s + length)
+        kept = _kept(pieces, assignment.tas)
+        if kept < len(pieces):
+            pieces = pieces[:kept]
+            length = float(pieces[:, 0].sum())
+            seconds = length / assignment.tas
         drifted = belief.t - committed.course.begun
         east, north = wind.east * drifted, wind.north * drifted
         x, y, heading = on.pose_on(path, s)
@@ -131,8 +134,8 @@ def lead_in(belief: Belief, assignment: Assignment, committed: Committed | None)
     return LeadIn(seconds=seconds, pursuer=pursuer, leader=leader, pieces=pieces, start=start)
 
 
-def _until_turn_ends(pieces: FloatArray, tas: MetrePerSecond) -> FloatArray:
-    """Pieces without what follows a turn that ends in the last second of them.
+def _kept(pieces: FloatArray, tas: MetrePerSecond) -> int:
+    """How many pieces are kept of a lead-in: not those behind a turn that ends in its last second.
 
     That it ends there was planned a second ago, and the next plan may go on with it. Were the end
     kept each time, a path made anew each second would put it off in steps, turning to and fro.
@@ -141,12 +144,16 @@ def _until_turn_ends(pieces: FloatArray, tas: MetrePerSecond) -> FloatArray:
         pieces: length [m] and curvature [rad/m] of each. shape (n, 2)
         tas: the pursuer's [m/s].
     """
-    ends = np.cumsum(pieces[:, 0])
-    for k in range(len(pieces) - 1):
-        before, after = pieces[k, 1], pieces[k + 1, 1]
-        if ends[k] > ends[-1] - tas and (before * after < 0.0 or (before != 0.0 and after == 0.0)):
-            return pieces[: k + 1]
-    return pieces
+    rows: list[list[float]] = pieces.tolist()
+    kept, behind = len(rows), 0.0
+    for k in range(len(rows) - 1, 0, -1):
+        behind += rows[k][0]
+        if behind >= tas:
+            break
+        before, after = rows[k - 1][1], rows[k][1]
+        if before * after < 0.0 or (before != 0.0 and after == 0.0):
+            kept = k
+    return kept
 
 
 def begun_now(path: Trajectory, belief: Belief) -> Trajectory:
