@@ -21,7 +21,7 @@ from tests.campaign import recordings
 from tests.campaign.__main__ import main
 from tests.campaign.evasion import best_turn
 from tests.campaign.families import FAMILIES, REACH, draw
-from tests.campaign.flights import failed_row, row_of
+from tests.campaign.flights import failed_row, fly_case, row_of
 from tests.campaign.paths import (
     circles,
     distance_from,
@@ -234,6 +234,16 @@ def test_a_turn_begun_at_once_is_judged_by_what_it_keeps() -> None:
     # head-on and 2 km away nothing keeps more than the few hundred metres of a turn aside
     head_on = replace(beside, x=0.0, y=2_000.0, heading=pi)
     assert best_turn(replace(situation, pursuer=head_on)) < 100.0
+
+
+def test_the_last_promise_is_the_first_where_no_other_was_announced() -> None:
+    told, untold = fly_case(draw("declared", 1)), fly_case(draw("undeclared", 1))
+    assert told.shown_replans == 0
+    assert told.join_over_last_promise == told.join_over_promise
+    assert untold.shown_replans > 0
+    assert untold.join_over_promise is not None
+    assert untold.join_over_last_promise is not None
+    assert abs(untold.join_over_last_promise - 1.0) < 0.03 < abs(untold.join_over_promise - 1.0)
 
 
 def test_circles_are_counted_across_short_straights() -> None:

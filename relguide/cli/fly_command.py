@@ -95,18 +95,18 @@ def run(chosen: argparse.Namespace) -> int:
         scenario = replace(scenario, spacing=chosen.spacing)
     settings = DEFAULT if chosen.settings is None else load_settings(chosen.settings)
     planner = make_planner(chosen.planner)
-    for _ in islice(fly(scenario, planner, sample_period=1.0, planner_name=""), LOADING):
-        pass
     flown = partial(
-        fly, scenario, planner, commands=commands_of(orders), seed=chosen.seed, settings=settings,
-        planner_name=chosen.planner,
-    )  # fmt: skip
+        fly, scenario, planner, seed=chosen.seed, settings=settings, planner_name=chosen.planner
+    )
+    for _ in islice(flown(sample_period=1.0), LOADING):
+        pass
+    commands = commands_of(orders)
     started = perf_counter()
     if chosen.record is None:
         # nobody looks at the samples: one a second is enough for the progress bar
-        documents = flown(sample_period=1.0)
+        documents = flown(commands=commands, sample_period=1.0)
     else:
-        documents = record(flown(), chosen.record)
+        documents = record(flown(commands=commands), chosen.record)
     flight = story_of(
         show_progress(
             documents,

@@ -1,6 +1,6 @@
 """Flying a case, and its documents as one row of figures: all that the campaign knows of flying."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from math import hypot, inf
 from time import thread_time
@@ -131,6 +131,7 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
         promised_s=promised,
         join_over_plan=joined / planned if joined and planned else None,
         join_over_promise=joined / promised if joined and promised else None,
+        join_over_last_promise=_join_over_last_promise(changed, joined),
         least_share=end.least_separation / situation.min_separation,
         start_share=_start_share(situation),
         below_s=sum(loss.seconds for loss in losses),
@@ -159,6 +160,14 @@ def row_of(case: Case, documents: tuple[Document, ...], cpu: Second) -> Row:
         if losses and engaged is None and losses[0].t_s < AHEAD
         else None,
     )
+
+
+def _join_over_last_promise(changed: Sequence[PlanChanged], joined: Second | None) -> float | None:
+    """From the plan last announced until joined, by what it promised; `None` without either."""
+    made = [document for document in changed if document.announced]
+    if joined is None or not made or made[-1].t >= joined:
+        return None
+    return (joined - made[-1].t) / made[-1].promised
 
 
 def _warnings(documents: Iterable[Document]) -> Iterator[tuple[Second, Second]]:

@@ -66,6 +66,8 @@ class Row:
     """Largest between held headings of two seconds without an announcement."""
     cross_track_m: float
     """Largest distance from the path of the last plan, while it is flown."""
+    join_over_last_promise: float | None = None
+    """The same from the plan last announced, and by its promise."""
     off_announced_m: float = 0.0
     """The same from the path last announced to the crew."""
     off_forecast_m: float | None = None
@@ -189,6 +191,13 @@ FIGURES = (
     Figure(
         name="join_over_promise",
         heading="join over promise, %",
+        decimals=1,
+        scale=100.0,
+        offset=-1.0,
+    ),
+    Figure(
+        name="join_over_last_promise",
+        heading="join over last promise, %",
         decimals=1,
         scale=100.0,
         offset=-1.0,
