@@ -1,4 +1,4 @@
-"""The situations that all contenders are set: a straight leader, no wind, V_L < V_P."""
+"""The situations that contenders are set; where all are, a straight leader, calm, V_L < V_P."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -8,6 +8,7 @@ import numpy as np
 from relguide import Situation
 from relguide.planning.slot import SlotFrame, slot_frame
 from tests.bench import draws
+from tests.bench.leader_course import Course, course_of
 from tests.situations import golden
 
 SEED = 2003
@@ -35,6 +36,18 @@ class Case:
         return self.situation.slot_distance / self.frame.radius
 
     @property
+    def course(self) -> Course:
+        """What the leader flies."""
+        return course_of(self.situation, self.frame)
+
+    @property
+    def from_slot(self) -> tuple[float, float]:
+        """Where the leader is on its final leg: ahead of the slot and to its left [R]."""
+        path = self.situation.leader.trajectory
+        x, y = self.frame.to_slot(path.breakpoints()[-1].x, path.breakpoints()[-1].y)
+        return x - self.frame.alpha * path.duration / self.unit, y
+
+    @property
     def limit(self) -> float:
         """d_min [R]."""
         return self.situation.min_separation / self.frame.radius
@@ -43,12 +56,12 @@ class Case:
 def unlimited_cases(fresh: int) -> list[Case]:
     """The golden situations, and as many drawn ones; optima are those without the limit."""
     cases = [
-        _case(name, situation, answer["unlimited_time_s"])
+        case_of(name, situation, answer["unlimited_time_s"])
         for name, situation, answer in _golden_cases()
         if "unlimited_time_s" in answer
     ]
     rng = np.random.default_rng(SEED)
-    return cases + [_case(f"fresh {i}", draws.anywhere(rng)) for i in range(fresh)]
+    return cases + [case_of(f"fresh {i}", draws.anywhere(rng)) for i in range(fresh)]
 
 
 def limited_cases(drawn: int, *, tight: bool) -> list[Case]:
@@ -59,7 +72,7 @@ def limited_cases(drawn: int, *, tight: bool) -> list[Case]:
         tight: whether R < d_min.
     """
     cases = [
-        _case(name, situation, answer["time_to_converge_s"])
+        case_of(name, situation, answer["time_to_converge_s"])
         for name, situation, answer in _golden_cases()
         if answer["status"] in ("best_known", "optimal")
         and (situation.pursuer.turn_radius < situation.min_separation) == tight
@@ -67,14 +80,23 @@ def limited_cases(drawn: int, *, tight: bool) -> list[Case]:
     ]
     rng = np.random.default_rng([SEED, tight])
     active = [draws.active(rng, tight=tight) for _ in range(drawn)]
-    return cases + [_case(f"drawn {i}", situation) for i, situation in enumerate(active)]
+    return cases + [case_of(f"drawn {i}", situation) for i, situation in enumerate(active)]
 
 
 def equal_cases(drawn: int) -> list[Case]:
     """So many situations with D = d_min whose fastest way without the limit breaks it."""
     rng = np.random.default_rng([SEED, 2])
     active = [draws.active(rng, tight=i % 2 == 0, slot_at_limit=True) for i in range(drawn)]
-    return [_case(f"equal {i}", situation) for i, situation in enumerate(active)]
+    return [case_of(f"equal {i}", situation) for i, situation in enumerate(active)]
+
+
+def turning_cases(drawn: int) -> list[Case]:
+    """So many situations behind a leader that turns, half of them calm, where the limit binds."""
+    rng = np.random.default_rng([SEED, 3])
+    active = [
+        draws.active(rng, tight=i % 2 == 0, intent=True, calm=i % 4 < 2) for i in range(drawn)
+    ]
+    return [case_of(f"turning {i}", situation) for i, situation in enumerate(active)]
 
 
 def _golden_cases() -> list[tuple[str, Situation, dict[str, Any]]]:
@@ -86,6 +108,7 @@ def _golden_cases() -> list[tuple[str, Situation, dict[str, Any]]]:
     ]
 
 
-def _case(name: str, situation: Situation, optimum: float | None = None) -> Case:
+def case_of(name: str, situation: Situation, optimum: float | None = None) -> Case:
+    """A situation as a case."""
     frame = slot_frame(situation, situation.leader.trajectory)
     return Case(name=name, situation=situation, frame=frame, optimum=optimum)

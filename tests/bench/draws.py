@@ -77,8 +77,9 @@ def near(rng: np.random.Generator, *, tight: bool, intent: bool = False) -> Situ
 
 
 def active(
-    rng: np.random.Generator, *, tight: bool, intent: bool = False, slot_at_limit: bool = False
-) -> Situation:
+    rng: np.random.Generator, *, tight: bool, intent: bool = False, slot_at_limit: bool = False,
+    calm: bool = False,
+) -> Situation:  # fmt: skip
     """A situation near the leader whose fastest way without the limit breaks it.
 
     Args:
@@ -86,9 +87,12 @@ def active(
         tight: as in `near`.
         intent: as in `near`.
         slot_at_limit: whether D = d_min.
+        calm: whether there is no wind.
     """
     while True:
         situation = near(rng, tight=tight, intent=intent)
+        if calm:
+            situation = replace(situation, wind=CALM)
         if slot_at_limit:
             situation = replace(situation, slot_distance=situation.min_separation)
         if is_active(situation):

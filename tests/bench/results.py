@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 
 from tests.bench import detours, files, inference, network, network_batch, throughput, unlimited
-from tests.bench.cases import Case, equal_cases, limited_cases, unlimited_cases
+from tests.bench.cases import Case, equal_cases, limited_cases, turning_cases, unlimited_cases
 from tests.bench.detours import Contest
 from tests.bench.inference import Rate
 from tests.bench.network import Pair
@@ -66,6 +66,9 @@ def measure(counts: Counts) -> Results:
     }
     groups["D = d_min"] = detours.measure(equal_cases(counts.limited), title="Limit, D = d_min")
     active = [contest.case for group in groups.values() for contest in group]
+    groups["turning leader"] = detours.measure(
+        turning_cases(counts.limited), title="Limit, turning leader"
+    )
     batches = throughput.measure(counts.batch, counts.limited_batch, active)
     asked = network.draw_situations(counts.asked)
     return Results(

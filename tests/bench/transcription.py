@@ -2,51 +2,34 @@
 
 Multiple shooting of the pursuer's three states in the leader's frame, turn rate constant over each
 interval (so an interval is exactly an arc), final time free, separation held at the nodes and half
-way between them; three starts: straight there, round the leader's left, round its right.
+way between them. The leader flies its intent, and the slot opens when it does.
 
-Slot frame seen from the slot: it stands still at the origin, the leader ahead of it at (D, 0).
+Slot frame seen from the slot: it stands still at the origin, as does the leader on its final leg.
 Lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
 from dataclasses import dataclass
-from math import cos, hypot, pi, sin
+from math import hypot, pi
 from typing import Any
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
 from relguide import LEFT, RIGHT, Arc, Straight, Trajectory, certify
 from relguide.kernels.base.angles import wrap_signed
-from relguide.kernels.base.records import Pose, Velocity
-from relguide.kernels.contact.contact import contact_heading
-from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, fly_piece, solve, solve_toward
 from tests.bench.cases import Case
+from tests.bench.starts import Path
 
 INTERVALS = 80
 """Arcs of a path: a turn of 30 s is some ten of them for an airliner 100 km out."""
-ABEAM = 1.2
-"""How far out a start passes the leader [d_min]."""
 ITERATIONS = 400
 """IPOPT gives up after this many."""
 ARRIVED = 1e-3
 """A path that ends this far from the slot, flown again, has not converged [R]: 10 m or so."""
 GENTLE = 1e-9
 """Turn rates below this are straights [V_P/R]."""
-
-Floats = NDArray[np.float64]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Path:
-    """What IPOPT begins with, and what it ends on."""
-
-    states: Floats
-    """x, y, heading (unwrapped) at the nodes. shape (intervals + 1, 3)"""
-    rates: Floats
-    """Turn rate of each interval. shape (intervals,)"""
-    time: float
-    """Arrival."""
+EARLY = 1e-6
+"""So much before the slot opens counts as then, since IPOPT keeps bounds to 1e-8 [R/V_P]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,7 +40,7 @@ class Answer:
     time: float
     """Arrival [s]."""
     arrives: bool
-    """Whether it ends in the slot, on the leader's heading."""
+    """Whether it ends in the slot, on the leader's heading, and not before it opens."""
     short: float
     """How far it cuts into d_min, as between two nodes [R]; negative if it keeps clear."""
 
@@ -65,17 +48,19 @@ class Answer:
 class Transcription:
     """The nonlinear programme, built once: situations are its parameters."""
 
-    def __init__(self, intervals: int = INTERVALS) -> None:
-        """Build it for so many intervals."""
-        self.intervals = n = intervals
+    def __init__(self, intervals: int = INTERVALS, *, turns: int = 0) -> None:
+        """Build it for so many intervals, and leaders that turn no more often than that."""
+        self.intervals, self.turns, n = intervals, turns, intervals
         states, rates, time = ca.MX.sym("s", 3, n + 1), ca.MX.sym("u", n), ca.MX.sym("T")
         start, alpha, goal = ca.MX.sym("start", 3), ca.MX.sym("alpha"), ca.MX.sym("goal", 3)
-        leader, limit = ca.MX.sym("D"), ca.MX.sym("d")
+        leader, limit = ca.MX.sym("leader", 3 + 3 * turns), ca.MX.sym("d")
         step = _step()
         whole = step.map(n)(states[:, :-1], rates.T, time / n, alpha)
         half = step.map(n)(states[:, :-1], rates.T, 0.5 * time / n, alpha)
         seen = ca.horzcat(states[:2, 1:], half[:2, :])
-        clear = (seen[0, :] - leader) ** 2 + seen[1, :] ** 2 - limit**2
+        at = time * np.concatenate([np.arange(1, n + 1), np.arange(n) + 0.5]).reshape(1, -1) / n
+        there = _leader(turns).map(2 * n)(at, leader, alpha)
+        clear = ca.sum1((seen - there) ** 2) - limit**2
         constraints = ca.vertcat(
             states[:, 0] - start,
             ca.vec(states[:, 1:] - whole),
@@ -118,10 +103,18 @@ class Transcription:
         first = np.concatenate([guess.states.ravel(), guess.rates, [guess.time]])
         box = self._box.copy()
         low = -box
-        low[-1], box[-1] = 0.0, np.inf
+        low[-1], box[-1] = case.frame.t_release, np.inf
         found: dict[str, Any] = self._solver(
             x0=first,
-            p=[*guess.states[0], case.frame.alpha, 0.0, 0.0, goal, case.ahead, case.limit + margin],
+            p=[
+                *guess.states[0],
+                case.frame.alpha,
+                0.0,
+                0.0,
+                goal,
+                *case.course.padded(self.turns),
+                case.limit + margin,
+            ],
             lbx=low,
             ubx=box,
             lbg=self._lower,
@@ -148,67 +141,20 @@ def _step() -> ca.Function:
     return ca.Function("step", [state, rate, dt, alpha], [end])
 
 
-def guesses(case: Case, intervals: int = INTERVALS) -> list[Path]:
-    """The best way without the limit, and the best ways past a point on the leader's either side.
-
-    All three can be flown and end in the slot, which is the best one can do for IPOPT: from
-    polylines it ends on points of local infeasibility more often than on a path.
-    """
-    ways = [_pieces(_onward(case, 0.0, *_start(case)))]
-    ways += [_past_leader(case, side) for side in (1.0, -1.0)]
-    return [_sample(case, way, intervals) for way in ways]
-
-
-def _start(case: Case) -> tuple[float, float, float]:
-    return case.frame.x, case.frame.y, case.frame.h
-
-
-def _onward(case: Case, t: float, x: float, y: float, h: float) -> Floats:
-    """The best word to the slot from time t on, as a row of `solve`."""
-    rows: Floats = np.empty((MAX_ROWS, 5))
-    solve(Pose(x - case.frame.alpha * t, y, h % (2.0 * pi)), case.frame.alpha, 0.0, rows)
-    best: Floats = rows[0]
-    return best
-
-
-def _past_leader(case: Case, side: float) -> list[tuple[float, float]]:
-    """To a point abeam of the leader, falling back along the circle there, and on to the slot."""
-    alpha, (x, y, h) = case.frame.alpha, _start(case)
-    course = contact_heading(side * 0.5 * pi, side, alpha)
-    c, s = cos(course), sin(course)
-    dx, dy = x - case.ahead, y - side * ABEAM * case.limit
-    seen = Pose(dx * c + dy * s, dy * c - dx * s, (h - course) % (2.0 * pi))
-    rows = np.empty((MAX_ROWS, 5))
-    # always found: the leader is slower
-    solve_toward(seen, Velocity(alpha * c, -alpha * s), 0.0, rows)
-    first = _pieces(rows[0])
-    t = 0.0
-    for sign, amount in first:
-        x, y, h = fly_piece(Pose(x, y, h), sign, amount)
-        t += amount
-    return first + _pieces(_onward(case, t, x, y, h))
-
-
-def _pieces(row: Floats) -> list[tuple[float, float]]:
-    signs = SIGNS[int(row[1])].tolist()
-    return list(zip(signs, row[2:].tolist(), strict=True))
-
-
-def _sample(case: Case, pieces: list[tuple[float, float]], intervals: int) -> Path:
-    """States at equally spaced times, seen from the slot, headings unwrapped."""
-    ends = np.cumsum([amount for _, amount in pieces])
-    at = np.linspace(0.0, ends[-1], intervals + 1)
-    states = np.empty((intervals + 1, 3))
-    rates = np.empty(intervals)
-    for k, t in enumerate(at):
-        x, y, h = _start(case)
-        left = t
-        for sign, amount in pieces:
-            x, y, h = fly_piece(Pose(x, y, h), sign, min(left, amount))
-            left -= min(left, amount)
-        states[k] = x - case.frame.alpha * t, y, h
-    rates[:] = np.diff(states[:, 2]) / np.diff(at)
-    return Path(states=states, rates=rates, time=float(ends[-1]))
+def _leader(turns: int) -> ca.Function:
+    """Where a leader is that keeps straight and turns in turn, seen from the slot."""
+    t, course, alpha = ca.MX.sym("t"), ca.MX.sym("course", 3 + 3 * turns), ca.MX.sym("a")
+    x, y, h, left = course[0], course[1], course[2], t
+    for k in range(turns):
+        before, rate, lasts = course[3 + 3 * k], course[4 + 3 * k], course[5 + 3 * k]
+        straight = ca.fmin(left, before)
+        turning = ca.fmin(left - straight, lasts)
+        after = h + rate * turning
+        x += alpha * (straight * ca.cos(h) + (ca.sin(after) - ca.sin(h)) / rate)
+        y += alpha * (straight * ca.sin(h) - (ca.cos(after) - ca.cos(h)) / rate)
+        h, left = after, left - straight - turning
+    place = ca.vertcat(x + alpha * (left * ca.cos(h) - t), y + alpha * left * ca.sin(h))
+    return ca.Function("leader", [t, course, alpha], [place])
 
 
 def fly_path(case: Case, path: Path) -> Answer:
@@ -231,9 +177,12 @@ def fly_path(case: Case, path: Path) -> Answer:
     end = trajectory.pose_at(trajectory.duration)
     x, y = case.frame.to_slot(end.x, end.y)
     off = wrap_signed(end.heading - case.frame.heading)
+    opened = path.time >= case.frame.t_release - EARLY
     return Answer(
         path=path,
         time=path.time * case.unit,
-        arrives=hypot(x - case.frame.alpha * path.time, y) < ARRIVED and abs(off) < ARRIVED,
+        arrives=opened
+        and hypot(x - case.frame.alpha * path.time, y) < ARRIVED
+        and abs(off) < ARRIVED,
         short=(situation.min_separation - certify(trajectory, situation).least_separation) / radius,
     )
