@@ -1,7 +1,9 @@
 """`relguide plan`: the plan of a situation, or of each in a file."""
 
 import argparse
-from collections.abc import Collection
+import gc
+from collections.abc import Collection, Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, NamedTuple
 
 from relguide.cli.batch.options import (
@@ -79,8 +81,24 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(chosen: argparse.Namespace) -> int:
     """Plan, and print the answers."""
     need("pydantic", "orjson", "rich")
-    if not chosen.batch:
-        refuse_batch_options(chosen)
+    if chosen.batch:
+        return _run(chosen)
+    refuse_batch_options(chosen)
+    with _no_collection():
+        return _run(chosen)
+
+
+@contextmanager
+def _no_collection() -> Iterator[None]:
+    """Look for no garbage: one plan leaves little, and what it loads would be searched in vain."""
+    gc.disable()
+    try:
+        yield
+    finally:
+        gc.enable()
+
+
+def _run(chosen: argparse.Namespace) -> int:
     planner = make_planner(chosen.planner)
     asked = Asked(chosen.prove, chosen.include, chosen.deadline)
     if asked.deadline is not None:

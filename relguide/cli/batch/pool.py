@@ -1,5 +1,6 @@
 """in_order(chunks): what is answered by many processes, in the order of the file."""
 
+import gc
 import os
 import signal
 import sys
@@ -114,6 +115,7 @@ def start_processes(count: int) -> Iterator[Executor]:
 
 def _end_with_parent() -> None:
     """Leave Ctrl-C to the parent, and follow it if it is killed."""
+    gc.freeze()  # what came with the copy is not searched for garbage, which would copy its pages
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     parent = parent_process()
     assert parent is not None
