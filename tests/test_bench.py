@@ -1,6 +1,6 @@
 """What the benchmarks rest on: a page with its pictures, an honest peer, a run that goes on."""
 
-from math import inf, pi
+from math import cos, inf, pi, sin
 from pathlib import Path
 
 import numpy as np
@@ -16,12 +16,13 @@ from relguide.learn.network_planner import network_planner
 from relguide.learn.words.branch_network import load_network
 from relguide.planning.constrained_path import BEARINGS
 from tests.bench import draws
-from tests.bench.cases import unlimited_cases
+from tests.bench.cases import turning_cases, unlimited_cases
 from tests.bench.exhaustive import least_time
 from tests.bench.limit import main, plan_twice
 from tests.bench.network_batch import as_row
 from tests.bench.network_rows import BY_NETWORK, answer_rows
 from tests.bench.page import BEGIN, COMMAND, END, FOLDER, PAGE, PICTURES, with_block
+from tests.bench.starts import guesses
 from tests.situations import headings, numbers
 
 ROOT = Path(__file__).parents[1]
@@ -45,6 +46,31 @@ def test_the_page_shows_the_pictures_and_says_how_they_are_made() -> None:
 def test_a_page_without_its_markers_is_left_alone(page: str) -> None:
     with pytest.raises(ValueError, match="once each"):
         with_block(page, "tables")
+
+
+def test_ipopt_is_set_the_leader_s_own_turns_and_begins_with_paths_to_the_slot() -> None:
+    for case in turning_cases(4):
+        leader, course = case.situation.leader.trajectory, case.course
+        x, y, h = course.x, course.y, course.h
+        for before, rate, lasts in course.turns:
+            x, y = x + case.frame.alpha * before * cos(h), y + case.frame.alpha * before * sin(h)
+            radius = case.frame.alpha / rate
+            x, y = x - radius * sin(h), y + radius * cos(h)
+            h += rate * lasts
+            x, y = x + radius * sin(h), y - radius * cos(h)
+        # trailing straights belong to the final leg
+        ended = leader.pose_at(course.ends * case.unit)
+        assert (x, y) == pytest.approx(case.frame.to_slot(ended.x, ended.y), abs=1e-9)
+        assert cos(h - case.frame.heading + ended.heading) == pytest.approx(1.0)
+        seen = x - case.frame.alpha * course.ends, y
+        assert seen == pytest.approx(case.from_slot, abs=1e-9)
+        starts = guesses(case, 40)
+        assert len(starts) == 5
+        for start in starts:
+            assert start.time >= case.frame.t_release
+            assert start.states[0] == pytest.approx((case.frame.x, case.frame.y, case.frame.h))
+            ahead, left, heading = start.states[-1]
+            assert (ahead, left, cos(heading)) == pytest.approx((0.0, 0.0, 1.0), abs=1e-6)
 
 
 @pytest.mark.slow

@@ -125,11 +125,12 @@ def table_cells(groups: dict[str, list[Contest]]) -> list[list[str]]:
     cells = []
     for group, all_of_it in groups.items():
         contests = [contest for contest in all_of_it if contest.best < inf]
+        starts = "five" if any(contest.case.course.turns for contest in contests) else "three"
         ours = [contest.ours - contest.best for contest in contests]
         theirs = [contest.theirs - contest.best for contest in contests]
         for name, cpu, late in (
             (f"plan(), {group}", [c.our_cpu for c in all_of_it], ours),
-            (f"IPOPT, {group}", [c.their_cpu for c in all_of_it], theirs),
+            (f"IPOPT from {starts} starts, {group}", [c.their_cpu for c in all_of_it], theirs),
         ):
             lateness = np.array(late)
             cells.append(
