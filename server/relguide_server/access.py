@@ -46,6 +46,21 @@ NO_TOKEN = "This needs a token: send Authorization: Bearer …, or open /?token=
 TOO_LITTLE = "This token may {role}; this needs one that may {needed}."
 
 
+class Names:
+    """The names that this server answers for."""
+
+    def __init__(self, hosts: Sequence[str]) -> None:
+        """Take those of the settings; addresses and `localhost` are always among them."""
+        self._hosts = frozenset(name.lower() for name in hosts)
+
+    def include(self, host: str) -> bool:
+        """Whether a `Host` is one of them."""
+        name = _name(host)
+        if name == "localhost" or name.endswith(".localhost") or "*" in self._hosts:
+            return True
+        return name in self._hosts or _is_address(name)
+
+
 class Access:
     """ASGI middleware: refuses unknown hosts, foreign pages and, if there are tokens, who has none.
 
@@ -54,7 +69,7 @@ class Access:
 
     def __init__(self, app: ASGIApp, *, hosts: Sequence[str], tokens: Mapping[str, Role]) -> None:
         self.app = app
-        self.hosts = frozenset(name.lower() for name in hosts)
+        self.names = Names(hosts)
         self.tokens = tokens
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -74,7 +89,7 @@ class Access:
     def _judge(self, scope: Scope, headers: Headers) -> Response | None:
         """The answer that refuses; `None` for what may pass."""
         path, host = path_of(scope), headers.get("host", "")
-        if not self._is_ours(host):
+        if not self.names.include(host):
             return _refuse(scope, 421, UNKNOWN_HOST.format(name=_name(host)[:100]))
         origin = headers.get("origin")
         changes = scope["type"] == "websocket" or scope["method"] not in SAFE
@@ -83,12 +98,6 @@ class Access:
         if not self.tokens or path in OPEN:
             return None
         return self._judge_token(scope, headers)
-
-    def _is_ours(self, host: str) -> bool:
-        name = _name(host)
-        if name == "localhost" or name.endswith(".localhost") or "*" in self.hosts:
-            return True
-        return name in self.hosts or _is_address(name)
 
     def _is_own_page(self, origin: str, host: str) -> bool:
         try:

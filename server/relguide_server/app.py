@@ -28,12 +28,13 @@ from relguide_server import (
     simulations,
     stream_docs,
 )
-from relguide_server.access import Access, read_tokens
+from relguide_server.access import Access, Names, read_tokens
 from relguide_server.accounts import Accounts
 from relguide_server.departures import Departures, library_departures
 from relguide_server.drift import DriftCheck
 from relguide_server.errors import install_handlers
 from relguide_server.exchange import Bodies, json_answer
+from relguide_server.express import Express
 from relguide_server.guards import BodyLimit, HeadAsGet, StrictHeaders
 from relguide_server.jobs import load
 from relguide_server.live_fleet import Fleet
@@ -157,12 +158,20 @@ def create_app(
     app.add_middleware(Page)
     app.add_middleware(BodyLimit, max_body=settings.max_body)
     hosts = [name.strip() for name in settings.hosts.split(",") if name.strip()]
-    app.add_middleware(Access, hosts=hosts, tokens=read_tokens(settings.tokens))
+    tokens = read_tokens(settings.tokens)
+    app.add_middleware(Access, hosts=hosts, tokens=tokens)
     app.add_middleware(StrictHeaders)
     app.add_middleware(Accounts, metrics=metrics)
     app.add_middleware(HeadAsGet)
     app.add_middleware(ProxyHeadersMiddleware, trusted_hosts=settings.proxies)
     app.add_middleware(Mount, root_path=settings.root_path, proxies=settings.proxies)
+    app.add_middleware(
+        Express,
+        names=None if tokens else Names(hosts),
+        desk=app.state.desk,
+        keeper=keeper,
+        metrics=metrics,
+    )
     return app
 
 

@@ -100,6 +100,7 @@ async def unless_left(request: Request, work: Awaitable[T]) -> T:
         ClientDisconnect: if the client left.
     """
     working = asyncio.ensure_future(work)
+    working.add_done_callback(_let_go)
     leaving = asyncio.ensure_future(_wait_until_left(request))
     try:
         await asyncio.wait((working, leaving), return_when=asyncio.FIRST_COMPLETED)
@@ -109,6 +110,12 @@ async def unless_left(request: Request, work: Awaitable[T]) -> T:
     finally:
         leaving.cancel()
         working.cancel()
+
+
+def _let_go(working: "asyncio.Future[T]") -> None:
+    """What it refuses after the client has left is nobody's any more: else the log complains."""
+    if not working.cancelled():
+        working.exception()
 
 
 async def _wait_until_left(request: Request) -> None:

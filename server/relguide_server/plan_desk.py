@@ -10,7 +10,7 @@ plan was found by the deadline, with its bound.
 import asyncio
 from collections.abc import AsyncIterator, Sequence
 from dataclasses import dataclass
-from time import monotonic
+from time import monotonic, thread_time
 
 from relguide.contract.answers import Form, Include
 from relguide.planning.plan import Planner
@@ -19,6 +19,7 @@ from relguide_server import jobs
 from relguide_server.exchange import SMALL
 from relguide_server.habits import Habits
 from relguide_server.jobs import Answered
+from relguide_server.looks import Looks
 from relguide_server.metrics import Metrics
 from relguide_server.preparation import Preparation
 from relguide_server.workers import Kind, Workers
@@ -101,9 +102,9 @@ class PlanDesk:
         self._workers = workers
         self._metrics = metrics
         self._quick = quick
-        self._habits = Habits()
+        self._habits, self._looks = Habits(), Looks()
 
-    def answer_at_once(self, body: bytes, wish: Wish) -> Answered | None:
+    def answer_at_once(self, body: bytes, wish: Wish, *, client: str) -> Answered | None:
         """The answer to a situation in JSON; `None` where that may take too long.
 
         Raises:
@@ -111,6 +112,17 @@ class PlanDesk:
         """
         if wish.include or wish.form != "json" or len(body) > SMALL:
             return None
+        if not self._looks.may(client):
+            return None
+        began = thread_time()
+        found: Answered | None = None
+        try:
+            found = self._look(body, wish)
+        finally:
+            self._looks.note(client, thread_time() - began, vain=found is None)
+        return found
+
+    def _look(self, body: bytes, wish: Wish) -> Answered | None:
         situation, anchor = jobs.read_situation(body)
         if not self._is_own(wish):
             return None

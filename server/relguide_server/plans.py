@@ -25,7 +25,7 @@ from relguide_server.exchange import (
     read_body,
     unless_left,
 )
-from relguide_server.jobs import MAX_BATCH
+from relguide_server.jobs import MAX_BATCH, Answered
 from relguide_server.openapi import (
     BODY,
     WORK,
@@ -154,7 +154,10 @@ USUAL = Wish(planner=None, include=(), budget=BUDGET_MS * 1e-3)
 """What is wished where the request says nothing."""
 router = APIRouter(prefix="/api/v1", tags=["plans"], dependencies=[KNOWN_PARAMETERS_ONLY])
 PATH = "/api/v1/plans"
-"""Where a situation is posted; without parameters, `PlanLane` answers there."""
+"""Where a situation is posted; without parameters, `Express` and `PlanLane` answer there."""
+LOOKED = "relguide.looked"
+"""In the scope of a request that has been looked at: why it is refused, or `None` if it takes a
+worker."""
 
 
 @router.post(
@@ -191,16 +194,21 @@ async def answer_situation(request: Request, desk: PlanDesk, wish: Wish) -> Resp
     """
     end = monotonic() + wish.budget
     body = await read_body(request, JSON, most=MAX_BODY)
-    answered = desk.answer_at_once(body, wish)
+    client = address_of(request)
+    answered: Answered | None = None
+    if LOOKED not in request.scope:
+        answered = desk.answer_at_once(body, wish, client=client)
+    elif (refusal := request.scope[LOOKED]) is not None:
+        raise refusal
     if answered is None:
-        planning = desk.answer_by_worker(body, wish, end, client=address_of(request))
+        planning = desk.answer_by_worker(body, wish, end, client=client)
         answered = await unless_left(request, planning)
     request.app.state.keeper.note_plan(
         body,
         planner=wish.planner or "",
         status=answered.status,
         seconds=answered.seconds,
-        asked_by=address_of(request),
+        asked_by=client,
     )
     media_type = GEOJSON if wish.form == "geojson" else JSON
     return json_answer(desk.count(answered), media_type=media_type)
