@@ -5,6 +5,7 @@ address that the service gives of itself begins with it (`root_of`), and what th
 is the path below it (`path_of`), as ASGI's `root_path` and `path` say.
 """
 
+from collections.abc import Callable
 from ipaddress import IPv4Network, IPv6Network, ip_address, ip_network
 
 from starlette.datastructures import Headers
@@ -20,8 +21,7 @@ class Mount:
     def __init__(self, app: ASGIApp, *, root_path: str, proxies: str) -> None:
         self.app = app
         self.root_path = root_path
-        self.anybody = "*" in proxies
-        self.proxies = read_networks(proxies.replace("*", ""))
+        self.believes = believed(proxies)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Serve one connection."""
@@ -44,18 +44,28 @@ class Mount:
     def _said(self, scope: Scope) -> str | None:
         """What a proxy has stripped, if one that is believed says so."""
         said = Headers(scope=scope).get("x-forwarded-prefix")
-        if said is None or not self._is_believed(scope):
+        if said is None or not self.believes((scope.get("client") or ("",))[0]):
             return None
         said = said.rstrip("/")
         return said if PATH.fullmatch(said) else None
 
-    def _is_believed(self, scope: Scope) -> bool:
-        host = (scope.get("client") or ("",))[0]
+
+def believed(proxies: str) -> Callable[[str], bool]:
+    """What says of an address whether it is a proxy that is believed.
+
+    Args:
+        proxies: as the setting has them; `*` for all.
+    """
+    anybody, networks = "*" in proxies, read_networks(proxies.replace("*", ""))
+
+    def is_believed(host: str) -> bool:
         try:
             address = ip_address(host)
         except ValueError:
-            return self.anybody
-        return self.anybody or any(address in network for network in self.proxies)
+            return anybody
+        return anybody or any(address in network for network in networks)
+
+    return is_believed
 
 
 def read_networks(text: str) -> list[IPv4Network | IPv6Network]:

@@ -3,13 +3,16 @@
 import asyncio
 import socket
 import sys
+from functools import partial
 from typing import Any
 
 import uvicorn
 from fastapi import FastAPI
-from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol
 
+from relguide_server.connections import Connection
 from relguide_server.live_fleet import Fleet
+from relguide_server.mount import believed
+from relguide_server.settings import Settings
 from relguide_server.workers import Workers
 
 TO_SAY_GOODBYE = 0.3
@@ -19,59 +22,6 @@ TO_FINISH = 1.0
 SWITCH = 0.5e-3
 """How long a thread may keep the interpreter from others that want it [s]: flights plan in threads,
 and with Python's own 5 ms each of them would hold up the event loop so long."""
-HEAD_PATIENCE = 15.0
-"""How long the head of a request may take to come [s]."""
-LONGEST_HEAD = 64 * 1024
-"""How much of it may have come before it is whole, or of anything else that is no body [bytes]."""
-TOO_LONG = f"The head of a request may have at most {LONGEST_HEAD:,} bytes."
-
-
-class Connection(HttpToolsProtocol):
-    """Uvicorn's connection, which ends where the head of a request is endless, or never comes."""
-
-    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
-        """Wait for a request."""
-        super().connection_made(transport)
-        self._unread = 0
-        self._late = self.loop.call_later(HEAD_PATIENCE, transport.close)
-
-    def on_message_begin(self) -> None:
-        """A request begins."""
-        super().on_message_begin()
-        self._late.cancel()
-        self._late = self.loop.call_later(HEAD_PATIENCE, self.transport.close)
-
-    def data_received(self, data: bytes) -> None:
-        """Read on, unless too much has come that is neither a whole head nor a part of a body.
-
-        The parser collects a line until it ends: one that never does would fill the memory, and
-        keep everybody waiting while it is copied.
-        """
-        self._unread += len(data)
-        super().data_received(data)
-        if self._unread > LONGEST_HEAD and not self.transport.is_closing():
-            self.send_400_response(TOO_LONG)
-
-    def on_headers_complete(self) -> None:
-        """The head is there."""
-        self._late.cancel()
-        self._unread = 0
-        super().on_headers_complete()
-
-    def on_body(self, body: bytes) -> None:
-        """A part of the body is there."""
-        self._unread = 0
-        super().on_body(body)
-
-    def on_message_complete(self) -> None:
-        """The request is there."""
-        self._unread = 0
-        super().on_message_complete()
-
-    def connection_lost(self, exc: Exception | None) -> None:
-        """The connection has ended."""
-        self._late.cancel()
-        super().connection_lost(exc)
 
 
 class Server(uvicorn.Server):
@@ -94,13 +44,21 @@ class Server(uvicorn.Server):
 def serve(app: FastAPI, *, host: str, port: int) -> None:
     """Serve until a signal says to stop; then end within three seconds."""
     sys.setswitchinterval(SWITCH)
-    most = app.state.settings.max_connections
-    options = uvicorn_options(host=host, port=port)
-    Server(uvicorn.Config(app, limit_concurrency=most, **options)).run()
+    settings: Settings = app.state.settings
+    options = uvicorn_options(
+        host=host, port=port, most=settings.max_connections, proxies=settings.proxies
+    )
+    Server(uvicorn.Config(app, **options)).run()
 
 
-def uvicorn_options(*, host: str, port: int) -> dict[str, Any]:
+def uvicorn_options(*, host: str, port: int, most: int = 512, proxies: str = "") -> dict[str, Any]:
     """How uvicorn is configured.
+
+    Args:
+        host: the address to listen at.
+        port: the port; 0 for a free one.
+        most: connections served at once.
+        proxies: those that are believed, each of which may have all of them.
 
     uvloop is taken where it is installed ("auto"). Compressing each of 20 messages a second
     would cost more than the stream itself, so per-message deflate is off.
@@ -109,7 +67,7 @@ def uvicorn_options(*, host: str, port: int) -> dict[str, Any]:
         "host": host,
         "port": port,
         "loop": "auto",
-        "http": Connection,
+        "http": partial(Connection, most=most, proxies=believed(proxies)),
         "ws_per_message_deflate": False,
         "ws_max_size": 1024 * 1024,  # a browser sends us camera positions, nothing larger
         "timeout_graceful_shutdown": TO_FINISH,

@@ -67,9 +67,9 @@ def ideal_app(
 
 
 @contextmanager
-def serve(app: FastAPI) -> Iterator[str]:
+def serve(app: FastAPI, *, most: int = 512, proxies: str = "") -> Iterator[str]:
     """Serve an app on a free port of this machine; gives `127.0.0.1:port`."""
-    options = uvicorn_options(host="127.0.0.1", port=0)
+    options = uvicorn_options(host="127.0.0.1", port=0, most=most, proxies=proxies)
     config = uvicorn.Config(app, **options)
     server = Server(config)
 

@@ -11,8 +11,8 @@ import httpx2 as httpx
 import pytest
 from relguide_server.access import ROLES
 from relguide_server.app import create_app
+from relguide_server.connections import LONGEST_HEAD
 from relguide_server.plans import EXAMPLE
-from relguide_server.serving import LONGEST_HEAD
 from relguide_server.settings import Settings
 from websockets.asyncio.client import connect
 from websockets.exceptions import InvalidStatus
@@ -247,7 +247,7 @@ def test_a_large_body_is_no_head() -> None:
 
 
 def test_a_head_that_never_comes_is_not_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("relguide_server.serving.HEAD_PATIENCE", 0.3)
+    monkeypatch.setattr("relguide_server.connections.HEAD_PATIENCE", 0.3)
     with serve(ideal_app()) as address:
         host, _, port = address.partition(":")
         for begun in (b"", b"GET /healthz HTTP/1.1\r\nHost: x\r\nX-Slow: "):
