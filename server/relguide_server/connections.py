@@ -1,7 +1,7 @@
 """A connection to the service: bounds on what may come over it, how slowly, and on their number."""
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from starlette.types import ASGIApp, Receive, Scope, Send
@@ -20,6 +20,8 @@ READ_PATIENCE = 30.0
 TOLD = 64
 """So many connections beyond those that are served are told so."""
 TOO_MANY = "This server has {most} connections, the most it serves: try again in a moment."
+TWO_HOSTS = "A request has one Host, not more."
+NOTHING: Mapping[str, str] = {}
 TOO_MANY_OF_YOURS = "You have {most} connections already, the most of a client's: close some."
 
 
@@ -44,7 +46,9 @@ class Connection(HttpToolsProtocol):
         super().__init__(*arguments, **options)
         self._most, self._proxies = most, proxies
         self._unread = 0
-        self._too_many = ""
+        self._refusal: ASGIApp | None = None
+        self.too_many = ""
+        """Why it is one too many; empty if it is not."""
         self._deaf: asyncio.TimerHandle | None = None
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
@@ -53,15 +57,22 @@ class Connection(HttpToolsProtocol):
         self._late = self.loop.call_later(HEAD_PATIENCE, transport.close)
         if len(self.connections) <= self._most // 2:
             return
-        if len(self.connections) > self._most + TOLD:
-            transport.abort()
-        elif len(self.connections) > self._most:
-            self._too_many = TOO_MANY.format(most=self._most)
+        told = sum(bool(getattr(other, "too_many", "")) for other in self.connections)
+        if len(self.connections) - told > self._most:
+            self.too_many = TOO_MANY.format(most=self._most)
         elif self.client is not None and not self._proxies(self.client[0]):
-            known = [getattr(other, "client", None) for other in self.connections]
-            theirs = sum(other is not None and other[0] == self.client[0] for other in known)
-            if theirs > self._most // 2:
-                self._too_many = TOO_MANY_OF_YOURS.format(most=self._most // 2)
+            if self._count_served(self.client[0]) > self._most // 2:
+                self.too_many = TOO_MANY_OF_YOURS.format(most=self._most // 2)
+        if self.too_many and told >= TOLD:
+            transport.abort()
+
+    def _count_served(self, host: str) -> int:
+        """How many connections from an address are served."""
+        return sum(
+            (getattr(other, "client", None) or ("",))[0] == host
+            and not getattr(other, "too_many", "")
+            for other in self.connections
+        )
 
     def on_message_begin(self) -> None:
         """A request begins."""
@@ -84,12 +95,16 @@ class Connection(HttpToolsProtocol):
         """The head is there."""
         self._late.cancel()
         self._unread = 0
-        if self._too_many:
-            self.app = refuse(self._too_many)
+        if self.too_many:
+            self._refusal = refuse(503, self.too_many, {"Retry-After": "1"})
+        elif [name for name, _ in self.headers].count(b"host") > 1:
+            self._refusal = refuse(400, TWO_HOSTS)
+        if self._refusal is not None:
+            self.app = self._refusal
         super().on_headers_complete()
 
     def _should_upgrade(self) -> bool:
-        return not self._too_many and super()._should_upgrade()
+        return self._refusal is None and super()._should_upgrade()
 
     def on_body(self, body: bytes) -> None:
         """A part of the body is there."""
@@ -132,11 +147,13 @@ class Connection(HttpToolsProtocol):
         self.transport.close()
 
 
-def refuse(detail: str) -> ASGIApp:
-    """An app that answers 503 to everything, and hangs up."""
+def refuse(status: int, detail: str, headers: Mapping[str, str] = NOTHING) -> ASGIApp:
+    """An app that refuses everything, and hangs up."""
+    kind = "not-http" if status == 400 else ""
+    sent = {"Connection": "close", **headers}
 
     async def answer(scope: Scope, receive: Receive, send: Send) -> None:
-        headers = {"Retry-After": "1", "Connection": "close"}
-        await problem(scope["path"], 503, detail, headers=headers)(scope, receive, send)
+        refused = problem(scope["path"], status, detail, kind=kind, headers=sent)
+        await refused(scope, receive, send)
 
     return StrictHeaders(answer)

@@ -91,14 +91,27 @@ def test_those_who_are_served_stay_so_when_it_is_full(address: str) -> None:
         assert ask(later)[0] == 200
 
 
-def test_far_too_many_are_closed_unheard(address: str) -> None:
+def test_far_too_many_are_closed_unheard_and_keep_nobody_out(address: str) -> None:
     with ExitStack() as stack:
         fill(stack, address, MOST // 2, "127.0.0.2")
-        for _ in range(TOLD + MOST // 2):  # which say nothing
+        for _ in range(TOLD):  # which say nothing
             stack.enter_context(connected(address, "127.0.0.2"))
-        with connected(address, "127.0.0.3") as late, pytest.raises(ConnectionError):
+        time.sleep(0.2)
+        with connected(address, "127.0.0.2") as late, pytest.raises(ConnectionError):
             ask(late)
+        with connected(address, "127.0.0.3") as other:
+            assert ask(other)[0] == 200
     assert httpx.get(f"http://{address}/healthz").is_success
+
+
+@pytest.mark.parametrize("path", ["/healthz", "/api/v1/flights/x/stream"])
+def test_a_request_has_one_host(address: str, path: str) -> None:
+    wanted = UPGRADE.replace(b"/api/v1/flights/x/stream", path.encode())
+    wanted = wanted.replace(b"Host: localhost\r\n", b"Host: localhost\r\nHost: evil.example\r\n")
+    with connected(address) as sent:
+        status, _, body = ask(sent, wanted)
+    assert status == 400
+    assert json.loads(body)["detail"] == "A request has one Host, not more."
 
 
 def test_a_proxy_speaks_for_many() -> None:
