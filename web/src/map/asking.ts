@@ -10,6 +10,7 @@ import { inPageUnits } from "../units";
 import type { AreaRequest } from "../wire";
 import { type Editor, halfExtent, showAll } from "./editor";
 import { bodyOf, type Situation, settle } from "./situation";
+import type { Thumb } from "./thumbs";
 
 /** An answer to what is no more on the map is shown so long at most [ms]. */
 const LATE = 150;
@@ -68,8 +69,9 @@ export function followMap(session: Pick<Session, "ndMode" | "map" | "firstStart"
       map.area.value = null;
     },
   );
+  const askThumbs = createThumbAsker(map, () => ndMode.peek() === "PLAN");
   effect(() => {
-    if (ndMode.value === "PLAN") void untracked(() => askThumbs(map));
+    if (ndMode.value === "PLAN") untracked(askThumbs);
   });
 
   let resting: ReturnType<typeof setTimeout> | undefined;
@@ -89,14 +91,29 @@ export function followMap(session: Pick<Session, "ndMode" | "map" | "firstStart"
   });
 }
 
-/** Asks for the plans of the gallery, one after another, once. */
-async function askThumbs(map: Editor): Promise<void> {
-  for (const { entry, answered } of map.thumbs) {
-    if (answered.value !== null) continue;
+/** Asks for the plans of the gallery, one after another and each until it is answered, on the map. */
+function createThumbAsker(map: Editor, isShown: () => boolean): () => void {
+  let isAsking = false;
+  async function ask({ entry, answered }: Thumb): Promise<number> {
     const situation = settle(entry.situation);
     const answer = await planSituation(bodyOf(situation), THOROUGH);
     if (answer.kind === "done") answered.value = { situation, answer: answer.value };
+    return againIn(answer);
   }
+  async function run(): Promise<void> {
+    if (isAsking) return;
+    isAsking = true;
+    for (const thumb of map.thumbs) {
+      let again = 1;
+      while (again > 0 && thumb.answered.value === null && isShown()) {
+        again = await ask(thumb);
+        // A first start answers no plan until that is prepared, and says when to ask again.
+        if (again > 0) await new Promise((resolve) => setTimeout(resolve, again));
+      }
+    }
+    isAsking = false;
+  }
+  return () => void run();
 }
 
 /** Whether no more time would find a better plan. */
