@@ -1,0 +1,235 @@
+/** Each input that is missing or invalid takes what is drawn of it away, and nothing else. */
+
+import { signal } from "@preact/signals";
+import { expect, test } from "vitest";
+import type { Flight } from "../../src/store/flight";
+import type { PairSample } from "../../src/store/pair";
+import { createShown } from "../../src/store/picture";
+import { noPlan, unable } from "../samples";
+import { mountDisplay } from "./draw";
+import { flightAt } from "./fixture";
+import { flightIn } from "./in-state";
+import { isDrawn } from "./pictures";
+
+/** All that is read or drawn of an input, by its place on the display. */
+const DRAWN = {
+  map: ".nd-map path",
+  "tape's numbers": ".nd-tape text",
+  "range numbers": ".nd-rings text",
+  "own ship": ".nd-ownship path",
+  track: ".nd-track path",
+  trend: ".nd-trend path",
+  GS: ".nd-air text:nth-of-type(2)",
+  TAS: ".nd-air text:nth-of-type(4)",
+  "wind's direction": ".nd-air text:nth-of-type(5)",
+  "wind's speed": ".nd-air text:nth-of-type(7)",
+  "wind's arrow": ".nd-air path",
+  leader: ".nd-leader path",
+  "leader's past": ".nd-history path",
+  "declared route": ".nd-intent path",
+  slot: ".nd-slot path",
+  "early or late": ".nd-timing path",
+  minimum: ".nd-circle circle",
+  "spacing D": ".nd-spacing g:nth-of-type(1) text:nth-of-type(2)",
+  "spacing d": ".nd-spacing g:nth-of-type(2) text:nth-of-type(2)",
+  closure: ".nd-spacing g:nth-of-type(3) text:nth-of-type(2)",
+  "time to go": ".nd-spacing g:nth-of-type(5) text:nth-of-type(2)",
+  "next point": ".nd-next text",
+  path: ".nd-active path",
+  "proposed path": ".nd-proposed path",
+  "other paths": ".nd-others path",
+  turns: ".nd-turns path",
+  minutes: ".nd-minutes path",
+  "final track": ".nd-final path",
+  join: ".nd-capture circle",
+  "closest approach": ".nd-closest circle",
+  "commanded heading": ".nd-commanded path",
+} as const;
+type Name = keyof typeof DRAWN;
+
+/** What is drawn, less numbers that stand as dashes. */
+function drawnOn(flight: Flight): Set<Name> {
+  const root = mountDisplay({
+    shown: createShown(flight),
+    mode: signal<"ROSE" | "ARC">("ROSE"),
+    range: signal(80),
+  });
+  const texts = (selector: string) =>
+    [...root.querySelectorAll(selector)].map((each) => each.textContent ?? "");
+  return new Set(
+    (Object.keys(DRAWN) as Name[]).filter((name) => {
+      const selector = DRAWN[name];
+      const said = texts(selector).join("");
+      return isDrawn(root, selector) && !/^-+:?-*$/.test(said);
+    }),
+  );
+}
+
+function change(flight: Flight, sample: Partial<PairSample>): void {
+  if (flight.sample.value === null) throw new Error("An empty flight.");
+  const changed = { ...flight.sample.value, ...sample };
+  for (const each of [flight.sample, flight.now, flight.reading]) each.value = changed;
+}
+
+function converging(name: "fig_6b" | "fig_6b_wind" = "fig_6b"): Flight {
+  return flightAt(name, 120);
+}
+
+interface Case {
+  readonly input: string;
+  readonly valid: () => Flight;
+  readonly spoil: (flight: Flight) => void;
+  readonly gone: readonly Name[];
+}
+
+const GUIDANCE: readonly Name[] = [
+  "slot",
+  "spacing D",
+  "spacing d",
+  "closure",
+  "time to go",
+  "next point",
+  "path",
+  "turns",
+  "minutes",
+  "final track",
+  "join",
+  "closest approach",
+];
+
+const CASES: readonly Case[] = [
+  {
+    input: "own ship's state",
+    valid: () => converging("fig_6b_wind"),
+    spoil: (flight) => {
+      for (const each of [flight.sample, flight.now, flight.reading]) each.value = null;
+    },
+    gone: [
+      ...GUIDANCE,
+      "map",
+      "tape's numbers",
+      "range numbers",
+      "own ship",
+      "track",
+      "trend",
+      "GS",
+      "TAS",
+      "wind's direction",
+      "wind's speed",
+      "wind's arrow",
+      "leader",
+      "leader's past",
+      "declared route",
+      "minimum",
+      "commanded heading",
+    ],
+  },
+  {
+    input: "own ship's speed, too slow for a trend",
+    valid: () => converging(),
+    spoil: (flight) => {
+      const pursuer = flight.now.value?.pursuer;
+      if (pursuer !== undefined) change(flight, { pursuer: { ...pursuer, ground_speed_mps: 40 } });
+    },
+    gone: ["trend"],
+  },
+  {
+    input: "wind",
+    valid: () => converging("fig_6b_wind"),
+    spoil: (flight) => {
+      const started = flight.started.value;
+      if (started !== null)
+        flight.started.value = { ...started, wind: { from_deg: 0, speed_mps: 0 } };
+    },
+    gone: ["wind's direction", "wind's arrow"],
+  },
+  {
+    input: "the leader's reports",
+    valid: () => converging(),
+    spoil: (flight) => change(flight, { leader_age_s: 15, engagement: "designated" }),
+    gone: [...GUIDANCE, "declared route"],
+  },
+  {
+    input: "the leader's reports, for so long that it is anywhere",
+    valid: () => converging(),
+    spoil: (flight) => change(flight, { leader_age_s: 30, engagement: "designated" }),
+    gone: [...GUIDANCE, "declared route", "leader", "minimum"],
+  },
+  {
+    input: "the leader's intent",
+    valid: () => converging(),
+    spoil: (flight) => {
+      const route = flight.route.value;
+      if (route !== null) flight.route.value = { ...route, intent_known: false };
+    },
+    gone: ["declared route"],
+  },
+  {
+    input: "the plan",
+    valid: () => converging(),
+    spoil: (flight) => {
+      flight.unavailable.value = noPlan(120);
+      flight.unable.value = unable(120);
+      change(flight, { mode: "heading" });
+    },
+    gone: [
+      "time to go",
+      "next point",
+      "path",
+      "turns",
+      "minutes",
+      "final track",
+      "join",
+      "closest approach",
+    ],
+  },
+  {
+    input: "the proposal",
+    valid: () => flightIn("proposed"),
+    spoil: (flight) => {
+      flight.proposal.value = null;
+    },
+    gone: [
+      "time to go",
+      "next point",
+      "proposed path",
+      "other paths",
+      "turns",
+      "minutes",
+      "final track",
+      "join",
+      "closest approach",
+    ],
+  },
+  {
+    input: "new data for seven seconds, once it follows",
+    valid: () => flightIn("follow"),
+    spoil: (flight) => {
+      flight.dataAge.value = 7;
+    },
+    gone: [
+      "early or late",
+      "GS",
+      "TAS",
+      "wind's speed",
+      "spacing D",
+      "spacing d",
+      "closure",
+      "next point",
+    ],
+  },
+];
+
+test.each(CASES)("without $input: what is drawn of it goes", ({ valid, spoil, gone }) => {
+  const flight = valid();
+  const before = drawnOn(flight);
+  for (const name of gone) expect(before, `${name} was there`).toContain(name);
+  spoil(flight);
+  const after = drawnOn(flight);
+  expect([...before].filter((name) => !after.has(name)).sort()).toEqual([...gone].sort());
+});
+
+test("each element goes with some input", () => {
+  const all = new Set(CASES.flatMap(({ gone }) => gone));
+  expect((Object.keys(DRAWN) as Name[]).filter((name) => !all.has(name))).toEqual([]);
+});
