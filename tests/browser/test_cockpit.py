@@ -21,7 +21,7 @@ MOVED = 700
 def _opened(page: Page, watched: Watch, sky: Service) -> None:
     page.goto(f"{sky.url}/?engaged")
     expect(page.locator(".connection")).to_have_text("Live")
-    expect(page.locator("g.nd-map")).to_be_attached()
+    expect(page.locator(".nd-map")).to_be_attached()
 
 
 def test_both_pictures_fly(page: Page, watched: Watch) -> None:
@@ -74,7 +74,7 @@ def test_pause_holds_the_picture_and_play_frees_it(page: Page, watched: Watch) -
 def test_mode_and_range_of_the_nd(page: Page, watched: Watch, mode: str) -> None:
     other = page.get_by_role("button", name="ARC" if mode == "ROSE" else "ROSE", exact=True)
     other.click()
-    layers = page.locator("svg.nd .nd-rings")
+    layers = page.locator(".nd-display .nd-rings")
     was = layers.inner_html()
     chosen = page.get_by_role("button", name=mode, exact=True)
     chosen.click()
@@ -163,7 +163,7 @@ def test_a_flight_that_was_removed_says_so(page: Page, service: Service) -> None
 
 
 def map_transform(page: Page) -> str:
-    return page.locator("g.nd-map").get_attribute("transform") or ""
+    return page.locator(".nd-world").first.get_attribute("transform") or ""
 
 
 def changes(page: Page, read: Callable[[], str]) -> bool:

@@ -1,36 +1,42 @@
 /**
- * How often the picture is drawn: again once something on the glass has moved by as much as can be
- * seen, once there is news, and as often as numbers are read. In between nothing is touched.
+ * How often the picture is drawn, and how often what is drawn is moved.
+ *
+ * Drawing finds places and numbers anew, and makes the browser lay out what has changed: five times a
+ * second, with news at once, and sooner where a picture cannot be carried on. Between two pictures
+ * the glass is carried on as far as all has moved, which lays out nothing: once that can be seen.
  */
 
 import { batch } from "@preact/signals";
 import { velocity } from "./geometry";
 import { type Layout, layoutOf } from "./nd/view";
 import type { Session } from "./session";
-import type { FlightStore } from "./store/flight";
+import { type FlightStore, READING_PERIOD } from "./store/flight";
 import type { PairSample } from "./store/pair";
 import { DEG } from "./units";
 import type { AircraftSample, Tick } from "./wire";
 
 /** What moves by less than this looks still, and what moves in steps of this glides [px]. */
 const STEP = 0.33;
-/** Numbers are read this often, whatever moves [ms]. */
-const LONGEST = 200;
 /** The screen's own period: sooner than this there is no next picture [ms]. */
 const FRAME = 16;
+/** Flown paths end under the own ship's symbol, whose tail is longer than this [px]. */
+const FLOWN = 6;
+/** Symbols keep the direction in which they were drawn: by this much it cannot be seen [deg]. */
+const TURNED = 0.5;
 
 interface Arrived {
   readonly tick: Tick;
   readonly wall: number;
 }
 
-/** Draws the session's picture at its own pace. What it returns takes the ticks that arrive. */
+/** Draws and moves the session's picture at its own pace. What it returns takes the ticks that arrive. */
 export function drawPictures(
   store: FlightStore,
   { shown, flight, ndMode, ndRange }: Session,
 ): (tick: Tick, wall: number) => void {
   let arrived: Arrived[] = [];
   let timer: ReturnType<typeof setTimeout> | null = null;
+  let due = Number.NEGATIVE_INFINITY;
 
   function draw(wall: number): void {
     batch(() => {
@@ -38,18 +44,32 @@ export function drawPictures(
       arrived = [];
       store.advance(wall);
     });
+    const { layout, speed } = motion();
+    due = wall + lifetime(shown.picture.value.now, layout, speed);
+  }
+
+  function frame(wall: number): void {
+    if (wall >= due - FRAME / 2 || arrived.some(({ tick }) => isNews(tick))) draw(wall);
+    else store.glide(wall);
+    const { layout, speed } = motion();
+    const wait = Math.min(patience(shown.picture.value.now, layout, speed), due - wall);
+    // A frame that is asked for in time has the time of the one before; the next one needs no timer.
+    timer = setTimeout(request, wait < 1.5 * FRAME ? 0 : wait);
+  }
+
+  function motion() {
     const { paused, ended, rate } = flight.clock.value;
-    const speed = paused || ended ? 0 : rate;
-    const layout = layoutOf(ndMode.value, ndRange.value);
-    const wait = patience(shown.picture.value.now, layout, speed);
-    timer = setTimeout(request, Math.max(0, wait - FRAME));
+    return {
+      layout: layoutOf(ndMode.value, ndRange.value),
+      speed: paused || ended ? 0 : rate,
+    };
   }
 
   function request(): void {
     timer = null;
     // Nobody sees a hidden page, and it is given no frames: its alerts are heard nevertheless.
-    if (document.hidden) draw(performance.now());
-    else requestAnimationFrame(draw);
+    if (document.hidden) frame(performance.now());
+    else requestAnimationFrame(frame);
   }
 
   request();
@@ -61,10 +81,20 @@ export function drawPictures(
   };
 }
 
-/** How long the picture may stand still [ms]. */
+/** How long the glass may stand still [ms]. */
 export function patience(now: PairSample | null, layout: Layout, rate: number): number {
-  if (now === null) return LONGEST;
-  return Math.min(LONGEST, (1000 * STEP) / (rate * fastest(now, layout)));
+  if (now === null) return READING_PERIOD;
+  return Math.min(READING_PERIOD, (1000 * STEP) / (rate * fastest(now, layout)));
+}
+
+/** How long a picture may be carried on before it is drawn anew [ms]. */
+export function lifetime(now: PairSample | null, layout: Layout, rate: number): number {
+  if (now === null) return READING_PERIOD;
+  const { pursuer, leader } = now;
+  const flown = Math.max(pursuer.ground_speed_mps, leader.ground_speed_mps) * layout.scale;
+  const turned = Math.max(Math.abs(pursuer.turn_rate_degps), Math.abs(leader.turn_rate_degps));
+  const seconds = Math.min(FLOWN / (rate * flown), TURNED / (rate * turned));
+  return Math.min(READING_PERIOD, 1000 * seconds);
 }
 
 /** How fast anything moves on the glass [px per second of flight]. */

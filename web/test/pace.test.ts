@@ -1,8 +1,8 @@
-/** How often the picture is drawn: as often as something moves that can be seen, and with news. */
+/** How often the picture is drawn, and how often it is carried on in between. */
 
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import { layoutOf } from "../src/nd/view";
-import { drawPictures, patience } from "../src/pace";
+import { drawPictures, lifetime, patience } from "../src/pace";
 import { createSession } from "../src/session";
 import { createFlightStore, type FlightStore } from "../src/store/flight";
 import { aircraft, modeChanged, pairAt, planChanged, STARTED, sample, tick } from "./samples";
@@ -18,15 +18,25 @@ afterEach(() => {
   vi.useRealTimers();
 });
 
-/** A flight that flies straight on, drawn at its own pace, and how often it was drawn. */
-function drawn(): { store: FlightStore; receive: ReturnType<typeof drawPictures>; at: number[] } {
+/** A flight that flies straight on, at its own pace, and when it was drawn and carried on. */
+function drawn(): {
+  store: FlightStore;
+  receive: ReturnType<typeof drawPictures>;
+  at: number[];
+  glides: number[];
+} {
   const store = createFlightStore();
   const at: number[] = [];
+  const glides: number[] = [];
   const counted = {
     ...store,
     advance(wall: number) {
       at.push(wall);
       store.advance(wall);
+    },
+    glide(wall: number) {
+      glides.push(wall);
+      store.glide(wall);
     },
   };
   const session = createSession(store.flight);
@@ -34,38 +44,51 @@ function drawn(): { store: FlightStore; receive: ReturnType<typeof drawPictures>
   const receive = drawPictures(counted, session);
   receive(tick(0, [STARTED, modeChanged(0), planChanged(0), sample(0)]), performance.now());
   vi.advanceTimersByTime(100);
-  return { store, receive, at };
+  return { store, receive, at, glides };
 }
 
-test("straight flight is drawn in steps of a third of a pixel", () => {
+test("straight flight is carried on in steps of a third of a pixel", () => {
   // 240 m/s at 20 NM in 500 px: 3.24 px/s
   expect(patience(pairAt(0), AT_20, 1)).toBeCloseTo(101.9, 0);
   expect(patience(pairAt(0), AT_20, 10)).toBeCloseTo(10.2, 1);
 });
 
-test("a turn is drawn more often, and what stands still as numbers are read", () => {
+test("in a turn more often, and what stands still as numbers are read", () => {
   const turning = pairAt(0, { pursuer: aircraft({ turn_rate_degps: 1.1 }) });
   expect(patience(turning, AT_20, 1)).toBeLessThan(30);
   expect(patience(pairAt(0), AT_20, 0)).toBe(200);
   expect(patience(null, AT_20, 1)).toBe(200);
 });
 
-test("two that meet head-on are drawn by the speed at which they pass", () => {
+test("two that meet head-on are carried on by the speed at which they pass", () => {
   const coming = aircraft({ track_deg: 270, heading_deg: 270 });
   const alone = patience(pairAt(0), AT_20, 1);
   expect(patience(pairAt(0, { leader: coming }), AT_20, 1)).toBeCloseTo(alone / 2, 3);
 });
 
+test("a picture is drawn five times a second, sooner only where it cannot be carried on", () => {
+  const turning = pairAt(0, { pursuer: aircraft({ turn_rate_degps: 1.3 }) });
+  expect(lifetime(turning, layoutOf("ARC", 10), 1)).toBe(200);
+  expect(lifetime(turning, layoutOf("ARC", 10), 0)).toBe(200);
+  expect(lifetime(null, AT_20, 1)).toBe(200);
+  // at ×60 it has turned by 0.5° in 6.4 ms, and flown 6 px in 31 ms
+  expect(lifetime(turning, AT_20, 60)).toBeCloseTo(6.4, 1);
+  expect(lifetime(pairAt(0), AT_20, 60)).toBeCloseTo(30.9, 1);
+});
+
 test("ticks between two pictures draw nothing by themselves", () => {
-  const { receive, store, at } = drawn();
-  const before = at.length;
+  const { receive, store, at, glides } = drawn();
+  const [before, glided] = [at.length, glides.length];
   for (let k = 1; k <= 40; k += 1) {
     receive(tick(k / 20, [sample(k / 20)]), performance.now());
     vi.advanceTimersByTime(50);
   }
-  // two seconds of 102 ms steps
-  expect(at.length - before).toBeGreaterThan(16);
-  expect(at.length - before).toBeLessThan(23);
+  // in two seconds ten pictures
+  expect(at.length - before).toBeGreaterThan(8);
+  expect(at.length - before).toBeLessThan(12);
+  // … and steps of 102 ms between them
+  expect(glides.length - glided).toBeGreaterThan(7);
+  expect(glides.length - glided).toBeLessThan(12);
   expect(store.flight.sample.value?.t_s).toBeGreaterThan(1.8);
 });
 

@@ -10,8 +10,8 @@ const ARROW_TIME = 10;
 /** Length of its head [px]. */
 const HEAD = 14;
 
-/** What the crew selected, a hollow bug; or what guidance asks for: a pip on the tape at the commanded heading, or a curved arrow into the turn. */
-export function Commanded({ shown, view }: LayerProps) {
+/** What the crew selected, a hollow bug, or what guidance asks for, a pip: at that heading of the tape. */
+export function CommandedHeading({ shown, view }: LayerProps) {
   const guided = usePart(shown, (picture) => picture.guided);
   const pip = useComputed(() => {
     const now = guided.value;
@@ -20,6 +20,25 @@ export function Commanded({ shown, view }: LayerProps) {
     const { layout } = view;
     return placeAt(polar(layout.value, direction, layout.value.tape), direction);
   });
+  const isFlown = usePart(shown, (picture) => picture.guided?.engagement === "engaged");
+  const isShown = useComputed(() => pip.value !== "");
+  if (!isShown.value) return null;
+  return (
+    <g class="nd-commanded">
+      {isFlown.value ? (
+        <path class="nd-solid" d="M0 2L-11 -16H11Z" fill={ink("managed")} transform={pip} />
+      ) : (
+        <g class="nd-bug" transform={pip}>
+          <Stroke d="M0 2L-12 -18H12Z" line={LINES.bug} />
+        </g>
+      )}
+    </g>
+  );
+}
+
+/** The turn that guidance asks for: a curved arrow along the tape. */
+export function CommandedTurn({ shown, view }: LayerProps) {
+  const guided = usePart(shown, (picture) => picture.guided);
   const arrow = useComputed(() => {
     const now = guided.value;
     if (now?.reference.kind !== "turn_rate") return "";
@@ -38,18 +57,8 @@ export function Commanded({ shown, view }: LayerProps) {
       `L${round(inner.x)} ${round(inner.y)}Z`
     );
   });
-  const isFlown = usePart(shown, (picture) => picture.guided?.engagement === "engaged");
-  const pipShown = useComputed(() => pip.value !== "");
   return (
     <g class="nd-commanded">
-      {pipShown.value &&
-        (isFlown.value ? (
-          <path class="nd-solid" d="M0 2L-11 -16H11Z" fill={ink("managed")} transform={pip} />
-        ) : (
-          <g class="nd-bug" transform={pip}>
-            <Stroke d="M0 2L-12 -18H12Z" line={LINES.bug} />
-          </g>
-        ))}
       <Stroke d={arrow} line={LINES.turn} />
     </g>
   );

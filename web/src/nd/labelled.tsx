@@ -1,5 +1,12 @@
-import { computed, type ReadonlySignal, signal, untracked, useComputed } from "@preact/signals";
-import { useMemo } from "preact/hooks";
+import {
+  computed,
+  effect,
+  type ReadonlySignal,
+  signal,
+  untracked,
+  useComputed,
+} from "@preact/signals";
+import { useLayoutEffect, useMemo, useRef } from "preact/hooks";
 import { samplePath } from "../geometry";
 import { forecastIndex, pointsAfter } from "../store/forecast";
 import { captureLabel } from "./capture";
@@ -11,11 +18,12 @@ import { type LayerProps, usePart } from "./layer";
 import { leaderOnMap, leaderTag } from "./leader";
 import { minuteLabels } from "./minutes";
 import { offScaleTag } from "./offscale";
+import { Plane } from "./plane";
 import { proposalLabel } from "./proposal";
 import { LETTERS, letterPoint, ringLabelPoints } from "./rings";
 import { ink } from "./style";
 import { turnLabels } from "./turns";
-import { type Box, onMap, type Point, placeAt, project, SIZE } from "./view";
+import { type Box, onMap, type Point, placeAt, project, round, SIZE } from "./view";
 
 /** All labels of the map, the most important first. */
 function labelsOf(props: LayerProps): Label[] {
@@ -77,11 +85,37 @@ export interface More {
 const NO_MORE: ReadonlySignal<More> = signal({ labels: [], points: [] });
 
 /** The map's labels, clear of each other. They stand upright: outside the turning map. */
-export function Labels({
-  shown,
-  view,
-  more = NO_MORE,
-}: LayerProps & { more?: ReadonlySignal<More> }) {
+export function Labels(props: LayerProps & { more?: ReadonlySignal<More> }) {
+  return <LabelTexts ids={IDS} {...useLabels(props, props.more ?? NO_MORE)} />;
+}
+
+/** Those of the leader and of the edge move with them, all others with the ground. */
+const LABEL_CARRIERS = [
+  { by: "map", ids: IDS.filter((id) => !["leader", "circle", "offscale"].includes(id)) },
+  { by: "tape", ids: ["offscale"] },
+  { by: "leader", ids: ["circle", "leader"] },
+] as const;
+
+/** The same in flight, carried on between two pictures with what they belong to. */
+export function CarriedLabels({ shown, view }: LayerProps) {
+  const placed = useLabels({ shown, view }, NO_MORE);
+  return (
+    <>
+      {LABEL_CARRIERS.map(({ by, ids }) => (
+        <Plane key={by} shown={shown} view={view} by={by}>
+          <LabelTexts ids={ids} {...placed} />
+        </Plane>
+      ))}
+    </>
+  );
+}
+
+interface Placed {
+  readonly labels: ReadonlySignal<ReadonlyMap<string, Label>>;
+  readonly placements: ReadonlySignal<ReadonlyMap<string, Placement>>;
+}
+
+function useLabels({ shown, view }: LayerProps, more: ReadonlySignal<More>): Placed {
   const labels = useComputed(
     () =>
       new Map([...labelsOf({ shown, view }), ...more.value.labels].map((each) => [each.id, each])),
@@ -98,9 +132,13 @@ export function Labels({
       return before;
     });
   }, [shown, view, labels, forecast, more]);
+  return { labels, placements };
+}
+
+function LabelTexts({ ids, labels, placements }: Placed & { ids: readonly string[] }) {
   return (
     <g class="nd-labels">
-      {IDS.map((id) => (
+      {ids.map((id) => (
         <LabelText key={id} id={id} labels={labels} placements={placements} />
       ))}
     </g>
@@ -120,21 +158,52 @@ export function chooseLabels(
   });
 }
 
-interface LabelTextProps {
+interface LabelTextProps extends Placed {
   readonly id: string;
-  readonly labels: ReadonlySignal<ReadonlyMap<string, Label>>;
-  readonly placements: ReadonlySignal<ReadonlyMap<string, Placement>>;
 }
 
-export function LabelText({ id, labels, placements }: LabelTextProps) {
+function LabelText({ id, labels, placements }: LabelTextProps) {
+  const place = useComputed(() => {
+    const point = labelPoint(id, labels.value, placements.value);
+    return point === null ? "" : placeAt(point);
+  });
+  return <LabelRows id={id} labels={labels} placements={placements} transform={place} />;
+}
+
+/** A label on a sheet of its own: moved with each picture of the scene, it makes no browser lay out. */
+export function LabelSheet({ id, labels, placements }: LabelTextProps) {
+  const sheet = useRef<SVGSVGElement>(null);
+  useLayoutEffect(() => {
+    const { current } = sheet;
+    if (current === null) return;
+    return effect(() => {
+      const { x, y } = labelPoint(id, labels.value, placements.value) ?? { x: 0, y: 0 };
+      current.style.transform = `translate(${round(x)}px, ${round(y)}px)`;
+    });
+  }, [id, labels, placements]);
+  return (
+    <svg ref={sheet} class="nd-plane" aria-hidden="true">
+      <LabelRows id={id} labels={labels} placements={placements} />
+    </svg>
+  );
+}
+
+/** The middle of a label's upper edge; null while it has no place. */
+function labelPoint(
+  id: string,
+  labels: ReadonlyMap<string, Label>,
+  placements: ReadonlyMap<string, Placement>,
+): Point | null {
+  const [label, box] = [labels.get(id), placements.get(id)?.box];
+  if (label === undefined || box === undefined) return null;
+  return { x: label.at.x + box.x + box.width / 2, y: label.at.y + box.y };
+}
+
+function LabelRows(props: LabelTextProps & { transform?: ReadonlySignal<string> }) {
+  const { id, labels, placements, transform } = props;
   const count = useComputed(() =>
     placements.value.has(id) ? (labels.value.get(id)?.lines.length ?? 0) : 0,
   );
-  const place = useComputed(() => {
-    const [label, box] = [labels.value.get(id), placements.value.get(id)?.box];
-    if (label === undefined || box === undefined) return "";
-    return placeAt({ x: label.at.x + box.x + box.width / 2, y: label.at.y + box.y });
-  });
   const size = useComputed(() => labels.value.get(id)?.size ?? 0);
   if (count.value === 0) return null;
   return (
@@ -143,7 +212,7 @@ export function LabelText({ id, labels, placements }: LabelTextProps) {
       data-element={elementOfLabel(id)}
       font-size={size}
       text-anchor="middle"
-      transform={place}
+      transform={transform}
     >
       {Array.from({ length: count.value }, (_, i) => (
         <LabelRow key={i} id={id} row={i} labels={labels} />

@@ -1,21 +1,22 @@
 /** The navigation display: all layers, bottom to top, round one projection. */
 
 import { type Signal, useComputed } from "@preact/signals";
-import { useEffect, useId, useMemo, useRef } from "preact/hooks";
+import type { ComponentType } from "preact";
+import { useEffect, useMemo, useRef } from "preact/hooks";
 import type { Shown } from "../store/picture";
 import { AirData } from "./air";
 import { OrderStatus } from "./atc";
 import { CapturePoint } from "./capture";
 import { SeparationCircle } from "./circle";
 import { ClosestApproach } from "./closest";
-import { Commanded } from "./commanded";
+import { CommandedHeading, CommandedTurn } from "./commanded";
 import { CrossTrack } from "./crosstrack";
 import { FinalTrack } from "./final";
 import { Flags } from "./flags";
 import { ModeStrip } from "./fma";
 import { LeaderHistory } from "./history";
 import { LeaderIntent } from "./intent";
-import { Labels } from "./labelled";
+import { CarriedLabels, Labels } from "./labelled";
 import { type LayerProps, usePart } from "./layer";
 import { Leader } from "./leader";
 import { MessageLine } from "./message";
@@ -24,6 +25,7 @@ import { NextPoint } from "./next";
 import { OffScaleLeader } from "./offscale";
 import { OwnShip } from "./ownship";
 import { ActivePath, SupersededPath } from "./plan";
+import { Plane } from "./plane";
 import { OtherPaths, ProposedPath } from "./proposal";
 import { RangeRings } from "./rings";
 import { Slot } from "./slot";
@@ -34,48 +36,63 @@ import { TrackDiamond, TrackLine } from "./track";
 import { TrendVector } from "./trend";
 import { TurnPoints } from "./turns";
 import "./nd.css";
-import { createView, type DisplayMode, SIZE } from "./view";
+import { type Carrier, createView, type DisplayMode, SIZE } from "./view";
 
 /** What lies under the map: no path is ever covered by it. */
 export const GROUND_LAYERS = [RangeRings, TrackLine, TrendVector] as const;
 
-/** What turns and moves with the world, bottom to top. */
-export const MAP_LAYERS = [
-  LeaderIntent,
-  LeaderHistory,
-  SeparationCircle,
-  FinalTrack,
-  OtherPaths,
-  SupersededPath,
-  ProposedPath,
-  ActivePath,
-  TimeTicks,
-  TurnPoints,
-  Slot,
-  CapturePoint,
-  ClosestApproach,
-  Leader,
-] as const;
+interface Sheet {
+  readonly by: Carrier;
+  readonly layers: readonly ComponentType<LayerProps>[];
+}
 
-/** What stands on the glass over the map, bottom to top. */
+/** The world, bottom to top, by what each part of it moves with. */
+const MAP_SHEETS: readonly Sheet[] = [
+  { by: "map", layers: [LeaderIntent, LeaderHistory] },
+  { by: "leader", layers: [SeparationCircle] },
+  {
+    by: "map",
+    layers: [
+      FinalTrack,
+      OtherPaths,
+      SupersededPath,
+      ProposedPath,
+      ActivePath,
+      TimeTicks,
+      TurnPoints,
+    ],
+  },
+  { by: "slot", layers: [Slot] },
+  { by: "map", layers: [CapturePoint, ClosestApproach] },
+  { by: "leader", layers: [Leader] },
+];
+export const MAP_LAYERS = MAP_SHEETS.flatMap(({ layers }) => layers);
+
+/** What stands on the glass over the map, bottom to top: under the labels, and over them. */
+const UNDER_LABELS: readonly Sheet[] = [
+  { by: "glass", layers: [OwnShip] },
+  { by: "tape", layers: [OffScaleLeader, HeadingTape, CommandedHeading] },
+  { by: "glass", layers: [CommandedTurn, LubberLine, TrackDiamond] },
+];
+const OVER_LABELS: Sheet = {
+  by: "glass",
+  layers: [
+    CrossTrack,
+    AirData,
+    NextPoint,
+    Spacing,
+    TimingScale,
+    ModeStrip,
+    OrderStatus,
+    Flags,
+    MessageLine,
+  ],
+};
 export const GLASS_LAYERS = [
-  OwnShip,
-  OffScaleLeader,
-  HeadingTape,
-  Commanded,
-  LubberLine,
-  TrackDiamond,
+  ...UNDER_LABELS.flatMap(({ layers }) => layers),
   Labels,
-  CrossTrack,
-  AirData,
-  NextPoint,
-  Spacing,
-  TimingScale,
-  ModeStrip,
-  OrderStatus,
-  Flags,
-  MessageLine,
-] as const;
+  ...OVER_LABELS.layers,
+];
 
 interface Props {
   readonly shown: Shown;
@@ -93,7 +110,7 @@ export function NavigationDisplay({ shown, mode, range, designate }: Props) {
     const head = `Navigation display, ${mode}, range ${range} nautical miles.`;
     return `${head} ${shown.words.value}`;
   });
-  const glass = useRef<SVGSVGElement>(null);
+  const glass = useRef<HTMLDivElement>(null);
   // The keyboard designates by a button beside the glass, or by a key.
   useEffect(() => {
     const click = (event: MouseEvent) => {
@@ -105,35 +122,48 @@ export function NavigationDisplay({ shown, mode, range, designate }: Props) {
     current?.addEventListener("click", click);
     return () => current?.removeEventListener("click", click);
   }, [designate]);
+  const drawn = { shown, view };
   return (
-    <svg ref={glass} class="nd" viewBox={`0 0 ${SIZE} ${SIZE}`} role="img" aria-label={label}>
-      {GROUND_LAYERS.map((Layer) => (
-        <Layer key={Layer.name} shown={shown} view={view} />
+    <div ref={glass} class="nd nd-display" role="img" aria-label={label}>
+      <Layers {...drawn} by="glass" layers={GROUND_LAYERS} />
+      <WorldMap {...drawn} />
+      {UNDER_LABELS.map((sheet, i) => (
+        <Layers key={i} {...drawn} {...sheet} />
       ))}
-      <WorldMap shown={shown} view={view} />
-      {GLASS_LAYERS.map((Layer) => (
-        <Layer key={Layer.name} shown={shown} view={view} />
-      ))}
-    </svg>
+      <CarriedLabels {...drawn} />
+      <Layers {...drawn} {...OVER_LABELS} />
+    </div>
   );
 }
 
-/** The world, cut to the tape, carried by one transform a frame. */
+function Layers({ shown, view, by, layers }: LayerProps & Sheet) {
+  return (
+    <Plane shown={shown} view={view} by={by}>
+      {layers.map((Layer) => (
+        <Layer key={Layer.name} shown={shown} view={view} />
+      ))}
+    </Plane>
+  );
+}
+
+/** The world, cut to the tape. */
 function WorldMap({ shown, view }: LayerProps) {
-  const clip = useId();
   const isShown = usePart(shown, ({ now }) => now !== null);
   const { centre, tape } = view.layout.value;
   if (!isShown.value) return null;
+  const part = (length: number) => `${(100 * length) / SIZE}%`;
+  const cut = `circle(${part(tape)} at ${part(centre.x)} ${part(centre.y)})`;
   return (
-    <g clip-path={`url(#${clip})`}>
-      <clipPath id={clip}>
-        <circle cx={centre.x} cy={centre.y} r={tape} />
-      </clipPath>
-      <g class="nd-map" transform={view.mapTransform}>
-        {MAP_LAYERS.map((Layer) => (
-          <Layer key={Layer.name} shown={shown} view={view} />
-        ))}
-      </g>
-    </g>
+    <div class="nd-map" style={{ clipPath: cut }}>
+      {MAP_SHEETS.map(({ by, layers }, i) => (
+        <Plane key={i} shown={shown} view={view} by={by}>
+          <g class="nd-world" transform={view.mapTransform}>
+            {layers.map((Layer) => (
+              <Layer key={Layer.name} shown={shown} view={view} />
+            ))}
+          </g>
+        </Plane>
+      ))}
+    </div>
   );
 }

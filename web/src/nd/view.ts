@@ -7,7 +7,7 @@
  */
 
 import { computed, type ReadonlySignal } from "@preact/signals";
-import type { Shown } from "../store/picture";
+import type { Moved, Shown } from "../store/picture";
 import { DEG, NM, wrap180 } from "../units";
 
 export const SIZE = 768;
@@ -162,6 +162,34 @@ export function mapTransform(layout: Layout, pose: Pose): string {
     `translate(${x} ${y}) rotate(${roundAngle(-pose.heading_deg)})` +
     ` translate(${roundPlace(-own.x)} ${roundPlace(-own.y)})`
   );
+}
+
+/** What a thing on the glass moves with: nothing, the tape, the ground, the leader, the slot. */
+export type Carrier = "glass" | "tape" | "map" | "leader" | "slot";
+
+/**
+ * How a drawn picture is carried on to where all has moved since, as a CSS transform round the own ship;
+ * lengths in parts of the glass.
+ */
+export function carry(layout: Layout, heading: number, moved: Moved, by: Carrier): string {
+  const turn = by === "glass" ? 0 : roundAngle(-moved.turned);
+  const { x, y } = carriedBy(moved, by);
+  const sin = Math.sin(heading * DEG);
+  const cos = Math.cos(heading * DEG);
+  const part = (length: number) => roundPart((length * layout.scale) / SIZE);
+  return `rotate(${turn}deg) translate(${part(x * cos - y * sin)}%, ${part(-x * sin - y * cos)}%)`;
+}
+
+/** How far something has moved, seen from own ship. World: x east, y north [m]. */
+function carriedBy({ own, leader, slot }: Moved, by: Carrier): Point {
+  if (by === "glass" || by === "tape") return { x: 0, y: 0 };
+  const thing = by === "map" ? { x: 0, y: 0 } : by === "leader" ? leader : slot;
+  return { x: thing.x - own.x, y: thing.y - own.y };
+}
+
+/** A part of the glass in percent: a twentieth of a pixel. */
+function roundPart(value: number): number {
+  return Math.round(value * 100 * 150) / 150 + 0;
 }
 
 /** A place on the glass [px]. */

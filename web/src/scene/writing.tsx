@@ -1,10 +1,9 @@
 /** The texts on the scene's picture, moved with each picture and kept apart five times a second. */
 
-import { computed, type ReadonlySignal, type Signal, useComputed } from "@preact/signals";
-import { useEffect, useMemo, useRef } from "preact/hooks";
-import { LabelText } from "../nd/labelled";
+import { computed, effect, type ReadonlySignal, type Signal, useComputed } from "@preact/signals";
+import { useEffect, useLayoutEffect, useMemo, useRef } from "preact/hooks";
+import { LabelSheet } from "../nd/labelled";
 import { type Label, type Placement, placeLabels } from "../nd/labels";
-import { placeAt } from "../nd/view";
 import type { Shown } from "../store/picture";
 import type { Camera } from "./camera";
 import { aroundTexts, northOf, type Size, TEXTS, textsOf } from "./texts";
@@ -21,7 +20,7 @@ interface Props {
 }
 
 export function Writing({ shown, camera, size }: Props) {
-  const glass = useRef<SVGSVGElement>(null);
+  const glass = useRef<HTMLDivElement>(null);
   useEffect(() => {
     const { current } = glass;
     if (current === null) return;
@@ -47,34 +46,41 @@ export function Writing({ shown, camera, size }: Props) {
       return before;
     });
   }, [shown, camera, labels, size]);
-  const north = useComputed(() => {
-    const angle = camera.value === null ? null : northOf(shown, camera.value, size.value);
-    return angle === null ? "" : placeAt({ x: size.value.width - 24, y: 26 }, angle);
-  });
+  const hasNorth = useComputed(
+    () => camera.value !== null && northOf(shown, camera.value, size.value) !== null,
+  );
   return (
-    <svg ref={glass} class="nd scene-writing" aria-hidden="true">
+    <div ref={glass} class="nd nd-display scene-writing" aria-hidden="true">
       {TEXTS.map((id) => (
-        <LabelText key={id} id={id} labels={labels} placements={placements} />
+        <LabelSheet key={id} id={id} labels={labels} placements={placements} />
       ))}
-      {north.value !== "" && (
+      {hasNorth.value && (
         <>
-          <g transform={north}>
-            <path class="nd-stroke" d={ARROW} stroke="var(--scale)" stroke-width={1.75} />
-            <text class="nd-text" y={-16} font-size={11} text-anchor="middle" fill="var(--scale)">
-              N
-            </text>
-          </g>
-          <text
-            class="nd-text"
-            x={8}
-            y={size.value.height - 8}
-            font-size={11}
-            fill="var(--superseded)"
-          >
-            {CAPTION}
-          </text>
+          <North shown={shown} camera={camera} size={size} />
+          <p class="scene-caption">{CAPTION}</p>
         </>
       )}
+    </div>
+  );
+}
+
+/** Where north is in the picture, in its upper right corner. */
+function North({ shown, camera, size }: Props) {
+  const sheet = useRef<SVGSVGElement>(null);
+  useLayoutEffect(() => {
+    const { current } = sheet;
+    if (current === null) return;
+    return effect(() => {
+      const angle = camera.value === null ? null : northOf(shown, camera.value, size.value);
+      current.style.transform = `rotate(${Math.round(10 * (angle ?? 0)) / 10}deg)`;
+    });
+  }, [shown, camera, size]);
+  return (
+    <svg ref={sheet} class="scene-north" viewBox="-24 -26 48 52" aria-hidden="true">
+      <path class="nd-stroke" d={ARROW} stroke="var(--scale)" stroke-width={1.75} />
+      <text class="nd-text" y={-16} font-size={11} text-anchor="middle" fill="var(--scale)">
+        N
+      </text>
     </svg>
   );
 }

@@ -99,6 +99,8 @@ export interface Flight {
   readonly wall: Signal<number>;
   /** Flight time at this animation frame [s]. */
   readonly simTime: Signal<number>;
+  /** Flight time since the picture was drawn [s]: what moves is carried on by it until the next one. */
+  readonly since: Signal<number>;
   /** Wall time since the newest sample arrived [s]; while paused, since the newest tick. */
   readonly dataAge: Signal<number>;
   readonly trail: {
@@ -112,19 +114,22 @@ export interface Flight {
   readonly messages: Signal<readonly Message[]>;
 }
 
-/** A flight's signals and the three things that happen to them. */
+/** A flight's signals and the four things that happen to them. */
 export interface FlightStore {
   readonly flight: Flight;
   /** Takes in one tick that arrived at `wall` [ms]. */
   receive(tick: Tick, wall: number): void;
-  /** Carries the picture on to the animation frame at `wall` [ms]. */
+  /** Draws the picture of the instant `wall` [ms]. */
   advance(wall: number): void;
+  /** Carries what moves on the picture that is drawn on to `wall` [ms], and changes nothing else. */
+  glide(wall: number): void;
   /** Notes what became of the socket. */
   link(state: Link): void;
 }
 
-/** Numbers are read, not watched: they change this often [wall ms]. */
-const READING_PERIOD = 200;
+/** Numbers are read, not watched: they change five times a second, give or take half a frame [wall ms]. */
+export const READING_PERIOD = 200;
+const HALF_FRAME = 8;
 /** The picture runs at most this far ahead of the newest sample [wall s]. */
 const AHEAD_LIMIT = 2;
 /** Data older than this is flagged [s]. */
@@ -178,16 +183,29 @@ export function createFlightStore(): FlightStore {
       if (superseded !== null && wall >= superseded.until) flight.superseded.value = null;
       const sample = flight.sample.value;
       if (sample === null || clock === null) return;
-      const limit = sample.t_s + AHEAD_LIMIT * flight.clock.value.rate;
-      const t = Math.max(flight.simTime.value, Math.min(readClock(clock, wall), limit));
+      const shown = flight.simTime.value + flight.since.value;
+      const t = Math.max(shown, timeAt(clock, sample, wall));
       flight.simTime.value = t;
+      flight.since.value = 0;
       const moved = moveSample(sample, t - sample.t_s);
       flight.now.value = blend(moved, offset.gap, wall - offset.wall);
       if (separation(flight).state === "lost") flight.belowSince.value = wall;
-      if (flight.reading.value !== null && wall - readAt < READING_PERIOD) return;
+      if (flight.reading.value !== null && wall - readAt < READING_PERIOD - HALF_FRAME) return;
       readAt = wall;
       flight.reading.value = flight.now.value;
     });
+  }
+
+  function glide(wall: number): void {
+    const sample = flight.sample.value;
+    if (sample === null || clock === null) return;
+    const since = timeAt(clock, sample, wall) - flight.simTime.value;
+    flight.since.value = Math.max(flight.since.value, since);
+  }
+
+  /** Flight time on the screen [s]: at most so far ahead of the newest sample. */
+  function timeAt(running: FlightClock, { t_s }: PairSample, wall: number): number {
+    return Math.min(readClock(running, wall), t_s + AHEAD_LIMIT * flight.clock.value.rate);
   }
 
   function link(state: Link): void {
@@ -195,7 +213,7 @@ export function createFlightStore(): FlightStore {
     flight.connection.value = connection(flight, linked);
   }
 
-  return { flight, receive, advance, link };
+  return { flight, receive, advance, glide, link };
 }
 
 /** A flight of which nothing is known. */
@@ -226,6 +244,7 @@ export function emptyFlight(): Flight {
     reading: signal(null),
     wall: signal(0),
     simTime: signal(0),
+    since: signal(0),
     dataAge: signal(0),
     trail: { pursuer: signal([]), leader: signal([]) },
     ended: signal(null),
@@ -260,6 +279,7 @@ function clear(flight: Flight): void {
   flight.now.value = null;
   flight.reading.value = null;
   flight.simTime.value = 0;
+  flight.since.value = 0;
   flight.trail.pursuer.value = [];
   flight.trail.leader.value = [];
   flight.ended.value = null;

@@ -61,6 +61,35 @@ export function moveSample(sample: PairSample, dt: number): PairSample {
   };
 }
 
+/** How far all has moved since a sample. World: x east, y north [m]. */
+export interface Moved {
+  readonly own: Vector;
+  /** How far own ship's nose has turned [deg clockwise]. */
+  readonly turned: number;
+  readonly leader: Vector;
+  readonly slot: Vector;
+}
+
+export const STILL: Moved = { own: CALM, turned: 0, leader: CALM, slot: CALM };
+
+/** What has moved by how much `dt` [s] later. */
+export function movedBy(sample: PairSample, dt: number): Moved {
+  if (dt === 0) return STILL;
+  const later = moveSample(sample, dt);
+  return {
+    own: between(sample.pursuer, later.pursuer),
+    turned: wrap180(later.pursuer.heading_deg - sample.pursuer.heading_deg),
+    leader: between(sample.leader, later.leader),
+    slot: between(sample.slot, later.slot),
+  };
+}
+
+type At = Pick<PathPoint, "x_m" | "y_m">;
+
+function between(from: At, to: At): Vector {
+  return { x: to.x_m - from.x_m, y: to.y_m - from.y_m };
+}
+
 /** How far the picture stood from what a new sample says: it is closed gently, not in one jump. */
 export interface Gap {
   readonly pursuer: AircraftGap;

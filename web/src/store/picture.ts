@@ -31,12 +31,14 @@ import {
 import { describe } from "./description";
 import { type Flight, STALE_AGE } from "./flight";
 import { AGE, type AgeLook, GUIDANCE, type GuidanceLook } from "./looks";
-import { moveAircraft } from "./motion";
+import { type Moved, moveAircraft, movedBy, STILL } from "./motion";
 import { type Notice, noticesOf } from "./notices";
 import { type Numbers, numbersOf, ROLL_IN } from "./numbers";
 import type { PairCard, PairSample } from "./pair";
 import { age, ageOf, type Guidance, guidance, leaderAge, type Outlook, separation } from "./states";
 import type { TrailPoint } from "./trail";
+
+export type { Moved } from "./motion";
 
 /** A turn to come, and where own ship will be when it begins and ends. */
 export interface TurnAhead extends Turn {
@@ -133,9 +135,11 @@ export interface Picture {
   readonly ended: boolean;
 }
 
-/** What is shown: places each frame, numbers to be read five times a second. */
+/** What is shown: the picture and its numbers, and how far all has moved since it was drawn. */
 export interface Shown {
   readonly picture: ReadonlySignal<Picture>;
+  /** Changes with each frame between two pictures. */
+  readonly moved: ReadonlySignal<Moved>;
   readonly numbers: ReadonlySignal<Numbers>;
   /** The picture in words. */
   readonly words: ReadonlySignal<string>;
@@ -148,6 +152,10 @@ export function createShown(flight: Flight): Shown {
   const numbers = computed(() => numbersOf(flight));
   return {
     picture: computed(() => pictureOf(flight)),
+    moved: computed(() => {
+      const now = flight.now.value;
+      return now === null ? STILL : movedBy(now, flight.since.value);
+    }),
     numbers,
     words: computed(() => describe(flight, numbers.value)),
   };

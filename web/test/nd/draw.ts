@@ -3,6 +3,7 @@
 import { type Signal, signal } from "@preact/signals";
 import { type ComponentType, h, render } from "preact";
 import type { LayerProps } from "../../src/nd/layer";
+import { NavigationDisplay } from "../../src/nd/nd";
 import { createView, type DisplayMode, type View } from "../../src/nd/view";
 import type { Flight } from "../../src/store/flight";
 import { createShown, type Shown } from "../../src/store/picture";
@@ -25,11 +26,21 @@ export function screenOf(flight: Flight, mode: DisplayMode, range: number): Scre
   };
 }
 
-/** Mounts something and returns its root; what changes later shows there. */
-export function mount<P extends object>(component: ComponentType<P>, props: P): Element {
-  const root = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+/** Mounts a layer, or the whole display, and returns its root; what changes later shows there. */
+export function mount<P extends object>(
+  component: ComponentType<P>,
+  props: P,
+  into: "svg" | "div" = "svg",
+): Element {
+  const space = into === "svg" ? "http://www.w3.org/2000/svg" : "http://www.w3.org/1999/xhtml";
+  const root = document.createElementNS(space, into);
   render(h(component, props), root);
   return root;
+}
+
+/** The whole display. */
+export function mountDisplay(props: Parameters<typeof NavigationDisplay>[0]): Element {
+  return mount(NavigationDisplay, props, "div");
 }
 
 export function drawLayer(layer: ComponentType<LayerProps>, { shown, view }: Screen): string {

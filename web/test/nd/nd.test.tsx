@@ -1,16 +1,16 @@
 import { signal } from "@preact/signals";
+import { act } from "preact/test-utils";
 import { expect, test } from "vitest";
-import { NavigationDisplay } from "../../src/nd/nd";
 import type { Flight } from "../../src/store/flight";
 import { emptyFlight } from "../../src/store/flight";
 import type { PairSample } from "../../src/store/pair";
 import { createShown } from "../../src/store/picture";
 import { alert, separationLost, unable } from "../samples";
-import { mount } from "./draw";
+import { mountDisplay } from "./draw";
 import { documentsOf, flightAt, setTime } from "./fixture";
 
 function show(flight: Flight, mode: "ROSE" | "ARC" = "ROSE", range = 80): Element {
-  return mount(NavigationDisplay, {
+  return mountDisplay({
     shown: createShown(flight),
     mode: signal(mode),
     range: signal(range),
@@ -45,7 +45,9 @@ test("before any data: a flag and no map, no numbers, no own ship symbol", () =>
     expect(has(root, gone), gone).toBe(false);
   expect(root.querySelector(".nd-ownship circle")).not.toBeNull();
   expect(root.querySelector(".nd-tape text")).toBeNull();
-  expect(root.querySelector("svg")?.getAttribute("aria-label")).toContain("Map not available");
+  expect(root.querySelector("[role=img]")?.getAttribute("aria-label")).toContain(
+    "Map not available",
+  );
 });
 
 test("the first sample brings the map without a new display", async () => {
@@ -66,13 +68,37 @@ test("a frame moves attributes and builds nothing", async () => {
   const flight = flightAt("fig_6b", 200);
   const root = show(flight);
   const before = [...root.querySelectorAll("*")];
-  const transform = root.querySelector(".nd-map")?.getAttribute("transform");
+  const transform = root.querySelector(".nd-world")?.getAttribute("transform");
   setTime(flight, 200.05, "converge");
   await drawn();
-  expect(root.querySelector(".nd-map")?.getAttribute("transform")).not.toBe(transform);
+  expect(root.querySelector(".nd-world")?.getAttribute("transform")).not.toBe(transform);
   const after = [...root.querySelectorAll("*")];
   expect(after.length).toBe(before.length);
   expect(after.every((element, i) => element === before[i])).toBe(true);
+});
+
+test("between two pictures the glass is carried on, and nothing in it changes", () => {
+  const flight = flightAt("crossing", 60);
+  const now = flight.now.value;
+  if (now === null) throw new Error("An empty flight.");
+  change(flight, { pursuer: { ...now.pursuer, turn_rate_degps: 1.2 } });
+  let root = document.createElement("div") as Element;
+  act(() => {
+    root = show(flight);
+  });
+  const bare = () => root.innerHTML.replace(/ style="[^"]*"/g, "");
+  const carried = () =>
+    [...root.querySelectorAll<SVGElement>(".nd-plane")].map(({ style }) => style.transform);
+  const [before, from] = [bare(), carried()];
+  act(() => {
+    flight.since.value = 0.18;
+  });
+  expect(bare()).toBe(before);
+  const to = carried();
+  const moves = to.map((each, i) => each !== from[i]);
+  // ground, the world's six, own ship, tape, nose, labels of map, tape and leader, readouts
+  const world = [true, true, true, true, true, true];
+  expect(moves).toEqual([false, ...world, false, true, false, true, true, true, false]);
 });
 
 test.each([
@@ -118,7 +144,7 @@ test("a leader off the map is half a symbol on the edge, with what to select", a
   const flight = flightAt("crossing", 30);
   const range = signal(20);
   const mode = signal<"ROSE" | "ARC">("ARC");
-  const root = mount(NavigationDisplay, { shown: createShown(flight), mode, range });
+  const root = mountDisplay({ shown: createShown(flight), mode, range });
   expect(has(root, "leader")).toBe(false);
   expect(has(root, "offscale")).toBe(true);
   expect(words(root)).toMatch(/AF123 \d{3}° \d+\.\d → (ROSE|RANGE \d+)/);
@@ -206,7 +232,7 @@ test("unable says why; escape is a mode of its own", () => {
   expect(words(root)).toContain("RG UNABLE: PATH");
   expect(words(root)).toContain("RG ESC");
   expect(root.querySelector(".nd-slot .nd-stroke")?.getAttribute("stroke")).toBe("var(--caution)");
-  expect(root.querySelector("svg")?.getAttribute("aria-label")).toContain("turning away");
+  expect(root.querySelector("[role=img]")?.getAttribute("aria-label")).toContain("turning away");
 });
 
 test("a plan that is no news is drawn and not announced", () => {
@@ -274,8 +300,7 @@ test.each([
 
 test("the picture in words says mode, leader, time and separation", () => {
   const root = show(flightAt("fig_6b", 0.5), "ROSE", 80);
-  const label = root.querySelector("svg")?.getAttribute("aria-label") ?? "";
+  const label = root.querySelector("[role=img]")?.getAttribute("aria-label") ?? "";
   expect(label).toMatch(/ROSE, range 80 nautical miles.*converging.*AF123 bearing 135, 30\.5/);
   expect(label).toContain("Slot in 14:45");
-  expect(root.querySelector("svg")?.getAttribute("role")).toBe("img");
 });

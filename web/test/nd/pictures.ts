@@ -2,17 +2,16 @@
 
 import { readFileSync } from "node:fs";
 import { signal } from "@preact/signals";
-import { NavigationDisplay } from "../../src/nd/nd";
 import { createShown } from "../../src/store/picture";
 import { GUIDANCES, type Guidance } from "../../src/store/states";
-import { mount } from "./draw";
+import { mountDisplay } from "./draw";
 import { ELEMENT_ROWS } from "./elements";
 import { flightIn } from "./in-state";
 
 export const ROOTS = new Map<Guidance, Element>(
   GUIDANCES.map((state) => [
     state,
-    mount(NavigationDisplay, {
+    mountDisplay({
       shown: createShown(flightIn(state)),
       mode: signal<"ROSE" | "ARC">("ROSE"),
       range: signal(80),
@@ -31,7 +30,7 @@ export function isDrawn(root: Element, selector: string): boolean {
 const STYLES = ["styles/tokens.css", "nd/nd.css"];
 const LAYOUT = `body { margin: 16px; background: #14181d; color: #e8ecf0; font: 14px sans-serif }
   main { display: grid; grid-template-columns: repeat(4, 1fr); gap: 12px }
-  h2 { margin: 0 0 4px; font-size: 15px } svg { aspect-ratio: 1 }
+  h2 { margin: 0 0 4px; font-size: 15px } .nd-display { aspect-ratio: 1; height: auto; overflow: hidden }
   table { border-collapse: collapse; margin-top: 16px } th, td { padding: 1px 8px; text-align: left }
   td { text-align: center; color: #00ff00 }`;
 

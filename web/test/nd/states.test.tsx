@@ -2,10 +2,9 @@
 
 import { signal } from "@preact/signals";
 import { describe, expect, test } from "vitest";
-import { NavigationDisplay } from "../../src/nd/nd";
 import { createShown } from "../../src/store/picture";
 import { GUIDANCES, type Guidance, guidance } from "../../src/store/states";
-import { mount } from "./draw";
+import { mountDisplay } from "./draw";
 import { documentsOf } from "./fixture";
 import { flightIn, proposal, T } from "./in-state";
 
@@ -106,7 +105,7 @@ function colour(element: Element | null): string {
 
 /** The widest line of a path: the ideal one under it is thin. */
 function pathOf(root: Element): readonly [string, string] | null {
-  const map = [...(root.querySelector(".nd-map")?.children ?? [])];
+  const map = [...root.querySelectorAll(".nd-world > g")];
   const strokes = map.flatMap((each) =>
     each.matches("g.nd-proposed, g.nd-armed, g.nd-active, g.nd-old")
       ? [...each.querySelectorAll("path")]
@@ -143,7 +142,7 @@ function read(root: Element): Shown {
 
 describe.each(GUIDANCES.map((state) => [state] as const))("%s", (state) => {
   const flight = flightIn(state);
-  const root = mount(NavigationDisplay, {
+  const root = mountDisplay({
     shown: createShown(flight),
     mode: signal<"ROSE" | "ARC">("ROSE"),
     range: signal(80),
@@ -176,7 +175,7 @@ describe.each(GUIDANCES.map((state) => [state] as const))("%s", (state) => {
 
 test("ghosts of the other paths stand under what is proposed, and go once it is accepted", () => {
   const draw = (state: Guidance) =>
-    mount(NavigationDisplay, {
+    mountDisplay({
       shown: createShown(flightIn(state)),
       mode: signal<"ROSE" | "ARC">("ROSE"),
       range: signal(80),

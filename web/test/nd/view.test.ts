@@ -1,7 +1,9 @@
 import { expect, test } from "vitest";
 import {
   bearing,
+  carry,
   edge,
+  type Layout,
   layoutOf,
   mapTransform,
   offNose,
@@ -32,6 +34,41 @@ function carried(transform: string, point: Point): Point {
   const [x, y] = [point.x + dx, point.y + dy];
   return { x: cx + x * cos - y * sin, y: cy + x * sin + y * cos };
 }
+
+/** What a transform of the page does to a point of the glass. */
+function glided(transform: string, { centre }: Layout, point: Point): Point {
+  const numbers = [...transform.matchAll(/-?\d+(?:\.\d+)?/g)].map(([number]) => Number(number));
+  const [angle = 0, dx = 0, dy = 0] = numbers;
+  const [sin, cos] = [Math.sin((angle * Math.PI) / 180), Math.cos((angle * Math.PI) / 180)];
+  const [x, y] = [point.x + 7.68 * dx - centre.x, point.y + 7.68 * dy - centre.y];
+  return { x: centre.x + x * cos - y * sin, y: centre.y + x * sin + y * cos };
+}
+
+test.each([ROSE, ARC])("what is carried on stands where it would be drawn in $mode", (layout) => {
+  const moved = {
+    own: { x: 41, y: -23 },
+    turned: 0.5,
+    leader: { x: -38, y: 9 },
+    slot: { x: 30, y: 30 },
+  };
+  const later = {
+    x_m: POSE.x_m + moved.own.x,
+    y_m: POSE.y_m + moved.own.y,
+    heading_deg: POSE.heading_deg + moved.turned,
+  };
+  const place = ahead(9, -7);
+  const there = project(layout, POSE, place);
+  const by = { map: { x: 0, y: 0 }, leader: moved.leader, slot: moved.slot };
+  for (const carrier of ["map", "leader", "slot"] as const) {
+    const { x, y } = by[carrier];
+    const expected = project(layout, later, { x_m: place.x_m + x, y_m: place.y_m + y });
+    const seen = glided(carry(layout, POSE.heading_deg, moved, carrier), layout, there);
+    expect(seen.x).toBeCloseTo(expected.x, 0.8);
+    expect(seen.y).toBeCloseTo(expected.y, 0.8);
+  }
+  expect(carry(layout, 90, moved, "tape")).toBe("rotate(-0.5deg) translate(0%, 0%)");
+  expect(carry(layout, 90, moved, "glass")).toBe("rotate(0deg) translate(0%, 0%)");
+});
 
 test.each([ROSE, ARC])("a mile is 12.5 px at 40 NM in $mode", (layout) => {
   const point = project(layout, POSE, ahead(1, 0));

@@ -27,6 +27,30 @@ function joined(t = 0, rate = 1) {
   return store;
 }
 
+describe("between two pictures", () => {
+  test("only what has flown since is told, and the next picture goes on from there", () => {
+    const { flight, receive, advance, glide } = joined();
+    advance(1100);
+    const [now, numbers] = [flight.now.value, flight.reading.value];
+    glide(1250);
+    expect(flight.since.value).toBeCloseTo(0.15, 9);
+    expect([flight.now.value, flight.reading.value]).toEqual([now, numbers]);
+    advance(1260);
+    expect(flight.since.value).toBe(0);
+    expect(flight.simTime.value).toBeCloseTo(0.26, 9);
+    glide(1400);
+    // a tick that says less than is shown: the picture waits, and never runs backward
+    receive(tick(0.2, [sample(0.2)]), 1405);
+    expect(flight.simTime.value).toBeGreaterThanOrEqual(0.4);
+  });
+
+  test("it is carried no further ahead of the data than a picture is", () => {
+    const { flight, glide } = joined();
+    glide(9000);
+    expect(flight.since.value).toBe(2);
+  });
+});
+
 describe("what the ticks say", () => {
   test("a late joiner gets flight, plan, mode, trail and the newest sample, and no old news as new", () => {
     const store = createFlightStore();
