@@ -35,6 +35,9 @@ ROUND = np.array(
     [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (-1.0, 0.0, 0.0), (0.0, -1.0, 0.0)]
 )
 """The middle of a circle, and points on it."""
+SEEN_TO = 2000.0
+FARTHEST = 0.7 * SEEN_TO
+"""Beyond the one nothing is drawn, and further out than the other no hand moves the camera."""
 SHAPE = 1.6
 """Width of a window by its height, before its viewer has said so."""
 
@@ -51,7 +54,7 @@ class Cameras:
         self._eyes: dict[int, Vector] = {}
         self._initial: Vector | None = None
         server.initial_camera.fov = FOV
-        server.initial_camera.far = 2000.0
+        server.initial_camera.far = SEEN_TO
         server.gui.set_panel_label("VIEW")
         for name in VIEWS:
             self._offer(name)
@@ -64,6 +67,7 @@ class Cameras:
         clients = self._server.get_clients()
         self._eyes = {key: eye for key, eye in self._eyes.items() if key in clients}
         for client in clients.values():
+            client.camera.max_orbit_distance = FARTHEST
             view = self._views.get(client.client_id, CHASE)
             if view == FREE:
                 continue

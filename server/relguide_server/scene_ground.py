@@ -32,6 +32,8 @@ RUNWAY = 1.6
 """Half the size of an airport's mark [scene units]."""
 LETTER = 2.4
 """Height of the letters beside it [scene units]."""
+BESIDE = 1.6 * RUNWAY
+"""How far from its mark a name begins [scene units]."""
 GROUND = 0.02
 """A little above the grid [scene units]."""
 
@@ -70,11 +72,9 @@ def draw_ground(scene: SceneApi, plane: LocalPlane) -> None:
         lines(scene, "/world/coast", coast, paint.COAST, 1.4)
     chosen = np.flatnonzero(_is_near(known.sites, plane, AIRPORTS_TO))
     if len(chosen) > 0:
-        marks = [
-            mark
-            for number, site in zip(chosen, _on(plane, known.sites[chosen]), strict=True)
-            for mark in (_AIRPORT + site, _code(known.codes[number]) + site)
-        ]
+        sites = _on(plane, known.sites[chosen])
+        marks = [_AIRPORT + site for site in sites]
+        marks += _names([known.codes[number] for number in chosen], sites)
         lines(scene, "/world/airports", np.concatenate(marks), paint.AIRPORT, 1.4)
 
 
@@ -95,10 +95,31 @@ def _on(plane: LocalPlane, places: NDArray[np.float64]) -> Points:
     return np.column_stack((np.array(flat) / KM, np.full(len(flat), GROUND)))
 
 
-def _code(text: str) -> Points:
-    """Its letters, beside the mark."""
-    beside: Points = written(text, LETTER) + np.array([1.6 * RUNWAY, -0.5 * LETTER, 0.0])
-    return beside
+def _names(codes: list[str], sites: Points) -> list[Points]:
+    """Names to the right or to the left of their marks; where neither has room, none."""
+    taken = [_box(_AIRPORT + site) for site in sites]
+    names = []
+    for code, site in zip(codes, sites, strict=True):
+        word = written(code, LETTER) - np.array([0.0, 0.5 * LETTER, 0.0])
+        width = float(np.ptp(word[:, :, 0]))
+        for shift in (BESIDE, -BESIDE - width):
+            name = word + site + np.array([shift, 0.0, 0.0])
+            box = _box(name)
+            if not any(_overlap(box, other) for other in taken):
+                taken.append(box)
+                names.append(name)
+                break
+    return names
+
+
+def _box(drawn: Points) -> NDArray[np.float64]:
+    """What something drawn on the ground covers, its corners in the south-west and north-east."""
+    flat = drawn.reshape(-1, 3)[:, :2]
+    return np.array([flat.min(axis=0), flat.max(axis=0)])
+
+
+def _overlap(one: NDArray[np.float64], other: NDArray[np.float64]) -> bool:
+    return bool(np.all(one[0] < other[1]) and np.all(other[0] < one[1]))
 
 
 _AIRPORT: Points = RUNWAY * np.array(

@@ -5,7 +5,7 @@
   if (root.scrollWidth > innerWidth) found.push(`page is ${root.scrollWidth} wide`);
   if (root.scrollHeight > innerHeight) found.push(`page is ${root.scrollHeight} high`);
   for (const element of document.querySelectorAll("body *")) {
-    if (element.closest(".visually-hidden, svg, iframe") || !element.checkVisibility()) continue;
+    if (element.closest(".visually-hidden, svg, iframe, .nd-display") || !element.checkVisibility()) continue;
     const name = `${element.tagName.toLowerCase()}.${element.className} ${element.innerText ?? ""}`;
     const box = element.getBoundingClientRect();
     const style = getComputedStyle(element);

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from relguide_server.scene import Scene
-from relguide_server.scene_ground import earth
+from relguide_server.scene_ground import _AIRPORT, _box, _names, _overlap, earth
 from relguide_server.scene_writing import written
 from viser import ViserServer
 
@@ -68,3 +68,17 @@ def test_letters_are_as_high_as_asked_and_stand_side_by_side() -> None:
     assert len(written("?", 2.0)) == 0
     for letter in "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789":
         assert len(written(letter, 1.0)) > 0
+
+
+def test_no_name_of_an_airport_runs_over_another_or_over_a_mark() -> None:
+    """Twenty airports within 120 km: each has a mark, those that have room have a name."""
+    codes = [f"EG{a}{b}" for a in "ABCD" for b in "ABCDE"]
+    rng = np.random.default_rng(7)
+    sites = np.column_stack((rng.uniform(-60.0, 60.0, (len(codes), 2)), np.zeros(len(codes))))
+    names = _names(codes, sites)
+    marks = [_AIRPORT + site for site in sites]
+    boxes = [_box(each) for each in names]
+    assert 10 < len(names) <= len(codes)
+    for k, box in enumerate(boxes):
+        assert not any(_overlap(box, other) for other in boxes[k + 1 :])
+        assert not any(_overlap(box, _box(mark)) for mark in marks)
