@@ -1,9 +1,9 @@
 """What the cockpit costs the browser at ×1: `python -m tests.browser.trace [SECONDS]`.
 
-The page's main thread is watched while a flight converges, without the scene beside it and with, and
-in a turn at the shortest range, where all on the glass moves with every frame. A layout is counted
-wherever the browser had to find places anew: numbers and paths may ask for that as often as they are
-read, what moves may not. Where more is found than that, the exit status is 1.
+The page's main thread is watched while a flight converges, without the scene beside it and with,
+and in a turn at the shortest range, where all on the glass moves with every frame. A layout is
+counted wherever the browser had to find places anew: numbers and paths may ask for that as often as
+they are read, what moves may not. Where more is found than that, the exit status is 1.
 """
 
 import sys
