@@ -12,6 +12,7 @@ import {
 import { fly, followMode, layOut, mapFromFlight } from "./map/flying";
 import type { Actions, Session } from "./session";
 import type { FlightStore } from "./store/flight";
+import type { Guidance } from "./store/states";
 import { OTHER_VERSION, openStream, type Stream } from "./stream";
 import { formatHeading, formatKnots, inPageUnits, wrap360 } from "./units";
 import {
@@ -38,6 +39,18 @@ const ENGAGING: Record<Engagement, { doing: string; done: string }> = {
   engaged: { doing: "Engaging…", done: "Relative guidance is engaged." },
 };
 
+/** A refusal that comes so much later is about what somebody else commanded [ms]. */
+const LATEST = 3000;
+/** What is said to who commands a flight that is no more. */
+const OVER = "This flight is over: start a new one.";
+
+/** Why nothing can be accepted or engaged yet, where the page knows it. */
+const TOO_EARLY: Partial<Record<Guidance, string>> = {
+  designated: "A path is being looked for: accept it when it is proposed.",
+  infeasible: "There is no path to accept now: it is looked for again by itself.",
+  data_lost: "Nothing is heard of the leader: a path is proposed when it is.",
+};
+
 /** A heading as it will be flown, and as it was given where that is beyond a full turn. */
 function sayHeading(heading: number): string {
   const text = formatHeading(heading);
@@ -55,6 +68,8 @@ export function createActions(
 
   /** How far new flights are engaged: `engaged` in the address says so from the start. */
   let engagement: keyof typeof RATE = "off";
+  /** When this page last gave a command [ms]. */
+  let commanded = Number.NEGATIVE_INFINITY;
   /** Whether the page began with the map alone, so that nothing flies yet. */
   let isGrounded = false;
 
@@ -82,6 +97,12 @@ export function createActions(
     }
   }
 
+  // What is refused when its second comes was taken before: the last word is the service's.
+  effect(() => {
+    const last = session.flight.engagement.value;
+    if (last === null || last.engagement !== last.previous) return;
+    if (performance.now() - commanded < LATEST) untracked(() => say("refused", last.message));
+  });
   followMode(session);
   // Whoever leaves the map without a flight sees the one that a page begins with.
   effect(() => {
@@ -146,7 +167,7 @@ export function createActions(
             ? { kind: "other_version", text: sentence || "The server is of another version." }
             : {
                 kind: "flight_gone",
-                text: `This flight is over here. ${sentence}`,
+                text: sentence || OVER,
                 scenario: status.scenario || FIRST_SCENARIO,
               };
       },
@@ -186,9 +207,10 @@ export function createActions(
       return;
     }
     say("sending", doing);
+    commanded = performance.now();
     const answer = await commandFlight(status.id, body);
     if (answer.kind === "done") say("done", done);
-    else say("refused", inPageUnits(answer.sentence));
+    else say("refused", answer.status === 404 ? OVER : inPageUnits(answer.sentence));
   }
 
   function leaderHeading(heading: number, direction?: Direction): void {
@@ -205,6 +227,11 @@ export function createActions(
     engage(engagement) {
       // A click on a leader that is designated already takes nothing back.
       if (engagement === "designated" && session.shown.numbers.value.state !== "off") return;
+      const tooEarly = TOO_EARLY[session.shown.numbers.value.state];
+      if (tooEarly !== undefined && (engagement === "armed" || engagement === "engaged")) {
+        say("refused", tooEarly);
+        return;
+      }
       const { doing, done } = ENGAGING[engagement];
       session.flight.isSent.value = engagement === "armed";
       void command({ command: "set_engagement", engagement }, doing, done).then(() => {

@@ -113,6 +113,11 @@ export function createSession(
   };
 }
 
+/** Whether there is a flight that takes commands. */
+export function isFlying({ flight, outage }: Session): boolean {
+  return flight.ended.value === null && outage.value?.kind !== "flight_gone";
+}
+
 /** The next range outward (+1) or inward (−1), held to the ends of the selector. */
 export function stepRange(range: NdRange, step: 1 | -1): NdRange {
   return ND_RANGES[ND_RANGES.indexOf(range) + step] ?? range;

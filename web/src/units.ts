@@ -63,16 +63,30 @@ const NAMES = [
   ["heading_deg:", "The heading"],
 ] as const;
 
-/** A sentence of the server, its fields by their names here and its speeds in knots. */
+/** Shorter than this is said in metres: a twentieth of a mile. */
+const SHORT = 0.05 * NM;
+
+/** A sentence of the server, its fields by their names here, its speeds in knots and lengths in miles. */
 export function inPageUnits(sentence: string): string {
   const named = NAMES.reduce((text, [field, name]) => text.replace(field, name), sentence);
   const number = "\\d+(?:\\.\\d+)?";
-  const speeds = new RegExp(`(${number})( … )?(${number})? ?m/s`, "g");
-  return named.replace(speeds, (_, low: string, to: string | undefined, high: string | undefined) =>
-    [formatKnots(Number(low)), ...(to && high ? [to, formatKnots(Number(high))] : []), " kt"].join(
-      "",
-    ),
+  const speeds = new RegExp(`(${number})( … )?(${number})? ?m/s(?![\\w²])`, "g");
+  const fast = named.replace(
+    speeds,
+    (_, low: string, to: string | undefined, high: string | undefined) =>
+      [
+        formatKnots(Number(low)),
+        ...(to && high ? [to, formatKnots(Number(high))] : []),
+        " kt",
+      ].join(""),
   );
+  // "7,636 m (4.12 NM)" says it twice
+  return fast
+    .replace(/[\d,]+(?:\.\d+)? m \((\d+(?:\.\d+)? NM)\)/g, "$1")
+    .replace(/(\d[\d,]*(?:\.\d+)?) m(?![\w/²])/g, (said, metres: string) => {
+      const length = Number(metres.replaceAll(",", ""));
+      return length < SHORT ? said : `${formatMiles(length, 2)} NM`;
+    });
 }
 
 /** A bank as magnitude and side, e.g. "25 R". `bank` [deg], positive right wing down. */

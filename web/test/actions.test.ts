@@ -3,7 +3,7 @@ import { createActions } from "../src/actions";
 import { createSession } from "../src/session";
 import { createFlightStore } from "../src/store/flight";
 import { pairCard } from "../src/store/pair";
-import { pairAt, STARTED } from "./samples";
+import { noPlan, pairAt, STARTED } from "./samples";
 
 afterEach(() => vi.unstubAllGlobals());
 
@@ -74,4 +74,46 @@ test("what an ended flight answers is shown as it is", async () => {
   actions.leaderHeading(200);
   await vi.waitFor(() => expect(session.feedback.value.kind).toBe("refused"));
   expect(session.feedback.value).toMatchObject({ text: sentence });
+});
+
+test("what is refused when its second comes is refused, whatever was said when it was taken", async () => {
+  const { session, actions } = flying(new Response("", { status: 204 }));
+  actions.engage("armed");
+  await vi.waitFor(() => expect(session.feedback.value.kind).toBe("done"));
+  const message = "There is no proposal to accept.";
+  session.flight.engagement.value = {
+    kind: "engagement_changed",
+    t_s: 1,
+    ident: "RG456",
+    engagement: "designated",
+    previous: "designated",
+    message,
+  };
+  expect(session.feedback.value).toEqual({ kind: "refused", text: message });
+});
+
+test("without a path nothing is accepted, and the page says why", () => {
+  const { asked, session, actions } = flying(new Response("", { status: 204 }));
+  session.flight.started.value = pairCard(STARTED);
+  const now = pairAt(0, { engagement: "designated", mode: "heading" });
+  for (const each of [session.flight.sample, session.flight.now, session.flight.reading])
+    each.value = now;
+  session.flight.unavailable.value = noPlan(0);
+  for (const step of ["armed", "engaged"] as const) {
+    actions.engage(step);
+    expect(session.feedback.value).toMatchObject({
+      kind: "refused",
+      text: "There is no path to accept now: it is looked for again by itself.",
+    });
+  }
+  expect(asked).not.toHaveBeenCalled();
+});
+
+test("who commands a flight that is no more reads what to do, and not what the service has for programs", async () => {
+  const { session, actions } = flying(
+    problem(404, "There is no flight 'one': GET /api/v1/flights"),
+  );
+  actions.leaderHeading(200);
+  await vi.waitFor(() => expect(session.feedback.value.kind).toBe("refused"));
+  expect(session.feedback.value).toMatchObject({ text: "This flight is over: start a new one." });
 });

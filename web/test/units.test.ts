@@ -62,4 +62,9 @@ test("a refusal speaks the units of the page", () => {
     "The true airspeed must lie in 58 … 778 kt, not 999 kt.",
   );
   expect(inPageUnits("The flight has ended.")).toBe("The flight has ended.");
+  expect(
+    inPageUnits(
+      "They are 7,636 m (4.12 NM) apart, closer than 9,260 m; 12 m matter not, 2 m/s² do.",
+    ),
+  ).toBe("They are 4.12 NM apart, closer than 5.00 NM; 12 m matter not, 2 m/s² do.");
 });

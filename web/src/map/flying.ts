@@ -37,7 +37,9 @@ export function fly(session: Session, begin: Begin): void {
   const situation = session.map.situation.value;
   const { scenario, flies } = entryOf(situation) ?? {};
   const wanted = { rate: 1, engagement: "designated" } as const;
-  const own = { ...wanted, situation: bodyOf(situation) };
+  // The map says of a leader that declares nothing that its intent is not known: so it is flown.
+  const isKnown = situation.leader.intent.length > 0;
+  const own = { ...wanted, situation: bodyOf(situation), intent_known: isKnown };
   const broken = flies === undefined ? own : { ...own, flown_intent: [...flies] };
   void begin(scenario === undefined ? broken : { ...wanted, scenario }, () => {
     session.ndMode.value = "ARC";

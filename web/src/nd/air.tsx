@@ -21,9 +21,9 @@ export function AirData({ shown: { numbers }, view }: LayerProps) {
   return (
     <g class="nd-air" transform={placeAt({ x, y })}>
       <Cell x={0} y={22} text="GS" colour="label" size={18} />
-      <Cell x={26} y={22} text={gs} colour="value" />
-      <Cell x={82} y={22} text="TAS" colour="label" size={18} />
-      <Cell x={121} y={22} text={tas} colour="value" />
+      <Cell x={30} y={22} text={gs} colour="value" />
+      <Cell x={86} y={22} text="TAS" colour="label" size={18} />
+      <Cell x={127} y={22} text={tas} colour="value" />
       <Cell x={0} y={54} text={from} colour="value" />
       <Cell x={43} y={54} text="/" colour="label" />
       <Cell x={58} y={54} text={speed} colour="value" />

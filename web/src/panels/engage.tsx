@@ -1,7 +1,7 @@
 /** What the crew does with relative guidance: designate, accept, engage, disconnect; one step a button. */
 
 import { Panel } from "../parts";
-import type { Actions, Session } from "../session";
+import { type Actions, isFlying, type Session } from "../session";
 import type { Guidance } from "../store/states";
 import type { Engagement } from "../wire";
 
@@ -45,7 +45,7 @@ export function Engage(props: { session: Session; actions: Actions }) {
   const { session, actions } = props;
   const { state, readAt, hasLapsed } = session.shown.numbers.value;
   const { says, next, back } = STEPS[state];
-  const absent = readAt === null || session.flight.ended.value !== null;
+  const absent = readAt === null || !isFlying(session);
   return (
     <Panel name="engage" title="Relative guidance">
       <p class="hint">{state === "proposed" && hasLapsed ? LAPSED : says}</p>

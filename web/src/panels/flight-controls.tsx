@@ -1,12 +1,13 @@
 /** How the flight goes on: play or pause, restart, rate; and what became of the last command. */
 
 import { Choice, Icon, Panel } from "../parts";
-import { type Actions, type Feedback, RATES, type Session } from "../session";
+import { type Actions, type Feedback, isFlying, RATES, type Session } from "../session";
 
 export function FlightControls(props: { session: Session; actions: Actions }) {
   const { session, actions } = props;
   const { scenarios, status, flight, feedback } = session;
-  const { rate, paused, ended } = flight.clock.value;
+  const { rate, paused } = flight.clock.value;
+  const ended = flight.clock.value.ended || !isFlying(session);
   const flown = status.value?.scenario || null; // empty for a situation of one's own
   const description =
     scenarios.value.find((scenario) => scenario.name === flown)?.description ?? "";

@@ -69,6 +69,9 @@ function ConnectionState(props: { session: Session }) {
   // The map needs no flight.
   if (props.session.ndMode.value === "PLAN" && props.session.status.value === null)
     return <p class="connection">No flight</p>;
+  // A flight that was removed is not a connection that was lost.
+  if (props.session.outage.value?.kind === "flight_gone")
+    return <p class="connection lost">Flight over</p>;
   const age = state === "stale" || state === "lost" ? ` ${Math.floor(dataAge.value)} s` : "";
   return (
     <p class={`connection ${state}`}>

@@ -3,7 +3,7 @@
 import { useSignal } from "@preact/signals";
 import { Dial } from "../dial";
 import { Choice, Icon, Panel } from "../parts";
-import type { Actions, Session } from "../session";
+import { type Actions, isFlying, type Session } from "../session";
 import { formatHeading, KT } from "../units";
 
 export function LeaderControls(props: { session: Session; actions: Actions }) {
@@ -21,7 +21,7 @@ export function LeaderControls(props: { session: Session; actions: Actions }) {
   const selectedHeading = heading.value ?? headingNow;
   const selectedKnots = knots.value ?? knotsNow;
   const known = session.flight.route.value?.intent_known ?? null;
-  const absent = leader === undefined;
+  const absent = leader === undefined || !isFlying(session);
   const isHeard = session.shown.numbers.value.sample?.leader_age_s === 0;
   return (
     <Panel name="leader" title="Leader" {...named}>

@@ -9,6 +9,7 @@ import {
   formatKnots,
   formatMiles,
   formatSignedKnots,
+  inPageUnits,
   KT,
   NM,
 } from "../units";
@@ -196,8 +197,9 @@ function timingOf({ mode, spacing_error_m: error, leader }: PairSample): Timing 
 
 function troubleOf(flight: Flight): Trouble | null {
   const [unavailable, unable] = [flight.unavailable.value, flight.unable.value];
-  if (unavailable !== null) return { label: "No plan", sentence: unavailable.answer.message };
-  return unable === null ? null : { label: "Unable", sentence: unable.message };
+  if (unavailable !== null)
+    return { label: "No plan", sentence: inPageUnits(unavailable.answer.message) };
+  return unable === null ? null : { label: "Unable", sentence: inPageUnits(unable.message) };
 }
 
 function airTexts(flight: Flight, reading: PairSample | null) {

@@ -1,6 +1,14 @@
 /** What one document changes of what the display knows. */
 
-import type { Alert, Document, EngagementChanged, FlightStarted, PlanChanged } from "../wire";
+import { inPageUnits } from "../units";
+import type {
+  Alert,
+  Document,
+  EngagementChanged,
+  FlightStarted,
+  PlanChanged,
+  Unable,
+} from "../wire";
 import type { Flight, Message } from "./flight";
 import { moveAircraft } from "./motion";
 import { isAbout, type PairSample, pairCard, pairResult, pairSample } from "./pair";
@@ -65,7 +73,7 @@ export function take(flight: Flight, document: Document, arrival: Arrival): void
       return;
     case "unable":
       flight.unable.value = document;
-      log(flight, { t, kind: "unable", text: document.message });
+      log(flight, { t, kind: "unable", text: sentenceOf(document) });
       return;
     case "separation_lost":
       flight.lost.value = document;
@@ -161,8 +169,15 @@ function expected(sample: PairSample, heard: PairSample | null): PairSample {
   return { ...sample, leader, separation_m: separation };
 }
 
-function log(flight: Flight, message: Message): void {
+/** Why guidance is unable, without the word that stands beside it. */
+function sentenceOf({ message }: Unable): string {
+  const sentence = message.replace(/^Unable: /, "");
+  return sentence.charAt(0).toUpperCase() + sentence.slice(1);
+}
+
+function log(flight: Flight, { t, kind, text: said }: Message): void {
   const known = flight.messages.value;
+  const message = { t, kind, text: inPageUnits(said) };
   // A reconnected page gets the last documents again.
   if (known.some((each) => each.t === message.t && each.text === message.text)) return;
   flight.messages.value = [message, ...known].slice(0, MESSAGES_KEPT);
