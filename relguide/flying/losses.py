@@ -72,5 +72,5 @@ def _cause(one: Pursuit, t: Second) -> str:
     if t - one.view.changed_at < RECENT and one.view.changed:
         return one.view.changed
     if one.memory.mode in ("heading", "escape"):
-        return "There was no path that kept the minimum separation."
+        return "There was no path that kept it."
     return "What was flown is not what was forecast."

@@ -78,7 +78,7 @@ export function take(flight: Flight, document: Document, arrival: Arrival): void
     case "separation_lost":
       flight.lost.value = document;
       flight.lostSince.value = arrival.since;
-      log(flight, { t, kind: "lost", text: document.cause });
+      log(flight, { t, kind: "lost", text: `Separation: ${startLower(document.cause)}` });
       return;
     case "forecast_changed":
       flight.forecast.value = document;
@@ -173,6 +173,10 @@ function expected(sample: PairSample, heard: PairSample | null): PairSample {
 function sentenceOf({ message }: Unable): string {
   const sentence = message.replace(/^Unable: /, "");
   return sentence.charAt(0).toUpperCase() + sentence.slice(1);
+}
+
+function startLower(sentence: string): string {
+  return sentence.charAt(0).toLowerCase() + sentence.slice(1);
 }
 
 function log(flight: Flight, { t, kind, text: said }: Message): void {
