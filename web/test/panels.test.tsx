@@ -158,7 +158,7 @@ describe("panels", () => {
     for (const [kind, name, text] of [
       ["caution", "CAUTION", caution.message],
       ["unable", "UNABLE", "The leader turns back."],
-      ["lost", "LOST", "The leader turned towards own ship."],
+      ["lost", "LOST", "Separation: the leader turned towards own ship."],
     ] as const) {
       expect(place.querySelector(`.log .${kind}`)?.textContent).toContain(`${name}${text}`);
       expect(spoken()).toContain(text);
