@@ -20,7 +20,7 @@ export function NextPoint({ shown: { numbers } }: LayerProps) {
       <Cell x={width} y={22} text={name} colour="label" anchor="end" />
       <Cell x={46} y={52} text={place} colour="value" anchor="end" />
       <Cell x={46} y={52} text={degree} colour="unit" />
-      <Cell x={width - 28} y={52} text={miles} colour="value" anchor="end" />
+      <Cell x={width - 32} y={52} text={miles} colour="value" anchor="end" />
       <Cell x={width} y={52} text={unit} colour="unit" size={18} anchor="end" />
       <Cell x={width} y={82} text={left} colour={urgent} anchor="end" />
     </g>

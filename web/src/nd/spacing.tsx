@@ -26,7 +26,7 @@ export function Spacing({ shown: { numbers } }: LayerProps) {
       {rows.map(({ label, value, unit, colour }, i) => (
         <g key={label}>
           <Cell x={0} y={22 + 27 * i} text={label} colour="label" size={20} />
-          <Cell x={width - 32} y={22 + 27 * i} text={value} colour={colour} anchor="end" />
+          <Cell x={width - 37} y={22 + 27 * i} text={value} colour={colour} anchor="end" />
           <Cell x={width} y={22 + 27 * i} text={unit} colour="unit" size={18} anchor="end" />
         </g>
       ))}
