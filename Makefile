@@ -6,6 +6,8 @@ PORT ?= 8000
 # Another package index for torch alone, which tests and trainings need: on Linux PyTorch's own index
 # of CPU wheels saves gigabytes.
 TORCH_INDEX ?=
+# The image that the container begins with, by its digest; the Dockerfile's own if empty.
+BASE ?=
 
 ifeq ($(origin PYTHON), undefined)
 PYTHON := $(shell for p in python3 python3.14 python3.13 python3.12 python3.11 python; do \
@@ -37,7 +39,7 @@ help:
 	@echo 'make container  take its steps and start it without Docker, and the services of compose.yaml (root, Debian)'
 	@echo 'make lock     resolve anew what the container installs, into requirements.lock'
 	@echo 'make clean    remove all that was installed and built'
-	@echo 'Variables: PYTHON, HOST, PORT, TORCH_INDEX (an index with CPU wheels of torch)'
+	@echo 'Variables: PYTHON, HOST, PORT, TORCH_INDEX (an index with CPU wheels of torch), BASE (of the image, with its digest)'
 
 # ---- run -------------------------------------------------------------------------------------
 
@@ -179,7 +181,10 @@ wheel: .make/dev
 
 .PHONY: image
 image:
-	docker build --tag relguide .
+	@test -z '$(BASE)' || printf '%s' '$(BASE)' | grep -Eq '^[^@ ]+@sha256:[0-9a-f]{64}$$' || { \
+		echo "BASE must be an image with its digest, python:3.12-slim@sha256: and 64 hexadecimal digits," \
+		"as docker buildx imagetools inspect python:3.12-slim gives it."; exit 1; }
+	docker build $(if $(BASE),--build-arg BASE=$(BASE)) --tag relguide .
 
 # In build/container, which is 3 GB; what was built there before is built anew.
 .PHONY: container

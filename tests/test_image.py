@@ -155,6 +155,49 @@ def test_who_cannot_plan_is_not_healthy() -> None:
         assert health.main([f"http://{address}"]) == 1
 
 
+DIGEST = "sha256:" + "0a" * 32
+
+
+@pytest.mark.parametrize(
+    ("base", "pinned"),
+    [
+        ("", True),
+        (f"python:3.12-slim@{DIGEST}", True),
+        (f"registry.example:5000/base/python@{DIGEST}", True),
+        ("python:3.12-slim", False),
+        (f"python:3.12-slim@{DIGEST}0", False),
+        (f"python:3.12-slim@{DIGEST.upper()}", False),
+        (DIGEST, False),
+        (f"python 3@{DIGEST}", False),
+    ],
+)
+def test_a_base_is_named_by_its_digest(base: str, pinned: bool, tmp_path: Path) -> None:
+    (tmp_path / "docker").write_text('#!/bin/sh\necho "$@"\n')
+    (tmp_path / "docker").chmod(0o755)
+    made = subprocess.run(
+        ["make", "--silent", "image", f"BASE={base}"],
+        cwd=ROOT,
+        env={**os.environ, "PATH": f"{tmp_path}{os.pathsep}{os.environ['PATH']}"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (made.returncode == 0) == pinned, made.stderr
+    if pinned:
+        assert (f"--build-arg BASE={base}" in made.stdout) == bool(base)
+    else:
+        assert "BASE must be an image with its digest" in made.stdout
+
+
+def test_the_base_may_be_given_to_every_stage() -> None:
+    given = list(steps())
+    default = dict(given)["ARG"].removeprefix("BASE=")
+    assert given[0] == ("ARG", f"BASE={default}")
+    assert all(what.startswith("${BASE}") for name, what in given if name == "FROM")
+    for name in ("flights", "planner"):
+        assert COMPOSE["services"][name]["build"]["args"]["BASE"] == default
+
+
 def test_compose_names_settings_that_exist_and_writes_nowhere() -> None:
     services = COMPOSE["services"]
     assert set(services) == {"database", "flights", "planner", "proxy"}
