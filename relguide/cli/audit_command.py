@@ -94,6 +94,7 @@ def _audit_branches(chosen: argparse.Namespace) -> None:
     from relguide.cli.workers import collect, start_workers
     from relguide.learn.audits.branch_audit import audit_as_json, audit_of
     from relguide.learn.audits.branch_judging import branch_audit_request, judge_chunks, latencies
+    from relguide.learn.audits.latency import latency_as_json
     from relguide.learn.audits.side_by_side import method_as_json
     from relguide.learn.words.branch_network import load_network
     from relguide.planning.progress import progress_bar
@@ -121,7 +122,7 @@ def _audit_branches(chosen: argparse.Namespace) -> None:
         "least_share": network.least_share,
         "network": network.about,
     }
-    found: dict[str, Any] = about | audit_as_json(audit) | {"latency": _latency(asked)}
+    found: dict[str, Any] = about | audit_as_json(audit) | {"latency": latency_as_json(asked)}
     if ground is not None:
         found["side_by_side"] = {
             "situations": len(ground),
@@ -159,6 +160,7 @@ def _audit_templates(chosen: argparse.Namespace) -> None:
     from relguide.cli.template_tables import print_template_audit
     from relguide.cli.workers import collect, start_workers
     from relguide.learn.audits.constrained_judging import template_latencies
+    from relguide.learn.audits.latency import latency_as_json
     from relguide.learn.audits.planner_judging import UNIT
     from relguide.learn.audits.template_audit import template_audit_as_json, template_audit_of
     from relguide.learn.audits.template_judging import (
@@ -195,9 +197,4 @@ def _audit_templates(chosen: argparse.Namespace) -> None:
         "r_per_v_s": UNIT,
         "network": templates.about,
     }
-    write_json(about | template_audit_as_json(audit) | {"latency": _latency(asked)})
-
-
-def _latency(asked: dict[str, tuple[float, float]]) -> dict[str, dict[str, float]]:
-    """Median and 99th percentile of a query, by who is asked, as JSON names them."""
-    return {name: {"p50_us": low, "p99_us": high} for name, (low, high) in asked.items()}
+    write_json(about | template_audit_as_json(audit) | {"latency": latency_as_json(asked)})

@@ -6,6 +6,7 @@ from math import hypot, inf
 from relguide.cli.output import write
 from relguide.cli.shared_tables import percent, print_table, short, table, with_interval
 from relguide.learn.audits.branch_audit import Audit, Group, Miss
+from relguide.learn.audits.latency import Latency
 from relguide.learn.audits.side_by_side import Ground, Method, two
 from relguide.units import DEG
 
@@ -15,7 +16,7 @@ LARGEST = 10
 
 def print_audit(
     audit: Audit,
-    latency: Mapping[str, tuple[float, float]],
+    latency: Mapping[str, Latency],
     ground: Ground | None,
     methods: Sequence[Method],
 ) -> None:
@@ -23,14 +24,17 @@ def print_audit(
 
     Args:
         audit: what to print.
-        latency: median and 99th percentile of a query, by who is asked [µs].
+        latency: of a query, by who is asked.
         ground: the situations that other methods were judged in, if there are any.
         methods: these methods.
     """
     _print_groups(audit)
     write(
-        "One query, median and 99th percentile of CPU time: "
-        + ", ".join(f"{name} {low:.1f} / {high:.1f} µs" for name, (low, high) in latency.items())
+        "One query; median, mean and 99th percentile of CPU time:\n"
+        + ", ".join(
+            f"{name} {asked.median:.1f} / {asked.mean:.1f} / {asked.late:.1f} µs"
+            for name, asked in latency.items()
+        )
         + ".\n"
     )
     _print_gaps(audit)

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 from relguide.cli.output import write
 from relguide.cli.shared_tables import percent, print_table, short, table, with_interval
+from relguide.learn.audits.latency import Latency
 from relguide.learn.audits.planner_judging import UNIT
 from relguide.learn.audits.template_audit import (
     WORTH,
@@ -29,19 +30,22 @@ _SAID: dict[Reason, str] = {
 }
 
 
-def print_template_audit(audit: TemplateAudit, latency: Mapping[str, tuple[float, float]]) -> None:
+def print_template_audit(audit: TemplateAudit, latency: Mapping[str, Latency]) -> None:
     """Print what an audit has found.
 
     Args:
         audit: what to print.
-        latency: median and 99th percentile of a query, by who is asked [µs].
+        latency: of a query, by who is asked.
     """
     _print_naming(audit)
     _print_late(audit)
     _print_everywhere(audit)
     write(
-        "One query where d_min binds, median and 99th percentile of CPU time:\n"
-        + ", ".join(f"{name} {low:,.0f} / {high:,.0f} µs" for name, (low, high) in latency.items())
+        "One query where d_min binds; median, mean and 99th percentile of CPU time:\n"
+        + ", ".join(
+            f"{name} {asked.median:,.0f} / {asked.mean:,.0f} / {asked.late:,.0f} µs"
+            for name, asked in latency.items()
+        )
         + ".\n"
     )
     _print_gaps(audit)

@@ -47,9 +47,17 @@ class Batch:
 
 
 def measure(drawn: dict[str, list[Situation]]) -> list[Batch]:
-    """Answer all of each kind, by networks and by the search alone; with a bar."""
+    """Answer all of each kind, by networks and by the search alone; with a bar.
+
+    Both kernels are for leaders that keep straight: kinds in which they turn are left out.
+    """
     ways = load_template_network()
     batches = []
+    drawn = {
+        name: situations
+        for name, situations in drawn.items()
+        if not any(situation.leader.intent for situation in situations)
+    }
     with progress_bar("Networks, in batches", total=2 * REPEATS * len(drawn)) as done:
         for name, situations in drawn.items():
             rows = _with_a_plan(np.array([as_row(situation) for situation in situations]))

@@ -19,6 +19,7 @@ from relguide.kernels.base.records import Pose
 from relguide.kernels.networks.branch_scores import choose, judge_branches
 from relguide.kernels.words.branches import SIZE, WORD_OF
 from relguide.kernels.words.extremals import MAX_ROWS, solve
+from relguide.learn.audits.latency import Latency, latency_of
 from relguide.learn.training.chunks import gather
 from relguide.learn.words.branch_labels import (
     SOURCES,
@@ -140,8 +141,8 @@ def _sets(share: Floats, times: Floats) -> Floats:
     return sums
 
 
-def latencies(network: BranchNetwork, request: LabelRequest) -> dict[str, tuple[float, float]]:
-    """One query, median and 99th percentile [µs of CPU time]: the network's, and all words'."""
+def latencies(network: BranchNetwork, request: LabelRequest) -> dict[str, Latency]:
+    """How long one query takes: the network's, and all words'."""
     situations: Floats = label_chunk(request, 0).situations[:SAMPLES]
     rows = np.empty((MAX_ROWS, 5))
     layers, least, most = network.layers, network.least_share, network.most
@@ -152,13 +153,12 @@ def latencies(network: BranchNetwork, request: LabelRequest) -> dict[str, tuple[
     def by_all_words(x: float, y: float, h: float, alpha: float) -> object:
         return solve(Pose(x, y, h), alpha, 0.0, rows)
 
-    found: dict[str, tuple[float, float]] = {}
+    found: dict[str, Latency] = {}
     for name, ask in (("network", by_network), ("all words", by_all_words)):
         spent: list[float] = []
         for situation in situations.tolist():
             begun = thread_time_ns()
             ask(*situation)
             spent.append((thread_time_ns() - begun) * 1e-3)
-        middle, late = np.percentile(spent, (50.0, 99.0))
-        found[name] = float(middle), float(late)
+        found[name] = latency_of(spent)
     return found

@@ -17,13 +17,14 @@ from relguide.kernels.networks.template_scores import LEGS, choose_template
 from relguide.kernels.networks.templates import NONE, SEVERAL
 from relguide.kernels.words.fastest import fastest
 from relguide.kernels.words.sooner import make_scratch
+from relguide.learn.audits.latency import Latency, latency_of
 from relguide.learn.boundary.template_labels import LONGEST, ConstrainedPaths, Floats
 from relguide.learn.boundary.template_network import TemplateNetwork
 from relguide.learn.boundary.train_templates import WITHIN, targets_of
 from relguide.planning.constrained_path import BEARINGS
 
 QUERIES, SEARCHES = 2000, 200
-"""That the latency is measured on."""
+"""That the latency is measured on, about."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -94,10 +95,8 @@ def judge_constrained(
     )
 
 
-def template_latencies(
-    network: TemplateNetwork, situations: Floats
-) -> dict[str, tuple[float, float]]:
-    """One query, median and 99th percentile [µs of CPU time]: the network's, and the search's.
+def template_latencies(network: TemplateNetwork, situations: Floats) -> dict[str, Latency]:
+    """How long one query takes: the network's, whether it answers or not, and the search's.
 
     Args:
         network: the network.
@@ -120,10 +119,10 @@ def template_latencies(
         solve_constrained_rows(row[None], BEARINGS, LONGEST, times, counts, found)
         return thread_time_ns() - begun
 
-    found: dict[str, tuple[float, float]] = {}
+    found: dict[str, Latency] = {}
     for name, ask, count in (("network", by_network, QUERIES), ("search", by_search, SEARCHES)):
         ask(situations[0])  # not counted: it may load what is compiled
-        spent = [ask(row) * 1e-3 for row in situations[:count]]
-        middle, late = np.percentile(spent, (50.0, 99.0))
-        found[name] = float(middle), float(late)
+        # evenly out of all sources: so the means of both are of the same sort of situations
+        spent = [ask(row) * 1e-3 for row in situations[:: max(len(situations) // count, 1)]]
+        found[name] = latency_of(spent)
     return found
