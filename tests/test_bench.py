@@ -15,7 +15,7 @@ from relguide.learn.boundary.template_network import load_template_network
 from relguide.learn.network_planner import network_planner
 from relguide.learn.words.branch_network import load_network
 from relguide.planning.constrained_path import BEARINGS
-from tests.bench import draws
+from tests.bench import draws, network
 from tests.bench.cases import turning_cases, unlimited_cases
 from tests.bench.exhaustive import least_time
 from tests.bench.limit import main, plan_twice
@@ -100,6 +100,17 @@ def test_a_comparison_goes_on_where_it_stopped(
     assert "4 active situations" in capsys.readouterr().out
     assert main(["--count", "4", *options, "--effort", "3"]) == 2
     assert "effort 2" in capsys.readouterr().err
+
+
+def test_how_much_faster_networks_are_is_said_by_medians_and_by_sums() -> None:
+    pairs = [
+        network.Pair(by_network=cpu < 5e-3, late=0.0, network_cpu=cpu, plan_cpu=10e-3)
+        for cpu in (1e-3, 1e-3, 8e-3)
+    ]
+    told = network.table({"some": pairs})
+    row = {str(column.header): next(iter(column.cells)) for column in told.columns}
+    assert len(told.columns) == len(network.HEADINGS)
+    assert (row["by network"], row["×"], row["× by sums"]) == ("66.7%", "10.0", "3.0")
 
 
 @pytest.mark.slow
