@@ -64,7 +64,7 @@ def best_constrained_path(
         start: where it begins, at t = 0.
         scene: what it has to reckon with.
         bearings: how finely the disc is scanned. If the slot lies hardly outside, twice as finely
-            round a leader that keeps straight; round one that turns both ways, where R < d_min.
+            round a leader that keeps straight, and where R < d_min once more.
         tangents: contacts to be looked at besides, from `tangent.tangents`. shape (·, 4)
         beat: an arrival already known [R/V_P]; only earlier ones are looked for.
         legs: takes the legs of the path, as `chain.Chain`. shape (MAX_LEGS, 6)
@@ -72,14 +72,14 @@ def best_constrained_path(
     Returns:
         arrival time [R/V_P] and the number of legs; `beat` and 0 if no path is faster.
     """
-    narrow = _is_slot_at_limit(scene)
-    if narrow and len(scene.leader) == 1:
+    narrow, keeps_straight = _is_slot_at_limit(scene), len(scene.leader) == 1
+    if narrow and keeps_straight:
         bearings *= 2
     best, count = _search(start, scene, bearings, tangents, beat, legs)
-    if narrow and len(scene.leader) > 1 and scene.d_min > 1.0 and best > scene.t_release:
+    if narrow and scene.d_min > 1.0 and best > scene.t_release:
         # more bearings do not include the fewer ones, nor find all that these do
-        finer = np.zeros_like(legs)
-        time, found = _search(start, scene, 2 * bearings, tangents, best, finer)
+        finer, more = np.zeros_like(legs), bearings * 7 // 5 if keeps_straight else 2 * bearings
+        time, found = _search(start, scene, more, tangents, best, finer)
         if found > 0:
             best, count = time, found
             legs[:] = finer

@@ -151,6 +151,48 @@ def test_in_the_slot_and_as_fast_there_is_a_plan_until_it_opens() -> None:
         assert answer.time_to_converge == pytest.approx(release, abs=1e-6)
 
 
+SLIDES_TWICE = (
+    (
+        Situation(
+            pursuer=Pursuer(
+                x=0.0, y=0.0, heading=1.5609458690293547, tas=244.97065866414394,
+                max_bank=0.34971477725145267,
+            ),
+            leader=Leader(
+                x=4_938.499804725631, y=41_339.46633004543, heading=3.705548404816796,
+                tas=235.5001212428205,
+            ),
+            slot_distance=33_090.679154024256,
+            min_separation=33_090.679154024256,
+        ),
+        515.818,
+    ),
+    (
+        Situation(
+            pursuer=Pursuer(
+                x=0.0, y=0.0, heading=1.2634893289962497, tas=246.3733501326055,
+                max_bank=0.5955420181291514,
+            ),
+            leader=Leader(
+                x=-18_550.73275134009, y=20_157.886630901718, heading=2.4768996924509254,
+                tas=238.324298293291,
+            ),
+            slot_distance=19_967.773918488427,
+            min_separation=19_967.773918488427,
+        ),
+        330.492,
+    ),
+)  # fmt: skip
+"""Situations, and times found with twenty times the bearings: one grid alone misses both paths."""
+
+
+@pytest.mark.parametrize(("situation", "known"), SLIDES_TWICE)
+def test_a_path_that_leaves_the_disc_between_two_slides_is_found(
+    situation: Situation, known: float
+) -> None:
+    assert arrival_time(situation) < known + 0.05
+
+
 AS_FAST = (
     Situation(
         pursuer=Pursuer(
