@@ -6,14 +6,13 @@ draws situations in which the separation limit is active, half of them with R < 
 them with a leader that turns, half of these in wind. Each is planned, and set to IPOPT from three
 starts, five where the leader turns. What IPOPT finds sooner counts if it keeps d_min all along, as
 `detours` judges it; such a plan is then to be proved for a second, and what is claimed of it is
-said. Where plan() finds none another situation is drawn. The ten in which the plan does worst are
-listed as code to paste. Seconds for each situation; Ctrl-C ends it with what there is.
+said. Where plan() finds none another situation is drawn. Each is told as it ends, and in the end
+the ten in which the plan does worst, as code to paste. Seconds for each situation.
 """
 
 import argparse
 import sys
 from collections.abc import Iterator
-from contextlib import suppress
 from math import inf
 
 import numpy as np
@@ -38,14 +37,15 @@ def main(arguments: list[str] | None = None) -> int:
     """Draw, set both, report; 1 if a plan came late and was then called optimal."""
     wanted = _parser().parse_args(arguments)
     contests: list[Contest] = []
-    with suppress(KeyboardInterrupt):
-        for contest in show_progress(
-            contests_of(wanted.count, seed=wanted.seed, intent=wanted.intent),
-            title="Setting plan() and IPOPT",
-            total=wanted.count,
-            done=lambda _: len(contests),
-        ):
-            contests.append(contest)
+    for contest in show_progress(
+        contests_of(wanted.count, seed=wanted.seed, intent=wanted.intent),
+        title="Setting plan() and IPOPT",
+        total=wanted.count,
+        done=lambda _: len(contests),
+    ):
+        contests.append(contest)
+        sys.stdout.write(f"{_told(contest)}\n")
+        sys.stdout.flush()
     return report(contests)
 
 
@@ -79,12 +79,18 @@ def report(contests: list[Contest]) -> int:
             told += f", {claim}"
             status |= wrong
         console.print(
-            f"{contest.case.name}: plan() {contest.ours:.2f} s, IPOPT {contest.theirs:.2f} s, with "
-            f"the limit kept all along {contest.honest:.2f} s: {told}  {contest.case.situation!r}",
+            f"{_told(contest)}: {told}  {contest.case.situation!r}",
             soft_wrap=True,
             highlight=False,
         )
     return status
+
+
+def _told(contest: Contest) -> str:
+    kept = (
+        "" if contest.honest == inf else f", {contest.honest:.2f} s with d_min kept"
+    )
+    return f"{contest.case.name}: plan() {contest.ours:.2f} s, IPOPT {contest.theirs:.2f} s{kept}"
 
 
 def _claim(contest: Contest) -> tuple[str, int]:
