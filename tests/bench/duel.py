@@ -87,9 +87,7 @@ def report(contests: list[Contest]) -> int:
 
 
 def _told(contest: Contest) -> str:
-    kept = (
-        "" if contest.honest == inf else f", {contest.honest:.2f} s with d_min kept"
-    )
+    kept = "" if contest.honest == inf else f", {contest.honest:.2f} s with d_min kept"
     return f"{contest.case.name}: plan() {contest.ours:.2f} s, IPOPT {contest.theirs:.2f} s{kept}"
 
 
