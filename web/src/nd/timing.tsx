@@ -20,7 +20,7 @@ export function TimingScale({ shown: { numbers } }: LayerProps) {
   );
   if (!isShown.value) return null;
   const { x, y, width, height } = READOUTS.timing;
-  const middle = { x: width - 24, y: HALF + 16 };
+  const middle = { x: width - 24, y: HALF + 10 };
   return (
     <g class="nd-timing" transform={placeAt({ x, y })}>
       <rect class="nd-ground" width={width} height={height} />

@@ -29,6 +29,7 @@ export function isDrawn(root: Element, selector: string): boolean {
 
 const STYLES = ["styles/tokens.css", "nd/nd.css"];
 const LAYOUT = `body { margin: 16px; background: #14181d; color: #e8ecf0; font: 14px sans-serif }
+  .nd-flash { animation: none }
   main { display: grid; grid-template-columns: repeat(4, 1fr); gap: 12px }
   h2 { margin: 0 0 4px; font-size: 15px } .nd-display { aspect-ratio: 1; height: auto; overflow: hidden }
   table { border-collapse: collapse; margin-top: 16px } th, td { padding: 1px 8px; text-align: left }
@@ -41,15 +42,15 @@ export function pageOfStates(): string {
     const picture = ROOTS.get(state)?.innerHTML ?? "";
     return `<section><h2>${state}</h2>${picture}</section>`;
   });
-  const rows = ELEMENT_ROWS.map(({ number, name, selector, why }) => {
+  const rows = ELEMENT_ROWS.map(({ number, name, selector, why, states }) => {
+    const said = why ?? (states.size > 0 ? null : "it comes with an event, whatever the state");
     const cells = GUIDANCES.map((state) => {
       const root = ROOTS.get(state);
       const drawn = root !== undefined && selector !== null && isDrawn(root, selector);
       return `<td>${drawn ? "●" : ""}</td>`;
     });
-    const said =
-      selector === null ? `<td colspan="${GUIDANCES.length}">${why}</td>` : cells.join("");
-    return `<tr><th>${number} ${name}</th>${said}</tr>`;
+    const shown = said === null ? cells.join("") : `<td colspan="${GUIDANCES.length}">${said}</td>`;
+    return `<tr><th>${number} ${name}</th>${shown}</tr>`;
   });
   const heads = GUIDANCES.map((state) => `<th>${state}</th>`).join("");
   return `<!doctype html><html lang="en"><meta charset="utf-8"><title>All states</title>
