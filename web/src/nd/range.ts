@@ -20,17 +20,38 @@ const ROOM = 64;
 /** What is farther than this off the nose is behind: in ARC, no range shows much of it [deg]. */
 const BEHIND = 100;
 
-/** The smallest range with all places on the map; the present one as long as it is nearly that. */
+/** For a leader that is behind, the range may be so many times what the rest needs. */
+const FOR_LEADER = 2;
+
+/**
+ * The smallest range with all places on the map; the present one as long as it is nearly that. What is
+ * behind does not count in ARC, but for the leader, the first place, where that costs little: else it
+ * has its symbol on the edge.
+ */
 export function fittingRange(
   mode: DisplayMode,
   pose: Pose,
   places: readonly Place[],
   present: Range,
 ): Range {
-  const wanted = places.filter(
-    (place, i) =>
-      i === 0 || mode === "ROSE" || Math.abs(offNose(pose, bearing(pose, place))) < BEHIND,
-  );
+  const isAhead = (place: Place) =>
+    mode === "ROSE" || Math.abs(offNose(pose, bearing(pose, place))) < BEHIND;
+  const ahead = places.filter(isAhead);
+  const [leader] = places;
+  const enough = rangeOf(mode, pose, ahead, places, present);
+  if (leader === undefined || isAhead(leader)) return enough;
+  const both = rangeOf(mode, pose, [leader, ...ahead], places, present);
+  return ahead.length === 0 || both <= FOR_LEADER * enough ? both : enough;
+}
+
+/** The smallest range with what is wanted of all places. */
+function rangeOf(
+  mode: DisplayMode,
+  pose: Pose,
+  wanted: readonly Place[],
+  places: readonly Place[],
+  present: Range,
+): Range {
   const fits = (range: Range, margin: number) => {
     const layout = layoutOf(mode, range);
     return wanted.every((place) => onMap(layout, project(layout, pose, place), margin));

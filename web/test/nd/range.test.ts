@@ -57,5 +57,8 @@ test("a smaller range is taken only with room to spare, a larger one at once", (
 
 test("what is behind does not make ARC useless, but for the leader", () => {
   expect(fittingRange("ARC", POSE, [ahead(5), ahead(-30)], 10)).toBe(10);
-  expect(fittingRange("ARC", POSE, [ahead(-5), ahead(6)], 10)).toBeGreaterThan(10);
+  // a leader behind costs one step of the range, and no more: then it is a symbol on the edge
+  expect(fittingRange("ARC", POSE, [ahead(-3), ahead(6)], 10)).toBe(20);
+  expect(fittingRange("ARC", POSE, [ahead(-20), ahead(6)], 10)).toBe(10);
+  expect(fittingRange("ARC", POSE, [ahead(-20)], 10)).toBeGreaterThan(80);
 });
