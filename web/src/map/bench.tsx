@@ -7,6 +7,9 @@ import { SituationForm } from "./form";
 import { Gallery } from "./gallery-panel";
 import { TakeAlong } from "./take-along";
 
+const IDEAL =
+  "Flown, it takes some seconds more: to roll into each turn, and to slow down at its end.";
+
 export function MapBench({ session, actions }: { session: Session; actions: Actions }) {
   const { map } = session;
   return (
@@ -17,7 +20,7 @@ export function MapBench({ session, actions }: { session: Session; actions: Acti
           <SituationForm map={map} />
         </div>
         <div class="column numbers">
-          <PlanNumbers session={map.reading} />
+          <PlanNumbers session={map.reading} remark={IDEAL} />
         </div>
         <div class="column lists">
           <TakeAlong session={session} actions={actions} />

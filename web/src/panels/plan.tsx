@@ -7,8 +7,14 @@ import { countTurns, plannerName, proofSentence, STATE_NAMES } from "../store/re
 import { formatClock, formatMiles } from "../units";
 import type { LinkResult } from "../wire";
 
-export function PlanNumbers(props: { session: Pick<Session, "flight" | "shown"> }) {
-  const { flight, shown } = props.session;
+interface Given {
+  session: Pick<Session, "flight" | "shown">;
+  /** What else there is to say of a plan. */
+  remark?: string;
+}
+
+export function PlanNumbers({ session, remark }: Given) {
+  const { flight, shown } = session;
   const numbers = shown.numbers.value;
   const { sample, plan } = numbers;
   if (sample === null) {
@@ -43,6 +49,7 @@ export function PlanNumbers(props: { session: Pick<Session, "flight" | "shown"> 
       {plan !== null && (
         <p class="proof">{proofSentence(plan.plan.optimality, plan.plan.time_to_converge_s)}</p>
       )}
+      {plan !== null && remark !== undefined && <p class="proof">{remark}</p>}
     </Panel>
   );
 }
