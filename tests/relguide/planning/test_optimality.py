@@ -117,7 +117,7 @@ def test_contacts_close_together_share_their_jumps(monkeypatch: pytest.MonkeyPat
     Each of the two jumps hangs on rounding, and may be negative. Looked for more finely, there is a
     way 0.08 s faster, without that.
     """
-    monkeypatch.setattr(module, "BEARINGS", 18)
+    monkeypatch.setattr(module, "BEARINGS", 12)
     situation = Situation(
         pursuer=Pursuer(
             x=5126.6374828192065,
