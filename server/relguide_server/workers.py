@@ -22,9 +22,9 @@ Kind = Literal["plans", "long_plans", "simulations", "areas", "batches"]
 """What waits in one queue. `plans` take some hundredths of a second; those that would take longer
 are begun anew as `long_plans`."""
 KINDS: tuple[Kind, ...] = get_args(Kind)
-NICE, NICER = 5, 15
-"""How much the process that is kept for plans gives way to the streams and flights of the service,
-and the others to it: these get a tenth of a processor for which both compete."""
+NICE, NICER = 0, 19
+"""How much the process that is kept for plans gives way to all that runs beside it, and how much
+the others: these get a fiftieth of a processor for which both compete."""
 ABANDONED = 0.5
 """How long a job goes on whose client has left, before its hand is killed [s]: a new hand costs a
 second of a processor."""
