@@ -7,12 +7,13 @@ contact. `tests/situations.py` has the coincidences that need no plan.
 
 from collections.abc import Callable
 from dataclasses import replace
-from math import acos, cos, hypot, pi, sin
+from math import cos, hypot, pi, sin
 
 import numpy as np
 
 from relguide import CALM, FlyStraight, Leader, Plan, Situation, plan
 from relguide.kernels.base.records import Pose
+from relguide.kernels.contact.contact import contact_heading
 from relguide.kernels.words.extremals import MAX_ROWS, solve
 from relguide.planning.limits import DISTANCE
 from relguide.planning.slot import slot_frame
@@ -177,7 +178,7 @@ def touch_at_start(rng: np.random.Generator) -> Situation:
     leader, limit = situation.leader, situation.min_separation
     bearing = float(rng.choice([rng.uniform(-pi, pi), 0.0, pi, 0.5 * pi, -0.5 * pi]))
     side = float(rng.choice([1.0, -1.0]))
-    turned = bearing + side * acos(leader.tas / situation.pursuer.tas * cos(bearing))
+    turned = contact_heading(bearing, side, leader.tas / situation.pursuer.tas)
     x = leader.x + limit * sin(leader.heading - bearing)
     y = leader.y + limit * cos(leader.heading - bearing)
     heading = (leader.heading - turned) % (2.0 * pi)

@@ -6,20 +6,16 @@ look was in vain share a small part of the loop: their looks are allowed while t
 it left, and what they ask for otherwise goes to a worker unseen. All others are always looked at.
 """
 
-from collections import OrderedDict
 from collections.abc import Callable
 from time import monotonic
 
 from relguide.units import Second
+from relguide_server.lately import Lately
 
 SHARE = 0.1
 """Of the event loop, for looks of those whose last one was in vain."""
 SAVED: Second = 0.01
 """Most of it that is saved up while none of them asks."""
-LATELY: Second = 5.0
-"""For so long a look in vain is remembered."""
-REMEMBERED = 1000
-"""Most clients that are."""
 
 
 class Looks:
@@ -27,18 +23,14 @@ class Looks:
 
     def __init__(self, now: Callable[[], Second] = monotonic) -> None:
         self._now = now
-        self._vain: OrderedDict[str, Second] = OrderedDict()
+        self._vain = Lately(now)
         self._left, self._at = SAVED, now()
 
     def may(self, client: str) -> bool:
         """Whether a situation of a client may be looked at now."""
-        last = self._vain.get(client)
-        if last is None:
+        if client not in self._vain:
             return True
         now = self._now()
-        if now - last > LATELY:
-            del self._vain[client]
-            return True
         self._left = min(self._left + SHARE * (now - self._at), SAVED)
         self._at = now
         return self._left > 0.0
@@ -53,10 +45,7 @@ class Looks:
         """
         if client in self._vain:
             self._left -= spent
-        if not vain:
-            self._vain.pop(client, None)
-            return
-        self._vain[client] = self._now()
-        self._vain.move_to_end(client)
-        if len(self._vain) > REMEMBERED:
-            self._vain.popitem(last=False)
+        if vain:
+            self._vain.note(client)
+        else:
+            self._vain.forget(client)

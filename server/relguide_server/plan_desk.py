@@ -17,8 +17,8 @@ from relguide.planning.plan import Planner
 from relguide.units import Second
 from relguide_server import jobs
 from relguide_server.exchange import SMALL
-from relguide_server.habits import Habits
 from relguide_server.jobs import Answered
+from relguide_server.lately import Lately
 from relguide_server.looks import Looks
 from relguide_server.metrics import Metrics
 from relguide_server.preparation import Preparation
@@ -102,7 +102,9 @@ class PlanDesk:
         self._workers = workers
         self._metrics = metrics
         self._quick = quick
-        self._habits, self._looks = Habits(), Looks()
+        self._slow = Lately()
+        """Clients that asked for plans that take long, or did not wait for their end."""
+        self._looks = Looks()
 
     def answer_at_once(self, body: bytes, wish: Wish, *, client: str) -> Answered | None:
         """The answer to a situation in JSON; `None` where that may take too long.
@@ -166,6 +168,10 @@ class PlanDesk:
     async def _plan_in_turn(self, body: bytes, wish: Wish, end: float, client: str) -> Answered:
         """What workers make of it: quickly if it can be, else after others that can be.
 
+        How long one takes is known once it is planned, so each is first given a short time by the
+        worker that is kept for quick ones, unless its client asked for long ones lately: such a
+        client loses nothing while nobody else asks for them.
+
         A long plan is begun anew with four times the time, so long as there is any. Most of it is
         spent on the last, a job ends soon after its client has left, and none keeps a worker from
         all others for the whole of a long budget.
@@ -174,7 +180,7 @@ class PlanDesk:
         if (wish.planner or self._quick) and "optimality" not in wish.include:
             most = FIRST
             short = SHORT
-            while not self._habits.asks_long(client):
+            while client not in self._slow:
                 quick = await self._try("plans", body, wish, end, short, client)
                 if _came_to_an_end(quick, short) or end - monotonic() < short:
                     return quick
@@ -217,7 +223,7 @@ class PlanDesk:
             else:
                 long = found.processor > LONG
             if long:
-                self._habits.note_long(client)
+                self._slow.note(client)
         return found
 
     async def answer_batch(

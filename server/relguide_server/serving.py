@@ -51,7 +51,7 @@ def serve(app: FastAPI, *, host: str, port: int) -> None:
     Server(uvicorn.Config(app, **options)).run()
 
 
-def uvicorn_options(*, host: str, port: int, most: int = 512, proxies: str = "") -> dict[str, Any]:
+def uvicorn_options(*, host: str, port: int, most: int, proxies: str) -> dict[str, Any]:
     """How uvicorn is configured.
 
     Args:

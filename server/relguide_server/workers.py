@@ -24,7 +24,7 @@ are begun anew as `long_plans`."""
 KINDS: tuple[Kind, ...] = get_args(Kind)
 NICE, NICER = 0, 19
 """How much the process that is kept for plans gives way to all that runs beside it, and how much
-the others: these get a fiftieth of a processor for which both compete."""
+the others: these get a seventieth of a processor for which both compete."""
 ABANDONED = 0.5
 """How long a job goes on whose client has left, before its hand is killed [s]: a new hand costs a
 second of a processor."""

@@ -80,19 +80,14 @@ def test_it_answers_as_all_layers_do() -> None:
     assert len(short.headers["x-request-id"]) == 32
 
 
-def test_what_is_plain_is_looked_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("situation", [UNLIMITED, HEAD_ON], ids=["at once", "by a worker"])
+def test_what_is_plain_is_looked_at_once(
+    situation: dict[str, object], monkeypatch: pytest.MonkeyPatch
+) -> None:
     app = ideal_app()
     ways = looked_at(app, monkeypatch)
     with TestClient(app) as client:
-        assert client.post(PATH, json=UNLIMITED).status_code == 200
-    assert ways == ["express", "look"]
-
-
-def test_what_takes_a_worker_is_not_looked_at_again(monkeypatch: pytest.MonkeyPatch) -> None:
-    app = ideal_app()
-    ways = looked_at(app, monkeypatch)
-    with TestClient(app) as client:
-        assert client.post(PATH, json=HEAD_ON).status_code == 200
+        assert client.post(PATH, json=situation).status_code == 200
     assert ways == ["express", "look"]
 
 

@@ -1,6 +1,7 @@
 """Who may have situations looked at on the event loop."""
 
-from relguide_server.looks import LATELY, REMEMBERED, SAVED, SHARE, Looks
+from relguide_server.lately import LATELY, REMEMBERED
+from relguide_server.looks import SAVED, SHARE, Looks
 
 SLOW = 0.003
 """A look that is in vain [s]."""

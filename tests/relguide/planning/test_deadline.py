@@ -36,8 +36,9 @@ from tests.bench import deadline as bench
 from tests.bodies import BODY
 from tests.plans import find_plan, golden_plan, straight_behind
 
-LATE = 0.005
-"""An answer may come so long after its deadline [s]."""
+LATE = 0.1
+"""So long after its deadline each answer has come [s]: without one these take from 0.3 s to hours.
+How many come 5 ms late is measured where nothing runs beside it, by `tests.bench.deadline`."""
 ROUNDING = 1e-3
 """A path is flown as it was found to 2e-4 R/V_P: times of one and the same differ by less [s]."""
 
@@ -165,13 +166,9 @@ def test_a_proof_ends_in_time_where_paths_take_days() -> None:
     assert flown.optimality.proof == "bound"
     prove(flown, seconds=0.0)  # loads the kernels
 
-    def proof_time() -> float:
-        begun = thread_time()
-        prove(flown, seconds=0.02)
-        return thread_time() - begun
-
-    # the least of three: two busy processors share caches, which costs a millisecond
-    assert min(proof_time() for _ in range(3)) < 0.02 + LATE
+    begun = thread_time()
+    prove(flown, seconds=0.02)
+    assert thread_time() - begun < 0.02 + LATE
 
 
 def test_planners_that_take_a_deadline_get_it() -> None:

@@ -126,8 +126,8 @@ def test_a_server_that_stops_and_starts_again_is_caught_up_with(server: Postgres
         tape.add(document)
     wait_for(lambda: writer.trouble)
     started = time.monotonic()
-    assert asyncio.run(writer.saved(5.0)) is False
-    assert time.monotonic() - started < 0.5
+    assert asyncio.run(writer.saved(60.0)) is False
+    assert time.monotonic() - started < 30.0
     server.start()
     wait_for(lambda: not writer.trouble, 20.0)
     tape.end("removed")

@@ -1,7 +1,8 @@
 /** The map as it is seen and held: its picture, its handles by hand and by key. */
 
-import { describe, expect, test } from "vitest";
+import { describe, expect, test, vi } from "vitest";
 import { areaLabels } from "../../src/map/area";
+import { MapBench } from "../../src/map/bench";
 import { createEditor, edit, halfExtent, putSituation, zoom } from "../../src/map/editor";
 import { situationOf } from "../../src/map/from-flight";
 import { dragHandle, HANDLES, handlePoint, keyHandle, sayHandle } from "../../src/map/handles";
@@ -11,12 +12,15 @@ import { widest } from "../../src/map/widest";
 import { chooseLabels } from "../../src/nd/labelled";
 import { ringLabelPoints } from "../../src/nd/rings";
 import { layoutOf, overlap, project } from "../../src/nd/view";
+import { createSession } from "../../src/session";
+import { createFlightStore } from "../../src/store/flight";
 import { guidance } from "../../src/store/states";
 import { NM } from "../../src/units";
 import type { PlanCard } from "../../src/wire";
 import { mount } from "../nd/draw";
 import { documentsOf, flightAt } from "../nd/fixture";
 import { noPlan, point, rightTurn, straight } from "../samples";
+import { silentActions } from "../silence";
 
 const { plan } = documentsOf("fig_6b").plan;
 
@@ -50,6 +54,18 @@ test("a situation with its plan is drawn as a proposal, with its ghosts", () => 
     expect(root.querySelector(`.nd-${name}`), name).not.toBeNull();
   expect(root.querySelectorAll(`.grip[tabindex="0"]`)).toHaveLength(HANDLES.length);
   expect(map.shown.numbers.value.toJoin).not.toBe("");
+});
+
+test("beside the map it is said of a plan, and of nothing else, that a flight takes longer", () => {
+  vi.useFakeTimers({ toFake: ["setTimeout", "performance"] });
+  const session = { ...createSession(createFlightStore().flight), map: answered() };
+  const said = "Flown, it takes some seconds more: to roll into each turn, and to slow down";
+  vi.advanceTimersByTime(1000);
+  expect(mount(MapBench, { session, actions: silentActions() }).textContent).toContain(said);
+  session.map.answered.value = null;
+  vi.advanceTimersByTime(1000);
+  expect(mount(MapBench, { session, actions: silentActions() }).textContent).not.toContain(said);
+  vi.useRealTimers();
 });
 
 test("without a plan the slot is crossed and the map says why; without an answer it says nothing", () => {

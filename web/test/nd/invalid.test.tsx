@@ -82,6 +82,15 @@ interface Case {
   readonly gone: readonly Name[];
 }
 
+/** What is drawn along a path, flown or proposed. */
+const ALONG_A_PATH: readonly Name[] = [
+  "turns",
+  "minutes",
+  "final track",
+  "join",
+  "closest approach",
+];
+
 const GUIDANCE: readonly Name[] = [
   "slot",
   "spacing D",
@@ -90,11 +99,7 @@ const GUIDANCE: readonly Name[] = [
   "time to go",
   "next point",
   "path",
-  "turns",
-  "minutes",
-  "final track",
-  "join",
-  "closest approach",
+  ...ALONG_A_PATH,
 ];
 
 const CASES: readonly Case[] = [
@@ -176,11 +181,7 @@ const CASES: readonly Case[] = [
       "time to go",
       "next point",
       "path",
-      "turns",
-      "minutes",
-      "final track",
-      "join",
-      "closest approach",
+      ...ALONG_A_PATH,
     ],
   },
   {
@@ -194,11 +195,7 @@ const CASES: readonly Case[] = [
       "next point",
       "proposed path",
       "other paths",
-      "turns",
-      "minutes",
-      "final track",
-      "join",
-      "closest approach",
+      ...ALONG_A_PATH,
     ],
   },
   {
