@@ -177,12 +177,7 @@ const CASES: readonly Case[] = [
       flight.unable.value = unable(120);
       change(flight, { mode: "heading" });
     },
-    gone: [
-      "time to go",
-      "next point",
-      "path",
-      ...ALONG_A_PATH,
-    ],
+    gone: ["time to go", "next point", "path", ...ALONG_A_PATH],
   },
   {
     input: "the proposal",
@@ -190,13 +185,7 @@ const CASES: readonly Case[] = [
     spoil: (flight) => {
       flight.proposal.value = null;
     },
-    gone: [
-      "time to go",
-      "next point",
-      "proposed path",
-      "other paths",
-      ...ALONG_A_PATH,
-    ],
+    gone: ["time to go", "next point", "proposed path", "other paths", ...ALONG_A_PATH],
   },
   {
     input: "new data for seven seconds, once it follows",
