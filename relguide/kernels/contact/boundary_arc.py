@@ -7,12 +7,19 @@ times in R/V_P, angles counter-clockwise.
 
 from math import ceil, hypot, inf
 
+import numpy as np
 from numba import njit
 
-from relguide.kernels.base.angles import wrap_signed
+from relguide.kernels.base.angles import TWO_PI, wrap_signed
 from relguide.kernels.base.records import Contact, Pose, Scene
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.contact.contact import contact_distance, contact_on, disc_on, slide_within
+from relguide.kernels.contact.contact import (
+    boundary_arc_sense,
+    contact_distance,
+    contact_on,
+    disc_on,
+    slide_within,
+)
 from relguide.kernels.separation.clearance import fly_rate, leader_at, piece_at
 
 NODE = 0.03
@@ -23,23 +30,77 @@ MAX_NODES = 600
 
 
 @njit(cache=True, nogil=True)
-def boundary_arc_arrival(scene: Scene, t: float, bearing: float, goal: float, side: float) -> float:
-    """When a boundary arc begun at time t reaches a bearing; infinite if it cannot be flown."""
+def boundary_arc_arrival(
+    scene: Scene, t: float, bearing: float, goal: float, side: float, piece: int
+) -> float:
+    """When a boundary arc begun at time t reaches a bearing; infinite if it cannot be flown.
+
+    As the leader begins or ends a turn, the bearing may begin to move back: it then has the same
+    value several times.
+
+    Args:
+        scene: the leader and d_min.
+        t: when it begins [R/V_P].
+        bearing: where [rad].
+        goal: where it ends; not wrapped, so that it says which way round [rad].
+        side: +1 counter-clockwise round the leader.
+        piece: the leader's, on which the goal counts as reached, or on a later one; if it is not
+            reached any more then, the first time counts.
+    """
+    stretches = np.empty((2 * len(scene.leader), 4))
+    n = _stretches_of(scene, t, bearing, goal, side, piece, stretches)
+    return float(t + stretches[:n, 3].sum()) if n >= 0 else inf
+
+
+@njit(cache=True, nogil=True)
+def _stretches_of(
+    scene: Scene, t: float, bearing: float, goal: float, side: float, piece: int,
+    stretches: FloatArray,
+) -> int:  # fmt: skip
+    """A boundary arc, cut where the leader's turn rate changes and where it passes its goal.
+
+    Arguments as `boundary_arc_arrival`; `stretches` takes the leader's piece, the first and the
+    last bearing and the time of each. Returns how many; −1 if it cannot be flown.
+    """
     leader = scene.leader
-    i = piece_at(leader, t)
-    while bearing != goal:
+    n, met = 0, -1
+    for i in range(piece_at(leader, t), len(leader)):
         left = leader[i + 1, 0] - t if i + 1 < len(leader) else inf
-        bearing, took = slide_within(bearing, goal, disc_on(scene, i, side), left)
-        if took == inf:
-            return inf
-        t += took
-        i += 1
-    return t
+        disc = disc_on(scene, i, side)
+        ahead = boundary_arc_sense(bearing, disc) * (goal - bearing)
+        if ahead > 0.0:
+            begun = bearing
+            bearing, took = slide_within(begun, goal, disc, left)
+            if took == inf:
+                break
+            stretches[n, 0], stretches[n, 1], stretches[n, 2], stretches[n, 3] = (
+                i, begun, bearing, took,
+            )  # fmt: skip
+            n += 1
+            left -= took
+        if bearing == goal:
+            met = n if met < 0 else met
+            if i >= piece:
+                return n
+        if left == inf:
+            break
+        if left > 0.0:
+            begun = bearing
+            beyond = begun + TWO_PI * boundary_arc_sense(begun, disc)
+            bearing, took = slide_within(begun, beyond, disc, left)
+            if took < left or took == inf:
+                break  # round the leader once, or it cannot be flown
+            stretches[n, 0], stretches[n, 1], stretches[n, 2], stretches[n, 3] = (
+                i, begun, bearing, took,
+            )  # fmt: skip
+            n += 1
+        t = leader[i + 1, 0]
+    return met
 
 
 @njit(cache=True, nogil=True)
 def boundary_arc_pieces(
-    pose: Pose, t: float, scene: Scene, side: float, first: float, last: float, pieces: FloatArray
+    pose: Pose, t: float, scene: Scene, leg: FloatArray, pieces: FloatArray
 ) -> tuple[int, Pose, float]:
     """The boundary arc as arcs of partial bank.
 
@@ -47,25 +108,24 @@ def boundary_arc_pieces(
         pose: where it begins: at the first contact, on its heading.
         t: when [R/V_P].
         scene: the leader and d_min.
-        side: +1 counter-clockwise round the leader.
-        first: bearing where it begins [rad].
-        last: bearing where it ends [rad].
+        leg: BOUNDARY_ARC, side, first and last bearing, the leader's piece as in
+            `boundary_arc_arrival`. shape (6,)
         pieces: takes duration [R/V_P] and turn rate of each arc. shape (2·MAX_NODES, 2)
 
     Returns:
         how many arcs, and where and when they end.
     """
-    leader = scene.leader
+    side = leg[1]
+    stretches = np.empty((2 * len(scene.leader), 4))
     n = 0
-    bearing = first
-    i = piece_at(leader, t)
-    while bearing != last and n < len(pieces):
-        left = leader[i + 1, 0] - t if i + 1 < len(leader) else inf
+    for k in range(_stretches_of(scene, t, leg[2], leg[3], side, int(leg[4]), stretches)):
+        i, begun, bearing, took = (
+            int(stretches[k, 0]),
+            stretches[k, 1],
+            stretches[k, 2],
+            stretches[k, 3],
+        )
         disc = disc_on(scene, i, side)
-        begun = bearing
-        bearing, took = slide_within(begun, last, disc, left)
-        if took == inf:
-            break
         nodes = min(ceil(took / NODE), (len(pieces) - n) // 2)
         reached = begun
         for node in range(1, nodes + 1):
@@ -79,7 +139,6 @@ def boundary_arc_pieces(
             n += 2
             t += duration
             reached = goal
-        i += 1
     return n, pose, t
 
 

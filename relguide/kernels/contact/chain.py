@@ -34,8 +34,8 @@ class Chain(NamedTuple):
     contacts: FloatArray
     """Piece, side, bearing, WORD or BOUNDARY_ARC of each contact. shape (n, 4)"""
     legs: FloatArray
-    """Takes WORD and a row of `solve`, or BOUNDARY_ARC, side, first and last bearing, for each
-    leg. shape (≥ n + 1, 6)"""
+    """Takes WORD and a row of `solve`, or BOUNDARY_ARC, side, first and last bearing and the
+    leader's piece at its end, for each leg. shape (≥ n + 1, 6)"""
     rows: FloatArray
     """Room for words. shape (MAX_ROWS, 5)"""
 

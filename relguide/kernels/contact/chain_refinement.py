@@ -134,8 +134,9 @@ def fly_links(
             return pose, inf
         if contacts[k, 3] == BOUNDARY_ARC:
             begun = contacts[k - 1, 2]
-            t = boundary_arc_arrival(scene, t, begun, bearing, side)
-            legs[k, 1], legs[k, 2], legs[k, 3] = side, begun, bearing
+            piece = int(contacts[k, 0])
+            t = boundary_arc_arrival(scene, t, begun, bearing, side, piece)
+            legs[k, 1], legs[k, 2], legs[k, 3], legs[k, 4] = side, begun, bearing, piece
             if t >= beat:
                 return pose, inf
         else:

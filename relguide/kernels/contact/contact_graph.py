@@ -87,17 +87,23 @@ def best_chains(
         how many.
     """
     graph = _start_graph(scene, nodes, beat + slack)
-    best, tries = beat, _TRIES * hops
+    best, tries, end = beat, _TRIES * hops, -1
     for turn in range(_ROUNDS):
-        _slide_on(scene, nodes, graph, best + slack)
-        best = _go_on(scene, nodes, graph, best, slack)
-        if delays and nodes.lower.min() <= scene.t_release < best:
-            end, tries = _delay(scene, nodes, graph, tries)
+        # where delays are looked for, before boundary arcs too: these come to a contact sooner,
+        # but then there may be no delay that keeps clear
+        for slides in range(0 if delays else 1, 2):
+            if slides == 1:
+                _slide_on(scene, nodes, graph, best + slack)
+            best = _go_on(scene, nodes, graph, best, slack)
+            if delays and nodes.lower.min() <= scene.t_release < best:
+                end, tries = _delay(scene, nodes, graph, tries)
             if end >= 0:
-                # what arrives as the slot opens cannot be beaten
-                graph.arrival[:] = inf
-                graph.arrival[end] = best = scene.t_release
                 break
+        if end >= 0:
+            # what arrives as the slot opens cannot be beaten
+            graph.arrival[:] = inf
+            graph.arrival[end] = best = scene.t_release
+            break
         if turn == _ROUNDS - 1 or time_is_up(scene.until):
             break
         _hop(scene, nodes, graph, best, hops)

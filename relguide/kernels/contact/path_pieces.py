@@ -59,7 +59,7 @@ def pieces_of(
     for k in range(len(legs)):
         if legs[k, 0] == BOUNDARY_ARC:
             side = legs[k, 1]
-            count, pose, t = boundary_arc_pieces(pose, t, scene, side, legs[k, 2], legs[k, 3], arcs)
+            count, pose, t = boundary_arc_pieces(pose, t, scene, legs[k], arcs)
             for i in range(count):
                 pieces[0, n] = mirror * side * (k + 1.0)
                 # counter-clockwise rates become curvatures positive to the right
@@ -67,17 +67,20 @@ def pieces_of(
                 n += 1
             last = _UNLIKE
             continue
-        if legs[k, 0] == DELAY:
+        delays, row[:] = legs[k, 0] == DELAY, legs[k, 1:6]
+        if boundary_arcs > 0 and k + 1 == len(legs) and not delays:
+            # a boundary arc's last node lies within rounding of the limit: it must not cost the
+            # best word; nor may it where it comes so early that the slot has yet to open
+            closes = best_word_near(pose, t, eased, row)
+            delays = not closes or t + row[2:5].sum() > time + SAME
+            if delays and t >= scene.t_release:
+                return pieces[:, :0]
+        if delays:
             delay = np.empty((DELAY_PIECES, 2))
             if not delay_until_release(pose, t, eased, delay):
                 return pieces[:, :0]
             signs, amounts = delay[:, 0], delay[:, 1]
         else:
-            row[:] = legs[k, 1:6]
-            # a boundary arc's last node lies within rounding of the limit: it must not cost the
-            # best word
-            if boundary_arcs > 0 and k + 1 == len(legs) and not best_word_near(pose, t, eased, row):
-                return pieces[:, :0]
             signs, amounts = SIGNS[int(row[1])], row[2:5]
         for i in range(len(signs)):
             sign, amount = signs[i], amounts[i]

@@ -26,6 +26,7 @@ from relguide import (
 from relguide.kernels.base.turn import turn_radius
 from relguide.kernels.contact.chain import MAX_LEGS
 from relguide.kernels.contact.constrained_search import best_constrained_path
+from relguide.kernels.contact.path_pieces import pieces_of
 from relguide.kernels.contact.tangent import tangents
 from relguide.planning import constrained_path as module
 from relguide.planning.constrained_path import BEARINGS, TURNING_BEARINGS
@@ -381,3 +382,98 @@ def test_many_contacts_are_followed_to_others_before_a_late_plan_is_taken(
     assert answer.certificate.holds
     assert answer.arrival.holds
     assert answer.time_to_converge == pytest.approx(best, abs=0.1)
+
+
+AS_THE_SLOT_OPENS = (
+    (
+        Situation(
+            pursuer=Pursuer(
+                x=0.0, y=0.0, heading=4.204439536490956, tas=211.78536385005845,
+                max_bank=0.4352481114058087,
+            ),
+            leader=Leader(
+                x=3152.6392099269146, y=43096.8040783129, heading=3.7132924216689145,
+                tas=172.41728967968413,
+                intent=(
+                    FlyStraight(duration=1.160891037450682),
+                    TurnTo(heading=3.2738549205789855, turn=RIGHT, bank=0.3643791402111452),
+                ),
+            ),
+            slot_distance=57922.62964034335,
+            min_separation=33307.36103917722,
+            wind=Wind(east=3.6144773583900256, north=-48.876231970546044),
+        ),
+        533.084,
+    ),
+    (
+        Situation(
+            pursuer=Pursuer(
+                x=0.0, y=0.0, heading=0.42722652353833934, tas=108.37244640926926,
+                max_bank=0.5509770621610438,
+            ),
+            leader=Leader(
+                x=6248.009320610083, y=6017.837684486654, heading=6.122723120675862,
+                tas=87.97747145238611,
+                intent=(
+                    FlyStraight(duration=134.68706428918208),
+                    TurnTo(heading=0.0263175545159503, turn=RIGHT, bank=0.33464164680217307),
+                    FlyStraight(duration=78.26976271154098),
+                    TurnTo(heading=3.2370965416224338, turn=LEFT, bank=0.39140312073513467),
+                ),
+            ),
+            slot_distance=6528.745860717663,
+            min_separation=6389.225004344375,
+            wind=Wind(east=-13.328770311550683, north=-11.706019355386017),
+        ),
+        348.804,
+    ),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(("situation", "release"), AS_THE_SLOT_OPENS)
+def test_a_delay_is_looked_for_before_a_boundary_arc_and_after_one_that_turns_back(
+    situation: Situation, release: float
+) -> None:
+    """The slot opens as a root arrives; the contact is at the end of a turn. 19 s and 2.5 s late.
+
+    In the first a boundary arc came to the contact sooner, from where nothing delays clear of the
+    leader. In the second the boundary arc turns back as the leader begins to turn, and was flown
+    only to where it first had the bearing of its end.
+    """
+    answer = plan(situation)
+    assert isinstance(answer, Plan)
+    assert answer.optimality.proof == "relaxation"
+    assert answer.time_to_converge == pytest.approx(release, abs=1e-3)
+    assert answer.certificate.holds
+    assert answer.arrival.holds
+
+
+@pytest.mark.parametrize(
+    ("seed", "case", "slot_at_limit", "best"),
+    [(1302, 28, True, 310.979), (1303, 58, False, 707.444)],
+)
+def test_a_boundary_arc_goes_on_through_the_turn_that_turns_it_back(
+    seed: int, case: int, slot_at_limit: bool, best: float
+) -> None:
+    """They came 193 s and 389 s late."""
+    rng = np.random.default_rng([seed, case])
+    rng.random(1 + slot_at_limit)  # as `tests.bench.limit` draws what kind it is
+    situation = draws.active(rng, tight=True, intent=True, slot_at_limit=slot_at_limit)
+    answer = plan(situation)
+    assert isinstance(answer, Plan)
+    assert answer.certificate.holds
+    assert answer.arrival.holds
+    assert answer.time_to_converge == pytest.approx(best, abs=1e-2)
+
+
+@pytest.mark.parametrize("before", [0.0, 1e-8, 1e-5])
+def test_a_path_along_the_limit_that_is_flown_too_soon_for_the_slot_delays(before: float) -> None:
+    """A boundary arc is flown within 1e-7 R/V_P of its time; no path was given, and 290 s lost."""
+    frame = candidates(RIDING).frame
+    scene, legs = scene_of(RIDING, frame), np.zeros((MAX_LEGS, 6))
+    near = tangents(frame.pose, scene)
+    time, count = best_constrained_path(frame.pose, scene, BEARINGS, near, inf, legs)
+    flown = pieces_of(frame.pose, scene, 1.0, 1.0, time, legs[:count])[2].sum()
+    opens = scene._replace(t_release=flown + before)
+    pieces = pieces_of(frame.pose, opens, 1.0, 1.0, opens.t_release, legs[:count])
+    assert pieces[2].sum() == pytest.approx(opens.t_release, abs=1e-9)

@@ -13,6 +13,7 @@ from relguide.kernels.contact.boundary_arc import (
     boundary_arc_arrival,
     boundary_arc_pieces,
 )
+from relguide.kernels.contact.chain import BOUNDARY_ARC
 from relguide.kernels.contact.contact import (
     boundary_arc_rates,
     boundary_arc_sense,
@@ -100,11 +101,12 @@ def test_the_arcs_of_a_boundary_arc_keep_their_distance(
     assume(contact_exists(bearing, alpha))
     sense = boundary_arc_sense(bearing, disc_on(scene, 0, side))
     goal = bearing + sense * length
-    arrival = boundary_arc_arrival(scene, begin, bearing, goal, side)
+    arrival = boundary_arc_arrival(scene, begin, bearing, goal, side, 0)
     assume(sense != 0.0 and arrival < inf)
     pose = contact_at(scene, begin, bearing, side)
     arcs = np.empty((2 * MAX_NODES, 2))
-    n, (ex, ey, eh), et = boundary_arc_pieces(pose, begin, scene, side, bearing, goal, arcs)
+    leg = np.array([BOUNDARY_ARC, side, bearing, goal, 0.0, 0.0])
+    n, (ex, ey, eh), et = boundary_arc_pieces(pose, begin, scene, leg, arcs)
     # round a faster leader, begun where it can hardly be touched, it is less exact
     loose = 10.0 if alpha > 1.0 else 1.0
     assert et == pytest.approx(arrival, abs=loose * 1e-4)
@@ -121,6 +123,32 @@ def test_the_arcs_of_a_boundary_arc_keep_their_distance(
             assert hypot(px - lx, py - ly) == pytest.approx(contact_distance(3.0), abs=1e-6)
         pose = fly_rate(pose, rate, duration)
         t += duration
+
+
+def test_a_boundary_arc_may_come_back_to_a_bearing_once_the_leader_turns() -> None:
+    """Straight the leader is passed counter-clockwise; turning left he brings what is beside him
+    back. The same bearing is reached twice, and the leader's piece says which time is meant.
+    """
+    alpha, side = 0.4, 1.0
+    leader = np.array([[0.0, 0.0, 0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0, 0.5]])
+    leader[1, 1] = alpha
+    scene = Scene(np.vstack([leader, [5.0, 0.0, 0.0, 2.0, 0.0]]), alpha, 3.0, 0.0)
+    scene.leader[2, 1:4] = leader_at(scene, 1, 5.0)
+    begun, goal = 3.4, 3.5
+    passed = boundary_arc_arrival(scene, 0.0, begun, goal, side, 0)
+    again = boundary_arc_arrival(scene, 0.0, begun, goal, side, 1)
+    assert 0.0 < passed < 1.0 < again < 5.0
+    # on the final leg it is passed once more
+    assert 5.0 < boundary_arc_arrival(scene, 0.0, begun, goal, side, 2) < inf
+    arcs, leg = np.empty((2 * MAX_NODES, 2)), np.array([BOUNDARY_ARC, side, begun, goal, 1.0, 0.0])
+    n, (ex, ey, eh), t = boundary_arc_pieces(
+        contact_at(scene, 0.0, begun, side), 0.0, scene, leg, arcs
+    )
+    assert n > 0
+    assert t == pytest.approx(again, abs=1e-4)
+    gx, gy, gh = contact_at(scene, t, goal, side)
+    assert hypot(ex - gx, ey - gy) < 1e-5
+    assert cos(eh - gh) > 1.0 - 1e-12
 
 
 def test_where_the_leader_is_faster_some_bearings_cannot_be_touched() -> None:
