@@ -85,13 +85,13 @@ class _Process:
 class ProcessHand:
     """A process, started with its first job and killed when it is stuck."""
 
-    def __init__(self, nice: int) -> None:
+    def __init__(self, *, idle: bool) -> None:
         """One to be started.
 
         Args:
-            nice: how much it gives way to other processes, 0 to 19.
+            idle: whether it runs only where a processor would be idle without it.
         """
-        self._nice = nice
+        self._idle = idle
         self._started: asyncio.Task[_Process] | None = None
 
     @property
@@ -104,7 +104,7 @@ class ProcessHand:
     async def do(self, job: Job) -> Outcome:
         """As in `Hand`."""
         if self._started is None:
-            self._started = asyncio.create_task(_start_process(self._nice))
+            self._started = asyncio.create_task(_start_process(idle=self._idle))
         # one that is cancelled meanwhile is ended by `drop`
         started = await asyncio.shield(self._started)
         text = pickle.dumps(job, pickle.HIGHEST_PROTOCOL)
@@ -129,11 +129,11 @@ class ProcessHand:
             log.warning("A worker that was killed is not gone yet (process %d).", ended.process.pid)
 
 
-async def _start_process(nice: int) -> _Process:
+async def _start_process(*, idle: bool) -> _Process:
     # Not by the loop: uvloop forks, and to copy a large process takes it tens of milliseconds.
     process = await asyncio.to_thread(
         subprocess.Popen,
-        [sys.executable, "-m", "relguide_server.worker", str(nice)],
+        [sys.executable, "-m", "relguide_server.worker", *(["--idle"] if idle else [])],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},

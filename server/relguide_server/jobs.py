@@ -49,6 +49,8 @@ LEAST: Second = 1e-3
 """Each situation is planned for so long at least, however late it is [s]."""
 LEAST_WITH_MORE: Second = 0.02
 """The same where alternatives are asked for."""
+CUT = 0.9
+"""What took this much of its time is taken to have been cut short."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,6 +67,8 @@ class Answered:
     """Whether more time would not change it: it is proved, or a network is sure of it."""
     processor: Second = 0.0
     """How much of it a worker was at work; the rest it waited for a processor."""
+    cut: bool = False
+    """Whether its time was up before planning came to its end."""
 
 
 def load(planner: str | Planner) -> None:
@@ -125,7 +129,8 @@ def plan_body(
     least = LEAST_WITH_MORE if include else LEAST
     deadline = max(min(end - monotonic(), most), least)
     answered = plan_situation(situation, anchor, planner, include, deadline, form)
-    return replace(answered, processor=thread_time() - began)
+    cut = answered.seconds > CUT * deadline
+    return replace(answered, processor=thread_time() - began, cut=cut)
 
 
 def plan_at_once(situation: Situation, anchor: Anchor) -> Answered | None:

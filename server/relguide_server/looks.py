@@ -1,39 +1,50 @@
 """Looks: who may have situations looked at on the event loop, where each keeps everybody waiting.
 
-Most situations are planned there in 0.1 ms. Where a search is needed the look was in vain, and it
-may have taken 3 ms, which a client that leaves at once does not even wait for. So those whose last
-look was in vain share a small part of the loop: their looks are allowed while there is something of
-it left, and what they ask for otherwise goes to a worker unseen. All others are always looked at.
+Most situations are planned there in 0.1 ms. Where a search is needed the look is in vain, and
+behind a leader with many turns it takes 3 ms, which a client that leaves at once does not even wait
+for. Those whose looks were in vain or long lately share a small part of the loop for such looks,
+all alike: who has used up its part gets no looks for a while, and what it asks for goes to a worker
+unseen. All others are always looked at.
 """
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from time import monotonic
 
 from relguide.units import Second
 from relguide_server.lately import Lately
 
-SHARE = 0.1
-"""Of the event loop, for looks of those whose last one was in vain."""
-SAVED: Second = 0.01
-"""Most of it that is saved up while none of them asks."""
+SHARE = 0.03
+"""Of the event loop, for looks that are in vain or long."""
+LONG: Second = 1e-3
+"""What takes longer is long."""
+SAVED: Second = 0.003
+"""Most of its part that a client saves up while it does not ask: a look that takes long."""
+
+
+@dataclass(slots=True)
+class _Purse:
+    left: Second
+    """What a client has left; negative if it took more."""
+    at: Second
 
 
 class Looks:
-    """Clients whose last look was in vain, and what is left for them. Lives on the event loop."""
+    """Clients whose looks cost much, and what each has left. Lives on the event loop."""
 
     def __init__(self, now: Callable[[], Second] = monotonic) -> None:
         self._now = now
-        self._vain = Lately(now)
-        self._left, self._at = SAVED, now()
+        self._costly: Lately[_Purse] = Lately(now)
 
     def may(self, client: str) -> bool:
         """Whether a situation of a client may be looked at now."""
-        if client not in self._vain:
+        purse = self._costly.get(client)
+        if purse is None:
             return True
         now = self._now()
-        self._left = min(self._left + SHARE * (now - self._at), SAVED)
-        self._at = now
-        return self._left > 0.0
+        purse.left = min(purse.left + SHARE / len(self._costly) * (now - purse.at), SAVED)
+        purse.at = now
+        return purse.left > 0.0
 
     def note(self, client: str, spent: Second, *, vain: bool) -> None:
         """That a situation of a client was looked at.
@@ -43,9 +54,8 @@ class Looks:
             spent: how long that held up the loop [s].
             vain: whether a worker has to plan it.
         """
-        if client in self._vain:
-            self._left -= spent
-        if vain:
-            self._vain.note(client)
-        else:
-            self._vain.forget(client)
+        if not vain and spent <= LONG:
+            return
+        purse = self._costly.get(client) or _Purse(SAVED, self._now())
+        purse.left -= min(spent, SAVED)  # it was interrupted if it took longer
+        self._costly.note(client, purse)

@@ -10,6 +10,7 @@ plan was found by the deadline, with its bound.
 import asyncio
 from collections.abc import AsyncIterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from time import monotonic, thread_time
 
 from relguide.contract.answers import Form, Include
@@ -18,10 +19,10 @@ from relguide.units import Second
 from relguide_server import jobs
 from relguide_server.exchange import SMALL
 from relguide_server.jobs import Answered
-from relguide_server.lately import Lately
 from relguide_server.looks import Looks
 from relguide_server.metrics import Metrics
 from relguide_server.preparation import Preparation
+from relguide_server.standing import SHORT, Standing, takes_long
 from relguide_server.workers import Kind, Workers
 
 AT_ONCE: Second = 1e-3
@@ -30,19 +31,12 @@ GRACE: Second = 1.0
 """How much later than its deadline a worker may answer before it is taken to be stuck."""
 PROOF: Second = 5.0
 """How much longer Pontryagin's conditions may take, which know no deadline."""
-SHORT: Second = 0.04
-"""What a worker has not planned in this time waits for those who plan what takes long, and is begun
-anew: so those who ask for it wait for each other, and nobody else for them."""
-LONG: Second = 0.75 * SHORT
-"""What takes this much of a processor takes long; what waits for one does not by that."""
 STARVED = 4.0
-"""Up to so many times `SHORT` is what waits for a processor given there."""
+"""Up to so many times its time is what waits for a processor given to the worker for quick ones."""
 FIRST: Second = 0.25
 """What a plan that takes long is given at first, when its turn comes."""
 MORE = 4.0
 """By how much more time it is begun anew."""
-CUT_SHORT = 0.9
-"""What took a smaller share of its time than this came to its end by itself."""
 HANDING_OVER: Second = 0.02
 """How long an answer takes from a worker at most."""
 SLICE: Second = 0.05
@@ -102,9 +96,7 @@ class PlanDesk:
         self._workers = workers
         self._metrics = metrics
         self._quick = quick
-        self._slow = Lately()
-        """Clients that asked for plans that take long, or did not wait for their end."""
-        self._looks = Looks()
+        self._standing, self._looks = Standing(), Looks()
 
     def answer_at_once(self, body: bytes, wish: Wish, *, client: str) -> Answered | None:
         """The answer to a situation in JSON; `None` where that may take too long.
@@ -170,7 +162,8 @@ class PlanDesk:
 
         How long one takes is known once it is planned, so each is first given a short time by the
         worker that is kept for quick ones, unless its client asked for long ones lately: such a
-        client loses nothing while nobody else asks for them.
+        client loses nothing while nobody else asks for them. What waited there for a processor is
+        given twice the time.
 
         A long plan is begun anew with four times the time, so long as there is any. Most of it is
         spent on the last, a job ends soon after its client has left, and none keeps a worker from
@@ -179,51 +172,51 @@ class PlanDesk:
         most = wish.budget
         if (wish.planner or self._quick) and "optimality" not in wish.include:
             most = FIRST
-            short = SHORT
-            while client not in self._slow:
-                quick = await self._try("plans", body, wish, end, short, client)
-                if _came_to_an_end(quick, short) or end - monotonic() < short:
+            short, longer = self._standing.time_for(client), 1.0
+            while short and longer <= STARVED:
+                kind: Kind = "plans" if short == SHORT else "trials"
+                quick = await self._try(kind, body, wish, end, longer * short, client, short)
+                if not quick.cut or end - monotonic() < longer * short:
                     return quick
-                if quick.processor < LONG and short < STARVED * SHORT:
-                    short *= 2.0  # it waited for a processor
-                elif not self._workers.has_room("long_plans", client):
-                    return quick  # certified, with its bound: better than nothing
-                else:
+                if takes_long(quick, short):
+                    if not self._workers.has_room("long_plans", client):
+                        return quick  # certified, with its bound: better than nothing
                     break
+                longer *= 2.0
         while True:
-            found = await self._try("long_plans", body, wish, end, most, client)
-            if _came_to_an_end(found, most) or end - monotonic() < most:
+            try:
+                found = await self._try("long_plans", body, wish, end, most, client)
+            except asyncio.CancelledError:
+                self._standing.note_impatient(client)
+                raise
+            if not found.cut or end - monotonic() < most:
                 return found
             most *= MORE
 
     async def _try(
-        self, kind: Kind, body: bytes, wish: Wish, end: float, most: Second, client: str
+        self,
+        kind: Kind,
+        body: bytes,
+        wish: Wish,
+        end: float,
+        most: Second,
+        client: str,
+        short: Second = SHORT,
     ) -> Answered:
-        """What a worker makes of it in some time.
-
-        Who asks for what takes long is noted, and who does not wait for it.
-        """
-        found: Answered | None = None
-        try:
-            found = await self._workers.do(
-                kind,
-                jobs.plan_body,
-                body,
-                self.planner_for(wish.planner),
-                wish.include,
-                end,
-                most,
-                wish.form,
-                patience=max(end - monotonic(), 0.0) + wish.patience,
-                client=client,
-            )
-        finally:
-            if found is None:  # what is still in the slow lane takes long, whoever gives up
-                long = kind == "long_plans" or monotonic() < end
-            else:
-                long = found.processor > LONG
-            if long:
-                self._slow.note(client)
+        """What a worker makes of it in some time; whether it takes long is noted."""
+        found: Answered = await self._workers.do(
+            kind,
+            jobs.plan_body,
+            body,
+            self.planner_for(wish.planner),
+            wish.include,
+            end,
+            most,
+            wish.form,
+            patience=max(end - monotonic(), 0.0) + wish.patience,
+            client=client,
+            heard=partial(self._standing.note, client, short),
+        )
         return found
 
     async def answer_batch(
@@ -272,8 +265,3 @@ class PlanDesk:
     def planner_for(self, name: str | None) -> str | Planner:
         """A planner as a worker takes it: the service's own, or another by its name."""
         return name or self.name or self._planner
-
-
-def _came_to_an_end(found: Answered, most: Second) -> bool:
-    """Whether it ended by itself, not when its time was up."""
-    return found.seconds < CUT_SHORT * most

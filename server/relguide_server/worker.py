@@ -1,4 +1,4 @@
-"""A process that does jobs: `python -m relguide_server.worker NICE`, for `hands.ProcessHand`.
+"""A process that does jobs: `python -m relguide_server.worker [--idle]`, for `hands.ProcessHand`.
 
 Jobs come on standard input and outcomes go to standard output, each as its length and its pickle;
 both ends are this program. What else is written there goes to standard error. It ends with its
@@ -22,8 +22,8 @@ def main() -> None:
     """Do jobs until there are no more."""
     # Ctrl-C goes to all processes of a terminal; the service ends this one.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    if hasattr(os, "nice"):
-        os.nice(int(sys.argv[1]))
+    if "--idle" in sys.argv:
+        give_way()
     outcomes = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
     gc.freeze()
@@ -36,6 +36,18 @@ def main() -> None:
             outcomes.flush()
         except BrokenPipeError:  # the service was killed
             os._exit(1)
+
+
+def give_way() -> None:
+    """Run only where a processor would be idle without it, as far as the system knows of that.
+
+    A process that is merely nice ends its turn of some milliseconds when another one wakes up, and
+    Linux does not wake that one on its processor rather than on one with other work.
+    """
+    if hasattr(os, "nice"):
+        os.nice(19)
+    if hasattr(os, "SCHED_IDLE"):
+        os.sched_setscheduler(0, os.SCHED_IDLE, os.sched_param(0))
 
 
 def _read(jobs: IO[bytes]) -> bytes | None:

@@ -1,9 +1,9 @@
 """The workers of the service: a bounded queue for each kind of job, and the hands that do them.
 
 Kinds take turns, and so do the clients of a kind, so that none starves another; and of several
-hands one is kept for quick plans, so that these never wait for an area. The others give way to it
-where processors are scarce. A job that takes longer than it may is killed with its hand, which is
-replaced. A client that leaves takes its job with it.
+hands one is kept for quick plans, so that these never wait for an area. The others run where a
+processor would be idle without them. A job that takes longer than it may is killed with its hand,
+which is replaced. A client that leaves takes its job with it.
 """
 
 import asyncio
@@ -15,16 +15,15 @@ from typing import Any, Literal, get_args
 
 from relguide_server.errors import Refusal, log
 from relguide_server.hands import Hand, ProcessHand, ThreadHand
-from relguide_server.outcomes import Outcome, value_of
+from relguide_server.outcomes import Done, Outcome, value_of
 from relguide_server.turns import Turns
 
-Kind = Literal["plans", "long_plans", "simulations", "areas", "batches"]
-"""What waits in one queue. `plans` take some hundredths of a second; those that would take longer
-are begun anew as `long_plans`."""
+Kind = Literal["plans", "trials", "long_plans", "simulations", "areas", "batches"]
+"""What waits in one queue. `plans` take some hundredths of a second; `trials` are plans of clients
+of whom it is not known yet that theirs do; what takes longer is begun anew as `long_plans`."""
 KINDS: tuple[Kind, ...] = get_args(Kind)
-NICE, NICER = 0, 19
-"""How much the process that is kept for plans gives way to all that runs beside it, and how much
-the others: these get a seventieth of a processor for which both compete."""
+QUICK: tuple[Kind, ...] = ("plans", "trials")
+"""What one hand is kept for."""
 ABANDONED = 0.5
 """How long a job goes on whose client has left, before its hand is killed [s]: a new hand costs a
 second of a processor."""
@@ -47,6 +46,7 @@ THREADS = 4
 class _Job:
     work: tuple[Callable[..., Any], tuple[Any, ...]]
     patience: float
+    heard: Callable[[Any], None] | None = None
     outcome: asyncio.Future[Outcome] = field(
         default_factory=lambda: asyncio.get_running_loop().create_future()
     )
@@ -72,13 +72,13 @@ class Workers:
             queue: most jobs of a kind that wait.
         """
         self._hands: Sequence[Hand] = (
-            [ProcessHand(NICER if k else NICE) for k in range(count)]
+            [ProcessHand(idle=k > 0) for k in range(count)]
             or [ThreadHand() for _ in range(THREADS)]
         )  # fmt: skip
         self._kept = self._hands[0] if len(self._hands) > 1 else None
         self._kept_is_free = False
         self._waiting: dict[Kind, Turns[_Job]] = {kind: Turns(queue) for kind in KINDS}
-        self._turn = deque(KINDS)
+        self._turn, self._quick_turn = deque(KINDS), deque(QUICK)
         self._open: set[_Job] = set()
         self._stopped = False
         self._ready: set[Hand] = set()
@@ -145,6 +145,7 @@ class Workers:
         *arguments: Any,
         patience: float,
         client: str = "",
+        heard: Callable[[Any], None] | None = None,
     ) -> Any:
         """Do a job, and give what it returns.
 
@@ -154,6 +155,7 @@ class Workers:
             arguments: that can be pickled.
             patience: how long it may take once it is begun [s].
             client: whose it is.
+            heard: told what it returns, even if the client has left meanwhile.
 
         Raises:
             Refusal: 503, if too many wait, or it took too long; or what the job refuses.
@@ -170,7 +172,7 @@ class Workers:
                     f"{queue.count_of(client)} {name} of yours wait already, the most of a client's"
                 )
             raise Refusal(503, f"{said}: try again in a moment.", headers={"Retry-After": "1"})
-        job = _Job((work, arguments), patience)
+        job = _Job((work, arguments), patience, heard)
         queue.put(job, client)
         self._open.add(job)
         async with self._wake:
@@ -223,7 +225,10 @@ class Workers:
                 job.end(Refusal(503, INTERRUPTED, headers={"Retry-After": "1"}))
                 await self._replace(hand, doing)
             else:
-                job.end(doing.result())
+                outcome = doing.result()
+                if job.heard is not None and isinstance(outcome, Done):
+                    job.heard(outcome.value)
+                job.end(outcome)
         finally:
             doing.cancel()
 
@@ -247,12 +252,12 @@ class Workers:
 
     def _kind_for(self, hand: Hand) -> Kind | None:
         """The kind whose turn it is, of those that a hand does; `None` if none waits."""
-        if hand is self._kept:
-            return "plans" if self._waiting["plans"] else None
-        for _ in KINDS:
-            kind = self._turn[0]
-            self._turn.rotate(-1)
-            if self._waiting[kind] and not (kind == "plans" and self._kept_is_free):
+        turn = self._quick_turn if hand is self._kept else self._turn
+        for _ in range(len(turn)):
+            kind = turn[0]
+            turn.rotate(-1)
+            left_to_kept = kind in QUICK and hand is not self._kept and self._kept_is_free
+            if self._waiting[kind] and not left_to_kept:
                 return kind
         return None
 

@@ -1,37 +1,40 @@
-"""Who did something lately."""
+"""Who did something lately, and what is known of it."""
 
 from relguide_server.lately import LATELY, REMEMBERED, Lately
 
 
-def test_a_client_is_remembered_for_a_while() -> None:
+def test_what_a_client_did_is_remembered_for_a_while() -> None:
     now = 100.0
-    lately = Lately(now=lambda: now)
-    assert "a" not in lately
-    lately.note("a")
-    assert "a" in lately
-    assert "b" not in lately
+    lately: Lately[str] = Lately(now=lambda: now)
+    assert lately.get("a") is None
+    lately.note("a", "first")
+    assert lately.get("a") == "first"
+    assert lately.get("b") is None
     now += 0.9 * LATELY
-    assert "a" in lately
-    lately.note("a")
+    lately.note("a", "second")
     now += 0.9 * LATELY
-    assert "a" in lately
+    assert lately.get("a") == "second"
     now += 0.2 * LATELY
-    assert "a" not in lately
+    assert lately.get("a") is None
 
 
 def test_of_many_clients_the_latest_are_remembered() -> None:
-    lately = Lately(now=lambda: 0.0)
+    lately: Lately[int] = Lately(now=lambda: 0.0)
     for number in range(REMEMBERED + 5):
-        lately.note(str(number))
-        lately.note("0")
-    assert "0" in lately
-    assert "1" not in lately
-    assert str(REMEMBERED + 4) in lately
+        lately.note(str(number), number)
+        lately.note("0", 0)
+    assert lately.get("0") == 0
+    assert lately.get("1") is None
+    assert lately.get(str(REMEMBERED + 4)) == REMEMBERED + 4
+    assert len(lately) == REMEMBERED
 
 
-def test_who_is_forgotten_did_nothing_lately() -> None:
-    lately = Lately(now=lambda: 0.0)
-    lately.note("a")
-    lately.forget("a")
-    lately.forget("b")
-    assert "a" not in lately
+def test_those_are_counted_who_did_it_lately() -> None:
+    now = 100.0
+    lately: Lately[int] = Lately(now=lambda: now)
+    lately.note("a", 0)
+    now += 0.6 * LATELY
+    lately.note("b", 0)
+    assert len(lately) == 2
+    now += 0.6 * LATELY
+    assert len(lately) == 1

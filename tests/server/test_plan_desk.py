@@ -7,10 +7,12 @@ from collections.abc import Awaitable, Callable
 from time import monotonic, sleep
 
 import pytest
+from relguide_server.errors import Refusal
 from relguide_server.metrics import Metrics
-from relguide_server.plan_desk import SHORT, PlanDesk, Wish
+from relguide_server.plan_desk import PlanDesk, Wish
 from relguide_server.plans import EXAMPLE
 from relguide_server.preparation import Preparation
+from relguide_server.standing import SHORT, TRIAL
 from relguide_server.workers import Workers
 
 from relguide import NoPlan, Plan, Situation, plan
@@ -58,12 +60,19 @@ def dawdle(situation: Situation, *, deadline: Second | None = None) -> Plan | No
     return plan(situation)
 
 
+def hesitate(situation: Situation, *, deadline: Second | None = None) -> Plan | NoPlan:
+    """Takes half of the time that is given to a client of which nothing is known."""
+    del deadline
+    sleep(TRIAL / 2)
+    return plan(situation)
+
+
 def test_what_takes_long_is_begun_anew_and_gets_its_time() -> None:
     async def scene(desk: PlanDesk, workers: Workers) -> None:
         answered = await desk.answer_by_worker(BODY, WISH, monotonic() + 5.0, client="a")
         assert answered.status == "planned"
-        # 0.04 s, 0.25 s, and what it wants of 1 s
-        assert (workers.done["plans"], workers.done["long_plans"]) == (1, 2)
+        # 0.015 s, 0.25 s, and what it wants of 1 s
+        assert (workers.done["trials"], workers.done["long_plans"]) == (1, 2)
 
     at_desk(dawdle, scene)
 
@@ -72,23 +81,48 @@ def test_who_asked_for_what_takes_long_is_not_tried_quickly_for_a_while() -> Non
     async def scene(desk: PlanDesk, workers: Workers) -> None:
         for client in ("a", "a", "b"):
             await desk.answer_by_worker(BODY, WISH, monotonic() + 0.2, client=client)
-        assert (workers.done["plans"], workers.done["long_plans"]) == (2, 3)
+        assert (workers.done["trials"], workers.done["long_plans"]) == (2, 3)
 
     at_desk(dawdle, scene)
 
 
-def test_who_leaves_is_taken_to_have_asked_for_what_takes_long() -> None:
+def test_of_who_leaves_it_is_known_as_well_how_long_its_plan_took() -> None:
     async def scene(desk: PlanDesk, workers: Workers) -> None:
         end = monotonic() + 5.0
         leaving = asyncio.create_task(desk.answer_by_worker(BODY, WISH, end, client="a"))
-        await asyncio.sleep(SHORT / 4)
+        await asyncio.sleep(TRIAL / 4)
         leaving.cancel()
-        while not workers.done["plans"]:
+        while not workers.done["trials"]:
             await asyncio.sleep(0.01)
         await desk.answer_by_worker(BODY, WISH, monotonic() + 0.2, client="a")
-        assert (workers.done["plans"], workers.done["long_plans"]) == (1, 1)
+        assert (workers.done["trials"], workers.done["long_plans"]) == (1, 1)
 
     at_desk(dawdle, scene)
+
+
+def test_who_leaves_a_quick_plan_is_not_taken_to_ask_for_what_takes_long() -> None:
+    async def scene(desk: PlanDesk, workers: Workers) -> None:
+        end = monotonic() + 5.0
+        leaving = asyncio.create_task(desk.answer_by_worker(BODY, WISH, end, client="a"))
+        await asyncio.sleep(TRIAL / 4)
+        leaving.cancel()
+        while not workers.done["trials"]:
+            await asyncio.sleep(0.01)
+        answered = await desk.answer_by_worker(BODY, WISH, monotonic() + 5.0, client="a")
+        assert answered.status == "planned"
+        assert (workers.done["trials"], workers.done["long_plans"]) == (2, 0)
+
+    at_desk(hesitate, scene)
+
+
+def test_what_is_refused_is_not_taken_to_take_long() -> None:
+    async def scene(desk: PlanDesk, workers: Workers) -> None:
+        with pytest.raises(Refusal):
+            await desk.answer_by_worker(b"{}", WISH, monotonic() + 5.0, client="a")
+        await desk.answer_by_worker(BODY, WISH, monotonic() + 5.0, client="a")
+        assert (workers.done["trials"], workers.done["long_plans"]) == (2, 0)
+
+    at_desk(hesitate, scene)
 
 
 def test_who_leaves_soon_costs_no_worker() -> None:
@@ -115,8 +149,8 @@ def test_what_waits_for_a_processor_is_not_taken_to_take_long(
     async def scene(desk: PlanDesk, workers: Workers) -> None:
         for _ in range(2):
             await desk.answer_by_worker(BODY, WISH, monotonic() + 0.3, client="a")
-        assert workers.done["plans"] == 6  # 0.04, 0.08 and 0.16 s, of which too little is left
-        assert workers.done["long_plans"] == 0
+        assert workers.done["trials"] == 6  # 0.015, 0.03 and 0.06 s, then among the others
+        assert workers.done["long_plans"] == 2
 
     at_desk(dawdle, scene)
 

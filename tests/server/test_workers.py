@@ -142,6 +142,45 @@ def test_a_client_is_told_that_its_own_jobs_are_too_many() -> None:
         with_workers(0, scene)
 
 
+def test_what_a_job_returns_is_heard_even_if_its_client_has_left() -> None:
+    async def scene(workers: Workers) -> None:
+        heard: list[int] = []
+        job = workers.do("plans", nap, 0.1, patience=ANY, heard=heard.append)
+        leaving = asyncio.create_task(job)
+        await asyncio.sleep(0.05)
+        leaving.cancel()
+        while not heard:
+            await asyncio.sleep(0.01)
+        assert heard == [os.getpid()]
+
+    with_workers(0, scene)
+
+
+def test_plans_and_trials_take_turns() -> None:
+    """However many trials wait, a plan waits for one of them."""
+    done = []
+
+    async def scene(workers: Workers) -> None:
+        kinds = ["trials"] * 6 + ["plans"] * 2
+        held = [asyncio.create_task(workers.do("areas", nap, 0.5, patience=ANY)) for _ in "abc"]
+        await asyncio.sleep(0.05)
+        jobs = []
+        for number, kind in enumerate(kinds):
+            job = workers.do(
+                kind,  # type: ignore[arg-type]
+                nap,
+                0.01,
+                patience=ANY,
+                client=str(number),
+                heard=lambda _, kind=kind: done.append(kind),
+            )
+            jobs.append(asyncio.create_task(job))
+        await asyncio.gather(*jobs, *held)
+
+    with_workers(0, scene)
+    assert done[:4].count("plans") == 2
+
+
 def test_quick_plans_have_a_hand_that_does_nothing_else() -> None:
     """It is the one asked if it is free; the others are nicer, and help where it is not."""
 
@@ -154,6 +193,8 @@ def test_quick_plans_have_a_hand_that_does_nothing_else() -> None:
         assert not kept & others
         assert await workers.do("plans", os.nice, 0, patience=ANY) == os.nice(0)
         assert await workers.do("areas", os.nice, 0, patience=ANY) == 19
+        assert await workers.do("plans", os.sched_getscheduler, 0, patience=ANY) == os.SCHED_OTHER
+        assert await workers.do("areas", os.sched_getscheduler, 0, patience=ANY) == os.SCHED_IDLE
         both = [workers.do("plans", nap, 0.3, patience=ANY) for _ in "ab"]
         assert set(await asyncio.gather(*both)) == set(workers.processes)
 
@@ -182,7 +223,7 @@ def nap(seconds: float) -> int:
 
 
 def test_a_worker_whose_service_was_killed_leaves_without_a_word() -> None:
-    command = [sys.executable, "-m", "relguide_server.worker", "0"]
+    command = [sys.executable, "-m", "relguide_server.worker"]
     job = pickle.dumps((time.sleep, (0.5,)))
     with subprocess.Popen(
         command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE
