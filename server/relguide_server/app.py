@@ -42,6 +42,7 @@ from relguide_server.metrics import Metrics
 from relguide_server.mount import Mount
 from relguide_server.openapi import describe, response, schema_of
 from relguide_server.pages import Page
+from relguide_server.passes import Passes
 from relguide_server.plan_desk import PlanDesk
 from relguide_server.plan_lane import PlanLane
 from relguide_server.preparation import Preparation, PreparationOf, Readiness, steps_for
@@ -163,6 +164,7 @@ def create_app(
     app.add_middleware(StrictHeaders)
     app.add_middleware(Accounts, metrics=metrics)
     app.add_middleware(HeadAsGet)
+    app.add_middleware(Passes)
     app.add_middleware(ProxyHeadersMiddleware, trusted_hosts=settings.proxies)
     app.add_middleware(Mount, root_path=settings.root_path, proxies=settings.proxies)
     app.add_middleware(

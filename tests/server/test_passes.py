@@ -1,0 +1,88 @@
+"""Many requests of a client keep nobody waiting."""
+
+import asyncio
+from collections.abc import Callable
+
+import pytest
+from relguide_server.passes import Passes
+from starlette.types import Message, Receive, Scope, Send
+
+
+async def receive() -> Message:
+    return {"type": "http.disconnect"}
+
+
+async def send(message: Message) -> None:
+    del message
+
+
+def play(clients: str) -> tuple[list[str], dict[str, int]]:
+    """Requests of clients, all there in one pass.
+
+    Returns:
+        Who began, in turn; and in which pass the last of each did.
+    """
+    begun: list[str] = []
+    last: dict[str, int] = {}
+    now = 0
+
+    async def app(scope: Scope, receive: Receive, send: Send) -> None:
+        begun.append(scope["client"][0])
+        last[scope["client"][0]] = now
+
+    async def run() -> None:
+        nonlocal now
+        passes = Passes(app)
+        requests = [
+            asyncio.create_task(passes({"type": "http", "client": (name, 1)}, receive, send))
+            for name in clients
+        ]
+        while not all(request.done() for request in requests):
+            await asyncio.sleep(0.0)
+            now += 1
+
+    asyncio.run(run())
+    return begun, last
+
+
+@pytest.fixture
+def slow(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every pass is long."""
+    monkeypatch.setattr("relguide_server.passes.LONG", -1.0)
+
+
+@pytest.mark.usefixtures("slow")
+def test_once_a_pass_is_long_the_requests_of_a_client_begin_one_by_one() -> None:
+    begun, last = play("a" * 20 + "b" + "c" * 3)
+    assert begun[:3] == ["a", "b", "c"]
+    assert sorted(begun) == sorted("a" * 20 + "b" + "c" * 3)
+    assert last["b"] == 0
+    assert last["c"] <= 4
+    assert last["a"] >= 19
+
+
+def test_in_a_short_pass_all_begin() -> None:
+    begun, last = play("aaaab")
+    assert begun == list("aaaab")
+    assert set(last.values()) == {0}
+
+
+@pytest.mark.usefixtures("slow")
+def test_who_gives_up_keeps_nobody_waiting() -> None:
+    begun: list[int] = []
+
+    async def app(scope: Scope, receive: Receive, send: Send) -> None:
+        begun.append(scope["client"][1])
+
+    async def run() -> None:
+        passes = Passes(app)
+        ask: Callable[[int], asyncio.Task[None]] = lambda number: asyncio.create_task(  # noqa: E731
+            passes({"type": "http", "client": ("a", number)}, receive, send)
+        )
+        first, second, third = ask(1), ask(2), ask(3)
+        await asyncio.sleep(0.0)
+        second.cancel()
+        await asyncio.gather(first, second, third, return_exceptions=True)
+
+    asyncio.run(run())
+    assert begun == [1, 3]
