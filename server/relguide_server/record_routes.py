@@ -1,6 +1,7 @@
 """Routes of what is on record: find flights, read, replay, export and remove them."""
 
 from collections.abc import AsyncIterator, Iterator
+from itertools import tee
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from fastapi import APIRouter, Depends, Path, Query, Request
@@ -11,7 +12,6 @@ from relguide.contract.bodies import UNANCHORED, Anchor, SituationBody, situatio
 from relguide.contract.messages import FlightStatus, from_wire
 from relguide.contract.recorder import VERSION
 from relguide.contract.refusal import ContractError, parse
-from relguide.flying.documents import Document
 from relguide.planning.extras import MissingExtra
 from relguide.planning.frames import LocalPlane
 from relguide_server.access import owner_of
@@ -210,13 +210,14 @@ async def replay_flight(
     about = await _find(flight_id, keeper)
     if about["form"] != VERSION:
         raise Refusal(409, f"It was recorded by relguide {about['version']}, in another form.")
-    early = await keeper.read(lambda s: shelf.read_documents(s, flight_id, 0, 100))
-    if not any(line.startswith(b'{"kind":"sample"') for _, line in early):
+    read, kept = await keeper.read(lambda s: tee(shelf.each_chunk(s, flight_id)))
+    if not any(line.startswith(b'{"kind":"sample"') for lines in read for line in lines):
         raise Refusal(409, "Nothing of this flight was kept that could be shown.")
+    del read
     flight = await fleet.launch(
         about["scenario"],
         about["title"],
-        lambda commands: _documents(keeper.reading(), flight_id),
+        lambda commands: (from_wire(line) for lines in kept for line in lines),
         rate=wanted.rate,
         paused=wanted.paused,
         record=lambda _: Recording(),
@@ -323,14 +324,6 @@ def _unknown(flight_id: str) -> Refusal:
         404,
         f"There is no flight {flight_id[:100]!r} on record. GET /api/v1/records/flights lists all.",
     )
-
-
-def _documents(store: "Store", flight_id: str) -> Iterator[Document]:
-    from relguide_server.records import shelf
-
-    for lines in shelf.each_chunk(store, flight_id):
-        for line in lines:
-            yield from_wire(line)
 
 
 async def _parts(keeper: Keeper, flight_id: str, form: int, kind: str) -> AsyncIterator[bytes]:

@@ -1,5 +1,6 @@
 """Records over REST: find, read, replay, export and remove."""
 
+import asyncio
 import csv
 import io
 import json
@@ -13,11 +14,12 @@ import pyarrow.parquet as pq
 import pytest
 from relguide_server.app import create_app
 from relguide_server.plans import EXAMPLE
+from relguide_server.record_routes import _parts
 from relguide_server.records.keeper import keep
 from relguide_server.settings import Settings
 
 from relguide.contract.protocol import PROTOCOL
-from relguide.contract.recorder import replay
+from relguide.contract.recorder import VERSION, replay
 from relguide.contract.story import story_of
 from relguide.contract.wire import dumps
 from relguide.flying.documents import FlightEnded, Sample
@@ -196,6 +198,32 @@ def test_a_folder_that_cannot_be_written_is_said_and_flights_fly(tmp_path: Path)
         assert time.monotonic() - started < 4.0
         assert client.get("/api/v1/records/flights").status_code == 503
         assert "relguide_records_up 0" in client.get("/metrics").text
+
+
+def test_what_is_replayed_or_exported_is_whole_though_it_is_forgotten_meanwhile(
+    client: TestClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("relguide_server.records.reel.CHUNK", 2000)  # of many chunks
+    flight_id = fly_whole(client)
+    kept = f"/api/v1/records/flights/{flight_id}"
+    whole = client.get(f"{kept}/export").content
+    again = client.post(f"{kept}/replay", json={"rate": 60.0, "paused": True}).json()
+    parts = asyncio.run(exported(client, flight_id))
+    assert parts == whole
+    assert client.get(kept).status_code == 404
+    path = f"/api/v1/flights/{again['id']}"
+    assert client.post(f"{path}/commands", json={"command": "play"}).status_code == 202
+    wait_for(lambda: client.get(path).json()["ended"])
+    assert client.get(path).json()["t_s"] == 30.0
+    assert client.get(f"{kept}/export").status_code == 404
+
+
+async def exported(client: TestClient, flight_id: str) -> bytes:
+    """A recording that is removed once its first part has been exported."""
+    parts = _parts(client.app.state.keeper, flight_id, VERSION, "jsonl")
+    first = await anext(parts)
+    assert client.delete(f"/api/v1/records/flights/{flight_id}").status_code == 204
+    return first + b"".join([part async for part in parts])
 
 
 def test_a_replay_ends_where_the_recording_does(client: TestClient) -> None:
