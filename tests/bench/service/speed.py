@@ -12,7 +12,8 @@ import argparse
 import asyncio
 import json
 import sys
-from collections.abc import Sequence
+from collections.abc import AsyncIterator, Sequence
+from contextlib import asynccontextmanager
 from dataclasses import dataclass
 from statistics import median
 from time import perf_counter
@@ -63,36 +64,41 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 async def _measure(service: Service, given: argparse.Namespace) -> None:
-    ids = [
-        service.get("/api/v1/flights", "POST", {"scenario": "fig_6b", "engagement": "engaged"})[
-            "id"
-        ]
-        for _ in range(given.flights)
-    ]
-    ticks: list[int] = [0] * given.watchers
-    watchers = [
+    console = Console(width=110)
+    rounds: dict[str, list[Round]] = {name: [] for name in ASKED}
+    async with watching(service, flights=given.flights, watchers=given.watchers) as ticks:
+        counted, began = sum(ticks), perf_counter()
+        for _ in range(given.rounds):
+            for name, asked in ASKED.items():
+                before = service.processor_time()
+                load = await put_load(service.port, [asked], seconds=given.seconds)
+                spent = service.processor_time() - before
+                rounds[name].append(Round(load, spent / max(len(load.latencies), 1)))
+        if ticks:
+            rate = (sum(ticks) - counted) / (perf_counter() - began) / len(ticks)
+            console.print(
+                f"{given.flights} flights, {len(ticks)} watchers: {rate:.1f} ticks a second each"
+            )
+    console.print(table(rounds))
+
+
+@asynccontextmanager
+async def watching(service: Service, *, flights: int, watchers: int) -> AsyncIterator[list[int]]:
+    """Let flights fly, and watch them: how many ticks each watcher has got so far."""
+    wanted = {"scenario": "fig_6b", "engagement": "engaged"}
+    ids = [service.get("/api/v1/flights", "POST", wanted)["id"] for _ in range(flights)]
+    ticks = [0] * watchers
+    tasks = [
         asyncio.create_task(_watch(service.port, ids[k % len(ids)], ticks, k))
-        for k in range(given.watchers)
+        for k in range(watchers)
     ]
     await asyncio.sleep(1.0)
-    for task in watchers:
+    for task in tasks:
         if task.done():
             task.result()
-    console = Console(width=110)
-    counted, began = sum(ticks), perf_counter()
-    rounds: dict[str, list[Round]] = {name: [] for name in ASKED}
-    for _ in range(given.rounds):
-        for name, asked in ASKED.items():
-            before = service.processor_time()
-            load = await put_load(service.port, [asked], seconds=given.seconds)
-            spent = service.processor_time() - before
-            rounds[name].append(Round(load, spent / max(len(load.latencies), 1)))
-    if watchers:
-        rate = (sum(ticks) - counted) / (perf_counter() - began) / len(watchers)
-        console.print(
-            f"{len(ids)} flights, {len(watchers)} watchers: {rate:.1f} ticks a second each"
-        )
-    console.print(table(rounds))
+    yield ticks
+    for task in tasks:
+        task.cancel()
 
 
 def table(rounds: dict[str, Sequence[Round]]) -> Table:
