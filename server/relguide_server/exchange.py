@@ -24,6 +24,7 @@ hold."""
 BODY_PATIENCE = 15.0
 """How long a body may take to come [s]."""
 STOPPING = "The service is stopping, and waits for the rest of the body no longer."
+PACKED = "Packed bodies are not unpacked here: send it as it is, without Content-Encoding."
 JSON = "application/json"
 GEOJSON = "application/geo+json"
 
@@ -52,12 +53,14 @@ async def read_body(request: Request, *types: str, most: int = SMALL) -> bytes:
         most: how long it may be [bytes].
 
     Raises:
-        Refusal: 415, if it is declared to be something else; 413, if it is longer; 408, if it does
-            not come; 503, if the service stops before it has come.
+        Refusal: 415, if it is declared to be something else, or packed; 413, if it is longer; 408,
+            if it does not come; 503, if the service stops before it has come.
     """
     # A page of another site can send most other types without the browser's permission.
     if content_type(request) not in types:
         raise Refusal(415, f"The body must be sent with Content-Type: {' or '.join(types)}.")
+    if request.headers.get("content-encoding", "identity").strip().lower() != "identity":
+        raise Refusal(415, PACKED)
     declared = request.headers.get("content-length", "0")
     if declared.isdecimal() and int(declared) > most:
         raise _too_long(most)
