@@ -20,10 +20,20 @@ from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.breach import INSIDE, Sieve
 from relguide.kernels.bounds.cells import EDGE, Cell, Poses, poses_of
 from relguide.kernels.bounds.goal import ORIGIN, Goal, track_of
+from relguide.kernels.bounds.junction import beyond_outward
 from relguide.kernels.bounds.round_time import round_bound
 from relguide.kernels.bounds.round_turning import round_arrival
-from relguide.kernels.bounds.word_bound import Blur, soonest
+from relguide.kernels.bounds.word_bound import (
+    ANY,
+    NO_JUNCTION,
+    OUTWARD,
+    Blur,
+    Junction,
+    soonest,
+    soonest_joined,
+)
 from relguide.kernels.contact.contact import to_frame_of
+from relguide.kernels.words.extremals import fly_piece
 
 
 @njit(cache=True, nogil=True)
@@ -42,36 +52,117 @@ def cell_bound(
     poses = poses_of(scene, cell)
     if poses.differs == inf:
         return inf, inf
-    low, high = cell.start, cell.end
-    onward = _onward_bound(scene, goal, cell, poses, beat - low)
+    onward = _onward_bound(scene, goal, cell, poses, beat - cell.start)
     if onward == inf:
         return inf, inf
-    # to the contact: read backward, the start is what is to be met, and left is right
+    soon = soon_bound(start, scene, cell, min(beat - onward, cell.end + EDGE), ANY)
+    return max(soon, cell.start), onward
+
+
+@njit(cache=True, nogil=True)
+def soon_bound(start: Pose, scene: Scene, cell: Cell, end: float, kind: int) -> float:
+    """How soon a path can be at a contact of the cell, its first.
+
+    Args:
+        start: where the path begins, at t = 0.
+        scene: the leader and d_min.
+        cell: of contacts; there are some.
+        end: arrivals from here on do not matter, and come back as infinite [R/V_P].
+        kind: of the junction there: see `word_bound.Junction`.
+    """
+    poses, earliest = poses_of(scene, cell), cell.start - EDGE
+    junction = Junction(kind, 1 if cell.side > 0.0 else 0, beyond_outward(scene, cell, 1.0))
+    window = Window(earliest, end)
+    if kind == ANY and _word_to(start, scene, poses, window, False, NO_JUNCTION) == inf:
+        return inf
+    soon = _word_to(start, scene, poses, window, True, junction)
+    return soon if kind == OUTWARD else min(soon, looped_bound(start, scene, cell, min(end, soon)))
+
+
+@njit(cache=True, nogil=True)
+def looped_bound(start: Pose, scene: Scene, cell: Cell, end: float) -> float:
+    """The same for a word and a full loop, or more of them.
+
+    Without one they are paths that arrive no sooner than the soonest word.
+    """
+    poses = poses_of(scene, cell)
+    later = Poses(
+        poses.t - TWO_PI, poses.span, poses.middle, poses.vx, poses.vy, poses.differs, poses.left,
+        poses.right,
+    )  # fmt: skip
+    # a second loop takes 4π in all
+    earliest = 0.0 if cell.end >= 2.0 * TWO_PI else cell.start - TWO_PI - EDGE
+    window = Window(earliest, end - TWO_PI)
+    return TWO_PI + _word_to(start, scene, later, window, False, NO_JUNCTION)
+
+
+@njit(cache=True, nogil=True)
+def turned_before_bound(start: Pose, scene: Scene, cell: Cell, turn: float, end: float) -> float:
+    """How soon a path can be at a contact of the cell that has last turned away so far.
+
+    Args:
+        start: as in `soon_bound`.
+        scene: likewise.
+        cell: likewise.
+        turn: how far [rad].
+        end: as in `soon_bound`.
+    """
+    before = _turned_away(poses_of(scene, cell), cell.side, -turn)
+    return turn + _word_to(start, scene, before, Window(0.0, end - turn), False, NO_JUNCTION)
+
+
+@njit(cache=True, nogil=True)
+def turned_after_bound(scene: Scene, goal: Goal, cell: Cell, turn: float, beat: float) -> float:
+    """How soon a path can be at the goal from a contact of the cell that first turns away so far.
+
+    Args:
+        scene: as in `cell_bound`.
+        goal: likewise.
+        cell: likewise; there are contacts.
+        turn: how far [rad].
+        beat: as in `cell_bound`.
+    """
+    after = _turned_away(poses_of(scene, cell), cell.side, turn)
+    later = Cell(cell.piece, cell.side, cell.bearing, cell.half, cell.start + turn, cell.end + turn)
+    return turn + _onward_bound(scene, goal, later, after, beat - turn)
+
+
+@njit(cache=True, nogil=True)
+def _turned_away(poses: Poses, side: float, turn: float) -> Poses:
+    """The poses after a turn away from the leader, before it if that is negative."""
+    # the centre of that turn stays where it is
+    kept = poses.right if side > 0.0 else poses.left
+    other = kept + 2.0 * poses.differs
+    left, right = (other, kept) if side > 0.0 else (kept, other)
+    middle = fly_piece(poses.middle, -side, turn)
+    return Poses(poses.t + turn, poses.span, middle, poses.vx, poses.vy, poses.differs, left, right)
+
+
+@njit(cache=True, nogil=True)
+def _word_to(
+    start: Pose, scene: Scene, poses: Poses, window: Window, keeps: bool, junction: Junction
+) -> float:
+    """How soon a word can lead from the start to one of the poses.
+
+    Args:
+        start: at t = 0.
+        scene: the leader and d_min.
+        poses: which move on.
+        window: of `soonest_joined`.
+        keeps: whether words that certainly break the limit are left out.
+        junction: at the end of the word.
+    """
+    # read backward, the start is what is to be met, and left is right
     blur = Blur(poses.right, poses.left, poses.differs, 0.0)
     c, s = cos(start.h), sin(start.h)
     at, vx, vy = poses.middle, poses.vx, poses.vy
-    target = Velocity(vx * c + vy * s, vy * c - vx * s)
+    dx, dy = at.x - poses.t * vx - start.x, at.y - poses.t * vy - start.y
     inside = with_limit(scene, scene.d_min - INSIDE)
-    soon = inf
-    for loops in range(3):
-        # 0: every word; 1: those that may keep the limit; 2: a word and a full loop, or more of
-        # them, since without one they are paths that arrive no sooner than the soonest word
-        looped = TWO_PI if loops == 2 else 0.0
-        dx = at.x - (poses.t - looped) * vx - start.x
-        dy = at.y - (poses.t - looped) * vy - start.y
-        # a second loop takes 4π in all
-        earliest = 0.0 if loops == 2 and high >= 2.0 * TWO_PI else low - looped - EDGE
-        latest = min(beat - onward, high + EDGE, soon) - looped
-        found = looped + soonest(
-            Pose(-dx * c - dy * s, dx * s - dy * c, at.h - start.h), blur, target,
-            Window(earliest, latest), _sieve_from(start, inside, loops == 1),
-        )  # fmt: skip
-        if loops == 0:
-            if found == inf:
-                return inf, inf
-        else:
-            soon = min(soon, found)
-    return max(soon, low), onward
+    return soonest_joined(
+        Pose(-dx * c - dy * s, dx * s - dy * c, at.h - start.h), blur,
+        Velocity(vx * c + vy * s, vy * c - vx * s), window, _sieve_from(start, inside, keeps),
+        junction,
+    )  # fmt: skip
 
 
 @njit(cache=True, nogil=True)
@@ -118,30 +209,41 @@ def _sieve_from(start: Pose, scene: Scene, used: bool) -> Sieve:
 
 
 @njit(cache=True, nogil=True)
-def leaving_bound(scene: Scene, goal: Goal, cell: Cell, beat: float) -> float:
+def leaving_bound(scene: Scene, goal: Goal, cell: Cell, beat: float, kind: int) -> float:
     """How soon a path can be at the goal from its last contact, if that is one of the cell's.
 
-    Arguments as `cell_bound`; infinite from `beat` on.
+    Arguments as `cell_bound`, and `soon_bound` for the kind; infinite from `beat` on.
     """
+    junction = Junction(kind, 0 if cell.side > 0.0 else 1, beyond_outward(scene, cell, -1.0))
+    found = _word_from(scene, goal, cell, beat, 0.0, junction)
+    if kind == OUTWARD:
+        return found
+    return min(found, looped_leaving_bound(scene, goal, cell, min(beat, found)))
+
+
+@njit(cache=True, nogil=True)
+def looped_leaving_bound(scene: Scene, goal: Goal, cell: Cell, beat: float) -> float:
+    """The same for a word and a full loop, or more of them."""
+    return TWO_PI + _word_from(scene, goal, cell, beat - TWO_PI, TWO_PI, NO_JUNCTION)
+
+
+@njit(cache=True, nogil=True)
+def _word_from(
+    scene: Scene, goal: Goal, cell: Cell, beat: float, looped: float, junction: Junction
+) -> float:
+    """How soon a word can lead from a contact of the cell to where the goal is so much later."""
     poses = poses_of(scene, cell)
     if poses.differs == inf:
         return inf
-    blur = _blur_toward(scene, goal, cell, poses)
-    inside = with_limit(scene, scene.d_min - INSIDE)
+    seen = _seen_from(Goal(goal.x + looped * goal.speed, goal.speed, False), poses)
     opens = max(scene.t_release - cell.end, 0.0) - EDGE
-    found = inf
-    for loops in range(2):
-        looped = TWO_PI * loops
-        seen = _seen_from(Goal(goal.x + looped * goal.speed, goal.speed, False), poses)
-        sieve = Sieve(
-            loops == 0, Pose(goal.x, 0.0, pi), goal.speed, inside, -1.0, cell.start, cell.end
-        )
-        word = looped + soonest(
-            seen, blur, Velocity(goal.speed, 0.0),
-            Window(0.0 if loops > 0 else opens, min(beat, found) - looped), sieve,
-        )  # fmt: skip
-        found = min(found, word)
-    return found
+    inside = with_limit(scene, scene.d_min - INSIDE)
+    end = Pose(goal.x, 0.0, pi)
+    return soonest_joined(
+        seen, _blur_toward(scene, goal, cell, poses), Velocity(goal.speed, 0.0),
+        Window(0.0 if looped > 0.0 else opens, beat),
+        Sieve(looped == 0.0, end, goal.speed, inside, -1.0, cell.start, cell.end), junction,
+    )  # fmt: skip
 
 
 @njit(cache=True, nogil=True)

@@ -17,7 +17,9 @@ from relguide.kernels.bounds.around import Around, is_last
 from relguide.kernels.bounds.cells import Cell
 from relguide.kernels.bounds.contact_bound import cell_bound, leaving_bound
 from relguide.kernels.bounds.goal import Goal
+from relguide.kernels.bounds.junction import can_touch
 from relguide.kernels.bounds.round_time import round_time
+from relguide.kernels.bounds.word_bound import ANY
 
 IntArray = np.ndarray[tuple[int, ...], np.dtype[np.int64]]
 
@@ -25,6 +27,8 @@ _CLOSELY = 50  # times a cell is halved to find what is least in it
 _NARROW = 1e-6  # and how narrow its parts may become: what is left counts for some 1e-5 R/V_P [rad]
 _SOON, _ONWARD, _LEAVING, _FROM, _TO = 0, 1, 2, 3, 5  # columns of what is known
 _COLUMNS = 7
+JOINED = 7
+"""Columns of `Tree.joined`."""
 
 
 class Tree(NamedTuple):
@@ -35,6 +39,8 @@ class Tree(NamedTuple):
     halves: IntArray
     """The first of its two halves, the other being the next; −1 if it has not been halved, and in
     the last place how many cells there are. shape (n + 1,)"""
+    joined: FloatArray
+    """What is known of it as one of several contacts: see `joined`. shape (n, JOINED)"""
     known: FloatArray
     """How soon a first contact can be there, the goal from it, and the goal from a last one; and
     bounds of both with the time round, either way. NaN while it is not known. shape (n, 7)"""
@@ -64,9 +70,12 @@ class Problem(NamedTuple):
 def plant(cells: FloatArray, room: int) -> Tree:
     """A tree of these cells, shape (n, 6), with room for so many in all."""
     count = len(cells)
-    tree = Tree(np.empty((room, 6)), np.empty(room + 1, np.int64), np.empty((room, _COLUMNS)))
+    tree = Tree(
+        np.empty((room, 6)), np.empty(room + 1, np.int64), np.empty((room, JOINED)),
+        np.empty((room, _COLUMNS)),
+    )  # fmt: skip
     tree.cells[:count] = cells
-    tree.halves[:count], tree.known[:count] = -1, np.nan
+    tree.halves[:count], tree.known[:count], tree.joined[:count] = -1, np.nan, np.nan
     tree.halves[room] = count
     return tree
 
@@ -94,6 +103,7 @@ def halve(tree: Tree, n: int, d_min: float) -> int:
     tree.halves[n] = first
     cell = cell_at(tree, n)
     tree.halves[first : first + 2], tree.known[first : first + 2] = -1, np.nan
+    tree.joined[first : first + 2] = np.nan
     tree.cells[first] = tree.cells[first + 1] = tree.cells[n]
     span = 0.5 * (cell.end - cell.start)
     if inf > span > (d_min + 1.0) * cell.half:
@@ -121,7 +131,10 @@ def reach(tree: Tree, problem: Problem, n: int) -> tuple[float, float]:
     known = tree.known[n]
     if isnan(known[_SOON]):
         cell = cell_at(tree, n)
-        soon, onward = cell_bound(problem.start, problem.scene, problem.goal, cell, problem.beat)
+        soon, onward = inf, inf
+        if can_touch(problem.scene, cell):
+            start, scene, goal = problem.start, problem.scene, problem.goal
+            soon, onward = cell_bound(start, scene, goal, cell, problem.beat)
         known[_SOON], known[_ONWARD] = soon, onward
         if soon < inf and cell.end < inf:
             tree.cells[n, 4] = soon
@@ -137,7 +150,10 @@ def leave(tree: Tree, problem: Problem, n: int) -> float:
     """How soon the goal can be reached from a last contact in the cell."""
     known = tree.known[n]
     if isnan(known[_LEAVING]):
-        known[_LEAVING] = leaving_bound(problem.scene, problem.goal, cell_at(tree, n), problem.beat)
+        known[_LEAVING] = inf
+        cell = cell_at(tree, n)
+        if can_touch(problem.scene, cell):
+            known[_LEAVING] = leaving_bound(problem.scene, problem.goal, cell, problem.beat, ANY)
     return float(known[_LEAVING])
 
 

@@ -33,6 +33,7 @@ from relguide.kernels.bounds.contact_tree import (
     reach,
     size_of,
 )
+from relguide.kernels.bounds.joined import first_of, last_of
 from relguide.kernels.bounds.round_turning import FAST
 
 
@@ -105,7 +106,12 @@ def _begins(problem: Problem, tree: Tree, n: int, last: bool) -> float:
     """When fronts begin in a cell; infinite if nothing in it can be in time."""
     if not last:
         soon, onward = reach(tree, problem, n)
-        return soon if soon + onward < problem.beat else inf
+        if soon + onward >= problem.beat:
+            return inf
+        first = first_of(tree, problem, n)
+        if first.goal < problem.beat:
+            return soon
+        return first.straight if first.straight + onward < problem.beat else inf
     cell = cell_at(tree, n)
     since = max(cell.start, soonest_in(problem.around, problem.scene, cell))
     if since > cell.end:
@@ -113,7 +119,15 @@ def _begins(problem: Problem, tree: Tree, n: int, last: bool) -> float:
     leaving = leave(tree, problem, n)
     if since + leaving >= problem.beat:
         return inf
-    return -min(cell.end, problem.beat - leaving)
+    passed, latest = last_of(tree, problem, n), -inf
+    if since + passed.straight < problem.beat:
+        latest = min(cell.end, problem.beat - passed.straight)
+    if passed.turned < inf:
+        # the turn begins after a first contact
+        since = max(since, np.min(problem.around.soonest) + passed.turned - leaving)
+        if since <= cell.end and since + leaving < problem.beat:
+            latest = max(latest, min(cell.end, problem.beat - leaving))
+    return -latest
 
 
 @njit(cache=True, nogil=True)

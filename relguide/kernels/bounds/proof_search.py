@@ -28,6 +28,7 @@ from relguide.kernels.bounds.contact_tree import (
     round_to,
     size_of,
 )
+from relguide.kernels.bounds.joined import apart, first_of, last_of
 from relguide.kernels.bounds.narrowing import lasts_left, narrow, with_around
 from relguide.kernels.bounds.probe import Find, probe, probe_between
 
@@ -43,6 +44,8 @@ _SLACK = 1e-6  # of `round_time`, as part of a whole round
 _ROOTS = 0.1  # size of the cells of last contacts that are left [rad]
 _MOST_ROOTS = 256  # if there are more, they are kept larger
 _NO_LAST = -1  # of a bundle whose last contact does not matter
+_ONLY = -2  # of a bundle whose first contact is the last one
+_JOINED = 0.1  # cells smaller than this are looked at by how contacts are passed [rad]
 
 
 class Search(NamedTuple):
@@ -112,9 +115,14 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
         if m < 0:
             # elsewhere than on the final leg the cells of last contacts are very many
             if (
-                search.first.cells[n, 0] == final
-                or size_of(search.first, n, problem.scene.d_min) < problem.paired
-            ) and _goes_on(search, problem, n):
+                (
+                    search.first.cells[n, 0] == final
+                    or size_of(search.first, n, problem.scene.d_min) < problem.paired
+                )
+                and m == _NO_LAST
+                and _goes_on(search, problem, n)
+            ):
+                _add(search, problem, n, _ONLY, bound)
                 for k in search.roots:
                     _add(search, problem, n, k, bound)
                 continue
@@ -177,21 +185,49 @@ def _add(search: Search, problem: Problem, n: int, m: int, least: float) -> None
     soon, onward = reach(search.first, problem, n)
     if soon == inf:
         return
-    if m < 0:
-        bound = soon + onward
+    if m >= 0:
+        bound = _pair_bound(search, problem, n, m)
+    elif m == _ONLY:
+        bound = soon + max(leave(search.first, problem, n), onward)
     else:
-        leaving = leave(search.last, problem, m)
-        cell, other = cell_at(search.first, n), cell_at(search.last, m)
-        at_last = max(other.start, soonest_in(problem.around, problem.scene, other))
-        if at_last > other.end or at_last + leaving >= problem.beat:
-            return
-        between = between_bound(
-            problem.scene, problem.table, cell, other, problem.beat - soon - leaving
-        )
-        bound = max(soon + between, at_last) + leaving
+        bound = soon + onward
+        if size_of(search.first, n, problem.scene.d_min) < _JOINED and bound < problem.beat:
+            first = first_of(search.first, problem, n)
+            only = soon + max(leave(search.first, problem, n), onward)
+            bound = min(only, first.straight + onward, first.goal)
     bound = max(bound, least, problem.scene.t_release)
     if bound < problem.beat:
         _push(search, bound, n, m, 0)
+
+
+@njit(cache=True, nogil=True)
+def _pair_bound(search: Search, problem: Problem, n: int, m: int) -> float:
+    """How soon a path can arrive with its first contact in a cell, and another last one."""
+    soon, leaving = reach(search.first, problem, n)[0], leave(search.last, problem, m)
+    cell, other = cell_at(search.first, n), cell_at(search.last, m)
+    at_last = max(other.start, soonest_in(problem.around, problem.scene, other))
+    if at_last > other.end or at_last + leaving >= problem.beat:
+        return inf
+    first, last = first_of(search.first, problem, n), last_of(search.last, problem, m)
+    if min(first.straight, first.turned) + min(last.straight, last.turned) >= problem.beat:
+        return inf
+    between = max(
+        between_bound(problem.scene, problem.table, cell, other, problem.beat - soon - leaving),
+        apart(search.first, problem, n, 1.0),
+        apart(search.last, problem, m, -1.0),
+    )
+    if soon + between > other.end:
+        return inf
+    # each contact is passed straight or turning away; where a turn passes both, so does a word
+    # from the first one on, and the first is taken for the last
+    there, later = max(first.straight + between, at_last), max(soon + between, at_last)
+    bound = min(there + last.straight, max(there + leaving, first.straight + last.turned))
+    if first.turned < inf:
+        later = max(later, first.turned)
+        bound = min(bound, max(later + last.straight, first.goal))
+        if last.turned < inf:
+            bound = min(bound, max(later + leaving, soon + last.turned, first.goal))
+    return bound
 
 
 @njit(cache=True, nogil=True)

@@ -32,6 +32,9 @@ from relguide.kernels.base.angles import TWO_PI, wrap, wrap_signed
 from relguide.kernels.base.records import Pose, Velocity, Window
 from relguide.kernels.bounds.breach import ROUNDING, Flown, NearWord, Sieve, breaks_limit
 
+ANY, TANGENT, OUTWARD = 0, 1, 2
+"""What may be asked of the turn at the set: nothing, that the costate of the heading vanishes
+where it begins, or that it is away from the leader."""
 _DEPTH = 192
 _FINEST = 1e-12  # an interval this short is not halved again [rad]
 _FAST = 0.95  # a target at this speed may be met twice, or late [V_P]
@@ -50,6 +53,17 @@ class Blur(NamedTuple):
     """[rad]."""
     end: float
     """How much of that is because the heading on which the target is met may differ [rad]."""
+
+
+class Junction(NamedTuple):
+    """What is asked of the turn with which a word leaves the poses of a set: see `junction`."""
+
+    kind: int
+    """`ANY`, `TANGENT` or `OUTWARD`."""
+    inward: int
+    """Which turn is toward the leader: 0 left, 1 right."""
+    beyond: float
+    """Of `junction.beyond_outward` [rad]."""
 
 
 class _Side(NamedTuple):
@@ -73,6 +87,10 @@ class _Side(NamedTuple):
     """Its speed [V_P]."""
     mirror: float
     """+1, or −1 in the mirror."""
+    inward: bool
+    """Whether the turn at the set is toward the leader."""
+    junction: Junction
+    """What is asked of it."""
 
 
 class _Interval(NamedTuple):
@@ -94,9 +112,13 @@ class _Interval(NamedTuple):
     """Amount of the middle piece [rad or R]."""
     middle_blur: float
     """How much that may differ."""
+    shortest: float
+    """No less than this is it."""
 
 
-_NOTHING = _Interval(inf, inf, True, 0.0, 0.0, 0.0, 0.0, 0.0)
+NO_JUNCTION = Junction(ANY, 0, 0.0)
+"""Every word will do."""
+_NOTHING = _Interval(inf, inf, True, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 @njit(cache=True, nogil=True)
@@ -158,6 +180,20 @@ def _narrow(
 def soonest(pose: Pose, blur: Blur, target: Velocity, window: Window, sieve: Sieve) -> float:
     """No word meets the target sooner than this, from any pose of the set.
 
+    Arguments as `soonest_joined`.
+    """
+    return soonest_joined(pose, blur, target, window, sieve, NO_JUNCTION)
+
+
+@njit(cache=True, nogil=True)
+def soonest_joined(
+    pose: Pose, blur: Blur, target: Velocity, window: Window, sieve: Sieve, junction: Junction
+) -> float:
+    """The same for words that leave the poses as a junction asks.
+
+    With `OUTWARD` it is the time until the target is met and the turn away from the leader, which
+    there was before the pose too, is over.
+
     Args:
         pose: middle of the set, seen from the target along the heading to meet it on.
         blur: how far the set reaches.
@@ -165,12 +201,15 @@ def soonest(pose: Pose, blur: Blur, target: Velocity, window: Window, sieve: Sie
         window: words that meet it earlier do not count; bounds from `beat` on do not matter, and
             come back as infinite.
         sieve: words left out.
+        junction: what is asked.
     """
     if window.beat <= 0.0:
         return inf
     best = window.beat
     for hand in range(2):
-        side = _side_of(pose, blur, target, hand)
+        if junction.kind == OUTWARD and hand == junction.inward:
+            continue
+        side = _side_of(pose, blur, target, hand, junction)
         best = _bound_same_side(side, Window(window.earliest, best), sieve)
         for turns in range(2):
             best = _bound_by_halves(turns == 1, side, Window(window.earliest, best), sieve)
@@ -178,7 +217,7 @@ def soonest(pose: Pose, blur: Blur, target: Velocity, window: Window, sieve: Sie
 
 
 @njit(cache=True, nogil=True)
-def _side_of(pose: Pose, blur: Blur, target: Velocity, hand: int) -> _Side:
+def _side_of(pose: Pose, blur: Blur, target: Velocity, hand: int, junction: Junction) -> _Side:
     """The words that begin with a left turn, or with hand = 1 a right one, in the mirror."""
     m = 1.0 - 2.0 * hand
     h = wrap(m * pose.h)
@@ -187,7 +226,7 @@ def _side_of(pose: Pose, blur: Blur, target: Velocity, hand: int) -> _Side:
     heading = blur.heading + ROUNDING
     return _Side(
         h, pose.x - sin(h), m * pose.y + cos(h), circle + alpha * heading, heading, blur.end,
-        Velocity(target.ahead, m * target.left), alpha, m,
+        Velocity(target.ahead, m * target.left), alpha, m, hand == junction.inward, junction,
     )  # fmt: skip
 
 
@@ -221,9 +260,8 @@ def _bound_same_side(side: _Side, window: Window, sieve: Sieve) -> float:
                 astray = asin(slack / hypot(to_x, to_y))
                 course = atan2(to_y, to_x)
         latest = turned + side.heading + greatest
-        found = _Interval(time, latest, True, turned, -course, astray, middle, middle_blur)
-        if _is_possible(found, (-1.0, 0.0, -1.0), 3, 0.0, side, sieve):
-            best = time
+        found = _Interval(time, latest, True, turned, -course, astray, middle, middle_blur, least)
+        best = min(best, _time_of(found, (-1.0, 0.0, -1.0), 3, 0.0, side, sieve))
     return best
 
 
@@ -259,10 +297,13 @@ def _bound_by_halves(three_turns: bool, side: _Side, window: Window, sieve: Siev
                 mids[n], mids[n + 1] = mid + 0.5 * half, mid - 0.5 * half
                 n += 2
             elif three_turns:
-                if _is_possible(found, (-1.0, 1.0, -1.0), 2, half, side, sieve):
-                    best = found.time
-            elif not _is_ruled_out(found, (1.0, 0.0, -1.0), found.first, side, sieve):
-                best = found.time
+                best = min(best, _time_of(found, (-1.0, 1.0, -1.0), 2, half, side, sieve))
+            else:
+                more = _more_time(found, found.first, half + side.heading, False, side)
+                if found.time + more < best and not _is_ruled_out(
+                    found, (1.0, 0.0, -1.0), found.first, side, sieve
+                ):
+                    best = found.time + more
     return best
 
 
@@ -286,7 +327,10 @@ def _three_turns_within(
     slack = side.radius + 2.0 * side.alpha * half
     astray = pi if slack >= gap else asin(slack / gap) + 0.5 * half
     first = wrap_signed(0.5 * mid - atan2(to_y, to_x))
-    return _Interval(time, latest, spread <= side.radius, turned, first, astray, mid, half)
+    shortest = max(mid - half, 0.0)
+    return _Interval(
+        time, latest, spread <= side.radius, turned, first, astray, mid, half, shortest
+    )
 
 
 @njit(cache=True, nogil=True, inline="always")  # 8 % of a proof
@@ -328,15 +372,15 @@ def _opposite_turns_within(
         return _NOTHING
     fine = longest < inf and half * (longest + half) <= side.radius
     middle, middle_blur = 0.5 * (shortest + longest), 0.5 * (longest - shortest)
-    return _Interval(time, latest, fine, turned, mid, half, middle, middle_blur)
+    return _Interval(time, latest, fine, turned, mid, half, middle, middle_blur, shortest)
 
 
 @njit(cache=True, nogil=True)
-def _is_possible(
+def _time_of(
     found: _Interval, signs: tuple[float, float, float], turns: int, half: float, side: _Side,
     sieve: Sieve,
-) -> bool:  # fmt: skip
-    """Whether both outer turns may lie between none and a full one, in a word that is not sifted.
+) -> float:  # fmt: skip
+    """The least time of a word that is not sifted, with outer turns between none and a full one.
 
     Args:
         found: what is asked about.
@@ -345,17 +389,69 @@ def _is_possible(
         half: how much both outer turns together may differ besides [rad].
         side: of which words.
         sieve: words left out.
+
+    Returns:
+        it, and with it how long the turn at the set was there before; infinite if there is none.
     """
+    least = inf
     for j in range(turns):
         first = found.first + TWO_PI * j
         other, spare = found.turned - first, found.astray + half + side.heading
         if (
             -found.astray - side.end <= first <= TWO_PI + found.astray + side.end
             and -spare <= other <= TWO_PI + spare
-            and not _is_ruled_out(found, signs, first, side, sieve)
+            and not (signs[1] != 0.0 and _has_lesser_middle(found, first, other, spare))
         ):
-            return True
-    return False
+            time = found.time + _more_time(found, first, spare, signs[1] != 0.0, side)
+            if time < least and not _is_ruled_out(found, signs, first, side, sieve):
+                least = time
+    return least
+
+
+@njit(cache=True, nogil=True)
+def _has_lesser_middle(found: _Interval, first: float, other: float, spare: float) -> bool:
+    """Whether the middle of three turns is certainly less than an outer one: then no costate fits.
+
+    λ_ψ vanishes on a line, on which both switches lie: so it would again, as long after the second
+    and before the first (see `costate`).
+    """
+    middle = found.middle + found.middle_blur
+    return (first - found.astray > middle and other > spare) or (
+        other - spare > middle and first > found.astray
+    )
+
+
+@njit(cache=True, nogil=True)
+def _more_time(
+    found: _Interval, first: float, spare: float, three_turns: bool, side: _Side
+) -> float:
+    """How long the turn was there before the set, at least; infinite if the junction is another.
+
+    `TANGENT`: λ_ψ vanishes. That is on the straight, a full turn from it, as far from the middle of
+    three turns as that is long, and wherever it may be if there are two turns only. `OUTWARD`: see
+    `junction`.
+
+    Args:
+        found: what is asked about.
+        first: first turn of the path read backward [rad].
+        spare: how much the turn at the set may differ [rad].
+        three_turns: whether the middle piece is a turn.
+        side: of which words.
+    """
+    junction = side.junction
+    if junction.kind == ANY:
+        return 0.0
+    turn = found.turned - first
+    free = first <= found.astray if three_turns else found.shortest <= 0.0
+    if junction.kind == TANGENT:
+        if turn <= spare:
+            return 0.0
+        if side.inward:
+            return inf
+        back = three_turns and abs(turn - found.middle) <= spare + found.middle_blur
+        return 0.0 if free or back or abs(turn - TWO_PI) <= spare else inf
+    whole = found.shortest if three_turns else TWO_PI
+    return 0.0 if free else max(min(whole - turn - spare, junction.beyond), 0.0)
 
 
 @njit(cache=True, nogil=True)

@@ -17,6 +17,7 @@ from relguide.kernels.bounds.contact_bound import cell_bound, leaving_bound, wor
 from relguide.kernels.bounds.goal import Goal, arrives_at_release
 from relguide.kernels.bounds.round_time import round_bound, times_round
 from relguide.kernels.bounds.untouched import untouched_bound
+from relguide.kernels.bounds.word_bound import ANY
 from relguide.kernels.contact.contact import (
     contact_exists,
     contact_heading,
@@ -34,6 +35,7 @@ from relguide.kernels.words.extremals import (
     solve_and_measure,
     solve_toward,
 )
+from tests.costates import with_costate
 from tests.situations import numbers
 
 FAR = 1e3
@@ -63,7 +65,8 @@ def words_to(pose: Pose, to: Pose, alpha: float) -> np.ndarray:
     """Words from a pose to one that moves along the x axis."""
     seen, rows = to_frame_of(pose, to), np.empty((MAX_ROWS, 5))
     toward = Velocity(alpha * cos(to.h), -alpha * sin(to.h))
-    return rows[: solve_toward(seen._replace(h=seen.h % (2.0 * pi)), toward, 0.0, rows)]
+    n = solve_toward(seen._replace(h=seen.h % (2.0 * pi)), toward, 0.0, rows)
+    return with_costate(rows[:n])
 
 
 @njit(nogil=True)
@@ -110,7 +113,7 @@ def test_no_contact_of_a_cell_is_reached_or_left_sooner(
     start, scene = Pose(x, y, h), straight(alpha, d_min, d_min + behind)
     assume(hypot(x - d_min - behind, y) > d_min)
     soon, onward = cell_bound(start, scene, Goal(0.0, alpha, False), cell, FAR)
-    leaving = leaving_bound(scene, Goal(0.0, alpha, False), cell, FAR)
+    leaving = leaving_bound(scene, Goal(0.0, alpha, False), cell, FAR, ANY)
     b = cell.bearing + share * cell.half
     if not contact_exists(b, alpha):
         return
@@ -274,14 +277,15 @@ def test_no_contact_with_a_leader_that_turns_is_reached_or_left_sooner(seed: int
         assert onward <= rows[0, 0] + SLACK * (1.0 + rows[0, 0])
         left += 1
         later = scene._replace(leader=scene.leader - np.array([t, 0.0, 0.0, 0.0, 0.0]))
-        leaving = leaving_bound(scene, goal, cell, FAR)
-        for some in rows[: solve(on, goal.speed, 0.0, rows)]:
+        leaving = leaving_bound(scene, goal, cell, FAR, ANY)
+        for some in with_costate(rows[: solve(on, goal.speed, 0.0, rows)]):
             if some[0] < 50.0 and keeps(contact, some, later._replace(d_min=scene.d_min - 1e-9)):
                 assert leaving <= some[0] + SLACK * (1.0 + some[0])
                 kept += 1
                 break
             barred += leaving > some[0] + 0.1
-        if keeps(start, row, scene._replace(d_min=scene.d_min - SLACK)):
+        inside = scene._replace(d_min=scene.d_min - SLACK)
+        if len(with_costate(row[None])) and keeps(start, row, inside):
             assert soon <= t + SLACK * (1.0 + t)
             reached += 1
     assert left > 3_000

@@ -8,8 +8,17 @@ from hypothesis import strategies as st
 
 from relguide.kernels.base.records import Pose, Scene, Velocity, Window
 from relguide.kernels.bounds.breach import Flown, NearWord, Sieve, breaks_limit
-from relguide.kernels.bounds.word_bound import Blur, intercept_span, soonest
+from relguide.kernels.bounds.word_bound import (
+    OUTWARD,
+    TANGENT,
+    Blur,
+    Junction,
+    intercept_span,
+    soonest,
+    soonest_joined,
+)
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, WORDS, fly_piece, solve_toward
+from tests.costates import with_costate
 from tests.situations import numbers
 
 ROUNDING = 1e-9
@@ -36,7 +45,8 @@ def bound(
 
 def exact(x: float, y: float, h: float, a: tuple[float, float], not_before: float) -> np.ndarray:
     rows = np.empty((MAX_ROWS, 5))
-    return rows[: solve_toward(Pose(x, y, h % (2.0 * pi)), Velocity(*a), not_before, rows)]
+    n = solve_toward(Pose(x, y, h % (2.0 * pi)), Velocity(*a), not_before, rows)
+    return with_costate(rows[:n])
 
 
 @given(
@@ -113,6 +123,45 @@ def test_of_a_single_pose_it_is_the_exact_time() -> None:
             assert lowest == inf
             continue
         assert time - 1e-4 * (1.0 + time) <= lowest <= time + ROUNDING * (1.0 + time)
+
+
+def test_words_leave_a_pose_as_the_junction_asks() -> None:
+    """Of single poses, against all words of them; those on a straight have been turned back to."""
+    rng = np.random.default_rng(8)
+    straight = turned = 0
+    for case in range(4_000):
+        a = rng.uniform(0.0, 0.9), rng.uniform(-0.3, 0.3)
+        x, y, h = *rng.uniform(-4.0, 4.0, 2), rng.uniform(0.0, 2.0 * pi)
+        if case % 2 == 0:  # it is met after a straight and a turn
+            flown, bend, sign = rng.uniform(0.2, 4.0), rng.uniform(0.1, 6.0), rng.choice((1, -1))
+            end = fly_piece(fly_piece(Pose(0.0, 0.0, 0.0), 0.0, flown), sign, bend)
+            # so that the target, which heads along the x axis, is met on its heading
+            h = -end.h % (2.0 * pi)
+            x = -end.x * cos(h) + end.y * sin(h) + a[0] * (flown + bend)
+            y = -end.x * sin(h) - end.y * cos(h) + a[1] * (flown + bend)
+        rows, inward, beyond = exact(x, y, h, a, 0.0), int(rng.integers(2)), rng.uniform(0.0, 6.0)
+        leaving = {
+            kind: soonest_joined(
+                Pose(x, y, h), Blur(0.0, 0.0, 0.0, 0.0), Velocity(*a), Window(0.0, inf), NO_SIEVE,
+                Junction(kind, inward, beyond),
+            )
+            for kind in (TANGENT, OUTWARD)
+        }  # fmt: skip
+        for row in rows:
+            word, (first, middle, last) = WORDS[int(row[1])], row[2:]
+            if first < 1e-9:
+                straight += 1
+                assert leaving[TANGENT] <= row[0] + ROUNDING * (1.0 + row[0])
+            elif (word[0] == "L") != (inward == 0):
+                turned += 1
+                whole = 2.0 * pi if word[1] == "S" else middle
+                free = middle < 1e-6 if word[1] == "S" else last < 1e-6
+                more = 0.0 if free else min(whole - first, beyond)
+                assert leaving[OUTWARD] <= row[0] + more + ROUNDING * (1.0 + row[0])
+        if leaving[TANGENT] < inf and case % 2:
+            assert np.min(rows[:, 2]) < 1e-5
+    assert straight > 1_000
+    assert turned > 5_000
 
 
 @given(

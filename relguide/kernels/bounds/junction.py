@@ -1,0 +1,156 @@
+"""How an optimal path passes a contact that has another one after it, or before it.
+
+At a contact λ_ψ and the turn go on unbroken, and λ_p changes toward the leader only: see `costate`.
+Who slides along the circle at bearing b and side s turns toward the leader at k V_P/R,
+
+    k = (q + s α sin b)² / (d_min q) − ω α sin b / q,    q = √(1 − α² cos² b),
+
+ω being the leader's turn rate; who turns toward it at w V_P/R has d″ = (k − w) q V_P²/R, which must
+not be negative there, neither before nor after. So where k < −1 there is no contact. Where k < 1 a
+path that is optimal does not turn toward the leader. Either it is straight: then λ_ψ = 0, as on the
+boundary arc that may follow, and of all words from the start only some end so. Or it turns away and
+goes on turning, until λ_ψ = 0 again: on a line along the new λ_p. Whatever the change of λ_p, that
+line passes through one point, where the line of the word so far meets the one from the leader to
+the contact. It turns from the one line to the other as the change grows, and so the end of the turn
+goes from where it was without the change to where it is if the change is all there is. The turn
+goes on for the lesser of both: what is left of it by the word, and 2 arccos(α cos b).
+
+Where k > 1 nobody can slide. The separation grows, whatever the turn, and for a while there is no
+other contact.
+
+This holds for paths whose costate does not vanish before the contact: those on whose way there
+something depends. Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
+"""
+
+from math import acos, cos, hypot, inf, pi, sin, sqrt
+
+from numba import njit
+
+from relguide.kernels.base.records import Pose, Scene
+from relguide.kernels.bounds.cells import EDGE, Cell, poses_of
+from relguide.kernels.separation.clearance import leader_at, piece_at
+from relguide.kernels.words.extremals import fly_piece
+
+_ANYTHING = 1e9  # beyond every turn rate [V_P/R]
+_PART = 2.9  # of parts/jerk, for which the separation grows: 3 but for rounding
+_STRIDE = 1e-3  # least step of the look for another contact [R/V_P]
+_BESIDE = 0.1  # it ends before the leader is ahead: who flies on may come closer then [R]
+
+
+@njit(cache=True, nogil=True)
+def slide_turns(scene: Scene, cell: Cell) -> tuple[float, float]:
+    """Least and greatest k in a cell [V_P/R]."""
+    low, high = cell.bearing - cell.half, cell.bearing + cell.half
+    alpha, d_min, rate = scene.alpha, scene.d_min, scene.leader[cell.piece, 4]
+    # in one quadrant both are monotone
+    ahead, far = abs(alpha * cos(low)), abs(alpha * cos(high))
+    beside = alpha * min(sin(low), sin(high)), alpha * max(sin(low), sin(high))
+    if max(ahead, far) > 1.0 - EDGE:
+        return -_ANYTHING, _ANYTHING
+    least_q = sqrt(1.0 - max(ahead, far) * max(ahead, far))
+    most_q = sqrt(1.0 - min(ahead, far) * min(ahead, far))
+    along = (
+        least_q + (beside[0] if cell.side > 0.0 else -beside[1]),
+        most_q + (beside[1] if cell.side > 0.0 else -beside[0]),
+    )
+    slow = max(along[0], 0.0)
+    swing = min(rate * beside[0], rate * beside[1]), max(rate * beside[0], rate * beside[1])
+    least = slow * slow / (d_min * most_q) - max(swing[1] / least_q, swing[1] / most_q)
+    most = along[1] * along[1] / (d_min * least_q) - min(swing[0] / least_q, swing[0] / most_q)
+    return least, most
+
+
+@njit(cache=True, nogil=True)
+def can_touch(scene: Scene, cell: Cell) -> bool:
+    """Whether there can be a contact in a cell."""
+    return slide_turns(scene, cell)[1] >= -1.0 - EDGE
+
+
+@njit(cache=True, nogil=True)
+def beyond_outward(scene: Scene, cell: Cell, pace: float) -> float:
+    """For how long a turn away goes on at least, if the change of λ_p is all there is [rad].
+
+    Args:
+        scene: the leader and d_min.
+        cell: of contacts.
+        pace: +1 on after the contact, −1 back before it.
+    """
+    low, high = cos(cell.bearing - cell.half), cos(cell.bearing + cell.half)
+    ahead = scene.alpha * max(pace * low, pace * high)
+    return 2.0 * acos(min(max(ahead, -1.0), 1.0))
+
+
+@njit(cache=True, nogil=True)
+def apart_by(scene: Scene, cell: Cell, pace: float) -> float:
+    """For how long no path that touches in a cell does so again, however it turns [R/V_P].
+
+    Who turns toward the leader as fast as it can comes closest, until the leader is ahead.
+
+    Args:
+        scene: the leader and d_min.
+        cell: of contacts.
+        pace: +1 after the contact, −1 before it.
+
+    Returns:
+        0 if that is not known.
+    """
+    least, _ = slide_turns(scene, cell)
+    if least <= 1.0 or cell.end == inf:
+        return 0.0
+    poses, alpha, d_min = poses_of(scene, cell), scene.alpha, scene.d_min
+    rate = 0.0
+    for i in range(len(scene.leader)):
+        rate = max(rate, abs(scene.leader[i, 4]))
+    took = min(_growing_for(scene, cell, least - 1.0, rate), _left_of_piece(scene, cell, pace))
+    if took <= 0.0:
+        return 0.0
+    # how fast two paths of the cell part, seen from the leader
+    parting = poses.differs + (1.0 + alpha) * (cell.half + rate * poses.span)
+    while took < pi:
+        at = fly_piece(poses.middle, cell.side, pace * took)
+        t = poses.t + pace * took
+        there = leader_at(scene, piece_at(scene.leader, t), t)
+        seen = _seen_along(at, there, pace)
+        if seen[0] > 0.0 and cell.side * pace * seen[1] < parting * took + _BESIDE:
+            break
+        gap = hypot(seen[0], seen[1]) - d_min - parting * took
+        if gap <= 0.0:
+            break
+        took += max(gap / (1.0 + alpha), _STRIDE)
+    return took
+
+
+@njit(cache=True, nogil=True)
+def _growing_for(scene: Scene, cell: Cell, spare: float, rate: float) -> float:
+    """For how long the separation surely grows, if k − 1 is no less than `spare` [R/V_P].
+
+    Args:
+        scene: the leader and d_min.
+        cell: of contacts.
+        spare: [V_P/R].
+        rate: the leader's greatest turn rate [V_P/R].
+    """
+    alpha, d_min, fast = scene.alpha, scene.d_min, 1.0 + scene.alpha
+    ahead = max(abs(cos(cell.bearing - cell.half)), abs(cos(cell.bearing + cell.half)))
+    parts = spare * sqrt(1.0 - alpha * ahead * alpha * ahead)
+    # d‴ comes of the bearing's change, of the pursuer's turn and the leader's
+    jerk = 1.0 + fast / d_min + alpha * rate * (rate + fast / d_min)
+    jerk += (2.0 * fast * (1.0 + alpha * rate) + 3.0 * fast * fast * fast / d_min) / d_min
+    return _PART * parts / jerk
+
+
+@njit(cache=True, nogil=True)
+def _left_of_piece(scene: Scene, cell: Cell, pace: float) -> float:
+    """How long the leader goes on as it does, from every contact of a cell on or back [R/V_P]."""
+    if pace < 0.0:
+        return cell.start - scene.leader[cell.piece, 0] if cell.piece > 0 else inf
+    final = cell.piece + 1 == len(scene.leader)
+    return inf if final else scene.leader[cell.piece + 1, 0] - cell.end
+
+
+@njit(cache=True, nogil=True)
+def _seen_along(at: Pose, there: Pose, pace: float) -> tuple[float, float]:
+    """How far ahead and to the left something lies of a pose, or with pace −1 of its opposite."""
+    dx, dy = pace * (there.x - at.x), pace * (there.y - at.y)
+    c, s = cos(at.h), sin(at.h)
+    return dx * c + dy * s, dy * c - dx * s

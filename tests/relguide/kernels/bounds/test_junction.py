@@ -1,0 +1,134 @@
+"""How a contact with others after it is passed: against costates and paths flown step by step."""
+
+from math import acos, atan2, cos, hypot, inf, pi, sin, sqrt
+
+import numpy as np
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from relguide.kernels.base.records import Contact, Pose, Scene
+from relguide.kernels.bounds.cells import Cell
+from relguide.kernels.bounds.junction import apart_by, beyond_outward, can_touch, slide_turns
+from relguide.kernels.contact.contact import contact_heading, contact_on
+from relguide.kernels.separation.clearance import leader_at, piece_at
+from relguide.kernels.words.extremals import fly_piece
+from tests.situations import numbers
+
+signs = st.sampled_from([1.0, -1.0])
+
+
+@st.composite
+def turning(draw: st.DrawFn) -> tuple[Scene, Cell]:
+    """A leader that turns, and contacts while it does."""
+    rate, alpha, d_min = draw(numbers(-3.0, 3.0)), draw(numbers(0.2, 0.98)), draw(numbers(0.3, 4.0))
+    leader = np.array(
+        [[0.0, 0.0, 0.0, 0.4, 0.0], [1.0, alpha * cos(0.4), alpha * sin(0.4), 0.4, rate],
+         [6.0, 0.0, 0.0, 0.4 + 5.0 * rate, 0.0]]
+    )  # fmt: skip
+    after = Scene(leader, alpha, d_min, 0.0)
+    end = leader_at(after, 1, 6.0)
+    leader[2, 1:4] = end.x, end.y, end.h
+    parts = 2 ** draw(st.integers(1, 14))
+    k, width = draw(st.integers(0, 4 * parts - 1)), 0.5 * pi / parts
+    start = draw(numbers(1.0, 5.0))
+    window = min(draw(numbers(0.0, 1.0)), width)
+    return after, Cell(1, draw(signs), (k + 0.5) * width - pi, 0.5 * width, start, start + window)
+
+
+@given(asked=turning(), share=numbers(-1.0, 1.0))
+def test_who_slides_turns_as_it_says(asked: tuple[Scene, Cell], share: float) -> None:
+    scene, cell = asked
+    least, most = slide_turns(scene, cell)
+    b, step = cell.bearing + share * cell.half, 1e-6
+    across = sqrt(1.0 - (scene.alpha * cos(b)) ** 2)
+    rate = scene.leader[1, 4]
+    drift = (cell.side * across + scene.alpha * sin(b)) / scene.d_min - rate
+    slope = contact_heading(b + step, cell.side, scene.alpha)
+    slope -= contact_heading(b - step, cell.side, scene.alpha)
+    toward = cell.side * (rate + slope / (2.0 * step) * drift)
+    assert least - 1e-4 <= toward <= most + 1e-4
+    # just after a contact the separation grows by who turns less toward the leader, and only then
+    t = cell.start
+    at = contact_on(scene, Contact(1, b, cell.side), t)
+    before, there = leader_at(scene, 1, t), leader_at(scene, 1, t + 1e-3)
+    for turn in (1.0, 0.0, -1.0):
+        on = fly_piece(at, cell.side * turn, 1e-3)
+        grown = hypot(on.x - there.x, on.y - there.y) - hypot(at.x - before.x, at.y - before.y)
+        expected = 0.5e-6 * across * (toward - turn)
+        assert abs(grown - expected) < 2e-8 * (1.0 + 1.0 / scene.d_min) ** 2 * (1.0 + rate * rate)
+    if toward > -1.0:
+        assert can_touch(scene, cell)
+
+
+@given(
+    middle=st.one_of(st.just(inf), numbers(0.3, 2.0 * pi)), share=numbers(0.01, 0.99),
+    outward=numbers(0.1, pi - 0.1), change=st.one_of(numbers(0.0, 3.0), numbers(3.0, 1e4)),
+)  # fmt: skip
+def test_a_turn_away_goes_on_for_what_is_left_of_it_or_beyond_outward(
+    middle: float, share: float, outward: float, change: float
+) -> None:
+    """A left turn, after a straight or a right turn of `middle`, past something on its right."""
+    whole = min(middle, 2.0 * pi)
+    turned = share * whole
+    # the costate's angle from the heading where the turn begins: 0 after a straight, or λ_ψ would
+    # not vanish where the middle turn begins as well as where it ends
+    began = 0.0 if middle == inf else pi - 0.5 * middle
+    at = began + turned
+    # λ_ψ = cos(began) − cos(at) for λ_p = 1 along angle 0; the heading is `outward` from outward
+    toward = at - (pi - outward)  # direction to the leader: pi − outward to the right
+    x, y = 1.0 + change * cos(toward), change * sin(toward)
+    size, along = hypot(x, y), atan2(y, x)
+    here = cos(began) - cos(at)
+    took = np.linspace(0.0, 2.0 * pi, 200_001)
+    rest = here + size * (cos(at - along) - np.cos(at - along + took))
+    ends = took[1:][rest[1:] < 0.0]
+    end = ends[0] if len(ends) else 2.0 * pi
+    assert end >= min(whole - turned, 2.0 * outward) - 1e-3
+
+
+def test_beyond_outward_is_twice_the_least_angle_of_the_heading_from_outward() -> None:
+    rng = np.random.default_rng(3)
+    for _ in range(200):
+        alpha, half = rng.uniform(0.1, 0.99), rng.uniform(0.0, 0.25 * pi)
+        quadrant = rng.integers(4)
+        cell = Cell(0, rng.choice([1.0, -1.0]), (quadrant + 0.5) * 0.5 * pi - pi, half, 0.0, inf)
+        scene = Scene(np.zeros((1, 5)), alpha, 1.0, 0.0)
+        bearings = np.linspace(cell.bearing - half, cell.bearing + half, 50)
+        angles = [acos(alpha * cos(b)) for b in bearings]
+        assert np.isclose(beyond_outward(scene, cell, 1.0), 2.0 * min(angles))
+        assert np.isclose(beyond_outward(scene, cell, -1.0), 2.0 * (pi - max(angles)))
+
+
+@given(
+    asked=turning(), pace=signs, shares=st.tuples(numbers(-1.0, 1.0), numbers(0.0, 1.0)),
+    turns=st.lists(st.tuples(numbers(-1.0, 1.0), numbers(0.01, 1.0)), max_size=4),
+    first=st.sampled_from([1.0, 0.9, 0.0, -1.0]),
+)  # fmt: skip
+def test_for_a_while_there_is_no_other_contact(
+    asked: tuple[Scene, Cell], pace: float, shares: tuple[float, float],
+    turns: list[tuple[float, float]], first: float,
+) -> None:  # fmt: skip
+    scene, cell = asked
+    apart = apart_by(scene, cell, pace)
+    assume(apart > 0.0)
+    t = cell.start + shares[1] * (cell.end - cell.start)
+    bearing = cell.bearing + shares[0] * cell.half
+    at = contact_on(scene, Contact(1, bearing, cell.side), t)
+    took = 0.0
+    for turn, lasts in [*turns, (first, pi)] if turns else [(first, pi)]:
+        begun = at
+        for along in np.linspace(0.0, min(lasts, apart - took), 60)[1:]:
+            h = begun.h + pace * cell.side * turn * along
+            if abs(turn) < 1e-6:
+                at = fly_piece(begun, 0.0, pace * along)
+            else:
+                # a turn of another radius
+                r = cell.side / turn
+                x = begun.x + r * (sin(h) - sin(begun.h))
+                at = Pose(x, begun.y - r * (cos(h) - cos(begun.h)), h)
+            now = t + pace * (took + along)
+            there = leader_at(scene, piece_at(scene.leader, now), now)
+            assert hypot(at.x - there.x, at.y - there.y) > scene.d_min - 1e-9
+        took += lasts
+        if took >= apart:
+            break
