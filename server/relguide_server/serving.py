@@ -1,6 +1,7 @@
 """How the service is started and stopped: what `relguide serve` calls."""
 
 import asyncio
+import gc
 import socket
 import sys
 from functools import partial
@@ -23,6 +24,10 @@ SWITCH = 0.5e-3
 """How long a thread may keep the interpreter from others that want it [s]: flights plan in threads,
 and with Python's own 5 ms each of them would hold up the event loop so long."""
 
+FULL = 50
+"""So many collections of middle age are made between two that look through all that lives, in place
+of Python's ten: such a one holds up the event loop for 15 to 30 ms."""
+
 
 class Server(uvicorn.Server):
     """Uvicorn's server, which tells streams and requests why they end."""
@@ -44,6 +49,7 @@ class Server(uvicorn.Server):
 def serve(app: FastAPI, *, host: str, port: int) -> None:
     """Serve until a signal says to stop; then end within three seconds."""
     sys.setswitchinterval(SWITCH)
+    gc.set_threshold(*gc.get_threshold()[:2], FULL)
     settings: Settings = app.state.settings
     options = uvicorn_options(
         host=host, port=port, most=settings.max_connections, proxies=settings.proxies
