@@ -135,3 +135,9 @@ def with_limit(scene: Scene, d_min: float) -> Scene:
 def with_time(scene: Scene, until: float) -> Scene:
     """The same scene with another time at which a search must have ended."""
     return Scene(scene.leader, scene.alpha, scene.d_min, scene.t_release, until)
+
+
+@njit(cache=True, nogil=True)
+def with_release(scene: Scene, t_release: float) -> Scene:
+    """The same scene with a slot that opens at another time [R/V_P]."""
+    return Scene(scene.leader, scene.alpha, scene.d_min, t_release, scene.until)

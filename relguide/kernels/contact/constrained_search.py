@@ -15,6 +15,7 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI
+from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.records import Contact, Pose, Scene, with_limit, with_time
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain import (
@@ -29,9 +30,9 @@ from relguide.kernels.contact.chain import (
 from relguide.kernels.contact.chain_refinement import fly_links, refine_chains
 from relguide.kernels.contact.clear_words import word_clears
 from relguide.kernels.contact.contact import contact_at, contact_exists
-from relguide.kernels.contact.contact_graph import best_chains
+from relguide.kernels.contact.contact_graph import Effort, best_chains
 from relguide.kernels.contact.delay_after_contact import delay_until_release
-from relguide.kernels.contact.nodes import contact_nodes
+from relguide.kernels.contact.nodes import BoolArray, Nodes, contact_nodes, nodes_closer
 from relguide.kernels.contact.one_contact import descend_basins, scan_contacts
 from relguide.kernels.contact.paths_to_contact import paths_to_contact
 from relguide.kernels.separation.clearance import leader_at, piece_at
@@ -40,7 +41,11 @@ from relguide.kernels.words.delay import DELAY_PIECES
 _AT_LIMIT = 1.02  # a slot less far out, in d_min, is reached by boundary arcs of a few degrees
 _CHAINS = 4  # of the graph, refined
 _PER_HOP = 2  # so many bearings on the disc let one contact be followed to all others
-_NEARLY = 0.07  # how much a chain may fall below what the graph sees of it [R/V_P]
+_BESIDE = 0.1  # contacts this close lead to the same places: 6° [rad]
+_CLOSER = 8  # steps from one bearing to the next where it is looked closer
+_HOPS_CLOSER = 2  # of contacts, to others, where it is looked closer
+_MOST_ALIVE = 10  # contacts that may still matter: of more it is not looked closer
+_WORTH = 2e-3  # how much sooner a contact has to promise an arrival for it [R/V_P]: 0.1 s
 
 
 @njit(cache=True, nogil=True)
@@ -90,19 +95,58 @@ def best_constrained_path(
 def _search(
     start: Pose, scene: Scene, bearings: int, tangents: FloatArray, beat: float, legs: FloatArray
 ) -> tuple[float, int]:
-    """As `best_constrained_path`, with so many bearings."""
-    nodes = contact_nodes(scene, bearings, tangents)
+    """As `best_constrained_path`, with so many bearings.
+
+    Round a leader that turns it is looked closer where only a few contacts may still matter, since
+    windows of bearings are narrow there.
+    """
+    nodes, width = contact_nodes(scene, bearings, tangents), TWO_PI / bearings
+    fresh, alive = np.ones(len(nodes.bearings), np.bool_), np.zeros(len(nodes.bearings), np.bool_)
+    effort = Effort(width, bearings // _PER_HOP, _BESIDE)
+    best, count = _look(start, scene, nodes, fresh, alive, effort, beat, legs)
+    keeps_straight = len(scene.leader) == 1
+    if keeps_straight or not 0 < alive.sum() <= _MOST_ALIVE or time_is_up(scene.until):
+        return best, count
+    step = width / _CLOSER
+    closer, added = nodes_closer(nodes, alive, step)
+    then_alive, found = np.zeros(len(added), np.bool_), np.zeros_like(legs)
+    effort = Effort(step, _HOPS_CLOSER, 1.2 * step)
+    time, more = _look(start, scene, closer, added, then_alive, effort, best, found)
+    if more > 0:
+        best, count = time, more
+        legs[:] = found
+    return best, count
+
+
+@njit(cache=True, nogil=True)
+def _look(
+    start: Pose, scene: Scene, nodes: Nodes, fresh: BoolArray, alive: BoolArray, effort: Effort,
+    beat: float, legs: FloatArray,
+) -> tuple[float, int]:  # fmt: skip
+    """As `best_constrained_path`, by way of some nodes.
+
+    Args:
+        start: where the path begins, at t = 0.
+        scene: what it has to reckon with.
+        nodes: the contacts; takes what is found of the fresh ones.
+        fresh: paths by way of others alone are known already. shape (n,)
+        alive: takes those from which a path without the limit would be faster by what it is worth
+            to look closer. shape (n,)
+        effort: how closely the graph is searched.
+        beat: an arrival already known [R/V_P].
+        legs: takes the legs of the path.
+    """
     path = np.empty((2, 5))
-    best = scan_contacts(start, scene, nodes, beat, path)
-    best = descend_basins(start, scene, nodes, TWO_PI / bearings, best, path)
+    best = scan_contacts(start, scene, nodes, fresh, beat, path)
+    best = descend_basins(start, scene, nodes, fresh, effort.width, best, path)
     found = 0
     if best < beat:
         found = 2
         legs[:2, 0] = WORD
         legs[:2, 1:6] = path
     chains = np.empty((_CHAINS, MAX_CONTACTS + 1, 4))
-    hops, reached, lower = bearings // _PER_HOP, nodes.time.copy(), nodes.lower.copy()
-    kept = best_chains(scene, nodes, best, _NEARLY, hops, True, chains)
+    reached, lower = nodes.time.copy(), nodes.lower.copy()
+    kept = best_chains(scene, nodes, fresh, best, effort, True, chains)
     if kept > 0 and chains[0, 0, 0] == scene.t_release:
         contacts = int(chains[0, 0, 1])
         chain = chain_of(chains[0, 1 : contacts + 1], np.zeros((MAX_LEGS, 6)))
@@ -110,8 +154,10 @@ def _search(
             legs[: contacts + 1] = chain.legs[: contacts + 1]
             return scene.t_release, contacts + 1
         nodes.time[:], nodes.lower[:] = reached, lower
-        kept = best_chains(scene, nodes, best, _NEARLY, hops, False, chains)
-    time, count = refine_chains(start, scene, chains[:kept], 0.5 * TWO_PI / bearings, best, legs)
+        kept = best_chains(scene, nodes, fresh, best, effort, False, chains)
+    time, count = refine_chains(start, scene, chains[:kept], 0.5 * effort.width, best, legs)
+    alive[:] = nodes.lower < time - _WORTH
+    nodes.time[:], nodes.lower[:] = reached, lower
     return (time, count) if count > 0 else (best, found)
 
 

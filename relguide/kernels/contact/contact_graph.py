@@ -27,8 +27,8 @@ from relguide.kernels.contact.contact import (
     disc_on,
     slide_within,
 )
-from relguide.kernels.contact.delay_after_contact import delay_until_release
-from relguide.kernels.contact.nodes import Nodes, contact_of
+from relguide.kernels.contact.delay_after_contact import delay_until_release, delays_by_straights
+from relguide.kernels.contact.nodes import BoolArray, Nodes, contact_of
 from relguide.kernels.contact.paths_to_contact import earliest_arrival, not_before_slot
 from relguide.kernels.separation.clearance import piece_at
 from relguide.kernels.words.delay import DELAY_PIECES
@@ -36,7 +36,7 @@ from relguide.kernels.words.extremals import MAX_ROWS, solve
 
 _TRIES = 4  # times the hops of a round: so many nodes are left by a delay path, 0.3 ms each
 _ROUNDS = 3  # of hops, with boundary arcs before and after: chains with up to two hops
-_BESIDE = 0.1  # nodes this close lead to the same places: 6° [rad]
+_NEARLY = 0.07  # chains on the grid that arrive this much later are kept, to be refined [R/V_P]
 _BETTER = 1e-9  # a label must fall by more than this [R/V_P], or rounding goes round in circles
 
 
@@ -65,9 +65,20 @@ class _Graph(NamedTuple):
     """Room for words. shape (MAX_ROWS, 5)"""
 
 
+class Effort(NamedTuple):
+    """How closely the graph is searched."""
+
+    width: float
+    """From one bearing that has not been looked at before to the next [rad]."""
+    hops: int
+    """From how many nodes words to other nodes are looked for, in each round."""
+    beside: float
+    """Nodes this close lead to the same places: of those one is followed in a round [rad]."""
+
+
 @njit(cache=True, nogil=True)
 def best_chains(
-    scene: Scene, nodes: Nodes, beat: float, slack: float, hops: int, delays: bool,
+    scene: Scene, nodes: Nodes, fresh: BoolArray, beat: float, effort: Effort, delays: bool,
     chains: FloatArray,
 ) -> int:  # fmt: skip
     """The best chains of two contacts or more on the grid, best first.
@@ -75,9 +86,9 @@ def best_chains(
     Args:
         scene: what a path has to reckon with.
         nodes: the contacts, from `one_contact.scan_contacts`; their labels fall.
+        fresh: chains of others alone are left out. shape (n,)
         beat: an arrival already known [R/V_P].
-        slack: chains on the grid that arrive this much later are kept, to be refined [R/V_P].
-        hops: from how many nodes words to other nodes are looked for, in each round.
+        effort: how closely it is searched.
         delays: whether paths that arrive at t_release itself, by a delay, are looked for.
         chains: takes the chains: a row with their arrival and number of contacts, then rows as in
             `chain.Chain`. One that arrives at t_release itself needs a delay behind its last
@@ -86,19 +97,21 @@ def best_chains(
     Returns:
         how many.
     """
-    graph = _start_graph(scene, nodes, beat + slack)
-    best, tries, end = beat, _TRIES * hops, -1
+    graph = _start_graph(scene, nodes, beat + _NEARLY)
+    best, tries, end = beat, _TRIES * effort.hops, -1
+    if delays and scene.t_release < beat:
+        end = _delay_by_straights(scene, nodes)
     for turn in range(_ROUNDS):
         # where delays are looked for, before boundary arcs too: these come to a contact sooner,
         # but then there may be no delay that keeps clear
         for slides in range(0 if delays else 1, 2):
-            if slides == 1:
-                _slide_on(scene, nodes, graph, best + slack)
-            best = _go_on(scene, nodes, graph, best, slack)
-            if delays and nodes.lower.min() <= scene.t_release < best:
-                end, tries = _delay(scene, nodes, graph, tries)
             if end >= 0:
                 break
+            if slides == 1:
+                _slide_on(scene, nodes, graph, best + _NEARLY)
+            best = _go_on(scene, nodes, graph, best)
+            if delays and nodes.lower.min() <= scene.t_release < best:
+                end, tries = _delay(scene, nodes, graph, tries)
         if end >= 0:
             # what arrives as the slot opens cannot be beaten
             graph.arrival[:] = inf
@@ -106,11 +119,11 @@ def best_chains(
             break
         if turn == _ROUNDS - 1 or time_is_up(scene.until):
             break
-        _hop(scene, nodes, graph, best, hops)
+        _hop(scene, nodes, graph, best, effort)
         graph.pending[:] = graph.fresh
         if not graph.pending.any():
             break
-    return _collect(nodes, graph, best + slack, chains)
+    return _collect(nodes, fresh, graph, best + _NEARLY, chains)
 
 
 @njit(cache=True, nogil=True)
@@ -171,13 +184,13 @@ def _slide_to_next(scene: Scene, nodes: Nodes, n: int) -> tuple[int, float, floa
     side, bearing = nodes.sides[n], nodes.bearings[n]
     i = piece_at(leader, t)
     for _ in range(len(leader)):
-        ring = (2 * i + (0 if side > 0.0 else 1)) * nodes.size
+        ring = 2 * i + (0 if side > 0.0 else 1)
         disc = disc_on(scene, i, side)
         sense = boundary_arc_sense(bearing, disc)
         if sense == 0.0:
             break
         m, gap = -1, inf
-        for j in range(ring, ring + nodes.size):
+        for j in range(nodes.first[ring], nodes.first[ring + 1]):
             ahead = wrap(sense * (nodes.bearings[j] - bearing))
             if 1e-9 < ahead < gap:
                 m, gap = j, ahead
@@ -194,7 +207,7 @@ def _slide_to_next(scene: Scene, nodes: Nodes, n: int) -> tuple[int, float, floa
 
 
 @njit(cache=True, nogil=True)
-def _go_on(scene: Scene, nodes: Nodes, graph: _Graph, best: float, slack: float) -> float:
+def _go_on(scene: Scene, nodes: Nodes, graph: _Graph, best: float) -> float:
     """Find the way on to the slot from every node whose label has fallen; the least arrival."""
     for n in range(len(nodes.time)):
         if graph.fresh[n] == 0.0:
@@ -208,10 +221,28 @@ def _go_on(scene: Scene, nodes: Nodes, graph: _Graph, best: float, slack: float)
         nodes.lower[n], graph.arrival[n] = inf, inf
         if count > 0:
             nodes.lower[n] = max(t + graph.rows[0, 0], scene.t_release)
-            graph.arrival[n], _ = first_clear(pose, t, graph.rows[:count], scene, best + slack)
+            graph.arrival[n], _ = first_clear(pose, t, graph.rows[:count], scene, best + _NEARLY)
         best = min(best, graph.arrival[n])
         _note_onward(scene, nodes, graph, n)
     return best
+
+
+@njit(cache=True, nogil=True)
+def _delay_by_straights(scene: Scene, nodes: Nodes) -> int:
+    """As `_delay`, from nodes as the start leads to them, as soon as it can be and as late.
+
+    With two turns at most.
+    """
+    for n in np.argsort(nodes.time):
+        soonest, latest = nodes.time[n], nodes.latest[n]
+        if latest == 0.0 or time_is_up(scene.until):
+            continue
+        for t in (soonest, latest):
+            if (t == latest or nodes.lower[n] == scene.t_release) and delays_by_straights(
+                contact_at(scene, t, nodes.bearings[n], nodes.sides[n]), t, scene
+            ):
+                return int(n)
+    return -1
 
 
 @njit(cache=True, nogil=True)
@@ -242,11 +273,11 @@ def _delay(scene: Scene, nodes: Nodes, graph: _Graph, tries: int) -> tuple[int, 
 
 
 @njit(cache=True, nogil=True)
-def _hop(scene: Scene, nodes: Nodes, graph: _Graph, best: float, hops: int) -> None:
+def _hop(scene: Scene, nodes: Nodes, graph: _Graph, best: float, effort: Effort) -> None:
     """Find words from the most promising nodes to all others."""
     time, lower = nodes.time, nodes.lower
     near = np.zeros(len(time))  # nodes beside one that was followed in this round
-    for _ in range(hops):
+    for _ in range(effort.hops):
         n = -1
         for m in range(len(time)):
             if (
@@ -258,9 +289,9 @@ def _hop(scene: Scene, nodes: Nodes, graph: _Graph, best: float, hops: int) -> N
                 n = m
         if n < 0 or time_is_up(scene.until):
             break
-        ring = n // nodes.size * nodes.size
-        for m in range(ring, ring + nodes.size):
-            if abs(wrap_signed(nodes.bearings[m] - nodes.bearings[n])) < _BESIDE:
+        ring = nodes.rings[n]
+        for m in range(nodes.first[ring], nodes.first[ring + 1]):
+            if abs(wrap_signed(nodes.bearings[m] - nodes.bearings[n])) < effort.beside:
                 near[m] = 1.0
         graph.hopped[n] = time[n]
         _hop_from(scene, nodes, graph, n, best)
@@ -289,13 +320,15 @@ def _hop_from(scene: Scene, nodes: Nodes, graph: _Graph, n: int, best: float) ->
 
 
 @njit(cache=True, nogil=True)
-def _collect(nodes: Nodes, graph: _Graph, beat: float, chains: FloatArray) -> int:
+def _collect(nodes: Nodes, fresh: BoolArray, graph: _Graph, beat: float, chains: FloatArray) -> int:
     """The chains that end in the best nodes; of those alike in sides and links only the best."""
     kept = 0
     trial = np.empty((MAX_CONTACTS + 1, 4))
     for end in np.argsort(graph.arrival):
         if graph.arrival[end] >= beat or kept == len(chains):
             break
+        if not _is_fresh(fresh, graph, end):
+            continue
         contacts = _trace(nodes, graph, end, trial)
         if contacts > MAX_CONTACTS:
             continue
@@ -307,6 +340,15 @@ def _collect(nodes: Nodes, graph: _Graph, beat: float, chains: FloatArray) -> in
             chains[kept] = trial
             kept += 1
     return kept
+
+
+@njit(cache=True, nogil=True)
+def _is_fresh(fresh: BoolArray, graph: _Graph, end: int) -> bool:
+    """Whether a fresh node is on the way to a node, or it is one."""
+    n = end
+    while n >= 0 and not fresh[n]:
+        n = int(graph.before[n])
+    return n >= 0
 
 
 @njit(cache=True, nogil=True)

@@ -21,7 +21,7 @@ from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain_refinement import FINEST, GAIN, vertex
 from relguide.kernels.contact.clear_words import first_clear, to_slot_frame, word_clears
 from relguide.kernels.contact.contact import contact_at, contact_exists, contact_on
-from relguide.kernels.contact.nodes import Nodes, contact_of
+from relguide.kernels.contact.nodes import BoolArray, Nodes, contact_of, neighbours
 from relguide.kernels.contact.paths_to_contact import (
     earliest_arrival,
     not_before_slot,
@@ -45,25 +45,29 @@ class Workspace(NamedTuple):
     """Takes the two rows of the path found. shape (2, 5)"""
     reached: FloatArray
     """Takes the earliest time at which the contact is reached with the limit kept, and a lower
-    bound of the arrival from there; infinite if that is too late. shape (2,)"""
+    bound of the arrival from there; infinite if that is too late. Then the last time from which the
+    slot could be reached as it opens, or 0. shape (3,)"""
 
 
 @njit(cache=True, nogil=True)
 def workspace() -> Workspace:
     """Room, empty."""
     return Workspace(
-        np.empty((MAX_ROWS, 5)), np.empty((MAX_ROWS, 5)), np.empty((2, 5)), np.empty(2)
+        np.empty((MAX_ROWS, 5)), np.empty((MAX_ROWS, 5)), np.empty((2, 5)), np.empty(3)
     )
 
 
 @njit(cache=True, nogil=True)
-def scan_contacts(start: Pose, scene: Scene, nodes: Nodes, beat: float, path: FloatArray) -> float:
+def scan_contacts(
+    start: Pose, scene: Scene, nodes: Nodes, fresh: BoolArray, beat: float, path: FloatArray
+) -> float:
     """The fastest path through one of many contacts, those that may be reached soonest first.
 
     Args:
         start: where the path begins, at t = 0.
         scene: what it has to reckon with.
         nodes: the contacts; takes what is found of each.
+        fresh: which are looked at. shape (n,)
         beat: an arrival already known [R/V_P].
         path: takes the two rows of the fastest path. shape (2, 5)
 
@@ -71,13 +75,13 @@ def scan_contacts(start: Pose, scene: Scene, nodes: Nodes, beat: float, path: Fl
         its arrival [R/V_P]; `beat` if none is earlier.
     """
     room = workspace()
-    soonest = _soonest_arrivals(start, scene, nodes)
+    soonest = _soonest_arrivals(start, scene, nodes, fresh)
     best = beat
     for n in np.argsort(soonest):
         if soonest[n] >= best + _HIDDEN or time_is_up(scene.until):
             break
         arrival = through_contact(start, scene, contact_of(nodes, n), best + _HIDDEN, room)
-        nodes.time[n], nodes.lower[n] = room.reached[0], room.reached[1]
+        nodes.time[n], nodes.lower[n], nodes.latest[n] = room.reached
         nodes.arrival[n] = arrival if arrival < best + _HIDDEN else inf
         if arrival < best:
             best = arrival
@@ -86,13 +90,16 @@ def scan_contacts(start: Pose, scene: Scene, nodes: Nodes, beat: float, path: Fl
 
 
 @njit(cache=True, nogil=True)
-def _soonest_arrivals(start: Pose, scene: Scene, nodes: Nodes) -> FloatArray:
-    """No path through a contact is at the slot before its time here [R/V_P]: shape (n,)."""
+def _soonest_arrivals(start: Pose, scene: Scene, nodes: Nodes, fresh: BoolArray) -> FloatArray:
+    """No path through a contact that is looked at is at the slot before its time here [R/V_P].
+
+    shape (n,)
+    """
     count = len(nodes.bearings)
     soonest = np.full(count, inf)
     for n in range(count):
         contact = contact_of(nodes, n)
-        if contact_exists(contact.bearing, scene.alpha):
+        if fresh[n] and contact_exists(contact.bearing, scene.alpha):
             t = earliest_arrival(start, 0.0, scene, contact)
             soonest[n] = max(t, scene.t_release)
             if contact.piece + 1 == len(scene.leader):
@@ -104,14 +111,16 @@ def _soonest_arrivals(start: Pose, scene: Scene, nodes: Nodes) -> FloatArray:
 
 @njit(cache=True, nogil=True)
 def descend_basins(
-    start: Pose, scene: Scene, nodes: Nodes, width: float, best: float, path: FloatArray
-) -> float:
+    start: Pose, scene: Scene, nodes: Nodes, fresh: BoolArray, width: float, best: float,
+    path: FloatArray,
+) -> float:  # fmt: skip
     """From the least arrivals that a scan has seen, downward between its bearings.
 
     Args:
         start: where the path begins, at t = 0.
         scene: what it has to reckon with.
         nodes: the contacts, from `scan_contacts`.
+        fresh: which have been looked at since this was last done. shape (n,)
         width: from one bearing of the grid to the next [rad].
         best: the least arrival so far [R/V_P].
         path: takes the two rows of a faster path. shape (2, 5)
@@ -121,6 +130,10 @@ def descend_basins(
     """
     room, nearby = workspace(), np.empty((2, 5))
     taken = np.zeros(len(nodes.bearings))
+    for n in range(len(taken)):
+        before, after = neighbours(nodes, n)
+        if not (fresh[n] or fresh[before] or fresh[after]):
+            taken[n] = 1.0
     for _ in range(_BASINS):
         at = _lowest_basin(nodes, taken)
         if at < 0:
@@ -136,20 +149,17 @@ def descend_basins(
     # while the leader turns windows are narrow: it may fall towards the end of one
     if len(scene.leader) > 1:
         for n in range(len(nodes.bearings)):
-            for after in _neighbours(nodes, n):
-                if nodes.arrival[n] < inf and nodes.arrival[after] == inf:
-                    away = wrap_signed(nodes.bearings[after] - nodes.bearings[n])
+            for beside in neighbours(nodes, n):
+                if (
+                    nodes.arrival[n] < inf
+                    and nodes.arrival[beside] == inf
+                    and (fresh[n] or fresh[beside])
+                ):
+                    away = wrap_signed(nodes.bearings[beside] - nodes.bearings[n])
                     contact = contact_of(nodes, n)
                     stride = 0.25 * width
                     best = _descend_edge(start, scene, contact, away, stride, best, room, path)
     return best
-
-
-@njit(cache=True, nogil=True)
-def _neighbours(nodes: Nodes, n: int) -> tuple[int, int]:
-    """The nodes before and after one in its ring."""
-    ring = n // nodes.size * nodes.size
-    return ring + (n - ring - 1) % nodes.size, ring + (n - ring + 1) % nodes.size
 
 
 @njit(cache=True, nogil=True)
@@ -158,7 +168,7 @@ def _lowest_basin(nodes: Nodes, taken: FloatArray) -> int:
     at, arrival = -1, nodes.arrival
     for n in range(len(arrival)):
         if arrival[n] < inf and taken[n] == 0.0 and (at < 0 or arrival[n] < arrival[at]):
-            before, after = _neighbours(nodes, n)
+            before, after = neighbours(nodes, n)
             if arrival[n] <= arrival[after] and arrival[n] <= arrival[before]:
                 at = n
     return at
@@ -170,7 +180,7 @@ def _hidden_below(nodes: Nodes, at: int, width: float) -> float:
 
     What a parabola says, or the rise to them where an edge may hide more.
     """
-    before, after = _neighbours(nodes, at)
+    before, after = neighbours(nodes, at)
     arrival = nodes.arrival
     _, promised = vertex(arrival[before], arrival[at], arrival[after], width)
     rise = max(arrival[after], arrival[before]) - arrival[at]
@@ -271,7 +281,7 @@ def through_contact(
         time for the search is up.
     """
     reached, onward = room.reached, room.onward
-    reached[:] = inf
+    reached[:2], reached[2] = inf, 0.0
     if not contact_exists(contact.bearing, scene.alpha):
         return inf
     if time_is_up(scene.until):
@@ -296,6 +306,8 @@ def through_contact(
             continue
         if t < reached[0]:
             reached[0], reached[1] = t, lower
+        if lower == scene.t_release:
+            reached[2] = max(reached[2], t)
         arrival, j = first_clear(there, t, onward[:m], scene, beat)
         if j >= 0:
             beat = arrival

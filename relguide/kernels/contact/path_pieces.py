@@ -6,7 +6,7 @@ Slot frame: lengths in R, times in R/V_P, angles counter-clockwise. What comes o
 import numpy as np
 from numba import njit
 
-from relguide.kernels.base.records import Pose, Scene, with_limit
+from relguide.kernels.base.records import Pose, Scene, with_limit, with_release
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.boundary_arc import MAX_NODES, boundary_arc_pieces
 from relguide.kernels.contact.chain import BOUNDARY_ARC, DELAY
@@ -20,6 +20,8 @@ NO_TURN = 1e-9
 """A turn below this is rounding [rad]; likewise a straight, in R."""
 SAME = 2e-4
 """Flown in pieces a path takes as long as it did when it was found, to this [R/V_P]: some ms."""
+EARLY = 1e-5
+"""Along a boundary arc a path may be in the slot so long before it opens [R/V_P]: 0.5 ms."""
 _UNLIKE = 2.0  # no ε: what follows a boundary arc is no part of it
 
 
@@ -52,8 +54,9 @@ def pieces_of(
         boundary_arcs += legs[k, 0] == BOUNDARY_ARC
     pieces = np.empty((3, 3 * len(legs) + DELAY_PIECES + 2 * MAX_NODES * boundary_arcs))
     arcs = np.empty((2 * MAX_NODES if boundary_arcs > 0 else 0, 2))
-    # what has been found keeps d_min, but for rounding
+    # what has been found keeps d_min, and arrives in the open slot, but for rounding
     eased = with_limit(scene, scene.d_min - GRAZE)
+    early = with_release(eased, scene.t_release - EARLY)
     row = np.empty(5)
     n, t, last = 0, 0.0, _UNLIKE
     for k in range(len(legs)):
@@ -67,20 +70,17 @@ def pieces_of(
                 n += 1
             last = _UNLIKE
             continue
-        delays, row[:] = legs[k, 0] == DELAY, legs[k, 1:6]
-        if boundary_arcs > 0 and k + 1 == len(legs) and not delays:
-            # a boundary arc's last node lies within rounding of the limit: it must not cost the
-            # best word; nor may it where it comes so early that the slot has yet to open
-            closes = best_word_near(pose, t, eased, row)
-            delays = not closes or t + row[2:5].sum() > time + SAME
-            if delays and t >= scene.t_release:
-                return pieces[:, :0]
-        if delays:
+        if legs[k, 0] == DELAY:
             delay = np.empty((DELAY_PIECES, 2))
             if not delay_until_release(pose, t, eased, delay):
                 return pieces[:, :0]
             signs, amounts = delay[:, 0], delay[:, 1]
         else:
+            row[:] = legs[k, 1:6]
+            # a boundary arc's last node lies within rounding of the limit and of its time: it must
+            # not cost the best word
+            if boundary_arcs > 0 and k + 1 == len(legs) and not best_word_near(pose, t, early, row):
+                return pieces[:, :0]
             signs, amounts = SIGNS[int(row[1])], row[2:5]
         for i in range(len(signs)):
             sign, amount = signs[i], amounts[i]

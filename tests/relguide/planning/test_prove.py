@@ -124,18 +124,14 @@ def test_where_the_slot_cannot_be_met_as_it_opens_the_next_path_is_optimal() -> 
 
 @pytest.mark.parametrize(
     ("case", "late", "best", "proof"),
-    [
-        (24, 505.4, 439.282, "bound"),
-        (84, 726.2, 719.485, "certified"),
-        (92, 656.1, 596.319, "certified"),
-    ],
+    [(24, 505.4, 439.282, "bound"), (92, 656.1, 596.319, "certified")],
 )
 def test_what_a_coarse_search_misses_the_proof_finds(
     case: int, late: float, best: float, proof: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A path through two contacts, and two that delay after one until the slot opens."""
+    """A path through two contacts, and one that delays after one until the slot opens."""
     situation = proofs.draw(TURNING, np.random.default_rng([102, 2, case]), case)
-    monkeypatch.setattr(constrained_path, "TURNING_BEARINGS", 3)
+    monkeypatch.setattr(constrained_path, "TURNING_BEARINGS", 1)
     planned = plan(situation)
     assert isinstance(planned, Plan)
     assert planned.time_to_converge == pytest.approx(late, abs=0.1)
