@@ -92,7 +92,9 @@ def test_processes_plan_what_takes_longer_and_leave_with_it() -> None:
         answer = httpx.post(f"http://{address}/api/v1/plans?max_ms=10000", json=HARD, timeout=60.0)
         assert answer.json()["status"] == "planned"
         (process,) = app.state.workers.processes
-        assert app.state.workers.done["trials"] >= 1  # more, and "long_plans" too, on a busy machine
+        assert (
+            app.state.workers.done["trials"] >= 1
+        )  # more, and "long_plans" too, on a busy machine
     assert not os.path.exists(f"/proc/{process}")
 
 
