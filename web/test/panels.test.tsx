@@ -97,9 +97,23 @@ describe("panels", () => {
     const { session } = flying();
     render(<PlanNumbers session={session} />, place);
     const text = place.textContent ?? "";
-    for (const part of ["04:10", "joins at 04:10", "RS", "closing 78 kt", "Optimal"]) {
+    for (const part of ["04:10", "joins at 04:10", "RS", "closing 78 kt", "Optimal", "0.08 ms"]) {
       expect(text).toContain(part);
     }
+  });
+
+  test("a path that is kept was not planned in no time", () => {
+    const { store, session } = flying();
+    store.receive(tick(1, [planChanged(1, { compute_ms: 0 }), sample(1)]), 1000);
+    render(<PlanNumbers session={session} />, place);
+    expect(place.textContent).toContain("path kept");
+    expect(place.textContent).not.toContain("0.00 ms");
+  });
+
+  test("of alternatives it is said that their times are planned ones", () => {
+    const { session } = flying();
+    render(<Alternatives session={session} />, place);
+    expect(place.querySelector("header")?.textContent).toContain("as planned");
   });
 
   test.each(["heading", "escape"] as const)(

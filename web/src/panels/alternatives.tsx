@@ -15,7 +15,12 @@ export function Alternatives(props: { session: Pick<Session, "shown"> }) {
   const { plan: shownPlan, state } = shown.numbers.value;
   const plan = shownPlan?.plan;
   return (
-    <Panel name="alternatives" title="Alternatives" scrolls>
+    <Panel
+      name="alternatives"
+      title="Alternatives"
+      aside={<span class="hint">as planned</span>}
+      scrolls
+    >
       {plan === undefined ? (
         <p class="hint">No path is proposed or flown now.</p>
       ) : (

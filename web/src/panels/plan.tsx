@@ -169,9 +169,14 @@ function SafetyReadings(props: { numbers: Numbers; isIntentKnown: boolean | null
         <Reading
           label="Planner"
           value={plannerName(plan.plan.planner)}
-          note={`${plan.plan.compute_ms.toFixed(2)} ms`}
+          note={planningTime(plan.plan.compute_ms)}
         />
       )}
     </>
   );
+}
+
+/** What planning took; a path that is kept is not planned anew. */
+function planningTime(ms: number): string {
+  return ms > 0 ? `${ms.toFixed(2)} ms` : "path kept";
 }
