@@ -58,7 +58,7 @@ def begin(*arguments: str, **options: Any) -> Iterator[subprocess.Popen[str]]:
                 os.killpg(running.pid, signal.SIGKILL)
 
 
-def wait_for(what: Callable[[], bool], within: float = 60.0) -> None:
+def wait_for(what: Callable[[], bool], within: float = 300.0) -> None:
     end = monotonic() + within
     while not what():
         assert monotonic() < end
