@@ -43,6 +43,7 @@ UNKNOWN_HOST = (
 )
 FOREIGN = "A page of {origin} may not do this: only pages of this server may."
 NO_TOKEN = "This needs a token: send Authorization: Bearer …, or open /?token=… in a browser."
+UNKNOWN_TOKEN = "This token is not one of the service's: ask whoever runs it for one."
 TOO_LITTLE = "This token may {role}; this needs one that may {needed}."
 
 
@@ -115,7 +116,8 @@ class Access:
         token = _token(headers)
         role = self._role(token)
         if role is None:
-            return _refuse(scope, 401, NO_TOKEN, headers={"WWW-Authenticate": "Bearer"})
+            why = UNKNOWN_TOKEN if token else NO_TOKEN
+            return _refuse(scope, 401, why, headers={"WWW-Authenticate": "Bearer"})
         needed = _needed(scope)
         if ROLES.index(role) < ROLES.index(needed):
             return _refuse(scope, 403, TOO_LITTLE.format(role=role, needed=needed))

@@ -127,6 +127,10 @@ def test_a_flight_is_commanded_by_its_owner_alone(guarded: TestClient) -> None:
 
 def test_a_browser_shows_its_token_once(guarded: TestClient) -> None:
     assert guarded.get("/", follow_redirects=False).status_code == 401
+    unknown = guarded.get("/api/v1/flights", headers={"Authorization": "Bearer " + 16 * "x"})
+    assert unknown.status_code == 401
+    assert "not one of the service's" in unknown.json()["detail"]
+    assert "needs a token" in guarded.get("/api/v1/flights").json()["detail"]
     opened = guarded.get(f"/?token={TOKENS['view']}", follow_redirects=False)
     assert (opened.status_code, opened.headers["location"]) == (303, "/")
     assert "HttpOnly; Path=/; SameSite=strict" in opened.headers["set-cookie"]
