@@ -13,11 +13,17 @@ from scipy.integrate import quad
 from relguide.kernels.base.records import Contact, Pose, Scene, Velocity
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.cells import Cell, contacts_within, turning_blur
-from relguide.kernels.bounds.contact_bound import cell_bound, leaving_bound, word_between
+from relguide.kernels.bounds.contact_bound import (
+    cell_bound,
+    leaving_bound,
+    soon_bound,
+    word_between,
+)
 from relguide.kernels.bounds.goal import Goal, arrives_at_release
+from relguide.kernels.bounds.junction import beyond_outward
 from relguide.kernels.bounds.round_time import round_bound, times_round
 from relguide.kernels.bounds.untouched import untouched_bound
-from relguide.kernels.bounds.word_bound import ANY
+from relguide.kernels.bounds.word_bound import ANY, OUTWARD
 from relguide.kernels.contact.contact import (
     contact_exists,
     contact_heading,
@@ -292,6 +298,42 @@ def test_no_contact_with_a_leader_that_turns_is_reached_or_left_sooner(seed: int
     assert reached > 300
     assert kept > 300
     assert barred > 30
+
+
+def test_who_turns_away_at_a_contact_is_told_from_who_turns_toward_the_leader() -> None:
+    """Paths to a contact, and from one, whose turn there is away: none sooner than what is said."""
+    rng = np.random.default_rng(12)
+    there = gone = 0
+    for _ in range(3_000):
+        scene = turning(rng)
+        b, side, half = rng.uniform(-pi, pi), rng.choice((1.0, -1.0)), 1e-6
+        t = rng.uniform(0.3, 0.9) * scene.leader[1, 0]
+        cell = Cell(0, side, b, half, t - half, t + half)
+        contact = contact_with(scene, b, side, t)
+        # LSL or RSR: away from the leader, which is to the left if it is passed counter-clockwise
+        turned = rng.uniform(0.05, 0.8) * t
+        ahead = rng.uniform(0.05, 0.9) * (t - turned)
+        away = np.array((t, 1 if side > 0.0 else 0, t - turned - ahead, ahead, turned))
+        start = flown_backward(contact, away)
+        if turned < 2.0 * pi and keeps(start, away, scene):
+            more = min(2.0 * pi - turned, beyond_outward(scene, cell, 1.0))
+            soon = soon_bound(start, scene, cell, FAR, OUTWARD)
+            assert soon <= t + more + 1e-4
+            there += soon > t + 0.5 * more
+        goal = Goal(rng.uniform(-6.0, 6.0), scene.alpha, False)
+        rows = np.empty((MAX_ROWS, 5))
+        on = Pose(contact.x - goal.x - goal.speed * t, contact.y, contact.h % (2.0 * pi))
+        later = scene._replace(leader=scene.leader - np.array([t, 0.0, 0.0, 0.0, 0.0]))
+        for row in rows[: solve(on, goal.speed, 0.0, rows)]:
+            hand = SIGNS[int(row[1]), 0]
+            if SIGNS[int(row[1]), 1] == 0.0 and hand == -side and keeps(contact, row, later):
+                more = min(2.0 * pi - row[2], beyond_outward(scene, cell, -1.0))
+                leaving = leaving_bound(scene, goal, cell, FAR, OUTWARD)
+                assert leaving <= row[0] + more + 1e-4
+                gone += leaving > row[0] + 0.5 * more
+                break
+    assert there > 50
+    assert gone > 50
 
 
 @pytest.mark.parametrize("seed", range(2))
