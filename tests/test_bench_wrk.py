@@ -2,7 +2,8 @@
 
 import pytest
 
-from tests.bench.service.wrk import read
+from tests.bench.service.speed import say_ticks
+from tests.bench.service.wrk import main, read
 
 PRINTED = """Running 4s test @ http://127.0.0.1:8000/healthz
   1 threads and 16 connections
@@ -42,3 +43,17 @@ def test_answers_that_were_no_answers_are_told(wrong: str) -> None:
 def test_what_wrk_does_not_print_is_refused() -> None:
     with pytest.raises(ValueError, match="not what wrk prints"):
         read("unable to connect")
+
+
+def test_without_wrk_it_says_what_does_the_same(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("shutil.which", lambda name: None)
+    with pytest.raises(SystemExit, match="2"):
+        main([])
+    assert "run python -m tests.bench.service.speed" in capsys.readouterr().err
+
+
+def test_ticks_are_said_for_each_watcher() -> None:
+    said = say_ticks(10, [40, 41], 81, 2.0)
+    assert said == "10 flights, 2 watchers: 20.2 ticks a second each"

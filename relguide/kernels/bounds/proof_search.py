@@ -112,21 +112,17 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
         if eased == 0 and find.best[0] > bound:
             _probe(search, problem, find, n, m)
         _drop_least(search)
-        if m < 0:
+        if m == _NO_LAST:
             # elsewhere than on the final leg the cells of last contacts are very many
             if (
-                (
-                    search.first.cells[n, 0] == final
-                    or size_of(search.first, n, problem.scene.d_min) < problem.paired
-                )
-                and m == _NO_LAST
-                and _goes_on(search, problem, n)
-            ):
+                search.first.cells[n, 0] == final
+                or size_of(search.first, n, problem.scene.d_min) < problem.paired
+            ) and _goes_on(search, problem, n):
                 _add(search, problem, n, _ONLY, bound)
                 for k in search.roots:
                     _add(search, problem, n, k, bound)
                 continue
-        elif eased == 0 and max(half, search.last.cells[m, 3]) < _EASED:
+        elif m >= 0 and eased == 0 and max(half, search.last.cells[m, 3]) < _EASED:
             at_end = min(search.first.cells[n, 0], search.last.cells[m, 0]) == final
             closer = _round_trip(search, problem, n, m) if at_end else bound
             if closer > bound:

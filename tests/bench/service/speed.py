@@ -75,11 +75,15 @@ async def _measure(service: Service, given: argparse.Namespace) -> None:
                 spent = service.processor_time() - before
                 rounds[name].append(Round(load, spent / max(len(load.latencies), 1)))
         if ticks:
-            rate = (sum(ticks) - counted) / (perf_counter() - began) / len(ticks)
-            console.print(
-                f"{given.flights} flights, {len(ticks)} watchers: {rate:.1f} ticks a second each"
-            )
+            spent = perf_counter() - began
+            console.print(say_ticks(given.flights, ticks, sum(ticks) - counted, spent))
     console.print(table(rounds))
+
+
+def say_ticks(flights: int, ticks: list[int], got: int, seconds: float) -> str:
+    """How many ticks a second each watcher got, of all that came in a time [s]."""
+    rate = got / seconds / len(ticks)
+    return f"{flights} flights, {len(ticks)} watchers: {rate:.1f} ticks a second each"
 
 
 @asynccontextmanager

@@ -27,7 +27,7 @@ from rich.table import Table
 from tests.bench.options import positive
 from tests.bench.service.service import Service, running
 from tests.bench.service.situations import STRAIGHT
-from tests.bench.service.speed import PLANS, watching
+from tests.bench.service.speed import PLANS, say_ticks, watching
 
 MISSING = "wrk is not installed: apt-get install wrk, or run python -m tests.bench.service.speed."
 BODIES = {"straight leader": STRAIGHT, "turning leader": EXAMPLE}
@@ -82,10 +82,8 @@ async def _measure(service: Service, given: argparse.Namespace, folder: Path) ->
                 found = await asyncio.to_thread(ask, service.port, path, options, given.seconds)
                 rounds[name].append(found)
         if ticks:
-            rate = (sum(ticks) - counted) / (perf_counter() - began) / len(ticks)
-            console.print(
-                f"{given.flights} flights, {len(ticks)} watchers: {rate:.1f} ticks a second each"
-            )
+            spent = perf_counter() - began
+            console.print(say_ticks(given.flights, ticks, sum(ticks) - counted, spent))
     console.print(table(rounds))
     return 1 if any(run.wrong for runs in rounds.values() for run in runs) else 0
 
