@@ -129,6 +129,20 @@ def refusal(error: ValidationError, content: object) -> ContractError:
     return ContractError(named, count=error.error_count())
 
 
+def refuse_parameters(findings: Sequence[Any]) -> ContractError:
+    """Pydantic's findings about the query of an address, in our words.
+
+    Args:
+        findings: as its `errors()` has them; the path of each begins with where the value stood
+            (`query`), and each value is the text that stood there.
+    """
+    problems = [
+        (_path({**e, "loc": e["loc"][1:]}, None), _sentence(e, _quote_parameter(e["input"])))
+        for e in findings
+    ]
+    return ContractError(problems[:MAX_LISTED], count=len(problems))
+
+
 def _unique_keys(pairs: list[tuple[str, object]]) -> dict[str, object]:
     members = dict(pairs)
     if len(members) < len(pairs):
@@ -171,6 +185,7 @@ def _texts(members: Mapping[str, object]) -> list[str]:
     return [value for value in members.values() if isinstance(value, str)]
 
 
+_TIME = "2026-11-23T06:30:00Z"
 _SENTENCES = {
     "string_unicode": "must be text without lone surrogates, not {given}.",
     "missing": "is missing.",
@@ -196,23 +211,33 @@ _SENTENCES = {
     "too_short": "must have at least {min_length} entries.",
     "string_too_long": "must have at most {max_length} characters.",
     "string_too_short": "must have at least {min_length} characters.",
+    "float_parsing": "must be a number, not {given}.",
+    "int_parsing": "must be a whole number, not {given}.",
+    "bool_parsing": "must be true or false, not {given}.",
+    "timezone_aware": f"must be a time with its zone, as {_TIME}, not {{given}}.",
+    "datetime_from_date_parsing": f"must be a time, as {_TIME}, not {{given}}; + is written %2B.",
 }
 """Pydantic's type of an error → our sentence, with the names of its context in braces."""
 _NUMBERS = ("float_type", "int_type", "int_from_float", "int_parsing_size")
 """Types that pydantic also gives to integers too large for it."""
 
 
-def _sentence(error: Any) -> str:
+def _sentence(error: Any, given: str = "") -> str:
     kind, value = error["type"], error["input"]
+    given = given or _quote(value)
     if kind in _NUMBERS and isinstance(value, int) and not isinstance(value, bool):
         return "is too large a number to be read."
     sentence = _SENTENCES.get(kind)
     if sentence is None:
-        return f"{error['msg']} (given: {_quote(value)})."
+        return f"{error['msg']} (given: {given})."
     context = dict(error.get("ctx", {}))
     if "tag" in context:
         context["tag"] = _quote(context["tag"])
-    return sentence.format(**context, given=_quote(value))
+    return sentence.format(**context, given=given)
+
+
+def _quote_parameter(value: object) -> str:
+    return _shorten(value) if isinstance(value, str) and value else _quote(value)
 
 
 def _quote(value: object) -> str:

@@ -23,14 +23,13 @@ from relguide.maps.isochrones import (
 from relguide.planning.limits import POSITION
 from relguide.planning.situation import Situation
 from relguide.planning.words import HORIZON
-from relguide_server.errors import Refusal
+from relguide_server.errors import Refusal, refusal_of
 from relguide_server.exchange import (
     JSON,
     KNOWN_PARAMETERS_ONLY,
     address_of,
     json_answer,
     parse_json,
-    problem_of,
     read_body,
     unless_left,
 )
@@ -132,7 +131,7 @@ async def show_area(
         try:
             given = parse(SituationBody, situation)
         except ContractError as error:
-            raise problem_of(error, under="situation") from None
+            raise refusal_of(error, under="situation") from None
     asked = AreaRequest(
         flight=flight,
         situation=given,
@@ -169,7 +168,7 @@ async def draw_area_of_body(
     try:
         asked = parse(AreaRequest, content)
     except ContractError as error:
-        raise problem_of(error) from None
+        raise refusal_of(error) from None
     return await _draw(asked, request, fleet, preparation)
 
 
@@ -226,7 +225,7 @@ def _situation_of(
         try:
             return situation_from_body(situation)
         except ContractError as error:
-            raise problem_of(error, under="situation") from None
+            raise refusal_of(error, under="situation") from None
     raise Refusal(422, ONE_OF_BOTH)
 
 

@@ -1,7 +1,8 @@
 """Every error as a problem document (RFC 9457), and the only place that catches `Exception`.
 
 - `Refusal`: a request that is understood and not served; routes raise it with a sentence.
-- `HTTPException`: starlette's own 404 and 405; `RequestValidationError`: FastAPI's own findings.
+- `HTTPException`: starlette's own 404 and 405; `RequestValidationError`: query parameters, told in
+  the contract's words.
 - `Exception`: a mistake of ours; the traceback goes to the log, a sentence to the client.
 """
 
@@ -14,11 +15,14 @@ from typing import Any
 import orjson
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
+from fastapi.routing import iter_route_contexts
 from pydantic import BaseModel, Field
 from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect
 from starlette.responses import Response
+from starlette.routing import compile_path
 
+from relguide.contract.refusal import ContractError, refuse_parameters
 from relguide_server.logs import request_id
 from relguide_server.problem_kinds import BY_STATUS, KINDS, PAGE
 
@@ -69,6 +73,23 @@ class Refusal(HTTPException):
         super().__init__(status, detail, headers)
         self.kind = kind
         self.errors = tuple(errors)
+
+
+def refusal_of(error: ContractError, status: int = 422, *, under: str = "") -> Refusal:
+    """What the contract refuses.
+
+    Args:
+        error: what is wrong.
+        status: 422, or 400 for a body that is no JSON at all.
+        under: where in the body the refused part is, e.g. `[3]`.
+    """
+    errors = [
+        ProblemError(path=f"{under}.{path}".strip(".") if under else path, message=message)
+        for path, message in error.problems
+    ]
+    first = f"{errors[0].path}: {errors[0].message}" if errors[0].path else errors[0].message
+    more = f" (and {error.count - 1} more)" if error.count > 1 else ""
+    return Refusal(status, first + more, errors=errors)
 
 
 def problem(
@@ -126,9 +147,11 @@ def answer_refusal(request: Request, error: HTTPException) -> Response:
     """The problem document of what is refused."""
     path, status = request.url.path, error.status_code
     errors = error.errors if isinstance(error, Refusal) else ()
-    detail = error.detail
+    detail, headers = error.detail, error.headers
     if not isinstance(error, Refusal) and detail == HTTPStatus(status).phrase:
         detail = _sentence(request, status)
+        if status == 405:
+            headers = {"Allow": ", ".join(_methods_at(request))}
     return problem(
         path,
         status,
@@ -136,8 +159,18 @@ def answer_refusal(request: Request, error: HTTPException) -> Response:
         kind=error.kind if isinstance(error, Refusal) else "",
         root=request.scope.get("root_path", ""),
         errors=errors,
-        headers=dict(error.headers) if error.headers else None,
+        headers=dict(headers) if headers else None,
     )
+
+
+def _methods_at(request: Request) -> list[str]:
+    """The methods that routes take at the path of a request; HEAD is answered as GET."""
+    path = request.scope["path"].removeprefix(request.scope.get("root_path", ""))
+    found: set[str] = set()
+    for route in iter_route_contexts(request.app.routes):
+        if route.methods and compile_path(route.path or "")[0].match(path):
+            found |= route.methods
+    return sorted(found | ({"HEAD"} if "GET" in found else set()))
 
 
 def _sentence(request: Request, status: int) -> str:
@@ -145,20 +178,15 @@ def _sentence(request: Request, status: int) -> str:
         case 404:
             return f"There is nothing at {request.url.path}. The API is described at /docs."
         case 405:
-            return f"{request.url.path} does not take {request.method}: see /docs for what it does."
+            takes = " or ".join(_methods_at(request))
+            return f"{request.url.path} takes {takes}, not {request.method}: see /docs."
         case _:
             return f"{HTTPStatus(status).description or HTTPStatus(status).phrase}."
 
 
 async def _answer_invalid(request: Request, error: Exception) -> Response:
     assert isinstance(error, RequestValidationError)
-    errors = [
-        ProblemError(path=".".join(map(str, item["loc"])), message=item["msg"])
-        for item in error.errors()
-    ]
-    detail = "; ".join(f"{e.path}: {e.message}" for e in errors)
-    root = request.scope.get("root_path", "")
-    return problem(request.url.path, 422, detail, root=root, errors=errors)
+    return answer_refusal(request, refusal_of(refuse_parameters(error.errors())))
 
 
 async def _note_left(request: Request, error: Exception) -> Response:

@@ -15,7 +15,7 @@ from starlette.requests import ClientDisconnect, HTTPConnection
 from starlette.responses import Response
 
 from relguide.contract.refusal import ContractError, loads
-from relguide_server.errors import ProblemError, Refusal
+from relguide_server.errors import Refusal, refusal_of
 
 T = TypeVar("T")
 SMALL = 16 * 1024
@@ -146,7 +146,7 @@ def parse_json(body: bytes) -> object:
     try:
         return loads(body)
     except ContractError as error:
-        raise problem_of(error, 400) from None
+        raise refusal_of(error, 400) from None
 
 
 async def read_object(request: Request) -> dict[str, object]:
@@ -201,23 +201,6 @@ def _parameters(dependant: Dependant) -> dict[str, bool]:
 
 KNOWN_PARAMETERS_ONLY = Depends(refuse_unknown_parameters)
 """What a router depends on."""
-
-
-def problem_of(error: ContractError, status: int = 422, *, under: str = "") -> Refusal:
-    """What the contract refuses, as a problem document.
-
-    Args:
-        error: what is wrong.
-        status: 422, or 400 for a body that is no JSON at all.
-        under: where in the body the refused part is, e.g. `[3]`.
-    """
-    errors = [
-        ProblemError(path=f"{under}.{path}".strip(".") if under else path, message=message)
-        for path, message in error.problems
-    ]
-    first = f"{errors[0].path}: {errors[0].message}" if errors[0].path else errors[0].message
-    more = f" (and {error.count - 1} more)" if error.count > 1 else ""
-    return Refusal(status, first + more, errors=errors)
 
 
 def json_answer(

@@ -38,12 +38,11 @@ from relguide.flying.orders import (
 )
 from relguide_server.access import expect_owner, owner_of
 from relguide_server.departures import DeparturesOf
-from relguide_server.errors import Refusal
+from relguide_server.errors import Refusal, refusal_of
 from relguide_server.exchange import (
     KNOWN_PARAMETERS_ONLY,
     address_of,
     json_answer,
-    problem_of,
     read_object,
 )
 from relguide_server.guards import VERSION
@@ -116,7 +115,7 @@ async def start_flight(
         # A recorded leader is read from a file: not on the event loop.
         departure = await asyncio.to_thread(departures.find, wanted)
     except ContractError as error:
-        raise problem_of(error) from None
+        raise refusal_of(error) from None
     if departure.first is not None:
         await asyncio.to_thread(
             preparation.admit, departure.first, request.app.state.settings.planner
@@ -220,7 +219,7 @@ async def command_flight(
     try:
         command = parse(FlightCommand, await read_object(request)).root
     except ContractError as error:
-        raise problem_of(error) from None
+        raise refusal_of(error) from None
     if flight.over:
         raise Refusal(409, "This flight has ended and takes no commands: start another one.")
     if flight.label.replay and not isinstance(command, PlayCommand | PauseCommand | SetRateCommand):

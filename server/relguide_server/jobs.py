@@ -36,8 +36,8 @@ from relguide.planning.plan import plan_at_once as exact_plan_at_once
 from relguide.planning.situation import Situation
 from relguide.units import Second
 from relguide_server.asked_flights import scenario_of
-from relguide_server.errors import Refusal
-from relguide_server.exchange import parse_json, problem_of
+from relguide_server.errors import Refusal, refusal_of
+from relguide_server.exchange import parse_json
 
 MAX_BATCH = 1000
 """Most situations in one request."""
@@ -94,7 +94,7 @@ def read_situation(body: bytes) -> tuple[Situation, Anchor]:
     try:
         content = quick_loads(body)
     except ContractError as error:
-        raise problem_of(error, 400) from None
+        raise refusal_of(error, 400) from None
     if isinstance(content, dict) and "id" not in content:
         row = plain_row(content)
         situation = None if row is None else situation_of(row)
@@ -161,7 +161,7 @@ def plan_situation(
     try:
         given = answer(situation, anchor, make, include=include, deadline=deadline, form=form)
     except ContractError as error:
-        raise problem_of(error) from None
+        raise refusal_of(error) from None
     return _answered(given, started)
 
 
@@ -280,7 +280,7 @@ def _read(
     try:
         return situation_from_body(parse(shape, content))
     except ContractError as error:
-        raise problem_of(error, under=under) from None
+        raise refusal_of(error, under=under) from None
 
 
 @cache

@@ -14,7 +14,7 @@ from relguide.contract.answers import Form, read_include
 from relguide.contract.bodies import NamedSituationBody, SituationBody
 from relguide.contract.messages import PlanAnswer, model_of
 from relguide.flying.plan_documents import NoPlanCard, PlanCard
-from relguide_server.errors import Refusal
+from relguide_server.errors import ProblemError, Refusal
 from relguide_server.exchange import (
     GEOJSON,
     JSON,
@@ -132,7 +132,9 @@ async def _read_wish(
     try:
         included = read_include(include)
     except ValueError as error:
-        raise Refusal(422, str(error)) from None
+        said = str(error)
+        wrong = [ProblemError(path="include", message=said)]
+        raise Refusal(422, said, errors=wrong) from None
     return Wish(planner=planner, include=included, budget=max_ms * 1e-3)
 
 

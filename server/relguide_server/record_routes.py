@@ -15,8 +15,8 @@ from relguide.contract.refusal import ContractError, parse
 from relguide.planning.extras import MissingExtra
 from relguide.planning.frames import LocalPlane
 from relguide_server.access import owner_of
-from relguide_server.errors import Refusal
-from relguide_server.exchange import KNOWN_PARAMETERS_ONLY, json_answer, problem_of, read_object
+from relguide_server.errors import Refusal, refusal_of
+from relguide_server.exchange import KNOWN_PARAMETERS_ONLY, json_answer, read_object
 from relguide_server.flights import status_of
 from relguide_server.live_fleet import FleetOf
 from relguide_server.mount import root_of
@@ -206,7 +206,7 @@ async def replay_flight(
     try:
         wanted = parse(NewReplay, await read_object(request)).root
     except ContractError as error:
-        raise problem_of(error) from None
+        raise refusal_of(error) from None
     about = await _find(flight_id, keeper)
     if about["form"] != VERSION:
         raise Refusal(409, f"It was recorded by relguide {about['version']}, in another form.")

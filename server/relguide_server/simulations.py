@@ -15,13 +15,13 @@ from relguide.contract.simulation_bodies import (
     expect_unwatched,
 )
 from relguide_server.asked_flights import scenario_of
+from relguide_server.errors import refusal_of
 from relguide_server.exchange import (
     JSON,
     KNOWN_PARAMETERS_ONLY,
     address_of,
     json_answer,
     parse_json,
-    problem_of,
     read_body,
     unless_left,
 )
@@ -117,7 +117,7 @@ def _read(content: object) -> list[FlightRequest]:
         for index, one in enumerate(wanted):
             _expect_flyable(index, one)
     except ContractError as error:
-        raise problem_of(error) from None
+        raise refusal_of(error) from None
     return wanted
 
 

@@ -268,6 +268,65 @@ def test_unknown_paths_and_methods(client: TestClient) -> None:
     is_problem(command, 404, "/api/v1/flights/none/commands")
 
 
+@pytest.mark.parametrize(
+    ("method", "path", "allowed"),
+    [
+        ("GET", "/api/v1/plans", "POST"),
+        ("HEAD", "/api/v1/plans", "POST"),
+        ("OPTIONS", "/api/v1/areas", "GET, HEAD, POST"),
+        ("DELETE", "/api/v1/flights", "GET, HEAD, POST"),
+        ("PATCH", "/api/v1/flights/none", "DELETE, GET, HEAD"),
+        ("POST", "/healthz", "GET, HEAD"),
+    ],
+)
+@pytest.mark.parametrize("root", ["", "/below"])
+def test_a_wrong_method_is_told_all_right_ones(
+    method: str, path: str, allowed: str, root: str
+) -> None:
+    client = TestClient(ideal_app(root_path=root))
+    answer = client.request(method, root + path)
+    assert (answer.status_code, answer.headers["allow"]) == (405, allowed)
+
+
+def test_every_method_that_is_allowed_is_answered(client: TestClient) -> None:
+    for path in ("/api/v1/plans", "/api/v1/areas", "/api/v1/flights", "/healthz", "/docs"):
+        for method in client.patch(path).headers["allow"].split(", "):
+            assert client.request(method, path).status_code != 405
+
+
+@pytest.mark.parametrize(
+    ("query", "path", "said"),
+    [
+        ("max_ms=soon", "max_ms", "must be a number, not soon."),
+        ("max_ms=20000", "max_ms", "must be at most 10000, not 20000."),
+        ("max_ms=nan", "max_ms", "must be a finite number, not nan."),
+        ("max_ms=", "max_ms", 'must be a number, not the text "".'),
+        ("planner=fast", "planner", "must be 'exact' or 'network', not fast."),
+        ("format=xml", "format", "must be 'json' or 'geojson', not xml."),
+        ("include=all", "include", "include must be alternatives, paths or optimality, or some "
+         "of them with commas, not all."),
+    ],
+)  # fmt: skip
+def test_a_wrong_parameter_is_told_what_would_be_right(
+    client: TestClient, query: str, path: str, said: str
+) -> None:
+    answer = client.post(f"/api/v1/plans?{query}", json=EXAMPLE)
+    problem = is_problem(answer, 422, "/api/v1/plans")
+    assert problem["errors"] == [{"path": path, "message": said}]
+    assert problem["detail"] == (said if said.startswith(path) else f"{path}: {said}")
+
+
+def test_wrong_parameters_are_told_in_the_words_of_bodies(client: TestClient) -> None:
+    query = "exact=maybe&columns=1.5&rows=1&level_s=5&level_s=late"
+    errors = is_problem(client.get(f"/api/v1/areas?{query}"), 422, "/api/v1/areas")["errors"]
+    assert {error["path"]: error["message"] for error in errors} == {
+        "columns": "must be a whole number, not 1.5.",
+        "rows": "must be at least 2, not 1.",
+        "level_s[1]": "must be a number, not late.",
+        "exact": "must be true or false, not maybe.",
+    }
+
+
 def test_a_mistake_of_ours_is_a_sentence_without_traceback() -> None:
     def broken(situation: Situation) -> Plan | NoPlan:
         raise ZeroDivisionError(f"secret of {situation.slot_distance}")
