@@ -19,10 +19,11 @@ import os
 import pickle
 import re
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from functools import cache
 from hashlib import sha256
+from itertools import count
 from pathlib import Path
 from tempfile import TemporaryFile, mkdtemp
 from typing import Any, Self
@@ -88,18 +89,29 @@ class LockedIndex(caching.IndexDataCacheFile):  # type: ignore[misc]
 
     Numba reads the index, picks the next free number for a file, writes the index and then the
     file. Two processes that compile the same function for different types could pick the same
-    number, and one that reads in between could find machine code of older sources.
+    number; and one that reads in between, or after a process that was killed in between, could find
+    machine code of older sources, whose arguments may be others. So one process at a time does
+    that, and an index never names a file that is not written yet.
     """
 
     def save(self, key: Any, data: Any) -> None:
         """Store the machine code for one signature; on a read-only disk it is for this process."""
         with self._alone(), suppress(OSError):
-            super().save(key, data)
+            known = self._load_index()
+            if not known:  # what names files of older sources, which are overwritten now
+                Path(self._index_path).unlink(missing_ok=True)
+            name = known.get(key) or self._free_name(known.values())
+            self._save_data(name, data)
+            self._save_index({**known, key: name})
 
     def load(self, key: Any) -> Any:
         """The machine code for one signature, if it is there."""
         with self._alone():
             return super().load(key)
+
+    def _free_name(self, taken: Collection[str]) -> str:
+        names = map(self._data_name, count(1))
+        return next(str(name) for name in names if name not in taken)
 
     def _load_index(self) -> Any:
         """What the index holds; nothing if it was cut short, or names types that are no more.
@@ -170,6 +182,7 @@ def _adopt_function(index: Path, place: Path) -> None:
     with index.open("rb") as file:
         version = pickle.load(file)
         stamp, overloads = pickle.load(file)
+    (place / index.name).unlink(missing_ok=True)
     own = {(signature, machine, code): name for (signature, _, code), name in overloads.items()}
     for name in own.values():
         _write(place / name, (index.parent / name).read_bytes())

@@ -332,6 +332,33 @@ def test_an_index_that_cannot_be_read_is_out_of_date_and_nothing_worse(
     assert index.load("signature") == "compiled anew"
 
 
+@pytest.mark.parametrize("step", ["_save_data", "_save_index"])
+@pytest.mark.parametrize("after", [False, True], ids=["before", "after"])
+def test_a_process_that_is_killed_while_it_saves_leaves_no_code_of_other_sources(
+    step: str, after: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A file keeps its name from sources to sources: who took the old for the new would crash."""
+    older = cache.LockedIndex(str(tmp_path), "kernel", "older sources")
+    older.save("signature", "older machine code")
+    newer = cache.LockedIndex(str(tmp_path), "kernel", "newer sources")
+    save = getattr(newer, step)
+
+    def be_killed(*arguments: object) -> None:
+        if after:
+            save(*arguments)
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch, pytest.raises(KeyboardInterrupt):
+        patch.setattr(newer, step, be_killed)
+        newer.save("signature", "newer machine code")
+    assert newer.load("signature") in (None, "newer machine code")
+    assert older.load("signature") in (None, "older machine code")
+    newer.save("signature", "newer machine code")
+    newer.save("another", "more")
+    assert newer.load("signature") == "newer machine code"
+    assert newer.load("another") == "more"
+
+
 def test_kernels_are_kept_where_we_say() -> None:
     from relguide.kernels.base.motion import advance
 
