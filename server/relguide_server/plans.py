@@ -3,7 +3,7 @@
 from collections.abc import AsyncIterator
 from dataclasses import replace
 from time import monotonic
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, get_args
 
 import orjson
 from fastapi import APIRouter, Depends, Query, Request
@@ -42,6 +42,8 @@ MAX_BATCH_BODY = 4 * 1024 * 1024
 """Longest body of a batch [bytes]: 1,000 situations with 20 pieces of intent each fit in 3 MB."""
 NDJSON = "application/x-ndjson"
 """A batch as lines, answered as lines."""
+PlannerName = Literal["exact", "network"]
+PLANNERS = get_args(PlannerName)
 BUDGET_MS, LEAST_MS, MOST_MS = 250.0, 1.0, 10_000.0
 """How long planning a situation may take if the request does not say, and the range of what it may
 say."""
@@ -125,7 +127,7 @@ async def _read_wish(
         ),
     ] = BUDGET_MS,
     planner: Annotated[
-        Literal["exact", "network"] | None,
+        PlannerName | None,
         Query(description="Who plans; if left out, the one that the service was started with."),
     ] = None,
 ) -> Wish:
@@ -156,7 +158,7 @@ USUAL = Wish(planner=None, include=(), budget=BUDGET_MS * 1e-3)
 """What is wished where the request says nothing."""
 router = APIRouter(prefix="/api/v1", tags=["plans"], dependencies=[KNOWN_PARAMETERS_ONLY])
 PATH = "/api/v1/plans"
-"""Where a situation is posted; without parameters, `Express` and `PlanLane` answer there."""
+"""Where a situation is posted; `PlanLane` answers there, and `Express` without parameters."""
 LOOKED = "relguide.looked"
 """In the scope of a request that has been looked at: why it is refused, or `None` if it takes a
 worker."""
