@@ -102,23 +102,26 @@ async def unless_left(request: Request, work: Awaitable[T]) -> T:
     Raises:
         ClientDisconnect: if the client left.
     """
-    working = asyncio.ensure_future(work)
-    working.add_done_callback(_let_go)
-    leaving = asyncio.ensure_future(_wait_until_left(request))
+    working, is_over, has_left = asyncio.current_task(), False, False
+    assert working is not None
+
+    def leave(leaving: "asyncio.Task[None]") -> None:
+        nonlocal has_left
+        if not is_over and not leaving.cancelled():
+            has_left = True
+            working.cancel()
+
+    leaving = asyncio.create_task(_wait_until_left(request))
+    leaving.add_done_callback(leave)
     try:
-        await asyncio.wait((working, leaving), return_when=asyncio.FIRST_COMPLETED)
-        if working.done():
-            return working.result()
-        raise ClientDisconnect
+        return await work
+    except asyncio.CancelledError:
+        if has_left and working.uncancel() == 0:
+            raise ClientDisconnect from None
+        raise
     finally:
+        is_over = True
         leaving.cancel()
-        working.cancel()
-
-
-def _let_go(working: "asyncio.Future[T]") -> None:
-    """What it refuses after the client has left is nobody's any more: else the log complains."""
-    if not working.cancelled():
-        working.exception()
 
 
 async def _wait_until_left(request: Request) -> None:

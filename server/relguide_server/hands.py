@@ -27,11 +27,11 @@ class HandLostError(ConnectionError):
 class Hand(Protocol):
     """Does a job at a time."""
 
-    async def do(self, job: Job) -> Outcome:
-        """Do a job.
+    def do(self, job: Job) -> "asyncio.Future[Outcome]":
+        """Begin a job.
 
-        Raises:
-            HandLostError: if the hand ends before the job does.
+        Returns:
+            What comes of it; `HandLostError`, if the hand ends before the job does.
         """
         ...
 
@@ -44,11 +44,11 @@ class _Outcomes(asyncio.Protocol):
     """What a process writes: the one outcome that is awaited."""
 
     def __init__(self) -> None:
-        self.outcome: asyncio.Future[bytes] = asyncio.get_running_loop().create_future()
+        self.outcome: asyncio.Future[Outcome] = asyncio.get_running_loop().create_future()
         self._came = bytearray()
         self._ended = False
 
-    def expect(self) -> "asyncio.Future[bytes]":
+    def expect(self) -> "asyncio.Future[Outcome]":
         """The next outcome, once it comes."""
         if not self._ended:
             self.outcome = asyncio.get_running_loop().create_future()
@@ -59,10 +59,10 @@ class _Outcomes(asyncio.Protocol):
         self._came += data
         size = LENGTH + int.from_bytes(self._came[:LENGTH], "big")
         if len(self._came) >= size > LENGTH:
-            text = bytes(self._came[LENGTH:size])
+            outcome: Outcome = pickle.loads(self._came[LENGTH:size])
             self._came.clear()
             if not self.outcome.done():
-                self.outcome.set_result(text)
+                self.outcome.set_result(outcome)
 
     def connection_lost(self, exc: Exception | None) -> None:
         """It writes no more."""
@@ -80,6 +80,13 @@ class _Process:
     jobs: asyncio.WriteTransport
     outcomes: _Outcomes
     reading: asyncio.ReadTransport
+
+    def do(self, job: Job) -> "asyncio.Future[Outcome]":
+        """As in `Hand`."""
+        text = pickle.dumps(job, pickle.HIGHEST_PROTOCOL)
+        outcome = self.outcomes.expect()
+        self.jobs.write(len(text).to_bytes(LENGTH, "big") + text)
+        return outcome
 
 
 class ProcessHand:
@@ -101,17 +108,19 @@ class ProcessHand:
             return 0
         return self._started.result().process.pid
 
-    async def do(self, job: Job) -> Outcome:
+    def do(self, job: Job) -> "asyncio.Future[Outcome]":
         """As in `Hand`."""
         if self._started is None:
             self._started = asyncio.create_task(_start_process(idle=self._idle))
+        if self._started.done():
+            return self._started.result().do(job)
+        return asyncio.ensure_future(self._do_once_started(job, self._started))
+
+    @staticmethod
+    async def _do_once_started(job: Job, starting: "asyncio.Task[_Process]") -> Outcome:
         # one that is cancelled meanwhile is ended by `drop`
-        started = await asyncio.shield(self._started)
-        text = pickle.dumps(job, pickle.HIGHEST_PROTOCOL)
-        outcome = started.outcomes.expect()
-        started.jobs.write(len(text).to_bytes(LENGTH, "big") + text)
-        done: Outcome = pickle.loads(await outcome)
-        return done
+        started = await asyncio.shield(starting)
+        return await started.do(job)
 
     async def drop(self) -> None:
         """As in `Hand`."""
@@ -147,7 +156,7 @@ async def _start_process(*, idle: bool) -> _Process:
 class ThreadHand:
     """A thread for each job: for planners that no other process can be given."""
 
-    async def do(self, job: Job) -> Outcome:
+    def do(self, job: Job) -> "asyncio.Future[Outcome]":
         """As in `Hand`; without `HandLostError`."""
         loop = asyncio.get_running_loop()
         answer: asyncio.Future[Outcome] = loop.create_future()
@@ -163,7 +172,7 @@ class ThreadHand:
 
         # it does not keep the service from ending
         threading.Thread(target=work, name="job", daemon=True).start()
-        return await answer
+        return answer
 
     async def drop(self) -> None:
         """A thread cannot be ended: its outcome goes nowhere."""

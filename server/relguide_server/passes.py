@@ -1,17 +1,18 @@
 """Passes of the event loop, in which requests of many clients begin.
 
-In each pass the loop goes on with all that is ready. If a client asks on many connections at once,
-that may be so much that an answer for somebody else, which takes some passes, comes late. So once a
-pass is long, more requests of a client that has begun one in it wait for the next.
+In each pass the loop goes on with all that is ready. If many ask at once, or one on many
+connections, that may be so much that an answer for somebody else, which takes some passes, comes
+late. So once a pass is long, no more requests begin in it. Those that wait begin one in each pass,
+and their clients take turns.
 """
 
 import asyncio
-from collections import deque
 from time import perf_counter
 
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from relguide.units import Second
+from relguide_server.turns import Turns
 
 LONG: Second = 0.002
 """A pass that takes longer is long."""
@@ -23,8 +24,7 @@ class Passes:
     def __init__(self, app: ASGIApp) -> None:
         self.app = app
         self._began = 0.0
-        self._clients: set[str] = set()
-        self._waiting: dict[str, deque[asyncio.Future[None]]] = {}
+        self._waiting: Turns[asyncio.Future[None]] = Turns(0)
         self._is_counted = False
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -37,27 +37,22 @@ class Passes:
     async def _wait_for_turn(self, client: str) -> None:
         if not self._is_counted:
             self._begin_pass()
-        is_late = perf_counter() - self._began > LONG and client in self._clients
-        if is_late or client in self._waiting:
+        if perf_counter() - self._began > LONG or self._waiting.count_of(client):
             turn = asyncio.get_running_loop().create_future()
-            self._waiting.setdefault(client, deque()).append(turn)
+            self._waiting.put(turn, client)
             await turn
-        self._clients.add(client)
 
     def _begin_pass(self) -> None:
         self._began, self._is_counted = perf_counter(), True
-        self._clients.clear()
         asyncio.get_running_loop().call_soon(self._end_pass)
 
     def _end_pass(self) -> None:
-        """Let one request of each client that waits begin in the next pass."""
+        """Let one request that waits begin in the next pass."""
         self._is_counted = False
-        if not self._waiting:
-            return
-        self._begin_pass()
-        for client, turns in list(self._waiting.items()):
-            turn = turns.popleft()
+        if self._waiting:
+            self._begin_pass()
+        while self._waiting:
+            turn = self._waiting.take()
             if not turn.done():  # else it was given up
                 turn.set_result(None)
-            if not turns:
-                del self._waiting[client]
+                return

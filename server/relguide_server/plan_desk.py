@@ -148,7 +148,8 @@ class PlanDesk:
         if wish.include or not self._is_own(wish):
             return await job
         try:
-            return await asyncio.wait_for(job, max(end - monotonic(), HANDING_OVER))
+            async with asyncio.timeout(max(end - monotonic(), HANDING_OVER)):
+                return await job
         except TimeoutError:
             situation, anchor = jobs.read_situation(body)
             return jobs.plan_situation(situation, anchor, self._planner, (), 0.0, wish.form)

@@ -60,6 +60,15 @@ class _Job:
         else:
             self.outcome.set_result(outcome)
 
+    def settle(self, doing: "asyncio.Future[Outcome]") -> None:
+        """Hand over what a hand made of it, if it has come to its end."""
+        if doing.cancelled() or doing.exception() is not None:
+            return
+        outcome = doing.result()
+        if self.heard is not None and isinstance(outcome, Done):
+            self.heard(outcome.value)
+        self.end(outcome)
+
 
 class Workers:
     """Hands and queues. Lives on the event loop, from `start` to `stop`."""
@@ -76,13 +85,13 @@ class Workers:
             or [ThreadHand() for _ in range(THREADS)]
         )  # fmt: skip
         self._kept = self._hands[0] if len(self._hands) > 1 else None
-        self._kept_is_free = False
+        self._free: dict[Hand, asyncio.Future[tuple[Kind, _Job]]] = {}
+        """Hands that wait for a job."""
         self._waiting: dict[Kind, Turns[_Job]] = {kind: Turns(queue) for kind in KINDS}
         self._turn, self._quick_turn = deque(KINDS), deque(QUICK)
         self._open: set[_Job] = set()
         self._stopped = False
         self._ready: set[Hand] = set()
-        self._wake = asyncio.Condition()
         self._tasks: list[asyncio.Task[None]] = []
         self.done: dict[Kind, int] = dict.fromkeys(KINDS, 0)
         """Jobs done."""
@@ -175,8 +184,7 @@ class Workers:
         job = _Job((work, arguments), patience, heard)
         queue.put(job, client)
         self._open.add(job)
-        async with self._wake:
-            self._wake.notify_all()
+        self._call_hand()
         try:
             async with asyncio.timeout(WAITING + patience):
                 return value_of(await job.outcome)
@@ -201,15 +209,19 @@ class Workers:
                     continue
             self._ready.add(hand)
             kind, job = await self._next(hand)
-            await self._finish(hand, job)
-            self.done[kind] += 1
+            if not job.outcome.done():  # its client may have left before this hand came to it
+                await self._finish(hand, job)
+                self.done[kind] += 1
 
     async def _finish(self, hand: Hand, job: _Job) -> None:
-        doing = asyncio.ensure_future(hand.do(job.work))
+        doing = hand.do(job.work)
+        # the hand is free before who waits for the job goes on, and asks for another
+        is_over = _first_of(doing, job.outcome)
+        doing.add_done_callback(job.settle)
         try:
-            await asyncio.wait(
-                (doing, job.outcome), timeout=job.patience, return_when=asyncio.FIRST_COMPLETED
-            )
+            with suppress(TimeoutError):
+                async with asyncio.timeout(job.patience):
+                    await is_over
             if abandoned := not doing.done() and job.outcome.done():
                 await asyncio.wait((doing,), timeout=ABANDONED)
             if not doing.done():
@@ -224,11 +236,6 @@ class Workers:
                 log.error("A job was interrupted", exc_info=error)
                 job.end(Refusal(503, INTERRUPTED, headers={"Retry-After": "1"}))
                 await self._replace(hand, doing)
-            else:
-                outcome = doing.result()
-                if job.heard is not None and isinstance(outcome, Done):
-                    job.heard(outcome.value)
-                job.end(outcome)
         finally:
             doing.cancel()
 
@@ -238,17 +245,26 @@ class Workers:
         await asyncio.wait((doing,))
         await hand.drop()
 
+    def _call_hand(self) -> None:
+        """Give the job that has just been put in to a hand that waits, if one does it."""
+        for hand in self._hands:  # the kept one is the first
+            waiting = self._free.get(hand)
+            if waiting is not None and (kind := self._kind_for(hand)) is not None:
+                del self._free[hand]
+                waiting.set_result((kind, self._waiting[kind].take()))
+                return
+
     async def _next(self, hand: Hand) -> tuple[Kind, _Job]:
         """What a hand does next, once there is something for it."""
-        async with self._wake:
-            try:
-                while (kind := self._kind_for(hand)) is None:
-                    self._kept_is_free |= hand is self._kept
-                    await self._wake.wait()
-            finally:
-                self._kept_is_free &= hand is not self._kept
-            self._wake.notify_all()  # what the kept one leaves is for others
+        kind = self._kind_for(hand)
+        if kind is not None:
             return kind, self._waiting[kind].take()
+        waiting: asyncio.Future[tuple[Kind, _Job]] = asyncio.get_running_loop().create_future()
+        self._free[hand] = waiting
+        try:
+            return await waiting
+        finally:
+            self._free.pop(hand, None)
 
     def _kind_for(self, hand: Hand) -> Kind | None:
         """The kind whose turn it is, of those that a hand does; `None` if none waits."""
@@ -256,10 +272,22 @@ class Workers:
         for _ in range(len(turn)):
             kind = turn[0]
             turn.rotate(-1)
-            left_to_kept = kind in QUICK and hand is not self._kept and self._kept_is_free
-            if self._waiting[kind] and not left_to_kept:
+            if self._waiting[kind]:
                 return kind
         return None
+
+
+def _first_of(*futures: "asyncio.Future[Any]") -> "asyncio.Future[None]":
+    """What is done as soon as one of several is."""
+    first: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+
+    def note(_: "asyncio.Future[Any]") -> None:
+        if not first.done():
+            first.set_result(None)
+
+    for future in futures:
+        future.add_done_callback(note)
+    return first
 
 
 def _too_long(seconds: float) -> Refusal:
