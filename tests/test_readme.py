@@ -28,7 +28,7 @@ def blocks(language: str) -> list[str]:
 
 
 def test_twelve_lines_of_python() -> None:
-    code, _ = blocks("python")
+    code, _, _ = blocks("python")
     shown = blocks("text")[0]
     assert len([line for line in code.splitlines() if line.strip()]) == 12
     printed = io.StringIO()
@@ -48,15 +48,29 @@ def test_one_request() -> None:
     assert answer.json()["status"] == "planned"
 
 
-@pytest.mark.slow
-def test_the_client() -> None:
-    _, code = blocks("python")
+def run_with_service(code: str) -> list[str]:
+    """The lines that a program of the README prints, with a service to ask."""
     printed = io.StringIO()
     with serve(create_app(Settings(workers=0))) as address, redirect_stdout(printed):
         exec(compile(code.replace("127.0.0.1:8000", address), "README.md", "exec"), {})
-    word, *modes = printed.getvalue().splitlines()
+    return printed.getvalue().splitlines()
+
+
+@pytest.mark.slow
+def test_the_client() -> None:
+    _, code, _ = blocks("python")
+    word, *modes = run_with_service(code)
     assert word in ("LSL", "LSR", "RSL", "RSR")
     assert all(re.fullmatch(r"\d+ s: \w+", mode) for mode in modes)
+
+
+@pytest.mark.slow
+def test_the_client_that_does_not_wait() -> None:
+    _, _, code = blocks("python")
+    lines = run_with_service(code)
+    assert len(lines) == 6
+    assert all(re.fullmatch(r"[LR]S[LR] in \d+ s", line) for line in lines[:3])
+    assert lines[3:] == ["planned"] * 3
 
 
 def test_commands_are_there(capsys: pytest.CaptureFixture[str]) -> None:

@@ -283,8 +283,11 @@ def _wish(
 
 def _read_line(line: bytes) -> Answer | Invalid:
     content = orjson.loads(line)
-    if content.get("status") == "invalid":
-        return Invalid(str(content["message"]))
+    match content.get("status"):
+        case "invalid":
+            return Invalid(str(content["message"]))
+        case "refused":
+            raise Refused(503, str(content["message"]), None)
     content.pop("id", None)
     return plan_from_wire(content, extra="ignore")
 

@@ -4,6 +4,8 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, NamedTuple
 
+import orjson
+
 from relguide.contract.answers import Include, answer
 from relguide.contract.bodies import (
     MAX_ID,
@@ -112,6 +114,22 @@ def answer_line(
     (reply,) = answer_all([(1, content)], wanted)
     reply.pop("line", None)
     return reply
+
+
+def refused_line(line: bytes, message: str) -> bytes:
+    """The answer to a situation in JSON text that was not planned, through no fault of its own.
+
+    Args:
+        line: the text.
+        message: why not, and when to ask again.
+    """
+    try:
+        content = quick_loads(line)
+    except ContractError:
+        content = None
+    name = content.get("id") if isinstance(content, dict) else None
+    named = {"id": name} if isinstance(name, str) else {}
+    return orjson.dumps({**named, "status": "refused", "message": message})
 
 
 def _answer_one(record: Record, row: Row | None, wanted: Wanted) -> dict[str, Any]:

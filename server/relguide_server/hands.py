@@ -46,11 +46,12 @@ class _Outcomes(asyncio.Protocol):
     def __init__(self) -> None:
         self.outcome: asyncio.Future[Outcome] = asyncio.get_running_loop().create_future()
         self._came = bytearray()
-        self._ended = False
+        self.ended = False
+        """Whether no more will come."""
 
     def expect(self) -> "asyncio.Future[Outcome]":
         """The next outcome, once it comes."""
-        if not self._ended:
+        if not self.ended:
             self.outcome = asyncio.get_running_loop().create_future()
         return self.outcome
 
@@ -67,7 +68,7 @@ class _Outcomes(asyncio.Protocol):
     def connection_lost(self, exc: Exception | None) -> None:
         """It writes no more."""
         del exc
-        self._ended = True
+        self.ended = True
         if not self.outcome.done():
             self.outcome.set_exception(HandLostError("A worker ended in the middle of a job."))
 
@@ -103,10 +104,11 @@ class ProcessHand:
 
     @property
     def pid(self) -> int:
-        """Of its process; 0 while there is none."""
+        """Of its process; 0 while there is none, or none that lives."""
         if self._started is None or not self._started.done():
             return 0
-        return self._started.result().process.pid
+        started = self._started.result()
+        return 0 if started.outcomes.ended else started.process.pid
 
     def do(self, job: Job) -> "asyncio.Future[Outcome]":
         """As in `Hand`."""

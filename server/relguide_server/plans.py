@@ -12,6 +12,7 @@ from starlette.responses import Response, StreamingResponse
 
 from relguide.contract.answers import Form, read_include
 from relguide.contract.bodies import NamedSituationBody, SituationBody
+from relguide.contract.bulk import refused_line
 from relguide.contract.messages import PlanAnswer, model_of
 from relguide.flying.plan_documents import NoPlanCard, PlanCard
 from relguide_server.errors import ProblemError, Refusal
@@ -252,7 +253,8 @@ async def make_plans(request: Request, desk: DeskOf, wish: WishOf) -> Response:
 
     A list is answered by a list, or refused as a whole if one situation is wrong. Lines
     (`application/x-ndjson`) are answered by lines as they are planned, and a wrong one by a line
-    with the status `invalid`.
+    with the status `invalid`; should the service stop meanwhile, or a worker end, the rest are
+    answered by lines with the status `refused`.
     """
     body = await read_body(request, JSON, NDJSON, most=MAX_BATCH_BODY)
     if content_type(request) == NDJSON:
@@ -261,17 +263,22 @@ async def make_plans(request: Request, desk: DeskOf, wish: WishOf) -> Response:
             raise Refusal(422, f"At most {MAX_BATCH} situations a request, not {len(lines)}.")
         answers = desk.answer_batch(lines, wish, client=address_of(request))
         first = await unless_left(request, anext(answers, []))
-        return StreamingResponse(_write_lines(first, answers), media_type=NDJSON)
+        return StreamingResponse(_write_lines(lines, first, answers), media_type=NDJSON)
     listed = _answer_list(body, desk, wish, address_of(request))
     return json_answer(await unless_left(request, listed))
 
 
 async def _write_lines(
-    first: list[bytes], others: AsyncIterator[list[bytes]]
+    lines: list[bytes], first: list[bytes], others: AsyncIterator[list[bytes]]
 ) -> AsyncIterator[bytes]:
+    written = len(first)
     yield b"".join(text + b"\n" for text in first)
-    async for answers in others:
-        yield b"".join(text + b"\n" for text in answers)
+    try:
+        async for answers in others:
+            written += len(answers)
+            yield b"".join(text + b"\n" for text in answers)
+    except Refusal as refusal:  # the answer has begun: what is left of it says so
+        yield b"".join(refused_line(line, refusal.detail) + b"\n" for line in lines[written:])
 
 
 async def _answer_list(body: bytes, desk: PlanDesk, wish: Wish, client: str) -> bytes:

@@ -37,7 +37,7 @@ WAITING = 30.0
 """How long a job may wait [s]."""
 STILL_WAITING = f"This waited for more than {WAITING:.0f} s: try again in a moment."
 STOPPING = "The service is stopping: it may be back in a moment."
-INTERRUPTED = "Planning was interrupted: try again."
+INTERRUPTED = "The process that worked on this ended before its time: try again."
 THREADS = 4
 """Hands where jobs are done by threads."""
 
@@ -201,17 +201,22 @@ class Workers:
         while not is_warm():
             await asyncio.sleep(LOOK)
         while True:
-            if isinstance(hand, ProcessHand) and not hand.pid:
-                loading = _Job((load, ()), LOADING)
-                await self._finish(hand, loading)
-                if loading.outcome.exception() is not None:
-                    await asyncio.sleep(LOADING_AGAIN)
-                    continue
+            await self._load(hand, load)
             self._ready.add(hand)
             kind, job = await self._next(hand)
+            await self._load(hand, load)  # its process may have ended while it waited
             if not job.outcome.done():  # its client may have left before this hand came to it
                 await self._finish(hand, job)
                 self.done[kind] += 1
+
+    async def _load(self, hand: Hand, load: Callable[[], None]) -> None:
+        """Start the process of a hand that has none, and get it ready; again until it is."""
+        while isinstance(hand, ProcessHand) and not hand.pid:
+            await hand.drop()
+            loading = _Job((load, ()), LOADING)
+            await self._finish(hand, loading)
+            if loading.outcome.exception() is not None:
+                await asyncio.sleep(LOADING_AGAIN)
 
     async def _finish(self, hand: Hand, job: _Job) -> None:
         doing = hand.do(job.work)

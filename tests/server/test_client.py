@@ -15,6 +15,7 @@ from relguide_server.settings import Settings
 from relguide.client import AsyncClient, Client, Invalid, Placed, Refused, calls
 from relguide.client.bodies import body_of
 from relguide.contract.bodies import UNANCHORED, plan_to_wire, situation_from_json
+from relguide.contract.bulk import refused_line
 from relguide.contract.wire import to_wire
 from relguide.flying.cards import plan_card
 from relguide.flying.documents import FlightStarted, Sample
@@ -177,6 +178,13 @@ def test_a_line_of_a_batch_ends_at_a_line_feed_alone(url: str, client: Client) -
 
     assert [type(answer) for answer in client.plan_batch([odd, odd])] == [PlanCard] * 2
     assert asyncio.run(ask()) == [PlanCard] * 2
+
+
+def test_a_line_that_is_refused_says_why_and_when_the_rest_can_be_asked_again() -> None:
+    (call,) = calls.plan_batch([BODY], max_ms=None, planner=None)
+    with pytest.raises(Refused, match="is stopping") as refused:
+        call.read(refused_line(orjson.dumps({**BODY, "id": "a"}), "The service is stopping."))
+    assert refused.value.status == 503
 
 
 def test_what_is_refused_is_a_sentence(client: Client) -> None:

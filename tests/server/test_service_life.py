@@ -3,14 +3,18 @@
 import asyncio
 import contextlib
 import os
+import signal
 import socket
 import subprocess
 import sys
 import threading
 import time
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
 
 import httpx2 as httpx
+import orjson
 import pytest
 import viser
 from relguide_server.app import create_app
@@ -83,6 +87,33 @@ def test_bodies_that_do_not_come_are_answered_as_it_stops(
             assert "retry-after: 5" in answer
             assert "#stopping" in answer
     assert not [record for record in caplog.records if record.exc_info]
+
+
+@pytest.mark.parametrize("end", ["the service", "its process"])
+def test_lines_that_are_left_as_their_answer_breaks_off_say_why(
+    end: str, caplog: pytest.LogCaptureFixture
+) -> None:
+    lines = [orjson.dumps({**HARD, "id": f"case {k}"}) for k in range(200)]
+    headers = {"Content-Type": "application/x-ndjson"}
+    app = create_app(Settings(workers=1), departures=ideal_departures())
+    answered: list[dict[str, Any]] = []
+    with contextlib.ExitStack() as service:
+        url = f"http://{service.enter_context(serve(app))}/api/v1/plans/batch?max_ms=1000"
+        wait_until(lambda: app.state.workers.ready)
+        batch = httpx.stream("POST", url, content=b"\n".join(lines), headers=headers, timeout=60.0)
+        with batch as answer, ThreadPoolExecutor(1) as other:
+            for line in answer.iter_lines():
+                if not answered and end == "the service":
+                    other.submit(service.close)
+                elif not answered:
+                    os.kill(app.state.workers.processes[0], signal.SIGSEGV)
+                answered.append(orjson.loads(line))
+    assert [one["id"] for one in answered] == [f"case {k}" for k in range(200)]
+    assert answered[0]["status"] == "planned"
+    assert answered[-1]["status"] == "refused"
+    said = {"the service": "The service is stopping", "its process": "The process that worked on"}
+    assert said[end] in answered[-1]["message"]
+    assert not [record for record in caplog.records if "ASGI" in record.getMessage()]
 
 
 def test_processes_plan_what_takes_longer_and_leave_with_it() -> None:

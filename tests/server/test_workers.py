@@ -3,6 +3,7 @@
 import asyncio
 import os
 import pickle
+import signal
 import subprocess
 import sys
 import threading
@@ -65,11 +66,36 @@ def test_a_job_that_is_stuck_is_killed_and_its_process_replaced() -> None:
     with_workers(1, scene)
 
 
-def test_a_process_that_dies_is_replaced() -> None:
+def crash(how: int) -> None:
+    os.kill(os.getpid(), how)
+    time.sleep(60.0)
+
+
+@pytest.mark.parametrize("how", [signal.SIGSEGV, signal.SIGKILL, signal.SIGABRT])
+def test_a_process_that_dies_in_a_job_is_replaced_and_the_others_go_on(how: int) -> None:
     async def scene(workers: Workers) -> None:
-        with pytest.raises(Refusal, match="interrupted"):
-            await workers.do("plans", os._exit, 1, patience=ANY)
-        assert await workers.do("plans", os.getpid, patience=ANY) > 0
+        going_on = asyncio.create_task(workers.do("areas", nap, 0.5, patience=ANY))
+        dying = workers.do("plans", crash, how, patience=ANY)
+        waiting = [workers.do("plans", os.getpid, patience=ANY) for _ in range(3)]
+        died, *others = await asyncio.gather(dying, *waiting, return_exceptions=True)
+        assert isinstance(died, Refusal)
+        assert (died.status_code, died.headers) == (503, {"Retry-After": "1"})
+        assert died.detail == "The process that worked on this ended before its time: try again."
+        assert all(isinstance(pid, int) and exists(pid) for pid in others)
+        assert await going_on > 0
+        assert len(workers.processes) == 2
+
+    with_workers(2, scene)
+
+
+@pytest.mark.parametrize("how", [signal.SIGSEGV, signal.SIGKILL])
+def test_a_process_that_dies_while_it_waits_costs_nobody_an_answer(how: int) -> None:
+    async def scene(workers: Workers) -> None:
+        before = await workers.do("plans", os.getpid, patience=ANY)
+        os.kill(before, how)
+        while workers.processes:
+            await asyncio.sleep(0.01)
+        assert await workers.do("plans", os.getpid, patience=ANY) != before
 
     with_workers(1, scene)
 
