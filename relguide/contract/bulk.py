@@ -127,8 +127,7 @@ def refused_line(line: bytes, message: str) -> bytes:
         content = quick_loads(line)
     except ContractError:
         content = None
-    name = content.get("id") if isinstance(content, dict) else None
-    named = {"id": name} if isinstance(name, str) else {}
+    named = {"id": content["id"]} if isinstance(content, dict) and "id" in content else {}
     return orjson.dumps({**named, "status": "refused", "message": message})
 
 

@@ -29,6 +29,7 @@ from pydantic import (
     TypeAdapter,
     ValidationError,
     create_model,
+    model_validator,
 )
 
 from relguide.contract.bodies import Intent, SituationBody, Tas
@@ -314,6 +315,13 @@ class ScenarioFlightRequest(_HowToFly):
 
     scenario: Annotated[str, Field(max_length=100)]
     """Its name."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _expect_a_flight(cls, value: Any) -> Any:
+        if isinstance(value, Mapping) and "scenario" not in value:
+            raise ValueError("must have a scenario, by its name, or a situation of your own.")
+        return value
 
 
 class SituationFlightRequest(_HowToFly):

@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Mapping, Sequence
+from difflib import get_close_matches
 from typing import Any, TypeVar
 
 from pydantic import BaseModel, ConfigDict, GetJsonSchemaHandler, ValidationError
@@ -15,6 +16,8 @@ MAX_LISTED = 20
 """How many defects a refusal lists."""
 MAX_QUOTED = 40
 """How many characters of a refused value are quoted back."""
+MEANT = 0.7
+"""How much an unknown field is like the one that is meant, from 0 to 1."""
 TAG = "#"
 """First character of the tags of `Discriminator`s, which distinguishes them from field names."""
 
@@ -124,7 +127,8 @@ def parse(model: type[M], source: bytes | str | Mapping[str, object] | list[obje
 def refusal(error: ValidationError, content: object) -> ContractError:
     """Pydantic's findings about `content`, in our words."""
     found: list[Any] = error.errors(include_url=False)[:MAX_LISTED]
-    problems = [(_path(e, content), _sentence(e)) for e in found]
+    missing = [e["loc"] for e in found if e["type"] == "missing"]
+    problems = [(_path(e, content), _say_meant(e, missing) or _sentence(e)) for e in found]
     named = [(path, text if path else f"This {text}") for path, text in problems]
     return ContractError(named, count=error.error_count())
 
@@ -234,6 +238,16 @@ def _sentence(error: Any, given: str = "") -> str:
     if "tag" in context:
         context["tag"] = _quote(context["tag"])
     return sentence.format(**context, given=given)
+
+
+def _say_meant(error: Any, missing: Sequence[tuple[Any, ...]]) -> str:
+    """What an unknown field may be meant for, of those that are missing beside it; or nothing."""
+    if error["type"] != "extra_forbidden":
+        return ""
+    *where, name = error["loc"]
+    beside = [str(last) for *place, last in missing if place == where]
+    meant = get_close_matches(str(name)[:MAX_QUOTED], beside, 1, MEANT)
+    return f"is not a field of the contract: did you mean {meant[0]}?" if meant else ""
 
 
 def _quote_parameter(value: object) -> str:

@@ -64,11 +64,11 @@ def library_departures(planner: Planner, name: str | None = None) -> Departures:
     """The library's scenarios, guided by a planner, of that name if it has one."""
 
     def find(wanted: FlightRequest) -> Departure:
-        name, found, anchor = scenario_of(wanted)
+        flown, found, anchor = scenario_of(wanted)
         found = replace(found, duration_limit=ENDLESS, after_joining=ENDLESS)
         seed, engagement = wanted.seed, wanted.engagement
         return Departure(
-            scenario=name,
+            scenario=flown,
             title=found.title,
             source=lambda commands: fly(
                 found,

@@ -8,14 +8,14 @@
 
 import logging
 import traceback
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from http import HTTPStatus
 from typing import Any
 
 import orjson
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
-from fastapi.routing import iter_route_contexts
+from fastapi.routing import RouteContext, iter_route_contexts
 from pydantic import BaseModel, Field
 from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect
@@ -149,9 +149,11 @@ def answer_refusal(request: Request, error: HTTPException) -> Response:
     errors = error.errors if isinstance(error, Refusal) else ()
     detail, headers = error.detail, error.headers
     if not isinstance(error, Refusal) and detail == HTTPStatus(status).phrase:
-        detail = _sentence(request, status)
-        if status == 405:
+        if status == 404 and any(route.methods is None for route in _routes_at(request)):
+            status, headers = 426, {"Upgrade": "websocket", "Connection": "Upgrade"}
+        elif status == 405:
             headers = {"Allow": ", ".join(_methods_at(request))}
+        detail = _sentence(request, status)
     return problem(
         path,
         status,
@@ -163,13 +165,17 @@ def answer_refusal(request: Request, error: HTTPException) -> Response:
     )
 
 
-def _methods_at(request: Request) -> list[str]:
-    """The methods that routes take at the path of a request; HEAD is answered as GET."""
+def _routes_at(request: Request) -> Iterator[RouteContext]:
+    """The routes at the path of a request, whatever its method; those of WebSocket have none."""
     path = request.scope["path"].removeprefix(request.scope.get("root_path", ""))
-    found: set[str] = set()
     for route in iter_route_contexts(request.app.routes):
-        if route.methods and compile_path(route.path or "")[0].match(path):
-            found |= route.methods
+        if compile_path(route.path or "")[0].match(path):
+            yield route
+
+
+def _methods_at(request: Request) -> list[str]:
+    """The methods that are answered at the path of a request; HEAD is answered as GET."""
+    found = {method for route in _routes_at(request) for method in route.methods or ()}
     return sorted(found | ({"HEAD"} if "GET" in found else set()))
 
 
@@ -180,6 +186,8 @@ def _sentence(request: Request, status: int) -> str:
         case 405:
             takes = " or ".join(_methods_at(request))
             return f"{request.url.path} takes {takes}, not {request.method}: see /docs."
+        case 426:
+            return f"{request.url.path} is a stream: ask for it by WebSocket, see /docs/stream."
         case _:
             return f"{HTTPStatus(status).description or HTTPStatus(status).phrase}."
 

@@ -241,6 +241,24 @@ def test_a_wrong_field_is_named_by_its_path(client: TestClient) -> None:
     assert {error["path"] for error in errors} == {"leader.intent[0].straight_s", "colour"}
 
 
+def test_a_field_without_its_unit_is_told_the_name_that_is_meant(client: TestClient) -> None:
+    pursuer = {**EXAMPLE["pursuer"], "heading": 90.0, "colour": "red"}
+    del pursuer["heading_deg"]
+    answer = client.post("/api/v1/plans", json={**EXAMPLE, "pursuer": pursuer})
+    errors = is_problem(answer, 422, "/api/v1/plans")["errors"]
+    assert {error["path"]: error["message"] for error in errors} == {
+        "pursuer.heading_deg": "is missing.",
+        "pursuer.heading": "is not a field of the contract: did you mean heading_deg?",
+        "pursuer.colour": "is not a field of the contract: leave it out.",
+    }
+
+
+def test_a_flight_of_nothing_is_told_of_what_it_may_be(client: TestClient) -> None:
+    answer = client.post("/api/v1/flights", json={"rate": 1.0})
+    said = is_problem(answer, 422, "/api/v1/flights")["detail"]
+    assert said == "This must have a scenario, by its name, or a situation of your own."
+
+
 def test_only_json_is_taken(client: TestClient) -> None:
     answer = client.post("/api/v1/plans", content="{}", headers={"Content-Type": "text/plain"})
     is_problem(answer, 415, "/api/v1/plans")

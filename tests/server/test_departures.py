@@ -5,12 +5,14 @@ import time
 import pytest
 from relguide_server.app import create_app
 from relguide_server.departures import library_departures
+from relguide_server.flights import NewFlight
 from relguide_server.plans import EXAMPLE
 from relguide_server.settings import Settings
 
 from relguide.contract.messages import SituationFlightRequest
 from relguide.contract.protocol import PROTOCOL
-from relguide.flying.documents import LeaderChanged
+from relguide.contract.refusal import parse
+from relguide.flying.documents import FlightStarted, LeaderChanged
 from relguide.flying.orders import no_commands
 from relguide.planning.plan import plan
 from relguide.planning.situation import TurnTo
@@ -18,6 +20,16 @@ from relguide.planning.trajectory import RIGHT
 from tests.server.serving import TestClient
 
 TURN = {"direction": "right", "bank_deg": 20.0}
+
+
+@pytest.mark.parametrize("asked", [{"scenario": "fig_6b"}, {"situation": EXAMPLE}])
+def test_a_flight_names_who_plans_it(asked: dict[str, object]) -> None:
+    wanted = parse(NewFlight, asked).root
+    departure = library_departures(plan, "exact").find(wanted)
+    started = next(iter(departure.source(no_commands)))
+    assert isinstance(started, FlightStarted)
+    assert started.planner == "exact"
+    assert departure.scenario == asked.get("scenario", "")
 
 
 @pytest.mark.slow

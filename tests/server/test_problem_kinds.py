@@ -18,6 +18,7 @@ ASKED = (
     ("wrong-media-type", "POST", "/api/v1/plans", {"content": b"{}"}),
     ("body-too-long", "POST", "/api/v1/plans", {"content": b" " * 70_000, "headers": JSON}),
     ("not-found", "GET", "/api/v1/flights/none", {}),
+    ("stream", "GET", "/api/v1/flights/none/stream", {}),
     ("wrong-method", "PUT", "/api/v1/plans", {}),
     ("foreign-page", "POST", "/api/v1/plans", {"headers": {"Origin": "https://else.example"}}),
     ("unknown-host", "GET", "/healthz", {"headers": {"Host": "else.example"}}),
