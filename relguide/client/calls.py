@@ -90,12 +90,17 @@ def expect_served(response: httpx2.Response) -> None:
     """
     if response.is_success:
         return
-    try:
-        detail = str(response.json()["detail"])
-    except (ValueError, KeyError, TypeError):  # not this service's answer: a proxy's, perhaps
-        detail = f"{response.status_code} {response.reason_phrase}"
+    detail = _detail_of(response.content) or f"{response.status_code} {response.reason_phrase}"
     after = response.headers.get("retry-after", "")
     raise Refused(response.status_code, detail, float(after) if after.isdecimal() else None)
+
+
+def _detail_of(body: bytes) -> str:
+    """The sentence of a problem document; empty if this is none: a proxy's answer, perhaps."""
+    try:
+        return str(orjson.loads(body)["detail"])
+    except (ValueError, KeyError, TypeError):
+        return ""
 
 
 @contextmanager
@@ -109,7 +114,7 @@ def streaming() -> Iterator[None]:
         yield
     except InvalidStatus as error:
         sent = error.response
-        said = sent.body.decode("utf-8", "replace")[:200] or sent.reason_phrase
+        said = _detail_of(bytes(sent.body)) or f"{sent.status_code} {sent.reason_phrase}"
         raise Refused(sent.status_code, said, None) from None
     except ConnectionClosedError as error:
         if error.rcvd is None:

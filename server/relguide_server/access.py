@@ -83,8 +83,11 @@ class Access:
             await self.app(scope, receive, send)
         elif scope["type"] == "http":
             await answer(scope, receive, send)
-        else:
+        elif "websocket.http.response" in scope.get("extensions", {}):
             await receive()  # what asks to be accepted
+            await answer(scope, receive, send)
+        else:
+            await receive()
             await send({"type": "websocket.close", "code": 1008, "reason": ""})
 
     def _judge(self, scope: Scope, headers: Headers) -> Response | None:

@@ -238,8 +238,8 @@ async def stream(websocket: WebSocket, flight_id: str, fleet: FleetOf) -> None:
     spoken = [name for name in websocket.scope["subprotocols"] if name in (PROTOCOL, STREAM)]
     if not spoken:
         await websocket.accept()
-        sentence = f"This server speaks {PROTOCOL} and {STREAM}: load the page again."
-        await websocket.close(WRONG_PROTOCOL, sentence)
+        page = f"{PROTOCOL} with its own page: load that again."
+        await websocket.close(WRONG_PROTOCOL, f"This server speaks {STREAM}, and {page}")
         return
     await websocket.accept(spoken[0])
     if not fleet.knows(flight_id):

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 import httpx2 as httpx
 import pytest
-from relguide_server.access import ROLES
+from relguide_server.access import NO_TOKEN, ROLES, UNKNOWN_TOKEN
 from relguide_server.app import create_app
 from relguide_server.connections import LONGEST_HEAD
 from relguide_server.plans import EXAMPLE
@@ -97,16 +97,17 @@ def test_who_may(guarded: TestClient, route: tuple[str, str], needed: str) -> No
 
 
 def test_sockets_need_a_token() -> None:
-    async def listen(address: str, path: str, token: str) -> int:
+    async def listen(address: str, path: str, token: str) -> tuple[int, str]:
         headers = {"Authorization": f"Bearer {token}"} if token else {}
         try:
             async with connect(
                 f"ws://{address}{path}", subprotocols=[Subprotocol(STREAM)],
                 additional_headers=headers, proxy=None,
             ):  # fmt: skip
-                return 101
+                return 101, ""
         except InvalidStatus as refused:
-            return refused.response.status_code
+            said = json.loads(refused.response.body)
+            return refused.response.status_code, said["detail"]
 
     with serve(ideal_app(tokens=SETTING)) as address:
         started = httpx.post(
@@ -114,9 +115,9 @@ def test_sockets_need_a_token() -> None:
             json=FLIGHT, headers={"Authorization": f"Bearer {TOKENS['fly']}"},
         ).json()  # fmt: skip
         for path in (started["stream_url"], started["scene_url"]):
-            assert asyncio.run(listen(address, path, "")) == 403
-            assert asyncio.run(listen(address, path, "x" * 16)) == 403
-        assert asyncio.run(listen(address, started["stream_url"], TOKENS["view"])) == 101
+            assert asyncio.run(listen(address, path, "")) == (401, NO_TOKEN)
+            assert asyncio.run(listen(address, path, "x" * 16)) == (401, UNKNOWN_TOKEN)
+        assert asyncio.run(listen(address, started["stream_url"], TOKENS["view"])) == (101, "")
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems have one loopback address")
