@@ -74,6 +74,12 @@ class NearWord(NamedTuple):
 
 
 @njit(cache=True, nogil=True)
+def no_sieve(scene: Scene) -> Sieve:
+    """No word is left out."""
+    return Sieve(False, Pose(0.0, 0.0, 0.0), 0.0, scene, 1.0, 0.0, 0.0)
+
+
+@njit(cache=True, nogil=True)
 def breaks_limit(start: Pose, word: NearWord, flown: Flown, scene: Scene, stride: float) -> bool:
     """Whether every path of a word with amounts near these comes closer than the limit in time.
 

@@ -11,35 +11,60 @@ Slot frame: lengths in R, times in R/V_P, angles counter-clockwise. Contacts lie
 """
 
 from math import cos, hypot, inf, pi, sin
+from typing import NamedTuple
 
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI
 from relguide.kernels.base.records import Pose, Scene, Velocity, Window, with_limit
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.bounds.breach import INSIDE, Sieve
+from relguide.kernels.bounds.breach import INSIDE, Sieve, no_sieve
 from relguide.kernels.bounds.cells import EDGE, Cell, Poses, poses_of
-from relguide.kernels.bounds.goal import ORIGIN, Goal, track_of
-from relguide.kernels.bounds.junction import beyond_outward
+from relguide.kernels.bounds.goal import Goal, track_of
+from relguide.kernels.bounds.junction import junction_of
 from relguide.kernels.bounds.round_time import round_bound
 from relguide.kernels.bounds.round_turning import round_arrival
-from relguide.kernels.bounds.word_bound import (
-    ANY,
-    NO_JUNCTION,
-    OUTWARD,
-    Blur,
-    Junction,
-    soonest,
-    soonest_joined,
-)
+from relguide.kernels.bounds.word_bound import ByTurn, Junction, soonest, soonest_by_turn
+from relguide.kernels.bounds.word_intervals import Blur
 from relguide.kernels.contact.contact import to_frame_of
 from relguide.kernels.words.extremals import fly_piece
 
 
+class Passed(NamedTuple):
+    """How soon a word leads to a contact, or from one to the goal, by how it is passed there.
+
+    Infinite if none does, or may.
+    """
+
+    looped: float
+    """With a full loop in it, or more of them [R/V_P]."""
+    tangent: float
+    """Where λ_ψ vanishes [R/V_P]."""
+    inward: float
+    """In a turn toward the leader [R/V_P]."""
+    outward: float
+    """In a turn away from it [R/V_P]."""
+    turned: float
+    """With what there is more of such a turn on the other side of the contact, if the path goes on
+    to another one [R/V_P]."""
+
+
+@njit(cache=True, nogil=True)
+def anyhow(passed: Passed) -> float:
+    """How soon, however the contact is passed."""
+    return min(passed.looped, passed.inward, passed.outward)
+
+
+@njit(cache=True, nogil=True)
+def otherwise(passed: Passed) -> float:
+    """How soon, if not in a turn away from the leader."""
+    return min(passed.looped, passed.tangent, passed.inward)
+
+
 @njit(cache=True, nogil=True)
 def cell_bound(
-    start: Pose, scene: Scene, goal: Goal, cell: Cell, beat: float
-) -> tuple[float, float]:
+    start: Pose, scene: Scene, goal: Goal, cell: Cell, beat: float, closely: bool
+) -> tuple[Passed, float]:
     """How soon a path can be at a contact of the cell, its first, and how soon at the goal from it.
 
     Args:
@@ -47,43 +72,52 @@ def cell_bound(
         scene: the leader and d_min; arrivals before its t_release do not count.
         goal: where the path is to arrive.
         cell: of contacts.
-        beat: arrivals from here on do not matter, and both times come back as infinite [R/V_P].
+        beat: arrivals from here on do not matter, and all times come back as infinite [R/V_P].
+        closely: whether it matters how the contact is passed.
     """
-    poses = poses_of(scene, cell)
+    poses, never = poses_of(scene, cell), Passed(inf, inf, inf, inf, inf)
     if poses.differs == inf:
-        return inf, inf
+        return never, inf
     onward = _onward_bound(scene, goal, cell, poses, beat - cell.start)
     if onward == inf:
-        return inf, inf
-    soon = soon_bound(start, scene, cell, min(beat - onward, cell.end + EDGE), ANY)
-    return max(soon, cell.start), onward
+        return never, inf
+    earliest, end = cell.start - EDGE, min(beat - onward, cell.end + EDGE)
+    at, target = _seen_from_start(start, poses)
+    # read backward, left is right
+    blur = Blur(poses.right, poses.left, poses.differs, 0.0)
+    inside = with_limit(scene, scene.d_min - INSIDE)
+    if soonest(at, blur, target, Window(earliest, end), no_sieve(scene)) == inf:
+        return never, onward
+    sieve, window = Sieve(True, start, 0.0, inside, 1.0, 0.0, 0.0), Window(earliest, end)
+    if closely:
+        junction = junction_of(scene, cell, 1.0)
+        found = soonest_by_turn(at, blur, target, window, sieve, junction)
+        looped = looped_bound(start, scene, cell, end)
+        return _passed(found, junction, looped, cell.start), onward
+    soon = soonest(at, blur, target, window, sieve)
+    soon = max(min(soon, looped_bound(start, scene, cell, min(end, soon))), cell.start)
+    return Passed(soon, soon, soon, soon, soon), onward
 
 
 @njit(cache=True, nogil=True)
-def soon_bound(start: Pose, scene: Scene, cell: Cell, end: float, kind: int) -> float:
-    """How soon a path can be at a contact of the cell, its first.
-
-    Args:
-        start: where the path begins, at t = 0.
-        scene: the leader and d_min.
-        cell: of contacts; there are some.
-        end: arrivals from here on do not matter, and come back as infinite [R/V_P].
-        kind: of the junction there: see `word_bound.Junction`.
-    """
-    poses, earliest = poses_of(scene, cell), cell.start - EDGE
-    junction = Junction(kind, 1 if cell.side > 0.0 else 0, beyond_outward(scene, cell, 1.0))
-    window = Window(earliest, end)
-    if kind == ANY and _word_to(start, scene, poses, window, False, NO_JUNCTION) == inf:
-        return inf
-    soon = _word_to(start, scene, poses, window, True, junction)
-    return soon if kind == OUTWARD else min(soon, looped_bound(start, scene, cell, min(end, soon)))
+def _passed(found: ByTurn, junction: Junction, looped: float, least: float) -> Passed:
+    """By turns toward the leader and away from it; none of it less than `least`."""
+    inward, outward = found.left, found.right
+    if junction.outward == 0:
+        inward, outward = outward, inward
+    if not junction.inward:
+        inward = inf
+    return Passed(
+        max(looped, least), max(found.tangent, least), max(inward, least), max(outward, least),
+        max(found.lasting, least),
+    )  # fmt: skip
 
 
 @njit(cache=True, nogil=True)
 def looped_bound(start: Pose, scene: Scene, cell: Cell, end: float) -> float:
-    """The same for a word and a full loop, or more of them.
+    """How soon a path with a full loop in it, or more of them, can be at a contact of the cell.
 
-    Without one they are paths that arrive no sooner than the soonest word.
+    They are paths no sooner than a word. Arguments as `cell_bound`; infinite from `end` on.
     """
     poses = poses_of(scene, cell)
     later = Poses(
@@ -92,8 +126,7 @@ def looped_bound(start: Pose, scene: Scene, cell: Cell, end: float) -> float:
     )  # fmt: skip
     # a second loop takes 4π in all
     earliest = 0.0 if cell.end >= 2.0 * TWO_PI else cell.start - TWO_PI - EDGE
-    window = Window(earliest, end - TWO_PI)
-    return TWO_PI + _word_to(start, scene, later, window, False, NO_JUNCTION)
+    return TWO_PI + _word_to(start, scene, later, Window(earliest, end - TWO_PI))
 
 
 @njit(cache=True, nogil=True)
@@ -101,14 +134,14 @@ def turned_before_bound(start: Pose, scene: Scene, cell: Cell, turn: float, end:
     """How soon a path can be at a contact of the cell that has last turned away so far.
 
     Args:
-        start: as in `soon_bound`.
+        start: as in `cell_bound`.
         scene: likewise.
         cell: likewise.
         turn: how far [rad].
-        end: as in `soon_bound`.
+        end: arrivals from here on do not matter, and come back as infinite [R/V_P].
     """
     before = _turned_away(poses_of(scene, cell), cell.side, -turn)
-    return turn + _word_to(start, scene, before, Window(0.0, end - turn), False, NO_JUNCTION)
+    return turn + _word_to(start, scene, before, Window(0.0, end - turn))
 
 
 @njit(cache=True, nogil=True)
@@ -139,39 +172,30 @@ def _turned_away(poses: Poses, side: float, turn: float) -> Poses:
 
 
 @njit(cache=True, nogil=True)
-def _word_to(
-    start: Pose, scene: Scene, poses: Poses, window: Window, keeps: bool, junction: Junction
-) -> float:
-    """How soon a word can lead from the start to one of the poses.
-
-    Args:
-        start: at t = 0.
-        scene: the leader and d_min.
-        poses: which move on.
-        window: of `soonest_joined`.
-        keeps: whether words that certainly break the limit are left out.
-        junction: at the end of the word.
-    """
-    # read backward, the start is what is to be met, and left is right
+def _word_to(start: Pose, scene: Scene, poses: Poses, window: Window) -> float:
+    """How soon a word can lead from the start, at t = 0, to one of the poses, which move on."""
+    at, target = _seen_from_start(start, poses)
     blur = Blur(poses.right, poses.left, poses.differs, 0.0)
+    return soonest(at, blur, target, window, no_sieve(scene))
+
+
+@njit(cache=True, nogil=True)
+def _seen_from_start(start: Pose, poses: Poses) -> tuple[Pose, Velocity]:
+    """The middle of some poses read backward, so that the start is what is to be met."""
     c, s = cos(start.h), sin(start.h)
     at, vx, vy = poses.middle, poses.vx, poses.vy
     dx, dy = at.x - poses.t * vx - start.x, at.y - poses.t * vy - start.y
-    inside = with_limit(scene, scene.d_min - INSIDE)
-    return soonest_joined(
-        Pose(-dx * c - dy * s, dx * s - dy * c, at.h - start.h), blur,
-        Velocity(vx * c + vy * s, vy * c - vx * s), window, _sieve_from(start, inside, keeps),
-        junction,
-    )  # fmt: skip
+    seen = Pose(-dx * c - dy * s, dx * s - dy * c, at.h - start.h)
+    return seen, Velocity(vx * c + vy * s, vy * c - vx * s)
 
 
 @njit(cache=True, nogil=True)
 def _onward_bound(scene: Scene, goal: Goal, cell: Cell, poses: Poses, beat: float) -> float:
     """How soon a path can be at the goal from a contact of a cell, with or without the limit."""
-    opens, unlimited = scene.t_release - cell.end, _sieve_from(ORIGIN, scene, False)
+    opens = scene.t_release - cell.end
     onward = soonest(
         _seen_from(goal, poses), _blur_toward(scene, goal, cell, poses),
-        Velocity(goal.speed, 0.0), Window(max(opens, 0.0) - EDGE, beat), unlimited,
+        Velocity(goal.speed, 0.0), Window(max(opens, 0.0) - EDGE, beat), no_sieve(scene),
     )  # fmt: skip
     left = scene.t_release - cell.start
     if not goal.holds or left <= 0.0 or left >= beat or onward <= opens:
@@ -180,7 +204,7 @@ def _onward_bound(scene: Scene, goal: Goal, cell: Cell, poses: Poses, beat: floa
     track = track_of(goal, scene.t_release)
     early = soonest(
         _seen_from(track, poses), _blur_toward(scene, track, cell, poses),
-        Velocity(track.speed, 0.0), Window(0.0, left + EDGE), unlimited,
+        Velocity(track.speed, 0.0), Window(0.0, left + EDGE), no_sieve(scene),
     )  # fmt: skip
     return min(onward, max(opens, early)) if early < inf else onward
 
@@ -203,52 +227,35 @@ def _blur_toward(scene: Scene, goal: Goal, cell: Cell, poses: Poses) -> Blur:
 
 
 @njit(cache=True, nogil=True)
-def _sieve_from(start: Pose, scene: Scene, used: bool) -> Sieve:
-    """What leaves out words that break the limit on their way from the start."""
-    return Sieve(used, start, 0.0, scene, 1.0, 0.0, 0.0)
-
-
-@njit(cache=True, nogil=True)
-def leaving_bound(scene: Scene, goal: Goal, cell: Cell, beat: float, kind: int) -> float:
+def leaving_bound(scene: Scene, goal: Goal, cell: Cell, beat: float, closely: bool) -> Passed:
     """How soon a path can be at the goal from its last contact, if that is one of the cell's.
 
-    Arguments as `cell_bound`, and `soon_bound` for the kind; infinite from `beat` on.
+    Arguments as `cell_bound`; infinite from `beat` on.
     """
-    junction = Junction(kind, 0 if cell.side > 0.0 else 1, beyond_outward(scene, cell, -1.0))
-    found = _word_from(scene, goal, cell, beat, 0.0, junction)
-    if kind == OUTWARD:
-        return found
-    return min(found, looped_leaving_bound(scene, goal, cell, min(beat, found)))
-
-
-@njit(cache=True, nogil=True)
-def looped_leaving_bound(scene: Scene, goal: Goal, cell: Cell, beat: float) -> float:
-    """The same for a word and a full loop, or more of them."""
-    return TWO_PI + _word_from(scene, goal, cell, beat - TWO_PI, TWO_PI, NO_JUNCTION)
-
-
-@njit(cache=True, nogil=True)
-def _word_from(
-    scene: Scene, goal: Goal, cell: Cell, beat: float, looped: float, junction: Junction
-) -> float:
-    """How soon a word can lead from a contact of the cell to where the goal is so much later."""
     poses = poses_of(scene, cell)
     if poses.differs == inf:
-        return inf
-    seen = _seen_from(Goal(goal.x + looped * goal.speed, goal.speed, False), poses)
+        return Passed(inf, inf, inf, inf, inf)
     opens = max(scene.t_release - cell.end, 0.0) - EDGE
-    inside = with_limit(scene, scene.d_min - INSIDE)
-    end = Pose(goal.x, 0.0, pi)
-    return soonest_joined(
-        seen, _blur_toward(scene, goal, cell, poses), Velocity(goal.speed, 0.0),
-        Window(0.0 if looped > 0.0 else opens, beat),
-        Sieve(looped == 0.0, end, goal.speed, inside, -1.0, cell.start, cell.end), junction,
-    )  # fmt: skip
+    inside, end = with_limit(scene, scene.d_min - INSIDE), Pose(goal.x, 0.0, pi)
+    blur, target = _blur_toward(scene, goal, cell, poses), Velocity(goal.speed, 0.0)
+    seen, window = _seen_from(goal, poses), Window(opens, beat)
+    sieve = Sieve(True, end, goal.speed, inside, -1.0, cell.start, cell.end)
+    later = _seen_from(Goal(goal.x + TWO_PI * goal.speed, goal.speed, False), poses)
+    if closely:
+        junction = junction_of(scene, cell, -1.0)
+        found = soonest_by_turn(seen, blur, target, window, sieve, junction)
+        window = Window(0.0, beat - TWO_PI)
+        looped = TWO_PI + soonest(later, blur, target, window, no_sieve(scene))
+        return _passed(found, junction, looped, 0.0)
+    leaving = soonest(seen, blur, target, window, sieve)
+    window = Window(0.0, min(beat, leaving) - TWO_PI)
+    leaving = min(leaving, TWO_PI + soonest(later, blur, target, window, no_sieve(scene)))
+    return Passed(leaving, leaving, leaving, leaving, leaving)
 
 
 @njit(cache=True, nogil=True)
-def between_bound(scene: Scene, table: FloatArray, cell: Cell, other: Cell, beat: float) -> float:
-    """How soon a path can be at a contact of the other cell from one of this.
+def round_between(scene: Scene, table: FloatArray, cell: Cell, other: Cell, beat: float) -> float:
+    """How soon a path can be at a contact of the other cell from one of this, round the leader.
 
     Arguments as `cell_bound` and `round_bound`; infinite from `beat` on.
     """
@@ -256,26 +263,36 @@ def between_bound(scene: Scene, table: FloatArray, cell: Cell, other: Cell, beat
         return inf
     apart = other.start - cell.end
     beat = min(beat, other.end - cell.start + EDGE)
-    if min(cell.piece, other.piece) + 1 == len(scene.leader):
+    if apart < beat and min(cell.piece, other.piece) + 1 == len(scene.leader):
         apart = max(
             apart, min(round_bound(table, 0, cell, other), round_bound(table, 1, cell, other))
         )
     elif apart < beat:
         apart = max(apart, round_arrival(scene, cell, other, cell.start + beat) - cell.start)
-    if apart >= beat:
-        return inf
-    return max(apart, word_between(scene, cell, other, beat))
+    return apart if apart < beat else inf
 
 
 @njit(cache=True, nogil=True)
-def word_between(scene: Scene, cell: Cell, other: Cell, beat: float) -> float:
+def word_between(
+    scene: Scene, cell: Cell, other: Cell, beat: float, after: float, before: float
+) -> float:
     """No word leads sooner to a contact of the other cell from one of this.
 
-    Arguments as `cell_bound`; infinite from `beat` on.
+    Args:
+        scene: as in `cell_bound`.
+        cell: likewise.
+        other: of the contacts to which it leads.
+        beat: as in `cell_bound`.
+        after: how far it first turns away from the leader, at least [rad].
+        before: and how far just before the other contact [rad].
     """
     begin, end = poses_of(scene, cell), poses_of(scene, other)
     if begin.differs == inf or end.differs == inf:
         return inf
+    if after > 0.0:
+        begin = _turned_away(begin, cell.side, after)
+    if before > 0.0:
+        end = _turned_away(end, other.side, -before)
     # where the other contact would be at that time, had it always moved as it then does
     drifts = 0.0
     met = end.middle
@@ -285,10 +302,11 @@ def word_between(scene: Scene, cell: Cell, other: Cell, beat: float) -> float:
     met = Pose(met.x + early * end.vx, met.y + early * end.vy, met.h)
     c, s = cos(met.h), sin(met.h)
     moved, differs = max(end.left, end.right) + drifts, begin.differs + end.differs
-    return soonest(
+    turned = after + before
+    return turned + soonest(
         to_frame_of(begin.middle, met),
         Blur(begin.left + moved, begin.right + moved, differs, end.differs),
         Velocity(end.vx * c + end.vy * s, end.vy * c - end.vx * s),
-        Window(0.0, beat),
-        _sieve_from(ORIGIN, scene, False),
-    )
+        Window(0.0, beat - turned),
+        no_sieve(scene),
+    )  # fmt: skip

@@ -15,19 +15,19 @@ from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.around import Around, is_last
 from relguide.kernels.bounds.cells import Cell
-from relguide.kernels.bounds.contact_bound import cell_bound, leaving_bound
+from relguide.kernels.bounds.contact_bound import Passed, anyhow, cell_bound, leaving_bound
 from relguide.kernels.bounds.goal import Goal
 from relguide.kernels.bounds.junction import can_touch
 from relguide.kernels.bounds.round_time import round_time
-from relguide.kernels.bounds.word_bound import ANY
 
 IntArray = np.ndarray[tuple[int, ...], np.dtype[np.int64]]
 
 _CLOSELY = 50  # times a cell is halved to find what is least in it
 _NARROW = 1e-6  # and how narrow its parts may become: what is left counts for some 1e-5 R/V_P [rad]
+_BY_TURN = 0.1  # how contacts are passed matters in cells smaller than this [rad]
 _SOON, _ONWARD, _LEAVING, _FROM, _TO = 0, 1, 2, 3, 5  # columns of what is known
-_COLUMNS = 7
-JOINED = 7
+_REACHED, _LEFT, _COLUMNS = 7, 12, 17
+JOINED = 6
 """Columns of `Tree.joined`."""
 
 
@@ -42,8 +42,9 @@ class Tree(NamedTuple):
     joined: FloatArray
     """What is known of it as one of several contacts: see `joined`. shape (n, JOINED)"""
     known: FloatArray
-    """How soon a first contact can be there, the goal from it, and the goal from a last one; and
-    bounds of both with the time round, either way. NaN while it is not known. shape (n, 7)"""
+    """How soon a first contact can be there, the goal from it, and the goal from a last one; bounds
+    of both with the time round, either way; and the first and the last of these by how the contact
+    is passed. NaN while it is not known. shape (n, 17)"""
 
 
 class Problem(NamedTuple):
@@ -131,11 +132,14 @@ def reach(tree: Tree, problem: Problem, n: int) -> tuple[float, float]:
     known = tree.known[n]
     if isnan(known[_SOON]):
         cell = cell_at(tree, n)
-        soon, onward = inf, inf
+        soon, onward, passed = inf, inf, Passed(inf, inf, inf, inf, inf)
         if can_touch(problem.scene, cell):
             start, scene, goal = problem.start, problem.scene, problem.goal
-            soon, onward = cell_bound(start, scene, goal, cell, problem.beat)
+            closely = size_of(tree, n, scene.d_min) < _BY_TURN
+            passed, onward = cell_bound(start, scene, goal, cell, problem.beat, closely)
+            soon = anyhow(passed)
         known[_SOON], known[_ONWARD] = soon, onward
+        _keep(known[_REACHED:], passed)
         if soon < inf and cell.end < inf:
             tree.cells[n, 4] = soon
             tree.cells[n, 5] = min(cell.end, max(problem.beat - onward, soon))
@@ -150,11 +154,36 @@ def leave(tree: Tree, problem: Problem, n: int) -> float:
     """How soon the goal can be reached from a last contact in the cell."""
     known = tree.known[n]
     if isnan(known[_LEAVING]):
-        known[_LEAVING] = inf
-        cell = cell_at(tree, n)
+        passed, cell = Passed(inf, inf, inf, inf, inf), cell_at(tree, n)
         if can_touch(problem.scene, cell):
-            known[_LEAVING] = leaving_bound(problem.scene, problem.goal, cell, problem.beat, ANY)
+            scene, left = problem.scene, problem.beat - cell.start
+            closely = size_of(tree, n, scene.d_min) < _BY_TURN
+            passed = leaving_bound(scene, problem.goal, cell, left, closely)
+        known[_LEAVING] = anyhow(passed)
+        _keep(known[_LEFT:], passed)
     return float(known[_LEAVING])
+
+
+@njit(cache=True, nogil=True)
+def reached(tree: Tree, problem: Problem, n: int) -> Passed:
+    """How soon a first contact can be in the cell, by how it is passed."""
+    reach(tree, problem, n)
+    known = tree.known[n, _REACHED:]
+    return Passed(known[0], known[1], known[2], known[3], known[4])
+
+
+@njit(cache=True, nogil=True)
+def departed(tree: Tree, problem: Problem, n: int) -> Passed:
+    """How soon the goal can be reached from a last contact in the cell, by how it is passed."""
+    leave(tree, problem, n)
+    known = tree.known[n, _LEFT:]
+    return Passed(known[0], known[1], known[2], known[3], known[4])
+
+
+@njit(cache=True, nogil=True)
+def _keep(known: FloatArray, passed: Passed) -> None:
+    for k in range(len(passed)):
+        known[k] = passed[k]
 
 
 @njit(cache=True, nogil=True)

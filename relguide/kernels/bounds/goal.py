@@ -10,9 +10,10 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.records import Pose, Scene, Velocity, Window
-from relguide.kernels.bounds.breach import Sieve
+from relguide.kernels.bounds.breach import no_sieve
 from relguide.kernels.bounds.cells import EDGE
-from relguide.kernels.bounds.word_bound import Blur, soonest
+from relguide.kernels.bounds.word_bound import soonest
+from relguide.kernels.bounds.word_intervals import Blur
 
 ORIGIN = Pose(0.0, 0.0, 0.0)
 """Where words are looked at from that nothing is left out of."""
@@ -56,6 +57,6 @@ def arrives_at_release(x: float, y: float, h: float, alpha: float, t_release: fl
     nobody = Scene(np.zeros((1, 5)), 0.0, 0.0, 0.0, inf)
     meets = soonest(
         Pose(x - track.x, y, h), Blur(0.0, 0.0, 0.0, 0.0), Velocity(1.0, 0.0),
-        Window(0.0, t_release + EDGE), Sieve(False, ORIGIN, 0.0, nobody, 1.0, 0.0, 0.0),
+        Window(0.0, t_release + EDGE), no_sieve(nobody),
     )  # fmt: skip
     return bool(meets < inf)

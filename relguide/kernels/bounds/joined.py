@@ -1,68 +1,84 @@
-"""What is known of contacts that have others after them, or before: each computed once.
+"""What is known of a contact that is the only one, or has others after it, or before: once each.
 
-Such a contact is passed as `junction` has it: straight, or in a turn away from the leader that goes
-on. Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
+The turn goes on through a contact, as λ_ψ does. Where there are other contacts after it, or before,
+a turn away from the leader goes on for a while as well: see `junction`. Slot frame: lengths in R,
+times in R/V_P, angles counter-clockwise.
 """
 
 from math import inf, isnan
-from typing import NamedTuple
 
 from numba import njit
 
+from relguide.kernels.bounds.around import soonest_in
 from relguide.kernels.bounds.cells import EDGE
-from relguide.kernels.bounds.contact_bound import (
-    leaving_bound,
-    looped_bound,
-    looped_leaving_bound,
-    soon_bound,
-    turned_after_bound,
-    turned_before_bound,
+from relguide.kernels.bounds.contact_bound import turned_after_bound, turned_before_bound
+from relguide.kernels.bounds.contact_tree import (
+    Problem,
+    Tree,
+    cell_at,
+    departed,
+    leave,
+    reach,
+    reached,
 )
-from relguide.kernels.bounds.contact_tree import Problem, Tree, cell_at, leave, reach
-from relguide.kernels.bounds.junction import apart_by, slide_turns
-from relguide.kernels.bounds.word_bound import OUTWARD, TANGENT
+from relguide.kernels.bounds.junction import apart_by
 
-_FIRST, _LAST, _APART = 0, 3, 5  # columns of what is known
-
-
-class First(NamedTuple):
-    """A first contact with others after it; times are infinite if there is none in time."""
-
-    straight: float
-    """How soon it can be passed straight, or with loops, or however it is passed [R/V_P]."""
-    turned: float
-    """How soon a turn away that passes it is over [R/V_P]."""
-    goal: float
-    """How soon a path with that turn can be at the goal [R/V_P]."""
-
-
-class Last(NamedTuple):
-    """A last contact with others before it; times are infinite if there is none in time."""
-
-    straight: float
-    """How soon the goal can be reached from it, passed as `First.straight` has it [R/V_P]."""
-    turned: float
-    """How soon from the beginning of a turn away that passes it [R/V_P]."""
+_ONLY, _TURNED, _BEFORE, _APART = 0, 1, 2, 3  # columns of what is known
 
 
 @njit(cache=True, nogil=True)
-def first_of(tree: Tree, problem: Problem, n: int) -> First:
-    """A first contact in a cell, if others come after it."""
-    known = tree.joined[n, _FIRST : _FIRST + 3]
-    if isnan(known[0]):
-        first = _first_of(tree, problem, n)
-        known[0], known[1], known[2] = first.straight, first.turned, first.goal
-    return First(float(known[0]), float(known[1]), float(known[2]))
+def only_of(tree: Tree, problem: Problem, n: int) -> float:
+    """How soon a path can be at the goal whose only contact lies in a cell [R/V_P]."""
+    if isnan(tree.joined[n, _ONLY]):
+        soon, onward = reach(tree, problem, n)
+        leaving = leave(tree, problem, n)
+        only = soon + max(leaving, onward)
+        if only < problem.beat:
+            first, last = reached(tree, problem, n), departed(tree, problem, n)
+            # a turn goes on as it was
+            turned = min(first.inward + last.inward, first.outward + last.outward)
+            looped = min(first.looped + leaving, soon + last.looped)
+            only = max(only, min(turned, looped, soon + last.tangent))
+        tree.joined[n, _ONLY] = only
+    return float(tree.joined[n, _ONLY])
 
 
 @njit(cache=True, nogil=True)
-def last_of(tree: Tree, problem: Problem, n: int) -> Last:
-    """A last contact in a cell, if others come before it."""
-    known = tree.joined[n, _LAST : _LAST + 2]
-    if isnan(known[0]):
-        last = _last_of(tree, problem, n)
-        known[0], known[1] = last.straight, last.turned
-    return Last(float(known[0]), float(known[1]))
+def turned_goal(tree: Tree, problem: Problem, n: int) -> float:
+    """How soon at the goal, if a first contact in a cell is passed in a turn away from the leader.
+
+    That is when others come after it [R/V_P].
+    """
+    if isnan(tree.joined[n, _TURNED]):
+        soon, onward = reach(tree, problem, n)
+        first, beat = reached(tree, problem, n), problem.beat
+        goal = inf
+        if max(first.turned, first.outward + onward) < beat:
+            cell = cell_at(tree, n)
+            turn = max(first.turned - min(beat - onward, cell.end + EDGE), 0.0)
+            after = turned_after_bound(problem.scene, problem.goal, cell, turn, beat - soon)
+            goal = max(first.turned, first.outward + max(onward, after))
+        tree.joined[n, _TURNED] = goal
+    return float(tree.joined[n, _TURNED])
+
+
+@njit(cache=True, nogil=True)
+def turned_leave(tree: Tree, problem: Problem, n: int) -> float:
+    """How soon at the goal from the beginning of a turn away from the leader.
+
+    It passes a last contact in a cell that has others before it [R/V_P].
+    """
+    if isnan(tree.joined[n, _BEFORE]):
+        leaving, turned = leave(tree, problem, n), departed(tree, problem, n).turned
+        cell, beat = cell_at(tree, n), problem.beat
+        if turned < inf and cell.end < inf:
+            # the goal is not reached later than in time, nor the contact sooner than this
+            since = max(cell.start, soonest_in(problem.around, problem.scene, cell))
+            turn, end = max(turned - (beat - since), 0.0), min(cell.end, beat - leaving) + EDGE
+            if turned_before_bound(problem.start, problem.scene, cell, turn, end) == inf:
+                turned = inf
+        tree.joined[n, _BEFORE] = turned
+    return float(tree.joined[n, _BEFORE])
 
 
 @njit(cache=True, nogil=True)
@@ -72,43 +88,3 @@ def apart(tree: Tree, problem: Problem, n: int, pace: float) -> float:
     if isnan(tree.joined[n, column]):
         tree.joined[n, column] = apart_by(problem.scene, cell_at(tree, n), pace)
     return float(tree.joined[n, column])
-
-
-@njit(cache=True, nogil=True)
-def _first_of(tree: Tree, problem: Problem, n: int) -> First:
-    soon, onward = reach(tree, problem, n)
-    cell, start, scene, beat = cell_at(tree, n), problem.start, problem.scene, problem.beat
-    _, most = slide_turns(scene, cell)
-    if soon == inf or most >= 1.0:
-        return First(soon, inf, inf)
-    end = min(beat - onward, cell.end + EDGE)
-    if most >= 0.0:
-        straight = soon_bound(start, scene, cell, end, TANGENT)
-    else:
-        straight = looped_bound(start, scene, cell, end)
-    turned = max(soon, soon_bound(start, scene, cell, beat, OUTWARD))
-    goal = inf
-    if turned < inf:
-        turn = max(turned - cell.end, 0.0)
-        after = turned_after_bound(scene, problem.goal, cell, turn, beat - soon)
-        goal = max(turned, soon + max(onward, after))
-    return First(max(soon, straight), turned if goal < beat else inf, goal)
-
-
-@njit(cache=True, nogil=True)
-def _last_of(tree: Tree, problem: Problem, n: int) -> Last:
-    leaving = leave(tree, problem, n)
-    cell, scene, goal, beat = cell_at(tree, n), problem.scene, problem.goal, problem.beat
-    _, most = slide_turns(scene, cell)
-    if leaving == inf or most >= 1.0:
-        return Last(leaving, inf)
-    if most >= 0.0:
-        straight = leaving_bound(scene, goal, cell, beat, TANGENT)
-    else:
-        straight = looped_leaving_bound(scene, goal, cell, beat)
-    turned = leaving_bound(scene, goal, cell, beat, OUTWARD)
-    if turned < inf and cell.end < inf:
-        turn, end = max(turned - leaving, 0.0), min(cell.end, beat - leaving) + EDGE
-        if turned_before_bound(problem.start, scene, cell, turn, end) == inf:
-            turned = inf
-    return Last(straight, turned)

@@ -1,25 +1,28 @@
-"""How an optimal path passes a contact that has another one after it, or before it.
+"""How an optimal path passes a contact, and how one that has another one after it, or before it.
 
 At a contact λ_ψ and the turn go on unbroken, and λ_p changes toward the leader only: see `costate`.
-Who slides along the circle at bearing b and side s turns toward the leader at k V_P/R,
+So whoever comes to it in a turn leaves it in that turn, to the same side, unless λ_ψ vanishes just
+there. Who slides along the circle at bearing b and side s turns toward the leader at k V_P/R,
 
     k = (q + s α sin b)² / (d_min q) − ω α sin b / q,    q = √(1 − α² cos² b),
 
 ω being the leader's turn rate; who turns toward it at w V_P/R has d″ = (k − w) q V_P²/R, which must
-not be negative there, neither before nor after. So where k < −1 there is no contact. Where k < 1 a
-path that is optimal does not turn toward the leader. Either it is straight: then λ_ψ = 0, as on the
-boundary arc that may follow, and of all words from the start only some end so. Or it turns away and
-goes on turning, until λ_ψ = 0 again: on a line along the new λ_p. Whatever the change of λ_p, that
-line passes through one point, where the line of the word so far meets the one from the leader to
-the contact. It turns from the one line to the other as the change grows, and so the end of the turn
+not be negative there, neither before nor after. So where k < −1 there is no contact, where k < 0
+nobody passes straight, and where k < 1 nobody turns toward the leader. Where k > 1 nobody can
+slide: the separation grows, whatever the turn, and for a while there is no other contact.
+
+Where k < 1 and there is another contact to come, λ_ψ = 0, as on the boundary arc that may follow,
+and of all words from the start only some end so. Or the path turns away, also where k > 1, and goes
+on turning until λ_ψ = 0 again: on a line along the new λ_p. Whatever the change of λ_p, that line
+passes through one point, where the line of the word so far meets the one from the leader to the
+contact. It turns from the one line to the other as the change grows, and so the end of the turn
 goes from where it was without the change to where it is if the change is all there is. The turn
-goes on for the lesser of both: what is left of it by the word, and 2 arccos(α cos b).
+goes on for the lesser of both: what is left of it by the word, and 2 arccos(α cos b). (A turn
+toward the leader may end at once.)
 
-Where k > 1 nobody can slide. The separation grows, whatever the turn, and for a while there is no
-other contact.
-
-This holds for paths whose costate does not vanish before the contact: those on whose way there
-something depends. Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
+What is said of other contacts holds for paths whose costate does not vanish before the contact:
+those on whose way there something depends. Slot frame: lengths in R, times in R/V_P, angles
+counter-clockwise.
 """
 
 from math import acos, cos, hypot, inf, pi, sin, sqrt
@@ -28,6 +31,7 @@ from numba import njit
 
 from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.bounds.cells import EDGE, Cell, poses_of
+from relguide.kernels.bounds.word_bound import Junction
 from relguide.kernels.separation.clearance import leader_at, piece_at
 from relguide.kernels.words.extremals import fly_piece
 
@@ -64,6 +68,20 @@ def slide_turns(scene: Scene, cell: Cell) -> tuple[float, float]:
 def can_touch(scene: Scene, cell: Cell) -> bool:
     """Whether there can be a contact in a cell."""
     return slide_turns(scene, cell)[1] >= -1.0 - EDGE
+
+
+@njit(cache=True, nogil=True)
+def junction_of(scene: Scene, cell: Cell, pace: float) -> Junction:
+    """What is asked of the turn with which a word comes to a contact in a cell, or leaves it.
+
+    Args:
+        scene: the leader and d_min.
+        cell: of contacts.
+        pace: +1 of words that come to it, which are read backward; −1 of words that leave it.
+    """
+    _, most = slide_turns(scene, cell)
+    outward = 0 if pace * cell.side > 0.0 else 1
+    return Junction(True, outward, beyond_outward(scene, cell, pace), most >= 0.0, most >= 1.0)
 
 
 @njit(cache=True, nogil=True)

@@ -23,17 +23,20 @@ from relguide.kernels.bounds.around import (
     sweep_from,
     times_of,
 )
+from relguide.kernels.bounds.contact_bound import otherwise
 from relguide.kernels.bounds.contact_tree import (
     IntArray,
     Problem,
     Tree,
     cell_at,
+    departed,
     halve,
     leave,
     reach,
+    reached,
     size_of,
 )
-from relguide.kernels.bounds.joined import first_of, last_of
+from relguide.kernels.bounds.joined import turned_goal, turned_leave
 from relguide.kernels.bounds.round_turning import FAST
 
 
@@ -108,10 +111,10 @@ def _begins(problem: Problem, tree: Tree, n: int, last: bool) -> float:
         soon, onward = reach(tree, problem, n)
         if soon + onward >= problem.beat:
             return inf
-        first = first_of(tree, problem, n)
-        if first.goal < problem.beat:
+        if turned_goal(tree, problem, n) < problem.beat:
             return soon
-        return first.straight if first.straight + onward < problem.beat else inf
+        straight = otherwise(reached(tree, problem, n))
+        return straight if straight + onward < problem.beat else inf
     cell = cell_at(tree, n)
     since = max(cell.start, soonest_in(problem.around, problem.scene, cell))
     if since > cell.end:
@@ -119,14 +122,13 @@ def _begins(problem: Problem, tree: Tree, n: int, last: bool) -> float:
     leaving = leave(tree, problem, n)
     if since + leaving >= problem.beat:
         return inf
-    passed, latest = last_of(tree, problem, n), -inf
-    if since + passed.straight < problem.beat:
-        latest = min(cell.end, problem.beat - passed.straight)
-    if passed.turned < inf:
-        # the turn begins after a first contact
-        since = max(since, np.min(problem.around.soonest) + passed.turned - leaving)
-        if since <= cell.end and since + leaving < problem.beat:
-            latest = max(latest, min(cell.end, problem.beat - leaving))
+    passed, latest = departed(tree, problem, n), -inf
+    if since + otherwise(passed) < problem.beat:
+        latest = min(cell.end, problem.beat - otherwise(passed))
+    # a turn away begins after a first contact
+    turned = np.min(problem.around.soonest) + turned_leave(tree, problem, n)
+    if max(since + passed.outward, turned) < problem.beat:
+        latest = max(latest, min(cell.end, problem.beat - passed.outward))
     return -latest
 
 

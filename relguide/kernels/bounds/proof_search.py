@@ -14,21 +14,23 @@ from numba import njit
 from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.around import is_last, soonest_in
-from relguide.kernels.bounds.contact_bound import between_bound
+from relguide.kernels.bounds.contact_bound import otherwise, round_between, word_between
 from relguide.kernels.bounds.contact_tree import (
     IntArray,
     Problem,
     Tree,
     cell_at,
+    departed,
     halve,
     leave,
     plant,
     reach,
+    reached,
     round_from,
     round_to,
     size_of,
 )
-from relguide.kernels.bounds.joined import apart, first_of, last_of
+from relguide.kernels.bounds.joined import apart, only_of, turned_goal, turned_leave
 from relguide.kernels.bounds.narrowing import lasts_left, narrow, with_around
 from relguide.kernels.bounds.probe import Find, probe, probe_between
 
@@ -181,16 +183,17 @@ def _add(search: Search, problem: Problem, n: int, m: int, least: float) -> None
     soon, onward = reach(search.first, problem, n)
     if soon == inf:
         return
+    bound = soon + onward
     if m >= 0:
         bound = _pair_bound(search, problem, n, m)
+    elif size_of(search.first, n, problem.scene.d_min) < _JOINED and bound < problem.beat:
+        bound = only_of(search.first, problem, n)
+        if m == _NO_LAST and bound > soon + onward:
+            first = reached(search.first, problem, n)
+            turned = turned_goal(search.first, problem, n)
+            bound = min(bound, otherwise(first) + onward, turned)
     elif m == _ONLY:
         bound = soon + max(leave(search.first, problem, n), onward)
-    else:
-        bound = soon + onward
-        if size_of(search.first, n, problem.scene.d_min) < _JOINED and bound < problem.beat:
-            first = first_of(search.first, problem, n)
-            only = soon + max(leave(search.first, problem, n), onward)
-            bound = min(only, first.straight + onward, first.goal)
     bound = max(bound, least, problem.scene.t_release)
     if bound < problem.beat:
         _push(search, bound, n, m, 0)
@@ -199,30 +202,56 @@ def _add(search: Search, problem: Problem, n: int, m: int, least: float) -> None
 @njit(cache=True, nogil=True)
 def _pair_bound(search: Search, problem: Problem, n: int, m: int) -> float:
     """How soon a path can arrive with its first contact in a cell, and another last one."""
+    scene, table, beat = problem.scene, problem.table, problem.beat
     soon, leaving = reach(search.first, problem, n)[0], leave(search.last, problem, m)
     cell, other = cell_at(search.first, n), cell_at(search.last, m)
-    at_last = max(other.start, soonest_in(problem.around, problem.scene, other))
-    if at_last > other.end or at_last + leaving >= problem.beat:
+    at_last = max(other.start, soonest_in(problem.around, scene, other))
+    if at_last > other.end or at_last + leaving >= beat:
         return inf
-    first, last = first_of(search.first, problem, n), last_of(search.last, problem, m)
-    if min(first.straight, first.turned) + min(last.straight, last.turned) >= problem.beat:
+    first, last = reached(search.first, problem, n), departed(search.last, problem, m)
+    straight, passed = otherwise(first), otherwise(last)
+    turned, turn_on = turned_goal(search.first, problem, n), turned_leave(search.last, problem, m)
+    on = first.outward if turned < beat else inf
+    if min(straight, on) + min(passed, turn_on) >= beat:
         return inf
+    room = beat - soon - leaving
     between = max(
-        between_bound(problem.scene, problem.table, cell, other, problem.beat - soon - leaving),
-        apart(search.first, problem, n, 1.0),
-        apart(search.last, problem, m, -1.0),
-    )
-    if soon + between > other.end:
+        apart(search.first, problem, n, 1.0), apart(search.last, problem, m, -1.0),
+        word_between(scene, cell, other, room, 0.0, 0.0),
+    )  # fmt: skip
+    if between < room:
+        between = max(between, round_between(scene, table, cell, other, room))
+    if between >= room or soon + between > other.end:
         return inf
-    # each contact is passed straight or turning away; where a turn passes both, so does a word
-    # from the first one on, and the first is taken for the last
-    there, later = max(first.straight + between, at_last), max(soon + between, at_last)
-    bound = min(there + last.straight, max(there + leaving, first.straight + last.turned))
-    if first.turned < inf:
-        later = max(later, first.turned)
-        bound = min(bound, max(later + last.straight, first.goal))
-        if last.turned < inf:
-            bound = min(bound, max(later + leaving, soon + last.turned, first.goal))
+    # each contact is passed straight or turning away
+    there = max(straight + between, at_last)
+    bound = there + passed if there <= other.end else inf
+    # for how long they turn away at least: what is not in time does not matter
+    after = max(first.turned - min(cell.end, beat - between - leaving), 0.0)
+    before = max(last.turned - (beat - max(soon + between, at_last)), 0.0)
+    # where a turn passes both, a word leads on from the first or to the last: as from an only one
+    if on < inf:
+        took = between
+        if after > 0.0:
+            took = max(took, word_between(scene, cell, other, room, after, 0.0))
+        there = max(on + took, first.turned, at_last)
+        if there <= other.end:
+            bound = min(bound, max(there + passed, turned))
+        if turn_on < inf:
+            if before > 0.0:
+                took = max(took, word_between(scene, cell, other, room, 0.0, before))
+                if cell.side != other.side and after > 0.0:
+                    took = max(took, word_between(scene, cell, other, room, after, before))
+            there = max(on + took, first.turned, at_last)
+            if there <= other.end:
+                bound = min(bound, max(there + last.outward, on + turn_on, turned))
+    if turn_on < inf and straight < inf:
+        took = between
+        if before > 0.0:
+            took = max(took, word_between(scene, cell, other, room, 0.0, before))
+        there = max(straight + took, at_last)
+        if there <= other.end:
+            bound = min(bound, max(there + last.outward, straight + turn_on))
     return bound
 
 

@@ -14,16 +14,16 @@ from relguide.kernels.base.records import Contact, Pose, Scene, Velocity
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.cells import Cell, contacts_within, turning_blur
 from relguide.kernels.bounds.contact_bound import (
+    anyhow,
     cell_bound,
     leaving_bound,
-    soon_bound,
+    otherwise,
     word_between,
 )
 from relguide.kernels.bounds.goal import Goal, arrives_at_release
-from relguide.kernels.bounds.junction import beyond_outward
+from relguide.kernels.bounds.junction import beyond_outward, slide_turns
 from relguide.kernels.bounds.round_time import round_bound, times_round
 from relguide.kernels.bounds.untouched import untouched_bound
-from relguide.kernels.bounds.word_bound import ANY, OUTWARD
 from relguide.kernels.contact.contact import (
     contact_exists,
     contact_heading,
@@ -111,15 +111,17 @@ def test_a_cell_holds_its_contacts(cell: Cell, alpha: float, d_min: float, share
 @given(
     x=numbers(-8.0, 8.0), y=numbers(-8.0, 8.0), h=numbers(0.0, 2.0 * pi),
     cell=cells(), alpha=ratios, d_min=limits, behind=numbers(0.0, 4.0), share=numbers(-1.0, 1.0),
+    closely=st.booleans(),
 )  # fmt: skip
 def test_no_contact_of_a_cell_is_reached_or_left_sooner(
     x: float, y: float, h: float, cell: Cell, alpha: float, d_min: float, behind: float,
-    share: float,
+    share: float, closely: bool,
 ) -> None:  # fmt: skip
     start, scene = Pose(x, y, h), straight(alpha, d_min, d_min + behind)
     assume(hypot(x - d_min - behind, y) > d_min)
-    soon, onward = cell_bound(start, scene, Goal(0.0, alpha, False), cell, FAR)
-    leaving = leaving_bound(scene, Goal(0.0, alpha, False), cell, FAR, ANY)
+    goal = Goal(0.0, alpha, False)
+    passed, onward = cell_bound(start, scene, goal, cell, FAR, closely)
+    soon, leaving = anyhow(passed), anyhow(leaving_bound(scene, goal, cell, FAR, closely))
     b = cell.bearing + share * cell.half
     if not contact_exists(b, alpha):
         return
@@ -128,11 +130,16 @@ def test_no_contact_of_a_cell_is_reached_or_left_sooner(
     if not len(to_it) or not len(on) or to_it[0, 0] + on[0, 0] >= FAR:
         return
     assert onward <= on[0, 0] + SLACK * (1.0 + on[0, 0])
+    _, most = slide_turns(scene, cell)
     for row in to_it:
+        if SIGNS[int(row[1]), 2] == cell.side and most < 1.0 and row[4] > 0.0:
+            continue  # it touches just before this contact, and not here
         if row[0] + on[0, 0] < FAR and keeps(start, row, scene):
             assert soon <= row[0] + SLACK * (1.0 + row[0])
             break
     for row in on:
+        if SIGNS[int(row[1]), 0] == cell.side and most < 1.0 and row[2] > 0.0:
+            continue
         if row[0] < FAR and keeps(at, row, scene._replace(d_min=d_min - 1e-9)):
             assert leaving <= row[0] + SLACK * (1.0 + row[0])
             break
@@ -145,7 +152,7 @@ def test_no_contact_of_a_cell_is_reached_or_left_sooner(
 def test_no_contact_follows_another_sooner(
     first: Cell, last: Cell, alpha: float, d_min: float, shares: tuple[float, float]
 ) -> None:
-    lowest = word_between(straight(alpha, d_min, 0.0), first, last, FAR)
+    lowest = word_between(straight(alpha, d_min, 0.0), first, last, FAR, 0.0, 0.0)
     poses = []
     for cell, share in zip((first, last), shares, strict=True):
         b = cell.bearing + share * cell.half
@@ -275,7 +282,9 @@ def test_no_contact_with_a_leader_that_turns_is_reached_or_left_sooner(seed: int
         row = np.array((t, rng.integers(0, 6), *amounts))
         start = flown_backward(contact, row)
         goal = Goal(rng.uniform(-6.0, 6.0), rng.choice((scene.alpha, 0.0, 1.0)), False)
-        soon, onward = cell_bound(start, scene, goal, cell, FAR)
+        closely = bool(rng.integers(2))
+        passed, onward = cell_bound(start, scene, goal, cell, FAR, closely)
+        soon = anyhow(passed)
         rows = np.empty((MAX_ROWS, 5))
         on = Pose(contact.x - goal.x - goal.speed * t, contact.y, contact.h % (2.0 * pi))
         if solve(on, goal.speed, 0.0, rows) == 0 or rows[0, 0] >= 100.0:
@@ -283,14 +292,19 @@ def test_no_contact_with_a_leader_that_turns_is_reached_or_left_sooner(seed: int
         assert onward <= rows[0, 0] + SLACK * (1.0 + rows[0, 0])
         left += 1
         later = scene._replace(leader=scene.leader - np.array([t, 0.0, 0.0, 0.0, 0.0]))
-        leaving = leaving_bound(scene, goal, cell, FAR, ANY)
+        leaving = anyhow(leaving_bound(scene, goal, cell, FAR, closely))
+        _, most = slide_turns(scene, cell)
         for some in with_costate(rows[: solve(on, goal.speed, 0.0, rows)]):
+            if SIGNS[int(some[1]), 0] == cell.side and most < 1.0 and some[2] > 0.0:
+                continue  # it touches just after this contact, and not here
             if some[0] < 50.0 and keeps(contact, some, later._replace(d_min=scene.d_min - 1e-9)):
                 assert leaving <= some[0] + SLACK * (1.0 + some[0])
                 kept += 1
                 break
             barred += leaving > some[0] + 0.1
         inside = scene._replace(d_min=scene.d_min - SLACK)
+        if SIGNS[int(row[1]), 2] == cell.side and most < 1.0:
+            continue
         if len(with_costate(row[None])) and keeps(start, row, inside):
             assert soon <= t + SLACK * (1.0 + t)
             reached += 1
@@ -301,39 +315,125 @@ def test_no_contact_with_a_leader_that_turns_is_reached_or_left_sooner(seed: int
 
 
 def test_who_turns_away_at_a_contact_is_told_from_who_turns_toward_the_leader() -> None:
-    """Paths to a contact, and from one, whose turn there is away: none sooner than what is said."""
+    """Paths to a contact, and from one, by the turn there: none sooner than what is said of it."""
     rng = np.random.default_rng(12)
-    there = gone = 0
+    there = toward = gone = apart = 0
     for _ in range(3_000):
         scene = turning(rng)
         b, side, half = rng.uniform(-pi, pi), rng.choice((1.0, -1.0)), 1e-6
         t = rng.uniform(0.3, 0.9) * scene.leader[1, 0]
         cell = Cell(0, side, b, half, t - half, t + half)
+        least, _ = slide_turns(scene, cell)
         contact = contact_with(scene, b, side, t)
-        # LSL or RSR: away from the leader, which is to the left if it is passed counter-clockwise
+        # LSL or RSR: away from the leader, which is to the left if it is passed counter-clockwise,
+        # or toward it
         turned = rng.uniform(0.05, 0.8) * t
         ahead = rng.uniform(0.05, 0.9) * (t - turned)
-        away = np.array((t, 1 if side > 0.0 else 0, t - turned - ahead, ahead, turned))
-        start = flown_backward(contact, away)
-        if turned < 2.0 * pi and keeps(start, away, scene):
-            more = min(2.0 * pi - turned, beyond_outward(scene, cell, 1.0))
-            soon = soon_bound(start, scene, cell, FAR, OUTWARD)
-            assert soon <= t + more + 1e-4
-            there += soon > t + 0.5 * more
+        away = bool(rng.integers(2))
+        word = np.array((t, 1 if (side > 0.0) == away else 0, t - turned - ahead, ahead, turned))
+        start = flown_backward(contact, word)
         goal = Goal(rng.uniform(-6.0, 6.0), scene.alpha, False)
+        if turned < 2.0 * pi and keeps(start, word, scene):
+            passed, onward = cell_bound(start, scene, goal, cell, FAR, True)
+            if onward < inf and away:
+                more = min(2.0 * pi - turned, beyond_outward(scene, cell, 1.0))
+                assert passed.outward <= t + 1e-4
+                assert passed.turned <= t + more + 1e-4
+                there += passed.turned > t + 0.5 * more
+            elif onward < inf and least > 1.0:
+                assert passed.inward <= t + 1e-4
+                toward += 1
         rows = np.empty((MAX_ROWS, 5))
         on = Pose(contact.x - goal.x - goal.speed * t, contact.y, contact.h % (2.0 * pi))
         later = scene._replace(leader=scene.leader - np.array([t, 0.0, 0.0, 0.0, 0.0]))
         for row in rows[: solve(on, goal.speed, 0.0, rows)]:
             hand = SIGNS[int(row[1]), 0]
-            if SIGNS[int(row[1]), 1] == 0.0 and hand == -side and keeps(contact, row, later):
-                more = min(2.0 * pi - row[2], beyond_outward(scene, cell, -1.0))
-                leaving = leaving_bound(scene, goal, cell, FAR, OUTWARD)
-                assert leaving <= row[0] + more + 1e-4
-                gone += leaving > row[0] + 0.5 * more
+            if SIGNS[int(row[1]), 1] == 0.0 and keeps(contact, row, later):
+                left = leaving_bound(scene, goal, cell, FAR, True)
+                if hand == -side:
+                    more = min(2.0 * pi - row[2], beyond_outward(scene, cell, -1.0))
+                    assert left.outward <= row[0] + 1e-4
+                    assert left.turned <= row[0] + more + 1e-4
+                    gone += left.turned > row[0] + 0.5 * more
+                elif least > 1.0:
+                    assert left.inward <= row[0] + 1e-4
+                    apart += left.outward > row[0] + 0.1
                 break
     assert there > 50
+    assert toward > 50
     assert gone > 50
+    assert apart > 20
+
+
+def test_who_goes_straight_past_a_contact_is_told_too() -> None:
+    rng = np.random.default_rng(13)
+    past = left = 0
+    for _ in range(3_000):
+        scene = turning(rng)
+        b, side, half = rng.uniform(-pi, pi), rng.choice((1.0, -1.0)), 1e-6
+        t = rng.uniform(0.3, 0.9) * scene.leader[1, 0]
+        cell = Cell(0, side, b, half, t - half, t + half)
+        if slide_turns(scene, cell)[0] < 0.0:
+            continue
+        contact = contact_with(scene, b, side, t)
+        turned = rng.uniform(0.05, 0.9) * t
+        word = np.array((t, rng.integers(2), turned, t - turned, 0.0))
+        start = flown_backward(contact, word)
+        goal = Goal(rng.uniform(-6.0, 6.0), scene.alpha, False)
+        if keeps(start, word, scene):
+            passed, onward = cell_bound(start, scene, goal, cell, FAR, True)
+            if onward < inf:
+                assert otherwise(passed) <= passed.tangent <= t + 1e-4
+                past += 1
+        ahead, bend = rng.uniform(0.1, 4.0), rng.uniform(0.1, 3.0)
+        later = scene._replace(leader=scene.leader - np.array([t, 0.0, 0.0, 0.0, 0.0]))
+        row = np.array((ahead + bend, 0, 0.0, ahead, bend))
+        end = fly_piece(fly_piece(contact, 0.0, ahead), 1.0, bend)
+        # seen along the heading on which it ends
+        c, s = cos(end.h), sin(end.h)
+        table = scene.leader.copy()
+        table[:, 1], table[:, 2] = (
+            scene.leader[:, 1] * c + scene.leader[:, 2] * s,
+            scene.leader[:, 2] * c - scene.leader[:, 1] * s,
+        )
+        table[:, 3] -= end.h
+        seen = scene._replace(leader=table)
+        if keeps(contact, row, later):
+            speed = rng.uniform(0.0, 1.0)
+            goal = Goal(end.x * c + end.y * s - speed * (t + ahead + bend), speed, False)
+            seen = seen._replace(leader=table - np.array([0.0, 0.0, end.y * c - end.x * s, 0, 0]))
+            assert leaving_bound(seen, goal, cell, FAR, True).tangent <= ahead + bend + 1e-4
+            left += 1
+    assert past > 50
+    assert left > 50
+
+
+def test_no_contact_follows_a_turn_away_sooner() -> None:
+    """From contact to contact by three turns or a straight, the first and the last one away."""
+    rng = np.random.default_rng(14)
+    for _ in range(2_000):
+        alpha, d_min = rng.uniform(0.3, 0.97), rng.uniform(0.3, 4.0)
+        scene = straight(alpha, d_min, 0.0)
+        begun, ended = rng.uniform(-pi, pi, 2)
+        sides = rng.choice((1.0, -1.0), 2)
+        at = contact_with(scene, begun, sides[0], 0.0)
+        rows = np.empty((MAX_ROWS, 5))
+        to = contact_with(scene, ended, sides[1], 0.0)
+        seen = to_frame_of(at, to)
+        toward = Velocity(alpha * cos(to.h), -alpha * sin(to.h))
+        n = solve_toward(seen._replace(h=seen.h % (2.0 * pi)), toward, 0.0, rows)
+        half = 1e-7
+        first, last = (
+            Cell(0, side, bearing, half, 0.0, inf)
+            for bearing, side in ((begun, sides[0]), (ended, sides[1]))
+        )
+        for row in rows[:n]:
+            signs = SIGNS[int(row[1])]
+            after = row[2] if signs[0] == -sides[0] else 0.0
+            before = row[4] if signs[2] == -sides[1] else 0.0
+            for shares in ((1.0, 0.0), (0.0, 1.0), (1.0, 1.0), rng.uniform(0.0, 1.0, 2)):
+                took = word_between(scene, first, last, FAR, after * shares[0], before * shares[1])
+                assert took <= row[0] + 1e-4
 
 
 @pytest.mark.parametrize("seed", range(2))
@@ -358,7 +458,7 @@ def test_no_contact_follows_another_sooner_while_the_leader_turns(seed: int) -> 
         n = paths_to_contact(contact_on(scene, contact, t), t, scene, other, inf, rows)
         for row in rows[:n]:
             if cells[1].start <= row[0] <= cells[1].end:
-                assert word_between(scene, *cells, FAR) <= row[0] - t + 1e-5
+                assert word_between(scene, *cells, FAR, 0.0, 0.0) <= row[0] - t + 1e-5
                 met += 1
     assert met > 100
 

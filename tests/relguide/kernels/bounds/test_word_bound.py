@@ -8,15 +8,8 @@ from hypothesis import strategies as st
 
 from relguide.kernels.base.records import Pose, Scene, Velocity, Window
 from relguide.kernels.bounds.breach import Flown, NearWord, Sieve, breaks_limit
-from relguide.kernels.bounds.word_bound import (
-    OUTWARD,
-    TANGENT,
-    Blur,
-    Junction,
-    intercept_span,
-    soonest,
-    soonest_joined,
-)
+from relguide.kernels.bounds.word_bound import Junction, soonest, soonest_by_turn
+from relguide.kernels.bounds.word_intervals import Blur, intercept_span
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, WORDS, fly_piece, solve_toward
 from tests.costates import with_costate
 from tests.situations import numbers
@@ -128,7 +121,7 @@ def test_of_a_single_pose_it_is_the_exact_time() -> None:
 def test_words_leave_a_pose_as_the_junction_asks() -> None:
     """Of single poses, against all words of them; those on a straight have been turned back to."""
     rng = np.random.default_rng(8)
-    straight = turned = 0
+    straight = turned = barred = 0
     for case in range(4_000):
         a = rng.uniform(0.0, 0.9), rng.uniform(-0.3, 0.3)
         x, y, h = *rng.uniform(-4.0, 4.0, 2), rng.uniform(0.0, 2.0 * pi)
@@ -139,29 +132,34 @@ def test_words_leave_a_pose_as_the_junction_asks() -> None:
             h = -end.h % (2.0 * pi)
             x = -end.x * cos(h) + end.y * sin(h) + a[0] * (flown + bend)
             y = -end.x * sin(h) - end.y * cos(h) + a[1] * (flown + bend)
-        rows, inward, beyond = exact(x, y, h, a, 0.0), int(rng.integers(2)), rng.uniform(0.0, 6.0)
-        leaving = {
-            kind: soonest_joined(
-                Pose(x, y, h), Blur(0.0, 0.0, 0.0, 0.0), Velocity(*a), Window(0.0, inf), NO_SIEVE,
-                Junction(kind, inward, beyond),
-            )
-            for kind in (TANGENT, OUTWARD)
-        }  # fmt: skip
+        rows, outward, beyond = exact(x, y, h, a, 0.0), int(rng.integers(2)), rng.uniform(0.0, 6.0)
+        inward = bool(rng.integers(2))
+        leaving = soonest_by_turn(
+            Pose(x, y, h), Blur(0.0, 0.0, 0.0, 0.0), Velocity(*a), Window(0.0, inf), NO_SIEVE,
+            Junction(True, outward, beyond, True, inward),
+        )  # fmt: skip
         for row in rows:
             word, (first, middle, last) = WORDS[int(row[1])], row[2:]
+            slack = ROUNDING * (1.0 + row[0])
             if first < 1e-9:
                 straight += 1
-                assert leaving[TANGENT] <= row[0] + ROUNDING * (1.0 + row[0])
-            elif (word[0] == "L") != (inward == 0):
+                assert leaving.tangent <= row[0] + slack
+                continue
+            assert (leaving.left if word[0] == "L" else leaving.right) <= row[0] + slack
+            if (word[0] == "L") == (outward == 0):
                 turned += 1
                 whole = 2.0 * pi if word[1] == "S" else middle
                 free = middle < 1e-6 if word[1] == "S" else last < 1e-6
                 more = 0.0 if free else min(whole - first, beyond)
-                assert leaving[OUTWARD] <= row[0] + more + ROUNDING * (1.0 + row[0])
-        if leaving[TANGENT] < inf and case % 2:
+                assert leaving.lasting <= row[0] + more + slack
+            elif not inward and min(middle, last) > 1e-6:
+                barred += row[0] < leaving.tangent - 1e-6
+        assert min(leaving.left, leaving.right) <= np.min(rows[:, 0], initial=inf) + 1e-6
+        if leaving.tangent < inf and case % 2 and not inward:
             assert np.min(rows[:, 2]) < 1e-5
     assert straight > 1_000
     assert turned > 5_000
+    assert barred > 100
 
 
 @given(

@@ -1,0 +1,264 @@
+"""What the unknown of a word leaves possible, for every pose of a set at once, in an interval.
+
+LSL. |a l + e| = l has a solution for some e within r of its middle iff |a l + e| ≤ l + r: the least
+such l is a root of a quadratic.
+
+LSR, by the course β of the straight. With u = (cos β, sin β), q = u − a and v = a A − c₁ − (0, 1)
+− 2 (sin β, −cos β) it asks l q = v, and dv/dβ = −2 q. So over β₀ ± w
+
+    (l + 2 (β − β₀)) q₀ = v₀ + E,    |E| ≤ r + w² + l |u − u₀|,
+
+which rules the interval out if v₀ is too far beside q₀, and else bounds τ = A + l, whose first
+derivative in β drops out.
+
+LRL, by its middle arc m. | |d| − 4 sin(m/2) | ≤ r + 2 (1 + α) w over m₀ ± w, or it is ruled out.
+
+Words as in `csc` and `ccc`, in the frame in which the target is met at the origin on the heading 0;
+r is how far the unknown pose may displace what is compared. What cannot be decided is let through.
+Lengths in R, times in R/V_P, angles counter-clockwise.
+"""
+
+from math import asin, atan2, cos, hypot, inf, pi, sin, sqrt
+from typing import NamedTuple
+
+from numba import njit
+
+from relguide.kernels.base.angles import TWO_PI, wrap, wrap_signed
+from relguide.kernels.base.records import Pose, Velocity, Window
+from relguide.kernels.bounds.breach import ROUNDING
+
+MOST_TURNS = 4
+"""Of `same_turns`."""
+_FAST = 0.95  # a target at this speed may be met twice, or late [V_P]
+_STEPS = 100  # toward where it may be met: fewer say less
+
+
+class Blur(NamedTuple):
+    """How far the poses of a set may lie from its middle."""
+
+    left: float
+    """The centre of the left circle [R]."""
+    right: float
+    """The centre of the right circle [R]."""
+    heading: float
+    """[rad]."""
+    end: float
+    """How much of that is because the heading on which the target is met may differ [rad]."""
+
+
+class Side(NamedTuple):
+    """What is asked of the words that begin with a left turn, or in the mirror with a right one."""
+
+    h: float
+    """Heading of the middle of the set, in [0, 2π) [rad]."""
+    cx: float
+    """Centre of the circle of the first turn [R]."""
+    cy: float
+    """[R]."""
+    radius: float
+    """How far the unknown pose may displace what is compared, r [R]."""
+    heading: float
+    """How much the heading may differ [rad]."""
+    end: float
+    """As in `Blur`."""
+    target: Velocity
+    """Of the target."""
+    alpha: float
+    """Its speed [V_P]."""
+    mirror: float
+    """+1, or −1 in the mirror."""
+    hand: int
+    """Which words: 0 left, or 1 right in the mirror."""
+
+
+class Interval(NamedTuple):
+    """What an interval of the unknown angle leaves possible."""
+
+    time: float
+    """No path of it arrives sooner [R/V_P]; infinite if none can arrive in time."""
+    latest: float
+    """Nor later."""
+    fine: bool
+    """Whether halving it would say no more."""
+    turned: float
+    """Both outer turns together, at its middle [rad]."""
+    first: float
+    """First turn of the path read backward [rad]."""
+    astray: float
+    """How much that may differ [rad]."""
+    middle: float
+    """Amount of the middle piece [rad or R]."""
+    middle_blur: float
+    """How much that may differ."""
+    shortest: float
+    """No less than this is it."""
+
+
+NOTHING = Interval(inf, inf, True, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+"""No word is possible."""
+
+
+@njit(cache=True, nogil=True)
+def side_of(pose: Pose, blur: Blur, target: Velocity, hand: int) -> Side:
+    """The words that begin with a left turn, or with hand = 1 a right one, in the mirror."""
+    m = 1.0 - 2.0 * hand
+    h = wrap(m * pose.h)
+    alpha = hypot(target.ahead, target.left)
+    circle = (blur.left if hand == 0 else blur.right) + ROUNDING
+    heading = blur.heading + ROUNDING
+    return Side(
+        h, pose.x - sin(h), m * pose.y + cos(h), circle + alpha * heading, heading, blur.end,
+        Velocity(target.ahead, m * target.left), alpha, m, hand,
+    )  # fmt: skip
+
+
+@njit(cache=True, nogil=True)
+def intercept_span(ex: float, ey: float, target: Velocity, blur: float) -> tuple[float, float]:
+    """Least and greatest l ≥ 0 with |a l + e'| = l for some e' within blur of e.
+
+    The least is infinite if there is none, the greatest if it is not bounded (α ≥ 1).
+    """
+    ax, ay = target
+    one_less = 1.0 - ax * ax - ay * ay
+    closing = ax * ex + ay * ey
+    beyond = ex * ex + ey * ey - blur * blur
+    least, greatest = 0.0, inf
+    if beyond > 0.0:
+        opening = blur - closing
+        square = opening * opening + one_less * beyond
+        if square < -1e-12 * opening * opening:
+            return inf, inf
+        root = sqrt(max(square, 0.0))
+        if opening > 0.0:
+            least = beyond / (opening + root)
+        elif one_less > 0.0:
+            least = (root - opening) / one_less
+        else:
+            return inf, inf
+    if one_less > 1e-9:
+        opening = blur + closing
+        square = max(opening * opening + one_less * beyond, 0.0)
+        greatest = max((opening + sqrt(square)) / one_less, blur)
+    return least, greatest
+
+
+@njit(cache=True, nogil=True)
+def _narrow(
+    ex: float, ey: float, target: Velocity, blur: float, least: float, greatest: float
+) -> tuple[float, float]:
+    """The part of [least, greatest] outside which |a l + e'| ≠ l, by steps too short to miss it.
+
+    For targets so fast that `intercept_span` says little, or that can be met twice.
+    """
+    if not greatest < inf:
+        return least, greatest
+    ax, ay = target
+    steepest = 1.0 + hypot(ax, ay)
+    for _ in range(_STEPS):
+        gap = abs(hypot(ax * least + ex, ay * least + ey) - least) - blur
+        if gap <= 0.0 or least > greatest:
+            break
+        least += gap / steepest
+    for _ in range(_STEPS):
+        gap = abs(hypot(ax * greatest + ex, ay * greatest + ey) - greatest) - blur
+        if gap <= 0.0 or least > greatest:
+            break
+        greatest -= gap / steepest
+    return least, greatest
+
+
+@njit(cache=True, nogil=True)
+def same_turns(k: int, side: Side, window: Window) -> Interval:
+    """LSL whose turns are `side.h` less than k full ones; k is less than `MOST_TURNS`."""
+    ax, ay = side.target
+    turned = TWO_PI * k - side.h
+    if turned + side.heading < 0.0 or turned - side.heading > 2.0 * TWO_PI:
+        return NOTHING
+    ex, ey = ax * turned - side.cx, ay * turned + 1.0 - side.cy
+    least, greatest = intercept_span(ex, ey, side.target, side.radius)
+    soonest_turned = max(turned - side.heading, 0.0)
+    least = max(least, window.earliest - turned - side.heading)
+    greatest = min(greatest, window.beat - soonest_turned)
+    if side.alpha > _FAST:
+        least, greatest = _narrow(ex, ey, side.target, side.radius, least, greatest)
+    time = soonest_turned + least
+    if greatest < least or time >= window.beat:
+        return NOTHING
+    middle, middle_blur = least, inf
+    astray = pi
+    course = 0.0
+    if greatest < inf:
+        middle, middle_blur = 0.5 * (least + greatest), 0.5 * (greatest - least)
+        to_x, to_y = ax * middle + ex, ay * middle + ey
+        slack = side.radius + side.alpha * middle_blur
+        if slack < hypot(to_x, to_y):
+            astray = asin(slack / hypot(to_x, to_y))
+            course = atan2(to_y, to_x)
+    latest = turned + side.heading + greatest
+    return Interval(time, latest, True, turned, -course, astray, middle, middle_blur, least)
+
+
+@njit(cache=True, nogil=True, inline="always")  # 8 % of a proof
+def three_turns_within(
+    mid: float, half: float, around: float, side: Side, window: Window
+) -> Interval:
+    """LRL with a middle arc in mid ± half, and `around` how much more the outer turns make."""
+    ax, ay = side.target
+    turned = mid + around - side.h
+    time = max(turned + mid - 2.0 * half - side.heading, 0.0)
+    latest = turned + mid + 2.0 * half + side.heading
+    if time >= window.beat or latest < window.earliest:
+        return NOTHING
+    to_x = ax * (turned + mid) - side.cx
+    to_y = ay * (turned + mid) + 1.0 - side.cy
+    gap = hypot(to_x, to_y)
+    spread = 2.0 * (1.0 + side.alpha) * half
+    if abs(gap - 4.0 * sin(0.5 * mid)) > side.radius + spread:
+        return NOTHING
+    slack = side.radius + 2.0 * side.alpha * half
+    astray = pi if slack >= gap else asin(slack / gap) + 0.5 * half
+    first = wrap_signed(0.5 * mid - atan2(to_y, to_x))
+    shortest = max(mid - half, 0.0)
+    return Interval(time, latest, spread <= side.radius, turned, first, astray, mid, half, shortest)
+
+
+@njit(cache=True, nogil=True, inline="always")  # 8 % of a proof
+def opposite_turns_within(
+    mid: float, half: float, around: float, side: Side, window: Window
+) -> Interval:
+    """LSR whose straight has a course in mid ± half; `around` is as in `three_turns_within`."""
+    ax, ay = side.target
+    turned = 2.0 * mid + around - side.h
+    c, s = cos(mid), sin(mid)
+    qx, qy = c - ax, s - ay
+    q = hypot(qx, qy)
+    vx = ax * turned - side.cx - 2.0 * s
+    vy = ay * turned - side.cy - 1.0 + 2.0 * c
+    soonest_turned = max(turned - 2.0 * half - side.heading, 0.0)
+    # |v| ≤ l |q| + r, wherever in the interval
+    shortest = (hypot(vx, vy) - side.radius - 2.0 * half * (q + half)) / (q + half)
+    longest = window.beat - soonest_turned
+    near, along = inf, 0.0
+    if q > 1e-9:
+        along, beside = (vx * qx + vy * qy) / q, abs(vx * qy - vy * qx) / q
+        wander = half * abs(ay * c - ax * s) / q + 0.5 * half * half
+        near = side.radius + half * half
+        if q > wander:
+            longest = min(longest, (along + near + 2.0 * half * q) / (q - wander))
+        if beside > near + longest * half:
+            return NOTHING
+        near += longest * wander
+        shortest = max(shortest, (along - near) / q - 2.0 * half)
+    shortest = max(shortest, 0.0)
+    if longest < shortest:
+        return NOTHING
+    time = soonest_turned + shortest
+    latest = turned + 2.0 * half + side.heading + longest
+    if near < inf:
+        time = max(time, turned - side.heading + (along - near) / q)
+        latest = min(latest, turned + side.heading + (along + near) / q)
+    if time >= window.beat or latest < window.earliest:
+        return NOTHING
+    fine = longest < inf and half * (longest + half) <= side.radius
+    middle, middle_blur = 0.5 * (shortest + longest), 0.5 * (longest - shortest)
+    return Interval(time, latest, fine, turned, mid, half, middle, middle_blur, shortest)
