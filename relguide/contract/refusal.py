@@ -67,8 +67,8 @@ class ContractError(ValueError):
         self.count = max(count, len(problems))
         said = [f"{path}: {message}" if path else message for path, message in self.problems]
         if self.count > MAX_SAID:
-            said[MAX_SAID:] = [f"and {self.count - MAX_SAID} more"]
-        super().__init__("; ".join(said))
+            said[MAX_SAID:] = [f"And {self.count - MAX_SAID} more."]
+        super().__init__(" ".join(said))
 
 
 def decode(text: bytes) -> str:

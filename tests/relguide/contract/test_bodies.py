@@ -153,7 +153,7 @@ def test_all_defects_are_listed_but_not_endlessly() -> None:
     with pytest.raises(ContractError) as caught:
         situation_from_json(body)
     assert len(caught.value.problems) == 15
-    assert str(caught.value).endswith("and 7 more")
+    assert str(caught.value).endswith("And 7 more.")
 
 
 json_values = st.recursive(
