@@ -96,6 +96,23 @@ def test_a_flight_is_found_and_read(client: TestClient, tmp_path: Path) -> None:
     assert later["next"] == 15
 
 
+@pytest.mark.parametrize(
+    ("since", "said"),
+    [
+        ("yesterday", "must be a time, as 2026-11-23T06:30:00Z, not yesterday; + is written %2B."),
+        ("2026-11-23", "must be a time with its zone, as 2026-11-23T06:30:00Z, not 2026-11-23."),
+        (
+            "2026-11-23T00:00:00+00:00",
+            "must be a time, as 2026-11-23T06:30:00Z, not 2026-11-23T00:00:00 00:00; + is written "
+            "%2B.",
+        ),
+    ],
+)
+def test_a_wrong_time_is_told_how_one_is_written(client: TestClient, since: str, said: str) -> None:
+    answer = client.get(f"/api/v1/records/flights?since={since}")
+    assert (answer.status_code, answer.json()["detail"]) == (422, f"since: {said}")
+
+
 def test_commands_are_on_record_before_they_are_acknowledged(client: TestClient) -> None:
     flight_id = start(client, paused=True)
     order = {"command": "leader_heading", "heading_deg": 135.0, "direction": "left"}
