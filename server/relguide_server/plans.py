@@ -49,6 +49,10 @@ BUDGET_MS, LEAST_MS, MOST_MS = 250.0, 1.0, 10_000.0
 """How long planning a situation may take if the request does not say, and the range of what it may
 say."""
 
+_INCLUDED = " *(alternatives|paths|optimality)? *"
+INCLUDES = f"^{_INCLUDED}(,{_INCLUDED})*$"
+"""What `read_include` takes, for the document."""
+
 EXAMPLE = {
     "pursuer": {
         "x_m": -40000.0,
@@ -115,6 +119,7 @@ async def _read_wish(
             "Pontryagin's conditions, with H and the costates along it; where the path slides "
             "along the minimum separation that takes seconds more than `max_ms`.",
             examples=["alternatives,optimality"],
+            json_schema_extra={"pattern": INCLUDES},
         ),
     ] = "",
     max_ms: Annotated[

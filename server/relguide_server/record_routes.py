@@ -5,7 +5,7 @@ from itertools import tee
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from fastapi import APIRouter, Depends, Path, Query, Request
-from pydantic import AwareDatetime, RootModel
+from pydantic import AwareDatetime, BeforeValidator, RootModel
 from starlette.responses import Response, StreamingResponse
 
 from relguide.contract.bodies import UNANCHORED, Anchor, SituationBody, situation_from_body
@@ -78,8 +78,20 @@ router = APIRouter(
 RecordedId = Annotated[
     str, Path(description="As `GET /records/flights` lists it.", examples=["3f2a9c0d71be"])
 ]
-Since = Annotated[AwareDatetime | None, Query(description="Begun at this time or later.")]
-Until = Annotated[AwareDatetime | None, Query(description="Begun before this time.")]
+
+
+def _expect_no_number(text: str) -> str:
+    """Pydantic takes numbers for seconds since 1970, which nobody who writes a year means."""
+    try:
+        float(text)
+    except ValueError:
+        return text
+    raise ValueError(f"must be a time, as 2026-11-23T06:30:00Z, not {text[:40]}.")
+
+
+Moment = Annotated[AwareDatetime, BeforeValidator(_expect_no_number)]
+Since = Annotated[Moment | None, Query(description="Begun at this time or later.")]
+Until = Annotated[Moment | None, Query(description="Begun before this time.")]
 Limit = Annotated[int, Query(ge=1, le=MOST, description="How many at most.")]
 Offset = Annotated[int, Query(ge=0, le=10**9, description="How many of the newest to pass over.")]
 

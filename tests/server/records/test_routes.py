@@ -100,6 +100,7 @@ def test_a_flight_is_found_and_read(client: TestClient, tmp_path: Path) -> None:
     ("since", "said"),
     [
         ("yesterday", "must be a time, as 2026-11-23T06:30:00Z, not yesterday; + is written %2B."),
+        ("2026", "must be a time, as 2026-11-23T06:30:00Z, not 2026."),
         ("2026-11-23", "must be a time with its zone, as 2026-11-23T06:30:00Z, not 2026-11-23."),
         (
             "2026-11-23T00:00:00+00:00",
