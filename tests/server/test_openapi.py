@@ -59,6 +59,22 @@ def test_the_service_does_what_its_document_says(case: schemathesis.Case) -> Non
     case.call_and_validate(checks=CHECKS, timeout=120)
 
 
+class Walk(schema.as_state_machine()):  # type: ignore[misc]
+    """Requests one after another, each with what the answers before it gave: ids of flights."""
+
+    def validate_response(
+        self, response: schemathesis.Response, case: schemathesis.Case, *_: Any, **__: Any
+    ) -> None:
+        case.validate_response(response, checks=CHECKS)
+
+
+Walk.TestCase.settings = settings(
+    max_examples=10, stateful_step_count=8, deadline=None,
+    suppress_health_check=list(HealthCheck),
+)  # fmt: skip
+TestWalk = pytest.mark.slow(Walk.TestCase)
+
+
 def test_every_reference_leads_somewhere() -> None:
     known = DOCUMENT["components"]
 
