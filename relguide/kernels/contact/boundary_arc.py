@@ -25,6 +25,7 @@ from relguide.kernels.separation.clearance import fly_rate, leader_at, piece_at
 NODE = 0.03
 """Time between nodes of a boundary arc [R/V_P]: between them it strays from d_min by some 1e-8 R.
 """
+_LONGEST = 1.5  # times the mean time between nodes, where the bearing moves slowly
 MAX_NODES = 600
 """Longest boundary arc in nodes: three times the time to circle any disc that can be circled."""
 
@@ -126,13 +127,23 @@ def boundary_arc_pieces(
             stretches[k, 3],
         )
         disc = disc_on(scene, i, side)
-        nodes = min(ceil(took / NODE), (len(pieces) - n) // 2)
-        reached = begun
-        for node in range(1, nodes + 1):
-            goal = begun + (bearing - begun) * node / nodes
-            _, duration = slide_within(reached, goal, disc, inf)
-            if duration <= 0.0 or duration == inf:
+        # at most 5/3 times as many: some by bearing, some by time
+        nodes = max(min(ceil(took / NODE), 3 * ((len(pieces) - n) // 2) // 5), 1)
+        reached, node = begun, 0
+        while reached != bearing and n + 2 <= len(pieces):
+            # neither equal steps of bearing nor of time would do: some of them may be far longer
+            node += 1
+            goal = begun + (bearing - begun) * min(node / nodes, 1.0)
+            if (goal - reached) * (bearing - begun) <= 0.0:
+                if node >= nodes:
+                    break  # there but for rounding
                 continue
+            step, duration = slide_within(reached, goal, disc, _LONGEST * took / nodes)
+            if step != goal:
+                goal = step
+                node -= 1
+            if duration <= 0.0 or duration == inf:
+                break
             pose = _fly_two_arcs(
                 pose, t, duration, scene, Contact(i, goal, side), pieces[n : n + 2]
             )

@@ -17,7 +17,8 @@ from numba import njit
 from relguide.kernels.base.records import Contact, Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.clear_words import word_clears
-from relguide.kernels.contact.paths_to_contact import paths_to_contact
+from relguide.kernels.contact.passing import words_toward
+from relguide.kernels.contact.paths_to_contact import paths_by_words
 from relguide.kernels.words.extremals import MAX_ROWS
 
 WORD, BOUNDARY_ARC, DELAY = 0.0, 1.0, 2.0
@@ -54,14 +55,17 @@ def with_contacts(chain: Chain, contacts: FloatArray) -> Chain:
 
 @njit(cache=True, nogil=True)
 def earliest_contact(
-    pose: Pose, t: float, scene: Scene, contact: Contact, beat: float, rows: FloatArray
-) -> tuple[float, int]:
+    pose: Pose, t: float, scene: Scene, contact: Contact, onward: int, beat: float,
+    rows: FloatArray,
+) -> tuple[float, int]:  # fmt: skip
     """The earliest arrival at a contact with d_min kept on the way, and its row.
 
-    Infinite and −1 if none arrives before `beat`.
+    `onward` are the words that may lead on from the pose, as in `passing`. Infinite and −1 if none
+    arrives before `beat`.
     """
     best, at = beat, -1
-    n = paths_to_contact(pose, t, scene, contact, beat, rows)
+    words = onward & words_toward(scene, contact)
+    n = paths_by_words(pose, t, scene, contact, words, beat, rows)
     for k in range(n):
         if rows[k, 0] < best and word_clears(pose, t, rows[k], scene):
             best, at = rows[k, 0], k

@@ -28,6 +28,7 @@ from relguide.kernels.contact.chain import (
 )
 from relguide.kernels.contact.clear_words import best_word
 from relguide.kernels.contact.contact import contact_at, contact_exists
+from relguide.kernels.contact.passing import ALL_WORDS, words_onward
 
 FINEST = 1e-7
 """Bearing steps end here: 1 mm at R = 12 km, 10 µs where the time has an edge."""
@@ -142,7 +143,10 @@ def fly_links(
         else:
             t_start = t
             contact = Contact(int(contacts[k, 0]), bearing, side)
-            t, at = earliest_contact(pose, t, scene, contact, beat, rows)
+            onward = ALL_WORDS
+            if k > 0:
+                onward = words_onward(scene, contacts[k - 1, 2], contacts[k - 1, 1], t)
+            t, at = earliest_contact(pose, t, scene, contact, onward, beat, rows)
             if at < 0:
                 return pose, inf
             legs[k, 1:6] = rows[at]

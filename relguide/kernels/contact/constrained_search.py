@@ -40,7 +40,6 @@ from relguide.kernels.words.delay import DELAY_PIECES
 
 _AT_LIMIT = 1.02  # a slot less far out, in d_min, is reached by boundary arcs of a few degrees
 _CHAINS = 4  # of the graph, refined
-_PER_HOP = 2  # so many bearings on the disc let one contact be followed to all others
 _BESIDE = 0.1  # contacts this close lead to the same places: 6° [rad]
 _CLOSER = 8  # steps from one bearing to the next where it is looked closer
 _HOPS_CLOSER = 2  # of contacts, to others, where it is looked closer
@@ -102,9 +101,10 @@ def _search(
     """
     nodes, width = contact_nodes(scene, bearings, tangents), TWO_PI / bearings
     fresh, alive = np.ones(len(nodes.bearings), np.bool_), np.zeros(len(nodes.bearings), np.bool_)
-    effort = Effort(width, bearings // _PER_HOP, _BESIDE)
-    best, count = _look(start, scene, nodes, fresh, alive, effort, beat, legs)
     keeps_straight = len(scene.leader) == 1
+    hops = bearings // 2 if keeps_straight else bearings
+    effort = Effort(width, hops, _BESIDE)
+    best, count = _look(start, scene, nodes, fresh, alive, effort, beat, legs)
     if keeps_straight or not 0 < alive.sum() <= _MOST_ALIVE or time_is_up(scene.until):
         return best, count
     step = width / _CLOSER

@@ -22,8 +22,8 @@ from relguide.kernels.separation.clearance import leader_at, piece_at
 
 GRAZE = 3e-7
 """The contact is flown this far outside d_min [R], so that rounding cannot break it."""
-_STEP = 0.07  # bearing step of Simpson's rule: 4°, right to 1e-9
-_SLOWLY = 0.1  # or this much of the speed round the leader, where the boundary arc is slow
+_STEP = 0.03  # bearing step of Simpson's rule: 1.7°, right to 1e-7 R/V_P in all
+_SLOWLY = 0.04  # or this much of the speed round the leader, where the boundary arc is slow
 _STILL = 0.01  # slower round the leader than this, a boundary arc gets nowhere [V_P]
 _BANK_SLACK = 1e-9  # the ends of a boundary arc are found by bisection, and count as inside
 

@@ -2,8 +2,11 @@
 
 Nodes are contacts: a piece of the leader's intent, a side and a bearing of a grid. Words lead from
 the start to a node, from node to node, and on to the slot; boundary arcs lead from a node to its
-neighbour. Labels are earliest arrivals. A node from which even the best path without the limit
-would come too late is not followed, so where one contact is enough there is little to do here.
+neighbour. Labels are earliest arrivals. Round a leader that turns who is sooner at a contact finds
+another one ahead than who is later, and need not be better off; so there each node has a label of
+its own for words from the start, for words from other nodes, and for boundary arcs. A label from
+which even the best path without the limit would come too late is not followed, so where one contact
+is enough there is little to do here.
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
@@ -29,22 +32,31 @@ from relguide.kernels.contact.contact import (
 )
 from relguide.kernels.contact.delay_after_contact import delay_until_release, delays_by_straights
 from relguide.kernels.contact.nodes import BoolArray, Nodes, contact_of
+from relguide.kernels.contact.passing import words_onward
 from relguide.kernels.contact.paths_to_contact import earliest_arrival, not_before_slot
 from relguide.kernels.separation.clearance import piece_at
 from relguide.kernels.words.delay import DELAY_PIECES
 from relguide.kernels.words.extremals import MAX_ROWS, solve
 
-_TRIES = 4  # times the hops of a round: so many nodes are left by a delay path, 0.3 ms each
-_ROUNDS = 3  # of hops, with boundary arcs before and after: chains with up to two hops
+_TRIES = 8  # times the hops of a round: so many nodes are left by a delay path, 0.3 ms each
+_ROUNDS = 4  # of hops, with boundary arcs before and after: chains with up to three hops
 _NEARLY = 0.07  # chains on the grid that arrive this much later are kept, to be refined [R/V_P]
+_MEANWHILE = 0.3  # labels of a contact that differ by less lead to the same delays [R/V_P]
+_WORTH = 2e-4  # how much sooner the slot has to be in reach for it to be followed [R/V_P]: 10 ms
 _BETTER = 1e-9  # a label must fall by more than this [R/V_P], or rounding goes round in circles
 
 
 class _Graph(NamedTuple):
-    """What the search keeps of each node, beside its labels in `Nodes`. All of shape (n,)."""
+    """What the search keeps of each label, beside its time in `Nodes`. All of shape (n,)."""
 
+    nodes: int
+    """How many nodes there are."""
+    hops: int
+    """How far the labels of words from other nodes lie behind those of words from the start …"""
+    arcs: int
+    """… and those of boundary arcs. 0 where each node has one label only."""
     before: FloatArray
-    """The node that leads to it; −1 if the start does."""
+    """The label that leads to it; −1 if the start does."""
     link: FloatArray
     """How: WORD or BOUNDARY_ARC."""
     slid: FloatArray
@@ -97,7 +109,9 @@ def best_chains(
     Returns:
         how many.
     """
-    graph = _start_graph(scene, nodes, beat + _NEARLY)
+    copies = 1 if len(scene.leader) == 1 else 3
+    labels = _labels_of(nodes, copies)
+    graph = _start_graph(scene, labels, len(nodes.time), beat + _NEARLY)
     best, tries, end = beat, _TRIES * effort.hops, -1
     if delays and scene.t_release < beat:
         end = _delay_by_straights(scene, nodes)
@@ -108,10 +122,10 @@ def best_chains(
             if end >= 0:
                 break
             if slides == 1:
-                _slide_on(scene, nodes, graph, best + _NEARLY)
-            best = _go_on(scene, nodes, graph, best)
-            if delays and nodes.lower.min() <= scene.t_release < best:
-                end, tries = _delay(scene, nodes, graph, tries)
+                _slide_on(scene, labels, graph, best + _NEARLY)
+            best = _go_on(scene, labels, graph, best)
+            if delays and labels.lower.min() <= scene.t_release < best:
+                end, tries = _delay(scene, labels, graph, tries)
         if end >= 0:
             # what arrives as the slot opens cannot be beaten
             graph.arrival[:] = inf
@@ -119,21 +133,42 @@ def best_chains(
             break
         if turn == _ROUNDS - 1 or time_is_up(scene.until):
             break
-        _hop(scene, nodes, graph, best, effort)
+        _hop(scene, labels, graph, best, effort)
         graph.pending[:] = graph.fresh
         if not graph.pending.any():
             break
-    return _collect(nodes, fresh, graph, best + _NEARLY, chains)
+    for n in range(graph.nodes):
+        nodes.lower[n] = labels.lower[n :: graph.nodes].min()
+    return _collect(labels, fresh, graph, best + _NEARLY, chains)
 
 
 @njit(cache=True, nogil=True)
-def _start_graph(scene: Scene, nodes: Nodes, beat: float) -> _Graph:
-    """The graph of nodes that only the start leads to."""
-    count = len(nodes.bearings)
+def _labels_of(nodes: Nodes, copies: int) -> Nodes:
+    """As many labels of each node, one behind the other; those of the first are the nodes' own."""
+    count = len(nodes.time)
+    size = count * copies
+    rings, sides, bearings = np.empty(size, np.int64), np.empty(size), np.empty(size)
+    known = np.full((4, size), inf)
+    known[2] = 0.0
+    for k in range(copies):
+        begin, end = k * count, (k + 1) * count
+        rings[begin:end], sides[begin:end] = nodes.rings, nodes.sides
+        bearings[begin:end] = nodes.bearings
+    known[0, :count], known[1, :count] = nodes.time, nodes.lower
+    known[2, :count], known[3, :count] = nodes.latest, nodes.arrival
+    return Nodes(nodes.first, rings, sides, bearings, known[0], known[1], known[2], known[3])
+
+
+@njit(cache=True, nogil=True)
+def _start_graph(scene: Scene, nodes: Nodes, count: int, beat: float) -> _Graph:
+    """The graph of labels that only the start leads to; `count` of them are of different nodes."""
+    size = len(nodes.bearings)
+    copies = size // count
     graph = _Graph(
-        np.full(count, -1.0), np.full(count, WORD), np.zeros(count), np.full(count, inf),
-        np.zeros(count), np.full(count, inf), np.full(count, inf), np.zeros(count),
-        np.zeros(count), np.empty((MAX_ROWS, 5)),
+        count, count if copies > 1 else 0, 2 * count if copies > 1 else 0,
+        np.full(size, -1.0), np.full(size, WORD), np.zeros(size), np.full(size, inf),
+        np.zeros(count), np.full(size, inf), np.full(size, inf), np.zeros(size),
+        np.zeros(size), np.empty((MAX_ROWS, 5)),
     )  # fmt: skip
     for n in range(count):
         if nodes.lower[n] < beat:
@@ -146,8 +181,28 @@ def _start_graph(scene: Scene, nodes: Nodes, beat: float) -> _Graph:
 @njit(cache=True, nogil=True)
 def _note_onward(scene: Scene, nodes: Nodes, graph: _Graph, n: int) -> None:
     """On the final leg, with the slot open, the path on without the limit takes as long always."""
-    if contact_of(nodes, n).piece + 1 == len(scene.leader) and nodes.time[n] >= scene.t_release:
-        graph.onward[n] = nodes.lower[n] - nodes.time[n]
+    if _is_settled(scene, nodes, n, nodes.time[n]):
+        graph.onward[n % graph.nodes] = nodes.lower[n] - nodes.time[n]
+
+
+@njit(cache=True, nogil=True)
+def _is_settled(scene: Scene, nodes: Nodes, n: int, t: float) -> bool:
+    """Whether nothing depends on time any more at a contact."""
+    return contact_of(nodes, n).piece + 1 == len(scene.leader) and t >= scene.t_release
+
+
+@njit(cache=True, nogil=True)
+def _label_to_beat(scene: Scene, nodes: Nodes, graph: _Graph, n: int, t: float) -> float:
+    """The time that a label must fall below [R/V_P], if it is to fall to about t.
+
+    Where nothing depends on time, that is the least of its node's.
+    """
+    if not _is_settled(scene, nodes, n, t):
+        return float(nodes.time[n] - _BETTER)
+    least = inf
+    for m in range(n % graph.nodes, len(nodes.time), graph.nodes):
+        least = min(least, nodes.time[m])
+    return least - _BETTER
 
 
 @njit(cache=True, nogil=True)
@@ -164,7 +219,8 @@ def _slide_on(scene: Scene, nodes: Nodes, graph: _Graph, beat: float) -> None:
             break
         pending[n] = 0.0
         m, t, goal = _slide_to_next(scene, nodes, n)
-        if m < 0 or t >= time[m] - _BETTER:
+        m += graph.arcs
+        if t >= _label_to_beat(scene, nodes, graph, m, t):
             continue
         there = contact_at(scene, t, nodes.bearings[m], nodes.sides[m])
         if not_before_slot(there, t, scene) >= beat:
@@ -178,7 +234,8 @@ def _slide_on(scene: Scene, nodes: Nodes, graph: _Graph, beat: float) -> None:
 def _slide_to_next(scene: Scene, nodes: Nodes, n: int) -> tuple[int, float, float]:
     """The node that a boundary arc from node n comes to first, when, and its bearing unwrapped.
 
-    −1 if the boundary arc cannot be flown. The leader may have gone on to another piece meanwhile.
+    The time is infinite if it cannot be flown. The leader may have gone on to another piece
+    meanwhile.
     """
     leader, t = scene.leader, nodes.time[n]
     side, bearing = nodes.sides[n], nodes.bearings[n]
@@ -203,7 +260,7 @@ def _slide_to_next(scene: Scene, nodes: Nodes, n: int) -> tuple[int, float, floa
         if bearing == goal:
             return m, t, goal
         i += 1
-    return -1, inf, 0.0
+    return 0, inf, 0.0
 
 
 @njit(cache=True, nogil=True)
@@ -264,7 +321,10 @@ def _delay(scene: Scene, nodes: Nodes, graph: _Graph, tries: int) -> tuple[int, 
                 n = m
         if n < 0 or time_is_up(scene.until):
             break
-        delayed[n] = time[n]
+        # who is at the same contact at about that time finds no other
+        for m in range(n % graph.nodes, len(time), graph.nodes):
+            if abs(time[m] - time[n]) < _MEANWHILE:
+                delayed[m] = time[m]
         tries -= 1
         pose = contact_at(scene, time[n], nodes.bearings[n], nodes.sides[n])
         if delay_until_release(pose, time[n], scene, pieces):
@@ -282,15 +342,15 @@ def _hop(scene: Scene, nodes: Nodes, graph: _Graph, best: float, effort: Effort)
         for m in range(len(time)):
             if (
                 near[m] == 0.0
-                and lower[m] < best
+                and lower[m] < best - _WORTH
                 and time[m] < graph.hopped[m]
                 and (n < 0 or lower[m] < lower[n])
             ):
                 n = m
         if n < 0 or time_is_up(scene.until):
             break
-        ring = nodes.rings[n]
-        for m in range(nodes.first[ring], nodes.first[ring + 1]):
+        ring, of_kind = nodes.rings[n], n - n % graph.nodes
+        for m in range(nodes.first[ring] + of_kind, nodes.first[ring + 1] + of_kind):
             if abs(wrap_signed(nodes.bearings[m] - nodes.bearings[n])) < effort.beside:
                 near[m] = 1.0
         graph.hopped[n] = time[n]
@@ -302,19 +362,21 @@ def _hop_from(scene: Scene, nodes: Nodes, graph: _Graph, n: int, best: float) ->
     """Find words from a node to all others that may be in time."""
     time, left = nodes.time, nodes.time[n]
     pose = contact_at(scene, left, nodes.bearings[n], nodes.sides[n])
-    for m in range(len(time)):
-        contact = contact_of(nodes, m)
-        if m == n or not contact_exists(contact.bearing, scene.alpha):
+    onward = words_onward(scene, nodes.bearings[n], nodes.sides[n], left)
+    for node in range(graph.nodes):
+        contact, m = contact_of(nodes, node), node + graph.hops
+        if node == n % graph.nodes or not contact_exists(contact.bearing, scene.alpha):
             continue
         t = earliest_arrival(pose, left, scene, contact)
-        if t >= time[m] - _BETTER or t + graph.onward[m] >= best:
+        beat = _label_to_beat(scene, nodes, graph, m, t)
+        if t >= beat or t + graph.onward[node] >= best:
             continue
         there = contact_at(scene, t, contact.bearing, contact.side)
         if not_before_slot(there, t, scene) >= best:
             continue
         if time_is_up(scene.until):
             break
-        t, _ = earliest_contact(pose, left, scene, contact, time[m] - _BETTER, graph.rows)
+        t, _ = earliest_contact(pose, left, scene, contact, onward, beat, graph.rows)
         if t < inf:
             time[m], graph.before[m], graph.link[m], graph.fresh[m] = t, n, WORD, 1.0
 
@@ -346,7 +408,7 @@ def _collect(nodes: Nodes, fresh: BoolArray, graph: _Graph, beat: float, chains:
 def _is_fresh(fresh: BoolArray, graph: _Graph, end: int) -> bool:
     """Whether a fresh node is on the way to a node, or it is one."""
     n = end
-    while n >= 0 and not fresh[n]:
+    while n >= 0 and not fresh[n % graph.nodes]:
         n = int(graph.before[n])
     return n >= 0
 

@@ -22,10 +22,11 @@ from relguide.kernels.contact.chain_refinement import FINEST, GAIN, vertex
 from relguide.kernels.contact.clear_words import first_clear, to_slot_frame, word_clears
 from relguide.kernels.contact.contact import contact_at, contact_exists, contact_on
 from relguide.kernels.contact.nodes import BoolArray, Nodes, contact_of, neighbours
+from relguide.kernels.contact.passing import words_toward
 from relguide.kernels.contact.paths_to_contact import (
     earliest_arrival,
     not_before_slot,
-    paths_to_contact,
+    paths_by_words,
 )
 from relguide.kernels.words.extremals import MAX_ROWS, solve
 
@@ -286,7 +287,8 @@ def through_contact(
         return inf
     if time_is_up(scene.until):
         return beat
-    n = paths_to_contact(start, 0.0, scene, contact, beat, room.rows)
+    words = words_toward(scene, contact)
+    n = paths_by_words(start, 0.0, scene, contact, words, beat, room.rows)
     m = -1
     for k in range(n):
         t = room.rows[k, 0]

@@ -8,18 +8,20 @@ Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 
 from math import cos, hypot, inf, sin, sqrt
 
+import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.base.records import Contact, Pose, Scene, Velocity
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.contact import contact_on, to_frame_of
+from relguide.kernels.contact.passing import ALL_WORDS
 from relguide.kernels.contact.paths_while_turning import (
     earliest_while_turning,
     passage_to,
     paths_while_turning,
 )
-from relguide.kernels.words.extremals import solve_toward
+from relguide.kernels.words.extremals import MAX_ROWS, solve_word
 
 
 @njit(cache=True, nogil=True)
@@ -73,12 +75,21 @@ def paths_to_contact(
     Returns:
         how many rows. Fewer if the time for the search is up.
     """
+    return paths_by_words(pose, t, scene, contact, ALL_WORDS, beat, rows)
+
+
+@njit(cache=True, nogil=True)
+def paths_by_words(
+    pose: Pose, t: float, scene: Scene, contact: Contact, words: int, beat: float,
+    rows: FloatArray,
+) -> int:  # fmt: skip
+    """As `paths_to_contact`, of a set of words as in `passing`."""
     leader, i = scene.leader, contact.piece
     end = leader[i + 1, 0] if i + 1 < len(leader) else inf
-    if end <= t:
+    if end <= t or words == 0:
         return 0
     if leader[i, 4] != 0.0:
-        return paths_while_turning(passage_to(pose, t, scene, contact), beat, rows)
+        return paths_while_turning(passage_to(pose, t, scene, contact), words, beat, rows)
     lh = leader[i, 3]
     cx, cy, course = contact_on(scene, contact, t)
     left = end - t
@@ -91,7 +102,11 @@ def paths_to_contact(
         return 0  # not even straight there
     toward = Velocity(scene.alpha * cos(lh - course), scene.alpha * sin(lh - course))
     seen = to_frame_of(pose, Pose(cx, cy, course))
-    n = solve_toward(Pose(seen.x, seen.y, wrap(seen.h)), toward, max(leader[i, 0] - t, 0.0), rows)
+    seen, earliest = Pose(seen.x, seen.y, wrap(seen.h)), max(leader[i, 0] - t, 0.0)
+    found, n = np.empty((MAX_ROWS, 4)), 0
+    for word in range(6):
+        if words & (1 << word):
+            n = solve_word(seen, toward, earliest, word, found, rows, n)
     while n > 0 and rows[n - 1, 0] > left:
         n -= 1
     rows[:n, 0] += t

@@ -130,8 +130,8 @@ def earliest_while_turning(passage: Passage) -> float:
 
 
 @njit(cache=True, nogil=True)
-def paths_while_turning(passage: Passage, beat: float, rows: FloatArray) -> int:
-    """All words to the contact, in no order. As `paths_to_contact.paths_to_contact`."""
+def paths_while_turning(passage: Passage, words: int, beat: float, rows: FloatArray) -> int:
+    """Some words to the contact, in no order. As `paths_to_contact.paths_by_words`."""
     begin, end = passage.begin, passage.end
     first = earliest_while_turning(passage)
     if first >= beat:
@@ -149,7 +149,7 @@ def paths_while_turning(passage: Passage, beat: float, rows: FloatArray) -> int:
             continue
         if time_is_up(passage.scene.until):
             break
-        every_word(_seen_from(passage, t), here.excess, here.turns)
+        every_word(_seen_from(passage, t), words, here.excess, here.turns)
         here.excess[:] -= t - passage.t_start
         for branch in TO_POINT:
             if follows and not _goes_on(last, here, branch):
@@ -162,8 +162,8 @@ def paths_while_turning(passage: Passage, beat: float, rows: FloatArray) -> int:
 
 @njit(cache=True, nogil=True)
 def _look() -> _Look:
-    """Room for one."""
-    return _Look(np.empty(SIZE), np.empty((SIZE, 2)))
+    """Room for one, in which no word reaches."""
+    return _Look(np.full(SIZE, np.nan), np.zeros((SIZE, 2)))
 
 
 @njit(cache=True, nogil=True)

@@ -78,30 +78,37 @@ def word_between(dx: float, dy: float, h: float, branch: int, piece: FloatArray)
 
 
 @njit(cache=True, nogil=True)
-def every_word(start: Start, lengths: FloatArray, turns: FloatArray) -> None:
-    """All branches to (0, 0) on heading 0, as `word_from` gives them one by one.
+def every_word(start: Start, words: int, lengths: FloatArray, turns: FloatArray) -> None:
+    """All branches of some words to (0, 0) on heading 0, as `word_from` gives them one by one.
 
     Args:
         start: where they begin.
+        words: the words, as a sum of 2 to the power of their numbers; one with three turns belongs
+            to that with the same first and last turn, and comes with it.
         lengths: takes the length of each branch [R]; NaN if it does not reach. shape (SIZE,)
         turns: takes the first and the last turn of each [rad]. shape (SIZE, 2)
     """
     x, y, h, sin_h, cos_h = start
     for k in range(2):
         first = 1.0 - 2.0 * k
-        dx, dy = first * sin_h - x, first - y - first * cos_h
-        gap, course = hypot(dx, dy), atan2(dy, dx)
-        _put_turns(first, first, h, course, course, gap, k, lengths, turns)
-        short, long = 4 + 2 * k, 5 + 2 * k
-        if gap > 4.0:
-            lengths[short] = lengths[long] = np.nan
-        else:
-            middle = 2.0 * asin(0.25 * gap)
-            half = 0.5 * first * middle
-            _put_turns(first, first, h, course + half, course - half, middle, short, lengths, turns)
-            # the other way round the middle circle
-            middle, half = TWO_PI - middle, first * (0.5 * TWO_PI) - half
-            _put_turns(first, first, h, course + half, course - half, middle, long, lengths, turns)
+        if words & (1 << k):
+            dx, dy = first * sin_h - x, first - y - first * cos_h
+            gap, course = hypot(dx, dy), atan2(dy, dx)
+            _put_turns(first, first, h, course, course, gap, k, lengths, turns)
+            short, long = 4 + 2 * k, 5 + 2 * k
+            if gap > 4.0:
+                lengths[short] = lengths[long] = np.nan
+            else:
+                middle = 2.0 * asin(0.25 * gap)
+                half = 0.5 * first * middle
+                begun, ended = course + half, course - half
+                _put_turns(first, first, h, begun, ended, middle, short, lengths, turns)
+                # the other way round the middle circle
+                middle, half = TWO_PI - middle, first * (0.5 * TWO_PI) - half
+                begun, ended = course + half, course - half
+                _put_turns(first, first, h, begun, ended, middle, long, lengths, turns)
+        if not words & (4 << k):
+            continue
         # to opposite sides
         dx, dy = first * sin_h - x, -first - y - first * cos_h
         gap = hypot(dx, dy)

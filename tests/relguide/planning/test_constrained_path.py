@@ -24,10 +24,17 @@ from relguide import (
     plan,
 )
 from relguide.kernels.base.turn import turn_radius
-from relguide.kernels.contact.chain import MAX_LEGS
+from relguide.kernels.contact.boundary_arc import (
+    MAX_NODES,
+    boundary_arc_arrival,
+    boundary_arc_pieces,
+)
+from relguide.kernels.contact.chain import BOUNDARY_ARC, MAX_LEGS
 from relguide.kernels.contact.constrained_search import best_constrained_path
+from relguide.kernels.contact.contact import GRAZE, contact_at
 from relguide.kernels.contact.path_pieces import EARLY, pieces_of
 from relguide.kernels.contact.tangent import tangents
+from relguide.kernels.separation.clearance import fly_rate, piece_clears
 from relguide.planning import constrained_path as module
 from relguide.planning.constrained_path import BEARINGS, TURNING_BEARINGS
 from relguide.planning.optimality import check
@@ -313,7 +320,7 @@ def test_the_slot_is_waited_for_from_the_contact_that_the_wait_was_found_for(
     assert answer.arrival.holds
 
 
-@pytest.mark.parametrize(("case", "best"), [(86, 492.998), (34, 377.800)])
+@pytest.mark.parametrize(("case", "best"), [(86, 492.998), (34, 378.725)])
 def test_round_a_leader_who_turns_with_a_slot_at_the_limit_narrow_windows_are_searched(
     case: int, best: float
 ) -> None:
@@ -450,12 +457,12 @@ def test_a_delay_is_looked_for_before_a_boundary_arc_and_after_one_that_turns_ba
 
 @pytest.mark.parametrize(
     ("seed", "case", "slot_at_limit", "best"),
-    [(1302, 28, True, 310.979), (1303, 58, False, 707.444)],
+    [(1302, 28, True, 307.729), (1303, 58, False, 704.298)],
 )
 def test_a_boundary_arc_goes_on_through_the_turn_that_turns_it_back(
     seed: int, case: int, slot_at_limit: bool, best: float
 ) -> None:
-    """They came 193 s and 389 s late."""
+    """They came 197 s and 392 s late."""
     rng = np.random.default_rng([seed, case])
     rng.random(1 + slot_at_limit)  # as `tests.bench.limit` draws what kind it is
     situation = draws.active(rng, tight=True, intent=True, slot_at_limit=slot_at_limit)
@@ -482,7 +489,7 @@ def test_a_path_along_the_limit_may_be_flown_too_soon_by_rounding(before: float)
 
 @pytest.mark.parametrize(
     ("seed", "case", "slot_at_limit", "best"),
-    [(1302, 3, True, 190.067), (1303, 173, False, 403.347), (1304, 203, True, 407.257)],
+    [(1302, 3, True, 190.067), (1303, 173, False, 402.915), (1304, 203, True, 407.257)],
 )
 def test_where_few_contacts_may_still_matter_it_is_looked_closer(
     seed: int, case: int, slot_at_limit: bool, best: float
@@ -517,3 +524,49 @@ def test_a_delay_may_begin_at_the_last_path_to_a_contact(case: int) -> None:
     assert answer.certificate.holds
     assert answer.arrival.holds
     assert answer.optimality.proof == "relaxation"
+
+
+@pytest.mark.parametrize(
+    ("seed", "case", "tight", "best"),
+    [
+        (1304, 257, False, 314.43),
+        (1304, 188, True, 711.64),
+        (1402, 192, True, 283.86),
+        (1302, 282, True, 301.23),
+    ],
+)
+def test_round_a_leader_who_turns_the_earliest_at_a_contact_need_not_be_the_best(
+    seed: int, case: int, tight: bool, best: float
+) -> None:
+    """With one label a contact they came 73 s, 32 s, 5.3 s and 4.9 s late."""
+    rng = np.random.default_rng([seed, case])
+    rng.random(2)  # as `tests.bench.limit` draws what kind it is
+    answer = plan(draws.active(rng, tight=tight, intent=True, slot_at_limit=True))
+    assert isinstance(answer, Plan)
+    assert answer.certificate.holds
+    assert answer.arrival.holds
+    assert answer.time_to_converge < best + 0.01
+
+
+def test_a_long_boundary_arc_is_flown_along_the_limit_and_in_the_time_it_should_take() -> None:
+    """In equal steps of bearing, of which some take far longer than others, it strayed by 4 cm."""
+    rng = np.random.default_rng([1402, 421])
+    rng.random(2)  # as `tests.bench.limit` draws what kind it is
+    situation = draws.active(rng, tight=False, intent=True, slot_at_limit=True)
+    frame = candidates(situation).frame
+    scene = scene_of(situation, frame)
+    leg = np.array([BOUNDARY_ARC, -1.0, 1.28092936, 3.46482569, 1.0, 0.0])
+    begun = 2.24164322
+    pieces = np.empty((2 * MAX_NODES, 2))
+    pose = contact_at(scene, begun, leg[2], leg[1])
+    n, end, ended = boundary_arc_pieces(pose, begun, scene, leg, pieces)
+    assert ended == pytest.approx(
+        boundary_arc_arrival(scene, begun, leg[2], leg[3], leg[1], 1), abs=3e-7
+    )
+    there = contact_at(scene, ended, leg[3], leg[1])
+    assert hypot(end.x - there.x, end.y - there.y) < 1e-6
+    t, eased = begun, scene._replace(d_min=scene.d_min - GRAZE)
+    for duration, rate in pieces[:n]:
+        assert piece_clears(pose, rate, t, duration, eased)
+        pose = fly_rate(pose, rate, duration)
+        t += duration

@@ -20,7 +20,7 @@ from tests.situations import headings, numbers
 def test_all_at_once_are_those_one_by_one_and_lead_there(x: float, y: float, h: float) -> None:
     pose, piece = Pose(x, y, h), np.empty(3)
     lengths, turns = np.empty(SIZE), np.empty((SIZE, 2))
-    every_word(start_at(pose), lengths, turns)
+    every_word(start_at(pose), 63, lengths, turns)
     for branch in range(SIZE):
         length = word_to_point(pose, 0.0, branch, piece)
         if length < 0.0:
