@@ -55,7 +55,7 @@ def template_of(start: Pose, scene: Scene, legs: FloatArray, guess: FloatArray) 
     if count == 2 and legs[1, 0] == WORD:
         return _through_contact(start, scene, legs, guess)
     if 3 <= count <= 4:
-        if legs[1, 0] == BOUNDARY_ARC and legs[0, 5] < _ALMOST:
+        if legs[1, 0] == BOUNDARY_ARC and (legs[0, 5] < _ALMOST or _is_of_two_turns(legs[0, 1:6])):
             return _from_boundary_arc(scene, legs, guess)
         if legs[count - 2, 0] == BOUNDARY_ARC:
             return _to_boundary_arc(start, scene, legs, guess)
@@ -104,6 +104,12 @@ def _onward_of_turns(row: FloatArray, guess: FloatArray) -> int:
 
 
 @njit(cache=True, nogil=True)
+def _is_of_two_turns(row: FloatArray) -> bool:
+    """Whether a word is two turns, but for a straight between them that is hardly one."""
+    return bool(2 <= branch_of(row) < 4 and row[3] < _ALMOST_NO_STRAIGHT)
+
+
+@njit(cache=True, nogil=True)
 def _guess_turns(first: float, second: float, guess: FloatArray) -> None:
     guess[0], guess[1] = first / pi - 1.0, second / pi - 1.0
 
@@ -116,6 +122,11 @@ def _from_boundary_arc(scene: Scene, legs: FloatArray, guess: FloatArray) -> int
     entry = branch_of(row)
     first_turn = 0 if SIGNS[int(row[1]), 0] > 0.0 else 1
     side = int(legs[1, 1])
+    if _is_of_two_turns(row) and row[4] >= _ALMOST:
+        if count == 3 and _straight_and_turn(last, side):
+            _guess_turns(row[2], row[4], guess)
+            return template_number(LR + first_turn, side, ON_B)
+        return SEVERAL
     if count == 3 and _straight_and_turn(last, side):
         if entry < 4:
             return template_number(LS + first_turn, side, ON_B)
