@@ -7,8 +7,10 @@
 """
 
 import logging
+import re
 import traceback
 from collections.abc import Callable, Iterator, Sequence
+from functools import cache
 from http import HTTPStatus
 from typing import Any
 
@@ -169,8 +171,14 @@ def _routes_at(request: Request) -> Iterator[RouteContext]:
     """The routes at the path of a request, whatever its method; those of WebSocket have none."""
     path = request.scope["path"].removeprefix(request.scope.get("root_path", ""))
     for route in iter_route_contexts(request.app.routes):
-        if compile_path(route.path or "")[0].match(path):
+        if _pattern_of(route.path or "").match(path):
             yield route
+
+
+@cache
+def _pattern_of(path: str) -> re.Pattern[str]:
+    """What a route's path matches."""
+    return compile_path(path)[0]
 
 
 def _methods_at(request: Request) -> list[str]:

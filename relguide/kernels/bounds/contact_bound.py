@@ -49,6 +49,10 @@ class Passed(NamedTuple):
     to another one [R/V_P]."""
 
 
+NEVER = Passed(inf, inf, inf, inf, inf)
+"""No word does."""
+
+
 @njit(cache=True, nogil=True)
 def anyhow(passed: Passed) -> float:
     """How soon, however the contact is passed."""
@@ -75,19 +79,19 @@ def cell_bound(
         beat: arrivals from here on do not matter, and all times come back as infinite [R/V_P].
         closely: whether it matters how the contact is passed.
     """
-    poses, never = poses_of(scene, cell), Passed(inf, inf, inf, inf, inf)
+    poses = poses_of(scene, cell)
     if poses.differs == inf:
-        return never, inf
+        return NEVER, inf
     onward = _onward_bound(scene, goal, cell, poses, beat - cell.start)
     if onward == inf:
-        return never, inf
+        return NEVER, inf
     earliest, end = cell.start - EDGE, min(beat - onward, cell.end + EDGE)
     at, target = _seen_from_start(start, poses)
     # read backward, left is right
     blur = Blur(poses.right, poses.left, poses.differs, 0.0)
     inside = with_limit(scene, scene.d_min - INSIDE)
     if soonest(at, blur, target, Window(earliest, end), no_sieve(scene)) == inf:
-        return never, onward
+        return NEVER, onward
     sieve, window = Sieve(True, start, 0.0, inside, 1.0, 0.0, 0.0), Window(earliest, end)
     if closely:
         junction = junction_of(scene, cell, 1.0)
@@ -234,7 +238,7 @@ def leaving_bound(scene: Scene, goal: Goal, cell: Cell, beat: float, closely: bo
     """
     poses = poses_of(scene, cell)
     if poses.differs == inf:
-        return Passed(inf, inf, inf, inf, inf)
+        return NEVER
     opens = max(scene.t_release - cell.end, 0.0) - EDGE
     inside, end = with_limit(scene, scene.d_min - INSIDE), Pose(goal.x, 0.0, pi)
     blur, target = _blur_toward(scene, goal, cell, poses), Velocity(goal.speed, 0.0)

@@ -15,7 +15,7 @@ from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.around import Around, is_last
 from relguide.kernels.bounds.cells import Cell
-from relguide.kernels.bounds.contact_bound import Passed, anyhow, cell_bound, leaving_bound
+from relguide.kernels.bounds.contact_bound import NEVER, Passed, anyhow, cell_bound, leaving_bound
 from relguide.kernels.bounds.goal import Goal
 from relguide.kernels.bounds.junction import can_touch
 from relguide.kernels.bounds.round_time import round_time
@@ -132,7 +132,7 @@ def reach(tree: Tree, problem: Problem, n: int) -> tuple[float, float]:
     known = tree.known[n]
     if isnan(known[_SOON]):
         cell = cell_at(tree, n)
-        soon, onward, passed = inf, inf, Passed(inf, inf, inf, inf, inf)
+        soon, onward, passed = inf, inf, NEVER
         if can_touch(problem.scene, cell):
             start, scene, goal = problem.start, problem.scene, problem.goal
             closely = size_of(tree, n, scene.d_min) < _BY_TURN
@@ -154,7 +154,7 @@ def leave(tree: Tree, problem: Problem, n: int) -> float:
     """How soon the goal can be reached from a last contact in the cell."""
     known = tree.known[n]
     if isnan(known[_LEAVING]):
-        passed, cell = Passed(inf, inf, inf, inf, inf), cell_at(tree, n)
+        passed, cell = NEVER, cell_at(tree, n)
         if can_touch(problem.scene, cell):
             scene, left = problem.scene, problem.beat - cell.start
             closely = size_of(tree, n, scene.d_min) < _BY_TURN

@@ -39,7 +39,7 @@ def words_onward(scene: Scene, bearing: float, side: float, t: float) -> int:
 def words_toward(scene: Scene, contact: Contact) -> int:
     """The words that may lead to a contact.
 
-    As the leader's piece begins, the one before it decides.
+    Just as the leader's piece begins, the one before it decides: so what that allows is among them.
     """
     words = _turning(scene, contact, _END_LEFT, _END_RIGHT)
     if contact.piece > 0:

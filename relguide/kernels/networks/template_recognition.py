@@ -78,7 +78,7 @@ def _through_contact(start: Pose, scene: Scene, legs: FloatArray, guess: FloatAr
 def _entry_of_turns(row: FloatArray, guess: FloatArray) -> int:
     """LR or RL if a first word is two turns that touch the disc by themselves; else its branch."""
     branch = branch_of(row)
-    if 2 <= branch < 4 and row[3] < _ALMOST_NO_STRAIGHT:
+    if _is_of_two_turns(row):
         _guess_turns(row[2], row[4], guess)
         return LR if branch == 2 else RL
     if branch >= 4 and row[4] < _NO_TURN:
@@ -97,7 +97,7 @@ def _onward_of_turns(row: FloatArray, guess: FloatArray) -> int:
     if branch >= 4 and row[2] < _NO_TURN:
         _guess_turns(row[3], row[4], guess)
         return ON_RL if branch < 6 else ON_LR
-    if 2 <= branch < 4 and row[3] < _ALMOST_NO_STRAIGHT:
+    if _is_of_two_turns(row):
         _guess_turns(row[2], row[4], guess)
         return ON_LR if branch == 2 else ON_RL
     return branch

@@ -314,17 +314,23 @@ def test_no_contact_with_a_leader_that_turns_is_reached_or_left_sooner(seed: int
     assert barred > 30
 
 
+def lone_contact(rng: np.random.Generator) -> tuple[Scene, Cell, float, Pose]:
+    """A contact with a leader that turns, in a cell that holds hardly more; its time and pose."""
+    scene, half = turning(rng), 1e-6
+    bearing, side = rng.uniform(-pi, pi), rng.choice((1.0, -1.0))
+    t = rng.uniform(0.3, 0.9) * scene.leader[1, 0]
+    cell = Cell(0, side, bearing, half, t - half, t + half)
+    return scene, cell, t, contact_with(scene, bearing, side, t)
+
+
 def test_who_turns_away_at_a_contact_is_told_from_who_turns_toward_the_leader() -> None:
     """Paths to a contact, and from one, by the turn there: none sooner than what is said of it."""
     rng = np.random.default_rng(12)
     there = toward = gone = apart = 0
     for _ in range(3_000):
-        scene = turning(rng)
-        b, side, half = rng.uniform(-pi, pi), rng.choice((1.0, -1.0)), 1e-6
-        t = rng.uniform(0.3, 0.9) * scene.leader[1, 0]
-        cell = Cell(0, side, b, half, t - half, t + half)
+        scene, cell, t, contact = lone_contact(rng)
         least, _ = slide_turns(scene, cell)
-        contact = contact_with(scene, b, side, t)
+        side = cell.side
         # LSL or RSR: away from the leader, which is to the left if it is passed counter-clockwise,
         # or toward it
         turned = rng.uniform(0.05, 0.8) * t
@@ -369,13 +375,9 @@ def test_who_goes_straight_past_a_contact_is_told_too() -> None:
     rng = np.random.default_rng(13)
     past = left = 0
     for _ in range(3_000):
-        scene = turning(rng)
-        b, side, half = rng.uniform(-pi, pi), rng.choice((1.0, -1.0)), 1e-6
-        t = rng.uniform(0.3, 0.9) * scene.leader[1, 0]
-        cell = Cell(0, side, b, half, t - half, t + half)
+        scene, cell, t, contact = lone_contact(rng)
         if slide_turns(scene, cell)[0] < 0.0:
             continue
-        contact = contact_with(scene, b, side, t)
         turned = rng.uniform(0.05, 0.9) * t
         word = np.array((t, rng.integers(2), turned, t - turned, 0.0))
         start = flown_backward(contact, word)
@@ -397,11 +399,11 @@ def test_who_goes_straight_past_a_contact_is_told_too() -> None:
             scene.leader[:, 2] * c - scene.leader[:, 1] * s,
         )
         table[:, 3] -= end.h
-        seen = scene._replace(leader=table)
+        table[:, 2] -= end.y * c - end.x * s
         if keeps(contact, row, later):
             speed = rng.uniform(0.0, 1.0)
             goal = Goal(end.x * c + end.y * s - speed * (t + ahead + bend), speed, False)
-            seen = seen._replace(leader=table - np.array([0.0, 0.0, end.y * c - end.x * s, 0, 0]))
+            seen = scene._replace(leader=table)
             assert leaving_bound(seen, goal, cell, FAR, True).tangent <= ahead + bend + 1e-4
             left += 1
     assert past > 50
