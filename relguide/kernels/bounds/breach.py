@@ -3,19 +3,18 @@
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
-from math import hypot, inf
+from math import cos, inf, sin, sqrt
 from typing import NamedTuple
 
 from numba import njit
 
 from relguide.kernels.base.records import Pose, Scene
-from relguide.kernels.separation.clearance import leader_at, piece_at
-from relguide.kernels.words.extremals import fly_piece
 
 ROUNDING = 2e-7
 """Added to every blur: twice what an accepted path may miss its end by, `extremals.CLOSURE` [R]."""
 INSIDE = 2e-6
 """A path must come this much closer than d_min to count as breaking it [R]: 2 cm at R = 12 km."""
+_BENDS = 1e-6  # a leader that turns more slowly is taken to keep straight, but for its bend [V_P/R]
 MOST_LOOKS = 20_000
 """At a path that follows the leader for hours, hardly outside the limit: some milliseconds."""
 
@@ -79,9 +78,33 @@ def no_sieve(scene: Scene) -> Sieve:
     return Sieve(False, Pose(0.0, 0.0, 0.0), 0.0, scene, 1.0, 0.0, 0.0)
 
 
+class _Piece(NamedTuple):
+    """A turn or a straight from a pose, with what a place along it is computed from."""
+
+    at: Pose
+    """Where it begins."""
+    sign: float
+    """ε."""
+    sin_h: float
+    """sin h there."""
+    cos_h: float
+    """cos h there."""
+
+
 @njit(cache=True, nogil=True)
 def breaks_limit(start: Pose, word: NearWord, flown: Flown, scene: Scene, stride: float) -> bool:
     """Whether every path of a word with amounts near these comes closer than the limit in time.
+
+    Arguments as `breach_time`.
+    """
+    return breach_time(start, word, flown, scene, stride, inf) < inf
+
+
+@njit(cache=True, nogil=True)
+def breach_time(
+    start: Pose, word: NearWord, flown: Flown, scene: Scene, stride: float, guess: float
+) -> float:
+    """How far along every path of a word with amounts near these is closer than the limit [R/V_P].
 
     It is looked at now and then only: a breach that is short may be missed, and none is made up.
 
@@ -91,9 +114,13 @@ def breaks_limit(start: Pose, word: NearWord, flown: Flown, scene: Scene, stride
         flown: when, and which way in time.
         scene: the leader, and the separation to be kept.
         stride: least step from one look to the next [R/V_P].
+        guess: where another word did so, which is looked at first; infinite if none is known.
+
+    Returns:
+        infinite if none is seen.
     """
     if word.middle_blur == inf:
-        return False
+        return inf
     leader, looks, final = scene.leader, 0, len(scene.leader) - 1
     # headings differ by no more than this in the second piece and in the third
     slow = word.first_blur if word.signs[1] == 0.0 else 2.0 * word.first_blur
@@ -101,31 +128,66 @@ def breaks_limit(start: Pose, word: NearWord, flown: Flown, scene: Scene, stride
     first, middle = max(word.first, 0.0), max(word.middle, 0.0)
     parted = max(first - word.first_blur, 0.0)
     turning = parted + max(middle - word.middle_blur, 0.0)
-    second = fly_piece(start, word.signs[0], first)
-    third = fly_piece(second, word.signs[1], middle)
-    i = piece_at(leader, flown.begin)
+    piece, begun, ends = _piece_from(start, word.signs[0]), 0.0, first
     # on the final leg the leader keeps its place from a slot, and elsewhere it may lie astray
     drift_final = abs(flown.speed - scene.alpha) * flown.astray if flown.astray > 0.0 else 0.0
     drift = (flown.speed + scene.alpha) * flown.astray
-    t = 0.0
+    i, number = -1, 0
+    lx, ly, lh, rate, cos_l, sin_l = 0.0, 0.0, 0.0, 0.0, 1.0, 0.0
+    t, guessed = 0.0, guess < word.until
+    if guessed:
+        t = guess
     while t < word.until and looks < MOST_LOOKS:
         looks += 1
+        while t > ends and number < 2:
+            number += 1
+            amount, begun = ends - begun, ends
+            piece = _piece_from(_along(piece, amount), word.signs[number])
+            ends = inf if number == 2 else begun + middle
+        at = _along(piece, t - begun)
         now = flown.begin + flown.sense * t
-        while i < final and leader[i + 1, 0] <= now:
-            i += 1
-        while i > 0 and leader[i, 0] > now:
-            i -= 1
-        if t <= first:
-            at = fly_piece(start, word.signs[0], t)
-        elif t <= first + middle:
-            at = fly_piece(second, word.signs[1], t - first)
+        j = max(i, 0)
+        while j < final and leader[j + 1, 0] <= now:
+            j += 1
+        while j > 0 and leader[j, 0] > now:
+            j -= 1
+        if j != i:
+            i = j
+            lx, ly, lh, rate = leader[i, 1], leader[i, 2], leader[i, 3], leader[i, 4]
+            cos_l, sin_l = cos(lh), sin(lh)
+        since = now - leader[i, 0]
+        ahead, bend = scene.alpha * since, 0.0
+        if abs(rate) > _BENDS:
+            # as `leader_at`, where sine and cosine are known
+            radius, h = scene.alpha / rate, lh + rate * since
+            dx, dy = at.x - lx - radius * (sin(h) - sin_l), at.y - ly + radius * (cos(h) - cos_l)
         else:
-            at = fly_piece(third, word.signs[2], t - first - middle)
-        there = leader_at(scene, i, now)
-        astray = slow * max(t - parted, 0.0) + fast * max(t - turning, 0.0)
+            dx, dy = at.x - lx - ahead * cos_l, at.y - ly - ahead * sin_l
+            bend = 0.5 * abs(rate * ahead * since)
+        astray = bend + slow * max(t - parted, 0.0) + fast * max(t - turning, 0.0)
         astray += drift_final if now - flown.astray >= leader[final, 0] else drift
-        gap = hypot(at.x - there.x, at.y - there.y) + astray + ROUNDING - scene.d_min
+        gap = sqrt(dx * dx + dy * dy) + astray + ROUNDING - scene.d_min
         if gap < 0.0:
-            return True
-        t += max(gap / (1.0 + scene.alpha), stride)
-    return False
+            return t
+        if guessed:
+            # it may be as good from the start on
+            guessed, t, number = False, 0.0, 0
+            piece, begun, ends = _piece_from(start, word.signs[0]), 0.0, first
+        else:
+            t += max(gap / (1.0 + scene.alpha), stride)
+    return inf
+
+
+@njit(cache=True, nogil=True, inline="always")
+def _piece_from(at: Pose, sign: float) -> _Piece:
+    return _Piece(at, sign, sin(at.h), cos(at.h))
+
+
+@njit(cache=True, nogil=True, inline="always")
+def _along(piece: _Piece, amount: float) -> Pose:
+    """As `fly_piece`, where many places along a piece are asked for."""
+    (x, y, h), sign, s, c = piece
+    if sign == 0.0:
+        return Pose(x + amount * c, y + amount * s, h)
+    end = h + sign * amount
+    return Pose(x + sign * (sin(end) - s), y - sign * (cos(end) - c), end)

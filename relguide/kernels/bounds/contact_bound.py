@@ -24,7 +24,13 @@ from relguide.kernels.bounds.goal import Goal, track_of
 from relguide.kernels.bounds.junction import junction_of
 from relguide.kernels.bounds.round_time import round_bound
 from relguide.kernels.bounds.round_turning import round_arrival
-from relguide.kernels.bounds.word_bound import ByTurn, Junction, soonest, soonest_by_turn
+from relguide.kernels.bounds.word_bound import (
+    ByTurn,
+    Junction,
+    soonest,
+    soonest_by_turn,
+    soonest_kept,
+)
 from relguide.kernels.bounds.word_intervals import Blur
 from relguide.kernels.contact.contact import to_frame_of
 from relguide.kernels.words.extremals import fly_piece
@@ -90,15 +96,17 @@ def cell_bound(
     # read backward, left is right
     blur = Blur(poses.right, poses.left, poses.differs, 0.0)
     inside = with_limit(scene, scene.d_min - INSIDE)
-    if soonest(at, blur, target, Window(earliest, end), no_sieve(scene)) == inf:
-        return NEVER, onward
     sieve, window = Sieve(True, start, 0.0, inside, 1.0, 0.0, 0.0), Window(earliest, end)
     if closely:
         junction = junction_of(scene, cell, 1.0)
         found = soonest_by_turn(at, blur, target, window, sieve, junction)
+        if not found.any:
+            return NEVER, onward
         looped = looped_bound(start, scene, cell, end)
         return _passed(found, junction, looped, cell.start), onward
-    soon = soonest(at, blur, target, window, sieve)
+    soon, any_word = soonest_kept(at, blur, target, window, sieve)
+    if not any_word:
+        return NEVER, onward
     soon = max(min(soon, looped_bound(start, scene, cell, min(end, soon))), cell.start)
     return Passed(soon, soon, soon, soon, soon), onward
 

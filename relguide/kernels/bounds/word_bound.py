@@ -10,7 +10,7 @@ their width counts for no more than the set's. What cannot be decided is let thr
 the bound, and never raises it. Words can be told apart by what they do at the set: see `junction`.
 """
 
-from math import inf
+from math import cos, inf, sin
 from typing import NamedTuple
 
 import numpy as np
@@ -19,8 +19,9 @@ from numba import njit
 from relguide.kernels.base.angles import TWO_PI
 from relguide.kernels.base.records import Pose, Velocity, Window
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.bounds.breach import Flown, NearWord, Sieve, breaks_limit
+from relguide.kernels.bounds.breach import Flown, NearWord, Sieve, breach_time
 from relguide.kernels.bounds.word_intervals import (
+    FINEST,
     MOST_TURNS,
     Blur,
     Interval,
@@ -28,12 +29,14 @@ from relguide.kernels.bounds.word_intervals import (
     opposite_turns_within,
     same_turns,
     side_of,
+    sine_cosine,
     three_turns_within,
 )
 
 _TANGENT, _LASTING, _BEAT = 2, 3, 4  # places in what is lowered, after both turns at the set
-_DEPTH = 192
-_FINEST = 1e-12  # an interval this short is not halved again [rad]
+_BREACH = 5  # and where the last word that was left out broke the limit
+_FOUND = 6  # and the time of any word that was found, also of those that were left out
+_DEPTH = 64  # more than halvings from a whole turn to the shortest interval
 _STRIDE = 0.02  # least step of the look for a breach [R/V_P]
 
 
@@ -63,6 +66,8 @@ class ByTurn(NamedTuple):
     """Where the costate of the heading vanishes [R/V_P]."""
     lasting: float
     """In an outward turn, and how long that was there before the set, too [R/V_P]."""
+    any: bool
+    """Whether it is met by words at all, also by those left out."""
 
 
 class _Asked(NamedTuple):
@@ -75,7 +80,10 @@ class _Asked(NamedTuple):
     junction: Junction
     """What is asked of the turn at the set."""
     least: FloatArray
-    """Is lowered: the fields of `ByTurn`, and how late a word may be; or one of any word."""
+    """Is lowered: the fields of `ByTurn`, and how late a word may be; or one of any word. Then how
+    far along the last word that was left out broke the limit, and when any was found."""
+    stack: FloatArray
+    """To work in. shape (_DEPTH, 4)"""
 
 
 _NO_JUNCTION = Junction(False, 0, 0.0, False, False)
@@ -87,9 +95,17 @@ def soonest(pose: Pose, blur: Blur, target: Velocity, window: Window, sieve: Sie
 
     Arguments as `soonest_by_turn`.
     """
-    least = np.full(1, window.beat)
-    _bound_all(pose, blur, target, _Asked(window.earliest, sieve, _NO_JUNCTION, least))
-    return float(least[0]) if least[0] < window.beat else inf
+    return soonest_kept(pose, blur, target, window, sieve)[0]
+
+
+@njit(cache=True, nogil=True)
+def soonest_kept(
+    pose: Pose, blur: Blur, target: Velocity, window: Window, sieve: Sieve
+) -> tuple[float, bool]:
+    """The same, and whether it is met by words at all, also by those left out."""
+    least, stack = _unknown(window.beat), np.empty((_DEPTH, 4))
+    _bound_all(pose, blur, target, _Asked(window.earliest, sieve, _NO_JUNCTION, least, stack))
+    return float(least[0]) if least[0] < window.beat else inf, bool(least[_FOUND] < inf)
 
 
 @njit(cache=True, nogil=True)
@@ -107,13 +123,21 @@ def soonest_by_turn(
         sieve: words left out.
         junction: what is asked.
     """
-    least = np.full(5, window.beat)
-    least[_LASTING] = inf
-    _bound_all(pose, blur, target, _Asked(window.earliest, sieve, junction, least))
+    least, stack = _unknown(window.beat), np.empty((_DEPTH, 4))
+    _bound_all(pose, blur, target, _Asked(window.earliest, sieve, junction, least, stack))
     for k in range(_LASTING):
         if least[k] >= window.beat:
             least[k] = inf
-    return ByTurn(least[0], least[1], least[_TANGENT], least[_LASTING])
+    any_word = bool(least[_FOUND] < inf)
+    return ByTurn(least[0], least[1], least[_TANGENT], least[_LASTING], any_word)
+
+
+@njit(cache=True, nogil=True, inline="always")
+def _unknown(beat: float) -> FloatArray:
+    """Nothing but `beat` is known: see `_Asked.least`."""
+    least = np.full(_FOUND + 1, beat)
+    least[_LASTING] = least[_BREACH] = least[_FOUND] = inf
+    return least
 
 
 @njit(cache=True, nogil=True)
@@ -152,7 +176,9 @@ def _bound_same_side(side: Side, asked: _Asked) -> None:
 @njit(cache=True, nogil=True)
 def _bound_by_halves(three_turns: bool, side: Side, asked: _Asked) -> None:
     """As `_bound_all`, for LSR, or for LRL if `three_turns`."""
-    mids, halves = np.empty(_DEPTH), np.empty(_DEPTH)
+    # of each interval its middle and half its width, and sine and cosine of what is asked for
+    stack = asked.stack
+    part = 0.5 if three_turns else 1.0
     for k in range(-1, 4):
         around = TWO_PI * k
         # where both outer turns are between none and a full one
@@ -162,22 +188,28 @@ def _bound_by_halves(three_turns: bool, side: Side, asked: _Asked) -> None:
         high = min(most + side.h + side.heading - around, TWO_PI + past)
         if high < low:
             continue
-        mids[0], halves[0] = 0.5 * (low + high), 0.5 * (high - low) + _FINEST
+        mid, half = 0.5 * (low + high), 0.5 * (high - low) + FINEST
+        stack[0, 0], stack[0, 1] = mid, half
+        stack[0, 2], stack[0, 3] = sin(part * mid), cos(part * mid)
         n = 1
         while n > 0:
             n -= 1
-            mid, half = mids[n], halves[n]
+            mid, half, s, c = stack[n, 0], stack[n, 1], stack[n, 2], stack[n, 3]
             left = Window(asked.earliest, _beat(side, asked))
             if three_turns:
-                found = three_turns_within(mid, half, around, side, left)
+                found = three_turns_within(mid, half, s, around, side, left)
             else:
-                found = opposite_turns_within(mid, half, around, side, left)
+                found = opposite_turns_within(mid, half, s, c, around, side, left)
             if found.time == inf:
                 continue
-            if not (found.fine or half < _FINEST or n + 2 > _DEPTH):
+            if not found.fine:
                 # the half that begins sooner is looked at first
-                halves[n] = halves[n + 1] = 0.5 * half
-                mids[n], mids[n + 1] = mid + 0.5 * half, mid - 0.5 * half
+                half *= 0.5
+                sine, cosine = sine_cosine(part * half)
+                stack[n, 0], stack[n + 1, 0] = mid + half, mid - half
+                stack[n, 1] = stack[n + 1, 1] = half
+                stack[n, 2], stack[n + 1, 2] = s * cosine + c * sine, s * cosine - c * sine
+                stack[n, 3], stack[n + 1, 3] = c * cosine - s * sine, c * cosine + s * sine
                 n += 2
             elif three_turns:
                 _take_all(found, (-1.0, 1.0, -1.0), 2, half, side, asked)
@@ -219,6 +251,7 @@ def _take(
 ) -> None:  # fmt: skip
     """As `_take_all`, for one first turn; the turn at the set may differ by `spare`."""
     junction, least, time = asked.junction, asked.least, found.time
+    least[_FOUND] = time
     hand = side.hand if junction.asked else 0
     sooner, tangent, lasts = time < least[hand], False, inf
     if junction.asked:
@@ -230,7 +263,7 @@ def _take(
                 lasts = inf
     if not (sooner or tangent or lasts < inf):
         return
-    if _is_ruled_out(found, signs, first, side, asked.sieve):
+    if _is_ruled_out(found, signs, first, side, asked):
         return
     if sooner:
         least[hand] = time
@@ -293,9 +326,10 @@ def _lasted(
 
 @njit(cache=True, nogil=True)
 def _is_ruled_out(
-    found: Interval, signs: tuple[float, float, float], first: float, side: Side, sieve: Sieve
+    found: Interval, signs: tuple[float, float, float], first: float, side: Side, asked: _Asked
 ) -> bool:
     """Whether a word is left out, as every path of it certainly breaks the limit."""
+    sieve = asked.sieve
     if not sieve.used:
         return False
     m = side.mirror
@@ -315,4 +349,7 @@ def _is_ruled_out(
             return False
     end = Pose(sieve.end.x + sieve.speed * begin, sieve.end.y, sieve.end.h)
     flown = Flown(begin, sieve.sense, sieve.speed, astray)
-    return breaks_limit(end, word, flown, sieve.scene, _STRIDE)
+    breach = breach_time(end, word, flown, sieve.scene, _STRIDE, asked.least[_BREACH])
+    if breach < inf:
+        asked.least[_BREACH] = breach
+    return breach < inf

@@ -18,7 +18,7 @@ r is how far the unknown pose may displace what is compared. What cannot be deci
 Lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
-from math import asin, atan2, cos, hypot, inf, pi, sin, sqrt
+from math import asin, atan2, cos, inf, pi, sin, sqrt
 from typing import NamedTuple
 
 from numba import njit
@@ -30,6 +30,7 @@ from relguide.kernels.bounds.breach import ROUNDING
 MOST_TURNS = 4
 """Of `same_turns`."""
 _FAST = 0.95  # a target at this speed may be met twice, or late [V_P]
+_SMALL = 0.03  # below this few terms of a series are exact [rad]
 _STEPS = 100  # toward where it may be met: fewer say less
 
 
@@ -79,7 +80,7 @@ class Interval(NamedTuple):
     latest: float
     """Nor later."""
     fine: bool
-    """Whether halving it would say no more."""
+    """Whether halving it would say no more; if not, nothing else is said."""
     turned: float
     """Both outer turns together, at its middle [rad]."""
     first: float
@@ -96,6 +97,10 @@ class Interval(NamedTuple):
 
 NOTHING = Interval(inf, inf, True, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 """No word is possible."""
+UNDECIDED = Interval(0.0, inf, False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+"""Halves of the interval say more."""
+FINEST = 1e-12
+"""An interval this short is not halved again [rad]."""
 
 
 @njit(cache=True, nogil=True)
@@ -103,7 +108,7 @@ def side_of(pose: Pose, blur: Blur, target: Velocity, hand: int) -> Side:
     """The words that begin with a left turn, or with hand = 1 a right one, in the mirror."""
     m = 1.0 - 2.0 * hand
     h = wrap(m * pose.h)
-    alpha = hypot(target.ahead, target.left)
+    alpha = _length(target.ahead, target.left)
     circle = (blur.left if hand == 0 else blur.right) + ROUNDING
     heading = blur.heading + ROUNDING
     return Side(
@@ -153,14 +158,14 @@ def _narrow(
     if not greatest < inf:
         return least, greatest
     ax, ay = target
-    steepest = 1.0 + hypot(ax, ay)
+    steepest = 1.0 + _length(ax, ay)
     for _ in range(_STEPS):
-        gap = abs(hypot(ax * least + ex, ay * least + ey) - least) - blur
+        gap = abs(_length(ax * least + ex, ay * least + ey) - least) - blur
         if gap <= 0.0 or least > greatest:
             break
         least += gap / steepest
     for _ in range(_STEPS):
-        gap = abs(hypot(ax * greatest + ex, ay * greatest + ey) - greatest) - blur
+        gap = abs(_length(ax * greatest + ex, ay * greatest + ey) - greatest) - blur
         if gap <= 0.0 or least > greatest:
             break
         greatest -= gap / steepest
@@ -191,18 +196,21 @@ def same_turns(k: int, side: Side, window: Window) -> Interval:
         middle, middle_blur = 0.5 * (least + greatest), 0.5 * (greatest - least)
         to_x, to_y = ax * middle + ex, ay * middle + ey
         slack = side.radius + side.alpha * middle_blur
-        if slack < hypot(to_x, to_y):
-            astray = asin(slack / hypot(to_x, to_y))
+        if slack < _length(to_x, to_y):
+            astray = asin(slack / _length(to_x, to_y))
             course = atan2(to_y, to_x)
     latest = turned + side.heading + greatest
     return Interval(time, latest, True, turned, -course, astray, middle, middle_blur, least)
 
 
-@njit(cache=True, nogil=True, inline="always")  # 8 % of a proof
+@njit(cache=True, nogil=True, inline="always")
 def three_turns_within(
-    mid: float, half: float, around: float, side: Side, window: Window
+    mid: float, half: float, sin_half: float, around: float, side: Side, window: Window
 ) -> Interval:
-    """LRL with a middle arc in mid ± half, and `around` how much more the outer turns make."""
+    """LRL with a middle arc in mid ± half, and `around` how much more the outer turns make.
+
+    `sin_half` is sin(mid/2).
+    """
     ax, ay = side.target
     turned = mid + around - side.h
     time = max(turned + mid - 2.0 * half - side.heading, 0.0)
@@ -211,44 +219,51 @@ def three_turns_within(
         return NOTHING
     to_x = ax * (turned + mid) - side.cx
     to_y = ay * (turned + mid) + 1.0 - side.cy
-    gap = hypot(to_x, to_y)
+    gap = _length(to_x, to_y)
     spread = 2.0 * (1.0 + side.alpha) * half
-    if abs(gap - 4.0 * sin(0.5 * mid)) > side.radius + spread:
+    if abs(gap - 4.0 * sin_half) > side.radius + spread:
         return NOTHING
+    if spread > side.radius and half >= FINEST:
+        return UNDECIDED
     slack = side.radius + 2.0 * side.alpha * half
     astray = pi if slack >= gap else asin(slack / gap) + 0.5 * half
     first = wrap_signed(0.5 * mid - atan2(to_y, to_x))
     shortest = max(mid - half, 0.0)
-    return Interval(time, latest, spread <= side.radius, turned, first, astray, mid, half, shortest)
+    return Interval(time, latest, True, turned, first, astray, mid, half, shortest)
 
 
-@njit(cache=True, nogil=True, inline="always")  # 8 % of a proof
+@njit(cache=True, nogil=True, inline="always")
 def opposite_turns_within(
-    mid: float, half: float, around: float, side: Side, window: Window
+    mid: float, half: float, s: float, c: float, around: float, side: Side, window: Window
 ) -> Interval:
-    """LSR whose straight has a course in mid ± half; `around` is as in `three_turns_within`."""
+    """LSR whose straight has a course in mid ± half; `around` is as in `three_turns_within`.
+
+    `s` and `c` are sine and cosine of mid.
+    """
     ax, ay = side.target
     turned = 2.0 * mid + around - side.h
-    c, s = cos(mid), sin(mid)
+    soonest_turned = max(turned - 2.0 * half - side.heading, 0.0)
+    longest = window.beat - soonest_turned
+    if longest <= 0.0:
+        return NOTHING
     qx, qy = c - ax, s - ay
-    q = hypot(qx, qy)
+    q = _length(qx, qy)
     vx = ax * turned - side.cx - 2.0 * s
     vy = ay * turned - side.cy - 1.0 + 2.0 * c
-    soonest_turned = max(turned - 2.0 * half - side.heading, 0.0)
     # |v| ≤ l |q| + r, wherever in the interval
-    shortest = (hypot(vx, vy) - side.radius - 2.0 * half * (q + half)) / (q + half)
-    longest = window.beat - soonest_turned
+    shortest = (_length(vx, vy) - side.radius - 2.0 * half * (q + half)) / (q + half)
     near, along = inf, 0.0
     if q > 1e-9:
-        along, beside = (vx * qx + vy * qy) / q, abs(vx * qy - vy * qx) / q
-        wander = half * abs(ay * c - ax * s) / q + 0.5 * half * half
+        per_q = 1.0 / q
+        along, beside = (vx * qx + vy * qy) * per_q, abs(vx * qy - vy * qx) * per_q
+        wander = half * abs(ay * c - ax * s) * per_q + 0.5 * half * half
         near = side.radius + half * half
         if q > wander:
             longest = min(longest, (along + near + 2.0 * half * q) / (q - wander))
         if beside > near + longest * half:
             return NOTHING
         near += longest * wander
-        shortest = max(shortest, (along - near) / q - 2.0 * half)
+        shortest = max(shortest, (along - near) * per_q - 2.0 * half)
     shortest = max(shortest, 0.0)
     if longest < shortest:
         return NOTHING
@@ -259,6 +274,23 @@ def opposite_turns_within(
         latest = min(latest, turned + side.heading + (along + near) / q)
     if time >= window.beat or latest < window.earliest:
         return NOTHING
-    fine = longest < inf and half * (longest + half) <= side.radius
+    if not (longest < inf and half * (longest + half) <= side.radius) and half >= FINEST:
+        return UNDECIDED
     middle, middle_blur = 0.5 * (shortest + longest), 0.5 * (longest - shortest)
-    return Interval(time, latest, fine, turned, mid, half, middle, middle_blur, shortest)
+    return Interval(time, latest, True, turned, mid, half, middle, middle_blur, shortest)
+
+
+@njit(cache=True, nogil=True, inline="always")
+def sine_cosine(angle: float) -> tuple[float, float]:
+    """Of an angle that is not negative, and mostly small."""
+    if angle > _SMALL:
+        return sin(angle), cos(angle)
+    square = angle * angle
+    sine = angle * (1.0 - square * (1.0 - square / 20.0) / 6.0)
+    return sine, 1.0 - 0.5 * square * (1.0 - square * (1.0 - square / 30.0) / 12.0)
+
+
+@njit(cache=True, nogil=True, inline="always")
+def _length(x: float, y: float) -> float:
+    """As hypot, which takes pains with numbers that none is so large or small as to need."""
+    return sqrt(x * x + y * y)

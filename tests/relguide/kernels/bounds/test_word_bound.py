@@ -7,9 +7,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from relguide.kernels.base.records import Pose, Scene, Velocity, Window
-from relguide.kernels.bounds.breach import Flown, NearWord, Sieve, breaks_limit
+from relguide.kernels.bounds.breach import Flown, NearWord, Sieve, breach_time, breaks_limit
 from relguide.kernels.bounds.word_bound import Junction, soonest, soonest_by_turn
 from relguide.kernels.bounds.word_intervals import Blur, intercept_span
+from relguide.kernels.separation.clearance import leader_at
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, WORDS, fly_piece, solve_toward
 from tests.costates import with_costate
 from tests.situations import numbers
@@ -184,17 +185,25 @@ def test_an_interception_lies_within_its_span(
     last=numbers(0.0, 6.0), blurs=st.tuples(numbers(0.0, 0.3), numbers(0.0, 0.3)),
     shares=st.tuples(numbers(-1.0, 1.0), numbers(-1.0, 1.0)), start=st.tuples(places, places),
     leader=courses, limit=numbers(0.1, 3.0),
+    rate=st.one_of(numbers(-1.0, 1.0), st.sampled_from([0.0, 9e-7, -2e-6])),
+    guess=st.one_of(st.just(inf), numbers(0.0, 20.0)),
 )  # fmt: skip
 def test_a_breach_is_never_made_up(
     word: int, first: float, middle: float, last: float, blurs: tuple[float, float],
     shares: tuple[float, float], start: tuple[float, float], leader: float, limit: float,
+    rate: float, guess: float,
 ) -> None:  # fmt: skip
     signs = tuple(SIGNS[word].tolist())
-    table = np.array([[0.0, 0.0, 0.0, leader, 0.0]])
+    table = np.array([[0.0, 0.0, 0.0, leader, rate], [5.0, 0.0, 0.0, 0.0, 0.0]])
+    scene = Scene(table, 0.7, limit, 0.0)
+    table[1, 1:4] = leader_at(scene, 0, 5.0)
     until = first + middle + last
     near = NearWord(signs, first, blurs[0], middle, blurs[1], until)
     on = Flown(0.0, 1.0, 0.0, 0.0)
-    if not breaks_limit(Pose(*start, 0.0), near, on, Scene(table, 0.7, limit, 0.0), 0.02):
+    breach = breach_time(Pose(*start, 0.0), near, on, scene, 0.02, guess)
+    if breaks_limit(Pose(*start, 0.0), near, on, scene, 0.02):
+        assert breach < until  # a guess may find one where none was seen, and misses none
+    if breach == inf:
         return
     amounts = (
         max(first + shares[0] * blurs[0], 0.0),
@@ -205,10 +214,35 @@ def test_a_breach_is_never_made_up(
     for sign, amount in zip(signs, amounts, strict=True):
         for along in np.linspace(0.0, min(amount, until - t), 400):
             px, py, _ = fly_piece(Pose(x, y, h), sign, along)
-            lx, ly = 0.7 * (t + along) * cos(leader), 0.7 * (t + along) * sin(leader)
+            lx, ly, _ = leader_at(scene, 0 if t + along < 5.0 else 1, t + along)
             closest = min(closest, float(np.hypot(px - lx, py - ly)))
         x, y, h = fly_piece(Pose(x, y, h), sign, amount)
         t += amount
         if t >= until:
             break
     assert closest < limit + 0.05  # sampled every 0.015 R
+
+
+def test_a_breach_is_where_it_is_said_to_be() -> None:
+    """Of single words, beside leaders that turn and then keep straight."""
+    rng = np.random.default_rng(4)
+    breaches = 0
+    for _ in range(2_000):
+        table = np.zeros((2, 5))
+        table[0, 3:] = rng.uniform(0.0, 6.0), rng.uniform(-1.0, 1.0)
+        scene = Scene(table, 0.7, rng.uniform(0.1, 3.0), 0.0)
+        table[1] = 5.0, *leader_at(scene, 0, 5.0), 0.0
+        signs, amounts = tuple(SIGNS[rng.integers(6)].tolist()), rng.uniform(0.0, 6.0, 3)
+        start = Pose(*rng.uniform(-4.0, 4.0, 2), rng.uniform(0.0, 6.0))
+        word = NearWord(signs, amounts[0], 0.0, amounts[1], 0.0, sum(amounts))
+        t = breach_time(start, word, Flown(0.0, 1.0, 0.0, 0.0), scene, 0.02, rng.uniform(0.0, 9.0))
+        if t == inf:
+            continue
+        breaches += 1
+        at, left = start, t
+        for sign, amount in zip(signs, amounts, strict=True):
+            at = fly_piece(at, sign, min(amount, left))
+            left -= min(amount, left)
+        there = leader_at(scene, 0 if t < 5.0 else 1, t)
+        assert hypot(at.x - there.x, at.y - there.y) < scene.d_min
+    assert breaches > 400
