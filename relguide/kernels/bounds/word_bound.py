@@ -37,6 +37,7 @@ _TANGENT, _LASTING, _BEAT = 2, 3, 4  # places in what is lowered, after both tur
 _BREACH = 5  # and where the last word that was left out broke the limit
 _FOUND = 6  # and the time of any word that was found, also of those that were left out
 _DEPTH = 64  # more than halvings from a whole turn to the shortest interval
+_MUCH_LESS = 0.4  # if no more is left of an interval it is not halved as well
 _STRIDE = 0.02  # least step of the look for a breach [R/V_P]
 
 
@@ -197,20 +198,21 @@ def _bound_by_halves(three_turns: bool, side: Side, asked: _Asked) -> None:
             mid, half, s, c = stack[n, 0], stack[n, 1], stack[n, 2], stack[n, 3]
             left = Window(asked.earliest, _beat(side, asked))
             if three_turns:
-                found = three_turns_within(mid, half, s, around, side, left)
+                found = three_turns_within(mid, half, s, c, around, side, left)
             else:
                 found = opposite_turns_within(mid, half, s, c, around, side, left)
             if found.time == inf:
                 continue
             if not found.fine:
-                # the half that begins sooner is looked at first
-                half *= 0.5
-                sine, cosine = sine_cosine(part * half)
-                stack[n, 0], stack[n + 1, 0] = mid + half, mid - half
-                stack[n, 1] = stack[n + 1, 1] = half
-                stack[n, 2], stack[n + 1, 2] = s * cosine + c * sine, s * cosine - c * sine
-                stack[n, 3], stack[n + 1, 3] = c * cosine - s * sine, c * cosine + s * sine
-                n += 2
+                # what is left of it, or both halves of that, of which the sooner is looked at first
+                count = 1 if found.middle_blur < _MUCH_LESS * half else 2
+                half = found.middle_blur / count
+                for j in range(count):
+                    angle = found.middle + half * (count - 1 - 2 * j)
+                    sine, cosine = sine_cosine(part * angle)
+                    stack[n, 0], stack[n, 1] = mid + angle, half
+                    stack[n, 2], stack[n, 3] = s * cosine + c * sine, c * cosine - s * sine
+                    n += 1
             elif three_turns:
                 _take_all(found, (-1.0, 1.0, -1.0), 2, half, side, asked)
             else:

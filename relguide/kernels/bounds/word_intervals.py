@@ -13,6 +13,10 @@ derivative in β drops out.
 
 LRL, by its middle arc m. | |d| − 4 sin(m/2) | ≤ r + 2 (1 + α) w over m₀ ± w, or it is ruled out.
 
+Where in the interval a root of either can be follows as in Newton's method, with what is neglected
+bounded: by the slope at m₀, and by −κ l (β − β₀) = v₀ × q₀/|q₀| + E with κ = (1 − a u₀)/|q₀| and
+|E| ≤ r + w² + l w²/2. That part of it is looked at next.
+
 Words as in `csc` and `ccc`, in the frame in which the target is met at the origin on the heading 0;
 r is how far the unknown pose may displace what is compared. What cannot be decided is let through.
 Lengths in R, times in R/V_P, angles counter-clockwise.
@@ -30,6 +34,7 @@ from relguide.kernels.bounds.breach import ROUNDING
 MOST_TURNS = 4
 """Of `same_turns`."""
 _FAST = 0.95  # a target at this speed may be met twice, or late [V_P]
+_FINE = 0.5  # what an interval's width may still count for, as part of what the set's does
 _SMALL = 0.03  # below this few terms of a series are exact [rad]
 _STEPS = 100  # toward where it may be met: fewer say less
 
@@ -80,7 +85,8 @@ class Interval(NamedTuple):
     latest: float
     """Nor later."""
     fine: bool
-    """Whether halving it would say no more; if not, nothing else is said."""
+    """Whether halving it would say no more; if not, nothing else is said but where in it there may
+    be a path: within `middle_blur` of `middle` beyond its middle."""
     turned: float
     """Both outer turns together, at its middle [rad]."""
     first: float
@@ -97,8 +103,6 @@ class Interval(NamedTuple):
 
 NOTHING = Interval(inf, inf, True, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 """No word is possible."""
-UNDECIDED = Interval(0.0, inf, False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-"""Halves of the interval say more."""
 FINEST = 1e-12
 """An interval this short is not halved again [rad]."""
 
@@ -204,12 +208,23 @@ def same_turns(k: int, side: Side, window: Window) -> Interval:
 
 
 @njit(cache=True, nogil=True, inline="always")
+def _undecided(low: float, high: float) -> Interval:
+    """There may be paths in this part of an interval, counted from its middle."""
+    if high < low:
+        return NOTHING
+    return Interval(
+        0.0, inf, False, 0.0, 0.0, 0.0, 0.5 * (low + high), 0.5 * (high - low), 0.0
+    )  # fmt: skip
+
+
+@njit(cache=True, nogil=True, inline="always")
 def three_turns_within(
-    mid: float, half: float, sin_half: float, around: float, side: Side, window: Window
-) -> Interval:
+    mid: float, half: float, sin_half: float, cos_half: float, around: float, side: Side,
+    window: Window,
+) -> Interval:  # fmt: skip
     """LRL with a middle arc in mid ± half, and `around` how much more the outer turns make.
 
-    `sin_half` is sin(mid/2).
+    `sin_half` and `cos_half` are sine and cosine of mid/2.
     """
     ax, ay = side.target
     turned = mid + around - side.h
@@ -223,8 +238,18 @@ def three_turns_within(
     spread = 2.0 * (1.0 + side.alpha) * half
     if abs(gap - 4.0 * sin_half) > side.radius + spread:
         return NOTHING
-    if spread > side.radius and half >= FINEST:
-        return UNDECIDED
+    if spread > _FINE * side.radius and half >= FINEST:
+        # f = |d| - 4 sin(m/2), |f| ≤ r; f″ is no more than this
+        closest = gap - 2.0 * side.alpha * half
+        if closest <= 0.0:
+            return _undecided(-half, half)
+        slope = 2.0 * (ax * to_x + ay * to_y) / gap - 2.0 * cos_half
+        bend = 0.5 * half * half * (4.0 * side.alpha * side.alpha / closest + 1.0)
+        blur, misses = side.radius + bend, gap - 4.0 * sin_half
+        if abs(slope) * half <= blur:
+            return _undecided(-half, half) if abs(misses) <= blur + abs(slope) * half else NOTHING
+        low, high = (-misses - blur) / slope, (-misses + blur) / slope
+        return _undecided(max(min(low, high), -half), min(max(low, high), half))
     slack = side.radius + 2.0 * side.alpha * half
     astray = pi if slack >= gap else asin(slack / gap) + 0.5 * half
     first = wrap_signed(0.5 * mid - atan2(to_y, to_x))
@@ -252,15 +277,15 @@ def opposite_turns_within(
     vy = ay * turned - side.cy - 1.0 + 2.0 * c
     # |v| ≤ l |q| + r, wherever in the interval
     shortest = (_length(vx, vy) - side.radius - 2.0 * half * (q + half)) / (q + half)
-    near, along = inf, 0.0
+    near, along, beside = inf, 0.0, 0.0
     if q > 1e-9:
         per_q = 1.0 / q
-        along, beside = (vx * qx + vy * qy) * per_q, abs(vx * qy - vy * qx) * per_q
+        along, beside = (vx * qx + vy * qy) * per_q, (vx * qy - vy * qx) * per_q
         wander = half * abs(ay * c - ax * s) * per_q + 0.5 * half * half
         near = side.radius + half * half
         if q > wander:
             longest = min(longest, (along + near + 2.0 * half * q) / (q - wander))
-        if beside > near + longest * half:
+        if abs(beside) > near + longest * half:
             return NOTHING
         near += longest * wander
         shortest = max(shortest, (along - near) * per_q - 2.0 * half)
@@ -274,16 +299,25 @@ def opposite_turns_within(
         latest = min(latest, turned + side.heading + (along + near) / q)
     if time >= window.beat or latest < window.earliest:
         return NOTHING
-    if not (longest < inf and half * (longest + half) <= side.radius) and half >= FINEST:
-        return UNDECIDED
+    if not (longest < inf and half * (longest + half) <= _FINE * side.radius) and half >= FINEST:
+        # −κ l (β − β₀) = beside + E, |E| ≤ r + w² + l w²/2
+        bends = (1.0 - ax * c - ay * s) / q if q > 1e-9 else 0.0
+        if bends <= 0.0 or shortest <= 0.0:
+            return _undecided(-half, half)
+        blur = side.radius + half * half
+        low, high = -beside - blur, -beside + blur
+        low = low / (bends * (shortest if low < 0.0 else longest))
+        high = high / (bends * (longest if high < 0.0 else shortest))
+        past = 0.5 * half * half / bends
+        return _undecided(max(low - past, -half), min(high + past, half))
     middle, middle_blur = 0.5 * (shortest + longest), 0.5 * (longest - shortest)
     return Interval(time, latest, True, turned, mid, half, middle, middle_blur, shortest)
 
 
 @njit(cache=True, nogil=True, inline="always")
 def sine_cosine(angle: float) -> tuple[float, float]:
-    """Of an angle that is not negative, and mostly small."""
-    if angle > _SMALL:
+    """Of an angle that is mostly small."""
+    if abs(angle) > _SMALL:
         return sin(angle), cos(angle)
     square = angle * angle
     sine = angle * (1.0 - square * (1.0 - square / 20.0) / 6.0)
