@@ -86,8 +86,8 @@ def test_a_target_that_moves_across_its_final_heading_is_met_too(
 
 @given(
     x=numbers(-4.0, 4.0), y=numbers(-4.0, 4.0), h=numbers(0.0, 6.28), alpha=numbers(0.0, 1.3),
-    kappa=numbers(-pi, pi), words=st.sampled_from([ALL_WORDS, 12, 50, 5, 0]), which=st.integers(0, MAX_ROWS - 1),
-    off=st.sampled_from([-1e-3, 1e-9, 1e-3, 2.0]),
+    kappa=numbers(-pi, pi), words=st.sampled_from([ALL_WORDS, 12, 50, 5, 0]),
+    which=st.integers(0, MAX_ROWS - 1), off=st.sampled_from([-1e-3, 1e-9, 1e-3, 2.0]),
 )  # fmt: skip
 def test_of_some_words_all_that_arrive_before_a_time_are_found(
     x: float, y: float, h: float, alpha: float, kappa: float, words: int, which: int, off: float
