@@ -22,6 +22,7 @@ from relguide.kernels.bounds.breach import INSIDE, Sieve, no_sieve
 from relguide.kernels.bounds.cells import EDGE, Cell, Poses, poses_of
 from relguide.kernels.bounds.goal import Goal, track_of
 from relguide.kernels.bounds.junction import junction_of
+from relguide.kernels.bounds.rest import Rest, no_rest
 from relguide.kernels.bounds.round_time import round_bound
 from relguide.kernels.bounds.round_turning import round_arrival
 from relguide.kernels.bounds.word_bound import (
@@ -73,8 +74,9 @@ def otherwise(passed: Passed) -> float:
 
 @njit(cache=True, nogil=True)
 def cell_bound(
-    start: Pose, scene: Scene, goal: Goal, cell: Cell, beat: float, closely: bool
-) -> tuple[Passed, float]:
+    start: Pose, scene: Scene, goal: Goal, cell: Cell, beat: float, closely: bool, to: Rest,
+    on: Rest,
+) -> tuple[Passed, float]:  # fmt: skip
     """How soon a path can be at a contact of the cell, its first, and how soon at the goal from it.
 
     Args:
@@ -84,11 +86,13 @@ def cell_bound(
         cell: of contacts.
         beat: arrivals from here on do not matter, and all times come back as infinite [R/V_P].
         closely: whether it matters how the contact is passed.
+        to: what is left of the words that lead to the contact, see `rest`.
+        on: and of those that lead on.
     """
     poses = poses_of(scene, cell)
     if poses.differs == inf:
         return NEVER, inf
-    onward = _onward_bound(scene, goal, cell, poses, beat - cell.start)
+    onward = _onward_bound(scene, goal, cell, poses, beat - cell.start, on)
     if onward == inf:
         return NEVER, inf
     earliest, end = cell.start - EDGE, min(beat - onward, cell.end + EDGE)
@@ -99,12 +103,12 @@ def cell_bound(
     sieve, window = Sieve(True, start, 0.0, inside, 1.0, 0.0, 0.0), Window(earliest, end)
     if closely:
         junction = junction_of(scene, cell, 1.0)
-        found = soonest_by_turn(at, blur, target, window, sieve, junction)
+        found = soonest_by_turn(at, blur, target, window, sieve, junction, to)
         if not found.any:
             return NEVER, onward
         looped = looped_bound(start, scene, cell, end)
         return _passed(found, junction, looped, cell.start), onward
-    soon, any_word = soonest_kept(at, blur, target, window, sieve)
+    soon, any_word = soonest_kept(at, blur, target, window, sieve, to)
     if not any_word:
         return NEVER, onward
     soon = max(min(soon, looped_bound(start, scene, cell, min(end, soon))), cell.start)
@@ -169,7 +173,7 @@ def turned_after_bound(scene: Scene, goal: Goal, cell: Cell, turn: float, beat: 
     """
     after = _turned_away(poses_of(scene, cell), cell.side, turn)
     later = Cell(cell.piece, cell.side, cell.bearing, cell.half, cell.start + turn, cell.end + turn)
-    return turn + _onward_bound(scene, goal, later, after, beat - turn)
+    return turn + _onward_bound(scene, goal, later, after, beat - turn, no_rest())
 
 
 @njit(cache=True, nogil=True)
@@ -202,12 +206,14 @@ def _seen_from_start(start: Pose, poses: Poses) -> tuple[Pose, Velocity]:
 
 
 @njit(cache=True, nogil=True)
-def _onward_bound(scene: Scene, goal: Goal, cell: Cell, poses: Poses, beat: float) -> float:
+def _onward_bound(
+    scene: Scene, goal: Goal, cell: Cell, poses: Poses, beat: float, rest: Rest
+) -> float:
     """How soon a path can be at the goal from a contact of a cell, with or without the limit."""
     opens = scene.t_release - cell.end
-    onward = soonest(
+    onward, _ = soonest_kept(
         _seen_from(goal, poses), _blur_toward(scene, goal, cell, poses),
-        Velocity(goal.speed, 0.0), Window(max(opens, 0.0) - EDGE, beat), no_sieve(scene),
+        Velocity(goal.speed, 0.0), Window(max(opens, 0.0) - EDGE, beat), no_sieve(scene), rest,
     )  # fmt: skip
     left = scene.t_release - cell.start
     if not goal.holds or left <= 0.0 or left >= beat or onward <= opens:
@@ -239,7 +245,9 @@ def _blur_toward(scene: Scene, goal: Goal, cell: Cell, poses: Poses) -> Blur:
 
 
 @njit(cache=True, nogil=True)
-def leaving_bound(scene: Scene, goal: Goal, cell: Cell, beat: float, closely: bool) -> Passed:
+def leaving_bound(
+    scene: Scene, goal: Goal, cell: Cell, beat: float, closely: bool, on: Rest
+) -> Passed:
     """How soon a path can be at the goal from its last contact, if that is one of the cell's.
 
     Arguments as `cell_bound`; infinite from `beat` on.
@@ -255,11 +263,11 @@ def leaving_bound(scene: Scene, goal: Goal, cell: Cell, beat: float, closely: bo
     later = _seen_from(Goal(goal.x + TWO_PI * goal.speed, goal.speed, False), poses)
     if closely:
         junction = junction_of(scene, cell, -1.0)
-        found = soonest_by_turn(seen, blur, target, window, sieve, junction)
+        found = soonest_by_turn(seen, blur, target, window, sieve, junction, on)
         window = Window(0.0, beat - TWO_PI)
         looped = TWO_PI + soonest(later, blur, target, window, no_sieve(scene))
         return _passed(found, junction, looped, 0.0)
-    leaving = soonest(seen, blur, target, window, sieve)
+    leaving, _ = soonest_kept(seen, blur, target, window, sieve, on)
     window = Window(0.0, min(beat, leaving) - TWO_PI)
     leaving = min(leaving, TWO_PI + soonest(later, blur, target, window, no_sieve(scene)))
     return Passed(leaving, leaving, leaving, leaving, leaving)

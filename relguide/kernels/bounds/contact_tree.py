@@ -18,6 +18,7 @@ from relguide.kernels.bounds.cells import Cell
 from relguide.kernels.bounds.contact_bound import NEVER, Passed, anyhow, cell_bound, leaving_bound
 from relguide.kernels.bounds.goal import Goal
 from relguide.kernels.bounds.junction import can_touch
+from relguide.kernels.bounds.rest import COLUMNS, MOST, UNKNOWN, Rest
 from relguide.kernels.bounds.round_time import round_time
 
 IntArray = np.ndarray[tuple[int, ...], np.dtype[np.int64]]
@@ -25,7 +26,9 @@ IntArray = np.ndarray[tuple[int, ...], np.dtype[np.int64]]
 _CLOSELY = 50  # times a cell is halved to find what is least in it
 _NARROW = 1e-6  # and how narrow its parts may become: what is left counts for some 1e-5 R/V_P [rad]
 _BY_TURN = 0.1  # how contacts are passed matters in cells smaller than this [rad]
-_SOON, _ONWARD, _LEAVING, _FROM, _TO = 0, 1, 2, 3, 5  # columns of what is known
+_TO, _ON, _AWAY = 0, 1, 2  # words to a first contact, on from it, and on from a last one
+_RESTS = 5  # rows kept, for each cell: if there is no more room, those of larger cells serve
+_SOON, _ONWARD, _LEAVING, _ROUND_FROM, _ROUND_TO = 0, 1, 2, 3, 5  # columns of what is known
 _REACHED, _LEFT, _COLUMNS = 7, 12, 17
 JOINED = 6
 """Columns of `Tree.joined`."""
@@ -45,6 +48,13 @@ class Tree(NamedTuple):
     """How soon a first contact can be there, the goal from it, and the goal from a last one; bounds
     of both with the time round, either way; and the first and the last of these by how the contact
     is passed. NaN while it is not known. shape (n, 17)"""
+    rests: FloatArray
+    """Intervals of the words' unknown that were left, one cell's after another's: see `rest`.
+    shape (·, 5)"""
+    rest_of: IntArray
+    """Where those of a cell begin, or of a larger one that holds it: of words to a first contact,
+    on from it, and on from a last one; in the last place how many rows there are.
+    shape (n + 1, 3)"""
 
 
 class Problem(NamedTuple):
@@ -73,11 +83,13 @@ def plant(cells: FloatArray, room: int) -> Tree:
     count = len(cells)
     tree = Tree(
         np.empty((room, 6)), np.empty(room + 1, np.int64), np.empty((room, JOINED)),
-        np.empty((room, _COLUMNS)),
+        np.empty((room, _COLUMNS)), np.empty((_RESTS * room, COLUMNS)),
+        np.empty((room + 1, 3), np.int64),
     )  # fmt: skip
     tree.cells[:count] = cells
     tree.halves[:count], tree.known[:count], tree.joined[:count] = -1, np.nan, np.nan
     tree.halves[room] = count
+    tree.rest_of[:count], tree.rest_of[room] = UNKNOWN, 0
     return tree
 
 
@@ -105,6 +117,11 @@ def halve(tree: Tree, n: int, d_min: float) -> int:
     cell = cell_at(tree, n)
     tree.halves[first : first + 2], tree.known[first : first + 2] = -1, np.nan
     tree.joined[first : first + 2] = np.nan
+    for child in (first, first + 1):
+        for which in range(3):
+            tree.rest_of[child, which] = tree.rest_of[n, which]
+        if not isnan(tree.known[n, _LEAVING]):
+            tree.rest_of[child, _ON] = tree.rest_of[n, _AWAY]
     tree.cells[first] = tree.cells[first + 1] = tree.cells[n]
     span = 0.5 * (cell.end - cell.start)
     if inf > span > (d_min + 1.0) * cell.half:
@@ -136,8 +153,13 @@ def reach(tree: Tree, problem: Problem, n: int) -> tuple[float, float]:
         if can_touch(problem.scene, cell):
             start, scene, goal = problem.start, problem.scene, problem.goal
             closely = size_of(tree, n, scene.d_min) < _BY_TURN
-            passed, onward = cell_bound(start, scene, goal, cell, problem.beat, closely)
+            to, on = _rest_of(tree, n, _TO, 0), _rest_of(tree, n, _ON, 1)
+            _forget(to)
+            _forget(on)
+            passed, onward = cell_bound(start, scene, goal, cell, problem.beat, closely, to, on)
             soon = anyhow(passed)
+            _keep_rest(tree, n, _TO, to)
+            _keep_rest(tree, n, _ON, on)
         known[_SOON], known[_ONWARD] = soon, onward
         _keep(known[_REACHED:], passed)
         if soon < inf and cell.end < inf:
@@ -158,7 +180,11 @@ def leave(tree: Tree, problem: Problem, n: int) -> float:
         if can_touch(problem.scene, cell):
             scene, left = problem.scene, problem.beat - cell.start
             closely = size_of(tree, n, scene.d_min) < _BY_TURN
-            passed = leaving_bound(scene, problem.goal, cell, left, closely)
+            # words on from the cell itself are known more closely
+            on = _rest_of(tree, n, _AWAY if isnan(known[_SOON]) else _ON, 0)
+            _forget(on)
+            passed = leaving_bound(scene, problem.goal, cell, left, closely, on)
+            _keep_rest(tree, n, _AWAY, on)
         known[_LEAVING] = anyhow(passed)
         _keep(known[_LEFT:], passed)
     return float(known[_LEAVING])
@@ -178,6 +204,37 @@ def departed(tree: Tree, problem: Problem, n: int) -> Passed:
     leave(tree, problem, n)
     known = tree.known[n, _LEFT:]
     return Passed(known[0], known[1], known[2], known[3], known[4])
+
+
+@njit(cache=True, nogil=True)
+def _rest_of(tree: Tree, n: int, which: int, place: int) -> Rest:
+    """What is known to be left of the words of a cell, and room for what is left now."""
+    # two may be under way
+    room = int(tree.rest_of[len(tree.cells), 0]) + place * (MOST + 1)
+    if room + MOST >= len(tree.rests):
+        room = UNKNOWN
+    return Rest(tree.rests, int(tree.rest_of[n, which]), room)
+
+
+@njit(cache=True, nogil=True)
+def _forget(rest: Rest) -> None:
+    """Say that nothing has been looked at."""
+    if rest.room >= 0:
+        rest.table[rest.room, 0] = UNKNOWN
+
+
+@njit(cache=True, nogil=True)
+def _keep_rest(tree: Tree, n: int, which: int, rest: Rest) -> None:
+    """Keep what is left of the words of a cell, if all of it is there."""
+    if rest.room < 0 or not 0.0 <= tree.rests[rest.room, 0] <= MOST:
+        return
+    room, rows = int(tree.rest_of[len(tree.cells), 0]), int(tree.rests[rest.room, 0]) + 1
+    if room < rest.room:
+        for k in range(rows):
+            for column in range(COLUMNS):
+                tree.rests[room + k, column] = tree.rests[rest.room + k, column]
+    tree.rest_of[n, which] = room
+    tree.rest_of[len(tree.cells), 0] = room + rows
 
 
 @njit(cache=True, nogil=True)
@@ -218,7 +275,7 @@ def _with_round(tree: Tree, problem: Problem, n: int, way: int, last: bool) -> f
 @njit(cache=True, nogil=True)
 def _least(tree: Tree, problem: Problem, n: int, way: int, last: bool) -> float:
     """The least that `_with_round` comes to in a cell."""
-    column = (_TO if last else _FROM) + way
+    column = (_ROUND_TO if last else _ROUND_FROM) + way
     if not isnan(tree.known[n, column]):
         return float(tree.known[n, column])
     numbers, bounds = np.empty(_CLOSELY + 2, np.int64), np.empty(_CLOSELY + 2)

@@ -40,6 +40,7 @@ SEARCHING, CLOSED, STUCK = 0, 1, 2
 """What a round ends with: there is more to do; no bundle is left; nothing more can be done."""
 _PROBED = (0.06, 8e-3, 1e-3)
 """Cells are probed when their bearings differ by this, or down to half as much [rad]."""
+_PROBES, _EVERY = 512, 64  # after so many only every so manieth bundle is probed
 _SMALLEST = 1e-10  # a cell no wider than this is not halved: rounding counts for more [rad]
 _EASED = 0.03  # cells narrower than this are looked at closely [rad]
 _SLACK = 1e-6  # of `round_time`, as part of a whole round
@@ -64,7 +65,7 @@ class Search(NamedTuple):
     bundles: IntArray
     """Numbers of both cells, and 1 where the time round was looked at closely. shape (·, 3)"""
     size: IntArray
-    """How many bundles there are. shape (1,)"""
+    """How many bundles there are, have been looked at, and have been probed. shape (3,)"""
 
 
 @njit(cache=True, nogil=True)
@@ -78,7 +79,7 @@ def begin(problem: Problem, first: FloatArray, last: FloatArray) -> Search:
     """
     search = Search(
         plant(first, MAX_BUNDLES), plant(last, MAX_BUNDLES), np.arange(len(last)),
-        np.empty(MAX_BUNDLES), np.empty((MAX_BUNDLES, 3), np.int64), np.zeros(1, np.int64),
+        np.empty(MAX_BUNDLES), np.empty((MAX_BUNDLES, 3), np.int64), np.zeros(3, np.int64),
     )  # fmt: skip
     for n in range(len(first)):
         _add(search, problem, n, _NO_LAST, 0.0)
@@ -111,6 +112,7 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
         half = search.first.cells[n, 3]
         if max(half, search.last.cells[m, 3] if m >= 0 else 0.0) < _SMALLEST:
             return bound, STUCK
+        search.size[1] += 1
         if eased == 0 and find.best[0] > bound:
             _probe(search, problem, find, n, m)
         _drop_least(search)
@@ -168,8 +170,11 @@ def _goes_on(search: Search, problem: Problem, n: int) -> bool:
 def _probe(search: Search, problem: Problem, find: Find, n: int, m: int) -> None:
     """Look for a path in a bundle that has become small."""
     half = max(search.first.cells[n, 3], search.last.cells[m, 3] if m >= 0 else 0.0)
+    if search.size[2] >= _PROBES + search.size[1] // _EVERY:
+        return
     for probed in _PROBED:
         if 0.5 * probed < half <= probed:
+            search.size[2] += 1
             cell = cell_at(search.first, n)
             if m < 0:
                 probe(problem.start, find, cell)

@@ -8,9 +8,10 @@ and words as in `csc` and `ccc`.
 Intervals of each word's unknown (see `word_intervals`) that are not ruled out are halved until
 their width counts for no more than the set's. What cannot be decided is let through: that may lower
 the bound, and never raises it. Words can be told apart by what they do at the set: see `junction`.
+Intervals that are left are kept, and a part of the set need only look at those: see `rest`.
 """
 
-from math import cos, inf, sin
+from math import cos, floor, inf, sin
 from typing import NamedTuple
 
 import numpy as np
@@ -19,13 +20,24 @@ from numba import njit
 from relguide.kernels.base.angles import TWO_PI
 from relguide.kernels.base.records import Pose, Velocity, Window
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.bounds.breach import Flown, NearWord, Sieve, breach_time
+from relguide.kernels.bounds.breach import ROUNDING, Flown, NearWord, Sieve, breach_time
+from relguide.kernels.bounds.rest import (
+    LEFT_OUT,
+    OPPOSITE_TURNS,
+    SAME_TURNS,
+    THREE_TURNS,
+    Rest,
+    begin_rest,
+    keep,
+    no_rest,
+)
 from relguide.kernels.bounds.word_intervals import (
     FINEST,
     MOST_TURNS,
     Blur,
     Interval,
     Side,
+    intercept_span,
     opposite_turns_within,
     same_turns,
     side_of,
@@ -38,6 +50,7 @@ _BREACH = 5  # and where the last word that was left out broke the limit
 _FOUND = 6  # and the time of any word that was found, also of those that were left out
 _DEPTH = 64  # more than halvings from a whole turn to the shortest interval
 _MUCH_LESS = 0.4  # if no more is left of an interval it is not halved as well
+_IMPOSSIBLE, _LEFT_OUT, _POSSIBLE = 0, 1, 2  # what words in an interval are
 _STRIDE = 0.02  # least step of the look for a breach [R/V_P]
 
 
@@ -76,6 +89,8 @@ class _Asked(NamedTuple):
 
     earliest: float
     """Words that meet the target earlier do not count [R/V_P]."""
+    beat: float
+    """Nor do those that meet it no sooner [R/V_P]."""
     sieve: Sieve
     """Words left out."""
     junction: Junction
@@ -85,6 +100,8 @@ class _Asked(NamedTuple):
     far along the last word that was left out broke the limit, and when any was found."""
     stack: FloatArray
     """To work in. shape (_DEPTH, 4)"""
+    rest: Rest
+    """What a set that holds this one has left, and takes what is left now."""
 
 
 _NO_JUNCTION = Junction(False, 0, 0.0, False, False)
@@ -96,23 +113,25 @@ def soonest(pose: Pose, blur: Blur, target: Velocity, window: Window, sieve: Sie
 
     Arguments as `soonest_by_turn`.
     """
-    return soonest_kept(pose, blur, target, window, sieve)[0]
+    return soonest_kept(pose, blur, target, window, sieve, no_rest())[0]
 
 
 @njit(cache=True, nogil=True)
 def soonest_kept(
-    pose: Pose, blur: Blur, target: Velocity, window: Window, sieve: Sieve
+    pose: Pose, blur: Blur, target: Velocity, window: Window, sieve: Sieve, rest: Rest
 ) -> tuple[float, bool]:
     """The same, and whether it is met by words at all, also by those left out."""
     least, stack = _unknown(window.beat), np.empty((_DEPTH, 4))
-    _bound_all(pose, blur, target, _Asked(window.earliest, sieve, _NO_JUNCTION, least, stack))
+    asked = _Asked(window.earliest, window.beat, sieve, _NO_JUNCTION, least, stack, rest)
+    _bound_all(pose, blur, target, asked)
     return float(least[0]) if least[0] < window.beat else inf, bool(least[_FOUND] < inf)
 
 
 @njit(cache=True, nogil=True)
 def soonest_by_turn(
-    pose: Pose, blur: Blur, target: Velocity, window: Window, sieve: Sieve, junction: Junction
-) -> ByTurn:
+    pose: Pose, blur: Blur, target: Velocity, window: Window, sieve: Sieve, junction: Junction,
+    rest: Rest,
+) -> ByTurn:  # fmt: skip
     """The same by what words do at the set.
 
     Args:
@@ -123,9 +142,11 @@ def soonest_by_turn(
             come back as infinite.
         sieve: words left out.
         junction: what is asked.
+        rest: what was left by a set that holds this one; takes what is left now.
     """
     least, stack = _unknown(window.beat), np.empty((_DEPTH, 4))
-    _bound_all(pose, blur, target, _Asked(window.earliest, sieve, junction, least, stack))
+    asked = _Asked(window.earliest, window.beat, sieve, junction, least, stack, rest)
+    _bound_all(pose, blur, target, asked)
     for k in range(_LASTING):
         if least[k] >= window.beat:
             least[k] = inf
@@ -144,13 +165,54 @@ def _unknown(beat: float) -> FloatArray:
 @njit(cache=True, nogil=True)
 def _bound_all(pose: Pose, blur: Blur, target: Velocity, asked: _Asked) -> None:
     """Lower what is known to what any word comes to."""
-    if asked.least[0] <= 0.0:
+    begin_rest(asked.rest)
+    # a word is no shorter than the way to where the target can be met
+    astray = min(blur.left, blur.right) + blur.heading + ROUNDING
+    if asked.beat <= intercept_span(-pose.x, -pose.y, target, astray)[0]:
         return
     for hand in range(2):
         side = side_of(pose, blur, target, hand)
-        _bound_same_side(side, asked)
+        if asked.rest.known >= 0:
+            _bound_rest(side, asked)
+            continue
+        for k in range(MOST_TURNS):
+            _bound_same_side(k, side, asked)
         for turns in range(2):
             _bound_by_halves(turns == 1, side, asked)
+
+
+@njit(cache=True, nogil=True)
+def _bound_rest(side: Side, asked: _Asked) -> None:
+    """As `_bound_all`, for intervals that are known to be all that is left of a larger set."""
+    table, known = asked.rest.table, asked.rest.known
+    for n in range(known + 1, known + 1 + int(table[known, 0])):
+        word = int(table[n, 0])
+        left_out = word >= LEFT_OUT
+        if left_out:
+            word -= LEFT_OUT
+        if word // 3 != side.hand:
+            continue
+        mid, half, h, around = table[n, 1], table[n, 2], table[n, 3], table[n, 4]
+        # the heading is told to full turns only
+        turns, kind = floor((side.h - h) / TWO_PI + 0.5), word % 3
+        low, high = 0.0, 0.0
+        if kind == SAME_TURNS:
+            around += turns
+        else:
+            around += TWO_PI * turns
+            low, high = _limits(kind == THREE_TURNS, around, side)
+            low, high = max(low, mid - half), min(high, mid + half)
+        if low > high:
+            continue
+        mid, half = 0.5 * (low + high), 0.5 * (high - low)
+        if left_out and asked.sieve.used:
+            if _within(kind, mid, half, around, side, asked).time < inf:
+                asked.least[_FOUND] = asked.earliest
+                _keep(_LEFT_OUT, kind, mid, half, around, side, asked)
+        elif kind == SAME_TURNS:
+            _bound_same_side(int(around), side, asked)
+        else:
+            _bound_within(kind == THREE_TURNS, mid, half, around, side, asked)
 
 
 @njit(cache=True, nogil=True)
@@ -166,65 +228,120 @@ def _beat(side: Side, asked: _Asked) -> float:
 
 
 @njit(cache=True, nogil=True)
-def _bound_same_side(side: Side, asked: _Asked) -> None:
-    """As `_bound_all`, for LSL."""
-    for k in range(MOST_TURNS):
-        found = same_turns(k, side, Window(asked.earliest, _beat(side, asked)))
-        if found.time < inf:
-            _take_all(found, (-1.0, 0.0, -1.0), 3, 0.0, side, asked)
+def _bound_same_side(turns: int, side: Side, asked: _Asked) -> None:
+    """As `_bound_all`, for LSL, see `same_turns`."""
+    found = same_turns(turns, side, Window(asked.earliest, _beat(side, asked)))
+    fate = _POSSIBLE
+    if found.time < inf:
+        fate = _take_all(found, (-1.0, 0.0, -1.0), 3, 0.0, side, asked)
+    elif asked.rest.room < 0:
+        return
+    elif _within(SAME_TURNS, 0.0, 0.0, float(turns), side, asked).time == inf:
+        return
+    _keep(fate, SAME_TURNS, 0.0, 0.0, float(turns), side, asked)
 
 
 @njit(cache=True, nogil=True)
 def _bound_by_halves(three_turns: bool, side: Side, asked: _Asked) -> None:
     """As `_bound_all`, for LSR, or for LRL if `three_turns`."""
+    for k in range(-1, 4):
+        around = TWO_PI * k
+        low, high = _limits(three_turns, around, side)
+        if low <= high:
+            mid, half = 0.5 * (low + high), 0.5 * (high - low) + FINEST
+            _bound_within(three_turns, mid, half, around, side, asked)
+
+
+@njit(cache=True, nogil=True)
+def _limits(three_turns: bool, around: float, side: Side) -> tuple[float, float]:
+    """Where both outer turns are between none and a full one."""
+    past = 0.0 if three_turns else side.end
+    most = (2.0 if three_turns else 1.0) * TWO_PI
+    low = max(side.h - side.heading - around, -past)
+    return low, min(most + side.h + side.heading - around, TWO_PI + past)
+
+
+@njit(cache=True, nogil=True)
+def _bound_within(
+    three_turns: bool, mid: float, half: float, around: float, side: Side, asked: _Asked
+) -> None:
+    """As `_bound_by_halves`, within an interval."""
     # of each interval its middle and half its width, and sine and cosine of what is asked for
     stack = asked.stack
     part = 0.5 if three_turns else 1.0
-    for k in range(-1, 4):
-        around = TWO_PI * k
-        # where both outer turns are between none and a full one
-        past = 0.0 if three_turns else side.end
-        most = (2.0 if three_turns else 1.0) * TWO_PI
-        low = max(side.h - side.heading - around, -past)
-        high = min(most + side.h + side.heading - around, TWO_PI + past)
-        if high < low:
+    kind = THREE_TURNS if three_turns else OPPOSITE_TURNS
+    stack[0, 0], stack[0, 1] = mid, half
+    stack[0, 2], stack[0, 3] = sin(part * mid), cos(part * mid)
+    n = 1
+    while n > 0:
+        n -= 1
+        mid, half, s, c = stack[n, 0], stack[n, 1], stack[n, 2], stack[n, 3]
+        left = Window(asked.earliest, _beat(side, asked))
+        if three_turns:
+            found = three_turns_within(mid, half, s, c, around, side, left)
+        else:
+            found = opposite_turns_within(mid, half, s, c, around, side, left)
+        if (
+            asked.rest.room >= 0
+            and left.beat < asked.beat
+            and (found.time == inf or not found.fine)
+        ):
+            # words that are too late to matter now may matter to a part of the set
+            all_words = _within(kind, mid, half, around, side, asked)
+            if found.time == inf and all_words.time < inf:
+                _keep(_POSSIBLE, kind, mid, half, around, side, asked)
+            elif found.time < inf:
+                found = all_words
+        if found.time == inf:
             continue
-        mid, half = 0.5 * (low + high), 0.5 * (high - low) + FINEST
-        stack[0, 0], stack[0, 1] = mid, half
-        stack[0, 2], stack[0, 3] = sin(part * mid), cos(part * mid)
-        n = 1
-        while n > 0:
-            n -= 1
-            mid, half, s, c = stack[n, 0], stack[n, 1], stack[n, 2], stack[n, 3]
-            left = Window(asked.earliest, _beat(side, asked))
-            if three_turns:
-                found = three_turns_within(mid, half, s, c, around, side, left)
-            else:
-                found = opposite_turns_within(mid, half, s, c, around, side, left)
-            if found.time == inf:
-                continue
-            if not found.fine:
-                # what is left of it, or both halves of that, of which the sooner is looked at first
-                count = 1 if found.middle_blur < _MUCH_LESS * half else 2
-                half = found.middle_blur / count
-                for j in range(count):
-                    angle = found.middle + half * (count - 1 - 2 * j)
-                    sine, cosine = sine_cosine(part * angle)
-                    stack[n, 0], stack[n, 1] = mid + angle, half
-                    stack[n, 2], stack[n, 3] = s * cosine + c * sine, c * cosine - s * sine
-                    n += 1
-            elif three_turns:
-                _take_all(found, (-1.0, 1.0, -1.0), 2, half, side, asked)
-            else:
-                spare = half + side.heading
-                _take(found, (1.0, 0.0, -1.0), found.first, spare, side, asked)
+        if not found.fine:
+            # what is left of it, or both halves of that, of which the sooner is looked at first
+            count = 1 if found.middle_blur < _MUCH_LESS * half else 2
+            half = found.middle_blur / count
+            for j in range(count):
+                angle = found.middle + half * (count - 1 - 2 * j)
+                sine, cosine = sine_cosine(part * angle)
+                stack[n, 0], stack[n, 1] = mid + angle, half
+                stack[n, 2], stack[n, 3] = s * cosine + c * sine, c * cosine - s * sine
+                n += 1
+        elif three_turns:
+            fate = _take_all(found, (-1.0, 1.0, -1.0), 2, half, side, asked)
+            _keep(fate, kind, mid, half, around, side, asked)
+        else:
+            spare = half + side.heading
+            fate = _take(found, (1.0, 0.0, -1.0), found.first, spare, side, asked)
+            _keep(fate, kind, mid, half, around, side, asked)
+
+
+@njit(cache=True, nogil=True)
+def _within(
+    kind: int, mid: float, half: float, around: float, side: Side, asked: _Asked
+) -> Interval:
+    """What an interval leaves possible, be it soon enough to matter now or not."""
+    window = Window(asked.earliest, asked.beat)
+    if kind == SAME_TURNS:
+        return same_turns(int(around), side, window)
+    if kind == THREE_TURNS:
+        s, c = sin(0.5 * mid), cos(0.5 * mid)
+        return three_turns_within(mid, half, s, c, around, side, window)
+    return opposite_turns_within(mid, half, sin(mid), cos(mid), around, side, window)
+
+
+@njit(cache=True, nogil=True)
+def _keep(
+    fate: int, kind: int, mid: float, half: float, around: float, side: Side, asked: _Asked
+) -> None:
+    """Keep an interval for parts of the set, unless there can be no word in it."""
+    if asked.rest.room >= 0 and fate != _IMPOSSIBLE:
+        word = 3 * side.hand + kind + (LEFT_OUT if fate == _LEFT_OUT else 0)
+        keep(asked.rest, word, mid, half, side.h, around)
 
 
 @njit(cache=True, nogil=True)
 def _take_all(
     found: Interval, signs: tuple[float, float, float], turns: int, half: float, side: Side,
     asked: _Asked,
-) -> None:  # fmt: skip
+) -> int:  # fmt: skip
     """As `_bound_all`, for a word whose outer turns are between none and a full one.
 
     Args:
@@ -234,7 +351,11 @@ def _take_all(
         half: how much both outer turns together may differ besides [rad].
         side: of which words.
         asked: what is lowered.
+
+    Returns:
+        `_POSSIBLE`, `_LEFT_OUT` or `_IMPOSSIBLE`.
     """
+    fate = _IMPOSSIBLE
     for j in range(turns):
         first = found.first + TWO_PI * j
         other, spare = found.turned - first, found.astray + half + side.heading
@@ -243,14 +364,15 @@ def _take_all(
             and -spare <= other <= TWO_PI + spare
             and not (signs[1] != 0.0 and _has_lesser_middle(found, first, other, spare))
         ):
-            _take(found, signs, first, spare, side, asked)
+            fate = max(fate, _take(found, signs, first, spare, side, asked))
+    return fate
 
 
 @njit(cache=True, nogil=True)
 def _take(
     found: Interval, signs: tuple[float, float, float], first: float, spare: float, side: Side,
     asked: _Asked,
-) -> None:  # fmt: skip
+) -> int:  # fmt: skip
     """As `_take_all`, for one first turn; the turn at the set may differ by `spare`."""
     junction, least, time = asked.junction, asked.least, found.time
     least[_FOUND] = time
@@ -264,15 +386,16 @@ def _take(
             if lasts >= least[_LASTING]:
                 lasts = inf
     if not (sooner or tangent or lasts < inf):
-        return
+        return _POSSIBLE
     if _is_ruled_out(found, signs, first, side, asked):
-        return
+        return _LEFT_OUT
     if sooner:
         least[hand] = time
     if tangent:
         least[_TANGENT] = time
     if lasts < inf:
         least[_LASTING] = lasts
+    return _POSSIBLE
 
 
 @njit(cache=True, nogil=True)

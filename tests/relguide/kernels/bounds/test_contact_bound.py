@@ -22,6 +22,7 @@ from relguide.kernels.bounds.contact_bound import (
 )
 from relguide.kernels.bounds.goal import Goal, arrives_at_release
 from relguide.kernels.bounds.junction import beyond_outward, slide_turns
+from relguide.kernels.bounds.rest import no_rest
 from relguide.kernels.bounds.round_time import round_bound, times_round
 from relguide.kernels.bounds.untouched import untouched_bound
 from relguide.kernels.contact.contact import (
@@ -120,8 +121,9 @@ def test_no_contact_of_a_cell_is_reached_or_left_sooner(
     start, scene = Pose(x, y, h), straight(alpha, d_min, d_min + behind)
     assume(hypot(x - d_min - behind, y) > d_min)
     goal = Goal(0.0, alpha, False)
-    passed, onward = cell_bound(start, scene, goal, cell, FAR, closely)
-    soon, leaving = anyhow(passed), anyhow(leaving_bound(scene, goal, cell, FAR, closely))
+    passed, onward = cell_bound(start, scene, goal, cell, FAR, closely, no_rest(), no_rest())
+    soon = anyhow(passed)
+    leaving = anyhow(leaving_bound(scene, goal, cell, FAR, closely, no_rest()))
     b = cell.bearing + share * cell.half
     if not contact_exists(b, alpha):
         return
@@ -283,7 +285,7 @@ def test_no_contact_with_a_leader_that_turns_is_reached_or_left_sooner(seed: int
         start = flown_backward(contact, row)
         goal = Goal(rng.uniform(-6.0, 6.0), rng.choice((scene.alpha, 0.0, 1.0)), False)
         closely = bool(rng.integers(2))
-        passed, onward = cell_bound(start, scene, goal, cell, FAR, closely)
+        passed, onward = cell_bound(start, scene, goal, cell, FAR, closely, no_rest(), no_rest())
         soon = anyhow(passed)
         rows = np.empty((MAX_ROWS, 5))
         on = Pose(contact.x - goal.x - goal.speed * t, contact.y, contact.h % (2.0 * pi))
@@ -292,7 +294,7 @@ def test_no_contact_with_a_leader_that_turns_is_reached_or_left_sooner(seed: int
         assert onward <= rows[0, 0] + SLACK * (1.0 + rows[0, 0])
         left += 1
         later = scene._replace(leader=scene.leader - np.array([t, 0.0, 0.0, 0.0, 0.0]))
-        leaving = anyhow(leaving_bound(scene, goal, cell, FAR, closely))
+        leaving = anyhow(leaving_bound(scene, goal, cell, FAR, closely, no_rest()))
         _, most = slide_turns(scene, cell)
         for some in with_costate(rows[: solve(on, goal.speed, 0.0, rows)]):
             if SIGNS[int(some[1]), 0] == cell.side and most < 1.0 and some[2] > 0.0:
@@ -340,7 +342,7 @@ def test_who_turns_away_at_a_contact_is_told_from_who_turns_toward_the_leader() 
         start = flown_backward(contact, word)
         goal = Goal(rng.uniform(-6.0, 6.0), scene.alpha, False)
         if turned < 2.0 * pi and keeps(start, word, scene):
-            passed, onward = cell_bound(start, scene, goal, cell, FAR, True)
+            passed, onward = cell_bound(start, scene, goal, cell, FAR, True, no_rest(), no_rest())
             if onward < inf and away:
                 more = min(2.0 * pi - turned, beyond_outward(scene, cell, 1.0))
                 assert passed.outward <= t + 1e-4
@@ -355,7 +357,7 @@ def test_who_turns_away_at_a_contact_is_told_from_who_turns_toward_the_leader() 
         for row in rows[: solve(on, goal.speed, 0.0, rows)]:
             hand = SIGNS[int(row[1]), 0]
             if SIGNS[int(row[1]), 1] == 0.0 and keeps(contact, row, later):
-                left = leaving_bound(scene, goal, cell, FAR, True)
+                left = leaving_bound(scene, goal, cell, FAR, True, no_rest())
                 if hand == -side:
                     more = min(2.0 * pi - row[2], beyond_outward(scene, cell, -1.0))
                     assert left.outward <= row[0] + 1e-4
@@ -383,7 +385,7 @@ def test_who_goes_straight_past_a_contact_is_told_too() -> None:
         start = flown_backward(contact, word)
         goal = Goal(rng.uniform(-6.0, 6.0), scene.alpha, False)
         if keeps(start, word, scene):
-            passed, onward = cell_bound(start, scene, goal, cell, FAR, True)
+            passed, onward = cell_bound(start, scene, goal, cell, FAR, True, no_rest(), no_rest())
             if onward < inf:
                 assert otherwise(passed) <= passed.tangent <= t + 1e-4
                 past += 1
@@ -404,7 +406,9 @@ def test_who_goes_straight_past_a_contact_is_told_too() -> None:
             speed = rng.uniform(0.0, 1.0)
             goal = Goal(end.x * c + end.y * s - speed * (t + ahead + bend), speed, False)
             seen = scene._replace(leader=table)
-            assert leaving_bound(seen, goal, cell, FAR, True).tangent <= ahead + bend + 1e-4
+            assert (
+                leaving_bound(seen, goal, cell, FAR, True, no_rest()).tangent <= ahead + bend + 1e-4
+            )
             left += 1
     assert past > 50
     assert left > 50

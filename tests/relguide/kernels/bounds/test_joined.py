@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import atan2, hypot, inf, pi
+from math import atan2, floor, hypot, inf, pi
 
 import numpy as np
 
@@ -10,7 +10,16 @@ from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.bounds.around import unknown_around
 from relguide.kernels.bounds.cells import Cell
-from relguide.kernels.bounds.contact_tree import Problem, plant
+from relguide.kernels.bounds.contact_tree import (
+    Problem,
+    Tree,
+    cell_at,
+    halve,
+    leave,
+    plant,
+    reach,
+    size_of,
+)
 from relguide.kernels.bounds.joined import only_of
 from relguide.kernels.bounds.round_time import times_round
 from relguide.kernels.contact.contact import contact_heading
@@ -108,17 +117,49 @@ def touches(seed: int, count: int) -> Iterator[Touch]:
                 yield touch
 
 
+def problem_of(touch: Touch) -> Problem:
+    """How soon at all, before a little later than the plan."""
+    asked = touch.question
+    table = times_round(asked.scene.alpha, asked.scene.d_min)
+    return Problem(
+        asked.start, asked.scene, asked.goal, table, 1.1 * touch.time, asked.paired,
+        unknown_around(),
+    )  # fmt: skip
+
+
+def toward(tree: Tree, n: int, touch: Touch) -> int:
+    """The half of a cell in which the contact lies."""
+    half = halve(tree, n, touch.question.scene.d_min)
+    one, other = cell_at(tree, half), cell_at(tree, half + 1)
+    if one.bearing == other.bearing:
+        return half + (0.5 * (touch.cell.start + touch.cell.end) > one.end)
+    return half + (touch.cell.bearing > one.bearing + one.half)
+
+
 def test_no_plan_with_one_contact_is_sooner_than_what_is_said_of_that() -> None:
     straight = turned = 0
     for touch in touches(31, 150):
-        asked, beat = touch.question, 1.1 * touch.time
-        table = times_round(asked.scene.alpha, asked.scene.d_min)
-        problem = Problem(
-            asked.start, asked.scene, asked.goal, table, beat, asked.paired, unknown_around()
-        )
         tree = plant(np.array([touch.cell]), 4)
-        assert only_of(tree, problem, 0) <= touch.time + 1e-3
+        assert only_of(tree, problem_of(touch), 0) <= touch.time + 1e-3
         straight += not touch.turning
         turned += touch.turning
     assert straight > 2
     assert turned > 10
+
+
+def test_a_part_of_a_cell_begins_with_what_is_left_of_the_cell() -> None:
+    """No plan is sooner than what is said then."""
+    parts = 0
+    for touch in touches(33, 60):
+        problem, cell = problem_of(touch), touch.cell
+        wide, leader, d_min = 0.125 * pi, problem.scene.leader, problem.scene.d_min
+        middle = (floor(cell.bearing / (2.0 * wide)) + 0.5) * 2.0 * wide
+        end = leader[cell.piece + 1, 0] if cell.piece + 1 < len(leader) else inf
+        root = Cell(cell.piece, cell.side, middle, wide, leader[cell.piece, 0], end)
+        tree, n = plant(np.array([root]), 99), 0
+        while size_of(tree, n, d_min) > 10.0 * HALF:
+            soon, onward = reach(tree, problem, n)
+            assert soon + max(onward, leave(tree, problem, n)) <= touch.time + 1e-3
+            parts += 1
+            n = toward(tree, n, touch)
+    assert parts > 200

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from relguide.kernels.base.records import Pose, Scene, Velocity, Window
 from relguide.kernels.bounds.breach import Flown, NearWord, Sieve, breach_time, breaks_limit
+from relguide.kernels.bounds.rest import no_rest
 from relguide.kernels.bounds.word_bound import Junction, soonest, soonest_by_turn
 from relguide.kernels.bounds.word_intervals import Blur, intercept_span
 from relguide.kernels.separation.clearance import leader_at
@@ -137,7 +138,7 @@ def test_words_leave_a_pose_as_the_junction_asks() -> None:
         inward = bool(rng.integers(2))
         leaving = soonest_by_turn(
             Pose(x, y, h), Blur(0.0, 0.0, 0.0, 0.0), Velocity(*a), Window(0.0, inf), NO_SIEVE,
-            Junction(True, outward, beyond, True, inward),
+            Junction(True, outward, beyond, True, inward), no_rest(),
         )  # fmt: skip
         for row in rows:
             word, (first, middle, last) = WORDS[int(row[1])], row[2:]
