@@ -42,6 +42,7 @@ from relguide.kernels.bounds.word_intervals import (
     same_turns,
     side_of,
     sine_cosine,
+    span_of,
     three_turns_within,
 )
 
@@ -200,7 +201,7 @@ def _bound_rest(side: Side, asked: _Asked) -> None:
             around += turns
         else:
             around += TWO_PI * turns
-            low, high = _limits(kind == THREE_TURNS, around, side)
+            low, high = _span_of(kind == THREE_TURNS, around, side, asked)
             low, high = max(low, mid - half), min(high, mid + half)
         if low > high:
             continue
@@ -246,19 +247,17 @@ def _bound_by_halves(three_turns: bool, side: Side, asked: _Asked) -> None:
     """As `_bound_all`, for LSR, or for LRL if `three_turns`."""
     for k in range(-1, 4):
         around = TWO_PI * k
-        low, high = _limits(three_turns, around, side)
+        low, high = _span_of(three_turns, around, side, asked)
         if low <= high:
             mid, half = 0.5 * (low + high), 0.5 * (high - low) + FINEST
             _bound_within(three_turns, mid, half, around, side, asked)
 
 
 @njit(cache=True, nogil=True)
-def _limits(three_turns: bool, around: float, side: Side) -> tuple[float, float]:
-    """Where both outer turns are between none and a full one."""
-    past = 0.0 if three_turns else side.end
-    most = (2.0 if three_turns else 1.0) * TWO_PI
-    low = max(side.h - side.heading - around, -past)
-    return low, min(most + side.h + side.heading - around, TWO_PI + past)
+def _span_of(three_turns: bool, around: float, side: Side, asked: _Asked) -> tuple[float, float]:
+    """As `span_of`. Words that are too late to matter now may matter to a part of the set."""
+    beat = asked.beat if asked.rest.room >= 0 else _beat(side, asked)
+    return span_of(three_turns, around, side, Window(asked.earliest, beat))
 
 
 @njit(cache=True, nogil=True)

@@ -207,6 +207,43 @@ def same_turns(k: int, side: Side, window: Window) -> Interval:
     return Interval(time, latest, True, turned, -course, astray, middle, middle_blur, least)
 
 
+@njit(cache=True, nogil=True)
+def span_of(three_turns: bool, around: float, side: Side, window: Window) -> tuple[float, float]:
+    """Least and greatest course of LSR's straight, or middle arc of LRL, that come into question.
+
+    There both outer turns are between none and a full one, and the path is in time. `around` is as
+    in `three_turns_within`.
+    """
+    past = 0.0 if three_turns else side.end
+    most = (2.0 if three_turns else 1.0) * TWO_PI
+    low = max(side.h - side.heading - around, -past)
+    high = min(most + side.h + side.heading - around, TWO_PI + past)
+    # both take as long as their outer turns and their middle arc, or as the turns at least
+    high = min(high, 0.5 * (window.beat + side.heading + side.h - around))
+    if three_turns:
+        low = max(low, 0.5 * (window.earliest - side.heading + side.h - around))
+    if not three_turns or high < low:
+        return low, high
+    # |d| ≤ 4 + r
+    ax, ay = side.target
+    mid, half = 0.5 * (low + high), 0.5 * (high - low)
+    turned = 2.0 * mid + around - side.h
+    to_x, to_y = ax * turned - side.cx, ay * turned + 1.0 - side.cy
+    reach = 4.0 + side.radius
+    square = 4.0 * side.alpha * side.alpha
+    along, beyond = 2.0 * (ax * to_x + ay * to_y), to_x * to_x + to_y * to_y - reach * reach
+    if beyond > 2.0 * half * abs(along):
+        return inf, -inf
+    inner = along * along - square * beyond
+    if inner < 0.0:
+        return inf, -inf
+    if square > 1e-6:
+        root = sqrt(inner)
+        low = max(low, mid + (-along - root) / square - FINEST)
+        high = min(high, mid + (-along + root) / square + FINEST)
+    return low, high
+
+
 @njit(cache=True, nogil=True, inline="always")
 def _undecided(low: float, high: float) -> Interval:
     """There may be paths in this part of an interval, counted from its middle."""
