@@ -29,6 +29,7 @@ from relguide.kernels.bounds.word_bound import (
     ByTurn,
     Junction,
     soonest,
+    soonest_beyond,
     soonest_by_turn,
     soonest_kept,
 )
@@ -294,8 +295,9 @@ def round_between(scene: Scene, table: FloatArray, cell: Cell, other: Cell, beat
 
 @njit(cache=True, nogil=True)
 def word_between(
-    scene: Scene, cell: Cell, other: Cell, beat: float, after: float, before: float
-) -> float:
+    scene: Scene, cell: Cell, other: Cell, beat: float, after: float, before: float,
+    enough: float,
+) -> float:  # fmt: skip
     """No word leads sooner to a contact of the other cell from one of this.
 
     Args:
@@ -305,6 +307,7 @@ def word_between(
         beat: as in `cell_bound`.
         after: how far it first turns away from the leader, at least [rad].
         before: and how far just before the other contact [rad].
+        enough: whether a word does so sooner than this does not matter [R/V_P].
     """
     begin, end = poses_of(scene, cell), poses_of(scene, other)
     if begin.differs == inf or end.differs == inf:
@@ -323,10 +326,9 @@ def word_between(
     c, s = cos(met.h), sin(met.h)
     moved, differs = max(end.left, end.right) + drifts, begin.differs + end.differs
     turned = after + before
-    return turned + soonest(
+    return turned + soonest_beyond(
         to_frame_of(begin.middle, met),
         Blur(begin.left + moved, begin.right + moved, differs, end.differs),
         Velocity(end.vx * c + end.vy * s, end.vy * c - end.vx * s),
-        Window(0.0, beat - turned),
-        no_sieve(scene),
+        Window(0.0, beat - turned), no_sieve(scene), enough - turned,
     )  # fmt: skip

@@ -220,12 +220,11 @@ def _pair_bound(search: Search, problem: Problem, n: int, m: int) -> float:
     if min(straight, on) + min(passed, turn_on) >= beat:
         return inf
     room = beat - soon - leaving
-    between = max(
-        apart(search.first, problem, n, 1.0), apart(search.last, problem, m, -1.0),
-        word_between(scene, cell, other, room, 0.0, 0.0),
-    )  # fmt: skip
+    between = max(apart(search.first, problem, n, 1.0), apart(search.last, problem, m, -1.0))
     if between < room:
         between = max(between, round_between(scene, table, cell, other, room))
+    if between < room:
+        between = max(between, word_between(scene, cell, other, room, 0.0, 0.0, between))
     if between >= room or soon + between > other.end:
         return inf
     # each contact is passed straight or turning away
@@ -238,22 +237,22 @@ def _pair_bound(search: Search, problem: Problem, n: int, m: int) -> float:
     if on < inf:
         took = between
         if after > 0.0:
-            took = max(took, word_between(scene, cell, other, room, after, 0.0))
+            took = max(took, word_between(scene, cell, other, room, after, 0.0, took))
         there = max(on + took, first.turned, at_last)
         if there <= other.end:
             bound = min(bound, max(there + passed, turned))
         if turn_on < inf:
             if before > 0.0:
-                took = max(took, word_between(scene, cell, other, room, 0.0, before))
+                took = max(took, word_between(scene, cell, other, room, 0.0, before, took))
                 if cell.side != other.side and after > 0.0:
-                    took = max(took, word_between(scene, cell, other, room, after, before))
+                    took = max(took, word_between(scene, cell, other, room, after, before, took))
             there = max(on + took, first.turned, at_last)
             if there <= other.end:
                 bound = min(bound, max(there + last.outward, on + turn_on, turned))
     if turn_on < inf and straight < inf:
         took = between
         if before > 0.0:
-            took = max(took, word_between(scene, cell, other, room, 0.0, before))
+            took = max(took, word_between(scene, cell, other, room, 0.0, before, took))
         there = max(straight + took, at_last)
         if there <= other.end:
             bound = min(bound, max(there + last.outward, straight + turn_on))

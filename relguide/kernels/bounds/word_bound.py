@@ -49,7 +49,7 @@ from relguide.kernels.bounds.word_intervals import (
 _TANGENT, _LASTING, _BEAT = 2, 3, 4  # places in what is lowered, after both turns at the set
 _BREACH = 5  # and where the last word that was left out broke the limit
 _FOUND = 6  # and the time of any word that was found, also of those that were left out
-_DEPTH = 64  # more than halvings from a whole turn to the shortest interval
+_DEPTH, _COLUMNS = 64, 8  # more rows than halvings of a whole turn to the shortest interval
 _MUCH_LESS = 0.4  # if no more is left of an interval it is not halved as well
 _IMPOSSIBLE, _LEFT_OUT, _POSSIBLE = 0, 1, 2  # what words in an interval are
 _STRIDE = 0.02  # least step of the look for a breach [R/V_P]
@@ -92,15 +92,16 @@ class _Asked(NamedTuple):
     """Words that meet the target earlier do not count [R/V_P]."""
     beat: float
     """Nor do those that meet it no sooner [R/V_P]."""
+    enough: float
+    """Once one is found that is no later, nothing else matters [R/V_P]."""
     sieve: Sieve
     """Words left out."""
     junction: Junction
     """What is asked of the turn at the set."""
-    least: FloatArray
-    """Is lowered: the fields of `ByTurn`, and how late a word may be; or one of any word. Then how
-    far along the last word that was left out broke the limit, and when any was found."""
-    stack: FloatArray
-    """To work in. shape (_DEPTH, 4)"""
+    work: FloatArray
+    """Its first row is lowered: the fields of `ByTurn`, and how late a word may be; or one of any
+    word. Then how far along the last word that was left out broke the limit, and when any was
+    found. The other rows are a stack of intervals. shape (_DEPTH, _COLUMNS)"""
     rest: Rest
     """What a set that holds this one has left, and takes what is left now."""
 
@@ -118,14 +119,26 @@ def soonest(pose: Pose, blur: Blur, target: Velocity, window: Window, sieve: Sie
 
 
 @njit(cache=True, nogil=True)
+def soonest_beyond(
+    pose: Pose, blur: Blur, target: Velocity, window: Window, sieve: Sieve, enough: float
+) -> float:
+    """The same, but any time no greater than `enough` if it is met as soon [R/V_P]."""
+    work = _unknown(window.beat)
+    rest = no_rest()
+    asked = _Asked(window.earliest, window.beat, enough, sieve, _NO_JUNCTION, work, rest)
+    _bound_all(pose, blur, target, asked)
+    return float(work[0, 0]) if work[0, 0] < window.beat else inf
+
+
+@njit(cache=True, nogil=True)
 def soonest_kept(
     pose: Pose, blur: Blur, target: Velocity, window: Window, sieve: Sieve, rest: Rest
 ) -> tuple[float, bool]:
     """The same, and whether it is met by words at all, also by those left out."""
-    least, stack = _unknown(window.beat), np.empty((_DEPTH, 4))
-    asked = _Asked(window.earliest, window.beat, sieve, _NO_JUNCTION, least, stack, rest)
+    work = _unknown(window.beat)
+    asked = _Asked(window.earliest, window.beat, 0.0, sieve, _NO_JUNCTION, work, rest)
     _bound_all(pose, blur, target, asked)
-    return float(least[0]) if least[0] < window.beat else inf, bool(least[_FOUND] < inf)
+    return float(work[0, 0]) if work[0, 0] < window.beat else inf, bool(work[0, _FOUND] < inf)
 
 
 @njit(cache=True, nogil=True)
@@ -145,22 +158,24 @@ def soonest_by_turn(
         junction: what is asked.
         rest: what was left by a set that holds this one; takes what is left now.
     """
-    least, stack = _unknown(window.beat), np.empty((_DEPTH, 4))
-    asked = _Asked(window.earliest, window.beat, sieve, junction, least, stack, rest)
+    work = _unknown(window.beat)
+    asked = _Asked(window.earliest, window.beat, 0.0, sieve, junction, work, rest)
     _bound_all(pose, blur, target, asked)
     for k in range(_LASTING):
-        if least[k] >= window.beat:
-            least[k] = inf
-    any_word = bool(least[_FOUND] < inf)
-    return ByTurn(least[0], least[1], least[_TANGENT], least[_LASTING], any_word)
+        if work[0, k] >= window.beat:
+            work[0, k] = inf
+    any_word = bool(work[0, _FOUND] < inf)
+    return ByTurn(work[0, 0], work[0, 1], work[0, _TANGENT], work[0, _LASTING], any_word)
 
 
 @njit(cache=True, nogil=True, inline="always")
 def _unknown(beat: float) -> FloatArray:
-    """Nothing but `beat` is known: see `_Asked.least`."""
-    least = np.full(_FOUND + 1, beat)
-    least[_LASTING] = least[_BREACH] = least[_FOUND] = inf
-    return least
+    """Nothing but `beat` is known: see `_Asked.work`."""
+    work = np.empty((_DEPTH, _COLUMNS))
+    for k in range(_FOUND + 1):
+        work[0, k] = beat
+    work[0, _LASTING] = work[0, _BREACH] = work[0, _FOUND] = inf
+    return work
 
 
 @njit(cache=True, nogil=True)
@@ -208,7 +223,7 @@ def _bound_rest(side: Side, asked: _Asked) -> None:
         mid, half = 0.5 * (low + high), 0.5 * (high - low)
         if left_out and asked.sieve.used:
             if _within(kind, mid, half, around, side, asked).time < inf:
-                asked.least[_FOUND] = asked.earliest
+                asked.work[0, _FOUND] = asked.earliest
                 _keep(_LEFT_OUT, kind, mid, half, around, side, asked)
         elif kind == SAME_TURNS:
             _bound_same_side(int(around), side, asked)
@@ -219,12 +234,12 @@ def _bound_rest(side: Side, asked: _Asked) -> None:
 @njit(cache=True, nogil=True)
 def _beat(side: Side, asked: _Asked) -> float:
     """Words of this side that are later do not lower anything."""
-    junction, least = asked.junction, asked.least
+    junction, work = asked.junction, asked.work
     if not junction.asked:
-        return float(least[0])
-    beat = max(least[side.hand], least[_TANGENT] if junction.straight else 0.0)
+        return float(work[0, 0]) if work[0, 0] > asked.enough else 0.0
+    beat = max(work[0, side.hand], work[0, _TANGENT] if junction.straight else 0.0)
     if side.hand == junction.outward:
-        beat = max(beat, min(least[_LASTING], least[_BEAT]))
+        beat = max(beat, min(work[0, _LASTING], work[0, _BEAT]))
     return float(beat)
 
 
@@ -266,13 +281,13 @@ def _bound_within(
 ) -> None:
     """As `_bound_by_halves`, within an interval."""
     # of each interval its middle and half its width, and sine and cosine of what is asked for
-    stack = asked.stack
+    stack = asked.work
     part = 0.5 if three_turns else 1.0
     kind = THREE_TURNS if three_turns else OPPOSITE_TURNS
-    stack[0, 0], stack[0, 1] = mid, half
-    stack[0, 2], stack[0, 3] = sin(part * mid), cos(part * mid)
-    n = 1
-    while n > 0:
+    stack[1, 0], stack[1, 1] = mid, half
+    stack[1, 2], stack[1, 3] = sin(part * mid), cos(part * mid)
+    n = 2
+    while n > 1:
         n -= 1
         mid, half, s, c = stack[n, 0], stack[n, 1], stack[n, 2], stack[n, 3]
         left = Window(asked.earliest, _beat(side, asked))
@@ -373,27 +388,27 @@ def _take(
     asked: _Asked,
 ) -> int:  # fmt: skip
     """As `_take_all`, for one first turn; the turn at the set may differ by `spare`."""
-    junction, least, time = asked.junction, asked.least, found.time
-    least[_FOUND] = time
+    junction, work, time = asked.junction, asked.work, found.time
+    work[0, _FOUND] = time
     hand = side.hand if junction.asked else 0
-    sooner, tangent, lasts = time < least[hand], False, inf
+    sooner, tangent, lasts = time < work[0, hand], False, inf
     if junction.asked:
-        if junction.straight and time < least[_TANGENT]:
+        if junction.straight and time < work[0, _TANGENT]:
             tangent = _costate_vanishes(found, signs, first, spare, side, junction)
-        if side.hand == junction.outward and time < least[_LASTING]:
+        if side.hand == junction.outward and time < work[0, _LASTING]:
             lasts = time + _lasted(found, signs, first, spare, junction)
-            if lasts >= least[_LASTING]:
+            if lasts >= work[0, _LASTING]:
                 lasts = inf
     if not (sooner or tangent or lasts < inf):
         return _POSSIBLE
     if _is_ruled_out(found, signs, first, side, asked):
         return _LEFT_OUT
     if sooner:
-        least[hand] = time
+        work[0, hand] = time
     if tangent:
-        least[_TANGENT] = time
+        work[0, _TANGENT] = time
     if lasts < inf:
-        least[_LASTING] = lasts
+        work[0, _LASTING] = lasts
     return _POSSIBLE
 
 
@@ -473,7 +488,7 @@ def _is_ruled_out(
             return False
     end = Pose(sieve.end.x + sieve.speed * begin, sieve.end.y, sieve.end.h)
     flown = Flown(begin, sieve.sense, sieve.speed, astray)
-    breach = breach_time(end, word, flown, sieve.scene, _STRIDE, asked.least[_BREACH])
+    breach = breach_time(end, word, flown, sieve.scene, _STRIDE, asked.work[0, _BREACH])
     if breach < inf:
-        asked.least[_BREACH] = breach
+        asked.work[0, _BREACH] = breach
     return breach < inf

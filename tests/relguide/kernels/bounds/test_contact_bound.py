@@ -154,7 +154,7 @@ def test_no_contact_of_a_cell_is_reached_or_left_sooner(
 def test_no_contact_follows_another_sooner(
     first: Cell, last: Cell, alpha: float, d_min: float, shares: tuple[float, float]
 ) -> None:
-    lowest = word_between(straight(alpha, d_min, 0.0), first, last, FAR, 0.0, 0.0)
+    lowest = word_between(straight(alpha, d_min, 0.0), first, last, FAR, 0.0, 0.0, 0.0)
     poses = []
     for cell, share in zip((first, last), shares, strict=True):
         b = cell.bearing + share * cell.half
@@ -438,7 +438,9 @@ def test_no_contact_follows_a_turn_away_sooner() -> None:
             after = row[2] if signs[0] == -sides[0] else 0.0
             before = row[4] if signs[2] == -sides[1] else 0.0
             for shares in ((1.0, 0.0), (0.0, 1.0), (1.0, 1.0), rng.uniform(0.0, 1.0, 2)):
-                took = word_between(scene, first, last, FAR, after * shares[0], before * shares[1])
+                took = word_between(
+                    scene, first, last, FAR, after * shares[0], before * shares[1], 0.0
+                )
                 assert took <= row[0] + 1e-4
 
 
@@ -464,7 +466,7 @@ def test_no_contact_follows_another_sooner_while_the_leader_turns(seed: int) -> 
         n = paths_to_contact(contact_on(scene, contact, t), t, scene, other, inf, rows)
         for row in rows[:n]:
             if cells[1].start <= row[0] <= cells[1].end:
-                assert word_between(scene, *cells, FAR, 0.0, 0.0) <= row[0] - t + 1e-5
+                assert word_between(scene, *cells, FAR, 0.0, 0.0, 0.0) <= row[0] - t + 1e-5
                 met += 1
     assert met > 100
 
