@@ -22,6 +22,8 @@ from relguide.kernels.bounds.round_turning import (
     ROUNDING,
     bearings_of,
     front_from,
+    leader_then,
+    reached_by,
     step_of,
     swept_by,
     time_to,
@@ -142,17 +144,28 @@ def _mark(
     scene: Scene, since: FloatArray, begun: float, first: int, count: int, sense: float,
     pace: float, horizon: float,
 ) -> None:  # fmt: skip
-    """Put down since when a front has been in each part, beyond those in which it began."""
+    """Put down since when a front has been in each part, beyond those in which it began.
+
+    It ends where another one going the same way round has been before: what is behind that stays
+    behind it.
+    """
     part = TWO_PI / _PARTS
     bearing = part * (first + count if sense > 0.0 else first)
     at = (first + count) % _PARTS if sense > 0.0 else (first - 1) % _PARTS
     left = _PARTS - count
     step, course, t, angle = step_of(scene), bearing, begun, 0.0
+    there = leader_then(scene, pace * t)
     while t < horizon and left > 0:
-        front = front_from(scene, pace * t, bearing, course, sense, pace)
-        swept = swept_by(scene, front, step)
+        front = front_from(scene, pace * t, there, bearing, course, sense, pace)
+        there = leader_then(scene, pace * (t + step))
+        reached = reached_by(scene, front, there, step)
+        swept = swept_by(front, reached)
         while angle <= swept and left > 0:
-            took = time_to(scene, front, angle, step) if angle > 0.0 else 0.0
+            took = 0.0
+            if angle > 0.0:
+                took = time_to(scene, front, pace * t, pace, angle, step, reached)
+            if since[at] + 2.0 * ROUNDING <= t + took:
+                return
             since[at] = min(since[at], t + took - ROUNDING)
             at = (at + int(sense)) % _PARTS
             angle += part

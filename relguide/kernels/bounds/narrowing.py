@@ -162,6 +162,8 @@ def _sweep_all(
             sweep_from(swept, scene, cell, begun, pace, horizon)
             continue
         for k in range(2):
+            if is_behind(swept, scene, cell_at(tree, half + k), begun):
+                continue
             child = _begins(problem, tree, half + k, last)
             if child < inf:
                 heappush(heap, (max(begun, child), half + k))

@@ -15,20 +15,20 @@ in closed form. On a straight leg this is `round_time`.
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
-from math import acos, cos, inf, sin, sqrt
+from math import acos, cos, inf, pi, sin, sqrt
 from typing import NamedTuple
 
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, wrap
-from relguide.kernels.base.records import Scene
+from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.bounds.breach import INSIDE
 from relguide.kernels.bounds.cells import Cell
 from relguide.kernels.separation.clearance import leader_at, piece_at
 
 _STEP = 0.1  # for which a front keeps its direction, in d_min and at V_P
 _WIDEST = 3.1  # e is no further than this from the bearing of P, so that the disc is beside it
-_HALVINGS = 16  # of the step in which P arrives: to 1e-5 R/V_P
+_TRIES = 8  # to say when P arrives within a step, to a tenth of `ROUNDING`
 ROUNDING = 1e-5  # 0.5 ms for an airliner: more than what rounding makes of all of this [R/V_P]
 FAST = 0.999  # for a leader faster than this the time round the disc is not bounded
 
@@ -38,16 +38,16 @@ class Front(NamedTuple):
 
     sense: float
     """+1 counter-clockwise, −1 clockwise."""
-    pace: float
-    """+1 on in time, −1 back, where the leader flies backward."""
-    bearing: float
-    """Of P from the leader, at first [rad]."""
     course: float
     """Of e [rad]."""
+    ahead_x: float
+    """e."""
+    ahead_y: float
+    """e."""
+    from_course: float
+    """How far P is from there at first, counted against the way it goes [rad]."""
     past: float
     """How far along e the line then lies [R]."""
-    t: float
-    """When that is [R/V_P]."""
 
 
 @njit(cache=True, nogil=True)
@@ -65,7 +65,9 @@ def round_arrival(scene: Scene, cell: Cell, other: Cell, latest: float) -> float
     blur = 0.5 * (high - low) + 0.5 * (end - begin)
     apart = 0.5 * (begin + end) - 0.5 * (low + high)
     soonest = inf
-    for way in range(2):
+    # the shorter way first: it ends the search along the other
+    shorter = 0 if wrap(apart) < pi else 1
+    for way in (shorter, 1 - shorter):
         sense = 1.0 - 2.0 * way
         angle = wrap(sense * apart) - blur
         if angle <= 0.0 or angle + 2.0 * blur >= TWO_PI or scene.alpha > FAST:
@@ -81,10 +83,22 @@ def bearings_of(scene: Scene, cell: Cell) -> tuple[float, float]:
 
     Relative to the slot's heading.
     """
-    first = leader_at(scene, cell.piece, cell.start).h
-    last = first if cell.end == inf else leader_at(scene, cell.piece, cell.end).h
+    first = _heading_at(scene, cell.piece, cell.start)
+    last = first if cell.end == inf else _heading_at(scene, cell.piece, cell.end)
     low, high = cell.bearing - cell.half, cell.bearing + cell.half
     return low + min(first, last), high + max(first, last)
+
+
+@njit(cache=True, nogil=True)
+def _heading_at(scene: Scene, i: int, t: float) -> float:
+    """The leader's heading at time t on its piece i [rad]."""
+    return float(scene.leader[i, 3] + scene.leader[i, 4] * (t - scene.leader[i, 0]))
+
+
+@njit(cache=True, nogil=True)
+def leader_then(scene: Scene, t: float) -> Pose:
+    """The leader's pose at time t."""
+    return leader_at(scene, piece_at(scene.leader, t), t)
 
 
 @njit(cache=True, nogil=True)
@@ -92,12 +106,14 @@ def _sweep(
     scene: Scene, t: float, bearing: float, angle: float, sense: float, latest: float
 ) -> float:
     """When a front that begins at a bearing has swept an angle; infinite from `latest` on."""
-    step, course = step_of(scene), bearing
+    step, course, there = step_of(scene), bearing, leader_then(scene, t)
     while t < latest:
-        front = front_from(scene, t, bearing, course, sense, 1.0)
-        swept = swept_by(scene, front, step)
+        front = front_from(scene, t, there, bearing, course, sense, 1.0)
+        there = leader_then(scene, t + step)
+        reached = reached_by(scene, front, there, step)
+        swept = swept_by(front, reached)
         if swept >= angle:
-            t += time_to(scene, front, angle, step)
+            t += time_to(scene, front, t, 1.0, angle, step, reached)
             break
         bearing, course = bearing + sense * swept, front.course
         angle -= swept
@@ -113,52 +129,84 @@ def step_of(scene: Scene) -> float:
 
 @njit(cache=True, nogil=True)
 def front_from(
-    scene: Scene, t: float, bearing: float, course: float, sense: float, pace: float
+    scene: Scene, t: float, there: Pose, bearing: float, course: float, sense: float, pace: float
 ) -> Front:
     """A front for the next step.
 
     Args:
         scene: the leader and d_min.
         t: when the step begins [R/V_P].
+        there: the leader's pose then.
         bearing: of P then [rad].
         course: of e until then; the bearing, if it only begins [rad].
         sense: as in `Front`.
-        pace: as in `Front`.
+        pace: +1 on in time, −1 back, where the leader flies backward.
     """
-    there = leader_at(scene, piece_at(scene.leader, t), t)
     alpha, later = pace * scene.alpha, 0.5 * step_of(scene)
     # where someone heads who slides along the edge, in the middle of the step
     along = alpha * cos(bearing - there.h)
     rate = (sqrt(1.0 - along * along) + sense * alpha * sin(bearing - there.h)) / scene.d_min
     on, soon = bearing + sense * rate * later, t + pace * later
-    heading = leader_at(scene, piece_at(scene.leader, soon), soon).h
+    heading = _heading_at(scene, piece_at(scene.leader, soon), soon)
     wanted = sense * (on - bearing) + acos(alpha * cos(on - heading))
-    course = bearing + sense * max(sense * (course - bearing), min(wanted, _WIDEST))
-    across = there.x * cos(course) + there.y * sin(course)
-    past = across + (scene.d_min - INSIDE) * cos(bearing - course)
-    return Front(sense, pace, bearing, course, past, t)
+    from_course = max(sense * (course - bearing), min(wanted, _WIDEST))
+    course = bearing + sense * from_course
+    x, y = cos(course), sin(course)
+    past = there.x * x + there.y * y + (scene.d_min - INSIDE) * cos(from_course)
+    return Front(sense, course, x, y, from_course, past)
 
 
 @njit(cache=True, nogil=True)
-def swept_by(scene: Scene, front: Front, took: float) -> float:
-    """How far P has moved round the leader after a time; infinite if the front left the disc."""
-    t = front.t + front.pace * took
-    there = leader_at(scene, piece_at(scene.leader, t), t)
-    ahead = front.past + took - there.x * cos(front.course) - there.y * sin(front.course)
-    ahead /= scene.d_min - INSIDE
-    if ahead >= 1.0:
+def reached_by(scene: Scene, front: Front, there: Pose, took: float) -> float:
+    """How far the line lies from the leader along e after a time, as part of d_min.
+
+    It grows with the time, by 1 − α to 1 + α of V_P.
+    """
+    ahead = front.past + took - there.x * front.ahead_x - there.y * front.ahead_y
+    return float(ahead / (scene.d_min - INSIDE))
+
+
+@njit(cache=True, nogil=True)
+def swept_by(front: Front, reached: float) -> float:
+    """How far P has moved round the leader by then; infinite if the front has left the disc."""
+    if reached >= 1.0:
         return inf
-    return float(front.sense * (front.course - front.bearing) - acos(max(ahead, -1.0)))
+    return float(front.from_course - acos(max(reached, -1.0)))
 
 
 @njit(cache=True, nogil=True)
-def time_to(scene: Scene, front: Front, angle: float, step: float) -> float:
-    """How long P has not moved so far round, at least: less than a step."""
-    low, high = 0.0, step
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (low + high)
-        if swept_by(scene, front, middle) >= angle:
-            high = middle
+def time_to(
+    scene: Scene, front: Front, t: float, pace: float, angle: float, step: float, reached: float
+) -> float:
+    """How long P has not moved so far round, at least: less than a step.
+
+    Args:
+        scene: the leader and d_min.
+        front: as it is for the step.
+        t: when the step begins [R/V_P].
+        pace: as in `front_from`.
+        angle: how far round [rad].
+        step: how long it is [R/V_P].
+        reached: of `reached_by` at its end, by which P has moved so far.
+    """
+    left = front.from_course - angle
+    if left >= pi:
+        return 0.0
+    wanted = cos(max(left, 0.0))
+    # by false position; whatever is missed, it takes no longer than this
+    slowest = (scene.d_min - INSIDE) / (1.0 - scene.alpha)
+    low, at_low = 0.0, cos(front.from_course) - wanted
+    high, at_high = step, reached - wanted
+    for _ in range(_TRIES):
+        if at_low >= 0.0 or at_high <= at_low:
+            break
+        middle = low - at_low * (high - low) / (at_high - at_low)
+        there = leader_then(scene, t + pace * middle)
+        at = reached_by(scene, front, there, middle) - wanted
+        if at < 0.0:
+            low, at_low = middle, at
         else:
-            low = middle
-    return low
+            high, at_high = middle, at
+        if abs(at) * slowest < 0.1 * ROUNDING:
+            break
+    return max(low, high - at_high * slowest)

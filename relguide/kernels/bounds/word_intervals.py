@@ -33,7 +33,9 @@ from relguide.kernels.bounds.breach import ROUNDING
 
 MOST_TURNS = 4
 """Of `same_turns`."""
-_FAST = 0.95  # a target at this speed may be met twice, or late [V_P]
+_EQUAL = 1e-12  # a target is as fast as V_P if 1 − α² is no more than this [V_P²]
+_RECEDES = 1e-6  # and it surely recedes if it does so this fast, times the distance [V_P R]
+_FASTER = 1.0 + _EQUAL  # a target that may be met twice, or late [V_P]
 _FINE = 0.5  # what an interval's width may still count for, as part of what the set's does
 _SMALL = 0.03  # below this few terms of a series are exact [rad]
 _STEPS = 100  # toward where it may be met: fewer say less
@@ -144,10 +146,12 @@ def intercept_span(ex: float, ey: float, target: Velocity, blur: float) -> tuple
             least = (root - opening) / one_less
         else:
             return inf, inf
+    opening = blur + closing
+    square = opening * opening + one_less * beyond
     if one_less > 1e-9:
-        opening = blur + closing
-        square = max(opening * opening + one_less * beyond, 0.0)
-        greatest = max((opening + sqrt(square)) / one_less, blur)
+        greatest = max((opening + sqrt(max(square, 0.0))) / one_less, blur)
+    elif one_less > -_EQUAL and opening < -_RECEDES and beyond > 0.0:
+        greatest = max(beyond / (sqrt(max(square, 0.0)) - opening), blur)
     return least, greatest
 
 
@@ -188,7 +192,7 @@ def same_turns(k: int, side: Side, window: Window) -> Interval:
     soonest_turned = max(turned - side.heading, 0.0)
     least = max(least, window.earliest - turned - side.heading)
     greatest = min(greatest, window.beat - soonest_turned)
-    if side.alpha > _FAST:
+    if side.alpha > _FASTER:
         least, greatest = _narrow(ex, ey, side.target, side.radius, least, greatest)
     time = soonest_turned + least
     if greatest < least or time >= window.beat:

@@ -136,6 +136,27 @@ def test_who_is_behind_the_fronts_adds_nothing() -> None:
     assert behind > 10
 
 
+def test_fronts_of_two_cells_are_as_soon_as_the_sooner_of_both() -> None:
+    """One after the other, the later one only as far as it is ahead of the first."""
+    rng = np.random.default_rng(5)
+    mixed = 0
+    for _ in range(40):
+        scene, pace = turning(rng), rng.choice((-1.0, 1.0))
+        start = 0.1 if pace > 0.0 else -30.0
+        begun = start, start + rng.uniform(0.0, 3.0)
+        cells = [contact(scene, rng.uniform(-pi, pi), pace * t) for t in begun]
+        both, alone = no_fronts(), (no_fronts(), no_fronts())
+        for cell, t, swept in zip(cells, begun, alone, strict=True):
+            sweep_from(swept, scene, cell, t, pace, start + 25.0)
+            sweep_from(both, scene, cell, t, pace, start + 25.0)
+        first, second = times_of(alone[0]), times_of(alone[1])
+        sooner = np.minimum(first, second)
+        assert np.array_equal(np.isinf(times_of(both)), np.isinf(sooner))
+        assert times_of(both) == pytest.approx(sooner, abs=0.02)
+        mixed += bool(np.any(first < second - 0.1) and np.any(second < first - 0.1))
+    assert mixed > 10
+
+
 def test_where_the_leader_keeps_straight_it_is_the_time_round() -> None:
     rng = np.random.default_rng(4)
     for _ in range(200):
