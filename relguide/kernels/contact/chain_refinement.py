@@ -28,7 +28,8 @@ from relguide.kernels.contact.chain import (
 )
 from relguide.kernels.contact.clear_words import best_word
 from relguide.kernels.contact.contact import contact_at, contact_exists
-from relguide.kernels.contact.passing import ALL_WORDS, words_onward
+from relguide.kernels.contact.passing import words_onward
+from relguide.kernels.words.extremals import ALL_WORDS
 
 FINEST = 1e-7
 """Bearing steps end here: 1 mm at R = 12 km, 10 µs where the time has an edge."""

@@ -27,6 +27,7 @@ from relguide.kernels.contact.contact import (
     boundary_arc_sense,
     contact_at,
     contact_exists,
+    contact_on,
     disc_on,
     slide_within,
 )
@@ -37,6 +38,8 @@ from relguide.kernels.contact.paths_to_contact import earliest_arrival, not_befo
 from relguide.kernels.separation.clearance import piece_at
 from relguide.kernels.words.delay import DELAY_PIECES
 from relguide.kernels.words.extremals import MAX_ROWS, solve
+from relguide.kernels.words.fastest import fastest
+from relguide.kernels.words.sooner import Scratch, make_scratch
 
 _TRIES = 8  # times the hops of a round: so many nodes are left by a delay path, 0.3 ms each
 _ROUNDS = 4  # of hops, with boundary arcs before and after: chains with up to three hops
@@ -47,7 +50,7 @@ _BETTER = 1e-9  # a label must fall by more than this [R/V_P], or rounding goes 
 
 
 class _Graph(NamedTuple):
-    """What the search keeps of each label, beside its time in `Nodes`. All of shape (n,)."""
+    """What is kept of each label, beside its time in `Nodes`; of shape (n,) where not said."""
 
     nodes: int
     """How many nodes there are."""
@@ -64,7 +67,8 @@ class _Graph(NamedTuple):
     arrival: FloatArray
     """Of the fastest path found by way of it, at the slot [R/V_P]."""
     onward: FloatArray
-    """How long the path to the slot takes at least, if that is the same at any time [R/V_P]."""
+    """How long the path to the slot takes at least, on the final leg, where that is the same at any
+    time; NaN where it is not known yet, and 0 on other legs [R/V_P]. shape (nodes,)"""
     hopped: FloatArray
     """The label with which words from it were last looked for."""
     delayed: FloatArray
@@ -75,6 +79,8 @@ class _Graph(NamedTuple):
     """1 if its label has fallen since a boundary arc from it was last flown."""
     rows: FloatArray
     """Room for words. shape (MAX_ROWS, 5)"""
+    scratch: Scratch
+    """Room for the fastest word."""
 
 
 class Effort(NamedTuple):
@@ -167,22 +173,30 @@ def _start_graph(scene: Scene, nodes: Nodes, count: int, beat: float) -> _Graph:
     graph = _Graph(
         count, count if copies > 1 else 0, 2 * count if copies > 1 else 0,
         np.full(size, -1.0), np.full(size, WORD), np.zeros(size), np.full(size, inf),
-        np.zeros(count), np.full(size, inf), np.full(size, inf), np.zeros(size),
-        np.zeros(size), np.empty((MAX_ROWS, 5)),
+        np.full(count, np.nan), np.full(size, inf), np.full(size, inf), np.zeros(size),
+        np.zeros(size), np.empty((MAX_ROWS, 5)), make_scratch(),
     )  # fmt: skip
     for n in range(count):
         if nodes.lower[n] < beat:
             graph.pending[n] = 1.0
-        if nodes.time[n] < inf:
-            _note_onward(scene, nodes, graph, n)
     return graph
 
 
 @njit(cache=True, nogil=True)
-def _note_onward(scene: Scene, nodes: Nodes, graph: _Graph, n: int) -> None:
-    """On the final leg, with the slot open, the path on without the limit takes as long always."""
-    if _is_settled(scene, nodes, n, nodes.time[n]):
-        graph.onward[n % graph.nodes] = nodes.lower[n] - nodes.time[n]
+def _onward_from(scene: Scene, nodes: Nodes, graph: _Graph, node: int) -> float:
+    """How long the path from a node to the slot takes at least [R/V_P]; 0 where nothing is known.
+
+    On the final leg, where it takes as long whenever it begins, it is found once.
+    """
+    if np.isnan(graph.onward[node]):
+        final, known = len(scene.leader) - 1, 0.0
+        contact = contact_of(nodes, node)
+        if contact.piece == final:
+            t, row = scene.leader[final, 0], graph.rows[0]
+            seen = to_slot_frame(contact_on(scene, contact, t), t, scene.alpha)
+            known = row[0] if fastest(seen, scene.alpha, 0.0, 0, graph.scratch, row) else inf
+        graph.onward[node] = known
+    return float(graph.onward[node])
 
 
 @njit(cache=True, nogil=True)
@@ -280,7 +294,6 @@ def _go_on(scene: Scene, nodes: Nodes, graph: _Graph, best: float) -> float:
             nodes.lower[n] = max(t + graph.rows[0, 0], scene.t_release)
             graph.arrival[n], _ = first_clear(pose, t, graph.rows[:count], scene, best + _NEARLY)
         best = min(best, graph.arrival[n])
-        _note_onward(scene, nodes, graph, n)
     return best
 
 
@@ -369,7 +382,10 @@ def _hop_from(scene: Scene, nodes: Nodes, graph: _Graph, n: int, best: float) ->
             continue
         t = earliest_arrival(pose, left, scene, contact)
         beat = _label_to_beat(scene, nodes, graph, m, t)
-        if t >= beat or t + graph.onward[node] >= best:
+        if t >= beat or t >= best:
+            continue
+        beat = min(beat, best - _onward_from(scene, nodes, graph, node))
+        if t >= beat:
             continue
         there = contact_at(scene, t, contact.bearing, contact.side)
         if not_before_slot(there, t, scene) >= best:

@@ -19,8 +19,6 @@ from relguide.kernels.base.records import Contact, Scene
 from relguide.kernels.contact.contact import boundary_arc_rates, disc_on
 from relguide.kernels.separation.clearance import piece_at
 
-ALL_WORDS = 63
-"""All six."""
 _BEGIN_LEFT, _BEGIN_RIGHT = 1 + 4 + 16, 2 + 8 + 32  # LSL, LSR, LRL; RSR, RSL, RLR
 _END_LEFT, _END_RIGHT = 1 + 8 + 16, 2 + 4 + 32  # LSL, RSL, LRL; RSR, LSR, RLR
 # contacts are flown a little outside d_min: a turn that breaks it by less than that may be flown

@@ -8,20 +8,15 @@ Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 
 from math import cos, hypot, inf, sin, sqrt
 
-import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import wrap, wrap_signed
-from relguide.kernels.base.records import Contact, Pose, Scene, Velocity
+from relguide.kernels.base.records import Contact, Pose, Scene, Velocity, Window
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.contact import contact_on, to_frame_of
-from relguide.kernels.contact.passing import ALL_WORDS
-from relguide.kernels.contact.paths_while_turning import (
-    earliest_while_turning,
-    passage_to,
-    paths_while_turning,
-)
-from relguide.kernels.words.extremals import MAX_ROWS, solve_word
+from relguide.kernels.contact.moving_contact import earliest_while_turning, passage_to
+from relguide.kernels.contact.paths_while_turning import paths_while_turning
+from relguide.kernels.words.extremals import ALL_WORDS, solve_words
 
 
 @njit(cache=True, nogil=True)
@@ -103,10 +98,7 @@ def paths_by_words(
     toward = Velocity(scene.alpha * cos(lh - course), scene.alpha * sin(lh - course))
     seen = to_frame_of(pose, Pose(cx, cy, course))
     seen, earliest = Pose(seen.x, seen.y, wrap(seen.h)), max(leader[i, 0] - t, 0.0)
-    found, n = np.empty((MAX_ROWS, 4)), 0
-    for word in range(6):
-        if words & (1 << word):
-            n = solve_word(seen, toward, earliest, word, found, rows, n)
+    n = solve_words(seen, toward, words, Window(earliest, min(beat - t, left)), rows)
     while n > 0 and rows[n - 1, 0] > left:
         n -= 1
     rows[:n, 0] += t

@@ -4,134 +4,100 @@ A word arrives when its length to where the contact then is equals the time for 
 at on a grid of times, for all branches at once; between two times its roots are found by false
 position. Where a turn passes a full one, or a branch begins to exist, the edge is bisected first.
 
-Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
+A word is no shorter than the straight between its first and its last circle and the change of
+heading. So most looks see at once that it comes too late, until the next look and often for longer.
+Where a branch exists only between two looks, its circles are nearest or farthest there, at a time
+known in closed form.
 """
 
-from math import ceil, cos, hypot, inf, isnan, pi, sin
+from math import asin, atan2, ceil, cos, hypot, inf, isnan, pi, sin, sqrt
 from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
+from relguide.kernels.base.angles import TWO_PI, turn_to, wrap, wrap_signed
 from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.false_position import Bracket, secant, tightened
-from relguide.kernels.base.records import Contact, Pose, Scene, Start
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.contact.contact import contact_distance, contact_heading
+from relguide.kernels.contact.moving_contact import (
+    Passage,
+    distance_at,
+    earliest_while_turning,
+    excess,
+    leader_heading,
+    speed_of,
+)
 from relguide.kernels.words.branches import SIZE, TO_POINT, WORD_OF
-from relguide.kernels.words.extremals import MAX_ROWS
-from relguide.kernels.words.to_point import every_word, word_from
+from relguide.kernels.words.extremals import MAX_ROWS, SIGNS
 
 _STEP = 0.15  # the leader turns by some 10° in it [R/V_P]
 _LONGEST_DETOUR = 24.0  # 6π + 4, rounded up
 _JUMP = 1.0  # a word's length does not change by more within one step, unless it jumps [R]
-_CLOSER = 8  # steps toward the first time at which a contact is in reach
 _HALVINGS = 25  # of a step, to where a turn jumps or a word ceases to exist
 _MOST_STEPS = 60  # of false position
 _MET = 1e-9  # a length farther off than this has jumped [R]
 _EXACT = 1e-12  # a length so near is met: 0.01 µm at R = 12 km, and above rounding [R]
+_PAIRS = 4  # of first and last circles, in the order of the words with a straight between them
 
 
-class Passage(NamedTuple):
-    """From a start to one contact on a turn of the leader's, and the circle that this moves on."""
+class _Seen(NamedTuple):
+    """One branch at one time."""
 
-    pose: Pose
-    """The start."""
-    t_start: float
-    """When [R/V_P]."""
-    scene: Scene
-    contact: Contact
-    begin: float
-    """When it can be there first, as far as the leader goes [R/V_P] …"""
-    end: float
-    """… and last."""
-    turning: float
-    """The leader's turn rate ω [V_P/R]."""
-    x: float
-    """The centre of the leader's turn, seen from the start's place, but not turned [R]."""
-    y: float
-    ahead: float
-    """From there to the contact while the leader heads 0 [R] …"""
-    left: float
-    """… and to the left."""
-    heading: float
-    """On which it is met, relative to the leader's [rad]."""
+    t: float
+    """[R/V_P]."""
+    excess: float
+    """How much longer it is than the time for it [R/V_P]; NaN if it does not reach."""
+    first: float
+    """Its first turn [rad] …"""
+    last: float
+    """… and its last one [rad]."""
 
 
-class _Look(NamedTuple):
-    """All branches of words to where a contact is at one time."""
+class _Length(NamedTuple):
+    """What a look at one branch says."""
 
-    excess: FloatArray
-    """How much longer each is than the time for it; NaN if it does not reach. shape (SIZE,)"""
-    turns: FloatArray
-    """First and last turn of each [rad]. shape (SIZE, 2)"""
-
-
-@njit(cache=True, nogil=True)
-def passage_to(pose: Pose, t: float, scene: Scene, contact: Contact) -> Passage:
-    """From a pose at time t to a contact on a piece on which the leader turns."""
-    begin, x, y, h, turning = scene.leader[contact.piece]
-    distance, radius = contact_distance(scene.d_min), scene.alpha / turning
-    return Passage(
-        pose, t, scene, contact, max(begin, t), scene.leader[contact.piece + 1, 0], turning,
-        x - radius * sin(h) - pose.x, y + radius * cos(h) - pose.y,
-        distance * cos(contact.bearing), distance * sin(contact.bearing) - radius,
-        contact_heading(contact.bearing, contact.side, scene.alpha),
-    )  # fmt: skip
+    excess: float
+    """As in `_Seen`; infinite if it arrives neither within a step before nor within one after."""
+    first: float
+    """First turn [rad] …"""
+    last: float
+    """… and last one [rad]."""
+    free: float
+    """For how long from then on it does not arrive [R/V_P], if that is a step or more."""
 
 
-@njit(cache=True, nogil=True)
-def _seen_from(passage: Passage, t: float) -> Start:
-    """The start as seen from where the contact is at t."""
-    leader, i = passage.scene.leader, passage.contact.piece
-    lh = leader[i, 3] + passage.turning * (t - leader[i, 0])
-    s, c = sin(lh), cos(lh)
-    dx = -passage.x - passage.ahead * c + passage.left * s
-    dy = -passage.y - passage.ahead * s - passage.left * c
-    course = lh + passage.heading
-    s, c = sin(course), cos(course)
-    h = passage.pose.h - course
-    return Start(dx * c + dy * s, dy * c - dx * s, h, sin(h), cos(h))
+class _Circles(NamedTuple):
+    """The first and the last circle of a word at one time."""
 
-
-@njit(cache=True, nogil=True)
-def _distance_at(passage: Passage, t: float) -> float:
-    """How far the contact is from the start at t [R]."""
-    leader, i = passage.scene.leader, passage.contact.piece
-    lh = leader[i, 3] + passage.turning * (t - leader[i, 0])
-    s, c = sin(lh), cos(lh)
-    return hypot(
-        passage.x + passage.ahead * c - passage.left * s,
-        passage.y + passage.ahead * s + passage.left * c,
-    )
-
-
-@njit(cache=True, nogil=True)
-def _speed(passage: Passage) -> float:
-    """How fast the contact moves [V_P]."""
-    return abs(passage.turning) * hypot(passage.ahead, passage.left)
-
-
-@njit(cache=True, nogil=True)
-def earliest_while_turning(passage: Passage) -> float:
-    """No path reaches the contact before this time [R/V_P]; infinite if none does on this turn.
-
-    The pursuer and the contact close in no faster than at the sum of their speeds.
-    """
-    at, closing = passage.begin, 1.0 + _speed(passage)
-    for _ in range(_CLOSER):
-        lack = _distance_at(passage, at) - (at - passage.t_start)
-        if lack <= 0.0:
-            break
-        at += lack / closing
-        if at > passage.end:
-            return inf
-    return float(at)
+    first: float
+    """ε of the first."""
+    dx: float
+    """From one centre to the other [R]."""
+    dy: float
+    """[R]."""
+    gap: float
+    """How far that is [R]."""
+    swept: float
+    """How far the last one moves in a step [R]."""
+    sway: float
+    """How much the contact's heading changes in a step [rad]."""
+    course: float
+    """That heading [rad]."""
+    h: float
+    """Heading of the start [rad]."""
+    elapsed: float
+    """The time there is for the word [R/V_P]."""
+    step: float
+    """From one look to the next [R/V_P]."""
 
 
 @njit(cache=True, nogil=True)
 def paths_while_turning(passage: Passage, words: int, beat: float, rows: FloatArray) -> int:
-    """Some words to the contact, in no order. As `paths_to_contact.paths_by_words`."""
+    """Some words to the contact, in no order. As `paths_to_contact.paths_by_words`.
+
+    One of three turns comes with that which has the same first and last turn.
+    """
     begin, end = passage.begin, passage.end
     first = earliest_while_turning(passage)
     if first >= beat:
@@ -139,112 +105,282 @@ def paths_while_turning(passage: Passage, words: int, beat: float, rows: FloatAr
     steps = ceil((end - begin) / _STEP) + 1
     step = (end - begin) / steps
     # a word is hardly longer than three full turns more than the contact is far
-    slack = _LONGEST_DETOUR + (1.0 + _speed(passage)) * step
-    last, here = _look(), _look()
-    n, last_t, follows = 0, begin, False
-    for k in range(int((first - begin) / step), steps + 1):
+    slack = _LONGEST_DETOUR + (1.0 + speed_of(passage)) * step
+    centres = _centres_of(passage, step)
+    # of each branch excess, first and last turn; then how fast the circles of each pair part
+    looks = np.full((2, SIZE + _PAIRS, 3), np.nan)
+    n, last_t, follows, now, piece = 0, begin, False, 0, np.empty(3)
+    k = int((first - begin) / step)
+    while k <= steps:
         t = begin + step * k
-        if t - passage.t_start > slack + _distance_at(passage, t):
+        elapsed = t - passage.t_start
+        if elapsed > slack and elapsed > slack + distance_at(passage, t):
             follows = False
+            k += 1
             continue
-        if time_is_up(passage.scene.until):
+        if time_is_up(passage.until):
             break
-        every_word(_seen_from(passage, t), words, here.excess, here.turns)
-        here.excess[:] -= t - passage.t_start
-        for branch in TO_POINT:
-            if follows and not _goes_on(last, here, branch):
-                n = _roots_between(passage, branch, last_t, last, t, here, rows, n)
+        last, here = looks[1 - now], looks[now]
+        free = _look(passage, centres, words, t, step, here)
+        if follows:
+            for branch in TO_POINT:
+                before, after = last[branch, 0], here[branch, 0]
+                if before == inf or after == inf:
+                    continue
+                if isnan(before) and isnan(after):
+                    # it may exist between them where its circles are farthest, or, for three turns,
+                    # nearest
+                    pair = SIZE + (branch if branch < 4 else (branch - 4) // 2)
+                    begun, ended = last[pair, 0], here[pair, 0]
+                    if not (begun > 0.0 > ended if branch < 4 else begun < 0.0 < ended):
+                        continue
+                elif (
+                    before * after > 0.0
+                    and abs(last[branch, 1] - here[branch, 1]) < pi
+                    and abs(last[branch, 2] - here[branch, 2]) < pi
+                ):
+                    continue
+                begun = _Seen(last_t, before, last[branch, 1], last[branch, 2])
+                ended = _Seen(t, after, here[branch, 1], here[branch, 2])
+                n = _roots_between(passage, branch, begun, ended, rows, n, piece)
         if t >= beat:
             break
-        last, here, last_t, follows = here, last, t, True
+        now, last_t, follows = 1 - now, t, True
+        k += max(int(min(free, end - t) / step), 1)
     return n
 
 
 @njit(cache=True, nogil=True)
-def _look() -> _Look:
-    """Room for one, in which no word reaches."""
-    return _Look(np.full(SIZE, np.nan), np.zeros((SIZE, 2)))
+def _centres_of(passage: Passage, step: float) -> FloatArray:
+    """Where the centres of first and last circles are.
+
+    Returns:
+        for each pair x, y of the first one from that of the leader's turn; the last one from there
+        ahead and to the left as the leader heads; how far that moves in a step [R]. shape
+        (_PAIRS, 5)
+    """
+    centres = np.empty((_PAIRS, 5))
+    s, c = sin(passage.pose.h), cos(passage.pose.h)
+    end_s, end_c = sin(passage.heading), cos(passage.heading)
+    for pair in range(_PAIRS):
+        first, last = SIGNS[pair, 0], SIGNS[pair, 2]
+        ahead, left = passage.ahead - last * end_s, passage.left + last * end_c
+        centres[pair, 0], centres[pair, 1] = -passage.x - first * s, first * c - passage.y
+        centres[pair, 2], centres[pair, 3] = ahead, left
+        centres[pair, 4] = abs(passage.turning) * step * hypot(ahead, left)
+    return centres
 
 
 @njit(cache=True, nogil=True)
-def _goes_on(last: _Look, here: _Look, branch: int) -> bool:
-    """Whether a branch has no root between two looks, as most have none."""
-    before, gap, turns, others = last.excess, here.excess, last.turns, here.turns
-    if before[branch] * gap[branch] > 0.0:
-        return bool(
-            abs(turns[branch, 0] - others[branch, 0]) < pi
-            and abs(turns[branch, 1] - others[branch, 1]) < pi
-        )
-    return isnan(before[branch]) and isnan(gap[branch])
+def _look(
+    passage: Passage, centres: FloatArray, words: int, t: float, step: float, look: FloatArray
+) -> float:
+    """Look at all branches of some words at one time.
+
+    Args:
+        passage: to the contact.
+        centres: of `_centres_of`.
+        words: as in `passing`.
+        t: when [R/V_P].
+        step: from one look to the next [R/V_P].
+        look: takes what is seen, as `paths_while_turning` keeps it. shape (SIZE + _PAIRS, 3)
+
+    Returns:
+        for how long from then on none of them arrives [R/V_P], if that is a step or more.
+    """
+    h, elapsed = passage.pose.h, t - passage.t_start
+    lh = leader_heading(passage, t)
+    s, c, course, sway = sin(lh), cos(lh), lh + passage.heading, abs(passage.turning) * step
+    free = inf
+    for pair in range(_PAIRS):
+        if not words & (1 << pair):
+            continue
+        ahead, left = centres[pair, 2], centres[pair, 3]
+        ex, ey = ahead * c - left * s, ahead * s + left * c
+        dx, dy = ex - centres[pair, 0], ey - centres[pair, 1]
+        look[SIZE + pair, 0] = passage.turning * (dy * ex - dx * ey)
+        gap, first = sqrt(dx * dx + dy * dy), SIGNS[pair, 0]
+        circles = _Circles(first, dx, dy, gap, centres[pair, 4], sway, course, h, elapsed, step)
+        if pair >= 2:
+            seen = _look_at_opposite(circles)
+            look[pair, 0], look[pair, 1], look[pair, 2] = seen.excess, seen.first, seen.last
+            free = min(free, seen.free)
+            continue
+        change = wrap(first * (course - h))
+        seen = _look_at_same(circles, change)
+        look[pair, 0], look[pair, 1], look[pair, 2] = seen.excess, seen.first, seen.last
+        free = min(free, seen.free)
+        for way in range(2):
+            seen, at = _look_at_middle(circles, change, way), 4 + 2 * pair + way
+            look[at, 0], look[at, 1], look[at, 2] = seen.excess, seen.first, seen.last
+            free = min(free, seen.free)
+    return free
+
+
+@njit(cache=True, nogil=True)
+def _look_at_same(circles: _Circles, change: float) -> _Length:
+    """Look at LSL or RSR; `change` is that of the heading, in [0, 2π).
+
+    The turns add up to that, or to a full turn more: so the length changes no faster than the
+    circles part and the heading changes, but for full turns.
+    """
+    gap, step = circles.gap, circles.step
+    late, fastest = gap + change - circles.elapsed, step + circles.swept + circles.sway
+    free = abs(wrap_signed(late)) / fastest
+    if late > 0.0:
+        free = max(free, min(late / fastest, (TWO_PI - change) / circles.sway))
+    if free > 1.0:
+        return _Length(inf, 0.0, 0.0, free * step)
+    bearing = atan2(circles.dy, circles.dx)
+    return _length_of(circles, circles.first, bearing, bearing, gap)
+
+
+@njit(cache=True, nogil=True)
+def _look_at_middle(circles: _Circles, change: float, way: int) -> _Length:
+    """Look at LRL or RLR, one way round the middle circle, 1 the longer; `change` as before.
+
+    The first and the last turn less the middle one add up to the change of heading, but for full
+    turns.
+    """
+    gap, swept, step = circles.gap, circles.swept, circles.step
+    if gap - swept > 4.0:
+        return _Length(inf, 0.0, 0.0, (gap - 4.0) / swept * step if swept > 0.0 else inf)
+    least = 2.0 * asin(0.25 * max(gap - swept, 0.0))
+    most = 2.0 * asin(0.25 * min(gap + swept, 4.0))
+    twice = least + most if way == 0 else -least - most
+    if abs(wrap_signed(change - circles.elapsed + twice)) > most - least + circles.sway + step:
+        return _Length(inf, 0.0, 0.0, step)
+    if gap > 4.0:
+        return _Length(np.nan, 0.0, 0.0, 0.0)
+    bearing, middle = atan2(circles.dy, circles.dx), 2.0 * asin(0.25 * gap)
+    half = 0.5 * circles.first * middle
+    if way == 1:
+        middle, half = TWO_PI - middle, circles.first * pi - half
+    return _length_of(circles, circles.first, bearing + half, bearing - half, middle)
+
+
+@njit(cache=True, nogil=True)
+def _look_at_opposite(circles: _Circles) -> _Length:
+    """Look at LSR or RSL.
+
+    One turn less the other is the change of heading, but for full turns.
+    """
+    gap, step, first = circles.gap, circles.step, circles.first
+    change, nearest = abs(wrap_signed(circles.course - circles.h)), gap - circles.swept
+    straight = sqrt(nearest * nearest - 4.0) if nearest > 2.0 else 0.0
+    if straight + max(change - circles.sway, 0.0) > circles.elapsed + step:
+        late = (gap - 2.0 + change - circles.elapsed) / (step + circles.swept + circles.sway)
+        return _Length(inf, 0.0, 0.0, step * max(late, 1.0))
+    if gap < 2.0:
+        return _Length(np.nan, 0.0, 0.0, 0.0)
+    bearing = atan2(circles.dy, circles.dx) + first * asin(2.0 / gap)
+    return _length_of(circles, -first, bearing, bearing, sqrt(gap * gap - 4.0))
+
+
+@njit(cache=True, nogil=True)
+def _length_of(
+    circles: _Circles, last: float, begun: float, ended: float, middle: float
+) -> _Length:
+    """A word whose middle piece begins and ends on these headings; `last` is ε of its last turn."""
+    first_turn = turn_to(circles.first * (begun - circles.h))
+    last_turn = turn_to(last * (circles.course - ended))
+    excess = first_turn + middle + last_turn - circles.elapsed
+    return _Length(excess, first_turn, last_turn, 0.0)
 
 
 @njit(cache=True, nogil=True)
 def _roots_between(
-    passage: Passage, branch: int, last_t: float, last: _Look, t: float, here: _Look,
-    rows: FloatArray, n: int,
+    passage: Passage, branch: int, before: _Seen, after: _Seen, rows: FloatArray, n: int,
+    piece: FloatArray,
 ) -> int:  # fmt: skip
-    """Append the rows of one branch that arrive between two looks."""
-    before, gap = last.excess[branch], here.excess[branch]
-    turns, others = last.turns[branch], here.turns[branch]
-    if _is_smooth(before, turns, gap, others):
-        return _append_root(passage, branch, last_t, before, t, gap, rows, n)
-    if not (abs(before) < _JUMP or abs(gap) < _JUMP):
+    """Append the rows of one branch that arrive between two looks; `piece` is room for one."""
+    if not (isnan(before.excess) and isnan(after.excess)):
+        return _append_roots(passage, branch, before, after, rows, n, piece)
+    between = _see(passage, branch, _time_of_extreme(passage, branch, before.t, after.t), piece)
+    if isnan(between.excess):
         return n
-    # a turn passes 0, or the word ceases to exist: there may be a root on either side
-    low, high, at_low, at_high = last_t, t, before, gap
-    piece, between = np.empty(3), np.empty(2)
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (low + high)
-        value = _excess(passage, branch, middle, piece)
-        between[0], between[1] = piece[0], piece[2]
-        if (isnan(value) and isnan(before)) or _is_smooth(before, turns, value, between):
-            low, at_low = middle, value
-        else:
-            high, at_high = middle, value
-    n = _append_root(passage, branch, last_t, before, low, at_low, rows, n)
-    return _append_root(passage, branch, high, at_high, t, gap, rows, n)
+    n = _append_roots(passage, branch, before, between, rows, n, piece)
+    return _append_roots(passage, branch, between, after, rows, n, piece)
 
 
 @njit(cache=True, nogil=True)
-def _is_smooth(value: float, turns: FloatArray, other: float, others: FloatArray) -> bool:
+def _time_of_extreme(passage: Passage, branch: int, begin: float, end: float) -> float:
+    """When the circles of a branch are farthest, or nearest for three turns, if in an interval."""
+    word, h = WORD_OF[branch], passage.pose.h
+    first, last = SIGNS[word, 0], SIGNS[word, 2]
+    dx, dy = passage.x + first * sin(h), passage.y - first * cos(h)
+    ahead = passage.ahead - last * sin(passage.heading)
+    left = passage.left + last * cos(passage.heading)
+    # the last one's centre is then on the line from the first one's to that of the leader's turn
+    to_turn = atan2(dy, dx) - atan2(left, ahead) - leader_heading(passage, begin)
+    to_turn += 0.0 if branch < 4 else pi
+    sense = 1.0 if passage.turning > 0.0 else -1.0
+    return float(min(begin + wrap(sense * to_turn) / abs(passage.turning), end))
+
+
+@njit(cache=True, nogil=True)
+def _append_roots(
+    passage: Passage, branch: int, before: _Seen, after: _Seen, rows: FloatArray, n: int,
+    piece: FloatArray,
+) -> int:  # fmt: skip
+    """Append the rows of one branch that arrive between two times at one of which it exists."""
+    if _is_smooth(before, after):
+        return _append_root(passage, branch, before, after, rows, n, piece)
+    if not (abs(before.excess) < _JUMP or abs(after.excess) < _JUMP):
+        return n
+    # a turn passes 0, or the word ceases to exist: there may be a root on either side
+    low, high = before, after
+    for _ in range(_HALVINGS):
+        middle = _see(passage, branch, 0.5 * (low.t + high.t), piece)
+        if (isnan(middle.excess) and isnan(before.excess)) or _is_smooth(before, middle):
+            low = middle
+        else:
+            high = middle
+    n = _append_root(passage, branch, before, low, rows, n, piece)
+    return _append_root(passage, branch, high, after, rows, n, piece)
+
+
+@njit(cache=True, nogil=True)
+def _see(passage: Passage, branch: int, t: float, piece: FloatArray) -> _Seen:
+    """Look at one branch at one time."""
+    value = excess(passage, branch, t, piece)
+    return _Seen(t, value, piece[0], piece[2])
+
+
+@njit(cache=True, nogil=True)
+def _is_smooth(before: _Seen, after: _Seen) -> bool:
     """Whether a word's length goes on smoothly: it exists at both times, and no turn jumps."""
     return bool(
-        not isnan(value)
-        and not isnan(other)
-        and abs(turns[0] - others[0]) < pi
-        and abs(turns[1] - others[1]) < pi
+        not isnan(before.excess)
+        and not isnan(after.excess)
+        and abs(before.first - after.first) < pi
+        and abs(before.last - after.last) < pi
     )
 
 
 @njit(cache=True, nogil=True)
 def _append_root(
-    passage: Passage, branch: int, low: float, at_low: float, high: float, at_high: float,
-    rows: FloatArray, n: int,
+    passage: Passage, branch: int, before: _Seen, after: _Seen, rows: FloatArray, n: int,
+    piece: FloatArray,
 ) -> int:  # fmt: skip
     """Append the row of a word that arrives between two times, if there is one."""
-    if not at_low * at_high <= 0.0 or n == MAX_ROWS:
+    if not before.excess * after.excess <= 0.0 or n == MAX_ROWS:
         return n
-    piece, rising = np.empty(3), 1.0 if at_low < at_high else -1.0
-    times = Bracket(low, high, rising * at_low, rising * at_high, 0)
-    at, value = (low, at_low) if abs(at_low) < abs(at_high) else (high, at_high)
+    rising = 1.0 if before.excess < after.excess else -1.0
+    times = Bracket(before.t, after.t, rising * before.excess, rising * after.excess, 0)
+    nearer = before if abs(before.excess) < abs(after.excess) else after
+    at, value = nearer.t, nearer.excess
     for k in range(_MOST_STEPS):
         if abs(value) < _EXACT or times.high - times.low < _EXACT:
             break
         # every fourth step halves: a jump is then found out soon, too
         at = 0.5 * (times.low + times.high) if k % 4 == 3 else secant(times)
-        value = _excess(passage, branch, at, piece)
+        value = excess(passage, branch, at, piece)
         times = tightened(times, at, rising * value)
-    value = _excess(passage, branch, at, piece)
+    value = excess(passage, branch, at, piece)
     if not abs(value) < _MET:
         return n
     rows[n, 0] = at
     rows[n, 1] = WORD_OF[branch]
     rows[n, 2:5] = piece
     return n + 1
-
-
-@njit(cache=True, nogil=True)
-def _excess(passage: Passage, branch: int, t: float, piece: FloatArray) -> float:
-    """Length of a word to where the contact is at t, less the time for it; NaN if out of reach."""
-    length = word_from(_seen_from(passage, t), 0.0, branch, piece)
-    return length - (t - passage.t_start) if length >= 0.0 else np.nan

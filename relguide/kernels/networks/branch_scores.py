@@ -6,13 +6,13 @@ trained. Left and right are exchanged before and after if the situation is on th
 route, so mirror images get mirrored answers, to the last bit.
 """
 
-from math import exp
+from math import exp, inf
 from typing import Any, NamedTuple
 
 import numpy as np
 from numba import njit
 
-from relguide.kernels.base.records import Pose, Velocity
+from relguide.kernels.base.records import Pose, Velocity, Window
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.networks.margins import INPUTS, inputs
 from relguide.kernels.networks.network_view import mirror_to_left
@@ -152,7 +152,7 @@ def decode(
         # both branches of a word come from one solution of it
         if share[s] >= least_share and WORD_OF[s] != before:
             before = WORD_OF[s]
-            n = solve_word(pose, Velocity(alpha, 0.0), 0.0, before, found, rows, n)
+            n = solve_word(pose, Velocity(alpha, 0.0), Window(0.0, inf), before, found, rows, n)
     return held, n
 
 

@@ -22,7 +22,7 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import wrap
-from relguide.kernels.base.records import Disc, Pose, Scene, Velocity
+from relguide.kernels.base.records import Disc, Pose, Scene, Velocity, Window
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.contact import contact_heading
 from relguide.kernels.contact.touch_points import mirror_disc, next_contact, slide_between
@@ -104,7 +104,7 @@ def from_leader(pose: Pose, scene: Scene) -> Pose:
 def _soonest_row(pose: Pose, target: Velocity, branch: int, room: Room) -> int:
     """The soonest path of a branch to a moving target, as its row number; −1 if there is none."""
     word = branch if branch < 4 else 2 + branch // 2
-    n = solve_word(pose, target, 0.0, word, room.found, room.rows, 0)
+    n = solve_word(pose, target, Window(0.0, inf), word, room.found, room.rows, 0)
     for i in range(n):
         if branch < 4 or (room.rows[i, 3] > pi) == (branch % 2 == 1):
             return i

@@ -7,10 +7,11 @@ above π alike, and d points along the mean heading of the middle arc. The turns
 
     |a (2m + w) + (0, 1) − c₁|² = 8 (1 − cos m).
 
-Its second derivative 8(α² − cos m) has its zeros at cos m = α²: those are the cuts.
+Its second derivative 8(α² − cos m) has its zeros at cos m = α²: those are the cuts. As |d| ≤ 4, and
+as τ grows with m, roots are sought only where the centres are that near, and in time.
 """
 
-from math import acos, atan2, cos, sin
+from math import acos, atan2, cos, inf, sin, sqrt
 
 import numpy as np
 from numba import njit
@@ -19,9 +20,11 @@ from relguide.kernels.base.angles import TWO_PI, turn_to
 from relguide.kernels.base.records import Pose, Velocity
 from relguide.kernels.base.roots import MAX_CUTS, FloatArray, all_roots, insert_cut
 
+_ROUNDING = 1e-6  # windows are wider by this [R/V_P]
+
 
 @njit(cache=True, nogil=True)
-def lrl(pose: Pose, target: Velocity, out: FloatArray, n: int) -> int:
+def lrl(pose: Pose, target: Velocity, beat: float, out: FloatArray, n: int) -> int:
     """All LRL paths; rows (τ, first, middle, last turn). Otherwise as `csc.lsl`."""
     (x, y, h), (ax, ay) = pose, target
     ex, ey = -(x - sin(h)), 1.0 - (y + cos(h))
@@ -30,6 +33,15 @@ def lrl(pose: Pose, target: Velocity, out: FloatArray, n: int) -> int:
     # the target never comes within reach of the middle circle
     if ex * ex + ey * ey - closing * closing / max(alpha_squared, 1e-12) > 16.0 + 1e-9:
         return n
+    t_from, t_to = -inf, inf
+    if beat < inf:
+        # the centres come within reach of the middle circle, and part again
+        near = alpha_squared * (16.0 - ex * ex - ey * ey) + closing * closing
+        half, scale = sqrt(max(near, 0.0)) + _ROUNDING, max(alpha_squared, 1e-12)
+        t_from = (-closing - half) / scale - _ROUNDING
+        t_to = min((half - closing) / scale, beat) + _ROUNDING
+        if t_from > t_to or t_to < 0.0:
+            return n
     k = np.empty(6)
     cuts = np.empty(MAX_CUTS)
     roots = np.empty(2 * MAX_CUTS)
@@ -39,8 +51,8 @@ def lrl(pose: Pose, target: Velocity, out: FloatArray, n: int) -> int:
     k[5] = 8.0
     for loops in range(3):
         around = TWO_PI * loops - h
-        low = 0.0 if loops > 0 else h
-        high = h if loops == 2 else TWO_PI
+        low = max(0.0 if loops > 0 else h, 0.5 * (t_from - around))
+        high = min(h if loops == 2 else TWO_PI, 0.5 * (t_to - around))
         if high - low < 1e-12:
             continue
         k[1] = 4.0 * (alpha_squared * around + closing)

@@ -22,9 +22,12 @@ Eliminating l and τ leaves one equation in the form of `roots`:
 
 Its slope over cos u is Δ tan u + 2αu + const, monotone between the poles of tan and the points with
 cos²u = −Δ/2α: those are the cuts.
+
+Where a time to beat is known roots are sought only for courses with A before it; and not at all if
+even with the least of turns A₀, the change of heading, (τ − A₀)² < |d|² − 4 from A₀ to then.
 """
 
-from math import acos, atan2, cos, hypot, pi, sin, sqrt
+from math import acos, atan2, cos, hypot, inf, pi, sin, sqrt
 
 import numpy as np
 from numba import njit
@@ -33,14 +36,17 @@ from relguide.kernels.base.angles import TWO_PI, turn_to, wrap
 from relguide.kernels.base.records import Pose, Velocity
 from relguide.kernels.base.roots import MAX_CUTS, FloatArray, all_roots, insert_cut
 
+_ROUNDING = 1e-6  # windows are wider by this [R/V_P]
+
 
 @njit(cache=True, nogil=True)
-def lsl(pose: Pose, target: Velocity, out: FloatArray, n: int) -> int:
-    """All LSL paths to the target.
+def lsl(pose: Pose, target: Velocity, beat: float, out: FloatArray, n: int) -> int:
+    """All LSL paths to the target that arrive before a time.
 
     Args:
         pose: the start; its heading in [0, 2π).
         target: how the target moves.
+        beat: paths that arrive later may be left out [R/V_P].
         out: rows (τ, first turn, straight, last turn) from row n on. shape (·, ≥ 4)
         n: rows filled so far.
 
@@ -72,7 +78,7 @@ def lsl(pose: Pose, target: Velocity, out: FloatArray, n: int) -> int:
                 straight = 0.0
             else:
                 straight = -gap / q
-            if straight < 0.0:
+            if straight < 0.0 or turned + straight > beat + _ROUNDING:
                 continue
             course = atan2(ay * straight + ey, ax * straight + ex)
             first, last = turn_to(course - h), turn_to(-course)
@@ -88,11 +94,13 @@ def lsl(pose: Pose, target: Velocity, out: FloatArray, n: int) -> int:
 
 
 @njit(cache=True, nogil=True)
-def lsr(pose: Pose, target: Velocity, out: FloatArray, n: int) -> int:
+def lsr(pose: Pose, target: Velocity, beat: float, out: FloatArray, n: int) -> int:
     """All LSR paths to the target. Arguments and result as `lsl`."""
     (x, y, h), (ax, ay) = pose, target
-    alpha, kappa = hypot(ax, ay), atan2(ay, ax)
     east, north = -(x - sin(h)), -1.0 - (y + cos(h))
+    if beat < inf and not _may_be_before(east, north, h, target, beat + _ROUNDING):
+        return n
+    alpha, kappa = hypot(ax, ay), atan2(ay, ax)
     c = -(east * cos(kappa) + north * sin(kappa))
     delta = north * cos(kappa) - east * sin(kappa)
     k = np.empty(6)
@@ -107,6 +115,7 @@ def lsr(pose: Pose, target: Velocity, out: FloatArray, n: int) -> int:
     for piece in range(2):
         # below h the first turn goes once more round
         low, high, around = (0.0, h, TWO_PI - h) if piece == 0 else (h, TWO_PI, -h)
+        high = min(high, 0.5 * (beat + _ROUNDING - around))
         if high - low < 1e-12:
             continue
         k[4] = alpha * (around + 2.0 * kappa) - c
@@ -137,3 +146,26 @@ def lsr(pose: Pose, target: Velocity, out: FloatArray, n: int) -> int:
             out[n, 3] = max(course, 0.0)
             n += 1
     return n
+
+
+@njit(cache=True, nogil=True)
+def _may_be_before(east: float, north: float, h: float, target: Velocity, beat: float) -> bool:
+    """Whether an LSR path may arrive by a time.
+
+    Args:
+        east: dₓ at τ = 0 [R].
+        north: dᵧ at τ = 0 [R].
+        h: heading of the start, in [0, 2π) [rad].
+        target: how the target moves.
+        beat: the time [R/V_P].
+    """
+    turned = min(h, TWO_PI - h)
+    if beat < turned:
+        return False
+    ax, ay = target
+    if ax * ax + ay * ay >= 1.0:
+        return True
+    # (τ − A₀)² + 4 − |d|² bends upward: below zero at both ends, it is so between them
+    at_first = 4.0 - (ax * turned + east) ** 2 - (ay * turned + north) ** 2
+    at_last = (beat - turned) ** 2 + 4.0 - (ax * beat + east) ** 2 - (ay * beat + north) ** 2
+    return at_first >= -_ROUNDING or at_last >= -_ROUNDING

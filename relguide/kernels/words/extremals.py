@@ -10,13 +10,15 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import mirror_heading
-from relguide.kernels.base.records import Pose, Velocity
+from relguide.kernels.base.records import Pose, Velocity, Window
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.words.ccc import lrl
 from relguide.kernels.words.csc import lsl, lsr
 
 WORDS = ("LSL", "RSR", "LSR", "RSL", "LRL", "RLR")
 """The words by their number in `solve`."""
+ALL_WORDS = 63
+"""All six, as a sum of 2 to the power of their numbers."""
 SIGNS = np.array([[1.0, 0.0, 1.0], [-1.0, 0.0, -1.0], [1.0, 0.0, -1.0], [-1.0, 0.0, 1.0],
                   [1.0, -1.0, 1.0], [-1.0, 1.0, -1.0]])  # fmt: skip
 """ε of each piece of each word: +1 left, −1 right, 0 straight. shape (6, 3)"""
@@ -81,16 +83,33 @@ def solve_and_measure(
 @njit(cache=True, nogil=True)
 def solve_toward(pose: Pose, target: Velocity, t_release: float, rows: FloatArray) -> int:
     """As `solve`, for a target with any velocity, met on heading 0."""
-    found = np.empty((MAX_ROWS, 4))
-    n = 0
+    return solve_words(pose, target, ALL_WORDS, Window(t_release, inf), rows)
+
+
+@njit(cache=True, nogil=True)
+def solve_words(pose: Pose, target: Velocity, words: int, window: Window, rows: FloatArray) -> int:
+    """As `solve_toward`, of some words.
+
+    Args:
+        pose: as in `solve`.
+        target: how it moves.
+        words: which, as a sum of 2 to the power of their numbers.
+        window: when they arrive; some that arrive later may be there, too.
+        rows: as in `solve`.
+
+    Returns:
+        how many rows.
+    """
+    found, n = np.empty((MAX_ROWS, 4)), 0
     for word in range(6):
-        n = solve_word(pose, target, t_release, word, found, rows, n)
+        if words & (1 << word):
+            n = solve_word(pose, target, window, word, found, rows, n)
     return n
 
 
 @njit(cache=True, nogil=True)
 def solve_word(
-    pose: Pose, target: Velocity, t_release: float, word: int, found: FloatArray,
+    pose: Pose, target: Velocity, window: Window, word: int, found: FloatArray,
     rows: FloatArray, n: int,
 ) -> int:  # fmt: skip
     """All extremals of one word, put among others by time.
@@ -98,7 +117,7 @@ def solve_word(
     Args:
         pose: as in `solve`.
         target: as in `solve_toward`.
-        t_release: earliest arrival [R/V_P].
+        window: as in `solve_words`.
         word: its number.
         found: room to work in. shape (MAX_ROWS, 4)
         rows: contains n rows already, in order of time.
@@ -113,14 +132,14 @@ def solve_word(
         start = Pose(pose.x, -pose.y, mirror_heading(pose.h))
         toward = Velocity(target.ahead, -target.left)
     if word < 2:
-        end = lsl(start, toward, found, 0)
+        end = lsl(start, toward, window.beat, found, 0)
     elif word < 4:
-        end = lsr(start, toward, found, 0)
+        end = lsr(start, toward, window.beat, found, 0)
     else:
-        end = lrl(start, toward, found, 0)
+        end = lrl(start, toward, window.beat, found, 0)
     for i in range(end):
         time = found[i, 0]
-        if time < t_release - 1e-9 or not closes(pose, target, word, found[i]):
+        if time < window.earliest - 1e-9 or not closes(pose, target, word, found[i]):
             continue
         at = n
         while at > 0 and rows[at - 1, 0] > time:

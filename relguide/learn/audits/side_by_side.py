@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from relguide.kernels.base.angles import wrap_each
-from relguide.kernels.base.records import Pose, Velocity
+from relguide.kernels.base.records import Pose, Velocity, Window
 from relguide.kernels.networks.branch_scores import choose, judge_branches
 from relguide.kernels.words.branches import BRANCHES, SIZE, WORD_OF
 from relguide.kernels.words.extremals import MAX_ROWS, WORDS, solve_word
@@ -184,7 +184,9 @@ def side_by_side(
             pairs = give(*(np.array([value]) for value in (x, y, h)))  # noqa: B023
             room, n = np.empty((MAX_ROWS, 4)), 0
             for word in words_like(clear_pieces(pairs, ground.parameters)[0]):
-                n = solve_word(Pose(x, y, h), Velocity(alpha, 0.0), 0.0, word, room, rows, n)
+                n = solve_word(
+                    Pose(x, y, h), Velocity(alpha, 0.0), Window(0.0, inf), word, room, rows, n
+                )
             return n
 
         x, y, h, _ = ground.situations.T

@@ -17,12 +17,13 @@ tree only says which word to solve.
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from math import inf
 from time import perf_counter_ns
 
 import numpy as np
 
 from relguide.kernels.base.angles import wrap
-from relguide.kernels.base.records import Pose, Velocity
+from relguide.kernels.base.records import Pose, Velocity, Window
 from relguide.kernels.words.branches import direct_time
 from relguide.kernels.words.extremals import MAX_ROWS, WORDS, fly_piece, solve_word
 from relguide.learn.tree.nearest import Lookup, lookup_in, neighbours
@@ -130,7 +131,7 @@ def _close(
     seen = Pose(x - frame.alpha * spent, y, wrap(h))
     rows, room, n = np.empty((MAX_ROWS, 5)), np.empty((MAX_ROWS, 4)), 0
     for word in words_like(rest):
-        n = solve_word(seen, Velocity(frame.alpha, 0.0), 0.0, word, room, rows, n)
+        n = solve_word(seen, Velocity(frame.alpha, 0.0), Window(0.0, inf), word, room, rows, n)
     if n == 0:
         return None
     time, word, *amounts = rows[0].tolist()

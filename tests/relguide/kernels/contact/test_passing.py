@@ -8,10 +8,10 @@ import pytest
 from relguide.kernels.base.records import Contact, Pose, Scene
 from relguide.kernels.contact.clear_words import to_slot_frame, word_clears
 from relguide.kernels.contact.contact import contact_at
-from relguide.kernels.contact.passing import ALL_WORDS, words_onward, words_toward
+from relguide.kernels.contact.passing import words_onward, words_toward
 from relguide.kernels.contact.paths_to_contact import paths_to_contact
 from relguide.kernels.separation.clearance import leader_at
-from relguide.kernels.words.extremals import MAX_ROWS, solve
+from relguide.kernels.words.extremals import ALL_WORDS, MAX_ROWS, solve
 
 LASTS = 0.01
 """A turn shorter than this may be flown within the rounding that contacts have [rad]."""

@@ -1,6 +1,6 @@
 """Margins are none on the surfaces that they tell of, and nowhere a trap."""
 
-from math import cos, pi, sin, sqrt
+from math import cos, inf, pi, sin, sqrt
 
 import numpy as np
 import pytest
@@ -77,7 +77,9 @@ def test_where_roots_of_three_turns_begin_in_pairs_a_margin_is_none() -> None:
         x, y = cx + sin(h), cy - cos(h)
         at_begin = margins_of(x, y, h, alpha)[FEATURES : FEATURES + SIDE]
         assert min(abs(at_begin[at]) for at in BOTH_BEGIN) < 1e-9
-        either = [lrl(Pose(x + by, y, h), Velocity(alpha, 0.0), rows, 0) for by in (-1e-5, 1e-5)]
+        either = [
+            lrl(Pose(x + by, y, h), Velocity(alpha, 0.0), inf, rows, 0) for by in (-1e-5, 1e-5)
+        ]
         # the turns do not add up for each pair; those that do come and go by twos
         found += abs(either[0] - either[1]) == 2
     assert found > DRAWN

@@ -7,8 +7,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from relguide.kernels.base.records import Pose, Velocity
-from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, WORDS, fly_piece, solve, solve_toward
+from relguide.kernels.base.records import Pose, Velocity, Window
+from relguide.kernels.words.extremals import (
+    ALL_WORDS,
+    MAX_ROWS,
+    SIGNS,
+    WORDS,
+    fly_piece,
+    solve,
+    solve_toward,
+    solve_words,
+)
 from tests.situations import numbers
 
 arcs = st.one_of(numbers(0.0, 2.0 * pi - 1e-6), st.sampled_from([0.0, 1e-7, pi, 2.0 * pi - 1e-5]))
@@ -73,6 +82,26 @@ def test_a_target_that_moves_across_its_final_heading_is_met_too(
     rows = rows[: solve_toward(Pose(x + ax * time, y + ay * time, h), Velocity(ax, ay), 0.0, rows)]
     nearest = np.abs(rows[:, 0] - time).min() if len(rows) else np.inf
     assert nearest < 1e-5 * max(1.0, time), (WORDS[word], rows)
+
+
+@given(
+    x=numbers(-4.0, 4.0), y=numbers(-4.0, 4.0), h=numbers(0.0, 6.28), alpha=numbers(0.0, 1.3),
+    kappa=numbers(-pi, pi), words=st.sampled_from([ALL_WORDS, 12, 50, 5, 0]),
+    which=st.integers(0, MAX_ROWS - 1), off=st.sampled_from([-1e-3, 1e-9, 1e-3, 2.0]),
+)  # fmt: skip
+def test_of_some_words_all_that_arrive_before_a_time_are_found(
+    x: float, y: float, h: float, alpha: float, kappa: float, words: int, which: int, off: float
+) -> None:
+    pose, target = Pose(x, y, h), Velocity(alpha * cos(kappa), alpha * sin(kappa))
+    rows, some = np.empty((MAX_ROWS, 5)), np.empty((MAX_ROWS, 5))
+    rows = rows[: solve_toward(pose, target, 0.0, rows)]
+    beat = off + (rows[which % len(rows), 0] if len(rows) else 3.0)
+    some = some[: solve_words(pose, target, words, Window(0.0, beat), some)]
+    wanted = [row for row in rows.tolist() if row[0] < beat and words & 1 << int(row[1])]
+    found = [row for row in some.tolist() if row[0] < beat]
+    assert [row[1] for row in found] == [row[1] for row in wanted]
+    assert np.allclose(found, wanted, atol=1e-6)
+    assert {int(row[1]) for row in some} <= {word for word in range(6) if words & 1 << word}
 
 
 @given(

@@ -1,0 +1,124 @@
+"""A contact with d = d_min on a turn of the leader's: it moves on a circle.
+
+So does the centre of the circle on which a word comes in to it, round the same point and as fast.
+
+Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
+"""
+
+from math import cos, hypot, inf, sin
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from relguide.kernels.base.records import Contact, Pose, Scene, Start
+from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.contact.contact import contact_distance, contact_heading
+from relguide.kernels.words.to_point import word_from
+
+_CLOSER = 8  # steps toward the first time at which a contact is in reach
+
+
+class Passage(NamedTuple):
+    """From a start to one contact on a turn of the leader's, and the circle that this moves on.
+
+    Numbers only: who counts references to arrays here takes a third of the time.
+    """
+
+    pose: Pose
+    """The start."""
+    t_start: float
+    """When [R/V_P]."""
+    until: float
+    """When the search must have ended, as in `Scene` [s]."""
+    begin: float
+    """When it can be there first, as far as the leader goes [R/V_P] …"""
+    end: float
+    """… and last."""
+    turning: float
+    """The leader's turn rate ω [V_P/R]."""
+    leader_h: float
+    """Its heading at the start, as if it turned already [rad]."""
+    x: float
+    """The centre of the leader's turn, seen from the start's place, but not turned [R]."""
+    y: float
+    ahead: float
+    """From there to the contact while the leader heads 0 [R] …"""
+    left: float
+    """… and to the left."""
+    heading: float
+    """On which it is met, relative to the leader's [rad]."""
+
+
+@njit(cache=True, nogil=True)
+def passage_to(pose: Pose, t: float, scene: Scene, contact: Contact) -> Passage:
+    """From a pose at time t to a contact on a piece on which the leader turns."""
+    begin, x, y, h, turning = scene.leader[contact.piece]
+    distance, radius = contact_distance(scene.d_min), scene.alpha / turning
+    return Passage(
+        pose, t, scene.until, max(begin, t), scene.leader[contact.piece + 1, 0], turning,
+        h + turning * (t - begin),
+        x - radius * sin(h) - pose.x, y + radius * cos(h) - pose.y,
+        distance * cos(contact.bearing), distance * sin(contact.bearing) - radius,
+        contact_heading(contact.bearing, contact.side, scene.alpha),
+    )  # fmt: skip
+
+
+@njit(cache=True, nogil=True)
+def leader_heading(passage: Passage, t: float) -> float:
+    """On which heading the leader is at t [rad]."""
+    return float(passage.leader_h + passage.turning * (t - passage.t_start))
+
+
+@njit(cache=True, nogil=True)
+def _seen_from(passage: Passage, t: float) -> Start:
+    """The start as seen from where the contact is at t."""
+    lh = leader_heading(passage, t)
+    s, c = sin(lh), cos(lh)
+    dx = -passage.x - passage.ahead * c + passage.left * s
+    dy = -passage.y - passage.ahead * s - passage.left * c
+    course = lh + passage.heading
+    s, c = sin(course), cos(course)
+    h = passage.pose.h - course
+    return Start(dx * c + dy * s, dy * c - dx * s, h, sin(h), cos(h))
+
+
+@njit(cache=True, nogil=True)
+def distance_at(passage: Passage, t: float) -> float:
+    """How far the contact is from the start at t [R]."""
+    lh = leader_heading(passage, t)
+    s, c = sin(lh), cos(lh)
+    return hypot(
+        passage.x + passage.ahead * c - passage.left * s,
+        passage.y + passage.ahead * s + passage.left * c,
+    )
+
+
+@njit(cache=True, nogil=True)
+def speed_of(passage: Passage) -> float:
+    """How fast the contact moves [V_P]."""
+    return abs(passage.turning) * hypot(passage.ahead, passage.left)
+
+
+@njit(cache=True, nogil=True)
+def earliest_while_turning(passage: Passage) -> float:
+    """No path reaches the contact before this time [R/V_P]; infinite if none does on this turn.
+
+    The pursuer and the contact close in no faster than at the sum of their speeds.
+    """
+    at, closing = passage.begin, 1.0 + speed_of(passage)
+    for _ in range(_CLOSER):
+        lack = distance_at(passage, at) - (at - passage.t_start)
+        if lack <= 0.0:
+            break
+        at += lack / closing
+        if at > passage.end:
+            return inf
+    return float(at)
+
+
+@njit(cache=True, nogil=True)
+def excess(passage: Passage, branch: int, t: float, piece: FloatArray) -> float:
+    """Length of a word to where the contact is at t, less the time for it; NaN if out of reach."""
+    length = word_from(_seen_from(passage, t), 0.0, branch, piece)
+    return length - (t - passage.t_start) if length >= 0.0 else np.nan
