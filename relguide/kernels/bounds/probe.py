@@ -15,8 +15,9 @@ from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.records import Contact, Pose, Scene, with_time
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.cells import Cell
+from relguide.kernels.contact.best_chain import refine_chains
 from relguide.kernels.contact.chain import BOUNDARY_ARC, MAX_CONTACTS, MAX_LEGS, WORD, chain_of
-from relguide.kernels.contact.chain_refinement import fly_links, refine_chains
+from relguide.kernels.contact.chain_refinement import fly_links
 from relguide.kernels.contact.constrained_search import ease_to_start, fly_to_delay
 from relguide.kernels.contact.contact import boundary_arc_sense, disc_on
 from relguide.kernels.contact.one_contact import Workspace, descend, through_contact, workspace
@@ -132,7 +133,7 @@ def _probe_chain(start: Pose, find: Find, contacts: FloatArray, stride: float) -
     chain = chain_of(contacts, np.zeros((MAX_LEGS, 6)))
     _, arrival = fly_links(start, 0.0, find.scene, chain, 0, 2, beat)
     if arrival < beat:
-        time, count = refine_chains(start, find.scene, chains, stride, beat, find.legs)
+        time, count = refine_chains(start, find.scene, chains, stride, False, beat, find.legs)
         if count > 0:
             find.best[0], find.best[1] = time, count
 

@@ -14,15 +14,13 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.clock import time_is_up
-from relguide.kernels.base.records import Contact, Pose, Scene, with_time
+from relguide.kernels.base.records import Contact, Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.boundary_arc import boundary_arc_arrival
 from relguide.kernels.contact.chain import (
     BOUNDARY_ARC,
-    MAX_LEGS,
     WORD,
     Chain,
-    chain_of,
     earliest_contact,
     with_contacts,
 )
@@ -35,7 +33,6 @@ FINEST = 1e-7
 """Bearing steps end here: 1 mm at R = 12 km, 10 µs where the time has an edge."""
 GAIN = 1e-8
 """Or where a parabola promises less than this [R/V_P]: 1 µs."""
-_AT_EDGE = 0.02  # chains this near to the best are followed along edges [R/V_P]
 _SWEEPS = 16  # over all bearings of a chain
 _NEAR = 0.3  # values farther above the least say nothing about a minimum [R/V_P]
 _BESIDE = 5e-3  # an edge is looked for this near to a contact [rad] …
@@ -44,7 +41,7 @@ _NARROW = 1e-3  # it is followed in steps down to this [rad]
 _ACROSS = 3  # places looked at on either side of a valley
 
 
-class _Move(NamedTuple):
+class Move(NamedTuple):
     """Which bearing of a chain is moved, and how."""
 
     k: int
@@ -55,56 +52,6 @@ class _Move(NamedTuple):
     """First step [rad]."""
     finest: float
     """Least step [rad]."""
-
-
-@njit(cache=True, nogil=True)
-def refine_chains(
-    start: Pose, scene: Scene, chains: FloatArray, stride: float, best: float, legs: FloatArray
-) -> tuple[float, int]:
-    """Refine the best chains of a graph.
-
-    Args:
-        start: where the path begins, at t = 0.
-        scene: what it has to reckon with.
-        chains: of `contact_graph.best_chains`; their bearings are moved. shape (·, ·, 4)
-        stride: how far is looked at first [rad].
-        best: an arrival already known [R/V_P].
-        legs: takes those of the best chain. shape (MAX_LEGS, 6)
-
-    Returns:
-        the least arrival [R/V_P] and the number of its legs; `best` and 0 if none is earlier.
-    """
-    tried, given = np.zeros((MAX_LEGS, 6)), best
-    won = -1
-    for k in range(len(chains)):
-        if k > 0 and time_is_up(scene.until):
-            break
-        contacts = int(chains[k, 0, 1])
-        chain = chain_of(chains[k, 1 : contacts + 1], tried)
-        # while the leader turns the graph may know of a later path to a contact than the earliest
-        _, here = fly_links(start, 0.0, with_time(scene, inf), chain, 0, contacts, inf)
-        if here == inf:
-            continue
-        here = refine_chain(start, scene, chain, here, stride, best)
-        if here < best + _AT_EDGE:
-            along = follow_edges(start, scene, chain, here, stride)
-            if along < here - GAIN:
-                here = refine_chain(start, scene, chain, along, 0.1 * stride, best)
-        if here < best - GAIN:
-            best, won = here, k
-    if won < 0:
-        return best, 0
-    contacts = int(chains[won, 0, 1])
-    chain = chain_of(chains[won, 1 : contacts + 1], tried)
-    if contacts > 2:
-        best, contacts = simplify_chain(start, scene, chain, best, stride)
-    shortest = with_contacts(chain, chain.contacts[:contacts])
-    # what was found is put down, whatever the time
-    _, time = fly_links(start, 0.0, with_time(scene, inf), shortest, 0, contacts, inf)
-    if time >= given:
-        return given, 0
-    legs[: contacts + 1] = tried[: contacts + 1]
-    return time, contacts + 1
 
 
 @njit(cache=True, nogil=True)
@@ -182,8 +129,8 @@ def refine_chain(
         before = here
         for k in range(len(contacts)):
             at, t = fly_links(start, 0.0, scene, chain, 0, k - 1, inf)
-            move = _Move(k, _last_link_to_fly(scene, t, contacts, k, 1), strides[k], finest)
-            here, strides[k] = _move_bearing(at, t, scene, chain, move, here)
+            move = Move(k, _last_link_to_fly(scene, t, contacts, k, 1), strides[k], finest)
+            here, strides[k] = move_bearing(at, t, scene, chain, move, here)
         gain = before - here
         if here - 2.0 * gain > beat or (gain < GAIN and finest == FINEST):
             break
@@ -206,14 +153,14 @@ def follow_edges(start: Pose, scene: Scene, chain: Chain, here: float, stride: f
         at, t = fly_links(start, 0.0, scene, chain, 0, k - 1, inf)
         last = _last_link_to_fly(scene, t, contacts, k, 2)
         _, begun = fly_links(at, t, scene, chain, k, last, inf)
-        if _has_edge(at, t, scene, chain, _Move(k, last, _BESIDE, _BESIDE), begun):
-            move = _Move(k, last, stride, _NARROW)
+        if _has_edge(at, t, scene, chain, Move(k, last, _BESIDE, _BESIDE), begun):
+            move = Move(k, last, stride, _NARROW)
             here -= begun - _follow_edge(at, t, scene, chain, move, begun)
     return here
 
 
 @njit(cache=True, nogil=True)
-def _has_edge(at: Pose, t: float, scene: Scene, chain: Chain, move: _Move, begun: float) -> bool:
+def _has_edge(at: Pose, t: float, scene: Scene, chain: Chain, move: Move, begun: float) -> bool:
     """Whether the arrival has an edge close to the contact after one that would be moved."""
     tried = with_contacts(chain, chain.contacts.copy())
     after = move.k + 1
@@ -226,9 +173,7 @@ def _has_edge(at: Pose, t: float, scene: Scene, chain: Chain, move: _Move, begun
 
 
 @njit(cache=True, nogil=True)
-def _follow_edge(
-    at: Pose, t: float, scene: Scene, chain: Chain, move: _Move, least: float
-) -> float:
+def _follow_edge(at: Pose, t: float, scene: Scene, chain: Chain, move: Move, least: float) -> float:
     """Move a bearing and the next one together while the end of the last link falls; its least."""
     tried = with_contacts(chain, np.empty_like(chain.contacts))
     after, step = move.k + 1, move.stride
@@ -248,8 +193,8 @@ def _follow_edge(
                 continue
             tried.contacts[after, 2] = to
             between, then = fly_links(at, t, scene, tried, move.k, move.k, inf)
-            fine = _Move(after, move.last, 0.25 * step, 1e-3 * step)
-            found, _ = _move_bearing(between, then, scene, tried, fine, found)
+            fine = Move(after, move.last, 0.25 * step, 1e-3 * step)
+            found, _ = move_bearing(between, then, scene, tried, fine, found)
             if found < least - GAIN:
                 least, moved = found, True
                 chain.contacts[:] = tried.contacts
@@ -302,8 +247,8 @@ def simplify_chain(
 
 
 @njit(cache=True, nogil=True)
-def _move_bearing(
-    at: Pose, t: float, scene: Scene, chain: Chain, move: _Move, arrival: float
+def move_bearing(
+    at: Pose, t: float, scene: Scene, chain: Chain, move: Move, arrival: float
 ) -> tuple[float, float]:
     """Move one bearing to where the arrival is least: by parabolas, or by smaller steps at edges.
 

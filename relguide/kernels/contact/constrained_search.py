@@ -18,6 +18,7 @@ from relguide.kernels.base.angles import TWO_PI
 from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.records import Contact, Pose, Scene, with_limit, with_time
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.contact.best_chain import refine_chains
 from relguide.kernels.contact.chain import (
     BOUNDARY_ARC,
     DELAY,
@@ -27,7 +28,7 @@ from relguide.kernels.contact.chain import (
     Chain,
     chain_of,
 )
-from relguide.kernels.contact.chain_refinement import fly_links, refine_chains
+from relguide.kernels.contact.chain_refinement import fly_links
 from relguide.kernels.contact.clear_words import word_clears
 from relguide.kernels.contact.contact import contact_at, contact_exists
 from relguide.kernels.contact.contact_graph import Effort, best_chains
@@ -42,6 +43,7 @@ _AT_LIMIT = 1.02  # a slot less far out, in d_min, is reached by boundary arcs o
 _CHAINS = 4  # of the graph, refined
 _BESIDE = 0.1  # contacts this close lead to the same places: 6° [rad]
 _CLOSER = 8  # steps from one bearing to the next where it is looked closer
+_STRIDE = 0.44  # least first step of a bearing round a leader that turns, of what is beside: 2.5°
 _HOPS_CLOSER = 2  # of contacts, to others, where it is looked closer
 _MOST_ALIVE = 10  # contacts that may still matter: of more it is not looked closer
 _WORTH = 2e-3  # how much sooner a contact has to promise an arrival for it [R/V_P]: 0.1 s
@@ -83,8 +85,10 @@ def best_constrained_path(
     if narrow and scene.d_min > 1.0 and best > scene.t_release:
         # more bearings do not include the fewer ones, nor find all that these do
         finer, more = np.zeros_like(legs), bearings * 7 // 5 if keeps_straight else 2 * bearings
-        time, found = _search(start, scene, more, tangents, best, finer)
-        if found > 0:
+        # round a leader that turns, chains that are far later at first may be sooner once refined
+        known = best if keeps_straight else beat
+        time, found = _search(start, scene, more, tangents, known, finer)
+        if found > 0 and time < best:
             best, count = time, found
             legs[:] = finer
     return best, count
@@ -155,7 +159,10 @@ def _look(
             return scene.t_release, contacts + 1
         nodes.time[:], nodes.lower[:] = reached, lower
         kept = best_chains(scene, nodes, fresh, best, effort, False, chains)
-    time, count = refine_chains(start, scene, chains[:kept], 0.5 * effort.width, best, legs)
+    turns, stride = len(scene.leader) > 1, 0.5 * effort.width
+    if turns:
+        stride = max(stride, _STRIDE * effort.beside)
+    time, count = refine_chains(start, scene, chains[:kept], stride, turns, best, legs)
     alive[:] = nodes.lower < time - _WORTH
     nodes.time[:], nodes.lower[:] = reached, lower
     return (time, count) if count > 0 else (best, found)

@@ -32,6 +32,7 @@ from relguide.kernels.words.extremals import MAX_ROWS, solve
 
 _BASINS = 8  # refined: the best of them wins in every reference case; the rest is insurance
 _HIDDEN = 0.14  # how much a basin may fall below what the scan sees of it [R/V_P]
+_JUMP = 2e-3  # what is less may be a bend [R/V_P]: 0.1 s
 _HALVINGS = 10  # of the bearings between a node and a neighbour without an arrival: to 0.005°
 
 
@@ -160,7 +161,33 @@ def descend_basins(
                     contact = contact_of(nodes, n)
                     stride = 0.25 * width
                     best = _descend_edge(start, scene, contact, away, stride, best, room, path)
+                elif (fresh[n] or fresh[beside]) and _falls_to_jump(nodes, n, beside, best):
+                    here, contact = nodes.arrival[n], contact_of(nodes, n)
+                    least = descend(start, scene, contact, here, 0.25 * width, room, nearby)
+                    if least < best:
+                        best = least
+                        path[:] = nearby
     return best
+
+
+@njit(cache=True, nogil=True)
+def _falls_to_jump(nodes: Nodes, n: int, ahead: int, best: float) -> bool:
+    """Whether the arrival seems to fall from a node below the best, and to jump before the next.
+
+    There one word ends that was sooner than the other: what is ahead lies above the line through
+    the node and the one behind, and bends down.
+    """
+    before, after = neighbours(nodes, n)
+    behind = before if ahead == after else after
+    before, after = neighbours(nodes, ahead)
+    beyond = after if before == n else before
+    arrival = nodes.arrival
+    here, there = arrival[n], arrival[ahead]
+    if not (arrival[behind] < inf and here < inf and there < inf and arrival[beyond] < inf):
+        return False
+    straight_on = 2.0 * here - arrival[behind]
+    bend = here - 2.0 * there + arrival[beyond]
+    return bool(straight_on < min(best, there - _JUMP) and bend < 0.0)
 
 
 @njit(cache=True, nogil=True)
