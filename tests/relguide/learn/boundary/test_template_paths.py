@@ -79,7 +79,9 @@ def test_every_answer_is_certified_and_none_beats_the_bound() -> None:
 
 
 def test_a_tiny_network_flies_too() -> None:
-    flown = [ask(situation, ways()) for situation in UNSEEN[:100]]
+    # which least share covers what is right is chance where so few labels say so
+    tiny = replace(ways(), least_share=1e-3)
+    flown = [ask(situation, tiny) for situation in UNSEEN[:100]]
     plans = [planned for planned in flown if isinstance(planned, Plan)]
     assert all(planned.certificate.holds for planned in plans)
     assert sum(planned.planner == "network" for planned in plans) > 0.2 * len(plans)
