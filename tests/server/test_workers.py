@@ -227,11 +227,16 @@ def test_quick_plans_have_a_hand_that_does_nothing_else() -> None:
     with_workers(2, scene)
 
 
-@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")  # not waited for
 def test_a_killed_process_that_does_not_go_costs_no_hand(
     monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
-    monkeypatch.setattr("relguide_server.hands.END_PATIENCE", -1.0)
+    kill, killed = subprocess.Popen.kill, list[subprocess.Popen[bytes]]()
+
+    def note(process: subprocess.Popen[bytes]) -> None:
+        killed.append(process)
+
+    monkeypatch.setattr(subprocess.Popen, "kill", note)  # it stays, as if the kernel held it
+    monkeypatch.setattr("relguide_server.hands.END_PATIENCE", 0.1)
 
     async def scene(workers: Workers) -> None:
         before = await workers.do("plans", os.getpid, patience=ANY)
@@ -240,6 +245,9 @@ def test_a_killed_process_that_does_not_go_costs_no_hand(
         assert await workers.do("plans", os.getpid, patience=ANY) != before
 
     with_workers(1, scene)
+    for process in killed:
+        kill(process)
+        process.wait(20.0)
     assert "not gone yet" in caplog.text
 
 
