@@ -20,14 +20,13 @@ from relguide.kernels.base.records import Pose, Scene, Velocity, Window, with_li
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.breach import INSIDE, Sieve, no_sieve
 from relguide.kernels.bounds.cells import EDGE, Cell, Poses, poses_of
+from relguide.kernels.bounds.found_word import ByTurn, Junction
 from relguide.kernels.bounds.goal import Goal, track_of
 from relguide.kernels.bounds.junction import junction_of
 from relguide.kernels.bounds.rest import Rest, no_rest
 from relguide.kernels.bounds.round_time import round_bound
 from relguide.kernels.bounds.round_turning import round_arrival
 from relguide.kernels.bounds.word_bound import (
-    ByTurn,
-    Junction,
     soonest,
     soonest_beyond,
     soonest_by_turn,

@@ -154,8 +154,6 @@ def reach(tree: Tree, problem: Problem, n: int) -> tuple[float, float]:
             start, scene, goal = problem.start, problem.scene, problem.goal
             closely = size_of(tree, n, scene.d_min) < _BY_TURN
             to, on = _rest_of(tree, n, _TO, 0), _rest_of(tree, n, _ON, 1)
-            _forget(to)
-            _forget(on)
             passed, onward = cell_bound(start, scene, goal, cell, problem.beat, closely, to, on)
             soon = anyhow(passed)
             _keep_rest(tree, n, _TO, to)
@@ -182,7 +180,6 @@ def leave(tree: Tree, problem: Problem, n: int) -> float:
             closely = size_of(tree, n, scene.d_min) < _BY_TURN
             # words on from the cell itself are known more closely
             on = _rest_of(tree, n, _AWAY if isnan(known[_SOON]) else _ON, 0)
-            _forget(on)
             passed = leaving_bound(scene, problem.goal, cell, left, closely, on)
             _keep_rest(tree, n, _AWAY, on)
         known[_LEAVING] = anyhow(passed)
@@ -211,16 +208,11 @@ def _rest_of(tree: Tree, n: int, which: int, place: int) -> Rest:
     """What is known to be left of the words of a cell, and room for what is left now."""
     # two may be under way
     room = int(tree.rest_of[len(tree.cells), 0]) + place * (MOST + 1)
-    if room + MOST >= len(tree.rests):
+    if room + MOST < len(tree.rests):
+        tree.rests[room, 0] = UNKNOWN  # as long as no words are looked at
+    else:
         room = UNKNOWN
     return Rest(tree.rests, int(tree.rest_of[n, which]), room)
-
-
-@njit(cache=True, nogil=True)
-def _forget(rest: Rest) -> None:
-    """Say that nothing has been looked at."""
-    if rest.room >= 0:
-        rest.table[rest.room, 0] = UNKNOWN
 
 
 @njit(cache=True, nogil=True)

@@ -31,7 +31,7 @@ from numba import njit
 
 from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.bounds.cells import EDGE, Cell, poses_of
-from relguide.kernels.bounds.word_bound import Junction
+from relguide.kernels.bounds.found_word import Junction
 from relguide.kernels.separation.clearance import leader_at, piece_at
 from relguide.kernels.words.extremals import fly_piece
 

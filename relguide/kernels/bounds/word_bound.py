@@ -12,15 +12,28 @@ Intervals that are left are kept, and a part of the set need only look at those:
 """
 
 from math import cos, floor, inf, sin
-from typing import NamedTuple
 
-import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI
 from relguide.kernels.base.records import Pose, Velocity, Window
-from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.bounds.breach import ROUNDING, Flown, NearWord, Sieve, breach_time
+from relguide.kernels.bounds.breach import ROUNDING, Sieve
+from relguide.kernels.bounds.found_word import (
+    CERTAINLY_OUT,
+    FOUND,
+    IMPOSSIBLE,
+    LASTING,
+    NO_JUNCTION,
+    POSSIBLE,
+    TANGENT,
+    Asked,
+    ByTurn,
+    Junction,
+    beat_of,
+    nothing_known,
+    take,
+    take_all,
+)
 from relguide.kernels.bounds.rest import (
     LEFT_OUT,
     OPPOSITE_TURNS,
@@ -46,67 +59,7 @@ from relguide.kernels.bounds.word_intervals import (
     three_turns_within,
 )
 
-_TANGENT, _LASTING, _BEAT = 2, 3, 4  # places in what is lowered, after both turns at the set
-_BREACH = 5  # and where the last word that was left out broke the limit
-_FOUND = 6  # and the time of any word that was found, also of those that were left out
-_DEPTH, _COLUMNS = 64, 8  # more rows than halvings of a whole turn to the shortest interval
 _MUCH_LESS = 0.4  # if no more is left of an interval it is not halved as well
-_IMPOSSIBLE, _LEFT_OUT, _POSSIBLE = 0, 1, 2  # what words in an interval are
-_STRIDE = 0.02  # least step of the look for a breach [R/V_P]
-
-
-class Junction(NamedTuple):
-    """What is asked of the turn with which a word leaves the poses of a set: see `junction`."""
-
-    asked: bool
-    """Whether anything is."""
-    outward: int
-    """The turn that went on before the set, 0 left, 1 right; the other one is toward the leader."""
-    beyond: float
-    """Of `junction.beyond_outward` [rad]."""
-    straight: bool
-    """Whether the costate of the heading may vanish at the set."""
-    inward: bool
-    """Whether the turn may then be toward the leader."""
-
-
-class ByTurn(NamedTuple):
-    """How soon the target is met, by what the word does at the set; infinite if it is not."""
-
-    left: float
-    """In a left turn [R/V_P]."""
-    right: float
-    """In a right turn [R/V_P]."""
-    tangent: float
-    """Where the costate of the heading vanishes [R/V_P]."""
-    lasting: float
-    """In an outward turn, and how long that was there before the set, too [R/V_P]."""
-    any: bool
-    """Whether it is met by words at all, also by those left out."""
-
-
-class _Asked(NamedTuple):
-    """What is asked, and what is known so far."""
-
-    earliest: float
-    """Words that meet the target earlier do not count [R/V_P]."""
-    beat: float
-    """Nor do those that meet it no sooner [R/V_P]."""
-    enough: float
-    """Once one is found that is no later, nothing else matters [R/V_P]."""
-    sieve: Sieve
-    """Words left out."""
-    junction: Junction
-    """What is asked of the turn at the set."""
-    work: FloatArray
-    """Its first row is lowered: the fields of `ByTurn`, and how late a word may be; or one of any
-    word. Then how far along the last word that was left out broke the limit, and when any was
-    found. The other rows are a stack of intervals. shape (_DEPTH, _COLUMNS)"""
-    rest: Rest
-    """What a set that holds this one has left, and takes what is left now."""
-
-
-_NO_JUNCTION = Junction(False, 0, 0.0, False, False)
 
 
 @njit(cache=True, nogil=True)
@@ -115,7 +68,7 @@ def soonest(pose: Pose, blur: Blur, target: Velocity, window: Window, sieve: Sie
 
     Arguments as `soonest_by_turn`.
     """
-    return soonest_kept(pose, blur, target, window, sieve, no_rest())[0]
+    return soonest_beyond(pose, blur, target, window, sieve, 0.0)
 
 
 @njit(cache=True, nogil=True)
@@ -123,22 +76,26 @@ def soonest_beyond(
     pose: Pose, blur: Blur, target: Velocity, window: Window, sieve: Sieve, enough: float
 ) -> float:
     """The same, but any time no greater than `enough` if it is met as soon [R/V_P]."""
-    work = _unknown(window.beat)
-    rest = no_rest()
-    asked = _Asked(window.earliest, window.beat, enough, sieve, _NO_JUNCTION, work, rest)
-    _bound_all(pose, blur, target, asked)
-    return float(work[0, 0]) if work[0, 0] < window.beat else inf
+    return _of_any(pose, blur, target, window, sieve, enough, no_rest())[0]
 
 
 @njit(cache=True, nogil=True)
 def soonest_kept(
     pose: Pose, blur: Blur, target: Velocity, window: Window, sieve: Sieve, rest: Rest
 ) -> tuple[float, bool]:
-    """The same, and whether it is met by words at all, also by those left out."""
-    work = _unknown(window.beat)
-    asked = _Asked(window.earliest, window.beat, 0.0, sieve, _NO_JUNCTION, work, rest)
+    """The same as `soonest`, and whether it is met by words at all, also by those left out."""
+    return _of_any(pose, blur, target, window, sieve, 0.0, rest)
+
+
+@njit(cache=True, nogil=True)
+def _of_any(
+    pose: Pose, blur: Blur, target: Velocity, window: Window, sieve: Sieve, enough: float,
+    rest: Rest,
+) -> tuple[float, bool]:  # fmt: skip
+    work = nothing_known(window.beat)
+    asked = Asked(window.earliest, window.beat, enough, sieve, NO_JUNCTION, work, rest)
     _bound_all(pose, blur, target, asked)
-    return float(work[0, 0]) if work[0, 0] < window.beat else inf, bool(work[0, _FOUND] < inf)
+    return float(work[0, 0]) if work[0, 0] < window.beat else inf, bool(work[0, FOUND] < inf)
 
 
 @njit(cache=True, nogil=True)
@@ -158,28 +115,18 @@ def soonest_by_turn(
         junction: what is asked.
         rest: what was left by a set that holds this one; takes what is left now.
     """
-    work = _unknown(window.beat)
-    asked = _Asked(window.earliest, window.beat, 0.0, sieve, junction, work, rest)
+    work = nothing_known(window.beat)
+    asked = Asked(window.earliest, window.beat, 0.0, sieve, junction, work, rest)
     _bound_all(pose, blur, target, asked)
-    for k in range(_LASTING):
+    for k in range(LASTING):
         if work[0, k] >= window.beat:
             work[0, k] = inf
-    any_word = bool(work[0, _FOUND] < inf)
-    return ByTurn(work[0, 0], work[0, 1], work[0, _TANGENT], work[0, _LASTING], any_word)
-
-
-@njit(cache=True, nogil=True, inline="always")
-def _unknown(beat: float) -> FloatArray:
-    """Nothing but `beat` is known: see `_Asked.work`."""
-    work = np.empty((_DEPTH, _COLUMNS))
-    for k in range(_FOUND + 1):
-        work[0, k] = beat
-    work[0, _LASTING] = work[0, _BREACH] = work[0, _FOUND] = inf
-    return work
+    any_word = bool(work[0, FOUND] < inf)
+    return ByTurn(work[0, 0], work[0, 1], work[0, TANGENT], work[0, LASTING], any_word)
 
 
 @njit(cache=True, nogil=True)
-def _bound_all(pose: Pose, blur: Blur, target: Velocity, asked: _Asked) -> None:
+def _bound_all(pose: Pose, blur: Blur, target: Velocity, asked: Asked) -> None:
     """Lower what is known to what any word comes to."""
     begin_rest(asked.rest)
     # a word is no shorter than the way to where the target can be met
@@ -198,7 +145,7 @@ def _bound_all(pose: Pose, blur: Blur, target: Velocity, asked: _Asked) -> None:
 
 
 @njit(cache=True, nogil=True)
-def _bound_rest(side: Side, asked: _Asked) -> None:
+def _bound_rest(side: Side, asked: Asked) -> None:
     """As `_bound_all`, for intervals that are known to be all that is left of a larger set."""
     table, known = asked.rest.table, asked.rest.known
     for n in range(known + 1, known + 1 + int(table[known, 0])):
@@ -223,8 +170,8 @@ def _bound_rest(side: Side, asked: _Asked) -> None:
         mid, half = 0.5 * (low + high), 0.5 * (high - low)
         if left_out and asked.sieve.used:
             if _within(kind, mid, half, around, side, asked).time < inf:
-                asked.work[0, _FOUND] = asked.earliest
-                _keep(_LEFT_OUT, kind, mid, half, around, side, asked)
+                asked.work[0, FOUND] = asked.earliest
+                _keep(CERTAINLY_OUT, kind, mid, half, around, side, asked)
         elif kind == SAME_TURNS:
             _bound_same_side(int(around), side, asked)
         else:
@@ -232,24 +179,12 @@ def _bound_rest(side: Side, asked: _Asked) -> None:
 
 
 @njit(cache=True, nogil=True)
-def _beat(side: Side, asked: _Asked) -> float:
-    """Words of this side that are later do not lower anything."""
-    junction, work = asked.junction, asked.work
-    if not junction.asked:
-        return float(work[0, 0]) if work[0, 0] > asked.enough else 0.0
-    beat = max(work[0, side.hand], work[0, _TANGENT] if junction.straight else 0.0)
-    if side.hand == junction.outward:
-        beat = max(beat, min(work[0, _LASTING], work[0, _BEAT]))
-    return float(beat)
-
-
-@njit(cache=True, nogil=True)
-def _bound_same_side(turns: int, side: Side, asked: _Asked) -> None:
+def _bound_same_side(turns: int, side: Side, asked: Asked) -> None:
     """As `_bound_all`, for LSL, see `same_turns`."""
-    found = same_turns(turns, side, Window(asked.earliest, _beat(side, asked)))
-    fate = _POSSIBLE
+    found = same_turns(turns, side, Window(asked.earliest, beat_of(side, asked)))
+    fate = POSSIBLE
     if found.time < inf:
-        fate = _take_all(found, (-1.0, 0.0, -1.0), 3, 0.0, side, asked)
+        fate = take_all(found, (-1.0, 0.0, -1.0), 3, 0.0, side, asked)
     elif asked.rest.room < 0:
         return
     elif _within(SAME_TURNS, 0.0, 0.0, float(turns), side, asked).time == inf:
@@ -258,7 +193,7 @@ def _bound_same_side(turns: int, side: Side, asked: _Asked) -> None:
 
 
 @njit(cache=True, nogil=True)
-def _bound_by_halves(three_turns: bool, side: Side, asked: _Asked) -> None:
+def _bound_by_halves(three_turns: bool, side: Side, asked: Asked) -> None:
     """As `_bound_all`, for LSR, or for LRL if `three_turns`."""
     for k in range(-1, 4):
         around = TWO_PI * k
@@ -269,15 +204,15 @@ def _bound_by_halves(three_turns: bool, side: Side, asked: _Asked) -> None:
 
 
 @njit(cache=True, nogil=True)
-def _span_of(three_turns: bool, around: float, side: Side, asked: _Asked) -> tuple[float, float]:
+def _span_of(three_turns: bool, around: float, side: Side, asked: Asked) -> tuple[float, float]:
     """As `span_of`. Words that are too late to matter now may matter to a part of the set."""
-    beat = asked.beat if asked.rest.room >= 0 else _beat(side, asked)
+    beat = asked.beat if asked.rest.room >= 0 else beat_of(side, asked)
     return span_of(three_turns, around, side, Window(asked.earliest, beat))
 
 
 @njit(cache=True, nogil=True)
 def _bound_within(
-    three_turns: bool, mid: float, half: float, around: float, side: Side, asked: _Asked
+    three_turns: bool, mid: float, half: float, around: float, side: Side, asked: Asked
 ) -> None:
     """As `_bound_by_halves`, within an interval."""
     # of each interval its middle and half its width, and sine and cosine of what is asked for
@@ -290,7 +225,7 @@ def _bound_within(
     while n > 1:
         n -= 1
         mid, half, s, c = stack[n, 0], stack[n, 1], stack[n, 2], stack[n, 3]
-        left = Window(asked.earliest, _beat(side, asked))
+        left = Window(asked.earliest, beat_of(side, asked))
         if three_turns:
             found = three_turns_within(mid, half, s, c, around, side, left)
         else:
@@ -303,7 +238,7 @@ def _bound_within(
             # words that are too late to matter now may matter to a part of the set
             all_words = _within(kind, mid, half, around, side, asked)
             if found.time == inf and all_words.time < inf:
-                _keep(_POSSIBLE, kind, mid, half, around, side, asked)
+                _keep(POSSIBLE, kind, mid, half, around, side, asked)
             elif found.time < inf:
                 found = all_words
         if found.time == inf:
@@ -319,17 +254,17 @@ def _bound_within(
                 stack[n, 2], stack[n, 3] = s * cosine + c * sine, c * cosine - s * sine
                 n += 1
         elif three_turns:
-            fate = _take_all(found, (-1.0, 1.0, -1.0), 2, half, side, asked)
+            fate = take_all(found, (-1.0, 1.0, -1.0), 2, half, side, asked)
             _keep(fate, kind, mid, half, around, side, asked)
         else:
             spare = half + side.heading
-            fate = _take(found, (1.0, 0.0, -1.0), found.first, spare, side, asked)
+            fate = take(found, (1.0, 0.0, -1.0), found.first, spare, side, asked)
             _keep(fate, kind, mid, half, around, side, asked)
 
 
 @njit(cache=True, nogil=True)
 def _within(
-    kind: int, mid: float, half: float, around: float, side: Side, asked: _Asked
+    kind: int, mid: float, half: float, around: float, side: Side, asked: Asked
 ) -> Interval:
     """What an interval leaves possible, be it soon enough to matter now or not."""
     window = Window(asked.earliest, asked.beat)
@@ -343,152 +278,9 @@ def _within(
 
 @njit(cache=True, nogil=True)
 def _keep(
-    fate: int, kind: int, mid: float, half: float, around: float, side: Side, asked: _Asked
+    fate: int, kind: int, mid: float, half: float, around: float, side: Side, asked: Asked
 ) -> None:
     """Keep an interval for parts of the set, unless there can be no word in it."""
-    if asked.rest.room >= 0 and fate != _IMPOSSIBLE:
-        word = 3 * side.hand + kind + (LEFT_OUT if fate == _LEFT_OUT else 0)
+    if asked.rest.room >= 0 and fate != IMPOSSIBLE:
+        word = 3 * side.hand + kind + (LEFT_OUT if fate == CERTAINLY_OUT else 0)
         keep(asked.rest, word, mid, half, side.h, around)
-
-
-@njit(cache=True, nogil=True)
-def _take_all(
-    found: Interval, signs: tuple[float, float, float], turns: int, half: float, side: Side,
-    asked: _Asked,
-) -> int:  # fmt: skip
-    """As `_bound_all`, for a word whose outer turns are between none and a full one.
-
-    Args:
-        found: what is asked about.
-        signs: of the pieces, read backward, but for the mirror.
-        turns: how many full turns the first turn may be off.
-        half: how much both outer turns together may differ besides [rad].
-        side: of which words.
-        asked: what is lowered.
-
-    Returns:
-        `_POSSIBLE`, `_LEFT_OUT` or `_IMPOSSIBLE`.
-    """
-    fate = _IMPOSSIBLE
-    for j in range(turns):
-        first = found.first + TWO_PI * j
-        other, spare = found.turned - first, found.astray + half + side.heading
-        if (
-            -found.astray - side.end <= first <= TWO_PI + found.astray + side.end
-            and -spare <= other <= TWO_PI + spare
-            and not (signs[1] != 0.0 and _has_lesser_middle(found, first, other, spare))
-        ):
-            fate = max(fate, _take(found, signs, first, spare, side, asked))
-    return fate
-
-
-@njit(cache=True, nogil=True)
-def _take(
-    found: Interval, signs: tuple[float, float, float], first: float, spare: float, side: Side,
-    asked: _Asked,
-) -> int:  # fmt: skip
-    """As `_take_all`, for one first turn; the turn at the set may differ by `spare`."""
-    junction, work, time = asked.junction, asked.work, found.time
-    work[0, _FOUND] = time
-    hand = side.hand if junction.asked else 0
-    sooner, tangent, lasts = time < work[0, hand], False, inf
-    if junction.asked:
-        if junction.straight and time < work[0, _TANGENT]:
-            tangent = _costate_vanishes(found, signs, first, spare, side, junction)
-        if side.hand == junction.outward and time < work[0, _LASTING]:
-            lasts = time + _lasted(found, signs, first, spare, junction)
-            if lasts >= work[0, _LASTING]:
-                lasts = inf
-    if not (sooner or tangent or lasts < inf):
-        return _POSSIBLE
-    if _is_ruled_out(found, signs, first, side, asked):
-        return _LEFT_OUT
-    if sooner:
-        work[0, hand] = time
-    if tangent:
-        work[0, _TANGENT] = time
-    if lasts < inf:
-        work[0, _LASTING] = lasts
-    return _POSSIBLE
-
-
-@njit(cache=True, nogil=True)
-def _has_lesser_middle(found: Interval, first: float, other: float, spare: float) -> bool:
-    """Whether the middle of three turns is certainly less than an outer one: then no costate fits.
-
-    λ_ψ vanishes on a line, on which both switches lie: so it would again, as long after the second
-    and before the first (see `costate`).
-    """
-    middle = found.middle + found.middle_blur
-    return (first - found.astray > middle and other > spare) or (
-        other - spare > middle and first > found.astray
-    )
-
-
-@njit(cache=True, nogil=True)
-def _is_free(found: Interval, signs: tuple[float, float, float], first: float) -> bool:
-    """Whether the word may have two turns only, so that the costate vanishes anywhere."""
-    return first <= found.astray if signs[1] != 0.0 else found.shortest <= 0.0
-
-
-@njit(cache=True, nogil=True)
-def _costate_vanishes(
-    found: Interval, signs: tuple[float, float, float], first: float, spare: float, side: Side,
-    junction: Junction,
-) -> bool:  # fmt: skip
-    """Whether λ_ψ may vanish at the set.
-
-    That is on the straight, a full turn from it, and as far from the middle of three turns as that
-    is long. Arguments as `_take`.
-    """
-    turn = found.turned - first
-    if turn <= spare:
-        return True
-    if side.hand != junction.outward and not junction.inward:
-        return False
-    back = signs[1] != 0.0 and abs(turn - found.middle) <= spare + found.middle_blur
-    return _is_free(found, signs, first) or back or abs(turn - TWO_PI) <= spare
-
-
-@njit(cache=True, nogil=True)
-def _lasted(
-    found: Interval, signs: tuple[float, float, float], first: float, spare: float,
-    junction: Junction,
-) -> float:  # fmt: skip
-    """How long the turn was there before the set, at least. Arguments as `_take`."""
-    if _is_free(found, signs, first):
-        return 0.0
-    whole = found.shortest if signs[1] != 0.0 else TWO_PI
-    turn = found.turned - first
-    return max(min(whole - turn - spare, junction.beyond), 0.0)
-
-
-@njit(cache=True, nogil=True)
-def _is_ruled_out(
-    found: Interval, signs: tuple[float, float, float], first: float, side: Side, asked: _Asked
-) -> bool:
-    """Whether a word is left out, as every path of it certainly breaks the limit."""
-    sieve = asked.sieve
-    if not sieve.used:
-        return False
-    m = side.mirror
-    word = NearWord(
-        (m * signs[0], m * signs[1], m * signs[2]), first, found.astray, found.middle,
-        found.middle_blur, found.time,
-    )  # fmt: skip
-    begin, astray = 0.0, 0.0
-    if sieve.sense < 0.0:
-        # flown back from the goal, of which it is known only nearly when it is met
-        begin = sieve.low + found.time
-        latest = sieve.high + found.latest
-        if latest < inf:
-            astray = 0.5 * max(latest - begin, 0.0)
-            begin += astray
-        elif sieve.speed != sieve.scene.alpha:
-            return False
-    end = Pose(sieve.end.x + sieve.speed * begin, sieve.end.y, sieve.end.h)
-    flown = Flown(begin, sieve.sense, sieve.speed, astray)
-    breach = breach_time(end, word, flown, sieve.scene, _STRIDE, asked.work[0, _BREACH])
-    if breach < inf:
-        asked.work[0, _BREACH] = breach
-    return breach < inf

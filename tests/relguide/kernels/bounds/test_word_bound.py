@@ -8,8 +8,9 @@ from hypothesis import strategies as st
 
 from relguide.kernels.base.records import Pose, Scene, Velocity, Window
 from relguide.kernels.bounds.breach import Flown, NearWord, Sieve, breach_time, breaks_limit
+from relguide.kernels.bounds.found_word import Junction
 from relguide.kernels.bounds.rest import no_rest
-from relguide.kernels.bounds.word_bound import Junction, soonest, soonest_by_turn
+from relguide.kernels.bounds.word_bound import soonest, soonest_by_turn
 from relguide.kernels.bounds.word_intervals import Blur, intercept_span
 from relguide.kernels.separation.clearance import leader_at
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, WORDS, fly_piece, solve_toward

@@ -1,0 +1,248 @@
+"""What a word counts for that an interval leaves possible, and whether it counts at all.
+
+By what it does at the set: see `junction`. A word that certainly breaks the limit is left out, and
+one with which no costate fits. Lengths in R, times in R/V_P, angles counter-clockwise.
+"""
+
+from math import inf
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from relguide.kernels.base.angles import TWO_PI
+from relguide.kernels.base.records import Pose
+from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.bounds.breach import Flown, NearWord, Sieve, breach_time
+from relguide.kernels.bounds.rest import Rest
+from relguide.kernels.bounds.word_intervals import Interval, Side
+
+TANGENT, LASTING = 2, 3
+"""Columns of the first row of `Asked.work`, after both turns at the set …"""
+_BEAT, _BREACH = 4, 5  # … how late a word may be, where the last one left out broke the limit …
+FOUND = 6
+"""… and the time of any word that was found, also of those that were left out."""
+_DEPTH, _COLUMNS = 64, 8  # more rows than halvings of a whole turn to the shortest interval
+IMPOSSIBLE, CERTAINLY_OUT, POSSIBLE = 0, 1, 2
+"""What words in an interval are."""
+_STRIDE = 0.02  # least step of the look for a breach [R/V_P]
+
+
+class Junction(NamedTuple):
+    """What is asked of the turn with which a word leaves the poses of a set: see `junction`."""
+
+    asked: bool
+    """Whether anything is."""
+    outward: int
+    """The turn that went on before the set, 0 left, 1 right; the other one is toward the leader."""
+    beyond: float
+    """Of `junction.beyond_outward` [rad]."""
+    straight: bool
+    """Whether the costate of the heading may vanish at the set."""
+    inward: bool
+    """Whether the turn may then be toward the leader."""
+
+
+class ByTurn(NamedTuple):
+    """How soon the target is met, by what the word does at the set; infinite if it is not."""
+
+    left: float
+    """In a left turn [R/V_P]."""
+    right: float
+    """In a right turn [R/V_P]."""
+    tangent: float
+    """Where the costate of the heading vanishes [R/V_P]."""
+    lasting: float
+    """In an outward turn, and how long that was there before the set, too [R/V_P]."""
+    any: bool
+    """Whether it is met by words at all, also by those left out."""
+
+
+class Asked(NamedTuple):
+    """What is asked, and what is known so far."""
+
+    earliest: float
+    """Words that meet the target earlier do not count [R/V_P]."""
+    beat: float
+    """Nor do those that meet it no sooner [R/V_P]."""
+    enough: float
+    """Once one is found that is no later, nothing else matters [R/V_P]."""
+    sieve: Sieve
+    """Words left out."""
+    junction: Junction
+    """What is asked of the turn at the set."""
+    work: FloatArray
+    """Its first row is lowered: the fields of `ByTurn`, and how late a word may be; or one of any
+    word. Then how far along the last word that was left out broke the limit, and when any was
+    found. The other rows are a stack of intervals. shape (_DEPTH, _COLUMNS)"""
+    rest: Rest
+    """What a set that holds this one has left, and takes what is left now."""
+
+
+NO_JUNCTION = Junction(False, 0, 0.0, False, False)
+"""Nothing is asked of the turn."""
+
+
+@njit(cache=True, nogil=True, inline="always")
+def nothing_known(beat: float) -> FloatArray:
+    """Nothing but `beat` is known: see `Asked.work`."""
+    work = np.empty((_DEPTH, _COLUMNS))
+    for k in range(FOUND + 1):
+        work[0, k] = beat
+    work[0, LASTING] = work[0, _BREACH] = work[0, FOUND] = inf
+    return work
+
+
+@njit(cache=True, nogil=True)
+def beat_of(side: Side, asked: Asked) -> float:
+    """Words of this side that are later do not lower anything."""
+    junction, work = asked.junction, asked.work
+    if not junction.asked:
+        return float(work[0, 0]) if work[0, 0] > asked.enough else 0.0
+    beat = max(work[0, side.hand], work[0, TANGENT] if junction.straight else 0.0)
+    if side.hand == junction.outward:
+        beat = max(beat, min(work[0, LASTING], work[0, _BEAT]))
+    return float(beat)
+
+
+@njit(cache=True, nogil=True)
+def take_all(
+    found: Interval, signs: tuple[float, float, float], turns: int, half: float, side: Side,
+    asked: Asked,
+) -> int:  # fmt: skip
+    """As `word_bound`, for a word whose outer turns are between none and a full one.
+
+    Args:
+        found: what is asked about.
+        signs: of the pieces, read backward, but for the mirror.
+        turns: how many full turns the first turn may be off.
+        half: how much both outer turns together may differ besides [rad].
+        side: of which words.
+        asked: what is lowered.
+
+    Returns:
+        `POSSIBLE`, `CERTAINLY_OUT` or `IMPOSSIBLE`.
+    """
+    fate = IMPOSSIBLE
+    for j in range(turns):
+        first = found.first + TWO_PI * j
+        other, spare = found.turned - first, found.astray + half + side.heading
+        if (
+            -found.astray - side.end <= first <= TWO_PI + found.astray + side.end
+            and -spare <= other <= TWO_PI + spare
+            and not (signs[1] != 0.0 and _has_lesser_middle(found, first, other, spare))
+        ):
+            fate = max(fate, take(found, signs, first, spare, side, asked))
+    return fate
+
+
+@njit(cache=True, nogil=True)
+def take(
+    found: Interval, signs: tuple[float, float, float], first: float, spare: float, side: Side,
+    asked: Asked,
+) -> int:  # fmt: skip
+    """As `take_all`, for one first turn; the turn at the set may differ by `spare`."""
+    junction, work, time = asked.junction, asked.work, found.time
+    work[0, FOUND] = time
+    hand = side.hand if junction.asked else 0
+    sooner, tangent, lasts = time < work[0, hand], False, inf
+    if junction.asked:
+        if junction.straight and time < work[0, TANGENT]:
+            tangent = _costate_vanishes(found, signs, first, spare, side, junction)
+        if side.hand == junction.outward and time < work[0, LASTING]:
+            lasts = time + _lasted(found, signs, first, spare, junction)
+            if lasts >= work[0, LASTING]:
+                lasts = inf
+    if not (sooner or tangent or lasts < inf):
+        return POSSIBLE
+    if _is_ruled_out(found, signs, first, side, asked):
+        return CERTAINLY_OUT
+    if sooner:
+        work[0, hand] = time
+    if tangent:
+        work[0, TANGENT] = time
+    if lasts < inf:
+        work[0, LASTING] = lasts
+    return POSSIBLE
+
+
+@njit(cache=True, nogil=True)
+def _has_lesser_middle(found: Interval, first: float, other: float, spare: float) -> bool:
+    """Whether the middle of three turns is certainly less than an outer one: then no costate fits.
+
+    λ_ψ vanishes on a line, on which both switches lie: so it would again, as long after the second
+    and before the first (see `costate`).
+    """
+    middle = found.middle + found.middle_blur
+    return (first - found.astray > middle and other > spare) or (
+        other - spare > middle and first > found.astray
+    )
+
+
+@njit(cache=True, nogil=True)
+def _is_free(found: Interval, signs: tuple[float, float, float], first: float) -> bool:
+    """Whether the word may have two turns only, so that the costate vanishes anywhere."""
+    return first <= found.astray if signs[1] != 0.0 else found.shortest <= 0.0
+
+
+@njit(cache=True, nogil=True)
+def _costate_vanishes(
+    found: Interval, signs: tuple[float, float, float], first: float, spare: float, side: Side,
+    junction: Junction,
+) -> bool:  # fmt: skip
+    """Whether λ_ψ may vanish at the set.
+
+    That is on the straight, a full turn from it, and as far from the middle of three turns as that
+    is long. Arguments as `take`.
+    """
+    turn = found.turned - first
+    if turn <= spare:
+        return True
+    if side.hand != junction.outward and not junction.inward:
+        return False
+    back = signs[1] != 0.0 and abs(turn - found.middle) <= spare + found.middle_blur
+    return _is_free(found, signs, first) or back or abs(turn - TWO_PI) <= spare
+
+
+@njit(cache=True, nogil=True)
+def _lasted(
+    found: Interval, signs: tuple[float, float, float], first: float, spare: float,
+    junction: Junction,
+) -> float:  # fmt: skip
+    """How long the turn was there before the set, at least. Arguments as `take`."""
+    if _is_free(found, signs, first):
+        return 0.0
+    whole = found.shortest if signs[1] != 0.0 else TWO_PI
+    turn = found.turned - first
+    return max(min(whole - turn - spare, junction.beyond), 0.0)
+
+
+@njit(cache=True, nogil=True)
+def _is_ruled_out(
+    found: Interval, signs: tuple[float, float, float], first: float, side: Side, asked: Asked
+) -> bool:
+    """Whether a word is left out, as every path of it certainly breaks the limit."""
+    sieve = asked.sieve
+    if not sieve.used:
+        return False
+    m = side.mirror
+    word = NearWord(
+        (m * signs[0], m * signs[1], m * signs[2]), first, found.astray, found.middle,
+        found.middle_blur, found.time,
+    )  # fmt: skip
+    begin, astray = 0.0, 0.0
+    if sieve.sense < 0.0:
+        # flown back from the goal, of which it is known only nearly when it is met
+        begin = sieve.low + found.time
+        latest = sieve.high + found.latest
+        if latest < inf:
+            astray = 0.5 * max(latest - begin, 0.0)
+            begin += astray
+        elif sieve.speed != sieve.scene.alpha:
+            return False
+    end = Pose(sieve.end.x + sieve.speed * begin, sieve.end.y, sieve.end.h)
+    flown = Flown(begin, sieve.sense, sieve.speed, astray)
+    breach = breach_time(end, word, flown, sieve.scene, _STRIDE, asked.work[0, _BREACH])
+    if breach < inf:
+        asked.work[0, _BREACH] = breach
+    return breach < inf
