@@ -11,16 +11,26 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from relguide.kernels.base.angles import wrap
+from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.base.records import Contact, Pose, Scene, with_time
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.cells import Cell
 from relguide.kernels.contact.best_chain import refine_chains
-from relguide.kernels.contact.chain import BOUNDARY_ARC, MAX_CONTACTS, MAX_LEGS, WORD, chain_of
+from relguide.kernels.contact.chain import (
+    BOUNDARY_ARC,
+    MAX_CONTACTS,
+    MAX_LEGS,
+    NAMED,
+    WORD,
+    chain_of,
+)
 from relguide.kernels.contact.chain_refinement import fly_links
 from relguide.kernels.contact.constrained_search import ease_to_start, fly_to_delay
-from relguide.kernels.contact.contact import boundary_arc_sense, disc_on
+from relguide.kernels.contact.contact import boundary_arc_sense, contact_exists, disc_on
 from relguide.kernels.contact.one_contact import Workspace, descend, through_contact, workspace
+from relguide.kernels.contact.passing import words_toward
+from relguide.kernels.contact.paths_to_contact import paths_by_words
+from relguide.kernels.words.extremals import SIGNS
 
 IntArray = np.ndarray[tuple[int, ...], np.dtype[np.int64]]
 
@@ -99,15 +109,46 @@ def probe_between(start: Pose, find: Find, cell: Cell, other: Cell) -> None:
     """The same for a path from the middle of one cell to that of another."""
     if not _is_new(find, 31 * _number(cell) + _number(other)):
         return
-    for link in (WORD, BOUNDARY_ARC):
+    _probe_links(start, find, cell, other, cell.bearing, WORD)
+    if len(find.scene.leader) == 1 or find.at_release:
+        return
+    # who is later at the first contact may be ahead; a word may end anywhere in the cell
+    rows = find.room.rows
+    for k in range(-1, 2):
+        contact = Contact(cell.piece, cell.bearing + k * cell.half, cell.side)
+        if not contact_exists(contact.bearing, find.scene.alpha):
+            continue
+        words = words_toward(find.scene, contact)
+        n = paths_by_words(start, 0.0, find.scene, contact, words, cell.end, rows)
+        named = 0
+        for j in range(n):
+            if rows[j, 0] >= cell.start:
+                named |= 1 << int(rows[j, 1])
+        for word in range(len(SIGNS)):
+            if named & (1 << word):
+                _probe_links(start, find, cell, other, contact.bearing, NAMED + word)
+
+
+@njit(cache=True, nogil=True)
+def _probe_links(
+    start: Pose, find: Find, cell: Cell, other: Cell, bearing: float, first: float
+) -> None:
+    """By a word and by boundary arcs, from a bearing of a cell that is reached in some way."""
+    disc = disc_on(find.scene, cell.piece, cell.side)
+    sense = boundary_arc_sense(bearing, disc)
+    # as the leader begins or ends a turn the bearing may begin to move back
+    ways = (
+        0.0,
+        sense * wrap(sense * (other.bearing - bearing)),
+        wrap_signed(other.bearing - bearing),
+    )
+    for k in range(3):
         contacts = _contacts_of(cell, other)
-        if link == BOUNDARY_ARC:
-            disc = disc_on(find.scene, cell.piece, cell.side)
-            sense = boundary_arc_sense(cell.bearing, disc)
-            if cell.side != other.side or sense == 0.0:
+        contacts[0, 2], contacts[0, 3] = bearing, first
+        if k > 0:
+            if cell.side != other.side or sense == 0.0 or (k == 2 and ways[2] == ways[1]):
                 break
-            contacts[1, 2] = cell.bearing + sense * wrap(sense * (other.bearing - cell.bearing))
-            contacts[1, 3] = link
+            contacts[1, 2], contacts[1, 3] = bearing + ways[k], BOUNDARY_ARC
         if find.at_release:
             _probe_delay(start, find, contacts)
         else:

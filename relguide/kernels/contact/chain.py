@@ -2,8 +2,8 @@
 
 A chain has a row for each contact: the leader's piece, the side, the bearing, and whether a word or
 a boundary arc leads to it from the contact before (the leader may go on to its next pieces
-meanwhile). Between contacts the path is the earliest extremal that keeps d_min, so the arrival is a
-function of the bearings alone.
+meanwhile). Between contacts the path is the earliest extremal that keeps d_min, or the earliest of
+one word, so the arrival is a function of the bearings alone.
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
@@ -23,17 +23,21 @@ from relguide.kernels.words.extremals import MAX_ROWS
 
 WORD, BOUNDARY_ARC, DELAY = 0.0, 1.0, 2.0
 """How a contact is reached, or the slot: in the last case by a path of just the right length."""
+NAMED = 3.0
+"""And with a word's number in `extremals` more, how a contact is reached: by this word only. While
+the leader turns, who is later at a contact than by the soonest word may be ahead of that."""
 MAX_CONTACTS = 8
 """Longest chain."""
 MAX_LEGS = MAX_CONTACTS + 1
 """Legs of the longest path."""
+_THREE_TURNS, _APART = 16 + 32, 4  # LRL and RLR, as in `passing`, behind LSL and RSR
 
 
 class Chain(NamedTuple):
     """A chain, and room to fly it."""
 
     contacts: FloatArray
-    """Piece, side, bearing, WORD or BOUNDARY_ARC of each contact. shape (n, 4)"""
+    """Piece, side and bearing of each contact, and how it is reached. shape (n, 4)"""
     legs: FloatArray
     """Takes WORD and a row of `solve`, or BOUNDARY_ARC, side, first and last bearing and the
     leader's piece at its end, for each leg. shape (≥ n + 1, 6)"""
@@ -65,8 +69,11 @@ def earliest_contact(
     """
     best, at = beat, -1
     words = onward & words_toward(scene, contact)
-    n = paths_by_words(pose, t, scene, contact, words, beat, rows)
+    # while the leader turns, words with the same outer turns are found together
+    alike = words | (words & _THREE_TURNS) >> _APART
+    n = paths_by_words(pose, t, scene, contact, alike, beat, rows)
     for k in range(n):
-        if rows[k, 0] < best and word_clears(pose, t, rows[k], scene):
+        asked = words & (1 << int(rows[k, 1]))
+        if asked and rows[k, 0] < best and word_clears(pose, t, rows[k], scene):
             best, at = rows[k, 0], k
     return (best, at) if at >= 0 else (inf, -1)

@@ -19,6 +19,7 @@ from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.boundary_arc import boundary_arc_arrival
 from relguide.kernels.contact.chain import (
     BOUNDARY_ARC,
+    NAMED,
     WORD,
     Chain,
     earliest_contact,
@@ -78,7 +79,7 @@ def fly_links(
         return pose, inf
     for k in range(first, min(last + 1, len(contacts))):
         side, bearing = contacts[k, 1], contacts[k, 2]
-        legs[k, 0] = contacts[k, 3]
+        legs[k, 0] = BOUNDARY_ARC if contacts[k, 3] == BOUNDARY_ARC else WORD
         if not contact_exists(bearing, scene.alpha):
             return pose, inf
         if contacts[k, 3] == BOUNDARY_ARC:
@@ -94,6 +95,8 @@ def fly_links(
             onward = ALL_WORDS
             if k > 0:
                 onward = words_onward(scene, contacts[k - 1, 2], contacts[k - 1, 1], t)
+            if contacts[k, 3] >= NAMED:
+                onward &= 1 << int(contacts[k, 3] - NAMED)
             t, at = earliest_contact(pose, t, scene, contact, onward, beat, rows)
             if at < 0:
                 return pose, inf
@@ -148,7 +151,7 @@ def follow_edges(start: Pose, scene: Scene, chain: Chain, here: float, stride: f
     """
     contacts = chain.contacts
     for k in range(len(contacts) - 1):
-        if contacts[k + 1, 3] != WORD:
+        if contacts[k + 1, 3] == BOUNDARY_ARC:
             continue
         at, t = fly_links(start, 0.0, scene, chain, 0, k - 1, inf)
         last = _last_link_to_fly(scene, t, contacts, k, 2)
@@ -230,8 +233,9 @@ def simplify_chain(
         fewer = np.empty((contacts - 1, 4))
         fewer[:k] = chain.contacts[:k]
         fewer[k:] = chain.contacts[k + 1 : contacts]
-        if k < contacts - 1 and chain.contacts[k, 3] == WORD:
-            fewer[k, 3] = WORD  # the boundary arc that began at k is left out with it
+        if k < contacts - 1 and chain.contacts[k, 3] != BOUNDARY_ARC:
+            # the boundary arc that began at k is left out with it
+            fewer[k, 3] = chain.contacts[k, 3]
         shorter = with_contacts(chain, fewer)
         _, there = fly_links(start, 0.0, scene, shorter, 0, contacts - 1, here + _NEAR)
         if there < inf:

@@ -114,6 +114,15 @@ def boundary_arc_sense(bearing: float, disc: Disc) -> float:
 
 
 @njit(cache=True, nogil=True)
+def slides_back(scene: Scene, contact: Contact) -> bool:
+    """Whether a boundary arc gets behind at a contact, since the leader turns faster than that."""
+    if scene.leader[contact.piece, 4] == 0.0:
+        return False
+    disc = disc_on(scene, contact.piece, contact.side)
+    return contact.side * boundary_arc_sense(contact.bearing, disc) < 0.0
+
+
+@njit(cache=True, nogil=True)
 def _slowness(bearing: float, sense: float, disc: Disc) -> float:
     """Time per bearing; infinite where the boundary arc cannot be flown, or goes the other way."""
     if boundary_arc_sense(bearing, disc) != sense:

@@ -4,9 +4,11 @@ Nodes are contacts: a piece of the leader's intent, a side and a bearing of a gr
 the start to a node, from node to node, and on to the slot; boundary arcs lead from a node to its
 neighbour. Labels are earliest arrivals. Round a leader that turns who is sooner at a contact finds
 another one ahead than who is later, and need not be better off; so there each node has a label of
-its own for words from the start, for words from other nodes, and for boundary arcs. A label from
-which even the best path without the limit would come too late is not followed, so where one contact
-is enough there is little to do here.
+its own for words from the start, for words from other nodes, and for boundary arcs. Where the
+leader turns faster than one slides, the later one is ahead: so two more are for late words from the
+start, and for boundary arcs that begin with these. A label from which even the best path without
+the limit would come too late is not followed, so where one contact is enough there is little to do
+here.
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
@@ -21,7 +23,13 @@ from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.records import Scene
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.contact.chain import BOUNDARY_ARC, MAX_CONTACTS, WORD, earliest_contact
+from relguide.kernels.contact.chain import (
+    BOUNDARY_ARC,
+    MAX_CONTACTS,
+    NAMED,
+    WORD,
+    earliest_contact,
+)
 from relguide.kernels.contact.clear_words import first_clear, to_slot_frame
 from relguide.kernels.contact.contact import (
     boundary_arc_sense,
@@ -30,6 +38,7 @@ from relguide.kernels.contact.contact import (
     contact_on,
     disc_on,
     slide_within,
+    slides_back,
 )
 from relguide.kernels.contact.delay_after_contact import delay_until_release, delays_by_straights
 from relguide.kernels.contact.nodes import BoolArray, Nodes, contact_of
@@ -57,11 +66,15 @@ class _Graph(NamedTuple):
     hops: int
     """How far the labels of words from other nodes lie behind those of words from the start …"""
     arcs: int
-    """… and those of boundary arcs. 0 where each node has one label only."""
+    """… and those of boundary arcs; 0 where each node has one label only."""
+    late: int
+    """And those of late words from the start …"""
+    late_arcs: int
+    """… and of boundary arcs that begin with these."""
     before: FloatArray
     """The label that leads to it; −1 if the start does."""
     link: FloatArray
-    """How: WORD or BOUNDARY_ARC."""
+    """How, as in `chain`."""
     slid: FloatArray
     """By how much the bearing changes on that boundary arc [rad]."""
     arrival: FloatArray
@@ -115,7 +128,7 @@ def best_chains(
     Returns:
         how many.
     """
-    copies = 1 if len(scene.leader) == 1 else 3
+    copies = 1 if len(scene.leader) == 1 else 5
     labels = _labels_of(nodes, copies)
     graph = _start_graph(scene, labels, len(nodes.time), beat + _NEARLY)
     best, tries, end = beat, _TRIES * effort.hops, -1
@@ -162,23 +175,34 @@ def _labels_of(nodes: Nodes, copies: int) -> Nodes:
         bearings[begin:end] = nodes.bearings
     known[0, :count], known[1, :count] = nodes.time, nodes.lower
     known[2, :count], known[3, :count] = nodes.latest, nodes.arrival
-    return Nodes(nodes.first, rings, sides, bearings, known[0], known[1], known[2], known[3])
+    if copies > 1:
+        begin, end = 3 * count, 4 * count
+        known[0, begin:end], known[1, begin:end] = nodes.ahead[:, 0], nodes.ahead[:, 1]
+    return Nodes(
+        nodes.first, rings, sides, bearings, known[0], known[1], known[2], known[3], nodes.ahead
+    )
 
 
 @njit(cache=True, nogil=True)
 def _start_graph(scene: Scene, nodes: Nodes, count: int, beat: float) -> _Graph:
     """The graph of labels that only the start leads to; `count` of them are of different nodes."""
     size = len(nodes.bearings)
-    copies = size // count
+    behind = count if size > count else 0
     graph = _Graph(
-        count, count if copies > 1 else 0, 2 * count if copies > 1 else 0,
-        np.full(size, -1.0), np.full(size, WORD), np.zeros(size), np.full(size, inf),
-        np.full(count, np.nan), np.full(size, inf), np.full(size, inf), np.zeros(size),
-        np.zeros(size), np.empty((MAX_ROWS, 5)), make_scratch(),
+        count, behind, 2 * behind, 3 * behind, 4 * behind, np.full(size, -1.0), np.full(size, WORD),
+        np.zeros(size), np.full(size, inf), np.full(count, np.nan), np.full(size, inf),
+        np.full(size, inf), np.zeros(size), np.zeros(size), np.empty((MAX_ROWS, 5)),
+        make_scratch(),
     )  # fmt: skip
-    for n in range(count):
+    for n in range(size):
         if nodes.lower[n] < beat:
             graph.pending[n] = 1.0
+    if behind > 0:
+        for node in range(count):
+            if nodes.ahead[node, 0] < inf:
+                graph.link[graph.late + node] = NAMED + nodes.ahead[node, 2]
+        # words to other contacts do not begin late: they would hide some that begin early
+        graph.hopped[graph.late :] = -inf
     return graph
 
 
@@ -233,8 +257,13 @@ def _slide_on(scene: Scene, nodes: Nodes, graph: _Graph, beat: float) -> None:
             break
         pending[n] = 0.0
         m, t, goal = _slide_to_next(scene, nodes, n)
-        m += graph.arcs
-        if t >= _label_to_beat(scene, nodes, graph, m, t):
+        late = 0 < graph.late <= n
+        m += graph.late_arcs if late else graph.arcs
+        if late and t < inf and slides_back(scene, contact_of(nodes, m)):
+            # who is later is ahead
+            if time[m] < inf and t <= time[m] + _BETTER:
+                continue
+        elif t >= _label_to_beat(scene, nodes, graph, m, t):
             continue
         there = contact_at(scene, t, nodes.bearings[m], nodes.sides[m])
         if not_before_slot(there, t, scene) >= beat:
@@ -453,7 +482,8 @@ def _trace(nodes: Nodes, graph: _Graph, end: int, chain: FloatArray) -> int:
             if contacts > MAX_CONTACTS:
                 break
         chain[contacts, 0], chain[contacts, 1] = contact.piece, contact.side
-        chain[contacts, 2], chain[contacts, 3] = bearing, BOUNDARY_ARC if slides else WORD
+        chain[contacts, 2] = bearing
+        chain[contacts, 3] = BOUNDARY_ARC if slides else graph.link[n]
     return contacts
 
 

@@ -44,6 +44,8 @@ class Nodes(NamedTuple):
     [R/V_P]. shape (n,)"""
     arrival: FloatArray
     """Of the fastest path found through it; infinite if that is far too late [R/V_P]. shape (n,)"""
+    ahead: FloatArray
+    """Of `Workspace.ahead`. shape (n, 3)"""
 
 
 @njit(cache=True, nogil=True)
@@ -91,7 +93,10 @@ def _in_rings(own: FloatArray, sizes: IntArray) -> Nodes:
         sides[begin:end] = _side_of(ring)
         placed[begin:end] = np.sort(own[ring, : sizes[ring]])
     nothing = np.full((3, count), inf)
-    return Nodes(first, ring_of, sides, placed, nothing[0], nothing[1], np.zeros(count), nothing[2])
+    return Nodes(
+        first, ring_of, sides, placed, nothing[0], nothing[1], np.zeros(count), nothing[2],
+        np.full((count, 3), inf),
+    )  # fmt: skip
 
 
 @njit(cache=True, nogil=True)
@@ -146,6 +151,7 @@ def nodes_closer(nodes: Nodes, alive: BoolArray, step: float) -> tuple[Nodes, Bo
             if m < nodes.first[ring + 1] and closer.bearings[n] == nodes.bearings[m]:
                 closer.time[n], closer.lower[n] = nodes.time[m], nodes.lower[m]
                 closer.latest[n], closer.arrival[n] = nodes.latest[m], nodes.arrival[m]
+                closer.ahead[n] = nodes.ahead[m]
                 fresh[n] = False
                 m += 1
     return closer, fresh

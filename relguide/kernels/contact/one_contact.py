@@ -20,7 +20,12 @@ from relguide.kernels.base.records import Contact, Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain_refinement import FINEST, GAIN, vertex
 from relguide.kernels.contact.clear_words import first_clear, to_slot_frame, word_clears
-from relguide.kernels.contact.contact import contact_at, contact_exists, contact_on
+from relguide.kernels.contact.contact import (
+    contact_at,
+    contact_exists,
+    contact_on,
+    slides_back,
+)
 from relguide.kernels.contact.nodes import BoolArray, Nodes, contact_of, neighbours
 from relguide.kernels.contact.passing import words_toward
 from relguide.kernels.contact.paths_to_contact import (
@@ -33,6 +38,7 @@ from relguide.kernels.words.extremals import MAX_ROWS, solve
 _BASINS = 8  # refined: the best of them wins in every reference case; the rest is insurance
 _HIDDEN = 0.14  # how much a basin may fall below what the scan sees of it [R/V_P]
 _JUMP = 2e-3  # what is less may be a bend [R/V_P]: 0.1 s
+_ALMOST = 0.3  # a word that turns less at its end than this ends almost straight [rad]
 _HALVINGS = 10  # of the bearings between a node and a neighbour without an arrival: to 0.005°
 
 
@@ -49,13 +55,18 @@ class Workspace(NamedTuple):
     """Takes the earliest time at which the contact is reached with the limit kept, and a lower
     bound of the arrival from there; infinite if that is too late. Then the last time from which the
     slot could be reached as it opens, or 0. shape (3,)"""
+    ahead: FloatArray
+    """Where the leader turns faster than one slides along the disc, who is later at a contact is
+    ahead of who was there before. Takes when it is reached last by a word that ends almost
+    straight, as before a boundary arc, if not first; a lower bound of the arrival from there; and
+    the word. Infinite if it is not. shape (3,)"""
 
 
 @njit(cache=True, nogil=True)
 def workspace() -> Workspace:
     """Room, empty."""
     return Workspace(
-        np.empty((MAX_ROWS, 5)), np.empty((MAX_ROWS, 5)), np.empty((2, 5)), np.empty(3)
+        np.empty((MAX_ROWS, 5)), np.empty((MAX_ROWS, 5)), np.empty((2, 5)), np.empty(3), np.empty(3)
     )
 
 
@@ -84,6 +95,7 @@ def scan_contacts(
             break
         arrival = through_contact(start, scene, contact_of(nodes, n), best + _HIDDEN, room)
         nodes.time[n], nodes.lower[n], nodes.latest[n] = room.reached
+        nodes.ahead[n] = room.ahead
         nodes.arrival[n] = arrival if arrival < best + _HIDDEN else inf
         if arrival < best:
             best = arrival
@@ -308,15 +320,16 @@ def through_contact(
         arrival time; infinite if there is no contact, `beat` if no path arrives before, or the
         time for the search is up.
     """
-    reached, onward = room.reached, room.onward
+    reached, onward, ahead = room.reached, room.onward, room.ahead
     reached[:2], reached[2] = inf, 0.0
+    ahead[:] = inf
     if not contact_exists(contact.bearing, scene.alpha):
         return inf
     if time_is_up(scene.until):
         return beat
     words = words_toward(scene, contact)
     n = paths_by_words(start, 0.0, scene, contact, words, beat, room.rows)
-    m = -1
+    m, back = -1, slides_back(scene, contact)
     for k in range(n):
         t = room.rows[k, 0]
         if t >= beat:
@@ -335,6 +348,8 @@ def through_contact(
             continue
         if t < reached[0]:
             reached[0], reached[1] = t, lower
+        if back and room.rows[k, 4] < _ALMOST and (t > ahead[0] or ahead[0] == inf):
+            ahead[0], ahead[1], ahead[2] = t, lower, room.rows[k, 1]
         if lower == scene.t_release:
             reached[2] = max(reached[2], t)
         arrival, j = first_clear(there, t, onward[:m], scene, beat)
@@ -342,4 +357,6 @@ def through_contact(
             beat = arrival
             room.path[0] = room.rows[k]
             room.path[1] = onward[j]
+    if ahead[0] <= reached[0]:
+        ahead[:] = inf
     return beat

@@ -39,7 +39,7 @@ from relguide.planning import constrained_path as module
 from relguide.planning.constrained_path import BEARINGS, TURNING_BEARINGS
 from relguide.planning.optimality import check
 from relguide.planning.tables import scene_of
-from tests.bench import draws
+from tests.bench import draws, proofs
 from tests.oracle import arrival_error
 from tests.situations import headings, numbers
 
@@ -489,7 +489,7 @@ def test_a_path_along_the_limit_may_be_flown_too_soon_by_rounding(before: float)
 
 @pytest.mark.parametrize(
     ("seed", "case", "slot_at_limit", "best"),
-    [(1302, 3, True, 190.067), (1303, 173, False, 402.836), (1304, 203, True, 407.257)],
+    [(1302, 3, True, 190.067), (1303, 173, False, 402.824), (1304, 203, True, 407.257)],
 )
 def test_where_few_contacts_may_still_matter_it_is_looked_closer(
     seed: int, case: int, slot_at_limit: bool, best: float
@@ -587,6 +587,36 @@ def test_round_a_leader_who_turns_the_earliest_at_a_contact_need_not_be_the_best
     assert answer.certificate.holds
     assert answer.arrival.holds
     assert answer.time_to_converge < best + 0.01
+
+
+@pytest.mark.parametrize(
+    ("kind", "case", "best"), [("turning, calm", 58, 508.63), ("turning, in wind", 56, 259.32)]
+)
+def test_where_the_leader_turns_faster_than_one_slides_a_later_word_may_be_ahead(
+    kind: str, case: int, best: float
+) -> None:
+    """By the soonest word to each contact they came 6.0 s and 0.8 s later."""
+    rng = np.random.default_rng([105, proofs.KINDS.index(kind), case])
+    answer = plan(proofs.draw(kind, rng, case))
+    assert isinstance(answer, Plan)
+    assert answer.certificate.holds
+    assert answer.arrival.holds
+    assert answer.time_to_converge < best
+
+
+@pytest.mark.parametrize(
+    ("slot_at_limit", "case", "best"), [(True, 452, 706.57), (False, 510, 385.96)]
+)
+def test_a_late_word_leads_to_a_boundary_arc(slot_at_limit: bool, case: int, best: float) -> None:
+    """The search with twenty times the effort and by the soonest words: 20 s and 5.2 s later."""
+    rng = np.random.default_rng([1402 if slot_at_limit else 1403, case])
+    rng.random(1 + slot_at_limit)  # as `tests.bench.limit` draws what kind it is
+    situation = draws.active(rng, tight=True, intent=True, slot_at_limit=slot_at_limit)
+    answer = plan(situation)
+    assert isinstance(answer, Plan)
+    assert answer.certificate.holds
+    assert answer.arrival.holds
+    assert answer.time_to_converge < best
 
 
 def test_a_long_boundary_arc_is_flown_along_the_limit_and_in_the_time_it_should_take() -> None:
