@@ -25,7 +25,7 @@ those on whose way there something depends. Slot frame: lengths in R, times in R
 counter-clockwise.
 """
 
-from math import acos, cos, hypot, inf, pi, sin, sqrt
+from math import acos, atan2, cos, hypot, inf, pi, sin, sqrt
 
 from numba import njit
 
@@ -102,7 +102,10 @@ def beyond_outward(scene: Scene, cell: Cell, pace: float) -> float:
 def apart_by(scene: Scene, cell: Cell, pace: float) -> float:
     """For how long no path that touches in a cell does so again, however it turns [R/V_P].
 
-    Who turns toward the leader as fast as it can comes closest, until the leader is ahead.
+    Who turns toward the leader as fast as it can goes furthest in any direction to that side, as
+    long as that is no more than π from its first heading and it has not turned so far itself. So it
+    comes closest, as long as the leader lies in such a direction: until the leader is ahead, or so
+    far behind.
 
     Args:
         scene: the leader and d_min.
@@ -129,10 +132,13 @@ def apart_by(scene: Scene, cell: Cell, pace: float) -> float:
         t = poses.t + pace * took
         there = leader_at(scene, piece_at(scene.leader, t), t)
         seen = _seen_along(at, there, pace)
-        if seen[0] > 0.0 and cell.side * pace * seen[1] < parting * took + _BESIDE:
+        toward, astray = cell.side * pace * seen[1], parting * took
+        if toward < astray + (_BESIDE if seen[0] > 0.0 else 0.0):
             break
-        gap = hypot(seen[0], seen[1]) - d_min - parting * took
+        gap = hypot(seen[0], seen[1]) - d_min - astray
         if gap <= 0.0:
+            break
+        if atan2(toward, seen[0]) + took + poses.differs + astray / d_min > pi:
             break
         took += max(gap / (1.0 + alpha), _STRIDE)
     return took

@@ -132,3 +132,16 @@ def test_for_a_while_there_is_no_other_contact(
         took += lasts
         if took >= apart:
             break
+
+
+def test_who_weaves_may_touch_sooner_than_who_turns_toward_a_leader_behind() -> None:
+    scene = Scene(np.array([[0.0, 0.0, 0.0, 0.0, 0.0]]), 0.796687209252521, 1.205743399071415, 0.0)
+    bearing, before = 2.678876315846655, 2.623071922969844
+    at = contact_on(scene, Contact(0, bearing, 1.0), 0.0)
+    took = 0.0
+    for sign, turn in ((1.0, 0.06283055), (-1.0, 2.21554205), (1.0, 0.62477048)):
+        at, took = fly_piece(at, sign, -turn), took + turn
+    earlier = contact_on(scene, Contact(0, before, -1.0), -took)
+    assert np.allclose(at[:2], earlier[:2], atol=1e-5)
+    for half in (1e-3, 1e-6):
+        assert 0.1 < apart_by(scene, Cell(0, 1.0, bearing, half, 0.0, 0.0), -1.0) < took
