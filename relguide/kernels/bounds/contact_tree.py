@@ -20,16 +20,18 @@ from relguide.kernels.bounds.goal import Goal
 from relguide.kernels.bounds.junction import can_touch
 from relguide.kernels.bounds.rest import COLUMNS, MOST, UNKNOWN, Rest
 from relguide.kernels.bounds.round_time import round_time
+from relguide.kernels.bounds.tight_contact import tight_excess
 
 IntArray = np.ndarray[tuple[int, ...], np.dtype[np.int64]]
 
+_MORE = 1.5  # than is asked for, is looked for at once
 _CLOSELY = 50  # times a cell is halved to find what is least in it
 _NARROW = 1e-6  # and how narrow its parts may become: what is left counts for some 1e-5 R/V_P [rad]
 _BY_TURN = 0.1  # how contacts are passed matters in cells smaller than this [rad]
 _TO, _ON, _AWAY = 0, 1, 2  # words to a first contact, on from it, and on from a last one
 _RESTS = 5  # rows kept, for each cell: if there is no more room, those of larger cells serve
 _SOON, _ONWARD, _LEAVING, _ROUND_FROM, _ROUND_TO = 0, 1, 2, 3, 5  # columns of what is known
-_REACHED, _LEFT, _COLUMNS = 7, 12, 17
+_REACHED, _LEFT, _TIGHT_TO, _TIGHT_FROM, _COLUMNS = 7, 12, 17, 19, 21
 JOINED = 6
 """Columns of `Tree.joined`."""
 
@@ -46,8 +48,9 @@ class Tree(NamedTuple):
     """What is known of it as one of several contacts: see `joined`. shape (n, JOINED)"""
     known: FloatArray
     """How soon a first contact can be there, the goal from it, and the goal from a last one; bounds
-    of both with the time round, either way; and the first and the last of these by how the contact
-    is passed. NaN while it is not known. shape (n, 17)"""
+    of both with the time round, either way; the first and the last of these by how the contact
+    is passed; and of both what `tight_excess` comes to, and what was asked for. NaN while it is not
+    known. shape (n, 21)"""
     rests: FloatArray
     """Intervals of the words' unknown that were left, one cell's after another's: see `rest`.
     shape (·, 5)"""
@@ -252,6 +255,26 @@ def round_from(tree: Tree, problem: Problem, n: int, way: int) -> float:
 def round_to(tree: Tree, problem: Problem, n: int, way: int) -> float:
     """How soon the goal can be reached from a last contact in a cell, with the time round to it."""
     return _least(tree, problem, n, way, True)
+
+
+@njit(cache=True, nogil=True)
+def excess(tree: Tree, problem: Problem, n: int, last: bool, enough: float) -> float:
+    """How much longer than round the disc it takes to a contact of a cell, or on from it.
+
+    Args:
+        tree: with the cell.
+        problem: what is asked, with a leader that keeps straight.
+        n: number of the cell.
+        last: as in `tight_excess`.
+        enough: likewise; there may be more.
+    """
+    column = _TIGHT_TO if last else _TIGHT_FROM
+    known = tree.known[n, column]
+    if isnan(known) or tree.known[n, column + 1] <= known < enough:
+        wanted = _MORE * enough
+        known = tight_excess(problem.scene, problem.table, cell_at(tree, n), last, wanted)
+        tree.known[n, column], tree.known[n, column + 1] = known, wanted
+    return float(known)
 
 
 @njit(cache=True, nogil=True)

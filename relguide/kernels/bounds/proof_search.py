@@ -21,6 +21,7 @@ from relguide.kernels.bounds.contact_tree import (
     Tree,
     cell_at,
     departed,
+    excess,
     halve,
     leave,
     plant,
@@ -33,6 +34,8 @@ from relguide.kernels.bounds.contact_tree import (
 from relguide.kernels.bounds.joined import apart, only_of, turned_goal, turned_leave
 from relguide.kernels.bounds.narrowing import lasts_left, narrow, with_around
 from relguide.kernels.bounds.probe import Find, probe, probe_between
+from relguide.kernels.bounds.side_change import cannot_change_sides
+from relguide.kernels.bounds.tight_contact import LONGEST
 
 MAX_BUNDLES = 400_000
 """Most bundles of paths kept, and cells; the search ends there."""
@@ -44,6 +47,10 @@ _PROBES, _EVERY = 512, 64  # so many are made at once, and one more for so many 
 _SMALLEST = 1e-10  # a cell no wider than this is not halved: rounding counts for more [rad]
 _EASED = 0.03  # cells narrower than this are looked at closely [rad]
 _SLACK = 1e-6  # of `round_time`, as part of a whole round
+_HOPS = 4e-3  # cells narrower than this are looked at by hops to and from them [rad]
+_SIDES = 2e-3  # and pairs of cells down to this by how sides are changed [rad]
+_OPEN = 2_000  # but only in searches that have looked at so many bundles,
+_FAILURES = 60  # and the sides as long as that is seldom in vain
 _ROOTS = 0.1  # size of the cells of last contacts that are left [rad]
 _MOST_ROOTS = 256  # if there are more, they are kept larger
 _NO_LAST = -1  # of a bundle whose last contact does not matter
@@ -65,7 +72,8 @@ class Search(NamedTuple):
     bundles: IntArray
     """Numbers of both cells, and 1 where the time round was looked at closely. shape (·, 3)"""
     size: IntArray
-    """How many bundles there are, have been looked at, and have been probed. shape (3,)"""
+    """How many bundles there are, have been looked at, and have been probed; and of looks at how
+    sides are changed twice those in vain, less the others. shape (4,)"""
 
 
 @njit(cache=True, nogil=True)
@@ -79,7 +87,7 @@ def begin(problem: Problem, first: FloatArray, last: FloatArray) -> Search:
     """
     search = Search(
         plant(first, MAX_BUNDLES), plant(last, MAX_BUNDLES), np.arange(len(last)),
-        np.empty(MAX_BUNDLES), np.empty((MAX_BUNDLES, 3), np.int64), np.zeros(3, np.int64),
+        np.empty(MAX_BUNDLES), np.empty((MAX_BUNDLES, 3), np.int64), np.zeros(4, np.int64),
     )  # fmt: skip
     for n in range(len(first)):
         _add(search, problem, n, _NO_LAST, 0.0)
@@ -129,6 +137,8 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
         elif m >= 0 and eased == 0 and max(half, search.last.cells[m, 3]) < _EASED:
             at_end = min(search.first.cells[n, 0], search.last.cells[m, 0]) == final
             closer = _round_trip(search, problem, n, m) if at_end else bound
+            if closer < problem.beat and _turns_back_late(search, problem, n, m):
+                closer = problem.beat
             if closer > bound:
                 if closer < problem.beat:
                     _push(search, closer, n, m, 1)
@@ -287,8 +297,48 @@ def _round_trip(search: Search, problem: Problem, n: int, m: int) -> float:
         behind = 1.0 if apart >= first[3] + last[3] else 0.0
         whole = problem.table[way, -1] * (behind - 2.0 * _SLACK)
         trip = round_from(search.first, problem, n, way) + round_to(search.last, problem, m, way)
-        closest = min(closest, trip + whole)
+        closest = min(closest, _with_hops(search, problem, n, m, way, trip + whole))
     return closest
+
+
+@njit(cache=True, nogil=True)
+def _with_hops(search: Search, problem: Problem, n: int, m: int, way: int, trip: float) -> float:
+    """A bound for who goes round from one cell to another, where no bank is enough to slide."""
+    first, last, enough = search.first.cells[n], search.last.cells[m], problem.beat - trip
+    if (
+        enough <= 0.0
+        or max(first[3], last[3]) >= _HOPS
+        or search.size[1] < _OPEN
+        or len(problem.scene.leader) > 1
+    ):
+        return trip
+    sense, more = 1.0 - 2.0 * way, 0.0
+    if last[1] == sense:
+        more = excess(search.last, problem, m, True, enough)
+    if first[1] == sense and more < enough:
+        # by only one of them, since both may be the same hop
+        more = max(more, excess(search.first, problem, n, False, enough))
+    longest = reach(search.first, problem, n)[0] + LONGEST + leave(search.last, problem, m)
+    return min(trip + more, max(trip, longest))
+
+
+@njit(cache=True, nogil=True)
+def _turns_back_late(search: Search, problem: Problem, n: int, m: int) -> bool:
+    """Whether who changes sides between two cells is certainly late."""
+    first, last = search.first.cells[n], search.last.cells[m]
+    if (
+        first[1] == last[1]
+        or max(first[3], last[3]) < _SIDES
+        or search.size[1] < _OPEN // 2
+        or search.size[3] >= _FAILURES
+        or len(problem.scene.leader) > 1
+    ):
+        return False
+    room = problem.beat - reach(search.first, problem, n)[0] - leave(search.last, problem, m)
+    cell, other = cell_at(search.first, n), cell_at(search.last, m)
+    late = cannot_change_sides(problem.scene, problem.table, cell, other, room)
+    search.size[3] = max(search.size[3] + (-1 if late else 2), 0)
+    return late
 
 
 @njit(cache=True, nogil=True)

@@ -79,3 +79,13 @@ def round_bound(table: FloatArray, way: int, cell: Cell, other: Cell) -> float:
     if sign * (end - begin) < 0.0:
         took += table[way, _ROUND]
     return float(max(took - _ROUND_SLACK * table[way, _ROUND], 0.0))
+
+
+@njit(cache=True, nogil=True)
+def round_most(table: FloatArray, bearing: float, gap: float) -> float:
+    """No less than the time counter-clockwise round from a bearing over a gap of [0, 2π)."""
+    begin = bearing if bearing >= -pi else bearing + TWO_PI
+    end = begin + gap
+    whole, past = float(table[0, _ROUND]), end > pi
+    took = round_time(table, 0, end - TWO_PI if past else end) - round_time(table, 0, begin)
+    return took + (whole if past else 0.0) + _ROUND_SLACK * whole

@@ -1,0 +1,95 @@
+"""How soon a path can come from one contact to its next one: proved. Behind a straight leader only.
+
+Behind a leader that keeps straight nothing depends on the time, so a contact is a bearing and a
+side. From one contact to the next a path is a word, which begins and ends as contacts can be passed
+(see `junction`): where k < 1 it does not begin with a turn toward the leader, and where k < 0 it
+does not begin straight. The same is asked of how it ends: flown back, with the leader backward too,
+and mirrored across the leader's beam, the word is one that begins there (`turned_round`).
+
+Slot frame: lengths in R, times in R/V_P, angles counter-clockwise. Contacts lie at d_min itself.
+"""
+
+from math import cos, inf, pi, sin
+
+from numba import njit
+
+from relguide.kernels.base.angles import TWO_PI
+from relguide.kernels.base.records import Pose, Scene, Velocity, Window
+from relguide.kernels.bounds.breach import no_sieve
+from relguide.kernels.bounds.cells import Cell, poses_of
+from relguide.kernels.bounds.junction import junction_of
+from relguide.kernels.bounds.rest import no_rest
+from relguide.kernels.bounds.word_bound import soonest, soonest_by_turn
+from relguide.kernels.bounds.word_intervals import Blur
+from relguide.kernels.contact.contact import to_frame_of
+
+
+@njit(cache=True, nogil=True)
+def standing(piece: int, side: float, bearing: float, half: float) -> Cell:
+    """A cell behind a leader that keeps straight, where times do not matter."""
+    return Cell(piece, side, bearing, half, 0.0, inf)
+
+
+@njit(cache=True, nogil=True)
+def turned_round(cell: Cell) -> Cell:
+    """The contacts of a cell, flown back and mirrored across the leader's beam."""
+    bearing = (pi if cell.bearing > 0.0 else -pi) - cell.bearing
+    return Cell(cell.piece, cell.side, bearing, cell.half, cell.start, cell.end)
+
+
+@njit(cache=True, nogil=True)
+def hop_bound(scene: Scene, cell: Cell, other: Cell, window: Window) -> float:
+    """No word without full loops leads sooner from a contact of a cell to the next, in the other.
+
+    Only how it begins is looked at.
+
+    Args:
+        scene: a leader that keeps straight, and d_min.
+        cell: of contacts, made by `standing`.
+        other: likewise.
+        window: words that take less time than `earliest` do not count; infinite from `beat` on.
+    """
+    begin, end = poses_of(scene, cell), poses_of(scene, other)
+    if begin.differs == inf or end.differs == inf:
+        return inf
+    junction = junction_of(scene, cell, -1.0)
+    moved, differs = max(end.left, end.right), begin.differs + end.differs
+    c, s = cos(end.middle.h), sin(end.middle.h)
+    found = soonest_by_turn(
+        to_frame_of(begin.middle, end.middle),
+        Blur(begin.left + moved, begin.right + moved, differs, end.differs),
+        Velocity(scene.alpha * c, -scene.alpha * s), window, no_sieve(scene), junction, no_rest(),
+    )  # fmt: skip
+    outward, inward = found.left, found.right
+    if junction.outward == 1:
+        outward, inward = inward, outward
+    soon = min(found.tangent, outward)
+    return min(soon, inward) if junction.inward else soon
+
+
+@njit(cache=True, nogil=True)
+def hops_within(scene: Scene, cell: Cell, other: Cell, window: Window) -> bool:
+    """Whether any word, with or without loops, may lead to the next contact within a window.
+
+    Arguments as `hop_bound`; both how it begins and how it ends are looked at.
+    """
+    back, onto = turned_round(other), turned_round(cell)
+    if (
+        hop_bound(scene, cell, other, window) < window.beat
+        and hop_bound(scene, back, onto, window) < window.beat
+    ):
+        return True
+    if window.beat <= TWO_PI:
+        return False
+    # without one of its loops the path meets the contact earlier, where that is a loop later
+    begin, end = poses_of(scene, cell), poses_of(scene, other)
+    moved, differs = max(end.left, end.right), begin.differs + end.differs
+    c, s = cos(end.middle.h), sin(end.middle.h)
+    met = Pose(end.middle.x + TWO_PI * scene.alpha, end.middle.y, end.middle.h)
+    left = window.beat - TWO_PI
+    looped = soonest(
+        to_frame_of(begin.middle, met),
+        Blur(begin.left + moved, begin.right + moved, differs, end.differs),
+        Velocity(scene.alpha * c, -scene.alpha * s), Window(0.0, left), no_sieve(scene),
+    )  # fmt: skip
+    return bool(looped < left)

@@ -1,0 +1,138 @@
+"""How much longer than round the disc it takes to a contact where nobody can slide: proved.
+
+Where k > 1 (see `junction`) no bank is enough to follow the circle of radius d_min, which the time
+round it does not know (see `round_time`). Behind a leader that keeps straight, let L be a contact
+there, which passes counter-clockwise, and P the one before it. Seen from the leader let a(X → Y) be
+the time counter-clockwise round the disc, negative where Y is passed before X, full rounds counted.
+No path takes less from X to Y. So from any contact F by way of P to L it takes at least
+
+    a(F → P) + T(P → L) = a(F → L) + e,    e = T(P → L) − a(P → L),
+
+T being the time of the word that leads from P to L: see `hop`. We want the least e of all P.
+
+- A word with a full loop takes 2π, and so does what goes round for so long: these are left out.
+- Near L there is no P, since the separation has fallen for a while (`apart_by`).
+- From a P with k < 1 nobody begins with a turn toward the leader. And if |k| ≤ 1 all the way from
+  a bearing P₀ to P, who slides there flies a path that bank allows: so a(P₀ → P) + T(P → L) is no
+  less than the time of the soonest word of all from P₀ to L. So of a cell of P only its beginning
+  matters. Where it pays to leave the circle λ_ψ = 0, so near the best P this is nearly exact.
+
+From a contact with k > 1 on to the next one it is the same, turned round. Slot frame: lengths in R,
+times in R/V_P, angles counter-clockwise.
+"""
+
+from math import pi
+
+import numpy as np
+from numba import njit
+
+from relguide.kernels.base.angles import TWO_PI, wrap
+from relguide.kernels.base.records import Scene, Window
+from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.bounds.cells import Cell
+from relguide.kernels.bounds.contact_bound import word_between
+from relguide.kernels.bounds.hop import hop_bound, standing, turned_round
+from relguide.kernels.bounds.junction import apart_by, slide_turns
+from relguide.kernels.bounds.round_time import round_bound, round_most
+
+LONGEST = TWO_PI
+"""What takes longer is not bounded [R/V_P]."""
+_CELLS = 16  # of each side, at first
+_MOST = 100  # times one is halved
+_FINE = 0.5  # and how much smaller than the contact's own cell they may become
+_ROUNDING = 1e-9  # of a time, as part of it
+
+
+@njit(cache=True, nogil=True)
+def tight_excess(scene: Scene, table: FloatArray, cell: Cell, last: bool, enough: float) -> float:
+    """How much longer than round the disc it takes to any contact of a cell, or on from it.
+
+    That is from any other contact, or to any, the way that the cell's side says.
+
+    Args:
+        scene: a leader that keeps straight, and d_min.
+        table: of `times_round`.
+        cell: of contacts.
+        last: whether it is come to, and not left.
+        enough: no more than this is wanted [R/V_P].
+
+    Returns:
+        [R/V_P], for what takes less than `LONGEST` in all; 0 where somebody might slide.
+    """
+    # mirrored, so that it passes counter-clockwise; and turned round, so that it is come to
+    asked = standing(cell.piece, 1.0, cell.side * cell.bearing, cell.half)
+    if not last:
+        asked = turned_round(asked)
+    if slide_turns(scene, asked)[0] <= 1.0:
+        return 0.0
+    at_once = Cell(asked.piece, 1.0, asked.bearing, asked.half, 0.0, 0.0)
+    return _least(scene, table, asked, apart_by(scene, at_once, -1.0), enough)
+
+
+@njit(cache=True, nogil=True)
+def _least(scene: Scene, table: FloatArray, cell: Cell, apart: float, enough: float) -> float:
+    """The least excess by way of any contact, by halving their cells."""
+    room = 2 * _CELLS + _MOST
+    sides, bearings, halves = np.empty(room), np.empty(room), np.empty(room)
+    bounds = np.empty(room)
+    count, half = 0, pi / _CELLS
+    for k in range(_CELLS):
+        for side in (1.0, -1.0):
+            sides[count], bearings[count], halves[count] = side, (2 * k + 1) * half - pi, half
+            other = standing(cell.piece, side, bearings[count], half)
+            bounds[count] = _excess(scene, table, other, cell, apart, enough)
+            count += 1
+    at = int(np.argmin(bounds[:count]))
+    while count < room and bounds[at] < enough and halves[at] > _FINE * cell.half:
+        side, bearing, half, least = sides[at], bearings[at], 0.5 * halves[at], bounds[at]
+        for k in range(2):
+            place = at if k == 0 else count
+            sides[place], bearings[place], halves[place] = side, bearing + (2 * k - 1) * half, half
+            other = standing(cell.piece, side, bearings[place], half)
+            bounds[place] = max(least, _excess(scene, table, other, cell, apart, enough))
+        count += 1
+        at = int(np.argmin(bounds[:count]))
+    return float(bounds[at])
+
+
+@njit(cache=True, nogil=True)
+def _excess(
+    scene: Scene, table: FloatArray, other: Cell, cell: Cell, apart: float, enough: float
+) -> float:
+    """The least excess by way of contacts of the other cell, no more than `enough`."""
+    ahead, reach = wrap(cell.bearing - other.bearing), cell.half + other.half
+    least, full = enough, float(table[0, -1])
+    # beyond the contact, and back to it
+    back = round_bound(table, 0, cell, other)
+    took = max(apart, round_bound(table, 1, other, cell))
+    if took + back < least and took < LONGEST:
+        window = Window(0.0, min(least - back, LONGEST))
+        took = max(took, hop_bound(scene, other, cell, window))
+        if took < LONGEST:
+            least = min(least, took + back)
+    # before it
+    around = ahead + reach >= TWO_PI
+    soonest, begin = round_bound(table, 0, other, cell), other.bearing - other.half
+    latest = round_most(table, begin, ahead + reach - (TWO_PI if around else 0.0))
+    if around and full - latest < LONGEST:
+        return 0.0
+    if soonest >= LONGEST:
+        return least
+    took = max(apart, soonest)
+    if took < min(latest + least, LONGEST):
+        window = Window(soonest * (1.0 - _ROUNDING), min(latest + least, LONGEST))
+        took = max(took, hop_bound(scene, other, cell, window))
+    if took >= LONGEST:
+        return least
+    if took < latest + least and other.side > 0.0 and _can_slide(scene, other):
+        # sliding to where the word begins counts here as well
+        at = standing(other.piece, 1.0, begin, 0.0)
+        took = max(took, word_between(scene, at, cell, latest + least, 0.0, 0.0, took))
+    return min(least, max(took - latest, 0.0))
+
+
+@njit(cache=True, nogil=True)
+def _can_slide(scene: Scene, cell: Cell) -> bool:
+    """Whether bank is enough to follow the circle in all of a cell."""
+    least, most = slide_turns(scene, cell)
+    return bool(-1.0 <= least and most <= 1.0)
