@@ -26,6 +26,8 @@ WORD, BOUNDARY_ARC, DELAY = 0.0, 1.0, 2.0
 NAMED = 3.0
 """And with a word's number in `extremals` more, how a contact is reached: by this word only. While
 the leader turns, who is later at a contact than by the soonest word may be ahead of that."""
+LEFT_TO_TOUCH, RIGHT_TO_TOUCH = 9.0, 10.0
+"""Or by a turn and a straight that touches the disc: where, the contact before it decides."""
 MAX_CONTACTS = 8
 """Longest chain."""
 MAX_LEGS = MAX_CONTACTS + 1
@@ -37,7 +39,8 @@ class Chain(NamedTuple):
     """A chain, and room to fly it."""
 
     contacts: FloatArray
-    """Piece, side and bearing of each contact, and how it is reached. shape (n, 4)"""
+    """Piece, side and bearing of each contact, and how it is reached. If by a straight that touches
+    the disc the bearing is near the one that it comes to, which it takes. shape (n, 4)"""
     legs: FloatArray
     """Takes WORD and a row of `solve`, or BOUNDARY_ARC, side, first and last bearing and the
     leader's piece at its end, for each leg. shape (≥ n + 1, 6)"""

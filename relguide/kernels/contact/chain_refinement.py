@@ -19,15 +19,17 @@ from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.boundary_arc import boundary_arc_arrival
 from relguide.kernels.contact.chain import (
     BOUNDARY_ARC,
+    LEFT_TO_TOUCH,
     NAMED,
     WORD,
     Chain,
     earliest_contact,
     with_contacts,
 )
-from relguide.kernels.contact.clear_words import best_word
+from relguide.kernels.contact.clear_words import best_word, word_clears
 from relguide.kernels.contact.contact import contact_at, contact_exists
 from relguide.kernels.contact.passing import words_onward
+from relguide.kernels.contact.touch_straight import touch_straight
 from relguide.kernels.words.extremals import ALL_WORDS
 
 FINEST = 1e-7
@@ -65,7 +67,7 @@ def fly_links(
         pose: where link `first` begins.
         t: when [R/V_P].
         scene: what the path has to reckon with.
-        chain: its contacts; takes the legs.
+        chain: its contacts; takes the legs, and the bearings at which straights touch.
         first: link to begin with.
         last: link to end with, at most n.
         beat: arrivals from here on do not matter [R/V_P].
@@ -95,9 +97,17 @@ def fly_links(
             onward = ALL_WORDS
             if k > 0:
                 onward = words_onward(scene, contacts[k - 1, 2], contacts[k - 1, 1], t)
-            if contacts[k, 3] >= NAMED:
-                onward &= 1 << int(contacts[k, 3] - NAMED)
-            t, at = earliest_contact(pose, t, scene, contact, onward, beat, rows)
+            if contacts[k, 3] >= LEFT_TO_TOUCH:
+                turn = 1.0 if contacts[k, 3] == LEFT_TO_TOUCH else -1.0
+                bearing, t = touch_straight(pose, t, scene, contact, turn, rows[0])
+                at = 0 if t < beat and onward & (1 << int(rows[0, 1])) else -1
+                if at < 0 or not word_clears(pose, t_start, rows[0], scene):
+                    return pose, inf
+                contacts[k, 2] = bearing
+            else:
+                if contacts[k, 3] >= NAMED:
+                    onward &= 1 << int(contacts[k, 3] - NAMED)
+                t, at = earliest_contact(pose, t, scene, contact, onward, beat, rows)
             if at < 0:
                 return pose, inf
             legs[k, 1:6] = rows[at]
@@ -131,6 +141,8 @@ def refine_chain(
     for _ in range(_SWEEPS):
         before = here
         for k in range(len(contacts)):
+            if contacts[k, 3] >= LEFT_TO_TOUCH:
+                continue
             at, t = fly_links(start, 0.0, scene, chain, 0, k - 1, inf)
             move = Move(k, _last_link_to_fly(scene, t, contacts, k, 1), strides[k], finest)
             here, strides[k] = move_bearing(at, t, scene, chain, move, here)
@@ -151,7 +163,9 @@ def follow_edges(start: Pose, scene: Scene, chain: Chain, here: float, stride: f
     """
     contacts = chain.contacts
     for k in range(len(contacts) - 1):
-        if contacts[k + 1, 3] == BOUNDARY_ARC:
+        if contacts[k + 1, 3] == BOUNDARY_ARC or contacts[k + 1, 3] >= LEFT_TO_TOUCH:
+            continue
+        if contacts[k, 3] >= LEFT_TO_TOUCH:
             continue
         at, t = fly_links(start, 0.0, scene, chain, 0, k - 1, inf)
         last = _last_link_to_fly(scene, t, contacts, k, 2)
@@ -213,9 +227,13 @@ def _last_link_to_fly(scene: Scene, t: float, contacts: FloatArray, k: int, move
 
     On the final leg nothing depends on time: past the next contact all stays as it is.
     """
+    n = len(contacts)
     if t >= scene.t_release and contacts[k, 0] == len(scene.leader) - 1:
-        return min(k + moved, len(contacts))
-    return len(contacts)
+        last = min(k + moved, n)
+        while last < n and contacts[last, 3] >= LEFT_TO_TOUCH:
+            last += 1  # where a straight touches depends on the contact before
+        return last
+    return n
 
 
 @njit(cache=True, nogil=True)
@@ -233,9 +251,11 @@ def simplify_chain(
         fewer = np.empty((contacts - 1, 4))
         fewer[:k] = chain.contacts[:k]
         fewer[k:] = chain.contacts[k + 1 : contacts]
-        if k < contacts - 1 and chain.contacts[k, 3] != BOUNDARY_ARC:
+        left_out = chain.contacts[k, 3]
+        slides_on = k < contacts - 1 and fewer[k, 3] == BOUNDARY_ARC
+        if slides_on and left_out != BOUNDARY_ARC:
             # the boundary arc that began at k is left out with it
-            fewer[k, 3] = chain.contacts[k, 3]
+            fewer[k, 3] = left_out if left_out < LEFT_TO_TOUCH else WORD
         shorter = with_contacts(chain, fewer)
         _, there = fly_links(start, 0.0, scene, shorter, 0, contacts - 1, here + _NEAR)
         if there < inf:

@@ -18,7 +18,7 @@ from relguide.kernels.base.angles import TWO_PI
 from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.records import Contact, Pose, Scene, with_limit, with_time
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.contact.best_chain import refine_chains
+from relguide.kernels.contact.best_chain import begin_again, refine_chains
 from relguide.kernels.contact.chain import (
     BOUNDARY_ARC,
     DELAY,
@@ -81,24 +81,35 @@ def best_constrained_path(
     narrow, keeps_straight = _is_slot_at_limit(scene), len(scene.leader) == 1
     if narrow and keeps_straight:
         bearings *= 2
-    best, count = _search(start, scene, bearings, tangents, beat, legs)
+    chain = np.zeros((MAX_CONTACTS, 4))
+    best, count, may_be_faster = _search(start, scene, bearings, tangents, beat, legs, chain)
     if narrow and scene.d_min > 1.0 and best > scene.t_release:
         # more bearings do not include the fewer ones, nor find all that these do
-        finer, more = np.zeros_like(legs), bearings * 7 // 5 if keeps_straight else 2 * bearings
+        finer, other = np.zeros_like(legs), np.zeros_like(chain)
+        more = bearings * 7 // 5 if keeps_straight else 2 * bearings
         # round a leader that turns, chains that are far later at first may be sooner once refined
         known = best if keeps_straight else beat
-        time, found = _search(start, scene, more, tangents, known, finer)
+        time, found, then = _search(start, scene, more, tangents, known, finer, other)
+        may_be_faster = may_be_faster or then
         if found > 0 and time < best:
             best, count = time, found
-            legs[:] = finer
+            legs[:], chain[:] = finer, other
+    if not keeps_straight and count > 2 and may_be_faster:
+        stride = _STRIDE * _BESIDE
+        time, found = begin_again(start, scene, chain, count - 1, best, stride, legs)
+        if found > 0:
+            best, count = time, found
     return best, count
 
 
 @njit(cache=True, nogil=True)
 def _search(
-    start: Pose, scene: Scene, bearings: int, tangents: FloatArray, beat: float, legs: FloatArray
-) -> tuple[float, int]:
-    """As `best_constrained_path`, with so many bearings.
+    start: Pose, scene: Scene, bearings: int, tangents: FloatArray, beat: float, legs: FloatArray,
+    chain: FloatArray,
+) -> tuple[float, int, bool]:  # fmt: skip
+    """As `best_constrained_path`, with so many bearings; `chain` takes contacts if there are two.
+
+    And whether any contact may lead to a path that is faster by what is worth it.
 
     Round a leader that turns it is looked closer where only a few contacts may still matter, since
     windows of bearings are narrow there.
@@ -108,24 +119,25 @@ def _search(
     keeps_straight = len(scene.leader) == 1
     hops = bearings // 2 if keeps_straight else bearings
     effort = Effort(width, hops, _BESIDE)
-    best, count = _look(start, scene, nodes, fresh, alive, effort, beat, legs)
+    best, count = _look(start, scene, nodes, fresh, alive, effort, beat, legs, chain)
     if keeps_straight or not 0 < alive.sum() <= _MOST_ALIVE or time_is_up(scene.until):
-        return best, count
+        return best, count, bool(alive.any())
     step = width / _CLOSER
     closer, added = nodes_closer(nodes, alive, step)
     then_alive, found = np.zeros(len(added), np.bool_), np.zeros_like(legs)
+    other = np.zeros_like(chain)
     effort = Effort(step, _HOPS_CLOSER, 1.2 * step)
-    time, more = _look(start, scene, closer, added, then_alive, effort, best, found)
+    time, more = _look(start, scene, closer, added, then_alive, effort, best, found, other)
     if more > 0:
         best, count = time, more
-        legs[:] = found
-    return best, count
+        legs[:], chain[:] = found, other
+    return best, count, bool(alive.any())
 
 
 @njit(cache=True, nogil=True)
 def _look(
     start: Pose, scene: Scene, nodes: Nodes, fresh: BoolArray, alive: BoolArray, effort: Effort,
-    beat: float, legs: FloatArray,
+    beat: float, legs: FloatArray, chain: FloatArray,
 ) -> tuple[float, int]:  # fmt: skip
     """As `best_constrained_path`, by way of some nodes.
 
@@ -139,6 +151,7 @@ def _look(
         effort: how closely the graph is searched.
         beat: an arrival already known [R/V_P].
         legs: takes the legs of the path.
+        chain: takes its contacts, if there are two or more. shape (MAX_CONTACTS, 4)
     """
     path = np.empty((2, 5))
     best = scan_contacts(start, scene, nodes, fresh, beat, path)
@@ -153,9 +166,9 @@ def _look(
     kept = best_chains(scene, nodes, fresh, best, effort, True, chains)
     if kept > 0 and chains[0, 0, 0] == scene.t_release:
         contacts = int(chains[0, 0, 1])
-        chain = chain_of(chains[0, 1 : contacts + 1], np.zeros((MAX_LEGS, 6)))
-        if fly_to_delay(start, with_time(scene, inf), chain):
-            legs[: contacts + 1] = chain.legs[: contacts + 1]
+        delayed = chain_of(chains[0, 1 : contacts + 1], np.zeros((MAX_LEGS, 6)))
+        if fly_to_delay(start, with_time(scene, inf), delayed):
+            legs[: contacts + 1] = delayed.legs[: contacts + 1]
             return scene.t_release, contacts + 1
         nodes.time[:], nodes.lower[:] = reached, lower
         kept = best_chains(scene, nodes, fresh, best, effort, False, chains)
@@ -165,7 +178,10 @@ def _look(
     time, count = refine_chains(start, scene, chains[:kept], stride, turns, best, legs)
     alive[:] = nodes.lower < time - _WORTH
     nodes.time[:], nodes.lower[:] = reached, lower
-    return (time, count) if count > 0 else (best, found)
+    if count == 0:
+        return best, found
+    chain[: count - 1] = chains[0, 1:count]
+    return time, count
 
 
 @njit(cache=True, nogil=True)

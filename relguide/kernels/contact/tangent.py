@@ -228,29 +228,58 @@ def tangent_contacts(pose: Pose, leg: Leg, distance: float, found: FloatArray) -
     Returns:
         how many.
     """
-    contact = np.empty(4)
     n = 0
     for k in range(4):
         first = 1.0 - 2.0 * (k % 2)
         second = 0.0 if k < 2 else -first
-        approach = _Approach(pose, leg, distance, first, second)
-        last = np.nan
-        for j in range(_TURNS + 1):
-            low, high = TWO_PI * (j - 1) / _TURNS, TWO_PI * j / _TURNS
-            gap = _miss(approach, high, contact)
-            between = Bracket(low, high, last, gap)
-            if leg.turning != 0.0 and j > 0 and isnan(last) != isnan(gap):
-                between = _to_edge(approach, between, contact)
-            if between.at_low * between.at_high < 0.0 and n < MAX_TANGENTS:
-                turned = _touch(approach, between, contact)
-                value = _miss(approach, turned, contact)
-                if abs(value) < 1e-9 and leg.begin <= contact[2] <= leg.end:
-                    vx, vy = cos(contact[3]) - leg.alpha, sin(contact[3])
-                    found[n, 0] = wrap(atan2(contact[1], contact[0]))
-                    found[n, 1] = 1.0 if contact[0] * vy > contact[1] * vx else -1.0
-                    found[n, 2] = contact[2]
-                    n += 1
-            last = gap
+        n = _append_contacts(_Approach(pose, leg, distance, first, second), found, n)
+    return n
+
+
+@njit(cache=True, nogil=True)
+def straight_touches(
+    pose: Pose, t: float, scene: Scene, piece: int, turn: float, found: FloatArray
+) -> int:
+    """Contacts on a leader's piece that a turn to one side and a straight lead to.
+
+    Args:
+        pose: where the turn begins.
+        t: when [R/V_P].
+        scene: the leader and d_min.
+        piece: of the leader's.
+        turn: +1 if it is to the left, −1 to the right.
+        found: as in `tangent_contacts`, its times since t. shape (MAX_TANGENTS, 3)
+
+    Returns:
+        how many.
+    """
+    leader, at = scene.leader, leader_at(scene, piece, t)
+    end = leader[piece + 1, 0] - t if piece + 1 < len(leader) else inf
+    leg = Leg(scene.alpha, leader[piece, 4], leader[piece, 0] - t, end)
+    seen, distance = to_frame_of(pose, at), contact_distance(scene.d_min)
+    return _append_contacts(_Approach(seen, leg, distance, turn, 0.0), found, 0)
+
+
+@njit(cache=True, nogil=True)
+def _append_contacts(approach: _Approach, found: FloatArray, n: int) -> int:
+    """Append the contacts that one kind of approach leads to; how many there are then."""
+    leg, contact, last = approach.leg, np.empty(4), np.nan
+    for j in range(_TURNS + 1):
+        low, high = TWO_PI * (j - 1) / _TURNS, TWO_PI * j / _TURNS
+        gap = _miss(approach, high, contact)
+        between = Bracket(low, high, last, gap)
+        if leg.turning != 0.0 and j > 0 and isnan(last) != isnan(gap):
+            between = _to_edge(approach, between, contact)
+        if between.at_low * between.at_high < 0.0 and n < MAX_TANGENTS:
+            turned = _touch(approach, between, contact)
+            value = _miss(approach, turned, contact)
+            if abs(value) < 1e-9 and leg.begin <= contact[2] <= leg.end:
+                vx, vy = cos(contact[3]) - leg.alpha, sin(contact[3])
+                found[n, 0] = wrap(atan2(contact[1], contact[0]))
+                found[n, 1] = 1.0 if contact[0] * vy > contact[1] * vx else -1.0
+                found[n, 2] = contact[2]
+                n += 1
+        last = gap
     return n
 
 
