@@ -26,7 +26,8 @@ from relguide.kernels.bounds.breach import INSIDE
 from relguide.kernels.bounds.cells import Cell
 from relguide.kernels.separation.clearance import leader_at, piece_at
 
-_STEP = 0.1  # for which a front keeps its direction, in d_min and at V_P
+_STEP = 0.1  # for which a front keeps its direction, in d_min and at V_P …
+_CLOSE, _PARTS = 0.01, 4  # … and a part of it for cells narrower than this [rad]
 _WIDEST = 3.1  # e is no further than this from the bearing of P, so that the disc is beside it
 _TRIES = 8  # to say when P arrives within a step, to a tenth of `ROUNDING`
 ROUNDING = 1e-5  # 0.5 ms for an airliner: more than what rounding makes of all of this [R/V_P]
@@ -72,8 +73,12 @@ def round_arrival(scene: Scene, cell: Cell, other: Cell, latest: float) -> float
         angle = wrap(sense * apart) - blur
         if angle <= 0.0 or angle + 2.0 * blur >= TWO_PI or scene.alpha > FAST:
             return cell.start
-        edge = high if way == 0 else low
-        soonest = min(soonest, _sweep(scene, cell.start, edge, angle, sense, min(latest, soonest)))
+        edge, end, step = high if way == 0 else low, min(latest, soonest), step_of(scene)
+        arrival = _sweep(scene, cell.start, edge, angle, sense, end, step)
+        if arrival < end and max(cell.half, other.half) < _CLOSE:
+            step /= _PARTS
+            arrival = max(arrival, _sweep(scene, cell.start, edge, angle, sense, end, step))
+        soonest = min(soonest, arrival)
     return soonest
 
 
@@ -103,12 +108,12 @@ def leader_then(scene: Scene, t: float) -> Pose:
 
 @njit(cache=True, nogil=True)
 def _sweep(
-    scene: Scene, t: float, bearing: float, angle: float, sense: float, latest: float
+    scene: Scene, t: float, bearing: float, angle: float, sense: float, latest: float, step: float
 ) -> float:
     """When a front that begins at a bearing has swept an angle; infinite from `latest` on."""
-    step, course, there = step_of(scene), bearing, leader_then(scene, t)
+    course, there = bearing, leader_then(scene, t)
     while t < latest:
-        front = front_from(scene, t, there, bearing, course, sense, 1.0)
+        front = front_from(scene, t, there, bearing, course, sense, 1.0, step)
         there = leader_then(scene, t + step)
         reached = reached_by(scene, front, there, step)
         swept = swept_by(front, reached)
@@ -129,8 +134,9 @@ def step_of(scene: Scene) -> float:
 
 @njit(cache=True, nogil=True)
 def front_from(
-    scene: Scene, t: float, there: Pose, bearing: float, course: float, sense: float, pace: float
-) -> Front:
+    scene: Scene, t: float, there: Pose, bearing: float, course: float, sense: float, pace: float,
+    step: float,
+) -> Front:  # fmt: skip
     """A front for the next step.
 
     Args:
@@ -141,8 +147,9 @@ def front_from(
         course: of e until then; the bearing, if it only begins [rad].
         sense: as in `Front`.
         pace: +1 on in time, −1 back, where the leader flies backward.
+        step: how long it is [R/V_P].
     """
-    alpha, later = pace * scene.alpha, 0.5 * step_of(scene)
+    alpha, later = pace * scene.alpha, 0.5 * step
     # where someone heads who slides along the edge, in the middle of the step
     along = alpha * cos(bearing - there.h)
     rate = (sqrt(1.0 - along * along) + sense * alpha * sin(bearing - there.h)) / scene.d_min
