@@ -181,15 +181,14 @@ def _bound_rest(side: Side, asked: Asked) -> None:
 @njit(cache=True, nogil=True)
 def _bound_same_side(turns: int, side: Side, asked: Asked) -> None:
     """As `_bound_all`, for LSL, see `same_turns`."""
-    found = same_turns(turns, side, Window(asked.earliest, beat_of(side, asked)))
-    fate = POSSIBLE
+    left = Window(asked.earliest, beat_of(side, asked))
+    found = same_turns(turns, side, left)
+    fate = IMPOSSIBLE
     if found.time < inf:
         fate = take_all(found, (-1.0, 0.0, -1.0), 3, 0.0, side, asked)
-    elif asked.rest.room < 0:
-        return
-    elif _within(SAME_TURNS, 0.0, 0.0, float(turns), side, asked).time == inf:
-        return
-    _keep(fate, SAME_TURNS, 0.0, 0.0, float(turns), side, asked)
+    if asked.rest.room >= 0:
+        fate = _also_later(fate, found, left, SAME_TURNS, 0.0, 0.0, float(turns), side, asked)
+        _keep(fate, SAME_TURNS, 0.0, 0.0, float(turns), side, asked)
 
 
 @njit(cache=True, nogil=True)
@@ -259,6 +258,7 @@ def _bound_within(
         else:
             spare = half + side.heading
             fate = take(found, (1.0, 0.0, -1.0), found.first, spare, side, asked)
+            fate = _also_later(fate, found, left, kind, mid, half, around, side, asked)
             _keep(fate, kind, mid, half, around, side, asked)
 
 
@@ -274,6 +274,27 @@ def _within(
         s, c = sin(0.5 * mid), cos(0.5 * mid)
         return three_turns_within(mid, half, s, c, around, side, window)
     return opposite_turns_within(mid, half, sin(mid), cos(mid), around, side, window)
+
+
+@njit(cache=True, nogil=True)
+def _also_later(
+    fate: int, found: Interval, left: Window, kind: int, mid: float, half: float, around: float,
+    side: Side, asked: Asked,
+) -> int:  # fmt: skip
+    """What words in an interval are, with those that are too late to matter now.
+
+    They may matter to a part of the set: so if there are any, what is said of the others alone is
+    not said of all.
+    """
+    if fate == POSSIBLE or asked.rest.room < 0 or left.beat >= asked.beat:
+        return fate
+    all_words = _within(kind, mid, half, around, side, asked)
+    if all_words.time == inf:
+        return IMPOSSIBLE
+    longest = found.middle + found.middle_blur
+    if found.time < inf and all_words.middle + all_words.middle_blur <= longest:
+        return fate
+    return POSSIBLE
 
 
 @njit(cache=True, nogil=True)
