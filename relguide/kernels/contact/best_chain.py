@@ -81,7 +81,7 @@ def refine_chains(
 @njit(cache=True, nogil=True)
 def begin_again(
     start: Pose, scene: Scene, contacts: FloatArray, count: int, best: float, stride: float,
-    legs: FloatArray,
+    legs: FloatArray, effort: int,
 ) -> tuple[float, int]:  # fmt: skip
     """Look for a faster chain near the best one, as in `nearby_chains`.
 
@@ -93,6 +93,7 @@ def begin_again(
         best: its arrival [R/V_P].
         stride: how far is looked at first [rad].
         legs: takes those of a faster chain. shape (MAX_LEGS, 6)
+        effort: as of `search_nearby`.
 
     Returns:
         the least arrival [R/V_P] and the number of its legs; `best` and 0 if none is earlier.
@@ -100,7 +101,7 @@ def begin_again(
     room, given = np.zeros((MAX_LEGS, 6)), best
     for _ in range(_AGAIN):
         before = best
-        best, count = search_nearby(start, scene, contacts, count, best, stride, room)
+        best, count = search_nearby(start, scene, contacts, count, best, stride, room, effort)
         if best > before - _WORTH_AGAIN:
             break
         best, count = _finished(start, scene, contacts, count, best, stride, True)

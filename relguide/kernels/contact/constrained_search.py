@@ -46,6 +46,7 @@ _CLOSER = 8  # steps from one bearing to the next where it is looked closer
 _STRIDE = 0.44  # least first step of a bearing round a leader that turns, of what is beside: 2.5°
 _HOPS_CLOSER = 2  # of contacts, to others, where it is looked closer
 _MOST_ALIVE = 10  # contacts that may still matter: of more it is not looked closer
+_AGAIN, _AGAIN_AT_LIMIT = 120, 250  # effort to begin the best chain again from nearby
 _WORTH = 2e-3  # how much sooner a contact has to promise an arrival for it [R/V_P]: 0.1 s
 
 
@@ -95,8 +96,8 @@ def best_constrained_path(
             best, count = time, found
             legs[:], chain[:] = finer, other
     if not keeps_straight and count > 2 and may_be_faster:
-        stride = _STRIDE * _BESIDE
-        time, found = begin_again(start, scene, chain, count - 1, best, stride, legs)
+        stride, effort = _STRIDE * _BESIDE, _AGAIN_AT_LIMIT if narrow else _AGAIN
+        time, found = begin_again(start, scene, chain, count - 1, best, stride, legs, effort)
         if found > 0:
             best, count = time, found
     return best, count

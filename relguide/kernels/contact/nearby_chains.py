@@ -49,7 +49,6 @@ _TOWARD_START, _TOWARD_END = 0, 8  # changes of the piece
 _SLIDING = 7  # and a boundary arc over a contact
 _MOVED = (0, 1, 1, 2, 2, 1, 1, 0, 0, 1, 1, 2, 2)  # how many bearings the others move,
 _BY = (0.0, -0.1, 0.1, -0.1, 0.1, -0.35, 0.35, 0.0, 0.0, -0.2, 0.2, -0.2, 0.2)  # how far [rad]
-_EFFORT = 250  # for chains that are refined, as the square of their contacts says
 _BESIDE = (0.0, -0.1, 0.1, -0.2, 0.2)  # where a straight is begun that touches the disc [rad]
 _MOMENT = 1e-3  # so soon it has not left [R/V_P]
 _SHORT = 0.05  # a boundary arc as it is begun [rad]
@@ -58,7 +57,7 @@ _SHORT = 0.05  # a boundary arc as it is begun [rad]
 @njit(cache=True, nogil=True)
 def search_nearby(
     start: Pose, scene: Scene, contacts: FloatArray, count: int, here: float, stride: float,
-    legs: FloatArray,
+    legs: FloatArray, effort: int,
 ) -> tuple[float, int]:  # fmt: skip
     """Begin a chain again from nearby, as long as it is sooner by it.
 
@@ -70,11 +69,12 @@ def search_nearby(
         here: its arrival [R/V_P].
         stride: how far bearings are moved at first [rad].
         legs: room. shape (MAX_LEGS, 6)
+        effort: how many chains are refined: the sum of the squares of their contacts.
 
     Returns:
         the arrival then [R/V_P], and how many contacts there are.
     """
-    tried, left = np.empty((MAX_CONTACTS, 4)), np.array([_EFFORT])
+    tried, left = np.empty((MAX_CONTACTS, 4)), np.array([effort])
     for _ in range(_ROUNDS):
         before = here
         for k in range(count):
