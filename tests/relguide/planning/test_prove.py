@@ -14,6 +14,8 @@ from hypothesis import assume, given
 
 from relguide import NoPlan, Plan, Situation, plan, prove
 from relguide.__main__ import main
+from relguide.kernels.bounds.cells import Cell
+from relguide.kernels.bounds.probe import begin_find, probe_between
 from relguide.kernels.words.extremals import MAX_ROWS, solve_and_measure
 from relguide.planning import constrained_path
 from relguide.planning.prove import (
@@ -256,3 +258,16 @@ def test_the_bar_shows_the_gap(
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
     assert main(["plan", write_situation(tmp_path, "R101"), "--prove", "1.5"]) == 0
     assert "proving gap" in capsys.readouterr().err
+
+
+def test_a_probe_comes_to_its_first_contact_by_a_later_word_too() -> None:
+    """Who is later is ahead there: by the soonest word the path arrives 0.8 s later."""
+    rng = np.random.default_rng([105, proofs.KINDS.index("turning, in wind"), 56])
+    situation = proofs.draw("turning, in wind", rng, 56)
+    found = candidates(situation)
+    question, scale = question_of(found), found.frame.radius / situation.pursuer.tas
+    find = begin_find(question.start, question.scene, inf, 0.0, False)
+    first, last = Cell(1, 1.0, 1.5443, 5e-4, 2.34, 2.345), Cell(2, 1.0, 1.925, 5e-4, 5.27, inf)
+    probe_between(question.start, find, first, last)
+    assert find.best[1] > 0.0
+    assert find.best[0] * scale < 259.32
