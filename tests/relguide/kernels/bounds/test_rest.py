@@ -1,7 +1,7 @@
 """What a set has left of its words is all that a part of it needs to look at."""
 
 from itertools import islice
-from math import cos, inf, pi, sin
+from math import cos, pi, sin
 
 import numpy as np
 import pytest
@@ -58,4 +58,3 @@ def test_words_that_were_too_late_to_matter_to_a_cell_are_left_to_its_halves() -
     for later in (1.002, 1.01, 1.03, 1.1):
         for bound in islice(question_of(found).bounds(later * time), 25):
             assert bound < time + 1e-6
-    assert time < inf
