@@ -20,7 +20,7 @@ from relguide.kernels.contact.contact import (
     disc_on,
     slide_within,
 )
-from relguide.kernels.separation.clearance import fly_rate, leader_at, piece_at
+from relguide.kernels.separation.clearance import fly_rate, leader_at, piece_at, piece_end
 
 NODE = 0.03
 """Time between nodes of a boundary arc [R/V_P]: between them it strays from d_min by some 1e-8 R.
@@ -66,7 +66,7 @@ def _stretches_of(
     leader = scene.leader
     n, met = 0, -1
     for i in range(piece_at(leader, t), len(leader)):
-        left = leader[i + 1, 0] - t if i + 1 < len(leader) else inf
+        left = piece_end(leader, i) - t
         disc = disc_on(scene, i, side)
         ahead = boundary_arc_sense(bearing, disc) * (goal - bearing)
         if ahead > 0.0:

@@ -31,8 +31,9 @@ from relguide.kernels.contact.chain import (
 from relguide.kernels.contact.chain_refinement import fly_links
 from relguide.kernels.contact.clear_words import word_clears
 from relguide.kernels.contact.contact import contact_at, contact_exists
-from relguide.kernels.contact.contact_graph import Effort, best_chains
+from relguide.kernels.contact.contact_graph import best_chains
 from relguide.kernels.contact.delay_after_contact import delay_until_release
+from relguide.kernels.contact.graph_labels import Effort
 from relguide.kernels.contact.nodes import BoolArray, Nodes, contact_nodes, nodes_closer
 from relguide.kernels.contact.one_contact import descend_basins, scan_contacts
 from relguide.kernels.contact.paths_to_contact import paths_to_contact

@@ -16,6 +16,7 @@ from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.contact import contact_on, to_frame_of
 from relguide.kernels.contact.moving_contact import earliest_while_turning, passage_to
 from relguide.kernels.contact.paths_while_turning import paths_while_turning
+from relguide.kernels.separation.clearance import piece_end
 from relguide.kernels.words.extremals import ALL_WORDS, solve_words
 
 
@@ -80,7 +81,7 @@ def paths_by_words(
 ) -> int:  # fmt: skip
     """As `paths_to_contact`, of a set of words as in `passing`."""
     leader, i = scene.leader, contact.piece
-    end = leader[i + 1, 0] if i + 1 < len(leader) else inf
+    end = piece_end(leader, i)
     if end <= t or words == 0:
         return 0
     if leader[i, 4] != 0.0:

@@ -26,7 +26,7 @@ from relguide.kernels.base.false_position import secant, tightened
 from relguide.kernels.base.records import Bracket, Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.contact import contact_distance, to_frame_of
-from relguide.kernels.separation.clearance import leader_at
+from relguide.kernels.separation.clearance import leader_at, piece_end
 from relguide.kernels.words.extremals import fly_piece
 
 MAX_TANGENTS = 32
@@ -254,7 +254,7 @@ def straight_touches(
         how many.
     """
     leader, at = scene.leader, leader_at(scene, piece, t)
-    end = leader[piece + 1, 0] - t if piece + 1 < len(leader) else inf
+    end = piece_end(leader, piece) - t
     leg = Leg(scene.alpha, leader[piece, 4], leader[piece, 0] - t, end)
     seen, distance = to_frame_of(pose, at), contact_distance(scene.d_min)
     return _append_contacts(_Approach(seen, leg, distance, turn, 0.0), found, 0)
@@ -304,8 +304,7 @@ def tangents(start: Pose, scene: Scene) -> FloatArray:
         at = leader_at(scene, i, 0.0)
         if pieces == 1 and hypot(start.x - at.x, start.y - at.y) > distance + NEAR:
             continue
-        end = leader[i + 1, 0] if i + 1 < pieces else inf
-        leg = Leg(scene.alpha, leader[i, 4], leader[i, 0], end)
+        leg = Leg(scene.alpha, leader[i, 4], leader[i, 0], piece_end(leader, i))
         m = tangent_contacts(to_frame_of(start, at), leg, distance, found)
         kept[n : n + m, :3], kept[n : n + m, 3] = found[:m], i
         n += m

@@ -20,6 +20,7 @@ from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.records import Contact, Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.contact import contact_exists, contact_on
+from relguide.kernels.separation.clearance import piece_end
 from relguide.kernels.words.extremals import fly_piece
 
 _GUESSES = 4  # of the time, before Newton's method
@@ -48,7 +49,7 @@ def touch_straight(
         bearing [rad] and time [R/V_P] of the contact; an infinite time if none is found.
     """
     leader, i = scene.leader, near.piece
-    begin, end = max(t, leader[i, 0]), leader[i + 1, 0] if i + 1 < len(leader) else inf
+    begin, end = max(t, leader[i, 0]), piece_end(leader, i)
     if end <= begin:
         return near.bearing, inf
     if leader[i, 4] == 0.0:
@@ -104,8 +105,7 @@ def _solve_near(
     if not solved:
         return bearing, inf
     contact = _moved(near, bearing)
-    begin, pieces = scene.leader[contact.piece, 0], len(scene.leader)
-    end = scene.leader[contact.piece + 1, 0] if contact.piece + 1 < pieces else inf
+    begin, end = scene.leader[contact.piece, 0], piece_end(scene.leader, contact.piece)
     turned, _, _ = _turn_and_gap(pose, scene, contact, turn, time)
     straight = time - t - turned
     if straight < 0.0 or not begin <= time <= end:

@@ -4,7 +4,7 @@ The same bound as in `approach`, but it stops at the first point found too close
 times in R/V_P, angles counter-clockwise. The leader is a table of its pieces, as in `Scene`.
 """
 
-from math import cos, hypot, sin
+from math import cos, hypot, inf, sin
 
 import numpy as np
 from numba import njit
@@ -29,6 +29,12 @@ def piece_at(leader: FloatArray, t: float) -> int:
     while i + 1 < len(leader) and leader[i + 1, 0] <= t:
         i += 1
     return i
+
+
+@njit(cache=True, nogil=True)
+def piece_end(leader: FloatArray, i: int) -> float:
+    """When the leader's piece i ends, and the next begins [R/V_P]; infinite if it is the last."""
+    return float(leader[i + 1, 0]) if i + 1 < len(leader) else inf
 
 
 @njit(cache=True, nogil=True)
@@ -62,9 +68,7 @@ def piece_clears(pose: Pose, rate: float, t: float, duration: float, scene: Scen
     i = piece_at(leader, t)
     looked = 0
     while done < duration:
-        end = duration
-        if i + 1 < len(leader):
-            end = min(end, leader[i + 1, 0] - t)
+        end = min(duration, piece_end(leader, i) - t)
         bend = abs(rate) + alpha * abs(leader[i, 4])
         mids[0], halves[0] = 0.5 * (done + end), 0.5 * (end - done)
         n = 1

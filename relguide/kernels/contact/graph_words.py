@@ -1,0 +1,92 @@
+"""Words from node to node of the graph of contacts, from the most promising nodes first.
+
+Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
+"""
+
+from math import inf
+
+import numpy as np
+from numba import njit
+
+from relguide.kernels.base.angles import wrap_signed
+from relguide.kernels.base.clock import time_is_up
+from relguide.kernels.base.records import Scene
+from relguide.kernels.contact.chain import WORD, earliest_contact
+from relguide.kernels.contact.clear_words import to_slot_frame
+from relguide.kernels.contact.contact import contact_at, contact_exists, contact_on
+from relguide.kernels.contact.graph_labels import Effort, Graph, label_to_beat
+from relguide.kernels.contact.nodes import Nodes, contact_of
+from relguide.kernels.contact.passing import words_onward
+from relguide.kernels.contact.paths_to_contact import earliest_arrival, not_before_slot
+from relguide.kernels.words.fastest import fastest
+
+_WORTH = 2e-4  # how much sooner the slot has to be in reach for it to be followed [R/V_P]: 10 ms
+
+
+@njit(cache=True, nogil=True)
+def hop(scene: Scene, nodes: Nodes, graph: Graph, best: float, effort: Effort) -> None:
+    """Find words from the most promising nodes to all others."""
+    time, lower = nodes.time, nodes.lower
+    near = np.zeros(len(time))  # nodes beside one that was followed in this round
+    for _ in range(effort.hops):
+        n = -1
+        for m in range(len(time)):
+            if (
+                near[m] == 0.0
+                and lower[m] < best - _WORTH
+                and time[m] < graph.hopped[m]
+                and (n < 0 or lower[m] < lower[n])
+            ):
+                n = m
+        if n < 0 or time_is_up(scene.until):
+            break
+        ring, of_kind = nodes.rings[n], n - n % graph.nodes
+        for m in range(nodes.first[ring] + of_kind, nodes.first[ring + 1] + of_kind):
+            if abs(wrap_signed(nodes.bearings[m] - nodes.bearings[n])) < effort.beside:
+                near[m] = 1.0
+        graph.hopped[n] = time[n]
+        _hop_from(scene, nodes, graph, n, best)
+
+
+@njit(cache=True, nogil=True)
+def _hop_from(scene: Scene, nodes: Nodes, graph: Graph, n: int, best: float) -> None:
+    """Find words from a node to all others that may be in time."""
+    time, left = nodes.time, nodes.time[n]
+    pose = contact_at(scene, left, nodes.bearings[n], nodes.sides[n])
+    onward = words_onward(scene, nodes.bearings[n], nodes.sides[n], left)
+    for node in range(graph.nodes):
+        contact, m = contact_of(nodes, node), node + graph.hops
+        if node == n % graph.nodes or not contact_exists(contact.bearing, scene.alpha):
+            continue
+        t = earliest_arrival(pose, left, scene, contact)
+        beat = label_to_beat(scene, nodes, graph, m, t)
+        if t >= beat or t >= best:
+            continue
+        beat = min(beat, best - _onward_from(scene, nodes, graph, node))
+        if t >= beat:
+            continue
+        there = contact_at(scene, t, contact.bearing, contact.side)
+        if not_before_slot(there, t, scene) >= best:
+            continue
+        if time_is_up(scene.until):
+            break
+        t, _ = earliest_contact(pose, left, scene, contact, onward, beat, graph.rows)
+        if t < inf:
+            time[m], graph.before[m], graph.link[m], graph.fresh[m] = t, n, WORD, 1.0
+
+
+@njit(cache=True, nogil=True)
+def _onward_from(scene: Scene, nodes: Nodes, graph: Graph, node: int) -> float:
+    """How long the path from a node to the slot takes at least [R/V_P]; 0 where nothing is known.
+
+    On the final leg, where it takes as long whenever it begins, it is found once.
+    """
+    if np.isnan(graph.onward[node]):
+        final, known = len(scene.leader) - 1, 0.0
+        contact = contact_of(nodes, node)
+        if contact.piece == final:
+            t, row = scene.leader[final, 0], graph.rows[0]
+            seen = to_slot_frame(contact_on(scene, contact, t), t, scene.alpha)
+            known = row[0] if fastest(seen, scene.alpha, 0.0, 0, graph.scratch, row) else inf
+        graph.onward[node] = known
+    return float(graph.onward[node])
