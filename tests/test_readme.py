@@ -3,6 +3,7 @@
 import io
 import json
 import re
+import shlex
 from contextlib import redirect_stdout
 from math import degrees
 from pathlib import Path
@@ -46,6 +47,7 @@ def test_one_request() -> None:
         answer = client.post(path[1], json=body)
     assert answer.status_code == 200
     assert answer.json()["status"] == "planned"
+    assert json.loads((ROOT / "examples" / "situation.json").read_text()) == body
 
 
 def run_with_service(code: str) -> list[str]:
@@ -82,6 +84,38 @@ def test_commands_are_there(capsys: pytest.CaptureFixture[str]) -> None:
             main([command, "--help"])
         assert end.value.code == 0
         assert f"relguide {command}" in capsys.readouterr().out
+
+
+def shown_commands() -> list[list[str]]:
+    """What the README tells `relguide` to do, as its arguments; comments left out."""
+    lines = "".join(blocks("sh")).splitlines()
+    return [shlex.split(line, comments=True)[1:] for line in lines if line.startswith("relguide ")]
+
+
+def test_files_that_commands_read_are_there() -> None:
+    """Or made by a command before."""
+    made = set[str]()
+    for arguments in shown_commands():
+        for name in arguments:
+            if re.search(r"\.[a-z]+$", name) and name not in made:
+                before = arguments[arguments.index(name) - 1]
+                if before in ("--out", "--figure", "--record") or arguments[0] == "train":
+                    made.add(name)
+                else:
+                    assert (ROOT / name).is_file(), name
+
+
+@pytest.mark.slow
+def test_commands_with_examples_succeed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "examples").symlink_to(ROOT / "examples")
+    monkeypatch.chdir(tmp_path)
+    run = [asked for asked in shown_commands() if any("examples/" in name for name in asked)]
+    assert {arguments[0] for arguments in run} == {"plan", "check", "fly"}
+    for arguments in run:
+        assert main(arguments) == 0, arguments
+        assert capsys.readouterr().out or "--out" in arguments
 
 
 @pytest.mark.slow

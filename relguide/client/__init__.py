@@ -5,10 +5,15 @@ and documents, in SI units and radians. What came with latitude and longitude is
 `lat_deg` and `lon_deg` [°] as well. Fields and documents that a newer service adds are passed over.
 """
 
-from relguide.client.async_client import AsyncClient, AsyncFlight
-from relguide.client.calls import Answer, Invalid, Refused
-from relguide.client.sync_client import Client, Flight
-from relguide.contract.messages import Placed
+from relguide.planning.extras import add_command
+
+try:
+    from relguide.client.async_client import AsyncClient, AsyncFlight
+    from relguide.client.calls import Answer, Invalid, Refused
+    from relguide.client.sync_client import Client, Flight
+    from relguide.contract.messages import Placed
+except ModuleNotFoundError as error:
+    raise add_command(error) from None
 
 __all__ = [
     "Answer",

@@ -100,6 +100,7 @@ def test_a_command_says_what_brings_what_it_needs(
          "LocalPlane(lat_deg=50.0, lon_deg=8.0).to_local(50.0, 8.0)", "serve"),
         ("relguide.record((), 'flight.jsonl')", "serve"),
         ("list(relguide.replay('flight.jsonl'))", "serve"),
+        ("from relguide.client import Client", "client"),
     ],
 )  # fmt: skip
 def test_so_does_the_library(program: str, extra: str) -> None:
