@@ -361,7 +361,8 @@ class Scene:
 
 def _gate_of(guidance: GuidanceSample) -> tuple[paint.Colour, GateLook]:
     """The slot's colour and look, as on the navigation display."""
-    if guidance.mode == "escape":
+    unable = guidance.engagement == "engaged" and guidance.mode == "heading"
+    if unable or guidance.mode == "escape":
         return paint.CAUTION, "crossed"
     colour = paint.PLAN if guidance.engagement == "engaged" else paint.SLOT
     return colour, "filled" if guidance.joined else "open"

@@ -10,7 +10,8 @@
     const box = element.getBoundingClientRect();
     const style = getComputedStyle(element);
     const scrolls = element.closest(".log, .list, .panel-body") !== null;
-    if (!scrolls && (box.right > innerWidth + 1 || box.bottom > innerHeight + 1 || box.left < -1))
+    if (!scrolls && (box.right > innerWidth + 1 || box.bottom > innerHeight + 1
+        || box.left < -1 || box.top < -1))
       found.push(`${name.slice(0, 60)} leaves the window`);
     if (element.scrollWidth > element.clientWidth + 1 && style.overflowX !== "visible"
         && style.textOverflow !== "ellipsis" && element.clientWidth > 0)

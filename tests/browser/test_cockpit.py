@@ -7,7 +7,7 @@ from time import monotonic
 from urllib.request import Request, urlopen
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page, Route, expect
 
 from tests.browser.service import Service, Watch
 
@@ -112,6 +112,26 @@ def test_nothing_is_cut(page: Page, watched: Watch, size: tuple[int, int]) -> No
     page.set_viewport_size({"width": size[0], "height": size[1]})
     page.wait_for_timeout(MOVED)
     assert page.evaluate(CUT) == []
+    assert watched.complaints == []
+
+
+def test_what_is_not_available_is_not_cut(page: Page, watched: Watch) -> None:
+    def without_recordings(route: Route) -> None:
+        answer = route.fetch()
+        listed = answer.json()
+        for each in listed["scenarios"]:
+            if each["name"] == "recorded_leader":
+                each |= {"available": False, "message": "It needs recorded flights."}
+        route.fulfill(response=answer, json=listed)
+
+    page.route("**/api/v1/scenarios", without_recordings)
+    page.set_viewport_size({"width": 1024, "height": 768})
+    page.reload()
+    asked = page.get_by_text("1 not available: why?")
+    expect(asked).to_be_visible()
+    assert page.evaluate(CUT) == []
+    asked.click()
+    expect(page.get_by_text("It needs recorded flights.")).to_be_visible()
     assert watched.complaints == []
 
 

@@ -161,6 +161,10 @@ def test_a_lost_limit_and_an_escape_change_colour(
     assert tuple(nodes(viser_server)["/world/leader/min_separation"].color) == paint.LEADER
     gate = np.asarray(nodes(viser_server)["/world/slot/gate"].colors)
     assert tuple(gate.reshape(-1, 3)[0]) == paint.PLAN
+    unable = replace(sample.guidance[0], mode="heading", engagement="engaged")
+    scene.draw([replace(sample, guidance=(unable,))])
+    gate = np.asarray(nodes(viser_server)["/world/slot/gate"].colors)
+    assert tuple(gate.reshape(-1, 3)[0]) == paint.CAUTION
     close = replace(sample.guidance[0], separation=1000.0, mode="escape")
     scene.draw([replace(sample, guidance=(close,))])
     assert tuple(nodes(viser_server)["/world/leader/min_separation"].color) == paint.ALERT

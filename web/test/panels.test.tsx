@@ -18,7 +18,6 @@ import {
   alert,
   modeChanged,
   noPlan,
-  pairAt,
   planChanged,
   STARTED,
   sample,
@@ -135,8 +134,8 @@ describe("panels", () => {
   );
 
   test("lost separation is told in words, not only in red", () => {
-    const { session } = flying();
-    session.flight.reading.value = pairAt(0, { least_separation_m: 4 * NM });
+    const { store, session } = flying();
+    store.receive(tick(1, [sample(1, { least_separation_m: 4 * NM })]), 1000);
     render(<PlanNumbers session={session} />, place);
     expect(place.querySelector(".figure.alert")?.textContent).toBe("4.0");
     expect(place.textContent).toContain("LOST");

@@ -67,7 +67,8 @@ export interface Timing {
 
 /** Why there is no plan. */
 export interface Trouble {
-  readonly label: "No plan" | "Unable";
+  /** "Unable", or "No plan" and when that was said: its sentence tells of that moment. */
+  readonly label: string;
   readonly sentence: string;
 }
 
@@ -167,7 +168,7 @@ export function numbersOf(flight: Flight): Numbers {
     state: guidance(flight),
     hasLapsed: hasLapsed(flight),
     trouble: guided === null ? null : troubleOf(flight),
-    leastSoFar: sample === null ? NOTHING : formatMiles(sample.least_separation_m),
+    leastSoFar: sample === null ? NOTHING : formatMiles(leastUntil(flight, sample)),
     wasLost: sample !== null && sample.least_separation_m < (started?.min_separation_m ?? 0),
     closureWords: shown === null ? "" : closureText(shown.closure_mps),
     spacingWords: shown === null ? "" : spacingText(shown.spacing_error_m),
@@ -178,6 +179,19 @@ export function numbersOf(flight: Flight): Numbers {
     leaderBearing: shown === null ? "" : formatHeading(bearingTo(shown.pursuer, shown.leader)),
     leaderSpeed: shown === null ? "" : formatKnots(shown.leader.ground_speed_mps),
   };
+}
+
+/** A separation no farther above the least is the least itself, but for rounding [m]. */
+const AT_LEAST = 1;
+
+/** The least separation until a reading, which is a little earlier or later than the sample that says it [m]. */
+function leastUntil(flight: Flight, reading: PairSample): number {
+  const told = flight.sample.value ?? reading;
+  const least = told.least_separation_m;
+  if (told.leader_age_s > 0) return least;
+  const isFalling = told.separation_m - least < AT_LEAST;
+  if (isFalling && reading.t_s <= told.t_s) return reading.separation_m;
+  return Math.min(least, reading.separation_m);
 }
 
 /** In the gate so near the slot, and off the scale so far from it [m]. */
@@ -198,7 +212,10 @@ function timingOf({ mode, spacing_error_m: error, leader }: PairSample): Timing 
 function troubleOf(flight: Flight): Trouble | null {
   const [unavailable, unable] = [flight.unavailable.value, flight.unable.value];
   if (unavailable !== null)
-    return { label: "No plan", sentence: inPageUnits(unavailable.answer.message) };
+    return {
+      label: `No plan at ${formatClock(unavailable.t_s)}`,
+      sentence: inPageUnits(unavailable.answer.message),
+    };
   return unable === null ? null : { label: "Unable", sentence: inPageUnits(unable.message) };
 }
 

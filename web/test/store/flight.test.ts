@@ -1,5 +1,6 @@
 import { describe, expect, test } from "vitest";
 import { createFlightStore } from "../../src/store/flight";
+import { moveSample } from "../../src/store/motion";
 import { noticesOf } from "../../src/store/notices";
 import { numbersOf } from "../../src/store/numbers";
 import { pictureOf } from "../../src/store/picture";
@@ -83,7 +84,9 @@ describe("what the ticks say", () => {
     const store = joined();
     store.receive(tick(1, [noPlan(1), sample(1)]), 2000);
     expect(store.flight.unavailable.value?.answer.reason).toBe("slot_unreachable");
-    store.receive(tick(2, [planChanged(2), sample(2)]), 3000);
+    store.receive(tick(2, [sample(2)]), 3000);
+    expect(numbersOf(store.flight).trouble?.label).toBe("No plan at 00:01");
+    store.receive(tick(3, [planChanged(3), sample(3)]), 4000);
     expect(store.flight.unavailable.value).toBeNull();
   });
 
@@ -330,6 +333,30 @@ describe("engagement", () => {
     };
     expect(left(5999)).toBe("99:59");
     expect(left(6660)).toBe("1h51");
+  });
+
+  test("the least separation so far is never more than the separation that is shown", () => {
+    const store = joined();
+    const { flight } = store;
+    const shown = () => {
+      const { separation, leastSoFar } = numbersOf(flight);
+      return { separation, leastSoFar };
+    };
+    store.receive(tick(1, [sample(1)]), 2000);
+    const falling = pairAt(1);
+    for (const later of [-8, 0, 8]) {
+      flight.reading.value = moveSample(falling, later);
+      const { separation, leastSoFar } = shown();
+      expect(leastSoFar).toBe(separation);
+    }
+    const passed = pairAt(1, { least_separation_m: 9300 });
+    store.receive(tick(2, [sample(2, { least_separation_m: 9300 })]), 3000);
+    flight.reading.value = moveSample(passed, -8);
+    expect(shown()).toEqual({ separation: "11.0", leastSoFar: "5.0" });
+    // what is only expected of a leader that is not heard is no least separation
+    store.receive(tick(3, [sample(3, { least_separation_m: 19_960, leader_age_s: 2 })]), 4000);
+    flight.reading.value = pairAt(3, { separation_m: 9000, leader_age_s: 2 });
+    expect(shown().leastSoFar).toBe("10.8");
   });
 
   test("an acceptance that has lapsed is said until it is given anew, or all is called off", () => {
