@@ -1,5 +1,6 @@
 """The cockpit in a real browser, served by the real service: what a person sees and does."""
 
+import json
 import re
 from collections.abc import Callable
 from pathlib import Path
@@ -110,6 +111,32 @@ def test_another_scenario_starts_a_new_flight(page: Page, watched: Watch) -> Non
 @pytest.mark.parametrize("size", [(1440, 900), (1024, 768)], ids=["1440x900", "1024x768"])
 def test_nothing_is_cut(page: Page, watched: Watch, size: tuple[int, int]) -> None:
     page.set_viewport_size({"width": size[0], "height": size[1]})
+    page.wait_for_timeout(MOVED)
+    assert page.evaluate(CUT) == []
+    assert watched.complaints == []
+
+
+def test_long_numbers_are_not_cut(page: Page, watched: Watch, sky: Service) -> None:
+    """A leader that turns for hours is joined after hours and a thousand miles."""
+    turns = [
+        {"turn_to_heading_deg": 60, "direction": "right", "bank_deg": 2},
+        {"turn_to_heading_deg": 90, "direction": "left", "bank_deg": 1},
+    ]
+    situation = {
+        "pursuer": {
+            "x_m": -3e5, "y_m": 2e5, "heading_deg": 90, "tas_mps": 240, "max_bank_deg": 30,
+        },
+        "leader": {"x_m": 0, "y_m": 0, "heading_deg": 90, "tas_mps": 234, "intent": turns},
+        "slot_distance_m": 10_000,
+        "min_separation_m": 9260,
+    }  # fmt: skip
+    body = json.dumps({"situation": situation}).encode()
+    asked = Request(f"{sky.url}/api/v1/flights", body, {"Content-Type": "application/json"})
+    with urlopen(asked) as answer:
+        flight = json.load(answer)["id"]
+    page.set_viewport_size({"width": 1024, "height": 768})
+    page.goto(f"{sky.url}/?flight={flight}")
+    expect(page.locator(".mode-name")).to_have_text("Converge")
     page.wait_for_timeout(MOVED)
     assert page.evaluate(CUT) == []
     assert watched.complaints == []

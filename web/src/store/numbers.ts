@@ -231,9 +231,12 @@ function airTexts(flight: Flight, reading: PairSample | null) {
   };
 }
 
-/** An offset with its side, e.g. "0.3R"; "" below 0.05 NM. */
+/** From here on an offset has no decimals: there is room for four places [NM]. */
+const FAR_OFF = 99.95;
+
+/** An offset with its side, e.g. "0.3R", "142L"; "" below 0.05 NM. */
 function formatSide(offset: number): string {
-  const miles = formatMiles(Math.abs(offset));
+  const miles = formatMiles(Math.abs(offset), Math.abs(offset) < FAR_OFF * NM ? 1 : 0);
   return miles === "0.0" ? "" : `${miles}${offset > 0 ? "R" : "L"}`;
 }
 

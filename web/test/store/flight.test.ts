@@ -335,6 +335,15 @@ describe("engagement", () => {
     expect(left(6660)).toBe("1h51");
   });
 
+  test("a cross-track of hundreds of miles has room in its line", () => {
+    const aside = (miles: number) => {
+      const store = joined();
+      store.receive(tick(1, [sample(1, { cross_track_m: miles * 1852 })]), 2000);
+      return numbersOf(store.flight).crossTrack;
+    };
+    expect(["99.9R", "142L"]).toEqual([aside(99.94), aside(-142.4)]);
+  });
+
   test("the least separation so far is never more than the separation that is shown", () => {
     const store = joined();
     const { flight } = store;
