@@ -13,6 +13,8 @@ from playwright.sync_api import Page, expect
 
 from tests.browser.service import Service, Watch
 
+CUT = (Path(__file__).parent / "cut.js").read_text()
+"""Lists everything on the page that does not fit where it stands."""
 LAG = (Path(__file__).parent / "lag.js").read_text()
 """Notes how long after a finger's move the plan and the area for it are painted."""
 QUICK = 100.0
@@ -98,6 +100,14 @@ def test_what_is_laid_out_is_flown(page: Page, watched: Watch) -> None:
     page.get_by_role("button", name="PLAN", exact=True).click()
     page.get_by_role("button", name="From the flight").click()
     expect(page.get_by_role("spinbutton", name="Own ship: north")).to_have_value("12.0")
+    assert watched.complaints == []
+
+
+@pytest.mark.parametrize("size", [(1440, 900), (1280, 800), (1024, 768)])
+def test_what_flies_it_is_in_sight(page: Page, watched: Watch, size: tuple[int, int]) -> None:
+    page.set_viewport_size({"width": size[0], "height": size[1]})
+    expect(page.get_by_role("button", name="Fly it")).to_be_in_viewport(ratio=1)
+    assert not [each for each in page.evaluate(CUT) if "loses" in each or "wide" in each]
     assert watched.complaints == []
 
 
