@@ -19,6 +19,7 @@ from relguide.flying.documents import (
     Engagement,
     FlightEnded,
     FlightStarted,
+    Sample,
     Unable,
 )
 from relguide.flying.fleet import Fleet
@@ -43,7 +44,7 @@ from relguide.flying.tally import count_event, link_result
 from relguide.flying.world import World
 from relguide.planning.inputs import expect, expect_function, expect_whole, number, text
 from relguide.planning.plan import Planner, plan
-from relguide.units import Second
+from relguide.units import Metre, Second
 
 
 def simulate(
@@ -127,12 +128,15 @@ def _simulate(
         if end is not None:
             yield from _finish(pursuits, fleet, t, *end)
             return
+        least = [one.tally.least_separation for one in pursuits]
         fleet.fly_second(t)
         documents: list[Document] = []
         for one in pursuits:
             documents += count_second(one, fleet, t)
         for k in range(-second * fleet.steps % a_sample, fleet.steps, a_sample):
-            documents.append(_sample(pursuits, fleet, t, k * step, k))
+            now = _sample(pursuits, least, fleet, t, k * step, k)
+            least = [seen.least_separation for seen in now.guidance]
+            documents.append(now)
         yield from sorted(documents, key=lambda document: document.t)
 
 
@@ -248,7 +252,8 @@ def _finish(
     if reason == "plane_left":
         for one in pursuits:
             yield Unable(t=t, ident=one.names.pursuer, reason="geometry", message=message)
-    yield _sample(pursuits, fleet, t, 0.0, None)
+    least = [one.tally.least_separation for one in pursuits]
+    yield _sample(pursuits, least, fleet, t, 0.0, None)
     results = tuple(
         link_result(t, one.names, one.milestones, one.tally, one.memory.fallbacks)
         for one in pursuits
@@ -257,12 +262,20 @@ def _finish(
 
 
 def _sample(
-    pursuits: list[Pursuit], fleet: Fleet, t: Second, since: Second, step: int | None
-) -> Document:
-    """All aircraft at a step of the last second; where they are now if no step is given."""
+    pursuits: list[Pursuit],
+    least: list[Metre],
+    fleet: Fleet,
+    t: Second,
+    since: Second,
+    step: int | None,
+) -> Sample:
+    """All aircraft at a step of the last second; where they are now if no step is given.
+
+    `least` are the least separations before: the whole second is flown, but not shown yet.
+    """
     links = [
-        (one.names, one.advice, one.tally.least_separation)
-        for one in pursuits
+        (one.names, one.advice, before)
+        for one, before in zip(pursuits, least, strict=True)
         if one.advice is not None
     ]
     aircraft = [

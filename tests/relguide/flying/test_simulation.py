@@ -131,6 +131,16 @@ def test_a_loss_is_a_document_with_its_place_cause_and_announcement() -> None:
     assert loss.separation == flight.result.least_separation == pytest.approx(least, abs=30.0)
 
 
+def test_the_least_separation_so_far_knows_nothing_of_what_comes() -> None:
+    """Each second is flown as a whole, and then shown piece by piece."""
+    least = np.inf
+    for seen in fly_whole(head_on()).samples:
+        least = min(least, seen.guidance.separation)
+        assert seen.guidance.least_separation <= least
+        # between two samples it may have been a little less
+        assert seen.guidance.least_separation == pytest.approx(least, abs=30.0)
+
+
 def test_a_loss_goes_on_until_the_separation_is_back() -> None:
     """Once below d_min is one loss, however long."""
     flight = fly_whole(head_on())
