@@ -101,13 +101,15 @@ def _stretches_of(
 
 @njit(cache=True, nogil=True)
 def boundary_arc_pieces(
-    pose: Pose, t: float, scene: Scene, leg: FloatArray, pieces: FloatArray
+    pose: Pose, t: float, planned: float, scene: Scene, leg: FloatArray, pieces: FloatArray
 ) -> tuple[int, Pose, float]:
     """The boundary arc as arcs of partial bank.
 
     Args:
         pose: where it begins: at the first contact, on its heading.
         t: when [R/V_P].
+        planned: when it was found to begin, the same but for rounding [R/V_P]: begun a little
+            sooner or later, an arc that is flown to where it ends could not be flown.
         scene: the leader and d_min.
         leg: BOUNDARY_ARC, side, first and last bearing, the leader's piece as in
             `boundary_arc_arrival`. shape (6,)
@@ -119,7 +121,7 @@ def boundary_arc_pieces(
     side = leg[1]
     stretches = np.empty((2 * len(scene.leader), 4))
     n = 0
-    for k in range(_stretches_of(scene, t, leg[2], leg[3], side, int(leg[4]), stretches)):
+    for k in range(_stretches_of(scene, planned, leg[2], leg[3], side, int(leg[4]), stretches)):
         i, begun, bearing, took = (
             int(stretches[k, 0]),
             stretches[k, 1],

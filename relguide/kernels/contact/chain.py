@@ -28,7 +28,7 @@ NAMED = 3.0
 the leader turns, who is later at a contact than by the soonest word may be ahead of that."""
 LEFT_TO_TOUCH, RIGHT_TO_TOUCH = 9.0, 10.0
 """Or by a turn and a straight that touches the disc: where, the contact before it decides."""
-MAX_CONTACTS = 8
+MAX_CONTACTS = 16
 """Longest chain."""
 MAX_LEGS = MAX_CONTACTS + 1
 """Legs of the longest path."""

@@ -74,6 +74,7 @@ def best_chains(
             # what arrives as the slot opens cannot be beaten
             graph.arrival[:] = inf
             graph.arrival[end] = best = scene.t_release
+            graph.by[end] = graph.now[end]
             break
         if turn == _ROUNDS - 1 or time_is_up(scene.until):
             break

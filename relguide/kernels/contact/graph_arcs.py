@@ -18,7 +18,7 @@ from relguide.kernels.contact.contact import (
     slide_within,
     slides_back,
 )
-from relguide.kernels.contact.graph_labels import BETTER, Graph, label_to_beat
+from relguide.kernels.contact.graph_labels import BETTER, Graph, label_to_beat, take_label
 from relguide.kernels.contact.nodes import Nodes, contact_of
 from relguide.kernels.contact.paths_to_contact import not_before_slot
 from relguide.kernels.separation.clearance import piece_at, piece_end
@@ -49,9 +49,8 @@ def slide_on(scene: Scene, nodes: Nodes, graph: Graph, beat: float) -> None:
         there = contact_at(scene, t, nodes.bearings[m], nodes.sides[m])
         if not_before_slot(there, t, scene) >= beat:
             continue
-        time[m], graph.before[m], graph.link[m] = t, n, BOUNDARY_ARC
-        graph.slid[m] = goal - nodes.bearings[n]
-        graph.fresh[m], pending[m] = 1.0, 1.0
+        if take_label(nodes, graph, m, t, n, BOUNDARY_ARC, goal - nodes.bearings[n]):
+            pending[m] = 1.0
 
 
 @njit(cache=True, nogil=True)

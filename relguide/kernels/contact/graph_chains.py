@@ -40,10 +40,10 @@ def collect_chains(
 @njit(cache=True, nogil=True)
 def _is_fresh(fresh: BoolArray, graph: Graph, end: int) -> bool:
     """Whether a fresh node is on the way to a node, or it is one."""
-    n = end
-    while n >= 0 and not fresh[n % graph.nodes]:
-        n = int(graph.before[n])
-    return n >= 0
+    row = int(graph.by[end])
+    while row >= 0 and not fresh[int(graph.past[row, 0]) % graph.nodes]:
+        row = int(graph.past[row, 1])
+    return row >= 0
 
 
 @njit(cache=True, nogil=True)
@@ -52,26 +52,26 @@ def _trace(nodes: Nodes, graph: Graph, end: int, chain: FloatArray) -> int:
 
     The nodes along one boundary arc are no contacts of their own: only its end is.
     """
-    path = np.empty(len(nodes.bearings), dtype=np.int64)
-    length, n = 0, end
-    while n >= 0:
-        path[length] = n
+    path = np.empty(graph.used[0], dtype=np.int64)
+    length, row = 0, graph.by[end]
+    while row >= 0:
+        path[length] = row
         length += 1
-        n = int(graph.before[n])
+        row = int(graph.past[row, 1])
     contacts = 0
     for k in range(length - 1, -1, -1):
-        n = path[k]
-        contact = contact_of(nodes, n)
-        bearing, slides = contact.bearing, graph.link[n] == BOUNDARY_ARC and graph.before[n] >= 0.0
+        past = graph.past[path[k]]
+        contact, link = contact_of(nodes, int(past[0])), past[2]
+        bearing, slides = contact.bearing, link == BOUNDARY_ARC
         if slides:
-            bearing = chain[contacts, 2] + graph.slid[n]
+            bearing = chain[contacts, 2] + past[3]
         if not slides or chain[contacts, 3] != BOUNDARY_ARC:
             contacts += 1
             if contacts > MAX_CONTACTS:
                 break
         chain[contacts, 0], chain[contacts, 1] = contact.piece, contact.side
         chain[contacts, 2] = bearing
-        chain[contacts, 3] = BOUNDARY_ARC if slides else graph.link[n]
+        chain[contacts, 3] = link
     return contacts
 
 

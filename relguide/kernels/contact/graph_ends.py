@@ -35,11 +35,14 @@ def go_to_slot(scene: Scene, nodes: Nodes, graph: Graph, best: float) -> float:
         t = nodes.time[n]
         pose = contact_at(scene, t, nodes.bearings[n], nodes.sides[n])
         count = solve(to_slot_frame(pose, t, scene.alpha), scene.alpha, 0.0, graph.rows)
-        nodes.lower[n], graph.arrival[n] = inf, inf
+        nodes.lower[n] = inf
         if count > 0:
             nodes.lower[n] = max(t + graph.rows[0, 0], scene.t_release)
-            graph.arrival[n], _ = first_clear(pose, t, graph.rows[:count], scene, best + NEARLY)
-        best = min(best, graph.arrival[n])
+            arrival, _ = first_clear(pose, t, graph.rows[:count], scene, best + NEARLY)
+            # who is sooner at a contact may be later at the slot
+            if arrival < graph.arrival[n]:
+                graph.arrival[n], graph.by[n] = arrival, graph.now[n]
+                best = min(best, arrival)
     return best
 
 

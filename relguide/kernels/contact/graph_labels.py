@@ -18,12 +18,13 @@ from numba import njit
 from relguide.kernels.base.records import Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain import NAMED, WORD
-from relguide.kernels.contact.nodes import Nodes, contact_of
+from relguide.kernels.contact.nodes import IntArray, Nodes, contact_of
 from relguide.kernels.words.extremals import MAX_ROWS
 from relguide.kernels.words.sooner import Scratch, make_scratch
 
 BETTER = 1e-9
 """A label must fall by more than this [R/V_P], or rounding goes round in circles."""
+_FALLS = 6  # of a label on the average, at most
 
 
 class Graph(NamedTuple):
@@ -39,14 +40,18 @@ class Graph(NamedTuple):
     """And those of late words from the start …"""
     late_arcs: int
     """… and of boundary arcs that begin with these."""
-    before: FloatArray
-    """The label that leads to it; −1 if the start does."""
-    link: FloatArray
-    """How, as in `chain`."""
-    slid: FloatArray
-    """By how much the bearing changes on that boundary arc [rad]."""
+    past: FloatArray
+    """How labels fell, one after the other: the label; the row here of the label that leads to it,
+    as that was then, −1 if the start does; how, as in `chain`; by how much the bearing changes on
+    that boundary arc [rad]. shape (·, 4)"""
+    used: IntArray
+    """How many rows of it there are. shape (1,)"""
+    now: IntArray
+    """The row of `past` by which it fell last."""
     arrival: FloatArray
-    """Of the fastest path found by way of it, at the slot [R/V_P]."""
+    """Of the fastest path found by way of it, at the slot [R/V_P] …"""
+    by: IntArray
+    """… and its row of `past` then."""
     onward: FloatArray
     """How long the path to the slot takes at least, on the final leg, where that is the same at any
     time; NaN where it is not known yet, and 0 on other legs [R/V_P]. shape (nodes,)"""
@@ -102,9 +107,12 @@ def start_graph(scene: Scene, nodes: Nodes, count: int, beat: float) -> Graph:
     """The graph of labels that only the start leads to; `count` of them are of different nodes."""
     size = len(nodes.bearings)
     behind = count if size > count else 0
+    past = np.empty((_FALLS * size, 4))
+    for n in range(size):
+        past[n, 0], past[n, 1], past[n, 2], past[n, 3] = n, -1.0, WORD, 0.0
     graph = Graph(
-        count, behind, 2 * behind, 3 * behind, 4 * behind, np.full(size, -1.0), np.full(size, WORD),
-        np.zeros(size), np.full(size, inf), np.full(count, np.nan), np.full(size, inf),
+        count, behind, 2 * behind, 3 * behind, 4 * behind, past, np.array([size]), np.arange(size),
+        np.full(size, inf), np.arange(size), np.full(count, np.nan), np.full(size, inf),
         np.full(size, inf), np.zeros(size), np.zeros(size), np.empty((MAX_ROWS, 5)),
         make_scratch(),
     )  # fmt: skip
@@ -114,7 +122,7 @@ def start_graph(scene: Scene, nodes: Nodes, count: int, beat: float) -> Graph:
     if behind > 0:
         for node in range(count):
             if nodes.ahead[node, 0] < inf:
-                graph.link[graph.late + node] = NAMED + nodes.ahead[node, 2]
+                past[graph.late + node, 2] = NAMED + nodes.ahead[node, 2]
         # words to other contacts do not begin late: they would hide some that begin early
         graph.hopped[graph.late :] = -inf
     return graph
@@ -138,3 +146,21 @@ def label_to_beat(scene: Scene, nodes: Nodes, graph: Graph, n: int, t: float) ->
     for m in range(n % graph.nodes, len(nodes.time), graph.nodes):
         least = min(least, nodes.time[m])
     return least - BETTER
+
+
+@njit(cache=True, nogil=True)
+def take_label(
+    nodes: Nodes, graph: Graph, m: int, t: float, n: int, link: float, slid: float
+) -> bool:
+    """Let label m fall to t, led to by label n as that is now; `link` and `slid` as in `past`.
+
+    What has been reached from m before keeps the way that it came. False if there is no room.
+    """
+    row = graph.used[0]
+    if row == len(graph.past):
+        return False
+    past = graph.past[row]
+    past[0], past[1], past[2], past[3] = m, graph.now[n], link, slid
+    graph.used[0], graph.now[m] = row + 1, row
+    nodes.time[m], graph.fresh[m] = t, 1.0
+    return True

@@ -14,13 +14,14 @@ from relguide.kernels.base.records import Scene
 from relguide.kernels.contact.chain import WORD, earliest_contact
 from relguide.kernels.contact.clear_words import to_slot_frame
 from relguide.kernels.contact.contact import contact_at, contact_exists, contact_on
-from relguide.kernels.contact.graph_labels import Effort, Graph, label_to_beat
+from relguide.kernels.contact.graph_labels import Effort, Graph, label_to_beat, take_label
 from relguide.kernels.contact.nodes import Nodes, contact_of
 from relguide.kernels.contact.passing import words_onward
 from relguide.kernels.contact.paths_to_contact import earliest_arrival, not_before_slot
 from relguide.kernels.words.fastest import fastest
 
 _WORTH = 2e-4  # how much sooner the slot has to be in reach for it to be followed [R/V_P]: 10 ms
+_ALIKE = 1e-3  # labels that differ by less lead to the same places [R/V_P]: 50 ms
 
 
 @njit(cache=True, nogil=True)
@@ -71,8 +72,11 @@ def _hop_from(scene: Scene, nodes: Nodes, graph: Graph, n: int, best: float) -> 
         if time_is_up(scene.until):
             break
         t, _ = earliest_contact(pose, left, scene, contact, onward, beat, graph.rows)
-        if t < inf:
-            time[m], graph.before[m], graph.link[m], graph.fresh[m] = t, n, WORD, 1.0
+        if t == inf:
+            continue
+        # one that hugs the disc is a boundary arc, and would hide another that does not
+        if graph.arcs == 0 or abs(t - time[node + graph.arcs]) >= _ALIKE:
+            take_label(nodes, graph, m, t, n, WORD, 0.0)
 
 
 @njit(cache=True, nogil=True)

@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.base.records import Contact, Pose, Scene, Start
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.contact import contact_distance, contact_heading
@@ -104,14 +105,21 @@ def speed_of(passage: Passage) -> float:
 def earliest_while_turning(passage: Passage) -> float:
     """No path reaches the contact before this time [R/V_P]; infinite if none does on this turn.
 
-    The pursuer and the contact close in no faster than at the sum of their speeds.
+    The pursuer and the contact close in no faster than at the sum of their speeds, and their
+    headings no faster than at the sum of their turn rates.
     """
     at, closing = passage.begin, 1.0 + speed_of(passage)
+    coming_round = 1.0 + abs(passage.turning)
     for _ in range(_CLOSER):
-        lack = distance_at(passage, at) - (at - passage.t_start)
+        elapsed = at - passage.t_start
+        change = leader_heading(passage, at) + passage.heading - passage.pose.h
+        lack = max(
+            (distance_at(passage, at) - elapsed) / closing,
+            (abs(wrap_signed(change)) - elapsed) / coming_round,
+        )
         if lack <= 0.0:
             break
-        at += lack / closing
+        at += lack
         if at > passage.end:
             return inf
     return float(at)

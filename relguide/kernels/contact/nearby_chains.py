@@ -4,8 +4,9 @@ Where a turn between two contacts would have to be less than none it is a full o
 arrival has a cliff. The least arrival often lies at the foot of one, or of two, and they move with
 the time at which the contacts are reached. So bearings would have to be moved together that are
 moved one after another, and each of them is stuck. Begun again a few degrees from there, with one
-bearing or two moved, with a contact on the leader's piece before or after, or with a word before a
-boundary arc, the same refinement comes to another end, and the best of them is kept.
+bearing or two moved, with a contact on the leader's piece before or after, with a word before a
+boundary arc, or with another word than the soonest, the same refinement comes to another end, and
+the best of them is kept.
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; a chain is as in `chain`.
 """
@@ -23,7 +24,9 @@ from relguide.kernels.contact.chain import (
     BOUNDARY_ARC,
     LEFT_TO_TOUCH,
     MAX_CONTACTS,
+    NAMED,
     RIGHT_TO_TOUCH,
+    WORD,
     Chain,
     chain_of,
 )
@@ -36,6 +39,7 @@ from relguide.kernels.contact.chain_refinement import (
 from relguide.kernels.contact.contact import boundary_arc_sense, disc_on
 from relguide.kernels.contact.nodes import IntArray
 from relguide.kernels.contact.tangent import MAX_TANGENTS, straight_touches
+from relguide.kernels.words.extremals import WORDS
 
 _LATER = 0.3  # a chain that is so much later at first is not refined [R/V_P] …
 _LATE = 0.1  # … nor one that is so much later with the bearings beside the change moved [R/V_P] …
@@ -50,6 +54,8 @@ _SLIDING = 7  # and a boundary arc over a contact
 _MOVED = (0, 1, 1, 2, 2, 1, 1, 0, 0, 1, 1, 2, 2)  # how many bearings the others move,
 _BY = (0.0, -0.1, 0.1, -0.1, 0.1, -0.35, 0.35, 0.0, 0.0, -0.2, 0.2, -0.2, 0.2)  # how far [rad]
 _BESIDE = (0.0, -0.1, 0.1, -0.2, 0.2)  # where a straight is begun that touches the disc [rad]
+_BY_WORD = len(_MOVED)  # and, one for each word, that this one leads to it
+_CHANGES = _BY_WORD + len(WORDS)
 _MOMENT = 1e-3  # so soon it has not left [R/V_P]
 _SHORT = 0.05  # a boundary arc as it is begun [rad]
 
@@ -79,7 +85,7 @@ def search_nearby(
         before = here
         for k in range(count):
             here = _touch_straight(start, scene, contacts[:count], k, here, stride, legs)
-        for change in range(len(_MOVED)):
+        for change in range(_CHANGES):
             k = 0
             while k < count:
                 if left[0] < 0 or time_is_up(scene.until):
@@ -139,6 +145,7 @@ def _refined(
         for j in range(last):
             apart = abs(contacts[j, 2] - known[j, 2])
             same = same and apart < stride and contacts[j, 0] == known[j, 0]
+            same = same and contacts[j, 3] == known[j, 3]
         if same:
             return inf
     return refine_chain(start, scene, chain, here, 0.3 * stride, beat)
@@ -158,6 +165,11 @@ def _change(scene: Scene, contacts: FloatArray, k: int, change: int, tried: Floa
     if change in (_TOWARD_START, _TOWARD_END):
         tried[k, 0] += 1.0 if change == _TOWARD_END else -1.0
         return count if 0.0 <= tried[k, 0] < len(scene.leader) else 0
+    if change >= _BY_WORD:
+        link = NAMED + (change - _BY_WORD)
+        tried[k, 3] = link
+        named = contacts[k, 3] == WORD or NAMED <= contacts[k, 3] < LEFT_TO_TOUCH
+        return count if named and link != contacts[k, 3] else 0
     moved = _MOVED[change]
     if k + moved > count:
         return 0

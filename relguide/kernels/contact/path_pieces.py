@@ -8,7 +8,11 @@ from numba import njit
 
 from relguide.kernels.base.records import Pose, Scene, with_limit, with_release
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.contact.boundary_arc import MAX_NODES, boundary_arc_pieces
+from relguide.kernels.contact.boundary_arc import (
+    MAX_NODES,
+    boundary_arc_arrival,
+    boundary_arc_pieces,
+)
 from relguide.kernels.contact.chain import BOUNDARY_ARC, DELAY
 from relguide.kernels.contact.clear_words import best_word_near
 from relguide.kernels.contact.contact import GRAZE
@@ -58,11 +62,14 @@ def pieces_of(
     eased = with_limit(scene, scene.d_min - GRAZE)
     early = with_release(eased, scene.t_release - EARLY)
     row = np.empty(5)
-    n, t, last = 0, 0.0, _UNLIKE
+    n, t, planned, last = 0, 0.0, 0.0, _UNLIKE
     for k in range(len(legs)):
         if legs[k, 0] == BOUNDARY_ARC:
             side = legs[k, 1]
-            count, pose, t = boundary_arc_pieces(pose, t, scene, legs[k], arcs)
+            count, pose, t = boundary_arc_pieces(pose, t, planned, scene, legs[k], arcs)
+            planned = boundary_arc_arrival(
+                scene, planned, legs[k, 2], legs[k, 3], side, int(legs[k, 4])
+            )
             for i in range(count):
                 pieces[0, n] = mirror * side * (k + 1.0)
                 # counter-clockwise rates become curvatures positive to the right
@@ -77,6 +84,7 @@ def pieces_of(
             signs, amounts = delay[:, 0], delay[:, 1]
         else:
             row[:] = legs[k, 1:6]
+            planned += legs[k, 1]
             # a boundary arc's last node lies within rounding of the limit and of its time: it must
             # not cost the best word
             if boundary_arcs > 0 and k + 1 == len(legs) and not best_word_near(pose, t, early, row):

@@ -1,13 +1,11 @@
 """Words to a contact with d = d_min while the leader turns: the contact moves on a circle.
 
 A word arrives when its length to where the contact then is equals the time for it. That is looked
-at on a grid of times, for all branches at once; between two times its roots are found by false
-position. Where a turn passes a full one, or a branch begins to exist, the edge is bisected first.
+at on a grid of times, for all branches at once; for its roots between two times see
+`arrivals_while_turning`.
 
 A word is no shorter than the straight between its first and its last circle and the change of
 heading. So most looks see at once that it comes too late, until the next look and often for longer.
-Where a branch exists only between two looks, its circles are nearest or farthest there, at a time
-known in closed form.
 """
 
 from math import asin, atan2, ceil, cos, hypot, inf, isnan, pi, sin, sqrt
@@ -18,47 +16,28 @@ from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, turn_to, wrap, wrap_signed
 from relguide.kernels.base.clock import time_is_up
-from relguide.kernels.base.false_position import Bracket, secant, tightened
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.contact.arrivals_while_turning import JUMP, Seen, append_arrivals
 from relguide.kernels.contact.moving_contact import (
     Passage,
     distance_at,
     earliest_while_turning,
-    excess,
     leader_heading,
     speed_of,
 )
-from relguide.kernels.words.branches import SIZE, TO_POINT, WORD_OF
-from relguide.kernels.words.extremals import MAX_ROWS, SIGNS
+from relguide.kernels.words.branches import SIZE, TO_POINT
+from relguide.kernels.words.extremals import SIGNS
 
 _STEP = 0.15  # the leader turns by some 10° in it [R/V_P]
 _LONGEST_DETOUR = 24.0  # 6π + 4, rounded up
-_JUMP = 1.0  # a word's length does not change by more within one step, unless it jumps [R]
-_HALVINGS = 25  # of a step, to where a turn jumps or a word ceases to exist
-_MOST_STEPS = 60  # of false position
-_MET = 1e-9  # a length farther off than this has jumped [R]
-_EXACT = 1e-12  # a length so near is met: 0.01 µm at R = 12 km, and above rounding [R]
 _PAIRS = 4  # of first and last circles, in the order of the words with a straight between them
-
-
-class _Seen(NamedTuple):
-    """One branch at one time."""
-
-    t: float
-    """[R/V_P]."""
-    excess: float
-    """How much longer it is than the time for it [R/V_P]; NaN if it does not reach."""
-    first: float
-    """Its first turn [rad] …"""
-    last: float
-    """… and its last one [rad]."""
 
 
 class _Length(NamedTuple):
     """What a look at one branch says."""
 
     excess: float
-    """As in `_Seen`; infinite if it arrives neither within a step before nor within one after."""
+    """As in `Seen`; infinite if it arrives neither within a step before nor within one after."""
     first: float
     """First turn [rad] …"""
     last: float
@@ -136,13 +115,14 @@ def paths_while_turning(passage: Passage, words: int, beat: float, rows: FloatAr
                         continue
                 elif (
                     before * after > 0.0
+                    and abs(before + after) > JUMP
                     and abs(last[branch, 1] - here[branch, 1]) < pi
                     and abs(last[branch, 2] - here[branch, 2]) < pi
                 ):
                     continue
-                begun = _Seen(last_t, before, last[branch, 1], last[branch, 2])
-                ended = _Seen(t, after, here[branch, 1], here[branch, 2])
-                n = _roots_between(passage, branch, begun, ended, rows, n, piece)
+                begun = Seen(last_t, before, last[branch, 1], last[branch, 2])
+                ended = Seen(t, after, here[branch, 1], here[branch, 2])
+                n = append_arrivals(passage, branch, begun, ended, rows, n, piece)
         if t >= beat:
             break
         now, last_t, follows = 1 - now, t, True
@@ -286,101 +266,3 @@ def _length_of(
     last_turn = turn_to(last * (circles.course - ended))
     excess = first_turn + middle + last_turn - circles.elapsed
     return _Length(excess, first_turn, last_turn, 0.0)
-
-
-@njit(cache=True, nogil=True)
-def _roots_between(
-    passage: Passage, branch: int, before: _Seen, after: _Seen, rows: FloatArray, n: int,
-    piece: FloatArray,
-) -> int:  # fmt: skip
-    """Append the rows of one branch that arrive between two looks; `piece` is room for one."""
-    if not (isnan(before.excess) and isnan(after.excess)):
-        return _append_roots(passage, branch, before, after, rows, n, piece)
-    between = _see(passage, branch, _time_of_extreme(passage, branch, before.t, after.t), piece)
-    if isnan(between.excess):
-        return n
-    n = _append_roots(passage, branch, before, between, rows, n, piece)
-    return _append_roots(passage, branch, between, after, rows, n, piece)
-
-
-@njit(cache=True, nogil=True)
-def _time_of_extreme(passage: Passage, branch: int, begin: float, end: float) -> float:
-    """When the circles of a branch are farthest, or nearest for three turns, if in an interval."""
-    word, h = WORD_OF[branch], passage.pose.h
-    first, last = SIGNS[word, 0], SIGNS[word, 2]
-    dx, dy = passage.x + first * sin(h), passage.y - first * cos(h)
-    ahead = passage.ahead - last * sin(passage.heading)
-    left = passage.left + last * cos(passage.heading)
-    # the last one's centre is then on the line from the first one's to that of the leader's turn
-    to_turn = atan2(dy, dx) - atan2(left, ahead) - leader_heading(passage, begin)
-    to_turn += 0.0 if branch < 4 else pi
-    sense = 1.0 if passage.turning > 0.0 else -1.0
-    return float(min(begin + wrap(sense * to_turn) / abs(passage.turning), end))
-
-
-@njit(cache=True, nogil=True)
-def _append_roots(
-    passage: Passage, branch: int, before: _Seen, after: _Seen, rows: FloatArray, n: int,
-    piece: FloatArray,
-) -> int:  # fmt: skip
-    """Append the rows of one branch that arrive between two times at one of which it exists."""
-    if _is_smooth(before, after):
-        return _append_root(passage, branch, before, after, rows, n, piece)
-    if not (abs(before.excess) < _JUMP or abs(after.excess) < _JUMP):
-        return n
-    # a turn passes 0, or the word ceases to exist: there may be a root on either side
-    low, high = before, after
-    for _ in range(_HALVINGS):
-        middle = _see(passage, branch, 0.5 * (low.t + high.t), piece)
-        if (isnan(middle.excess) and isnan(before.excess)) or _is_smooth(before, middle):
-            low = middle
-        else:
-            high = middle
-    n = _append_root(passage, branch, before, low, rows, n, piece)
-    return _append_root(passage, branch, high, after, rows, n, piece)
-
-
-@njit(cache=True, nogil=True)
-def _see(passage: Passage, branch: int, t: float, piece: FloatArray) -> _Seen:
-    """Look at one branch at one time."""
-    value = excess(passage, branch, t, piece)
-    return _Seen(t, value, piece[0], piece[2])
-
-
-@njit(cache=True, nogil=True)
-def _is_smooth(before: _Seen, after: _Seen) -> bool:
-    """Whether a word's length goes on smoothly: it exists at both times, and no turn jumps."""
-    return bool(
-        not isnan(before.excess)
-        and not isnan(after.excess)
-        and abs(before.first - after.first) < pi
-        and abs(before.last - after.last) < pi
-    )
-
-
-@njit(cache=True, nogil=True)
-def _append_root(
-    passage: Passage, branch: int, before: _Seen, after: _Seen, rows: FloatArray, n: int,
-    piece: FloatArray,
-) -> int:  # fmt: skip
-    """Append the row of a word that arrives between two times, if there is one."""
-    if not before.excess * after.excess <= 0.0 or n == MAX_ROWS:
-        return n
-    rising = 1.0 if before.excess < after.excess else -1.0
-    times = Bracket(before.t, after.t, rising * before.excess, rising * after.excess, 0)
-    nearer = before if abs(before.excess) < abs(after.excess) else after
-    at, value = nearer.t, nearer.excess
-    for k in range(_MOST_STEPS):
-        if abs(value) < _EXACT or times.high - times.low < _EXACT:
-            break
-        # every fourth step halves: a jump is then found out soon, too
-        at = 0.5 * (times.low + times.high) if k % 4 == 3 else secant(times)
-        value = excess(passage, branch, at, piece)
-        times = tightened(times, at, rising * value)
-    value = excess(passage, branch, at, piece)
-    if not abs(value) < _MET:
-        return n
-    rows[n, 0] = at
-    rows[n, 1] = WORD_OF[branch]
-    rows[n, 2:5] = piece
-    return n + 1

@@ -346,7 +346,7 @@ def test_a_long_boundary_arc_is_flown_along_the_limit_and_in_the_time_it_should_
     begun = 2.24164322
     pieces = np.empty((2 * MAX_NODES, 2))
     pose = contact_at(scene, begun, leg[2], leg[1])
-    n, end, ended = boundary_arc_pieces(pose, begun, scene, leg, pieces)
+    n, end, ended = boundary_arc_pieces(pose, begun, begun, scene, leg, pieces)
     assert ended == pytest.approx(
         boundary_arc_arrival(scene, begun, leg[2], leg[3], leg[1], 1), abs=3e-7
     )

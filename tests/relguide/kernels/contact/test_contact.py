@@ -106,7 +106,7 @@ def test_the_arcs_of_a_boundary_arc_keep_their_distance(
     pose = contact_at(scene, begin, bearing, side)
     arcs = np.empty((2 * MAX_NODES, 2))
     leg = np.array([BOUNDARY_ARC, side, bearing, goal, 0.0, 0.0])
-    n, (ex, ey, eh), et = boundary_arc_pieces(pose, begin, scene, leg, arcs)
+    n, (ex, ey, eh), et = boundary_arc_pieces(pose, begin, begin, scene, leg, arcs)
     # round a faster leader, begun where it can hardly be touched, it is less exact
     loose = 10.0 if alpha > 1.0 else 1.0
     assert et == pytest.approx(arrival, abs=loose * 1e-4)
@@ -142,7 +142,7 @@ def test_a_boundary_arc_may_come_back_to_a_bearing_once_the_leader_turns() -> No
     assert 5.0 < boundary_arc_arrival(scene, 0.0, begun, goal, side, 2) < inf
     arcs, leg = np.empty((2 * MAX_NODES, 2)), np.array([BOUNDARY_ARC, side, begun, goal, 1.0, 0.0])
     n, (ex, ey, eh), t = boundary_arc_pieces(
-        contact_at(scene, 0.0, begun, side), 0.0, scene, leg, arcs
+        contact_at(scene, 0.0, begun, side), 0.0, 0.0, scene, leg, arcs
     )
     assert n > 0
     assert t == pytest.approx(again, abs=1e-4)

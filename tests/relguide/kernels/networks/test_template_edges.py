@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from relguide.kernels.base.records import Pose, straight_scene, with_limit
+from relguide.kernels.contact.chain import MAX_LEGS
 from relguide.kernels.contact.constrained_rows import solve_constrained_rows
 from relguide.kernels.contact.contact import GRAZE, disc_on
 from relguide.kernels.networks.near_guess import Task, descend, empty_room
@@ -26,9 +27,9 @@ def test_a_path_at_an_edge_is_found_from_a_guess_beside(
     situation: tuple[float, ...], name: str
 ) -> None:
     x, y, h, alpha, slot, limit = situation
-    times, counts, legs = np.empty((1, 3)), np.empty(1), np.zeros((1, 9, 6))
+    times, counts, legs = np.empty((1, 3)), np.empty(1), np.zeros((1, MAX_LEGS, 6))
     solve_constrained_rows(np.array([situation]), BEARINGS, 2000.0, times, counts, legs)
-    guess, found = np.empty(2), np.zeros((9, 6))
+    guess, found = np.empty(2), np.zeros((MAX_LEGS, 6))
     start, scene = Pose(x, y, h), straight_scene(alpha, slot, limit)
     template = template_of(start, scene, legs[0, : int(counts[0])], guess)
     assert TEMPLATES[template] == name

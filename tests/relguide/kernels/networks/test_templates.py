@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from relguide.kernels.base.records import Disc, Pose, straight_scene
-from relguide.kernels.contact.chain import BOUNDARY_ARC
+from relguide.kernels.contact.chain import BOUNDARY_ARC, MAX_LEGS
 from relguide.kernels.contact.constrained_rows import solve_constrained_rows
 from relguide.kernels.contact.contact import contact_heading, slide_within
 from relguide.kernels.networks.template_recognition import template_of
@@ -24,7 +24,7 @@ SLACK = 1e-6  # what the certificate allows, too [R]
 def solve_answer(n: int, off: float = 0.0) -> tuple[int, float, np.ndarray]:
     """Kind, time and legs of answer n, solved again from its guess, which is put off by so much."""
     x, y, h, alpha, slot, limit = FOUND.situations[n].tolist()
-    guess, legs = np.zeros(2), np.zeros((9, 6))
+    guess, legs = np.zeros(2), np.zeros((MAX_LEGS, 6))
     start, scene = Pose(x, y, h), straight_scene(alpha, slot, limit)
     template = template_of(start, scene, FOUND.legs[n, : int(FOUND.counts[n])], guess)
     if template in (SEVERAL, NONE):
@@ -84,9 +84,9 @@ def test_a_straight_way_bent_a_little_is_found_from_a_guess_beside(
     situation: tuple[float, ...],
 ) -> None:
     x, y, h, alpha, slot, limit = situation
-    times, counts, legs = np.empty((1, 3)), np.empty(1), np.zeros((1, 9, 6))
+    times, counts, legs = np.empty((1, 3)), np.empty(1), np.zeros((1, MAX_LEGS, 6))
     solve_constrained_rows(np.array([situation]), BEARINGS, 2000.0, times, counts, legs)
-    guess, found = np.empty(2), np.zeros((9, 6))
+    guess, found = np.empty(2), np.zeros((MAX_LEGS, 6))
     start, scene = Pose(x, y, h), straight_scene(alpha, slot, limit)
     template = template_of(start, scene, legs[0, : int(counts[0])], guess)
     assert legs[0, 0, 5] < 0.02  # before the contact it turns no more than this, and behind it
