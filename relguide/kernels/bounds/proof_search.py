@@ -231,8 +231,7 @@ def _pair_bound(search: Search, problem: Problem, n: int, m: int) -> float:
         return inf
     room = beat - soon - leaving
     between = max(apart(search.first, problem, n, 1.0), apart(search.last, problem, m, -1.0))
-    # round a smaller disc words say more than fronts, in less time
-    if between < room and (scene.d_min > 1.0 or len(scene.leader) == 1):
+    if between < room:
         between = max(between, round_between(scene, table, cell, other, room))
     if between < room:
         between = max(between, word_between(scene, cell, other, room, 0.0, 0.0, between))

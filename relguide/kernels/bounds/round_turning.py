@@ -12,6 +12,12 @@ with b = β less the leader's heading: so e is turned there, unless that is to t
 kept for a step at a time; P is then where a line at V_P cuts a disc that moves as the leader does,
 in closed form. On a straight leg this is `round_time`.
 
+What must turn is slower still. Whoever leaves a contact at heading h heads no further than t from h
+a time t later, and of his speed no more than V_P cos(φ − t) is along e, if e lies φ > t from h. So
+the front need not be faster; and likewise before a contact that is come to. That counts where
+somebody passes the leader the other way round than he goes on, and has to turn back, and where no
+bank is enough to slide.
+
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
@@ -20,14 +26,14 @@ from typing import NamedTuple
 
 from numba import njit
 
-from relguide.kernels.base.angles import TWO_PI, wrap
+from relguide.kernels.base.angles import TWO_PI, wrap, wrap_signed
 from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.bounds.breach import INSIDE
-from relguide.kernels.bounds.cells import Cell
+from relguide.kernels.bounds.cells import EDGE, Cell, poses_of
 from relguide.kernels.separation.clearance import leader_at, piece_at
 
 _STEP = 0.1  # for which a front keeps its direction, in d_min and at V_P …
-_CLOSE, _PARTS = 0.01, 4  # … and a part of it for cells narrower than this [rad]
+_CLOSE, _PARTS = 0.05, 4  # … and a part of it for cells narrower than this [rad]
 _WIDEST = 3.1  # e is no further than this from the bearing of P, so that the disc is beside it
 _TRIES = 8  # to say when P arrives within a step, to a tenth of `ROUNDING`
 ROUNDING = 1e-5  # 0.5 ms for an airliner: more than what rounding makes of all of this [R/V_P]
@@ -49,6 +55,28 @@ class Front(NamedTuple):
     """How far P is from there at first, counted against the way it goes [rad]."""
     past: float
     """How far along e the line then lies [R]."""
+    speed: float
+    """How fast the line moves along e [V_P]."""
+
+
+class Headings(NamedTuple):
+    """How something heads that goes from one contact to another, turning at most at full bank."""
+
+    first: float
+    """Where it begins [rad]."""
+    first_differs: float
+    """Or this much from there [rad]; infinite for something that needs no time to turn."""
+    since: float
+    """It does not begin before [R/V_P]."""
+    last: float
+    """Where it ends [rad]."""
+    last_differs: float
+    """Or this much from there [rad]; infinite likewise."""
+    until: float
+    """It does not end after [R/V_P]."""
+
+
+_ANY = Headings(0.0, inf, 0.0, 0.0, inf, 0.0)
 
 
 @njit(cache=True, nogil=True)
@@ -74,10 +102,13 @@ def round_arrival(scene: Scene, cell: Cell, other: Cell, latest: float) -> float
         if angle <= 0.0 or angle + 2.0 * blur >= TWO_PI or scene.alpha > FAST:
             return cell.start
         edge, end, step = high if way == 0 else low, min(latest, soonest), step_of(scene)
-        arrival = _sweep(scene, cell.start, edge, angle, sense, end, step)
+        arrival = _sweep(scene, cell.start, edge, angle, sense, end, step, _ANY)
         if arrival < end and max(cell.half, other.half) < _CLOSE:
             step /= _PARTS
-            arrival = max(arrival, _sweep(scene, cell.start, edge, angle, sense, end, step))
+            headings = _headings_of(scene, cell, other, end)
+            end = min(end, headings.until)
+            closer = _sweep(scene, cell.start, edge, angle, sense, end, step, headings)
+            arrival = max(arrival, closer)
         soonest = min(soonest, arrival)
     return soonest
 
@@ -107,23 +138,64 @@ def leader_then(scene: Scene, t: float) -> Pose:
 
 
 @njit(cache=True, nogil=True)
+def _headings_of(scene: Scene, cell: Cell, other: Cell, latest: float) -> Headings:
+    """The headings of contacts of a cell, and of contacts of another to which something goes."""
+    first, last = poses_of(scene, cell), poses_of(scene, other)
+    return Headings(
+        first.middle.h, first.differs, cell.start,
+        last.middle.h, last.differs, min(latest, other.end + EDGE),
+    )  # fmt: skip
+
+
+@njit(cache=True, nogil=True)
 def _sweep(
-    scene: Scene, t: float, bearing: float, angle: float, sense: float, latest: float, step: float
-) -> float:
+    scene: Scene, t: float, bearing: float, angle: float, sense: float, latest: float, step: float,
+    headings: Headings,
+) -> float:  # fmt: skip
     """When a front that begins at a bearing has swept an angle; infinite from `latest` on."""
     course, there = bearing, leader_then(scene, t)
     while t < latest:
         front = front_from(scene, t, there, bearing, course, sense, 1.0, step)
+        front = _slowed(front, t, step, headings)
         there = leader_then(scene, t + step)
         reached = reached_by(scene, front, there, step)
         swept = swept_by(front, reached)
         if swept >= angle:
             t += time_to(scene, front, t, 1.0, angle, step, reached)
             break
+        if front.speed < 1.0 and _may_sweep(scene, front, t, step, reached, angle):
+            break
         bearing, course = bearing + sense * swept, front.course
         angle -= swept
         t += step
     return t - ROUNDING if t < latest else inf
+
+
+@njit(cache=True, nogil=True)
+def _slowed(front: Front, t: float, step: float, headings: Headings) -> Front:
+    """The front, no faster along e than somebody can be in the step who heads as he must."""
+    turned = abs(wrap_signed(front.course - headings.first)) - headings.first_differs
+    turns = abs(wrap_signed(front.course - headings.last)) - headings.last_differs
+    apart = max(turned - (t + step - headings.since), turns - (headings.until - t))
+    if apart <= 0.0:
+        return front
+    return Front(
+        front.sense, front.course, front.ahead_x, front.ahead_y, front.from_course, front.past,
+        cos(min(apart, pi)),
+    )  # fmt: skip
+
+
+@njit(cache=True, nogil=True)
+def _may_sweep(
+    scene: Scene, front: Front, t: float, step: float, reached: float, angle: float
+) -> bool:
+    """Whether P may have moved so far round at some time of the step, and back again."""
+    rate = 0.0
+    for i in range(piece_at(scene.leader, t), piece_at(scene.leader, t + step) + 1):
+        rate = max(rate, abs(scene.leader[i, 4]))
+    bends = 0.125 * scene.alpha * rate * step * step / (scene.d_min - INSIDE)
+    most = max(cos(front.from_course), reached) + bends
+    return swept_by(front, most) >= angle
 
 
 @njit(cache=True, nogil=True)
@@ -160,16 +232,16 @@ def front_from(
     course = bearing + sense * from_course
     x, y = cos(course), sin(course)
     past = there.x * x + there.y * y + (scene.d_min - INSIDE) * cos(from_course)
-    return Front(sense, course, x, y, from_course, past)
+    return Front(sense, course, x, y, from_course, past, 1.0)
 
 
 @njit(cache=True, nogil=True)
 def reached_by(scene: Scene, front: Front, there: Pose, took: float) -> float:
     """How far the line lies from the leader along e after a time, as part of d_min.
 
-    It grows with the time, by 1 − α to 1 + α of V_P.
+    At V_P it grows with the time, by 1 − α to 1 + α of V_P.
     """
-    ahead = front.past + took - there.x * front.ahead_x - there.y * front.ahead_y
+    ahead = front.past + front.speed * took - there.x * front.ahead_x - there.y * front.ahead_y
     return float(ahead / (scene.d_min - INSIDE))
 
 
@@ -200,6 +272,8 @@ def time_to(
     if left >= pi:
         return 0.0
     wanted = cos(max(left, 0.0))
+    if front.speed < 1.0:
+        return _time_at_least(scene, front, t, wanted, step)
     # by false position; whatever is missed, it takes no longer than this
     slowest = (scene.d_min - INSIDE) / (1.0 - scene.alpha)
     low, at_low = 0.0, cos(front.from_course) - wanted
@@ -217,3 +291,27 @@ def time_to(
         if abs(at) * slowest < 0.1 * ROUNDING:
             break
     return max(low, high - at_high * slowest)
+
+
+@njit(cache=True, nogil=True)
+def _time_at_least(scene: Scene, front: Front, t: float, wanted: float, step: float) -> float:
+    """As `time_to`, for a front that is not so fast: by steps too short to miss it.
+
+    Args:
+        scene: as in `time_to`.
+        front: likewise.
+        t: likewise.
+        wanted: what `reached_by` has to come to.
+        step: as in `time_to`.
+    """
+    fastest, took = front.speed + scene.alpha, 0.0
+    for _ in range(_TRIES):
+        left = (wanted - reached_by(scene, front, leader_then(scene, t + took), took))
+        if left <= 0.0:
+            break
+        if fastest <= 0.0:
+            return step
+        took += left * (scene.d_min - INSIDE) / fastest
+        if took >= step:
+            return step
+    return took
