@@ -306,7 +306,7 @@ def _time_at_least(scene: Scene, front: Front, t: float, wanted: float, step: fl
     """
     fastest, took = front.speed + scene.alpha, 0.0
     for _ in range(_TRIES):
-        left = (wanted - reached_by(scene, front, leader_then(scene, t + took), took))
+        left = wanted - reached_by(scene, front, leader_then(scene, t + took), took)
         if left <= 0.0:
             break
         if fastest <= 0.0:

@@ -88,7 +88,7 @@ def _breaks_with_loop(start: Pose, row: FloatArray, scene: Scene) -> bool:
             return False
         # who begins the loop later by so much is no further from there than by twice as much
         last_breach += 0.5 * inside
-    return last_breach >= soonest_breach
+    return bool(last_breach >= soonest_breach)
 
 
 @njit(cache=True, nogil=True)

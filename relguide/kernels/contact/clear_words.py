@@ -16,7 +16,8 @@ from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, fly_piece, solve
 from relguide.kernels.words.fastest import fastest
 from relguide.kernels.words.sooner import make_scratch
 
-_EARLY = 1e-9  # this much before it opens the slot counts as open [R/V_P], as in `solve`
+EARLY = 1e-9
+"""This much before it opens the slot counts as open [R/V_P], as in `solve`."""
 
 
 @njit(cache=True, nogil=True)
@@ -58,7 +59,7 @@ def first_clear(
         arrival = t + rows[k, 0]
         if arrival >= beat:
             break
-        if arrival >= scene.t_release - _EARLY and word_clears(pose, t, rows[k], scene):
+        if arrival >= scene.t_release - EARLY and word_clears(pose, t, rows[k], scene):
             return arrival, k
     return inf, -1
 

@@ -34,6 +34,7 @@ from relguide.kernels.contact.contact import contact_at, contact_exists
 from relguide.kernels.contact.contact_graph import best_chains
 from relguide.kernels.contact.delay_after_contact import delay_until_release
 from relguide.kernels.contact.graph_labels import Effort
+from relguide.kernels.contact.looped_word import looped_word
 from relguide.kernels.contact.nodes import BoolArray, Nodes, contact_nodes, nodes_closer
 from relguide.kernels.contact.one_contact import descend_basins, scan_contacts
 from relguide.kernels.contact.paths_to_contact import paths_to_contact
@@ -66,7 +67,7 @@ def ease_to_start(start: Pose, scene: Scene) -> Scene:
 def best_constrained_path(
     start: Pose, scene: Scene, bearings: int, tangents: FloatArray, beat: float, legs: FloatArray
 ) -> tuple[float, int]:
-    """The fastest path to the slot that touches the disc.
+    """The fastest path to the slot that touches the disc, or flies a full loop to stay clear of it.
 
     Args:
         start: where it begins, at t = 0.
@@ -101,7 +102,8 @@ def best_constrained_path(
         time, found = begin_again(start, scene, chain, count - 1, best, stride, legs, effort)
         if found > 0:
             best, count = time, found
-    return best, count
+    time, looped = looped_word(start, scene, best, legs)
+    return (time, looped) if looped > 0 else (best, count)
 
 
 @njit(cache=True, nogil=True)

@@ -2,12 +2,12 @@
 
 from collections.abc import Iterator
 from itertools import islice
-from math import acos, cos, hypot, inf, pi, sin
+from math import acos, cos, hypot, inf, isnan, nan, pi, sin
 
 import numpy as np
 import pytest
 
-from relguide.kernels.base.records import Scene
+from relguide.kernels.base.records import Pose, Scene, with_limit
 from relguide.kernels.bounds.around import (
     is_behind,
     is_last,
@@ -20,8 +20,13 @@ from relguide.kernels.bounds.around import (
 from relguide.kernels.bounds.cells import Cell
 from relguide.kernels.bounds.round_time import round_bound, times_round
 from relguide.kernels.bounds.round_turning import round_arrival
+from relguide.kernels.contact.clear_words import word_clears
+from relguide.kernels.contact.contact import contact_heading, to_frame_of
 from relguide.kernels.separation.clearance import leader_at, piece_at
+from relguide.kernels.words.extremals import MAX_ROWS, solve
 
+WIDE = 0.05
+"""Half a cell whose contacts' headings are not looked at [rad]."""
 NARROW = 1e-9
 """Half a cell that holds hardly more than one contact [rad]."""
 
@@ -38,13 +43,20 @@ def turning(rng: np.random.Generator) -> Scene:
     return scene
 
 
-def contact(scene: Scene, bearing: float, t: float) -> Cell:
+def contact(scene: Scene, bearing: float, t: float, side: float = 1.0) -> Cell:
     """A cell that holds hardly more than the contact at this bearing from the leader, in the world,
     at one time.
     """
     piece = piece_at(scene.leader, t)
     turned = leader_at(scene, piece, t).h
-    return Cell(piece, 1.0, bearing - turned, NARROW, t, t)
+    return Cell(piece, side, bearing - turned, NARROW, t, t)
+
+
+def pose_of(scene: Scene, cell: Cell) -> Pose:
+    """The pose of its contact."""
+    there = leader_at(scene, cell.piece, cell.start)
+    x, y = place(scene, cell.bearing + there.h, cell.start)
+    return Pose(x, y, there.h + contact_heading(cell.bearing, cell.side, scene.alpha))
 
 
 def place(scene: Scene, bearing: float, t: float) -> tuple[float, float]:
@@ -52,32 +64,43 @@ def place(scene: Scene, bearing: float, t: float) -> tuple[float, float]:
     return there.x + scene.d_min * cos(bearing), there.y + scene.d_min * sin(bearing)
 
 
-def slide(scene: Scene, bearing: float, t: float, sense: float, angle: float) -> float:
-    """When who slides along the disc has gone round so far."""
-    step = 1e-3
+def slide(
+    scene: Scene, bearing: float, t: float, sense: float, angle: float
+) -> tuple[float, float]:
+    """When who slides along the disc has gone round so far, and how fast he turned at most."""
+    step, fastest = 1e-3, 0.0
+    heading, before = 0.0, nan
     while angle > 0.0:
         there = leader_at(scene, piece_at(scene.leader, t), t)
         heading = bearing + sense * acos(scene.alpha * cos(bearing - there.h))
+        if not isnan(before):
+            fastest = max(fastest, abs(heading - before) / step)
+        before = heading
         rate = sin(heading - bearing) - scene.alpha * sin(there.h - bearing)
         bearing += rate / scene.d_min * step
         angle -= abs(rate) / scene.d_min * step
         t += step
-    return t
+    return t, fastest
 
 
 @pytest.mark.parametrize("seed", range(2))
 def test_nobody_slides_round_sooner_and_who_has_no_turn_to_wait_for_hardly_later(seed: int) -> None:
     rng = np.random.default_rng(seed)
-    tight = 0
-    for _ in range(60):
+    tight = slid = 0
+    for _ in range(120):
         scene = turning(rng)
         bearing, t = rng.uniform(-pi, pi), rng.uniform(0.0, scene.leader[1, 0])
         angle, sense = rng.uniform(0.1, 3.0), rng.choice((-1.0, 1.0))
-        came = slide(scene, bearing, t, sense, angle)
-        start, end = contact(scene, bearing, t), contact(scene, bearing + sense * angle, came)
+        came, turned = slide(scene, bearing, t, sense, angle)
+        if turned > 1.0:
+            continue
+        start = contact(scene, bearing, t, sense)
+        end = contact(scene, bearing + sense * angle, came, sense)._replace(end=came + 0.02)
         soonest = round_arrival(scene, start, end, inf)
         assert t <= soonest <= came + 0.01
         tight += soonest > came - 1e-3
+        slid += 1
+    assert slid > 40
     assert tight > 20
 
 
@@ -104,9 +127,52 @@ def straight_flights(rng: np.random.Generator) -> Iterator[tuple[Scene, Cell, Ce
 def test_nobody_flies_straight_from_contact_to_contact_sooner(seed: int) -> None:
     flown = 0
     for scene, start, end in straight_flights(np.random.default_rng(seed)):
-        assert round_arrival(scene, start, end, inf) <= end.start + 1e-6
+        # cells so wide that it is not asked how somebody heads
+        wide = start._replace(half=WIDE), end._replace(half=WIDE)
+        assert round_arrival(scene, *wide, inf) <= end.start + 1e-6
         flown += 1
     assert flown > 100
+
+
+def turning_flights(rng: np.random.Generator) -> Iterator[tuple[Scene, Cell, Cell]]:
+    """From contact to contact by words outside the disc, in the time that they take."""
+    rows = np.empty((MAX_ROWS, 5))
+    for _ in range(1_500):
+        scene = turning(rng)
+        begin, sides = rng.uniform(0.0, scene.leader[2, 0]), rng.choice((-1.0, 1.0), 2)
+        low, high = rng.uniform(-pi, pi, 2)
+        start = contact(scene, low, begin, sides[0])
+        at, times = pose_of(scene, start), begin + np.arange(0.0, 8.0, 0.05)
+        spare = np.full((len(times), 6), np.inf)
+        for k, t in enumerate(times):
+            n = solve(
+                to_frame_of(at, pose_of(scene, contact(scene, high, t, sides[1]))), 0.0, 0.0, rows
+            )
+            for row in rows[:n][::-1]:
+                spare[k, int(row[1])] = row[0] - (t - begin)
+        for k, word in np.argwhere((spare[:-1] > 0.0) & (spare[1:] <= 0.0) & (spare[:-1] < 0.1)):
+            t = times[k] + 0.05 * spare[k, word] / (spare[k, word] - spare[k + 1, word])
+            end = contact(scene, high, t, sides[1])
+            n = solve(to_frame_of(at, pose_of(scene, end)), 0.0, 0.0, rows)
+            for row in rows[:n]:
+                inside = with_limit(scene, scene.d_min - 1e-3)
+                if abs(row[0] - (t - begin)) < 2e-3 and word_clears(at, begin, row, inside):
+                    yield scene, start, end
+
+
+def test_nobody_who_turns_comes_from_contact_to_contact_sooner() -> None:
+    """Also who has to turn back, for whom it takes longer than for what needs no time to turn."""
+    flown = turned_back = 0
+    for scene, start, end in turning_flights(np.random.default_rng(6)):
+        came = end.start
+        end = end._replace(end=came + 5e-3, start=came - 5e-3)
+        soonest = round_arrival(scene, start, end, inf)
+        assert soonest <= came + 5e-3
+        wide = round_arrival(scene, start, end._replace(half=WIDE), inf)
+        flown += 1
+        turned_back += soonest > wide + 0.5
+    assert flown > 40
+    assert turned_back > 8
 
 
 def test_fronts_from_all_contacts_are_ahead_of_who_flies_straight_in_time_and_back() -> None:
@@ -158,16 +224,24 @@ def test_fronts_of_two_cells_are_as_soon_as_the_sooner_of_both() -> None:
 
 
 def test_where_the_leader_keeps_straight_it_is_the_time_round() -> None:
+    """For who passes him the way that he goes on, and has bank enough to slide."""
     rng = np.random.default_rng(4)
-    for _ in range(200):
+    slid = 0
+    for _ in range(80):
         scene = turning(rng)
         scene.leader[1:, 0] += 1e6
         scene.leader[1:, 1] += 1e6 * scene.alpha
         table = times_round(scene.alpha, scene.d_min)
         low, high = rng.uniform(-pi, pi, 2)
-        start, end = Cell(0, 1.0, low, NARROW, 0.0, 0.0), Cell(0, 1.0, high, NARROW, 0.0, 99.0)
-        least = min(round_bound(table, way, start, end) for way in (0, 1))
-        assert round_arrival(scene, start, end, inf) == pytest.approx(least, rel=0.01, abs=2e-3)
+        start, end = Cell(0, 1.0, low, NARROW, 0.0, 0.0), Cell(0, 1.0, high, NARROW, 0.0, 999.0)
+        least, side = min((round_bound(table, way, start, end), 1.0 - 2.0 * way) for way in (0, 1))
+        start, end = start._replace(side=side), end._replace(side=side)
+        soonest = round_arrival(scene, start, end, inf)
+        assert soonest > 0.99 * least - 2e-3
+        if slide(scene, low, 0.0, side, (side * (high - low)) % (2.0 * pi))[1] <= 1.0:
+            assert soonest == pytest.approx(least, rel=0.01, abs=2e-3)
+            slid += 1
+    assert slid > 20
 
 
 def test_what_comes_too_late_comes_back_as_infinite() -> None:
