@@ -9,7 +9,7 @@ exists only between two looks, its circles are nearest or farthest there, at a t
 form.
 """
 
-from math import atan2, cos, isnan, pi, sin
+from math import atan2, cos, isnan, pi, sin, sqrt
 from typing import NamedTuple
 
 from numba import njit
@@ -17,7 +17,7 @@ from numba import njit
 from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.base.false_position import Bracket, secant, tightened
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.contact.moving_contact import Passage, excess, leader_heading
+from relguide.kernels.contact.moving_contact import Passage, excess, leader_heading, speed_of
 from relguide.kernels.words.branches import WORD_OF
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS
 
@@ -104,6 +104,8 @@ def _append_roots(
         # a turn passes 0, or the word ceases to exist: there may be a root on either side
         low, high = before, after
         for _ in range(_HALVINGS):
+            if not (_may_meet(passage, low, high) or _may_meet(passage, high, low)):
+                break
             middle = _see(passage, branch, 0.5 * (low.t + high.t), piece)
             if (isnan(middle.excess) and isnan(before.excess)) or _is_smooth(before, middle):
                 low = middle
@@ -118,6 +120,18 @@ def _append_roots(
 def _may_arrive(seen: Seen) -> bool:
     """Whether a branch may arrive a step before or after, its turns counted past full ones too."""
     return bool(abs(wrap_signed(seen.excess)) < _EDGE_JUMP)
+
+
+@njit(cache=True, nogil=True)
+def _may_meet(passage: Passage, seen: Seen, other: Seen) -> bool:
+    """Whether a branch may arrive from one time on to another, but for full turns.
+
+    No gap between circles changes faster than these move, nor a heading faster than the contact's;
+    where a word ceases to exist its length bends like a root: LSR by 4 √(gap − 2), LRL by less.
+    """
+    moved = 1.0 + speed_of(passage) + 2.0 * abs(passage.turning)
+    moved *= abs(other.t - seen.t)
+    return bool(abs(wrap_signed(seen.excess)) < 4.0 * sqrt(moved) + 2.0 * moved)
 
 
 @njit(cache=True, nogil=True)

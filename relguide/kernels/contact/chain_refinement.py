@@ -42,6 +42,8 @@ _BESIDE = 5e-3  # an edge is looked for this near to a contact [rad] …
 _CLIFF = 2e-3  # … where to both sides together the arrival rises by more than this [R/V_P]
 _NARROW = 1e-3  # it is followed in steps down to this [rad]
 _ACROSS = 3  # places looked at on either side of a valley
+_WHOLE = 0.99  # of a stride: that is a whole step, but for rounding
+_MOST_WHOLE = 256  # whole steps one after another, before they are made longer
 
 
 class Move(NamedTuple):
@@ -288,7 +290,7 @@ def move_bearing(
         the arrival now, and a good first step for the next sweep.
     """
     contacts, k = chain.contacts, move.k
-    stride, moved_by = move.stride, 0.0
+    stride, moved_by, whole = move.stride, 0.0, 0
     _, begun = fly_links(at, t, scene, chain, k, move.last, inf)
     here = begun
     while stride >= move.finest and here < inf:
@@ -311,12 +313,15 @@ def move_bearing(
         if above < least:
             to, least = bearing + stride, above
         contacts[k, 2] = to
+        whole = whole + 1 if abs(to - bearing) > _WHOLE * stride else 0
         moved_by = max(moved_by, abs(to - bearing))
         here = least
         if smooth and promised < GAIN:
             break
         if smooth:
             stride *= 0.1
+        elif whole > _MOST_WHOLE:
+            stride *= 2.0
         elif abs(to - bearing) < stride:
             stride *= 0.4
     next_stride = max(2.0 * moved_by, move.finest)

@@ -18,6 +18,7 @@ from relguide.kernels.contact.graph_labels import Effort, Graph, label_to_beat, 
 from relguide.kernels.contact.nodes import Nodes, contact_of
 from relguide.kernels.contact.passing import words_onward
 from relguide.kernels.contact.paths_to_contact import earliest_arrival, not_before_slot
+from relguide.kernels.separation.clearance import piece_end
 from relguide.kernels.words.fastest import fastest
 
 _WORTH = 2e-4  # how much sooner the slot has to be in reach for it to be followed [R/V_P]: 10 ms
@@ -59,11 +60,15 @@ def _hop_from(scene: Scene, nodes: Nodes, graph: Graph, n: int, best: float) -> 
         contact, m = contact_of(nodes, node), node + graph.hops
         if node == n % graph.nodes or not contact_exists(contact.bearing, scene.alpha):
             continue
-        t = earliest_arrival(pose, left, scene, contact)
-        beat = label_to_beat(scene, nodes, graph, m, t)
-        if t >= beat or t >= best:
+        # what is too late for it whatever the way there need not be asked for the earliest
+        in_time = min(time[m], best - _onward_from(scene, nodes, graph, node))
+        begin, end = scene.leader[contact.piece, 0], piece_end(scene.leader, contact.piece)
+        if max(left, begin) >= in_time or left >= end:
             continue
-        beat = min(beat, best - _onward_from(scene, nodes, graph, node))
+        t = earliest_arrival(pose, left, scene, contact)
+        if t >= in_time:
+            continue
+        beat = min(label_to_beat(scene, nodes, graph, m, t), in_time)
         if t >= beat:
             continue
         there = contact_at(scene, t, contact.bearing, contact.side)
