@@ -13,6 +13,7 @@ Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import islice
 from math import inf, pi
 
 import numpy as np
@@ -63,6 +64,15 @@ class Question:
                 if low < high or low == 0.0:
                     yield from _all_cells(i, low, high)
 
+    def spare_contacts(self) -> Iterator[Cell]:
+        """All contacts to which a path may come with time to spare, in cells: see `junction`."""
+        turns = np.flatnonzero(self.scene.leader[:, 4])
+        pieces = int(turns[-1]) + 1 if len(turns) > 0 else 0
+        for i, (start, end) in enumerate(islice(self._windows(), pieces)):
+            end = min(end, self.horizon)
+            if start < end:
+                yield from _all_cells(i, start, end)
+
     def last_contacts(self) -> Iterator[Cell]:
         """All contacts from which the goal is reached, in cells."""
         for i, (start, end) in enumerate(self._windows()):
@@ -109,8 +119,10 @@ class Question:
         beat = untouched_bound(self.start, self.scene, self.goal, beat)
         table, nothing = times_round(self.scene.alpha, self.scene.d_min), unknown_around()
         problem = Problem(self.start, self.scene, self.goal, table, beat, self.paired, nothing)
-        first, last = np.array([*self.first_contacts()]), np.array([*self.last_contacts()])
-        return begin(problem, first, last), problem, len(first)
+        first, spare = [*self.first_contacts()], [*self.spare_contacts()]
+        last = np.array([*self.last_contacts()])
+        search = begin(problem, np.array(first + spare), len(first), last)
+        return search, problem, len(first) + len(spare)
 
     def _looks(self) -> dict[int, float]:
         if len(self.scene.leader) == 1 or self.scene.d_min <= 1.0:

@@ -15,14 +15,14 @@ from typing import NamedTuple
 
 from numba import njit
 
-from relguide.kernels.base.angles import TWO_PI
+from relguide.kernels.base.angles import TWO_PI, wrap
 from relguide.kernels.base.records import Pose, Scene, Velocity, Window, with_limit
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.breach import INSIDE, Sieve, no_sieve
 from relguide.kernels.bounds.cells import EDGE, Cell, Poses, poses_of
 from relguide.kernels.bounds.found_word import ByTurn, Junction
 from relguide.kernels.bounds.goal import Goal, track_of
-from relguide.kernels.bounds.junction import junction_of
+from relguide.kernels.bounds.junction import away_for, beyond_outward, junction_of
 from relguide.kernels.bounds.rest import Rest, no_rest
 from relguide.kernels.bounds.round_time import round_bound
 from relguide.kernels.bounds.round_turning import round_arrival
@@ -116,6 +116,58 @@ def cell_bound(
 
 
 @njit(cache=True, nogil=True)
+def spare_bound(
+    start: Pose, scene: Scene, goal: Goal, cell: Cell, beat: float, on: Rest
+) -> tuple[Passed, float]:
+    """As `cell_bound`, of paths that have time to spare before the contact: see `junction`.
+
+    They come there by any way that is long enough, so no sooner than the shortest word.
+
+    Args:
+        start: as in `cell_bound`.
+        scene: likewise.
+        goal: likewise.
+        cell: likewise; its window of time has an end.
+        beat: as in `cell_bound`.
+        on: likewise.
+    """
+    poses = poses_of(scene, cell)
+    if poses.differs == inf:
+        return NEVER, inf
+    onward = _onward_bound(scene, goal, cell, poses, beat - cell.start, on)
+    if onward == inf:
+        return NEVER, inf
+    strays = poses.span * hypot(poses.vx, poses.vy)
+    there = Poses(
+        poses.t, 0.0, poses.middle, 0.0, 0.0, poses.differs, poses.left + strays,
+        poses.right + strays,
+    )  # fmt: skip
+    end = min(beat - onward, cell.end + EDGE)
+    soon = max(_word_to(start, scene, there, Window(0.0, end)), cell.start)
+    if soon == inf:
+        return NEVER, onward
+    away = Passed(inf, inf, inf, soon, soon + beyond_outward(scene, cell, 1.0))
+    return until_again(scene, cell, 1.0, away), onward
+
+
+@njit(cache=True, nogil=True)
+def until_again(scene: Scene, cell: Cell, pace: float, passed: Passed) -> Passed:
+    """The same, with a turn away only for so long as it surely does not touch again.
+
+    Args:
+        scene: as in `cell_bound`.
+        cell: likewise.
+        pace: +1 for the turn after the contact, −1 for that before it.
+        passed: how soon, by how the contact is passed.
+    """
+    lasts = passed.turned - passed.outward
+    if not 0.0 < lasts < inf:
+        return passed
+    turned = passed.outward + away_for(scene, cell, pace, lasts)
+    return Passed(passed.looped, passed.tangent, passed.inward, passed.outward, turned)
+
+
+@njit(cache=True, nogil=True)
 def _passed(found: ByTurn, junction: Junction, looped: float, least: float) -> Passed:
     """By turns toward the leader and away from it; none of it less than `least`."""
     inward, outward = found.left, found.right
@@ -174,6 +226,27 @@ def turned_after_bound(scene: Scene, goal: Goal, cell: Cell, turn: float, beat: 
     after = _turned_away(poses_of(scene, cell), cell.side, turn)
     later = Cell(cell.piece, cell.side, cell.bearing, cell.half, cell.start + turn, cell.end + turn)
     return turn + _onward_bound(scene, goal, later, after, beat - turn, no_rest())
+
+
+@njit(cache=True, nogil=True)
+def may_turn_to(scene: Scene, goal: Goal, cell: Cell) -> bool:
+    """Whether a turn away from a contact of the cell alone may end at the goal.
+
+    Args:
+        scene: as in `cell_bound`.
+        goal: likewise.
+        cell: likewise; its window of time has an end, and there are contacts.
+    """
+    poses = poses_of(scene, cell)
+    turn = wrap(cell.side * poses.middle.h)
+    # whole turns are longer than what is asked here; so is what is not far from one
+    if turn < poses.differs or TWO_PI - turn < poses.differs:
+        return True
+    at = fly_piece(poses.middle, -cell.side, turn)
+    kept = poses.right if cell.side > 0.0 else poses.left
+    strays = poses.span * (hypot(poses.vx, poses.vy) + goal.speed)
+    blur = kept + 2.0 * poses.differs + strays + goal.speed * poses.differs + EDGE
+    return hypot(at.x - goal.x - goal.speed * (poses.t + turn), at.y) <= blur
 
 
 @njit(cache=True, nogil=True)

@@ -15,7 +15,15 @@ from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.around import Around, is_last
 from relguide.kernels.bounds.cells import Cell
-from relguide.kernels.bounds.contact_bound import NEVER, Passed, anyhow, cell_bound, leaving_bound
+from relguide.kernels.bounds.contact_bound import (
+    NEVER,
+    Passed,
+    anyhow,
+    cell_bound,
+    leaving_bound,
+    spare_bound,
+    until_again,
+)
 from relguide.kernels.bounds.goal import Goal
 from relguide.kernels.bounds.junction import can_touch
 from relguide.kernels.bounds.rest import COLUMNS, MOST, UNKNOWN, Rest
@@ -23,6 +31,7 @@ from relguide.kernels.bounds.round_time import round_time
 from relguide.kernels.bounds.tight_contact import tight_excess
 
 IntArray = np.ndarray[tuple[int, ...], np.dtype[np.int64]]
+BoolArray = np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
 
 _MORE = 1.5  # than is asked for, is looked for at once
 _CLOSELY = 50  # times a cell is halved to find what is least in it
@@ -54,6 +63,9 @@ class Tree(NamedTuple):
     rests: FloatArray
     """Intervals of the words' unknown that were left, one cell's after another's: see `rest`.
     shape (·, 5)"""
+    spare: BoolArray
+    """Whether its contacts are those that are come to with time to spare: see `junction`.
+    shape (n,)"""
     rest_of: IntArray
     """Where those of a cell begin, or of a larger one that holds it: of words to a first contact,
     on from it, and on from a last one; in the last place how many rows there are.
@@ -87,11 +99,11 @@ def plant(cells: FloatArray, room: int) -> Tree:
     tree = Tree(
         np.empty((room, 6)), np.empty(room + 1, np.int64), np.empty((room, JOINED)),
         np.empty((room, _COLUMNS)), np.empty((_RESTS * room, COLUMNS)),
-        np.empty((room + 1, 3), np.int64),
+        np.empty(room, np.bool_), np.empty((room + 1, 3), np.int64),
     )  # fmt: skip
     tree.cells[:count] = cells
     tree.halves[:count], tree.known[:count], tree.joined[:count] = -1, np.nan, np.nan
-    tree.halves[room] = count
+    tree.halves[room], tree.spare[:count] = count, False
     tree.rest_of[:count], tree.rest_of[room] = UNKNOWN, 0
     return tree
 
@@ -119,7 +131,7 @@ def halve(tree: Tree, n: int, d_min: float) -> int:
     tree.halves[n] = first
     cell = cell_at(tree, n)
     tree.halves[first : first + 2], tree.known[first : first + 2] = -1, np.nan
-    tree.joined[first : first + 2] = np.nan
+    tree.joined[first : first + 2], tree.spare[first : first + 2] = np.nan, tree.spare[n]
     for child in (first, first + 1):
         for which in range(3):
             tree.rest_of[child, which] = tree.rest_of[n, which]
@@ -156,10 +168,15 @@ def reach(tree: Tree, problem: Problem, n: int) -> tuple[float, float]:
         if can_touch(problem.scene, cell):
             start, scene, goal = problem.start, problem.scene, problem.goal
             closely = size_of(tree, n, scene.d_min) < _BY_TURN
-            to, on = _rest_of(tree, n, _TO, 0), _rest_of(tree, n, _ON, 1)
-            passed, onward = cell_bound(start, scene, goal, cell, problem.beat, closely, to, on)
+            if tree.spare[n]:
+                on = _rest_of(tree, n, _ON, 0)
+                passed, onward = spare_bound(start, scene, goal, cell, problem.beat, on)
+            else:
+                to, on = _rest_of(tree, n, _TO, 0), _rest_of(tree, n, _ON, 1)
+                passed, onward = cell_bound(start, scene, goal, cell, problem.beat, closely, to, on)
+                passed = until_again(scene, cell, 1.0, passed)
+                _keep_rest(tree, n, _TO, to)
             soon = anyhow(passed)
-            _keep_rest(tree, n, _TO, to)
             _keep_rest(tree, n, _ON, on)
         known[_SOON], known[_ONWARD] = soon, onward
         _keep(known[_REACHED:], passed)
@@ -184,6 +201,7 @@ def leave(tree: Tree, problem: Problem, n: int) -> float:
             # words on from the cell itself are known more closely
             on = _rest_of(tree, n, _AWAY if isnan(known[_SOON]) else _ON, 0)
             passed = leaving_bound(scene, problem.goal, cell, left, closely, on)
+            passed = until_again(scene, cell, -1.0, passed)
             _keep_rest(tree, n, _AWAY, on)
         known[_LEAVING] = anyhow(passed)
         _keep(known[_LEFT:], passed)

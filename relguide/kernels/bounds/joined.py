@@ -11,7 +11,11 @@ from numba import njit
 
 from relguide.kernels.bounds.around import soonest_in
 from relguide.kernels.bounds.cells import EDGE
-from relguide.kernels.bounds.contact_bound import turned_after_bound, turned_before_bound
+from relguide.kernels.bounds.contact_bound import (
+    may_turn_to,
+    turned_after_bound,
+    turned_before_bound,
+)
 from relguide.kernels.bounds.contact_tree import (
     Problem,
     Tree,
@@ -21,7 +25,7 @@ from relguide.kernels.bounds.contact_tree import (
     reach,
     reached,
 )
-from relguide.kernels.bounds.junction import apart_by
+from relguide.kernels.bounds.junction import apart_by, beyond_outward
 
 _ONLY, _TURNED, _BEFORE, _APART = 0, 1, 2, 3  # columns of what is known
 
@@ -39,8 +43,24 @@ def only_of(tree: Tree, problem: Problem, n: int) -> float:
             turned = min(first.inward + last.inward, first.outward + last.outward)
             looped = min(first.looped + leaving, soon + last.looped)
             only = max(only, min(turned, looped, soon + last.tangent))
+            if tree.spare[n]:
+                only = max(only, _away_only(tree, problem, n))
         tree.joined[n, _ONLY] = only
     return float(tree.joined[n, _ONLY])
+
+
+@njit(cache=True, nogil=True)
+def _away_only(tree: Tree, problem: Problem, n: int) -> float:
+    """How soon at the goal, if the only contact lies in a cell and is come to with time to spare.
+
+    The turn away from the leader ends where the change of λ_p says, or at the goal.
+    """
+    soon, onward = reach(tree, problem, n)
+    cell, last = cell_at(tree, n), departed(tree, problem, n)
+    if may_turn_to(problem.scene, problem.goal, cell):
+        return soon + last.outward
+    turn, left = beyond_outward(problem.scene, cell, 1.0), problem.beat - soon
+    return soon + max(onward, turned_after_bound(problem.scene, problem.goal, cell, turn, left))
 
 
 @njit(cache=True, nogil=True)

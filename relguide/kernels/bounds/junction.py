@@ -18,11 +18,14 @@ passes through one point, where the line of the word so far meets the one from t
 contact. It turns from the one line to the other as the change grows, and so the end of the turn
 goes from where it was without the change to where it is if the change is all there is. The turn
 goes on for the lesser of both: what is left of it by the word, and 2 arccos(α cos b). (A turn
-toward the leader may end at once.)
+toward the leader may end at once. And who touches once more in that turn may end it from there on.)
 
-What is said of other contacts holds for paths whose costate does not vanish before the contact:
-those on whose way there something depends. Slot frame: lengths in R, times in R/V_P, angles
-counter-clockwise.
+Where the leader has yet to turn, the costate may also vanish up to a contact: who has time to spare
+before it comes there by any way, and nothing depends on that. There the change of λ_p is all there
+is; so who passes turns away, for 2 arccos(α cos b). H is 1 then, and 0 at the end: it changes only
+while the leader turns.
+
+Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
 from math import acos, atan2, cos, hypot, inf, pi, sin, sqrt
@@ -32,12 +35,13 @@ from numba import njit
 from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.bounds.cells import EDGE, Cell, poses_of
 from relguide.kernels.bounds.found_word import Junction
-from relguide.kernels.separation.clearance import leader_at, piece_at
+from relguide.kernels.separation.clearance import leader_at, piece_at, piece_end
 from relguide.kernels.words.extremals import fly_piece
 
 _ANYTHING = 1e9  # beyond every turn rate [V_P/R]
 _PART = 2.9  # of parts/jerk, for which the separation grows: 3 but for rounding
-_STRIDE = 1e-3  # least step of the look for another contact [R/V_P]
+_STRIDE = 1e-5  # least step of the look for another contact [R/V_P]
+_LOOKS = 1_000  # it ends after so many
 _BESIDE = 0.1  # it ends before the leader is ahead: who flies on may come closer then [R]
 
 
@@ -127,7 +131,9 @@ def apart_by(scene: Scene, cell: Cell, pace: float) -> float:
         return 0.0
     # how fast two paths of the cell part, seen from the leader
     parting = poses.differs + (1.0 + alpha) * (cell.half + rate * poses.span)
-    while took < pi:
+    for _ in range(_LOOKS):
+        if took >= pi:
+            break
         at = fly_piece(poses.middle, cell.side, pace * took)
         t = poses.t + pace * took
         there = leader_at(scene, piece_at(scene.leader, t), t)
@@ -142,6 +148,50 @@ def apart_by(scene: Scene, cell: Cell, pace: float) -> float:
             break
         took += max(gap / (1.0 + alpha), _STRIDE)
     return took
+
+
+@njit(cache=True, nogil=True)
+def away_for(scene: Scene, cell: Cell, pace: float, turn: float) -> float:
+    """For how long no path that touches in a cell and turns away does so again in that turn [rad].
+
+    Args:
+        scene: the leader and d_min.
+        cell: of contacts.
+        pace: +1 after the contact, −1 before it.
+        turn: no more than this is asked for [rad].
+    """
+    least, _ = slide_turns(scene, cell)
+    poses, d_min = poses_of(scene, cell), scene.d_min
+    if least <= -1.0 or poses.differs == inf:
+        return 0.0
+    rate = 0.0
+    for i in range(len(scene.leader)):
+        rate = max(rate, abs(scene.leader[i, 4]))
+    left = _left_of_piece(scene, cell, pace)
+    # contacts at any time from its start on are alike as long as the leader keeps straight
+    turn = min(turn, left) if cell.end == inf else turn
+    following = cell.piece + (1 if pace > 0.0 else -1)
+    if left < turn and 0 <= following < len(scene.leader):
+        # the separation grows beyond the piece as well, if it does as the leader flies then
+        then = Cell(following, cell.side, cell.bearing, cell.half, cell.start, cell.end)
+        on = slide_turns(scene, then)[0]
+        if on > -1.0:
+            least = min(least, on)
+            flown = piece_end(scene.leader, following) - scene.leader[following, 0]
+            left += flown if pace > 0.0 or following > 0 else inf
+    took = min(_growing_for(scene, cell, least + 1.0, rate), left)
+    parting = poses.differs + (1.0 + scene.alpha) * (cell.half + rate * poses.span)
+    for _ in range(_LOOKS):
+        if took <= 0.0 or took >= turn:
+            break
+        at = fly_piece(poses.middle, -cell.side, pace * took)
+        t = poses.t + pace * took
+        there = leader_at(scene, piece_at(scene.leader, t), t)
+        gap = hypot(at.x - there.x, at.y - there.y) - d_min - parting * took
+        if gap <= 0.0:
+            break
+        took += max(gap / (1.0 + scene.alpha), _STRIDE)
+    return min(took, turn)
 
 
 @njit(cache=True, nogil=True)

@@ -77,18 +77,21 @@ class Search(NamedTuple):
 
 
 @njit(cache=True, nogil=True)
-def begin(problem: Problem, first: FloatArray, last: FloatArray) -> Search:
+def begin(problem: Problem, first: FloatArray, exact: int, last: FloatArray) -> Search:
     """A search that has only begun.
 
     Args:
         problem: what is asked.
-        first: cells that hold every first contact. shape (·, 6)
+        first: cells that hold every first contact; then such as hold every contact that is come to
+            with time to spare. shape (·, 6)
+        exact: how many of these are of the first kind.
         last: cells that hold every last one. shape (·, 6)
     """
     search = Search(
         plant(first, MAX_BUNDLES), plant(last, MAX_BUNDLES), np.arange(len(last)),
         np.empty(MAX_BUNDLES), np.empty((MAX_BUNDLES, 3), np.int64), np.zeros(4, np.int64),
     )  # fmt: skip
+    search.first.spare[exact : len(first)] = True
     for n in range(len(first)):
         _add(search, problem, n, _NO_LAST, 0.0)
     return search
