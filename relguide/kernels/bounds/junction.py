@@ -154,6 +154,9 @@ def apart_by(scene: Scene, cell: Cell, pace: float) -> float:
 def away_for(scene: Scene, cell: Cell, pace: float, turn: float) -> float:
     """For how long no path that touches in a cell and turns away does so again in that turn [rad].
 
+    The path from the middle of the cell is followed, by steps in which neither it nor any other may
+    come back: d″ is no less than −(1 + α ω).
+
     Args:
         scene: the leader and d_min.
         cell: of contacts.
@@ -161,7 +164,7 @@ def away_for(scene: Scene, cell: Cell, pace: float, turn: float) -> float:
         turn: no more than this is asked for [rad].
     """
     least, _ = slide_turns(scene, cell)
-    poses, d_min = poses_of(scene, cell), scene.d_min
+    poses = poses_of(scene, cell)
     if least <= -1.0 or poses.differs == inf:
         return 0.0
     rate = 0.0
@@ -170,6 +173,7 @@ def away_for(scene: Scene, cell: Cell, pace: float, turn: float) -> float:
     left = _left_of_piece(scene, cell, pace)
     # contacts at any time from its start on are alike as long as the leader keeps straight
     turn = min(turn, left) if cell.end == inf else turn
+    growing = left
     following = cell.piece + (1 if pace > 0.0 else -1)
     if left < turn and 0 <= following < len(scene.leader):
         # the separation grows beyond the piece as well, if it does as the leader flies then
@@ -178,20 +182,62 @@ def away_for(scene: Scene, cell: Cell, pace: float, turn: float) -> float:
         if on > -1.0:
             least = min(least, on)
             flown = piece_end(scene.leader, following) - scene.leader[following, 0]
-            left += flown if pace > 0.0 or following > 0 else inf
-    took = min(_growing_for(scene, cell, least + 1.0, rate), left)
-    parting = poses.differs + (1.0 + scene.alpha) * (cell.half + rate * poses.span)
+            growing += flown if pace > 0.0 or following > 0 else inf
+    took = min(_growing_for(scene, cell, least + 1.0, rate), growing)
+    falls = 1.0 + scene.alpha * rate
     for _ in range(_LOOKS):
         if took <= 0.0 or took >= turn:
             break
         at = fly_piece(poses.middle, -cell.side, pace * took)
         t = poses.t + pace * took
         there = leader_at(scene, piece_at(scene.leader, t), t)
-        gap = hypot(at.x - there.x, at.y - there.y) - d_min - parting * took
-        if gap <= 0.0:
+        dx, dy = at.x - there.x, at.y - there.y
+        gap = hypot(dx, dy) - scene.d_min
+        closing = dx * (cos(at.h) - scene.alpha * cos(there.h))
+        closing += dy * (sin(at.h) - scene.alpha * sin(there.h))
+        grows = pace * closing / hypot(dx, dy)
+        step = (grows + sqrt(max(grows * grows + 2.0 * falls * max(gap, 0.0), 0.0))) / falls
+        while step > _STRIDE:
+            step *= 0.5
+            astray = _parted(scene, cell, poses.span, rate, left, pace, took + step)
+            if min(gap, gap + step * (grows - 0.5 * falls * step)) > astray:
+                break
+        if step <= _STRIDE:
             break
-        took += max(gap / (1.0 + scene.alpha), _STRIDE)
+        took += step
     return min(took, turn)
+
+
+@njit(cache=True, nogil=True)
+def _parted(
+    scene: Scene, cell: Cell, span: float, rate: float, left: float, pace: float, took: float
+) -> float:
+    """How much the separation may differ between contacts of a cell after a turn away so long [R].
+
+    Seen from a leader that flies on as it does, neither d nor d′ differs at the contact, and d″ by
+    no more than this for each bearing; and where it does not fly on so at the same time after each
+    of them, its heading differs, by what it turns in the time between.
+
+    Args:
+        scene: the leader and d_min.
+        cell: of contacts.
+        span: half of its window of time [R/V_P].
+        rate: the leader's greatest turn rate [V_P/R].
+        left: of `_left_of_piece` [R/V_P].
+        pace: as in `away_for`.
+        took: how long [R/V_P].
+    """
+    fast, d_min = 1.0 + scene.alpha, scene.d_min
+    # the heading at a contact changes by up to 2 with its bearing
+    around = (d_min + 2.0 * took) / d_min
+    bends = (8.0 * fast + 3.0 * fast * fast * around) / d_min
+    bends += around * (1.0 + scene.alpha * rate) + 2.0
+    parted = 0.5 * bends * cell.half * took * took
+    if took > left:
+        t = 0.5 * (cell.start + cell.end) + pace * (span + took)
+        pieces = abs(piece_at(scene.leader, max(t, 0.0)) - cell.piece)
+        parted += 2.0 * scene.alpha * rate * span * pieces * (took - left)
+    return parted
 
 
 @njit(cache=True, nogil=True)

@@ -8,7 +8,13 @@ from hypothesis import strategies as st
 
 from relguide.kernels.base.records import Contact, Pose, Scene
 from relguide.kernels.bounds.cells import Cell
-from relguide.kernels.bounds.junction import apart_by, beyond_outward, can_touch, slide_turns
+from relguide.kernels.bounds.junction import (
+    apart_by,
+    away_for,
+    beyond_outward,
+    can_touch,
+    slide_turns,
+)
 from relguide.kernels.contact.contact import contact_heading, contact_on
 from relguide.kernels.separation.clearance import leader_at, piece_at
 from relguide.kernels.words.extremals import fly_piece
@@ -132,6 +138,45 @@ def test_for_a_while_there_is_no_other_contact(
         took += lasts
         if took >= apart:
             break
+
+
+@given(
+    asked=turning(), pace=signs, turn=numbers(0.1, 6.0), share=numbers(-1.0, 1.0),
+    late=numbers(0.0, 1.0),
+)  # fmt: skip
+def test_who_turns_away_does_not_touch_again_so_soon(
+    asked: tuple[Scene, Cell], pace: float, turn: float, share: float, late: float
+) -> None:
+    scene, cell = asked
+    away = away_for(scene, cell, pace, turn)
+    assert 0.0 <= away <= turn
+    t = cell.start + late * (cell.end - cell.start)
+    at = contact_on(scene, Contact(1, cell.bearing + share * cell.half, cell.side), t)
+    for took in np.linspace(0.0, away, 200)[1:-1]:
+        on = fly_piece(at, -cell.side, pace * took)
+        then = t + pace * took
+        assume(then >= 0.0)
+        there = leader_at(scene, piece_at(scene.leader, then), then)
+        assert hypot(on.x - there.x, on.y - there.y) > scene.d_min - 1e-9
+
+
+def test_a_turn_away_is_followed_until_it_touches_again() -> None:
+    """From a cell that holds hardly more than one contact, it is said nearly to the moment."""
+    rng, again = np.random.default_rng(8), 0
+    for _ in range(200):
+        alpha, d_min, side = rng.uniform(0.3, 0.95), rng.uniform(0.3, 3.0), rng.choice((-1.0, 1.0))
+        scene = Scene(np.array([[0.0, 0.0, 0.0, 0.0, 0.0]]), alpha, d_min, 0.0)
+        bearing = rng.uniform(-pi, pi)
+        away = away_for(scene, Cell(0, side, bearing, 1e-9, 0.0, inf), 1.0, 6.0)
+        at = contact_on(scene, Contact(0, bearing, side), 0.0)
+        times = np.arange(0.02, 6.0, 1e-3)
+        flown = [fly_piece(at, -side, float(t)) for t in times]
+        gaps = [hypot(on.x - alpha * t, on.y) - d_min for on, t in zip(flown, times, strict=True)]
+        touches = next((t for t, gap in zip(times, gaps, strict=True) if gap <= 0.0), 6.0)
+        assert away <= touches
+        assert away > touches - 5e-3
+        again += touches < 6.0
+    assert again > 20
 
 
 def test_who_weaves_may_touch_sooner_than_who_turns_toward_a_leader_behind() -> None:
