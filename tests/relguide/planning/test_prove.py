@@ -43,7 +43,7 @@ SHORTFALL = 0.05
 """Golden plans keep d_min but for half a metre, which is worth some hundredths of a second."""
 TURNING = proofs.KINDS[2]
 OPEN = "R097"
-"""Its leader is as fast as the pursuer but for 3 %, and a path that touches d_min in the last moment of
+"""Its leader is as fast as the pursuer but for 3 %. That a path touches d_min in the last moment of
 his turn, with time to spare, is not excluded: its proof ends with a gap."""
 QUICK = "R051"
 """Its plan is proved optimal at once."""
