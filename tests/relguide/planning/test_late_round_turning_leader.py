@@ -63,3 +63,12 @@ def test_a_boundary_arc_that_only_just_can_be_flown_is_flown() -> None:
     pose = contact_at(scene, begun, leg[2], leg[1])
     n, _, _ = boundary_arc_pieces(pose, begun, planned, scene, leg, pieces)
     assert n > 0
+
+
+@pytest.mark.parametrize(("case", "best"), [((1801, 158), 599.04), ((1402, 78), 475.9)])
+def test_what_a_contact_led_to_is_kept_when_it_is_reached_sooner(
+    case: tuple[int, int], best: float
+) -> None:
+    """The chain from there was lost with its label; they came 27 s and 2 s later."""
+    situation = limit_case(*case, tight=True, slot_at_limit=True)
+    assert sound_plan(situation).time_to_converge < best
