@@ -140,3 +140,12 @@ def turning_blur(scene: Scene, rate: float, span: float) -> tuple[float, float]:
     """
     swing = abs(rate) * span
     return swing, swing + 0.5 * (scene.alpha + abs(rate) * (scene.d_min + 1.0)) * swing * span
+
+
+@njit(cache=True, nogil=True)
+def fastest_turn(scene: Scene, first: int, last: int) -> float:
+    """The leader's greatest turn rate on its pieces from one to another, either way [V_P/R]."""
+    rate = 0.0
+    for i in range(first, last + 1):
+        rate = max(rate, abs(scene.leader[i, 4]))
+    return float(rate)

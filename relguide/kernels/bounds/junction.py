@@ -33,7 +33,7 @@ from math import acos, atan2, cos, hypot, inf, pi, sin, sqrt
 from numba import njit
 
 from relguide.kernels.base.records import Pose, Scene
-from relguide.kernels.bounds.cells import EDGE, Cell, poses_of
+from relguide.kernels.bounds.cells import EDGE, Cell, fastest_turn, poses_of
 from relguide.kernels.bounds.found_word import Junction
 from relguide.kernels.separation.clearance import leader_at, piece_at, piece_end
 from relguide.kernels.words.extremals import fly_piece
@@ -123,9 +123,7 @@ def apart_by(scene: Scene, cell: Cell, pace: float) -> float:
     if least <= 1.0 or cell.end == inf:
         return 0.0
     poses, alpha, d_min = poses_of(scene, cell), scene.alpha, scene.d_min
-    rate = 0.0
-    for i in range(len(scene.leader)):
-        rate = max(rate, abs(scene.leader[i, 4]))
+    rate = fastest_turn(scene, 0, len(scene.leader) - 1)
     took = min(_growing_for(scene, cell, least - 1.0, rate), _left_of_piece(scene, cell, pace))
     if took <= 0.0:
         return 0.0
@@ -167,9 +165,7 @@ def away_for(scene: Scene, cell: Cell, pace: float, turn: float) -> float:
     poses = poses_of(scene, cell)
     if least <= -1.0 or poses.differs == inf:
         return 0.0
-    rate = 0.0
-    for i in range(len(scene.leader)):
-        rate = max(rate, abs(scene.leader[i, 4]))
+    rate = fastest_turn(scene, 0, len(scene.leader) - 1)
     left = _left_of_piece(scene, cell, pace)
     # contacts at any time from its start on are alike as long as the leader keeps straight
     turn = min(turn, left) if cell.end == inf else turn

@@ -29,7 +29,7 @@ from numba import njit
 from relguide.kernels.base.angles import TWO_PI, wrap, wrap_signed
 from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.bounds.breach import INSIDE
-from relguide.kernels.bounds.cells import EDGE, Cell, poses_of
+from relguide.kernels.bounds.cells import EDGE, Cell, fastest_turn, poses_of
 from relguide.kernels.separation.clearance import leader_at, piece_at
 
 _STEP = 0.1  # for which a front keeps its direction, in d_min and at V_P …
@@ -190,9 +190,7 @@ def _may_sweep(
     scene: Scene, front: Front, t: float, step: float, reached: float, angle: float
 ) -> bool:
     """Whether P may have moved so far round at some time of the step, and back again."""
-    rate = 0.0
-    for i in range(piece_at(scene.leader, t), piece_at(scene.leader, t + step) + 1):
-        rate = max(rate, abs(scene.leader[i, 4]))
+    rate = fastest_turn(scene, piece_at(scene.leader, t), piece_at(scene.leader, t + step))
     bends = 0.125 * scene.alpha * rate * step * step / (scene.d_min - INSIDE)
     most = max(cos(front.from_course), reached) + bends
     return swept_by(front, most) >= angle
