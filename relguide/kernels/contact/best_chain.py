@@ -21,6 +21,7 @@ from relguide.kernels.contact.chain_refinement import (
     simplify_chain,
 )
 from relguide.kernels.contact.nearby_chains import search_nearby
+from relguide.kernels.contact.slide_from_touch import slide_from_touches
 
 _AGAIN = 2  # so often a chain that has become faster is begun again from nearby
 _WORTH_AGAIN = 1e-3  # if it was by this much [R/V_P]: 50 ms
@@ -83,13 +84,13 @@ def begin_again(
     start: Pose, scene: Scene, contacts: FloatArray, count: int, best: float, stride: float,
     legs: FloatArray, effort: int,
 ) -> tuple[float, int]:  # fmt: skip
-    """Look for a faster chain near the best one, as in `nearby_chains`.
+    """Look for a faster chain near the best one, as in `slide_from_touch` and `nearby_chains`.
 
     Args:
         start: where it begins, at t = 0.
         scene: what it has to reckon with.
         contacts: of the chain; takes those of a faster one. shape (MAX_CONTACTS, 4)
-        count: how many they are.
+        count: how many they are; none if the best path is not one of this search.
         best: its arrival [R/V_P].
         stride: how far is looked at first [rad].
         legs: takes those of a faster chain. shape (MAX_LEGS, 6)
@@ -101,6 +102,9 @@ def begin_again(
     room, given = np.zeros((MAX_LEGS, 6)), best
     for _ in range(_AGAIN):
         before = best
+        best, count = slide_from_touches(start, scene, contacts, count, best, stride, room)
+        if count == 0:
+            break
         best, count = search_nearby(start, scene, contacts, count, best, stride, room, effort)
         if best > before - _WORTH_AGAIN:
             break

@@ -97,9 +97,11 @@ def best_constrained_path(
         if found > 0 and time < best:
             best, count = time, found
             legs[:], chain[:] = finer, other
-    if not keeps_straight and count > 2 and may_be_faster:
+    if not keeps_straight and count > 0 and may_be_faster:
         stride, effort = _STRIDE * _BESIDE, _AGAIN_AT_LIMIT if narrow else _AGAIN
-        time, found = begin_again(start, scene, chain, count - 1, best, stride, legs, effort)
+        # a path through one contact is searched for anew, from the start
+        contacts = count - 1 if count > 2 else 0
+        time, found = begin_again(start, scene, chain, contacts, best, stride, legs, effort)
         if found > 0:
             best, count = time, found
     time, looped = looped_word(start, scene, best, legs)

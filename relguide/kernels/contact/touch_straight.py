@@ -17,13 +17,13 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import wrap
-from relguide.kernels.base.records import Contact, Pose, Scene
+from relguide.kernels.base.records import Contact, Pose, Scene, Velocity
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.contact.contact import contact_exists, contact_on
+from relguide.kernels.contact.contact import contact_exists, contact_heading, contact_on
+from relguide.kernels.contact.paths_to_contact import intercept
 from relguide.kernels.separation.clearance import piece_end
 from relguide.kernels.words.extremals import fly_piece
 
-_GUESSES = 4  # of the time, before Newton's method
 _STEP = 0.3  # from one look to the next, while the leader turns [R/V_P]
 _MOST_STEPS = 20
 _MET = 1e-12  # [R]
@@ -53,10 +53,12 @@ def touch_straight(
     if end <= begin:
         return near.bearing, inf
     if leader[i, 4] == 0.0:
-        time = t
-        for _ in range(_GUESSES):
-            turned, ahead, left = _turn_and_gap(pose, scene, near, turn, time)
-            time = t + turned + hypot(ahead, left)
+        turned, _, _ = _turn_and_gap(pose, scene, near, turn, t)
+        begun = t + turned
+        _, ahead, left = _turn_and_gap(pose, scene, near, turn, begun)
+        off = contact_heading(near.bearing, near.side, scene.alpha)
+        there = Velocity(scene.alpha * cos(off), -scene.alpha * sin(off))
+        time = begun + intercept(ahead, left, there)
         return _solve_near(pose, t, scene, near, turn, time, row)
     # while the leader turns there may be several times at which it is as far as can be flown
     steps, last = ceil((end - begin) / _STEP), np.nan

@@ -1,6 +1,6 @@
 """A turn and a straight that touches d = d_min: solved for, and found by a scan of the turn."""
 
-from math import cos, hypot, inf, sin
+from math import cos, hypot, inf, pi, sin
 
 import numpy as np
 import pytest
@@ -89,3 +89,14 @@ def test_a_straight_that_comes_after_the_leaders_piece_is_not_one() -> None:
         for side in (1.0, -1.0):
             _, time = touch_straight(far, BEGUN, scene, Contact(0, bearing, side), 1.0, row)
             assert time == inf
+
+
+def test_a_touch_far_away_is_solved_for_behind_a_leader_hardly_slower() -> None:
+    """Guesses of its time, each from the last one, came nearer too slowly."""
+    scene, start, row = Scene(np.zeros((1, 5)), 0.97, D_MIN, 0.0), Pose(-2.0, 3.0, pi), np.empty(5)
+    found = np.empty((MAX_TANGENTS, 3))
+    far = found[: straight_touches(start, 0.0, scene, 0, 1.0, found)]
+    assert far[:, 2].max() > 20.0
+    for bearing, side, time in far:
+        _, then = touch_straight(start, 0.0, scene, Contact(0, bearing, side), 1.0, row)
+        assert then == pytest.approx(time, abs=1e-6)
