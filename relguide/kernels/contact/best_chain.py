@@ -21,6 +21,7 @@ from relguide.kernels.contact.chain_refinement import (
     simplify_chain,
 )
 from relguide.kernels.contact.nearby_chains import search_nearby
+from relguide.kernels.contact.other_words import take_other_words
 from relguide.kernels.contact.slide_from_touch import slide_from_touches
 
 _AGAIN = 2  # so often a chain that has become faster is begun again from nearby
@@ -84,7 +85,9 @@ def begin_again(
     start: Pose, scene: Scene, contacts: FloatArray, count: int, best: float, stride: float,
     legs: FloatArray, effort: int,
 ) -> tuple[float, int]:  # fmt: skip
-    """Look for a faster chain near the best one, as in `slide_from_touch` and `nearby_chains`.
+    """Look for a faster chain near the best one.
+
+    By other words to its contacts, by straights that touch, and as in `nearby_chains`.
 
     Args:
         start: where it begins, at t = 0.
@@ -102,6 +105,7 @@ def begin_again(
     room, given = np.zeros((MAX_LEGS, 6)), best
     for _ in range(_AGAIN):
         before = best
+        best, count = take_other_words(start, scene, contacts, count, best, stride, room)
         best, count = slide_from_touches(start, scene, contacts, count, best, stride, room)
         if count == 0:
             break

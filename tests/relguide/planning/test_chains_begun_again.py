@@ -1,4 +1,4 @@
-"""Behind leaders who turn, where the limit binds: straights that touch it, and what slides on."""
+"""Behind leaders who turn, where the limit binds: what begins again from the best chain."""
 
 import numpy as np
 import pytest
@@ -37,3 +37,9 @@ def test_a_boundary_arc_lasts_until_the_leader_goes_on(case: int, best: float) -
 def test_a_straight_from_far_away_touches() -> None:
     """It takes 22 R/V_P, and the touch was not solved for; the plan came 34 s later."""
     assert sound_plan(drawn(3002, 1149)).time_to_converge < 1345.4
+
+
+@pytest.mark.parametrize(("seed", "case", "best"), [(6002, 133, 367.6), (6001, 1596, 687.5)])
+def test_a_contact_beside_is_reached_by_another_word(seed: int, case: int, best: float) -> None:
+    """Neither the bearing nor the word alone was better; they came 8.7 and 0.5 s later."""
+    assert sound_plan(drawn(seed, case)).time_to_converge < best
