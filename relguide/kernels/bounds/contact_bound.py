@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 from numba import njit
 
-from relguide.kernels.base.angles import TWO_PI, wrap
+from relguide.kernels.base.angles import TWO_PI
 from relguide.kernels.base.records import Pose, Scene, Velocity, Window, with_limit
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.breach import INSIDE, Sieve, no_sieve
@@ -144,10 +144,27 @@ def spare_bound(
     )  # fmt: skip
     end = min(beat - onward, cell.end + EDGE)
     soon = max(_word_to(start, scene, there, Window(0.0, end)), cell.start)
-    if soon == inf:
+    if soon == inf or not _can_be_as_long(start, scene, poses, end):
         return NEVER, onward
     away = Passed(inf, inf, inf, soon, soon + beyond_outward(scene, cell, 1.0))
     return until_again(scene, cell, 1.0, away), onward
+
+
+@njit(cache=True, nogil=True)
+def _can_be_as_long(start: Pose, scene: Scene, poses: Poses, end: float) -> bool:
+    """Whether a path from the start, at t = 0, may be at one of the poses at its time.
+
+    Who is has met a point that moves at V_P along the pose's heading and is there at that time:
+    then, if not sooner. The soonest of those that do so is an extremal: see `goal.track_of`.
+    """
+    at = poses.middle
+    vx, vy = cos(at.h), sin(at.h)
+    strays = poses.span * (hypot(poses.vx - vx, poses.vy - vy) + poses.differs)
+    strays += (poses.t + poses.span) * poses.differs
+    track = Poses(
+        poses.t, 0.0, at, vx, vy, poses.differs, poses.left + strays, poses.right + strays
+    )  # fmt: skip
+    return _word_to(start, scene, track, Window(0.0, end)) < inf
 
 
 @njit(cache=True, nogil=True)
@@ -226,27 +243,6 @@ def turned_after_bound(scene: Scene, goal: Goal, cell: Cell, turn: float, beat: 
     after = _turned_away(poses_of(scene, cell), cell.side, turn)
     later = Cell(cell.piece, cell.side, cell.bearing, cell.half, cell.start + turn, cell.end + turn)
     return turn + _onward_bound(scene, goal, later, after, beat - turn, no_rest())
-
-
-@njit(cache=True, nogil=True)
-def may_turn_to(scene: Scene, goal: Goal, cell: Cell) -> bool:
-    """Whether a turn away from a contact of the cell alone may end at the goal.
-
-    Args:
-        scene: as in `cell_bound`.
-        goal: likewise.
-        cell: likewise; its window of time has an end, and there are contacts.
-    """
-    poses = poses_of(scene, cell)
-    turn = wrap(cell.side * poses.middle.h)
-    # whole turns are longer than what is asked here; so is what is not far from one
-    if turn < poses.differs or TWO_PI - turn < poses.differs:
-        return True
-    at = fly_piece(poses.middle, -cell.side, turn)
-    kept = poses.right if cell.side > 0.0 else poses.left
-    strays = poses.span * (hypot(poses.vx, poses.vy) + goal.speed)
-    blur = kept + 2.0 * poses.differs + strays + goal.speed * poses.differs + EDGE
-    return hypot(at.x - goal.x - goal.speed * (poses.t + turn), at.y) <= blur
 
 
 @njit(cache=True, nogil=True)

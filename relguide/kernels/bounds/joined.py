@@ -9,10 +9,10 @@ from math import inf, isnan
 
 from numba import njit
 
+from relguide.kernels.bounds.after_spare import Onward, after_spare
 from relguide.kernels.bounds.around import soonest_in
 from relguide.kernels.bounds.cells import EDGE
 from relguide.kernels.bounds.contact_bound import (
-    may_turn_to,
     turned_after_bound,
     turned_before_bound,
 )
@@ -25,9 +25,10 @@ from relguide.kernels.bounds.contact_tree import (
     reach,
     reached,
 )
-from relguide.kernels.bounds.junction import apart_by, beyond_outward
+from relguide.kernels.bounds.junction import apart_by
 
-_ONLY, _TURNED, _BEFORE, _APART = 0, 1, 2, 3  # columns of what is known
+# columns of what is known
+_ONLY, _TURNED, _BEFORE, _APART, _TO_GOAL, _TO_NEXT = 0, 1, 2, 3, 5, 6
 
 
 @njit(cache=True, nogil=True)
@@ -44,23 +45,22 @@ def only_of(tree: Tree, problem: Problem, n: int) -> float:
             looped = min(first.looped + leaving, soon + last.looped)
             only = max(only, min(turned, looped, soon + last.tangent))
             if tree.spare[n]:
-                only = max(only, _away_only(tree, problem, n))
+                only = max(only, soon + spare_onward(tree, problem, n).goal)
         tree.joined[n, _ONLY] = only
     return float(tree.joined[n, _ONLY])
 
 
 @njit(cache=True, nogil=True)
-def _away_only(tree: Tree, problem: Problem, n: int) -> float:
-    """How soon at the goal, if the only contact lies in a cell and is come to with time to spare.
+def spare_onward(tree: Tree, problem: Problem, n: int) -> Onward:
+    """How long it takes from a contact in a cell, come to with time to spare, to the next or goal.
 
-    The turn away from the leader ends where the change of λ_p says, or at the goal.
+    See `after_spare` [R/V_P].
     """
-    soon, onward = reach(tree, problem, n)
-    cell, last = cell_at(tree, n), departed(tree, problem, n)
-    if may_turn_to(problem.scene, problem.goal, cell):
-        return soon + last.outward
-    turn, left = beyond_outward(problem.scene, cell, 1.0), problem.beat - soon
-    return soon + max(onward, turned_after_bound(problem.scene, problem.goal, cell, turn, left))
+    if isnan(tree.joined[n, _TO_GOAL]):
+        soon, _ = reach(tree, problem, n)
+        onward = after_spare(problem.scene, problem.goal, cell_at(tree, n), problem.beat - soon)
+        tree.joined[n, _TO_GOAL], tree.joined[n, _TO_NEXT] = onward.goal, onward.contact
+    return Onward(float(tree.joined[n, _TO_GOAL]), float(tree.joined[n, _TO_NEXT]))
 
 
 @njit(cache=True, nogil=True)
@@ -78,6 +78,8 @@ def turned_goal(tree: Tree, problem: Problem, n: int) -> float:
             turn = max(first.turned - min(beat - onward, cell.end + EDGE), 0.0)
             after = turned_after_bound(problem.scene, problem.goal, cell, turn, beat - soon)
             goal = max(first.turned, first.outward + max(onward, after))
+            if goal < beat and tree.spare[n] and spare_onward(tree, problem, n).contact == inf:
+                goal = inf
         tree.joined[n, _TURNED] = goal
     return float(tree.joined[n, _TURNED])
 
@@ -106,5 +108,8 @@ def apart(tree: Tree, problem: Problem, n: int, pace: float) -> float:
     """For how long there is no other contact after one in a cell, or with pace −1 before it."""
     column = _APART if pace > 0.0 else _APART + 1
     if isnan(tree.joined[n, column]):
-        tree.joined[n, column] = apart_by(problem.scene, cell_at(tree, n), pace)
+        took = apart_by(problem.scene, cell_at(tree, n), pace)
+        if pace > 0.0 and tree.spare[n]:
+            took = max(took, spare_onward(tree, problem, n).contact)
+        tree.joined[n, column] = took
     return float(tree.joined[n, column])

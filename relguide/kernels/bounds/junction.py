@@ -124,7 +124,7 @@ def apart_by(scene: Scene, cell: Cell, pace: float) -> float:
         return 0.0
     poses, alpha, d_min = poses_of(scene, cell), scene.alpha, scene.d_min
     rate = fastest_turn(scene, 0, len(scene.leader) - 1)
-    took = min(_growing_for(scene, cell, least - 1.0, rate), _left_of_piece(scene, cell, pace))
+    took = min(_growing_for(scene, cell, least - 1.0, rate), left_of_piece(scene, cell, pace))
     if took <= 0.0:
         return 0.0
     # how fast two paths of the cell part, seen from the leader
@@ -161,25 +161,14 @@ def away_for(scene: Scene, cell: Cell, pace: float, turn: float) -> float:
         pace: +1 after the contact, −1 before it.
         turn: no more than this is asked for [rad].
     """
-    least, _ = slide_turns(scene, cell)
     poses = poses_of(scene, cell)
-    if least <= -1.0 or poses.differs == inf:
+    if poses.differs == inf:
         return 0.0
     rate = fastest_turn(scene, 0, len(scene.leader) - 1)
-    left = _left_of_piece(scene, cell, pace)
+    left = left_of_piece(scene, cell, pace)
     # contacts at any time from its start on are alike as long as the leader keeps straight
     turn = min(turn, left) if cell.end == inf else turn
-    growing = left
-    following = cell.piece + (1 if pace > 0.0 else -1)
-    if left < turn and 0 <= following < len(scene.leader):
-        # the separation grows beyond the piece as well, if it does as the leader flies then
-        then = Cell(following, cell.side, cell.bearing, cell.half, cell.start, cell.end)
-        on = slide_turns(scene, then)[0]
-        if on > -1.0:
-            least = min(least, on)
-            flown = piece_end(scene.leader, following) - scene.leader[following, 0]
-            growing += flown if pace > 0.0 or following > 0 else inf
-    took = min(_growing_for(scene, cell, least + 1.0, rate), growing)
+    took = leaves_for(scene, cell, pace, turn)
     falls = 1.0 + scene.alpha * rate
     for _ in range(_LOOKS):
         if took <= 0.0 or took >= turn:
@@ -195,7 +184,7 @@ def away_for(scene: Scene, cell: Cell, pace: float, turn: float) -> float:
         step = (grows + sqrt(max(grows * grows + 2.0 * falls * max(gap, 0.0), 0.0))) / falls
         while step > _STRIDE:
             step *= 0.5
-            astray = _parted(scene, cell, poses.span, rate, left, pace, took + step)
+            astray, _ = parted_by(scene, cell, poses.span, rate, left, pace, took + step)
             if min(gap, gap + step * (grows - 0.5 * falls * step)) > astray:
                 break
         if step <= _STRIDE:
@@ -205,10 +194,37 @@ def away_for(scene: Scene, cell: Cell, pace: float, turn: float) -> float:
 
 
 @njit(cache=True, nogil=True)
-def _parted(
+def leaves_for(scene: Scene, cell: Cell, pace: float, turn: float) -> float:
+    """For how long the separation surely grows after a contact of a cell, in a turn away [R/V_P].
+
+    Args:
+        scene: the leader and d_min.
+        cell: of contacts.
+        pace: as in `away_for`.
+        turn: no more than this is asked for [rad].
+    """
+    least, _ = slide_turns(scene, cell)
+    if least <= -1.0:
+        return 0.0
+    rate = fastest_turn(scene, 0, len(scene.leader) - 1)
+    growing = left_of_piece(scene, cell, pace)
+    following = cell.piece + (1 if pace > 0.0 else -1)
+    if growing < turn and 0 <= following < len(scene.leader):
+        # the separation grows beyond the piece as well, if it does as the leader flies then
+        then = Cell(following, cell.side, cell.bearing, cell.half, cell.start, cell.end)
+        on = slide_turns(scene, then)[0]
+        if on > -1.0:
+            least = min(least, on)
+            flown = piece_end(scene.leader, following) - scene.leader[following, 0]
+            growing += flown if pace > 0.0 or following > 0 else inf
+    return min(_growing_for(scene, cell, least + 1.0, rate), growing)
+
+
+@njit(cache=True, nogil=True)
+def parted_by(
     scene: Scene, cell: Cell, span: float, rate: float, left: float, pace: float, took: float
-) -> float:
-    """How much the separation may differ between contacts of a cell after a turn away so long [R].
+) -> tuple[float, float]:
+    """How much the separation may differ between contacts of a cell after a turn away so long.
 
     Seen from a leader that flies on as it does, neither d nor d′ differs at the contact, and d″ by
     no more than this for each bearing; and where it does not fly on so at the same time after each
@@ -219,21 +235,27 @@ def _parted(
         cell: of contacts.
         span: half of its window of time [R/V_P].
         rate: the leader's greatest turn rate [V_P/R].
-        left: of `_left_of_piece` [R/V_P].
+        left: of `left_of_piece` [R/V_P].
         pace: as in `away_for`.
         took: how long [R/V_P].
+
+    Returns:
+        that [R], and how fast it grows [V_P].
     """
     fast, d_min = 1.0 + scene.alpha, scene.d_min
     # the heading at a contact changes by up to 2 with its bearing
     around = (d_min + 2.0 * took) / d_min
     bends = (8.0 * fast + 3.0 * fast * fast * around) / d_min
     bends += around * (1.0 + scene.alpha * rate) + 2.0
-    parted = 0.5 * bends * cell.half * took * took
+    grows = bends * cell.half * took
+    parted = 0.5 * grows * took
     if took > left:
         t = 0.5 * (cell.start + cell.end) + pace * (span + took)
         pieces = abs(piece_at(scene.leader, max(t, 0.0)) - cell.piece)
-        parted += 2.0 * scene.alpha * rate * span * pieces * (took - left)
-    return parted
+        more = 2.0 * scene.alpha * rate * span * pieces
+        parted += more * (took - left)
+        grows += more
+    return parted, grows
 
 
 @njit(cache=True, nogil=True)
@@ -246,17 +268,26 @@ def _growing_for(scene: Scene, cell: Cell, spare: float, rate: float) -> float:
         spare: [V_P/R].
         rate: the leader's greatest turn rate [V_P/R].
     """
-    alpha, d_min, fast = scene.alpha, scene.d_min, 1.0 + scene.alpha
+    alpha = scene.alpha
     ahead = max(abs(cos(cell.bearing - cell.half)), abs(cos(cell.bearing + cell.half)))
     parts = spare * sqrt(1.0 - alpha * ahead * alpha * ahead)
-    # d‴ comes of the bearing's change, of the pursuer's turn and the leader's
-    jerk = 1.0 + fast / d_min + alpha * rate * (rate + fast / d_min)
-    jerk += (2.0 * fast * (1.0 + alpha * rate) + 3.0 * fast * fast * fast / d_min) / d_min
-    return _PART * parts / jerk
+    return _PART * parts / jerk_of(scene, rate)
 
 
 @njit(cache=True, nogil=True)
-def _left_of_piece(scene: Scene, cell: Cell, pace: float) -> float:
+def jerk_of(scene: Scene, rate: float) -> float:
+    """How fast d″ can change outside the disc, while neither aircraft changes how it turns.
+
+    In V_P³/R². Arguments as `_growing_for`.
+    """
+    alpha, d_min, fast = scene.alpha, scene.d_min, 1.0 + scene.alpha
+    # it comes of the bearing's change, of the pursuer's turn and the leader's
+    jerk = 1.0 + fast / d_min + alpha * rate * (rate + fast / d_min)
+    return float(jerk + (2.0 * fast * (1.0 + alpha * rate) + 3.0 * fast**3 / d_min) / d_min)
+
+
+@njit(cache=True, nogil=True)
+def left_of_piece(scene: Scene, cell: Cell, pace: float) -> float:
     """How long the leader goes on as it does, from every contact of a cell on or back [R/V_P]."""
     if pace < 0.0:
         return cell.start - scene.leader[cell.piece, 0] if cell.piece > 0 else inf

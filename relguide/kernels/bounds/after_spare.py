@@ -1,0 +1,184 @@
+"""Where a path goes from a contact to which it came with time to spare, until it touches again.
+
+There the costate is zero up to the contact (see `junction`), and after it λ_p points along the line
+from the leader to the contact, with λ_ψ = 0. So nothing is left to choose: the path turns away from
+the leader until it is on that line again, for 2γ with γ = arccos(α cos b), then the other way for
+as long, and so on, outward along the line. It never flies straight, since its heading is off the
+line by γ whenever it is on it. All this holds whatever the leader does, until the path touches
+again or arrives. So of all such contacts only those matter from which that one path does.
+
+Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
+"""
+
+from math import acos, cos, hypot, inf, sin, sqrt
+from typing import NamedTuple
+
+from numba import njit
+
+from relguide.kernels.base.angles import TWO_PI, wrap
+from relguide.kernels.base.records import Pose, Scene
+from relguide.kernels.bounds.cells import EDGE, Cell, fastest_turn, poses_of
+from relguide.kernels.bounds.goal import Goal
+from relguide.kernels.bounds.junction import jerk_of, leaves_for, left_of_piece, parted_by
+from relguide.kernels.separation.clearance import leader_at, piece_at
+from relguide.kernels.words.extremals import fly_piece
+
+_LEAST = 0.3  # if the path turns by less than this at a time, it is not followed [rad]
+_PART = 0.2  # shortest step, as part of the size of a cell [R/V_P],
+_FINEST, _COARSE = 1e-4, 0.02  # but no less than this, and once the path may touch, than that
+_STEPS = 1_000  # no more of them
+
+
+class Onward(NamedTuple):
+    """What such a path comes to."""
+
+    goal: float
+    """How long after the contact it can be at the goal, at least; infinite if it cannot be."""
+    contact: float
+    """How long after it can touch again, at least; infinite if it cannot."""
+
+
+@njit(cache=True, nogil=True)
+def after_spare(scene: Scene, goal: Goal, cell: Cell, left: float) -> Onward:
+    """What paths come to that have time to spare before a contact of a cell.
+
+    The path from the middle of the cell is followed, with what others may differ from it.
+
+    Args:
+        scene: the leader and d_min.
+        goal: where they are to arrive.
+        cell: of contacts; its window of time has an end.
+        left: arrivals and contacts after this do not matter [R/V_P].
+    """
+    poses = poses_of(scene, cell)
+    least = 2.0 * acos(min(max(scene.alpha * cos(cell.bearing), -1.0), 1.0))
+    if poses.differs == inf or least < _LEAST:
+        return Onward(0.0, 0.0)
+    turn = 2.0 * acos(scene.alpha * cos(cell.bearing))
+    contact, until = _followed(scene, cell, poses.middle, poses.t, poses.span, turn, left)
+    soonest, begun, pose, sense, parts = inf, 0.0, poses.middle, -cell.side, 1
+    while begun <= until:
+        off, astray, _ = _parted(scene, cell, poses.span, parts, min(begun + turn, until))
+        needed = wrap(-sense * pose.h)
+        if turn + 2.0 * off > TWO_PI - EDGE:
+            soonest = begun
+            break
+        if needed > TWO_PI - off - EDGE:
+            needed = 0.0
+        if needed <= turn + off + EDGE and begun + needed <= until + off + EDGE:
+            at, t = fly_piece(pose, sense, needed), poses.t + begun + needed
+            strays = astray + (1.0 + goal.speed) * (off + EDGE)
+            strays += (scene.alpha + goal.speed) * poses.span
+            if hypot(at.x - goal.x - goal.speed * t, at.y) <= strays + EDGE:
+                soonest = max(begun + needed - off - EDGE, 0.0)
+                break
+        pose, begun, sense, parts = fly_piece(pose, sense, turn), begun + turn, -sense, parts + 1
+    return Onward(soonest, contact)
+
+
+@njit(cache=True, nogil=True)
+def _parted(
+    scene: Scene, cell: Cell, span: float, parts: int, took: float
+) -> tuple[float, float, float]:
+    """How much paths of a cell differ from that of its middle in so many turns.
+
+    Args:
+        scene: the leader and d_min.
+        cell: of contacts.
+        span: half of its window of time [R/V_P].
+        parts: how many turns there are.
+        took: since the contact [R/V_P].
+
+    Returns:
+        their headings [rad], where they are, seen from the leader [R], and how fast that grows.
+    """
+    rate = fastest_turn(scene, 0, len(scene.leader) - 1)
+    low, high = abs(cos(cell.bearing - cell.half)), abs(cos(cell.bearing + cell.half))
+    along = scene.alpha * max(low, high)
+    # γ changes no faster than this with the bearing
+    changes = scene.alpha / (1.0 - along * along) ** 0.5
+    swing = cell.half + rate * span
+    # each turn ends where the line is met, so the next one's heading is off by two more
+    off = swing + (2 * parts + 1) * min(changes, 1.0) * cell.half
+    grows = off + scene.alpha * rate * span
+    return off, scene.d_min * swing + grows * took, grows
+
+
+@njit(cache=True, nogil=True)
+def _followed(
+    scene: Scene, cell: Cell, middle: Pose, t: float, span: float, turn: float, left: float
+) -> tuple[float, float]:
+    """When the path may touch again first, and until when it does not surely break the limit.
+
+    Args:
+        scene: the leader and d_min.
+        cell: of contacts.
+        middle: pose at the contact in its middle.
+        t: and when [R/V_P].
+        span: half of the cell's window of time [R/V_P].
+        turn: how long each turn lasts [rad].
+        left: when to end [R/V_P].
+    """
+    contact, d_min, alpha = inf, scene.d_min, scene.alpha
+    rate = fastest_turn(scene, 0, len(scene.leader) - 1)
+    # d″ is no less than −falls, nor greater than sways outside the disc; d‴ is no less than −jerk
+    falls, jerk = 1.0 + alpha * rate, jerk_of(scene, rate)
+    sways = falls + (1.0 + alpha) * (1.0 + alpha) / d_min
+    off, _, _ = _parted(scene, cell, span, 1, 0.0)
+    # so long all paths of the cell are in their first turn, and so is the leader in its own
+    first = turn - 2.0 * off
+    alike = min(left_of_piece(scene, cell, 1.0), first)
+    finest = max(_FINEST, _PART * (cell.half + span))
+    pose, sense, parts, begun = middle, -cell.side, 1, 0.0
+    took = leaves_for(scene, cell, 1.0, min(turn, left))
+    for _ in range(_STEPS):
+        if took >= left:
+            return contact, left
+        while took >= begun + turn:
+            pose, sense, begun = fly_piece(pose, sense, turn), -sense, begun + turn
+            parts += 1
+        seen = _seen(scene, fly_piece(pose, sense, took - begun), sense, t + took)
+        _, astray, tilts = _parted(scene, cell, span, parts + 1, took)
+        tilts += (1.0 + alpha) * astray / d_min
+        bends = inf
+        if took < first:
+            little, slowly = parted_by(scene, cell, span, rate, alike, 1.0, took)
+            astray, tilts = min(astray, little), min(tilts, slowly)
+            bends = slowly / took if took > 0.0 else inf
+        room, opens, bent = seen.gap - astray, seen.opens - tilts, seen.bends - bends
+        if seen.gap < -astray:
+            return contact, took
+        step = 0.0
+        if room > 0.0:
+            step = (opens + sqrt(opens * opens + 2.0 * falls * room)) / falls
+            if opens > 0.0 and bent > 0.0:
+                step = max(step, min(3.0 * bent / jerk, alike - took))
+        if step < finest:
+            # who touches has d′ = 0
+            step = max((abs(seen.opens) - tilts) / sways, finest)
+            if abs(seen.opens) <= tilts + sways * finest and contact == inf:
+                # from here on only where the limit is surely broken matters
+                contact, finest = took, _COARSE
+        took += step
+    return min(contact, took), left
+
+
+class _Seen(NamedTuple):
+    gap: float  # d less d_min [R]
+    opens: float  # d′ [V_P]
+    bends: float  # d″ [V_P²/R]
+
+
+@njit(cache=True, nogil=True)
+def _seen(scene: Scene, at: Pose, sense: float, t: float) -> _Seen:
+    """How the leader is seen from a pose at a time, in a turn of that sense."""
+    piece = piece_at(scene.leader, t)
+    there, swings = leader_at(scene, piece, t), scene.alpha * scene.leader[piece, 4]
+    x, y = at.x - there.x, at.y - there.y
+    far = hypot(x, y)
+    x, y = x / far, y / far
+    vx, vy = cos(at.h) - scene.alpha * cos(there.h), sin(at.h) - scene.alpha * sin(there.h)
+    opens = x * vx + y * vy
+    bends = x * (swings * sin(there.h) - sense * sin(at.h))
+    bends += y * (sense * cos(at.h) - swings * cos(there.h))
+    return _Seen(far - scene.d_min, opens, bends + (vx * vx + vy * vy - opens * opens) / far)

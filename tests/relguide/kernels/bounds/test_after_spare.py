@@ -1,0 +1,189 @@
+"""What follows a contact that is come to with time to spare: against paths flown step by step."""
+
+from math import acos, cos, hypot, inf, pi, sin
+
+import numpy as np
+import pytest
+
+from relguide.kernels.base.angles import wrap_signed
+from relguide.kernels.base.records import Contact, Pose, Scene
+from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.bounds.after_spare import after_spare
+from relguide.kernels.bounds.cells import Cell
+from relguide.kernels.bounds.contact_bound import spare_bound
+from relguide.kernels.bounds.goal import Goal
+from relguide.kernels.bounds.junction import can_touch
+from relguide.kernels.bounds.rest import no_rest
+from relguide.kernels.contact.contact import contact_heading, contact_on
+from relguide.kernels.separation.clearance import leader_at, piece_at
+from relguide.kernels.words.extremals import fly_piece
+
+NOWHERE = Goal(1e6, 0.5, False)
+LEFT, STEP = 5.0, 2e-3
+
+
+def turning_scene(rng: np.random.Generator) -> Scene:
+    """A leader that turns from t = 1 to 6, and then keeps straight."""
+    alpha, d_min, rate = rng.uniform(0.3, 0.95), rng.uniform(0.3, 3.0), rng.uniform(-2.0, 2.0)
+    leader = np.array(
+        [[0.0, 0.0, 0.0, 0.4, 0.0], [1.0, alpha * cos(0.4), alpha * sin(0.4), 0.4, rate],
+         [6.0, 0.0, 0.0, 0.4 + 5.0 * rate, 0.0]]
+    )  # fmt: skip
+    scene = Scene(leader, alpha, d_min, 0.0)
+    end = leader_at(scene, 1, 6.0)
+    leader[2, 1:4] = end.x, end.y, end.h
+    return scene
+
+
+def poses_after(scene: Scene, contact: Contact, t: float, times: FloatArray) -> list[Pose]:
+    """Where a path is whose turns change as it meets the line from the leader to the contact."""
+    turn = 2.0 * acos(scene.alpha * cos(contact.bearing))
+    pose, begun, sense, poses = contact_on(scene, contact, t), 0.0, -contact.side, []
+    for took in times:
+        while took >= begun + turn:
+            pose, begun, sense = fly_piece(pose, sense, turn), begun + turn, -sense
+        poses.append(fly_piece(pose, sense, float(took) - begun))
+    return poses
+
+
+def gaps_after(scene: Scene, contact: Contact, t: float, times: FloatArray) -> FloatArray:
+    """Separation less d_min along it."""
+    gaps = []
+    for took, at in zip(times, poses_after(scene, contact, t, times), strict=True):
+        there = leader_at(scene, piece_at(scene.leader, t + took), t + took)
+        gaps.append(hypot(at.x - there.x, at.y - there.y) - scene.d_min)
+    return np.array(gaps)
+
+
+def in_cells(
+    rng: np.random.Generator, contact: Contact, t: float, begun: float = 1.0, ends: float = 6.0
+) -> list[Cell]:
+    """Cells of many sizes that hold a contact somewhere, none in two quadrants."""
+    cells = []
+    for parts in (8, 32, 512, 8192, 2**18):
+        width = 0.5 * pi / parts
+        middle = (np.floor(contact.bearing / width) + 0.5) * width
+        span = rng.uniform(0.05, 3.0) * width
+        start = max(t - rng.uniform(0.0, 1.0) * span, begun)
+        end = min(start + span, ends)
+        cells.append(Cell(contact.piece, contact.side, middle, 0.5 * width, start, end))
+    return cells
+
+
+def test_the_line_from_the_leader_to_the_contact_is_where_it_turns_the_other_way() -> None:
+    """λ_ψ is zero there, and λ_p points along the line: see the costate of a path without it."""
+    rng = np.random.default_rng(4)
+    for _ in range(20):
+        scene = turning_scene(rng)
+        contact, t = Contact(1, rng.uniform(-pi, pi), rng.choice((-1.0, 1.0))), 2.0
+        turn = 2.0 * acos(scene.alpha * cos(contact.bearing))
+        at, there = contact_on(scene, contact, t), leader_at(scene, 1, t)
+        on = poses_after(scene, contact, t, np.array([turn, 2.0 * turn]))
+        for pose in on:
+            across = (pose.x - at.x) * (at.y - there.y) - (pose.y - at.y) * (at.x - there.x)
+            assert across == pytest.approx(0.0, abs=1e-9)
+
+
+def breaks_at(scene: Scene, contact: Contact, t: float, step: float) -> float:
+    """When it breaks the limit first; infinite if it does not."""
+    times = np.arange(step, LEFT, step)
+    below = np.flatnonzero(gaps_after(scene, contact, t, times) < 0.0)
+    return float(times[below[0]]) if len(below) > 0 else inf
+
+
+def test_a_path_that_touches_again_is_never_ruled_out() -> None:
+    """Between one that breaks the limit and one that does not lies one that touches."""
+    rng, found = np.random.default_rng(5), 0
+    for _ in range(100):
+        scene, side, t = turning_scene(rng), rng.choice((-1.0, 1.0)), rng.uniform(1.2, 5.0)
+        last, before = 0.0, -4.0
+        for bearing in np.arange(-pi, pi, 0.1):
+            contact = Contact(1, float(bearing), side)
+            when = 0.0
+            if can_touch(scene, Cell(1, side, contact.bearing, 1e-9, t, t)):
+                when = breaks_at(scene, contact, t, 0.02)
+            if min(last, when) > 0.2 and (last == inf) != (when == inf):
+                clear, broken = (before, bearing) if last == inf else (bearing, before)
+                for _ in range(20):
+                    middle = 0.5 * (clear + broken)
+                    if breaks_at(scene, Contact(1, middle, side), t, 0.01) == inf:
+                        clear = middle
+                    else:
+                        broken = middle
+                again = breaks_at(scene, Contact(1, broken, side), t, 0.01)
+                if 0.2 < again < LEFT - 0.1:
+                    found += 1
+                    for cell in in_cells(rng, Contact(1, broken, side), t):
+                        assert after_spare(scene, NOWHERE, cell, LEFT).contact <= again + 0.02
+            last, before = when, float(bearing)
+    assert found > 10
+
+
+def test_most_contacts_are_ruled_out() -> None:
+    """Since the path from there does not touch again."""
+    rng, out = np.random.default_rng(9), 0
+    for _ in range(300):
+        scene, contact = turning_scene(rng), Contact(1, rng.uniform(-pi, pi), 1.0)
+        cell = in_cells(rng, contact, rng.uniform(1.2, 5.0))[2]
+        out += after_spare(scene, NOWHERE, cell, 3.0) == (inf, inf)
+    assert out > 200
+
+
+def test_a_path_that_arrives_is_never_ruled_out() -> None:
+    rng, found, late = np.random.default_rng(6), 0, 0
+    for _ in range(150):
+        scene, side = turning_scene(rng), rng.choice((-1.0, 1.0))
+        contact, t = Contact(1, rng.uniform(-pi, pi), side), rng.uniform(1.2, 5.0)
+        times = np.arange(STEP, LEFT, STEP)
+        if np.min(gaps_after(scene, contact, t, times)) < 0.0:
+            continue
+        headings = [wrap_signed(pose.h) for pose in poses_after(scene, contact, t, times)]
+        level = [
+            k for k in range(len(times) - 1)
+            if headings[k] * headings[k + 1] <= 0.0 and abs(headings[k]) < 0.1
+        ]  # fmt: skip
+        for k in level:
+            took = float(times[k]) + STEP * abs(headings[k]) / abs(headings[k] - headings[k + 1])
+            (at,) = poses_after(scene, contact, t, np.array([took]))
+            moved = scene.leader.copy()
+            moved[:, 2] -= at.y
+            speed = rng.choice((scene.alpha, 1.0))
+            goal = Goal(at.x - speed * (t + took), speed, False)
+            there = Scene(moved, scene.alpha, scene.d_min, 0.0)
+            for cell in in_cells(rng, contact, t):
+                assert after_spare(there, goal, cell, LEFT).goal <= took + 1e-6
+            elsewhere = Goal(goal.x + 0.1, speed, False)
+            late += after_spare(there, elsewhere, in_cells(rng, contact, t)[3], LEFT).goal == inf
+            found += 1
+    assert found > 100
+    assert late > 0.9 * found
+
+
+def test_a_contact_that_some_path_is_at_is_never_ruled_out() -> None:
+    """Not even where that is hardly so."""
+    rng, out = np.random.default_rng(7), 0
+    for _ in range(2_000):
+        alpha, d_min, rate = rng.uniform(0.3, 0.95), rng.uniform(0.3, 3.0), rng.uniform(-2.0, 2.0)
+        start, t = Pose(*rng.uniform(-1.0, 1.0, 3)), rng.uniform(0.3, 6.0)
+        # two turns of less than half a round with a straight between them: no pose is sooner there
+        pose, first, last = start, *rng.uniform(0.0, min(pi, 0.5 * t), 2)
+        for sense, took in ((1, first), (0, t - first - last), (1, last)):
+            pose = fly_piece(pose, float(sense * rng.choice((-1, 1))), float(took))
+        side, bearing = rng.choice((-1.0, 1.0)), rng.uniform(-pi, pi)
+        # a leader that is where this pose touches
+        h = pose.h - contact_heading(bearing, side, alpha)
+        x, y = pose.x - d_min * cos(h + bearing), pose.y - d_min * sin(h + bearing)
+        leader = np.array([[t, x, y, h, rate], [50.0, 0.0, 0.0, 0.0, 0.0]])
+        begun = leader_at(Scene(leader, alpha, d_min, 0.0), 0, 0.0)
+        leader[0] = 0.0, begun.x, begun.y, begun.h, rate
+        scene, goal = Scene(leader, alpha, d_min, 0.0), Goal(0.0, alpha, False)
+        for cell in in_cells(rng, Contact(0, bearing, side), t, 0.0, 50.0):
+            if not can_touch(scene, cell):
+                continue
+            passed, onward = spare_bound(start, scene, goal, cell, 1e3, no_rest())
+            assert onward < inf
+            assert passed.outward <= t + 1e-6
+            # nobody is there so much sooner
+            nobody = Cell(0, side, cell.bearing, cell.half, 0.0, 0.01)
+            out += spare_bound(start, scene, goal, nobody, 1e3, no_rest())[0].outward == inf
+    assert out > 2_000
