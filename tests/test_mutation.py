@@ -75,7 +75,7 @@ def test_a_file_is_judged_by_its_own_tests_those_of_its_users_and_the_golden_ans
     names = [test.name for test in judges_of(ROOT, KERNELS / "bounds/contact_bound.py")]
     assert names[0] == "test_contact_bound.py"
     assert names[-1] == "test_golden.py"
-    assert "test_tight_contact.py" in names
+    assert "test_joined.py" in names
 
 
 @pytest.mark.slow

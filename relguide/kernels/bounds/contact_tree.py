@@ -21,13 +21,13 @@ from relguide.kernels.bounds.contact_bound import (
     anyhow,
     cell_bound,
     leaving_bound,
-    spare_bound,
     until_again,
 )
 from relguide.kernels.bounds.goal import Goal
 from relguide.kernels.bounds.junction import can_touch
 from relguide.kernels.bounds.rest import COLUMNS, MOST, UNKNOWN, Rest
 from relguide.kernels.bounds.round_time import round_time
+from relguide.kernels.bounds.spare_bound import spare_bound
 from relguide.kernels.bounds.tight_contact import tight_excess
 
 IntArray = np.ndarray[tuple[int, ...], np.dtype[np.int64]]

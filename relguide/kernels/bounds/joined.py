@@ -11,11 +11,8 @@ from numba import njit
 
 from relguide.kernels.bounds.after_spare import Onward, after_spare
 from relguide.kernels.bounds.around import soonest_in
+from relguide.kernels.bounds.cell_words import turned_after_bound, turned_before_bound
 from relguide.kernels.bounds.cells import EDGE
-from relguide.kernels.bounds.contact_bound import (
-    turned_after_bound,
-    turned_before_bound,
-)
 from relguide.kernels.bounds.contact_tree import (
     Problem,
     Tree,

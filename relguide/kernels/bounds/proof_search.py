@@ -14,7 +14,8 @@ from numba import njit
 from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.around import is_last, soonest_in
-from relguide.kernels.bounds.contact_bound import otherwise, round_between, word_between
+from relguide.kernels.bounds.between import round_between, word_between
+from relguide.kernels.bounds.contact_bound import otherwise
 from relguide.kernels.bounds.contact_tree import (
     IntArray,
     Problem,

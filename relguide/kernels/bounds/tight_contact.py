@@ -29,8 +29,8 @@ from numba import njit
 from relguide.kernels.base.angles import TWO_PI, wrap
 from relguide.kernels.base.records import Scene, Window
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.bounds.between import word_between
 from relguide.kernels.bounds.cells import Cell
-from relguide.kernels.bounds.contact_bound import word_between
 from relguide.kernels.bounds.hop import hop_bound, standing, turned_round
 from relguide.kernels.bounds.junction import apart_by, slide_turns
 from relguide.kernels.bounds.round_time import round_bound, round_most

@@ -10,10 +10,10 @@ from relguide.kernels.base.records import Contact, Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.after_spare import after_spare
 from relguide.kernels.bounds.cells import Cell
-from relguide.kernels.bounds.contact_bound import spare_bound
 from relguide.kernels.bounds.goal import Goal
 from relguide.kernels.bounds.junction import can_touch
 from relguide.kernels.bounds.rest import no_rest
+from relguide.kernels.bounds.spare_bound import spare_bound
 from relguide.kernels.contact.contact import contact_heading, contact_on
 from relguide.kernels.separation.clearance import leader_at, piece_at
 from relguide.kernels.words.extremals import fly_piece

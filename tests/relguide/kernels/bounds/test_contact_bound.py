@@ -12,13 +12,13 @@ from scipy.integrate import quad
 
 from relguide.kernels.base.records import Contact, Pose, Scene, Velocity
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.bounds.between import word_between
 from relguide.kernels.bounds.cells import Cell, contacts_within, turning_blur
 from relguide.kernels.bounds.contact_bound import (
     anyhow,
     cell_bound,
     leaving_bound,
     otherwise,
-    word_between,
 )
 from relguide.kernels.bounds.goal import Goal, arrives_at_release
 from relguide.kernels.bounds.junction import beyond_outward, slide_turns

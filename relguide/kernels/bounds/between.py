@@ -1,0 +1,83 @@
+"""How soon a path can come from a contact in one cell to another one, in another cell: proved.
+
+Whatever happens between them, it takes at least as long as the soonest word from pose to pose, and
+as something that need not turn takes round the disc: a boundary arc comes as close to that as it
+can.
+
+Slot frame: lengths in R, times in R/V_P, angles counter-clockwise. Contacts lie at d_min itself.
+"""
+
+from math import cos, hypot, inf, sin
+
+from numba import njit
+
+from relguide.kernels.base.records import Pose, Scene, Velocity, Window
+from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.bounds.breach import no_sieve
+from relguide.kernels.bounds.cell_words import turned_away
+from relguide.kernels.bounds.cells import EDGE, Cell, poses_of
+from relguide.kernels.bounds.round_time import round_bound
+from relguide.kernels.bounds.round_turning import round_arrival
+from relguide.kernels.bounds.word_bound import soonest_beyond
+from relguide.kernels.bounds.word_intervals import Blur
+from relguide.kernels.contact.contact import to_frame_of
+
+
+@njit(cache=True, nogil=True)
+def round_between(scene: Scene, table: FloatArray, cell: Cell, other: Cell, beat: float) -> float:
+    """How soon a path can be at a contact of the other cell from one of this, round the leader.
+
+    Arguments as `contact_bound.cell_bound` and `round_bound`; infinite from `beat` on.
+    """
+    if other.end < cell.start:
+        return inf
+    apart = other.start - cell.end
+    beat = min(beat, other.end - cell.start + EDGE)
+    if apart < beat and min(cell.piece, other.piece) + 1 == len(scene.leader):
+        apart = max(
+            apart, min(round_bound(table, 0, cell, other), round_bound(table, 1, cell, other))
+        )
+    elif apart < beat:
+        apart = max(apart, round_arrival(scene, cell, other, cell.start + beat) - cell.start)
+    return apart if apart < beat else inf
+
+
+@njit(cache=True, nogil=True)
+def word_between(
+    scene: Scene, cell: Cell, other: Cell, beat: float, after: float, before: float,
+    enough: float,
+) -> float:  # fmt: skip
+    """No word leads sooner to a contact of the other cell from one of this.
+
+    Args:
+        scene: as in `contact_bound.cell_bound`.
+        cell: likewise.
+        other: of the contacts to which it leads.
+        beat: as in `contact_bound.cell_bound`.
+        after: how far it first turns away from the leader, at least [rad].
+        before: and how far just before the other contact [rad].
+        enough: whether a word does so sooner than this does not matter [R/V_P].
+    """
+    begin, end = poses_of(scene, cell), poses_of(scene, other)
+    if begin.differs == inf or end.differs == inf:
+        return inf
+    if after > 0.0:
+        begin = turned_away(begin, cell.side, after)
+    if before > 0.0:
+        end = turned_away(end, other.side, -before)
+    # where the other contact would be at that time, had it always moved as it then does
+    drifts = 0.0
+    met = end.middle
+    if min(cell.piece, other.piece) + 1 < len(scene.leader):
+        drifts = begin.span * hypot(begin.vx - end.vx, begin.vy - end.vy)
+    early = begin.t - end.t
+    met = Pose(met.x + early * end.vx, met.y + early * end.vy, met.h)
+    c, s = cos(met.h), sin(met.h)
+    moved, differs = max(end.left, end.right) + drifts, begin.differs + end.differs
+    turned = after + before
+    return turned + soonest_beyond(
+        to_frame_of(begin.middle, met),
+        Blur(begin.left + moved, begin.right + moved, differs, end.differs),
+        Velocity(end.vx * c + end.vy * s, end.vy * c - end.vx * s),
+        Window(0.0, beat - turned), no_sieve(scene), enough - turned,
+    )  # fmt: skip

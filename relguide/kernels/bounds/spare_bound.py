@@ -1,0 +1,71 @@
+"""How soon a path can be at a contact of a cell with time to spare, and on from there: proved.
+
+It comes there by any way that takes just so long: see `junction`. Where it goes from there is in
+`after_spare`.
+
+Slot frame: lengths in R, times in R/V_P, angles counter-clockwise. Contacts lie at d_min itself.
+"""
+
+from math import cos, hypot, inf, sin
+
+from numba import njit
+
+from relguide.kernels.base.records import Pose, Scene, Window
+from relguide.kernels.bounds.cell_words import onward_bound, word_to
+from relguide.kernels.bounds.cells import EDGE, Cell, Poses, poses_of
+from relguide.kernels.bounds.contact_bound import NEVER, Passed, until_again
+from relguide.kernels.bounds.goal import Goal
+from relguide.kernels.bounds.junction import beyond_outward
+from relguide.kernels.bounds.rest import Rest
+
+
+@njit(cache=True, nogil=True)
+def spare_bound(
+    start: Pose, scene: Scene, goal: Goal, cell: Cell, beat: float, on: Rest
+) -> tuple[Passed, float]:
+    """As `contact_bound.cell_bound`, of paths with time to spare before the contact.
+
+    They come there by any way that is long enough, so no sooner than the shortest word.
+
+    Args:
+        start: as in `contact_bound.cell_bound`.
+        scene: likewise.
+        goal: likewise.
+        cell: likewise; its window of time has an end.
+        beat: as there.
+        on: likewise.
+    """
+    poses = poses_of(scene, cell)
+    if poses.differs == inf:
+        return NEVER, inf
+    onward = onward_bound(scene, goal, cell, poses, beat - cell.start, on)
+    if onward == inf:
+        return NEVER, inf
+    strays = poses.span * hypot(poses.vx, poses.vy)
+    there = Poses(
+        poses.t, 0.0, poses.middle, 0.0, 0.0, poses.differs, poses.left + strays,
+        poses.right + strays,
+    )  # fmt: skip
+    end = min(beat - onward, cell.end + EDGE)
+    soon = max(word_to(start, scene, there, Window(0.0, end)), cell.start)
+    if soon == inf or not _can_be_as_long(start, scene, poses, end):
+        return NEVER, onward
+    away = Passed(inf, inf, inf, soon, soon + beyond_outward(scene, cell, 1.0))
+    return until_again(scene, cell, 1.0, away), onward
+
+
+@njit(cache=True, nogil=True)
+def _can_be_as_long(start: Pose, scene: Scene, poses: Poses, end: float) -> bool:
+    """Whether a path from the start, at t = 0, may be at one of the poses at its time.
+
+    Who is has met a point that moves at V_P along the pose's heading and is there at that time:
+    then, if not sooner. The soonest of those that do so is an extremal: see `goal.track_of`.
+    """
+    at = poses.middle
+    vx, vy = cos(at.h), sin(at.h)
+    strays = poses.span * (hypot(poses.vx - vx, poses.vy - vy) + poses.differs)
+    strays += (poses.t + poses.span) * poses.differs
+    track = Poses(
+        poses.t, 0.0, at, vx, vy, poses.differs, poses.left + strays, poses.right + strays
+    )  # fmt: skip
+    return word_to(start, scene, track, Window(0.0, end)) < inf
