@@ -19,13 +19,21 @@ from relguide.kernels.base.angles import TWO_PI, wrap
 from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.bounds.cells import EDGE, Cell, fastest_turn, poses_of
 from relguide.kernels.bounds.goal import Goal
-from relguide.kernels.bounds.junction import jerk_of, leaves_for, left_of_piece, parted_by
-from relguide.kernels.separation.clearance import leader_at, piece_at
+from relguide.kernels.bounds.junction import (
+    growing_for,
+    jerk_of,
+    leaves_for,
+    left_of_piece,
+    parted_by,
+    slide_turns,
+)
+from relguide.kernels.separation.clearance import leader_at, piece_at, piece_end
 from relguide.kernels.words.extremals import fly_piece
 
 _LEAST = 0.3  # if the path turns by less than this at a time, it is not followed [rad]
 _PART = 0.2  # shortest step, as part of the size of a cell [R/V_P],
 _FINEST, _COARSE = 1e-4, 0.02  # but no less than this, and once the path may touch, than that
+_PART_OF = 0.99  # so that rounding does not count
 _STEPS = 1_000  # no more of them
 
 
@@ -131,6 +139,8 @@ def _followed(
     finest = max(_FINEST, _PART * (cell.half + span))
     pose, sense, parts, begun = middle, -cell.side, 1, 0.0
     took = leaves_for(scene, cell, 1.0, min(turn, left))
+    took = max(took, _not_again_for(scene, cell, middle, t, alike))
+    took = max(took, min(_turned_back_for(scene, cell), first))
     for _ in range(_STEPS):
         if took >= left:
             return contact, left
@@ -161,6 +171,63 @@ def _followed(
                 contact, finest = took, _COARSE
         took += step
     return min(contact, took), left
+
+
+@njit(cache=True, nogil=True)
+def _not_again_for(scene: Scene, cell: Cell, middle: Pose, t: float, alike: float) -> float:
+    """For how long no path of a cell touches again, since d‴ has one sign [R/V_P].
+
+    With d and d′ zero both at the contact and when it touches again, d‴ would vanish in between. At
+    a contact d‴ = (3 r′·r″ + r·r‴)/d, with r from the leader to the pursuer.
+
+    Args:
+        scene: the leader and d_min.
+        cell: of contacts.
+        middle: pose at the contact in its middle.
+        t: and when [R/V_P].
+        alike: so long neither changes how it turns [R/V_P].
+    """
+    alpha, d_min, sense = scene.alpha, scene.d_min, -cell.side
+    there, rate = leader_at(scene, cell.piece, t), scene.leader[cell.piece, 4]
+    x, y = (middle.x - there.x) / d_min, (middle.y - there.y) / d_min
+    c, s = cos(middle.h), sin(middle.h)
+    ahead, across = alpha * cos(there.h), alpha * sin(there.h)
+    # first, second and third derivative of r
+    vx, vy = c - ahead, s - across
+    ax, ay = rate * across - sense * s, sense * c - rate * ahead
+    jx, jy = rate * rate * ahead - c, rate * rate * across - s
+    jerk = 3.0 * (vx * ax + vy * ay) / d_min + x * jx + y * jy
+    fast, turns, swings = 1.0 + alpha, 1.0 + alpha * abs(rate), 1.0 + alpha * rate * rate
+    # their directions differ by no more than twice the bearings
+    parted = (6.0 * turns * (1.0 + fast) / d_min + 2.0 * swings) * cell.half
+    # how fast d‴ changes: from d d⁗ = 3 |r″|² + 4 r′·r‴ + r·r⁗ − 3 d″² − 4 d′ d‴
+    bends = turns + fast * fast / d_min
+    changes = 3.0 * turns * turns + 4.0 * fast * swings + 3.0 * bends * bends
+    changes = (changes + 4.0 * fast * jerk_of(scene, abs(rate))) / d_min
+    changes += 1.0 + alpha * abs(rate) ** 3
+    return min(max(_PART_OF * (abs(jerk) - parted) / changes, 0.0), alike)
+
+
+@njit(cache=True, nogil=True)
+def _turned_back_for(scene: Scene, cell: Cell) -> float:
+    """For how long no path of a cell touches again, since a leader that begins to turn comes back.
+
+    The separation grows until then, and from there on d″ < 0: so it comes to d_min with d′ < 0.
+    """
+    following = cell.piece + 1
+    if following == len(scene.leader):
+        return 0.0
+    then = Cell(following, cell.side, cell.bearing, cell.half, cell.start, cell.end)
+    least, most = slide_turns(scene, cell)[0], slide_turns(scene, then)[1]
+    if least <= -1.0 or most >= -1.0:
+        return 0.0
+    rate = fastest_turn(scene, 0, len(scene.leader) - 1)
+    until = piece_end(scene.leader, cell.piece) - cell.start
+    falling = growing_for(scene, cell, -1.0 - most, rate) / 3.0
+    falling = min(falling, piece_end(scene.leader, following) - cell.end)
+    if until >= min(growing_for(scene, cell, least + 1.0, rate), falling):
+        return 0.0
+    return falling
 
 
 class _Seen(NamedTuple):

@@ -75,8 +75,8 @@ def turned_goal(tree: Tree, problem: Problem, n: int) -> float:
             turn = max(first.turned - min(beat - onward, cell.end + EDGE), 0.0)
             after = turned_after_bound(problem.scene, problem.goal, cell, turn, beat - soon)
             goal = max(first.turned, first.outward + max(onward, after))
-            if goal < beat and tree.spare[n] and spare_onward(tree, problem, n).contact == inf:
-                goal = inf
+            if goal < beat and tree.spare[n]:
+                goal = max(goal, soon + spare_onward(tree, problem, n).contact)
         tree.joined[n, _TURNED] = goal
     return float(tree.joined[n, _TURNED])
 

@@ -124,7 +124,7 @@ def apart_by(scene: Scene, cell: Cell, pace: float) -> float:
         return 0.0
     poses, alpha, d_min = poses_of(scene, cell), scene.alpha, scene.d_min
     rate = fastest_turn(scene, 0, len(scene.leader) - 1)
-    took = min(_growing_for(scene, cell, least - 1.0, rate), left_of_piece(scene, cell, pace))
+    took = min(growing_for(scene, cell, least - 1.0, rate), left_of_piece(scene, cell, pace))
     if took <= 0.0:
         return 0.0
     # how fast two paths of the cell part, seen from the leader
@@ -217,7 +217,7 @@ def leaves_for(scene: Scene, cell: Cell, pace: float, turn: float) -> float:
             least = min(least, on)
             flown = piece_end(scene.leader, following) - scene.leader[following, 0]
             growing += flown if pace > 0.0 or following > 0 else inf
-    return min(_growing_for(scene, cell, least + 1.0, rate), growing)
+    return min(growing_for(scene, cell, least + 1.0, rate), growing)
 
 
 @njit(cache=True, nogil=True)
@@ -259,7 +259,7 @@ def parted_by(
 
 
 @njit(cache=True, nogil=True)
-def _growing_for(scene: Scene, cell: Cell, spare: float, rate: float) -> float:
+def growing_for(scene: Scene, cell: Cell, spare: float, rate: float) -> float:
     """For how long the separation surely grows, if k − 1 is no less than `spare` [R/V_P].
 
     Args:
@@ -278,7 +278,7 @@ def _growing_for(scene: Scene, cell: Cell, spare: float, rate: float) -> float:
 def jerk_of(scene: Scene, rate: float) -> float:
     """How fast d″ can change outside the disc, while neither aircraft changes how it turns.
 
-    In V_P³/R². Arguments as `_growing_for`.
+    In V_P³/R². Arguments as `growing_for`.
     """
     alpha, d_min, fast = scene.alpha, scene.d_min, 1.0 + scene.alpha
     # it comes of the bearing's change, of the pursuer's turn and the leader's
