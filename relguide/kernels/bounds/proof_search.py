@@ -56,7 +56,6 @@ _ROOTS = 0.1  # size of the cells of last contacts that are left [rad]
 _MOST_ROOTS = 256  # if there are more, they are kept larger
 _NO_LAST = -1  # of a bundle whose last contact does not matter
 _ONLY = -2  # of a bundle whose first contact is the last one
-_SPARE_PAIRED = 2e-5
 _JOINED = 0.1  # cells smaller than this are looked at by how contacts are passed [rad]
 
 
@@ -133,7 +132,7 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
             # elsewhere than on the final leg the cells of last contacts are very many
             if (
                 search.first.cells[n, 0] == final
-                or size_of(search.first, n, problem.scene.d_min) < _paired(search, problem, n)
+                or size_of(search.first, n, problem.scene.d_min) < problem.paired
             ) and _goes_on(search, problem, n):
                 _add(search, problem, n, _ONLY, bound)
                 for k in search.roots:
@@ -151,11 +150,6 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
         if not _halve(search, problem, n, m, bound):
             return bound, STUCK
     return problem.beat, CLOSED
-
-
-@njit(cache=True, nogil=True)
-def _paired(search: Search, problem: Problem, n: int) -> float:
-    return min(problem.paired, _SPARE_PAIRED) if search.first.spare[n] else problem.paired
 
 
 @njit(cache=True, nogil=True)
