@@ -156,7 +156,7 @@ def _followed(
             astray, tilts = min(astray, little), min(tilts, slowly)
             bends = slowly / took if took > 0.0 else inf
         room, opens, bent = seen.gap - astray, seen.opens - tilts, seen.bends - bends
-        if seen.gap < -astray:
+        if seen.gap < -astray - EDGE:
             return contact, took
         step = 0.0
         if room > 0.0:

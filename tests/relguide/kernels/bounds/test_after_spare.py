@@ -94,29 +94,34 @@ def breaks_at(scene: Scene, contact: Contact, t: float, step: float) -> float:
 def test_a_path_that_touches_again_is_never_ruled_out() -> None:
     """Between one that breaks the limit and one that does not lies one that touches."""
     rng, found = np.random.default_rng(5), 0
-    for _ in range(100):
-        scene, side, t = turning_scene(rng), rng.choice((-1.0, 1.0)), rng.uniform(1.2, 5.0)
+    for k in range(200):
+        scene, side = turning_scene(rng), rng.choice((-1.0, 1.0))
+        # also from just before the leader begins to turn
+        piece, t = (
+            (1, rng.uniform(1.2, 5.0)) if k % 2 == 0 else (0, 1.0 - 10.0 ** rng.uniform(-3, -0.5))
+        )
+        begun, ends = (1.0, 6.0) if piece == 1 else (0.0, 1.0)
         last, before = 0.0, -4.0
         for bearing in np.arange(-pi, pi, 0.1):
-            contact = Contact(1, float(bearing), side)
+            contact = Contact(piece, float(bearing), side)
             when = 0.0
-            if can_touch(scene, Cell(1, side, contact.bearing, 1e-9, t, t)):
+            if can_touch(scene, Cell(piece, side, contact.bearing, 1e-9, t, t)):
                 when = breaks_at(scene, contact, t, 0.02)
             if min(last, when) > 0.2 and (last == inf) != (when == inf):
                 clear, broken = (before, bearing) if last == inf else (bearing, before)
                 for _ in range(20):
                     middle = 0.5 * (clear + broken)
-                    if breaks_at(scene, Contact(1, middle, side), t, 0.01) == inf:
+                    if breaks_at(scene, Contact(piece, middle, side), t, 0.01) == inf:
                         clear = middle
                     else:
                         broken = middle
-                again = breaks_at(scene, Contact(1, broken, side), t, 0.01)
+                again = breaks_at(scene, Contact(piece, broken, side), t, 0.01)
                 if 0.2 < again < LEFT - 0.1:
                     found += 1
-                    for cell in in_cells(rng, Contact(1, broken, side), t):
+                    for cell in in_cells(rng, Contact(piece, broken, side), t, begun, ends):
                         assert after_spare(scene, NOWHERE, cell, LEFT).contact <= again + 0.02
             last, before = when, float(bearing)
-    assert found > 10
+    assert found > 20
 
 
 def test_most_contacts_are_ruled_out() -> None:
