@@ -205,7 +205,7 @@ def _not_again_for(scene: Scene, cell: Cell, middle: Pose, t: float, alike: floa
     changes = 3.0 * turns * turns + 4.0 * fast * swings + 3.0 * bends * bends
     changes = (changes + 4.0 * fast * jerk_of(scene, abs(rate))) / d_min
     changes += 1.0 + alpha * abs(rate) ** 3
-    return min(max(_PART_OF * (abs(jerk) - parted) / changes, 0.0), alike)
+    return float(min(max(_PART_OF * (abs(jerk) - parted) / changes, 0.0), alike))
 
 
 @njit(cache=True, nogil=True)
