@@ -59,14 +59,15 @@ def after_spare(scene: Scene, goal: Goal, cell: Cell, left: float) -> Onward:
         left: arrivals and contacts after this do not matter [R/V_P].
     """
     poses = poses_of(scene, cell)
-    least = 2.0 * acos(min(max(scene.alpha * cos(cell.bearing), -1.0), 1.0))
-    if poses.differs == inf or least < _LEAST:
+    turn = 2.0 * acos(min(max(scene.alpha * cos(cell.bearing), -1.0), 1.0))
+    # γ may change without bound where the leader is as fast
+    if poses.differs == inf or turn < _LEAST or scene.alpha > 1.0 - EDGE:
         return Onward(0.0, 0.0)
-    turn = 2.0 * acos(scene.alpha * cos(cell.bearing))
     contact, until = _followed(scene, cell, poses.middle, poses.t, poses.span, turn, left)
     soonest, begun, pose, sense, parts = inf, 0.0, poses.middle, -cell.side, 1
     while begun <= until:
-        off, astray, _ = _parted(scene, cell, poses.span, parts, min(begun + turn, until))
+        off, _, _ = _parted(scene, cell, poses.span, parts, 0.0)
+        _, astray, _ = _parted(scene, cell, poses.span, parts, begun + turn + off)
         needed = wrap(-sense * pose.h)
         if turn + 2.0 * off > TWO_PI - EDGE:
             soonest = begun
@@ -138,9 +139,8 @@ def _followed(
     alike = min(left_of_piece(scene, cell, 1.0), first)
     finest = max(_FINEST, _PART * (cell.half + span))
     pose, sense, parts, begun = middle, -cell.side, 1, 0.0
-    took = leaves_for(scene, cell, 1.0, min(turn, left))
-    took = max(took, _not_again_for(scene, cell, middle, t, alike))
-    took = max(took, min(_turned_back_for(scene, cell), first))
+    took = max(leaves_for(scene, cell, 1.0, min(turn, left)), _turned_back_for(scene, cell))
+    took = max(min(took, first), _not_again_for(scene, cell, middle, t, alike), 0.0)
     for _ in range(_STEPS):
         if took >= left:
             return contact, left

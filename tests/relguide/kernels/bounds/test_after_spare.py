@@ -192,3 +192,13 @@ def test_a_contact_that_some_path_is_at_is_never_ruled_out() -> None:
             nobody = Cell(0, side, cell.bearing, cell.half, 0.0, 0.01)
             out += spare_bound(start, scene, goal, nobody, 1e3, no_rest())[0].outward == inf
     assert out > 2_000
+
+
+def test_nothing_is_said_of_leaders_as_fast_as_the_pursuer() -> None:
+    """There γ may change without bound, and not every bearing can be touched."""
+    rng = np.random.default_rng(10)
+    for alpha in (1.0, 1.2):
+        scene = turning_scene(rng)._replace(alpha=alpha)
+        for bearing in (2.0, 3.1):
+            cell = in_cells(rng, Contact(1, bearing, 1.0), 2.0)[2]
+            assert after_spare(scene, NOWHERE, cell, 3.0) == (0.0, 0.0)
