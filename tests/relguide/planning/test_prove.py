@@ -43,8 +43,8 @@ SHORTFALL = 0.05
 """Golden plans keep d_min but for half a metre, which is worth some hundredths of a second."""
 TURNING = proofs.KINDS[2]
 OPEN = "R097"
-"""Its leader is as fast as the pursuer but for 3 %. To exclude that a path touches d_min in the last
-moments of his turn, with time to spare, takes some 12 s: its proof is left with a gap here."""
+"""Its leader is as fast as the pursuer but for 3 %. To exclude that a path touches d_min in the
+last moments of his turn, with time to spare, takes some 12 s: its proof ends with a gap here."""
 QUICK = "R051"
 """Its plan is proved optimal at once."""
 
