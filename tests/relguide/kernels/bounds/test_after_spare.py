@@ -17,22 +17,16 @@ from relguide.kernels.bounds.spare_bound import spare_bound
 from relguide.kernels.contact.contact import contact_heading, contact_on
 from relguide.kernels.separation.clearance import leader_at, piece_at
 from relguide.kernels.words.extremals import fly_piece
+from tests.relguide.kernels.bounds.test_junction import turning_scene
 
 NOWHERE = Goal(1e6, 0.5, False)
 LEFT, STEP = 5.0, 2e-3
 
 
-def turning_scene(rng: np.random.Generator) -> Scene:
-    """A leader that turns from t = 1 to 6, and then keeps straight."""
+def drawn_scene(rng: np.random.Generator) -> Scene:
+    """A leader that turns from t = 1 to 6."""
     alpha, d_min, rate = rng.uniform(0.3, 0.95), rng.uniform(0.3, 3.0), rng.uniform(-2.0, 2.0)
-    leader = np.array(
-        [[0.0, 0.0, 0.0, 0.4, 0.0], [1.0, alpha * cos(0.4), alpha * sin(0.4), 0.4, rate],
-         [6.0, 0.0, 0.0, 0.4 + 5.0 * rate, 0.0]]
-    )  # fmt: skip
-    scene = Scene(leader, alpha, d_min, 0.0)
-    end = leader_at(scene, 1, 6.0)
-    leader[2, 1:4] = end.x, end.y, end.h
-    return scene
+    return turning_scene(rate, alpha, d_min)
 
 
 def poses_after(scene: Scene, contact: Contact, t: float, times: FloatArray) -> list[Pose]:
@@ -74,7 +68,7 @@ def test_the_line_from_the_leader_to_the_contact_is_where_it_turns_the_other_way
     """λ_ψ is zero there, and λ_p points along the line: see the costate of a path without it."""
     rng = np.random.default_rng(4)
     for _ in range(20):
-        scene = turning_scene(rng)
+        scene = drawn_scene(rng)
         contact, t = Contact(1, rng.uniform(-pi, pi), rng.choice((-1.0, 1.0))), 2.0
         turn = 2.0 * acos(scene.alpha * cos(contact.bearing))
         at, there = contact_on(scene, contact, t), leader_at(scene, 1, t)
@@ -95,7 +89,7 @@ def test_a_path_that_touches_again_is_never_ruled_out() -> None:
     """Between one that breaks the limit and one that does not lies one that touches."""
     rng, found = np.random.default_rng(5), 0
     for k in range(200):
-        scene, side = turning_scene(rng), rng.choice((-1.0, 1.0))
+        scene, side = drawn_scene(rng), rng.choice((-1.0, 1.0))
         # also from just before the leader begins to turn
         piece, t = (
             (1, rng.uniform(1.2, 5.0)) if k % 2 == 0 else (0, 1.0 - 10.0 ** rng.uniform(-3, -0.5))
@@ -128,7 +122,7 @@ def test_most_contacts_are_ruled_out() -> None:
     """Since the path from there does not touch again."""
     rng, out = np.random.default_rng(9), 0
     for _ in range(300):
-        scene, contact = turning_scene(rng), Contact(1, rng.uniform(-pi, pi), 1.0)
+        scene, contact = drawn_scene(rng), Contact(1, rng.uniform(-pi, pi), 1.0)
         cell = in_cells(rng, contact, rng.uniform(1.2, 5.0))[2]
         out += after_spare(scene, NOWHERE, cell, 3.0) == (inf, inf)
     assert out > 250
@@ -137,7 +131,7 @@ def test_most_contacts_are_ruled_out() -> None:
 def test_a_path_that_arrives_is_never_ruled_out() -> None:
     rng, found, late = np.random.default_rng(6), 0, 0
     for _ in range(150):
-        scene, side = turning_scene(rng), rng.choice((-1.0, 1.0))
+        scene, side = drawn_scene(rng), rng.choice((-1.0, 1.0))
         contact, t = Contact(1, rng.uniform(-pi, pi), side), rng.uniform(1.2, 5.0)
         times = np.arange(STEP, LEFT, STEP)
         if np.min(gaps_after(scene, contact, t, times)) < 0.0:
@@ -198,7 +192,7 @@ def test_nothing_is_said_of_leaders_as_fast_as_the_pursuer() -> None:
     """There γ may change without bound, and not every bearing can be touched."""
     rng = np.random.default_rng(10)
     for alpha in (1.0, 1.2):
-        scene = turning_scene(rng)._replace(alpha=alpha)
+        scene = drawn_scene(rng)._replace(alpha=alpha)
         for bearing in (2.0, 3.1):
             cell = in_cells(rng, Contact(1, bearing, 1.0), 2.0)[2]
             assert after_spare(scene, NOWHERE, cell, 3.0) == (0.0, 0.0)

@@ -23,22 +23,28 @@ from tests.situations import numbers
 signs = st.sampled_from([1.0, -1.0])
 
 
-@st.composite
-def turning(draw: st.DrawFn) -> tuple[Scene, Cell]:
-    """A leader that turns, and contacts while it does."""
-    rate, alpha, d_min = draw(numbers(-3.0, 3.0)), draw(numbers(0.2, 0.98)), draw(numbers(0.3, 4.0))
+def turning_scene(rate: float, alpha: float, d_min: float) -> Scene:
+    """A leader that turns from t = 1 to 6, and then keeps straight."""
     leader = np.array(
         [[0.0, 0.0, 0.0, 0.4, 0.0], [1.0, alpha * cos(0.4), alpha * sin(0.4), 0.4, rate],
          [6.0, 0.0, 0.0, 0.4 + 5.0 * rate, 0.0]]
     )  # fmt: skip
-    after = Scene(leader, alpha, d_min, 0.0)
-    end = leader_at(after, 1, 6.0)
+    scene = Scene(leader, alpha, d_min, 0.0)
+    end = leader_at(scene, 1, 6.0)
     leader[2, 1:4] = end.x, end.y, end.h
+    return scene
+
+
+@st.composite
+def turning(draw: st.DrawFn) -> tuple[Scene, Cell]:
+    """A leader that turns, and contacts while it does."""
+    rate, alpha, d_min = draw(numbers(-3.0, 3.0)), draw(numbers(0.2, 0.98)), draw(numbers(0.3, 4.0))
     parts = 2 ** draw(st.integers(1, 14))
     k, width = draw(st.integers(0, 4 * parts - 1)), 0.5 * pi / parts
     start = draw(numbers(1.0, 5.0))
     window = min(draw(numbers(0.0, 1.0)), width)
-    return after, Cell(1, draw(signs), (k + 0.5) * width - pi, 0.5 * width, start, start + window)
+    scene = turning_scene(rate, alpha, d_min)
+    return scene, Cell(1, draw(signs), (k + 0.5) * width - pi, 0.5 * width, start, start + window)
 
 
 @given(asked=turning(), share=numbers(-1.0, 1.0))
