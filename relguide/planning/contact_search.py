@@ -32,7 +32,7 @@ from relguide.kernels.bounds.untouched import untouched_bound
 _QUADRANT_CELLS = 2
 """Cells a quadrant is cut into at first; none may reach into two."""
 _LOOKS_AT_TRACK = {12: 0.02, 13: 5e-3, 24: 2e-3}
-_LOOKS_AT_SLOT = {120: 0.02, 121: 5e-3}
+_LOOKS_AT_SLOT = {2: 0.02, 12: 5e-3, 24: 2e-3}
 """Before which rounds it is looked around a leader that turns, and how closely [rad]. Elsewhere
 than at d_min > R words say more: see `kernels/bounds/narrowing.py`."""
 _ROUND = 5e-3

@@ -34,6 +34,8 @@ _GAPS: tuple[Second, ...] = (CERTIFIED, 0.01, TOLERANCE)  # closed one after ano
 _REPORT: Second = 0.05  # from one report to the next
 _SHARE = 0.99  # of a gap that is wanted, so that rounding does not count
 _PAIRED = 1e-3  # `Question.paired` of paths that arrive as the slot opens [rad]
+_PAIRED_LATE = 2e-5  # of others: late, since there are many cells of last contacts [rad]
+_PAIRED_WIDE = 2e-4  # but earlier at d_min > R, where words say less than the time round [rad]
 _FINEST_PAIRED = 1e-9  # the least that is asked for with small gaps [rad]
 _LATER = 1e-9  # a path longer than t_release by this part of it arrives after the slot opens
 
@@ -210,9 +212,11 @@ def at_release(slot: Question) -> tuple[Question, float]:
 def question_of(found: Candidates) -> Question:
     """How soon the slot can be reached with d_min kept."""
     frame = found.frame
+    scene = scene_of(found.situation, frame)
     return Question(
         start=frame.pose,
-        scene=scene_of(found.situation, frame),
+        scene=scene,
+        paired=_PAIRED_WIDE if scene.d_min > 1.0 else _PAIRED_LATE,
         goal=Goal(0.0, frame.alpha, found.reachable_at_release),
         horizon=inf,
     )

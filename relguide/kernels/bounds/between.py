@@ -38,7 +38,7 @@ def round_between(scene: Scene, table: FloatArray, cell: Cell, other: Cell, beat
             apart, min(round_bound(table, 0, cell, other), round_bound(table, 1, cell, other))
         )
     elif apart < beat:
-        apart = max(apart, round_arrival(scene, cell, other, cell.start + beat) - cell.start)
+        apart = max(apart, round_arrival(scene, table, cell, other, cell.start + beat) - cell.start)
     return apart if apart < beat else inf
 
 

@@ -27,6 +27,7 @@ from relguide.kernels.bounds.goal import Goal
 from relguide.kernels.bounds.junction import can_touch
 from relguide.kernels.bounds.rest import COLUMNS, MOST, UNKNOWN, Rest
 from relguide.kernels.bounds.round_time import round_time
+from relguide.kernels.bounds.round_turning import slides_from
 from relguide.kernels.bounds.spare_bound import spare_bound
 from relguide.kernels.bounds.tight_contact import tight_excess
 
@@ -301,8 +302,13 @@ def _with_round(tree: Tree, problem: Problem, n: int, way: int, last: bool) -> f
     if last:
         edge = bearing - sense * half
         return leave(tree, problem, n) + sense * round_time(problem.table, way, edge)
-    edge = bearing + sense * half
-    return reach(tree, problem, n)[0] - sense * round_time(problem.table, way, edge)
+    soon, _ = reach(tree, problem, n)
+    if tree.cells[n, 0] + 1 < len(problem.scene.leader):
+        cell = cell_at(tree, n)
+        if soon == inf or not soon <= cell.end:
+            return inf
+        return slides_from(problem.scene, problem.table, cell, way, problem.beat)
+    return soon - sense * round_time(problem.table, way, bearing + sense * half)
 
 
 @njit(cache=True, nogil=True)

@@ -35,6 +35,7 @@ from relguide.kernels.bounds.contact_tree import (
 from relguide.kernels.bounds.joined import apart, only_of, turned_goal, turned_leave
 from relguide.kernels.bounds.narrowing import lasts_left, narrow, with_around
 from relguide.kernels.bounds.probe import Find, probe, probe_between
+from relguide.kernels.bounds.round_turning import whole_rounds
 from relguide.kernels.bounds.side_change import cannot_change_sides
 from relguide.kernels.bounds.tight_contact import LONGEST
 
@@ -139,7 +140,7 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
                     _add(search, problem, n, k, bound)
                 continue
         elif m >= 0 and eased == 0 and max(half, search.last.cells[m, 3]) < _EASED:
-            at_end = min(search.first.cells[n, 0], search.last.cells[m, 0]) == final
+            at_end = search.last.cells[m, 0] == final
             closer = _round_trip(search, problem, n, m) if at_end else bound
             if closer < problem.beat and _turns_back_late(search, problem, n, m):
                 closer = problem.beat
@@ -294,11 +295,14 @@ def _halve(search: Search, problem: Problem, n: int, m: int, bound: float) -> bo
 def _round_trip(search: Search, problem: Problem, n: int, m: int) -> float:
     """How soon paths can arrive that go round from one cell to another, on the final leg."""
     first, last = search.first.cells[n], search.last.cells[m]
+    cell, other = cell_at(search.first, n), cell_at(search.last, m)
     closest = inf
     for way in range(2):
         apart = (1.0 - 2.0 * way) * (first[2] - last[2])
-        behind = 1.0 if apart >= first[3] + last[3] else 0.0
-        whole = problem.table[way, -1] * (behind - 2.0 * _SLACK)
+        rounds = 1.0 if apart >= first[3] + last[3] else 0.0
+        if first[0] < last[0]:
+            rounds = whole_rounds(problem.scene, cell, other, way)
+        whole = problem.table[way, -1] * (rounds - 2.0 * _SLACK)
         trip = round_from(search.first, problem, n, way) + round_to(search.last, problem, m, way)
         closest = min(closest, _with_hops(search, problem, n, m, way, trip + whole))
     return closest

@@ -3,12 +3,12 @@
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
-from math import cos, pi, sqrt
+from math import cos, floor, pi, sqrt
 
 import numpy as np
 from numba import njit
 
-from relguide.kernels.base.angles import TWO_PI, wrap
+from relguide.kernels.base.angles import TWO_PI, wrap, wrap_signed
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.cells import Cell
 
@@ -61,6 +61,14 @@ def round_time(table: FloatArray, way: int, bearing: float) -> float:
 
 
 @njit(cache=True, nogil=True)
+def round_anywhere(table: FloatArray, way: int, bearing: float) -> float:
+    """As `round_time`, on beyond [−π, π]: each whole round adds what it takes."""
+    within = wrap_signed(bearing)
+    rounds = floor((bearing - within) / TWO_PI + 0.5)
+    return round_time(table, way, within) + rounds * float(table[way, _ROUND])
+
+
+@njit(cache=True, nogil=True)
 def round_bound(table: FloatArray, way: int, cell: Cell, other: Cell) -> float:
     """The least time from any bearing of one cell to any of another, outside the disc.
 
@@ -74,9 +82,23 @@ def round_bound(table: FloatArray, way: int, cell: Cell, other: Cell) -> float:
     gap = wrap(sign * (other.bearing - cell.bearing)) - cell.half - other.half
     if gap <= 0.0 or gap + 2.0 * (cell.half + other.half) >= TWO_PI:
         return 0.0
-    begin, end = cell.bearing + sign * cell.half, other.bearing - sign * other.half
-    took = sign * (round_time(table, way, end) - round_time(table, way, begin))
-    if sign * (end - begin) < 0.0:
+    return round_over(table, way, cell.bearing + sign * cell.half, gap)
+
+
+@njit(cache=True, nogil=True)
+def round_over(table: FloatArray, way: int, bearing: float, gap: float) -> float:
+    """The least time from a bearing over a gap of (0, 2π), outside the disc.
+
+    Args:
+        table: of `times_round`.
+        way: 0 counter-clockwise round the leader, 1 clockwise.
+        bearing: in [−π, π].
+        gap: how far round [rad].
+    """
+    sign = 1.0 - 2.0 * way
+    end = wrap_signed(bearing + sign * gap)
+    took = sign * (round_time(table, way, end) - round_time(table, way, bearing))
+    if sign * (end - bearing) < 0.0:
         took += table[way, _ROUND]
     return float(max(took - _ROUND_SLACK * table[way, _ROUND], 0.0))
 

@@ -21,22 +21,28 @@ bank is enough to slide.
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
-from math import acos, cos, inf, pi, sin, sqrt
+from math import acos, cos, floor, inf, pi, sin, sqrt
 from typing import NamedTuple
 
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, wrap, wrap_signed
 from relguide.kernels.base.records import Pose, Scene
+from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.breach import INSIDE
 from relguide.kernels.bounds.cells import EDGE, Cell, fastest_turn, poses_of
-from relguide.kernels.separation.clearance import leader_at, piece_at
+from relguide.kernels.bounds.junction import slide_turns
+from relguide.kernels.bounds.round_time import round_anywhere, round_over
+from relguide.kernels.separation.clearance import leader_at, piece_at, piece_end
 
 _STEP = 0.1  # for which a front keeps its direction, in d_min and at V_P …
 _CLOSE, _PARTS = 0.05, 4  # … and a part of it for cells narrower than this [rad]
+_CLOSER, _FINER = 2e-3, 16  # likewise
 _WIDEST = 3.1  # e is no further than this from the bearing of P, so that the disc is beside it
 _TRIES = 8  # to say when P arrives within a step, to a tenth of `ROUNDING`
 ROUNDING = 1e-5  # 0.5 ms for an airliner: more than what rounding makes of all of this [R/V_P]
+UNKNOWN = -1e9
+"""Long before everything [R/V_P]."""
 FAST = 0.999  # for a leader faster than this the time round the disc is not bounded
 
 
@@ -80,11 +86,12 @@ _ANY = Headings(0.0, inf, 0.0, 0.0, inf, 0.0)
 
 
 @njit(cache=True, nogil=True)
-def round_arrival(scene: Scene, cell: Cell, other: Cell, latest: float) -> float:
+def round_arrival(scene: Scene, table: FloatArray, cell: Cell, other: Cell, latest: float) -> float:
     """How soon something that starts in a cell of contacts can be in another one [R/V_P].
 
     Args:
         scene: the leader and d_min.
+        table: of `round_time.times_round`.
         cell: from which it starts; its window of time has an end.
         other: to which it goes.
         latest: arrivals from here on do not matter, and come back as infinite.
@@ -102,8 +109,11 @@ def round_arrival(scene: Scene, cell: Cell, other: Cell, latest: float) -> float
         if angle <= 0.0 or angle + 2.0 * blur >= TWO_PI or scene.alpha > FAST:
             return cell.start
         edge, end, step = high if way == 0 else low, min(latest, soonest), step_of(scene)
-        arrival = _sweep(scene, cell.start, edge, angle, sense, end, step, _ANY)
-        if arrival < end and max(cell.half, other.half) < _CLOSE:
+        width = max(cell.half, other.half)
+        fine = step / (_FINER if width < _CLOSER else _PARTS) if width < _CLOSE else step
+        arrival = _sweep_freely(scene, table, cell.start, edge, angle, way, end, fine)
+        slides = _may_slide(scene, cell, sense) and _may_slide(scene, other, sense)
+        if arrival < end and width < _CLOSE and not slides:
             step /= _PARTS
             headings = _headings_of(scene, cell, other, end)
             end = min(end, headings.until)
@@ -138,6 +148,15 @@ def leader_then(scene: Scene, t: float) -> Pose:
 
 
 @njit(cache=True, nogil=True)
+def _may_slide(scene: Scene, cell: Cell, sense: float) -> bool:
+    """Whether who touches in a cell may slide along the edge that way round, for all that is known.
+
+    Then it does not matter how it heads.
+    """
+    return cell.side == sense and slide_turns(scene, cell)[0] <= 1.0
+
+
+@njit(cache=True, nogil=True)
 def _headings_of(scene: Scene, cell: Cell, other: Cell, latest: float) -> Headings:
     """The headings of contacts of a cell, and of contacts of another to which something goes."""
     first, last = poses_of(scene, cell), poses_of(scene, other)
@@ -169,6 +188,107 @@ def _sweep(
         angle -= swept
         t += step
     return t - ROUNDING if t < latest else inf
+
+
+@njit(cache=True, nogil=True)
+def _sweep_freely(
+    scene: Scene, table: FloatArray, t: float, bearing: float, angle: float, way: int,
+    latest: float, step: float,
+) -> float:  # fmt: skip
+    """As `_sweep`, for something that needs no time to turn; on the final leg by `round_time`."""
+    t, bearing, angle = _to_final_leg(scene, t, bearing, angle, way, latest, step)
+    if 0.0 < angle < inf and t < latest:
+        took = round_over(table, way, wrap_signed(bearing - scene.leader[-1, 3]), angle)
+        t += took * (1.0 - INSIDE / scene.d_min)
+    return t - ROUNDING if t < latest else inf
+
+
+@njit(cache=True, nogil=True)
+def _to_final_leg(
+    scene: Scene, t: float, bearing: float, angle: float, way: int, latest: float, step: float
+) -> tuple[float, float, float]:
+    """Follow a front to the final leg, until e may be turned to where someone sliding heads.
+
+    Returns:
+        when it is there, or has swept the angle before, or `latest`; the bearing; and what is left
+        of the angle.
+    """
+    course, sense = bearing, 1.0 - 2.0 * way
+    there, final = leader_then(scene, t), len(scene.leader) - 1
+    while t < latest:
+        piece = piece_at(scene.leader, t)
+        ahead = sense * (course - bearing)
+        if piece == final and ahead <= acos(scene.alpha * cos(bearing - there.h)):
+            break
+        took = min(step, piece_end(scene.leader, piece) - t + EDGE)
+        front = front_from(scene, t, there, bearing, course, sense, 1.0, took)
+        there = leader_then(scene, t + took)
+        reached = reached_by(scene, front, there, took)
+        swept = swept_by(front, reached)
+        if swept >= angle or swept == inf:
+            t += time_to(scene, front, t, 1.0, min(angle, TWO_PI), took, reached)
+            return t, bearing, 0.0
+        bearing, course = bearing + sense * swept, front.course
+        angle -= swept
+        t += took
+    return t, bearing, angle
+
+
+@njit(cache=True, nogil=True)
+def slides_from(scene: Scene, table: FloatArray, cell: Cell, way: int, latest: float) -> float:
+    """How soon something can be anywhere on the final leg that starts in a cell, elsewhere.
+
+    At a bearing y it is no sooner than this and sense · `round_time(table, way, y)`, and as long as
+    `whole_rounds` take. So what is known of the cell, and of y, need not be looked at together.
+
+    Args:
+        scene: the leader and d_min.
+        table: of `round_time.times_round`.
+        cell: of contacts on another leg.
+        way: 0 counter-clockwise round the leader, 1 clockwise.
+        latest: what is on the final leg no sooner does not matter, and comes back as infinite.
+
+    Returns:
+        `UNKNOWN` if a front leaves the disc.
+    """
+    low, high = bearings_of(scene, cell)
+    if scene.alpha > FAST:
+        return UNKNOWN
+    step = step_of(scene) / (_FINER if cell.half < _CLOSER else _PARTS)
+    edge = high if way == 0 else low
+    t, bearing, angle = _to_final_leg(scene, cell.start, edge, inf, way, latest, step)
+    if angle == 0.0:
+        return UNKNOWN
+    if t >= latest:
+        return inf
+    less = ROUNDING + table[way, -1] * INSIDE / scene.d_min
+    since = (1.0 - 2.0 * way) * round_anywhere(table, way, bearing - scene.leader[-1, 3])
+    return float(t - less - since)
+
+
+@njit(cache=True, nogil=True)
+def whole_rounds(scene: Scene, cell: Cell, other: Cell, way: int) -> float:
+    """How many whole rounds lie between a cell and one on the final leg, as bearings are counted.
+
+    The bearing of the other one lies in [−π, π], and this one's wherever `bearings_of` has it; who
+    goes round from here to there, one way, may pass ±π.
+
+    Args:
+        scene: the leader and d_min.
+        cell: from which somebody goes.
+        other: to which.
+        way: 0 counter-clockwise round the leader, 1 clockwise.
+
+    Returns:
+        `UNKNOWN` if they overlap.
+    """
+    sense = 1.0 - 2.0 * way
+    low, high = bearings_of(scene, cell)
+    begin, blur = 0.5 * (low + high) - scene.leader[-1, 3], 0.5 * (high - low) + other.half
+    angle = wrap(sense * (other.bearing - begin))
+    if angle <= blur or angle + blur >= TWO_PI:
+        return UNKNOWN
+    return float(sense * floor((begin + sense * angle - other.bearing) / TWO_PI + 0.5))
 
 
 @njit(cache=True, nogil=True)

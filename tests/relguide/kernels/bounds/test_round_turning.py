@@ -7,6 +7,7 @@ from math import acos, cos, hypot, inf, isnan, nan, pi, sin
 import numpy as np
 import pytest
 
+from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.base.records import Pose, Scene, with_limit
 from relguide.kernels.bounds.around import (
     is_behind,
@@ -18,8 +19,8 @@ from relguide.kernels.bounds.around import (
     unknown_around,
 )
 from relguide.kernels.bounds.cells import Cell
-from relguide.kernels.bounds.round_time import round_bound, times_round
-from relguide.kernels.bounds.round_turning import round_arrival
+from relguide.kernels.bounds.round_time import round_bound, round_time, times_round
+from relguide.kernels.bounds.round_turning import round_arrival, slides_from, whole_rounds
 from relguide.kernels.contact.clear_words import word_clears
 from relguide.kernels.contact.contact import contact_heading, to_frame_of
 from relguide.kernels.separation.clearance import leader_at, piece_at
@@ -96,12 +97,17 @@ def test_nobody_slides_round_sooner_and_who_has_no_turn_to_wait_for_hardly_later
             continue
         start = contact(scene, bearing, t, sense)
         end = contact(scene, bearing + sense * angle, came, sense)._replace(end=came + 0.02)
-        soonest = round_arrival(scene, start, end, inf)
+        soonest = arrival(scene, start, end, inf)
         assert t <= soonest <= came + 0.01
         tight += soonest > came - 1e-3
         slid += 1
     assert slid > 40
     assert tight > 20
+
+
+def arrival(scene: Scene, start: Cell, end: Cell, latest: float) -> float:
+    """How soon something that starts in one cell can be in the other one."""
+    return round_arrival(scene, times_round(scene.alpha, scene.d_min), start, end, latest)
 
 
 def straight_flights(rng: np.random.Generator) -> Iterator[tuple[Scene, Cell, Cell]]:
@@ -129,7 +135,7 @@ def test_nobody_flies_straight_from_contact_to_contact_sooner(seed: int) -> None
     for scene, start, end in straight_flights(np.random.default_rng(seed)):
         # cells so wide that it is not asked how somebody heads
         wide = start._replace(half=WIDE), end._replace(half=WIDE)
-        assert round_arrival(scene, *wide, inf) <= end.start + 1e-6
+        assert arrival(scene, *wide, inf) <= end.start + 1e-6
         flown += 1
     assert flown > 100
 
@@ -166,9 +172,9 @@ def test_nobody_who_turns_comes_from_contact_to_contact_sooner() -> None:
     for scene, start, end in turning_flights(np.random.default_rng(6)):
         came = end.start
         end = end._replace(end=came + 5e-3, start=came - 5e-3)
-        soonest = round_arrival(scene, start, end, inf)
+        soonest = arrival(scene, start, end, inf)
         assert soonest <= came + 5e-3
-        wide = round_arrival(scene, start, end._replace(half=WIDE), inf)
+        wide = arrival(scene, start, end._replace(half=WIDE), inf)
         flown += 1
         turned_back += soonest > wide + 0.5
     assert flown > 40
@@ -236,7 +242,7 @@ def test_where_the_leader_keeps_straight_it_is_the_time_round() -> None:
         start, end = Cell(0, 1.0, low, NARROW, 0.0, 0.0), Cell(0, 1.0, high, NARROW, 0.0, 999.0)
         least, side = min((round_bound(table, way, start, end), 1.0 - 2.0 * way) for way in (0, 1))
         start, end = start._replace(side=side), end._replace(side=side)
-        soonest = round_arrival(scene, start, end, inf)
+        soonest = arrival(scene, start, end, inf)
         assert soonest > 0.99 * least - 2e-3
         if slide(scene, low, 0.0, side, (side * (high - low)) % (2.0 * pi))[1] <= 1.0:
             assert soonest == pytest.approx(least, rel=0.01, abs=2e-3)
@@ -247,6 +253,51 @@ def test_where_the_leader_keeps_straight_it_is_the_time_round() -> None:
 def test_what_comes_too_late_comes_back_as_infinite() -> None:
     scene = turning(np.random.default_rng(0))
     start, end = contact(scene, 0.0, 0.0), contact(scene, 2.0, 9.0)
-    soonest = round_arrival(scene, start, end, inf)
-    assert round_arrival(scene, start, end, soonest - 0.1) == inf
-    assert round_arrival(scene, start, end, soonest + 0.1) == soonest
+    soonest = arrival(scene, start, end, inf)
+    assert arrival(scene, start, end, soonest - 0.1) == inf
+    assert arrival(scene, start, end, soonest + 0.1) == soonest
+
+
+def by_slide(scene: Scene, start: Cell, end: Cell) -> float:
+    """How soon something that starts in one cell can be in another one, on the final leg."""
+    table, soonest = times_round(scene.alpha, scene.d_min), inf
+    for way in (0, 1):
+        edge = end.bearing - (1.0 - 2.0 * way) * end.half
+        took = (1.0 - 2.0 * way) * round_time(table, way, edge)
+        took += whole_rounds(scene, start, end, way) * float(table[way, -1])
+        soonest = min(soonest, slides_from(scene, table, start, way, inf) + took)
+    return soonest
+
+
+@pytest.mark.parametrize("half", [NARROW, 0.02])
+def test_nobody_slides_on_to_the_final_leg_sooner(half: float) -> None:
+    """Whole rounds are counted right, wherever the leader has turned to meanwhile."""
+    rng = np.random.default_rng(7)
+    slid = tight = turned_far = 0
+    for _ in range(400):
+        scene = turning(rng)
+        scene.leader[:, 3] += 2.0 * pi * rng.integers(-1, 2)
+        bearing, t = rng.uniform(-pi, pi), rng.uniform(0.0, scene.leader[2, 0])
+        angle, sense = rng.uniform(0.3, 6.0), rng.choice((-1.0, 1.0))
+        came, turned = slide(scene, bearing, t, sense, angle)
+        if turned > 1.0 or came < scene.leader[2, 0]:
+            continue
+        start = contact(scene, bearing, t, sense)._replace(half=half)
+        to = wrap_signed(bearing + sense * angle - scene.leader[2, 3])
+        soonest = by_slide(scene, start, Cell(2, sense, to, half, scene.leader[2, 0], inf))
+        assert soonest <= came + 0.01
+        slid += 1
+        tight += soonest > came - 2e-3 - 6.0 * half * scene.d_min
+        turned_far += abs(scene.leader[2, 3]) > pi
+    assert min(slid, turned_far) > 40
+    assert tight > 20
+
+
+def test_nobody_flies_straight_to_the_final_leg_sooner() -> None:
+    flown = 0
+    for scene, start, end in straight_flights(np.random.default_rng(8)):
+        if start.piece < end.piece == 2:
+            there = end._replace(bearing=wrap_signed(end.bearing))
+            assert by_slide(scene, start, there) <= end.start + 1e-6
+            flown += 1
+    assert flown > 20
