@@ -278,6 +278,9 @@ def move_bearing(
 ) -> tuple[float, float]:
     """Move one bearing to where the arrival is least: by parabolas, or by smaller steps at edges.
 
+    Where straights touch depends on where they are begun to be looked for. So that is kept as it
+    was at the least arrival, which then is found again.
+
     Args:
         at: where the link to the contact begins.
         t: when [R/V_P].
@@ -292,27 +295,32 @@ def move_bearing(
     contacts, k = chain.contacts, move.k
     stride, moved_by, whole = move.stride, 0.0, 0
     _, begun = fly_links(at, t, scene, chain, k, move.last, inf)
-    here = begun
+    here, best, tried = begun, contacts[:, 2].copy(), contacts[:, 2].copy()
     while stride >= move.finest and here < inf:
-        bearing = contacts[k, 2]
+        bearing, tried[:] = best[k], best
         beat = here + _NEAR
         contacts[k, 2] = bearing - stride
         _, below = fly_links(at, t, scene, chain, k, move.last, beat)
+        to, least, smooth = bearing, here, False
+        if below < least:
+            to, least = bearing - stride, below
+            best[:] = contacts[:, 2]
+        contacts[:, 2] = tried
         contacts[k, 2] = bearing + stride
         _, above = fly_links(at, t, scene, chain, k, move.last, beat)
+        if above < least:
+            to, least = bearing + stride, above
+            best[:] = contacts[:, 2]
         shift, promised = vertex(below, here, above, stride)
-        to, least, smooth = bearing, here, False
         if promised > 0.0:
+            contacts[:, 2] = tried
             contacts[k, 2] = bearing + shift
             _, found = fly_links(at, t, scene, chain, k, move.last, beat)
             smooth = abs(here - found - promised) <= 0.1 * promised + GAIN
             if found < least:
                 to, least = bearing + shift, found
-        if below < least:
-            to, least = bearing - stride, below
-        if above < least:
-            to, least = bearing + stride, above
-        contacts[k, 2] = to
+                best[:] = contacts[:, 2]
+        contacts[:, 2] = best
         whole = whole + 1 if abs(to - bearing) > _WHOLE * stride else 0
         moved_by = max(moved_by, abs(to - bearing))
         here = least

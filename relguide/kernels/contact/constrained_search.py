@@ -33,6 +33,7 @@ from relguide.kernels.contact.clear_words import word_clears
 from relguide.kernels.contact.contact import contact_at, contact_exists
 from relguide.kernels.contact.contact_graph import best_chains
 from relguide.kernels.contact.delay_after_contact import delay_until_release
+from relguide.kernels.contact.graph_chains import LATE
 from relguide.kernels.contact.graph_labels import Effort
 from relguide.kernels.contact.looped_word import looped_word
 from relguide.kernels.contact.nodes import BoolArray, Nodes, contact_nodes, nodes_closer
@@ -167,7 +168,7 @@ def _look(
         found = 2
         legs[:2, 0] = WORD
         legs[:2, 1:6] = path
-    chains = np.empty((_CHAINS, MAX_CONTACTS + 1, 4))
+    chains = np.empty((_CHAINS + LATE, MAX_CONTACTS + 1, 4))
     reached, lower = nodes.time.copy(), nodes.lower.copy()
     kept = best_chains(scene, nodes, fresh, best, effort, True, chains)
     if kept > 0 and chains[0, 0, 0] == scene.t_release:

@@ -53,7 +53,7 @@ def best_chains(
     Returns:
         how many.
     """
-    copies = 1 if len(scene.leader) == 1 else 5
+    copies = 1 if len(scene.leader) == 1 else 6
     labels = labels_of(nodes, copies)
     graph = start_graph(scene, labels, len(nodes.time), beat + NEARLY)
     best, tries, end = beat, _TRIES * effort.hops, -1

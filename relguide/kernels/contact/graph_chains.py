@@ -11,18 +11,25 @@ from relguide.kernels.contact.chain import BOUNDARY_ARC, MAX_CONTACTS
 from relguide.kernels.contact.graph_labels import Graph
 from relguide.kernels.contact.nodes import BoolArray, Nodes, contact_of
 
+LATE = 2
+"""So many chains are kept that begin with a late word."""
+
 
 @njit(cache=True, nogil=True)
 def collect_chains(
     nodes: Nodes, fresh: BoolArray, graph: Graph, beat: float, chains: FloatArray
 ) -> int:
-    """The chains that end in the best nodes; of those alike in sides and links only the best."""
-    kept = 0
+    """The chains that end in the best nodes; of those alike in sides and links only the best.
+
+    No more than `LATE` begin with a late word, which leave room for others.
+    """
+    kept, room = 0, np.array([len(chains) - LATE, LATE])
     trial = np.empty((MAX_CONTACTS + 1, 4))
     for end in np.argsort(graph.arrival):
         if graph.arrival[end] >= beat or kept == len(chains):
             break
-        if not _is_fresh(fresh, graph, end):
+        begins_late = 1 if 0 < graph.late <= end else 0
+        if room[begins_late] == 0 or not _is_fresh(fresh, graph, end):
             continue
         contacts = _trace(nodes, graph, end, trial)
         if contacts > MAX_CONTACTS:
@@ -34,6 +41,7 @@ def collect_chains(
         if not alike:
             chains[kept] = trial
             kept += 1
+            room[begins_late] -= 1
     return kept
 
 

@@ -3,8 +3,9 @@
 Nodes are contacts: a piece of the leader's intent, a side and a bearing of a grid. Round a leader
 that turns who is sooner at a contact finds another one ahead than who is later, and need not be
 better off; so there each node has a label of its own for words from the start, for words from other
-nodes, and for boundary arcs. Where the leader turns faster than one slides, the later one is ahead:
-so two more are for late words from the start, and for boundary arcs that begin with these.
+nodes, and for boundary arcs. Where the leader turns faster than one slides, the later one is ahead,
+and there may be time to spare: so three more are for the last words from the start, and for
+boundary arcs and words to other nodes that begin with these.
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
@@ -39,7 +40,9 @@ class Graph(NamedTuple):
     late: int
     """And those of late words from the start …"""
     late_arcs: int
-    """… and of boundary arcs that begin with these."""
+    """… of boundary arcs that begin with these …"""
+    late_hops: int
+    """… and of words from other nodes, likewise: those of earlier ones would hide them."""
     past: FloatArray
     """How labels fell, one after the other: the label; the row here of the label that leads to it,
     as that was then, −1 if the start does; how, as in `chain`; by how much the bearing changes on
@@ -111,10 +114,10 @@ def start_graph(scene: Scene, nodes: Nodes, count: int, beat: float) -> Graph:
     for n in range(size):
         past[n, 0], past[n, 1], past[n, 2], past[n, 3] = n, -1.0, WORD, 0.0
     graph = Graph(
-        count, behind, 2 * behind, 3 * behind, 4 * behind, past, np.array([size]), np.arange(size),
-        np.full(size, inf), np.arange(size), np.full(count, np.nan), np.full(size, inf),
-        np.full(size, inf), np.zeros(size), np.zeros(size), np.empty((MAX_ROWS, 5)),
-        make_scratch(),
+        count, behind, 2 * behind, 3 * behind, 4 * behind, 5 * behind, past, np.array([size]),
+        np.arange(size), np.full(size, inf), np.arange(size), np.full(count, np.nan),
+        np.full(size, inf), np.full(size, inf), np.zeros(size), np.zeros(size),
+        np.empty((MAX_ROWS, 5)), make_scratch(),
     )  # fmt: skip
     for n in range(size):
         if nodes.lower[n] < beat:
@@ -123,8 +126,6 @@ def start_graph(scene: Scene, nodes: Nodes, count: int, beat: float) -> Graph:
         for node in range(count):
             if nodes.ahead[node, 0] < inf:
                 past[graph.late + node, 2] = NAMED + nodes.ahead[node, 2]
-        # words to other contacts do not begin late: they would hide some that begin early
-        graph.hopped[graph.late :] = -inf
     return graph
 
 

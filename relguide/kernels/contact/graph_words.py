@@ -22,17 +22,30 @@ from relguide.kernels.separation.clearance import piece_end
 from relguide.kernels.words.fastest import fastest
 
 _WORTH = 2e-4  # how much sooner the slot has to be in reach for it to be followed [R/V_P]: 10 ms
+_LATE = 3  # of labels that begin with late words so many times fewer are followed
 _ALIKE = 1e-3  # labels that differ by less lead to the same places [R/V_P]: 50 ms
 
 
 @njit(cache=True, nogil=True)
 def hop(scene: Scene, nodes: Nodes, graph: Graph, best: float, effort: Effort) -> None:
     """Find words from the most promising nodes to all others."""
+    size = len(nodes.time)
+    early = graph.late if graph.late > 0 else size
+    _hop_from_best(scene, nodes, graph, best, effort, 0, early, effort.hops)
+    _hop_from_best(scene, nodes, graph, best, effort, early, size, effort.hops // _LATE)
+
+
+@njit(cache=True, nogil=True)
+def _hop_from_best(
+    scene: Scene, nodes: Nodes, graph: Graph, best: float, effort: Effort, first: int, last: int,
+    hops: int,
+) -> None:  # fmt: skip
+    """As `hop`, from so many of some labels."""
     time, lower = nodes.time, nodes.lower
     near = np.zeros(len(time))  # nodes beside one that was followed in this round
-    for _ in range(effort.hops):
+    for _ in range(hops):
         n = -1
-        for m in range(len(time)):
+        for m in range(first, last):
             if (
                 near[m] == 0.0
                 and lower[m] < best - _WORTH
@@ -56,8 +69,9 @@ def _hop_from(scene: Scene, nodes: Nodes, graph: Graph, n: int, best: float) -> 
     time, left = nodes.time, nodes.time[n]
     pose = contact_at(scene, left, nodes.bearings[n], nodes.sides[n])
     onward = words_onward(scene, nodes.bearings[n], nodes.sides[n], left)
+    behind = graph.late_hops if 0 < graph.late <= n else graph.hops
     for node in range(graph.nodes):
-        contact, m = contact_of(nodes, node), node + graph.hops
+        contact, m = contact_of(nodes, node), node + behind
         if node == n % graph.nodes or not contact_exists(contact.bearing, scene.alpha):
             continue
         # what is too late for it whatever the way there need not be asked for the earliest
@@ -66,7 +80,7 @@ def _hop_from(scene: Scene, nodes: Nodes, graph: Graph, n: int, best: float) -> 
         if max(left, begin) >= in_time or left >= end:
             continue
         t = earliest_arrival(pose, left, scene, contact)
-        if t >= in_time:
+        if t >= min(in_time, end):
             continue
         beat = min(label_to_beat(scene, nodes, graph, m, t), in_time)
         if t >= beat:

@@ -57,9 +57,10 @@ class Workspace(NamedTuple):
     slot could be reached as it opens, or 0. shape (3,)"""
     ahead: FloatArray
     """Where the leader turns faster than one slides along the disc, who is later at a contact is
-    ahead of who was there before. Takes when it is reached last by a word that ends almost
-    straight, as before a boundary arc, if not first; a lower bound of the arrival from there; and
-    the word. Infinite if it is not. shape (3,)"""
+    ahead of who was there before; and elsewhere who had time to spare may spend it before. Takes
+    when it is reached last, there by a word that ends almost straight, as before a boundary arc, if
+    there is one; a lower bound of the arrival from there; and the word. Infinite if it is not
+    reached later than first. shape (3,)"""
 
 
 @njit(cache=True, nogil=True)
@@ -329,7 +330,7 @@ def through_contact(
         return beat
     words = words_toward(scene, contact)
     n = paths_by_words(start, 0.0, scene, contact, words, beat, room.rows)
-    m, back = -1, slides_back(scene, contact)
+    m, back, last = -1, slides_back(scene, contact), (0.0, 0.0, 0.0)
     for k in range(n):
         t = room.rows[k, 0]
         if t >= beat:
@@ -350,6 +351,8 @@ def through_contact(
             reached[0], reached[1] = t, lower
         if back and room.rows[k, 4] < _ALMOST and (t > ahead[0] or ahead[0] == inf):
             ahead[0], ahead[1], ahead[2] = t, lower, room.rows[k, 1]
+        if t > last[0]:
+            last = (t, lower, room.rows[k, 1])
         if lower == scene.t_release:
             reached[2] = max(reached[2], t)
         arrival, j = first_clear(there, t, onward[:m], scene, beat)
@@ -357,6 +360,8 @@ def through_contact(
             beat = arrival
             room.path[0] = room.rows[k]
             room.path[1] = onward[j]
-    if ahead[0] <= reached[0]:
+    if ahead[0] <= reached[0] or ahead[0] == inf:
         ahead[:] = inf
+        if last[0] > reached[0]:
+            ahead[0], ahead[1], ahead[2] = last
     return beat

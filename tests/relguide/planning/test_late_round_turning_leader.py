@@ -5,7 +5,7 @@ from math import inf
 import numpy as np
 import pytest
 
-from relguide import candidates
+from relguide import Situation, candidates
 from relguide.kernels.contact.boundary_arc import (
     MAX_NODES,
     boundary_arc_arrival,
@@ -72,3 +72,30 @@ def test_what_a_contact_led_to_is_kept_when_it_is_reached_sooner(
     """The chain from there was lost with its label; they came 27 s and 2 s later."""
     situation = limit_case(*case, tight=True, slot_at_limit=True)
     assert sound_plan(situation).time_to_converge < best
+
+
+def active_case(seed: int, case: int) -> Situation:
+    """As the bench of proofs of late plans drew it."""
+    rng = np.random.default_rng([seed, case])
+    return draws.active(rng, tight=case % 2 == 0, intent=True, slot_at_limit=case % 3 == 0)
+
+
+@pytest.mark.parametrize("case", [16, 544])
+def test_time_to_spare_may_be_spent_before_the_last_contact(case: int) -> None:
+    """The slot can be reached as it opens, by way of several contacts; they came 0.6 s and 4.2 s
+    later: only after the last contact was a wait looked for.
+    """
+    assert sound_plan(active_case(6001, case)).optimality.proof == "relaxation"
+
+
+@pytest.mark.parametrize(
+    ("seed", "case", "best"), [(6001, 120, 495.74), (6003, 297, 463.2), (7301, 412, 678.72)]
+)
+def test_a_last_word_to_a_contact_leads_on_to_others(seed: int, case: int, best: float) -> None:
+    """Only boundary arcs began with one; they came 4.0 s, 3.0 s and 11.0 s later."""
+    assert sound_plan(active_case(seed, case)).time_to_converge < best
+
+
+def test_a_straight_touches_again_where_it_did() -> None:
+    """Once bearings had been moved it was looked for elsewhere, and the chain lost: 0.47 s late."""
+    assert sound_plan(active_case(6001, 36)).time_to_converge < 247.5
