@@ -19,7 +19,7 @@ from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.clear_words import word_clears
 from relguide.kernels.contact.passing import words_toward
 from relguide.kernels.contact.paths_to_contact import paths_by_words
-from relguide.kernels.words.extremals import MAX_ROWS
+from relguide.kernels.words.extremals import MAX_ROWS, WORDS
 
 WORD, BOUNDARY_ARC, DELAY = 0.0, 1.0, 2.0
 """How a contact is reached, or the slot: in the last case by a path of just the right length."""
@@ -28,6 +28,10 @@ NAMED = 3.0
 the leader turns, who is later at a contact than by the soonest word may be ahead of that."""
 LEFT_TO_TOUCH, RIGHT_TO_TOUCH = 9.0, 10.0
 """Or by a turn and a straight that touches the disc: where, the contact before it decides."""
+AGAIN = -1.0
+"""Or, with a word's number less, by this word when it leads there for the second time; with as much
+less as there are words for each time more. While the leader turns, a word may lead to a contact at
+several times, and who has time to spare may come to it later."""
 MAX_CONTACTS = 16
 """Longest chain."""
 MAX_LEGS = MAX_CONTACTS + 1
@@ -80,3 +84,33 @@ def earliest_contact(
         if asked and rows[k, 0] < best and word_clears(pose, t, rows[k], scene):
             best, at = rows[k, 0], k
     return (best, at) if at >= 0 else (inf, -1)
+
+
+@njit(cache=True, nogil=True)
+def link_by(rows: FloatArray, k: int) -> float:
+    """How a contact is reached by row k, of all words that lead to it: by which word, and when."""
+    word, before = rows[k, 1], 0
+    for row in rows:
+        if row[1] == word and row[0] < rows[k, 0]:
+            before += 1
+    return float(NAMED + word if before == 0 else AGAIN - word - len(WORDS) * (before - 1))
+
+
+@njit(cache=True, nogil=True)
+def contact_by(
+    pose: Pose, t: float, scene: Scene, contact: Contact, link: float, onward: int, beat: float,
+    rows: FloatArray,
+) -> tuple[float, int]:  # fmt: skip
+    """As `earliest_contact`, by way of a link of `link_by`."""
+    if link >= NAMED:
+        onward &= 1 << int(link - NAMED)
+        return earliest_contact(pose, t, scene, contact, onward, beat, rows)
+    word = int(AGAIN - link) % len(WORDS)
+    words = onward & words_toward(scene, contact) & (1 << word)
+    alike = words | (words & _THREE_TURNS) >> _APART
+    n = paths_by_words(pose, t, scene, contact, alike, beat, rows)
+    for k in range(n):
+        asked = rows[k, 1] == word and link_by(rows[:n], k) == link
+        if asked and rows[k, 0] < beat and word_clears(pose, t, rows[k], scene):
+            return float(rows[k, 0]), k
+    return inf, -1

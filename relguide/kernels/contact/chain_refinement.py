@@ -20,9 +20,9 @@ from relguide.kernels.contact.boundary_arc import boundary_arc_arrival
 from relguide.kernels.contact.chain import (
     BOUNDARY_ARC,
     LEFT_TO_TOUCH,
-    NAMED,
     WORD,
     Chain,
+    contact_by,
     earliest_contact,
     with_contacts,
 )
@@ -107,9 +107,11 @@ def fly_links(
                     return pose, inf
                 contacts[k, 2] = bearing
             else:
-                if contacts[k, 3] >= NAMED:
-                    onward &= 1 << int(contacts[k, 3] - NAMED)
-                t, at = earliest_contact(pose, t, scene, contact, onward, beat, rows)
+                link = contacts[k, 3]
+                if link == WORD:
+                    t, at = earliest_contact(pose, t, scene, contact, onward, beat, rows)
+                else:
+                    t, at = contact_by(pose, t, scene, contact, link, onward, beat, rows)
             if at < 0:
                 return pose, inf
             legs[k, 1:6] = rows[at]

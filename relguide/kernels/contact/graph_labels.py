@@ -18,7 +18,7 @@ from numba import njit
 
 from relguide.kernels.base.records import Scene
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.contact.chain import NAMED, WORD
+from relguide.kernels.contact.chain import WORD
 from relguide.kernels.contact.nodes import IntArray, Nodes, contact_of
 from relguide.kernels.words.extremals import MAX_ROWS
 from relguide.kernels.words.sooner import Scratch, make_scratch
@@ -125,7 +125,7 @@ def start_graph(scene: Scene, nodes: Nodes, count: int, beat: float) -> Graph:
     if behind > 0:
         for node in range(count):
             if nodes.ahead[node, 0] < inf:
-                past[graph.late + node, 2] = NAMED + nodes.ahead[node, 2]
+                past[graph.late + node, 2] = nodes.ahead[node, 2]
     return graph
 
 

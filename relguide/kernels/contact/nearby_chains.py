@@ -26,7 +26,6 @@ from relguide.kernels.contact.chain import (
     MAX_CONTACTS,
     NAMED,
     RIGHT_TO_TOUCH,
-    WORD,
     Chain,
     chain_of,
 )
@@ -168,8 +167,8 @@ def _change(scene: Scene, contacts: FloatArray, k: int, change: int, tried: Floa
     if change >= _BY_WORD:
         link = NAMED + (change - _BY_WORD)
         tried[k, 3] = link
-        named = contacts[k, 3] == WORD or NAMED <= contacts[k, 3] < LEFT_TO_TOUCH
-        return count if named and link != contacts[k, 3] else 0
+        by_word = contacts[k, 3] != BOUNDARY_ARC and contacts[k, 3] < LEFT_TO_TOUCH
+        return count if by_word and link != contacts[k, 3] else 0
     moved = _MOVED[change]
     if k + moved > count:
         return 0

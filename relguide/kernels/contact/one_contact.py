@@ -18,6 +18,7 @@ from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.records import Contact, Pose, Scene
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.contact.chain import link_by
 from relguide.kernels.contact.chain_refinement import FINEST, GAIN, vertex
 from relguide.kernels.contact.clear_words import first_clear, to_slot_frame, word_clears
 from relguide.kernels.contact.contact import (
@@ -59,8 +60,8 @@ class Workspace(NamedTuple):
     """Where the leader turns faster than one slides along the disc, who is later at a contact is
     ahead of who was there before; and elsewhere who had time to spare may spend it before. Takes
     when it is reached last, there by a word that ends almost straight, as before a boundary arc, if
-    there is one; a lower bound of the arrival from there; and the word. Infinite if it is not
-    reached later than first. shape (3,)"""
+    there is one; a lower bound of the arrival from there; and by which word, as `chain.link_by`.
+    Infinite if it is not reached later than first. shape (3,)"""
 
 
 @njit(cache=True, nogil=True)
@@ -350,9 +351,9 @@ def through_contact(
         if t < reached[0]:
             reached[0], reached[1] = t, lower
         if back and room.rows[k, 4] < _ALMOST and (t > ahead[0] or ahead[0] == inf):
-            ahead[0], ahead[1], ahead[2] = t, lower, room.rows[k, 1]
+            ahead[0], ahead[1], ahead[2] = t, lower, link_by(room.rows[:n], k)
         if t > last[0]:
-            last = (t, lower, room.rows[k, 1])
+            last = (t, lower, link_by(room.rows[:n], k))
         if lower == scene.t_release:
             reached[2] = max(reached[2], t)
         arrival, j = first_clear(there, t, onward[:m], scene, beat)

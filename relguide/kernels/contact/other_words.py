@@ -15,7 +15,7 @@ from numba import njit
 from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.records import Contact, Pose, Scene
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.contact.chain import BOUNDARY_ARC, NAMED, chain_of
+from relguide.kernels.contact.chain import BOUNDARY_ARC, chain_of, link_by
 from relguide.kernels.contact.chain_refinement import fly_links, refine_chain
 from relguide.kernels.contact.clear_words import word_clears
 from relguide.kernels.contact.contact import contact_at, contact_exists
@@ -84,8 +84,10 @@ def _take_word(
         if not contact_exists(tried[k, 2], scene.alpha):
             continue
         contact = Contact(piece, tried[k, 2], side)
-        for row in rows[: paths_to_contact(pose, t, scene, contact, best, rows)]:
-            at, tried[k, 3] = contact_at(scene, row[0], tried[k, 2], side), NAMED + row[1]
+        n = paths_to_contact(pose, t, scene, contact, best, rows)
+        for j in range(n):
+            row, tried[k, 3] = rows[j], link_by(rows[:n], j)
+            at = contact_at(scene, row[0], tried[k, 2], side)
             if not_before_slot(at, row[0], scene) >= best or not word_clears(pose, t, row, scene):
                 continue
             _, time = fly_links(at, row[0], scene, chain, k + 1, count, best)

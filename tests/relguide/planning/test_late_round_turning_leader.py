@@ -96,6 +96,11 @@ def test_a_last_word_to_a_contact_leads_on_to_others(seed: int, case: int, best:
     assert sound_plan(active_case(seed, case)).time_to_converge < best
 
 
+def test_a_word_that_leads_to_a_contact_twice_is_flown_as_it_was_found() -> None:
+    """The second time was found, the first flown: the plan arrived 162 s later."""
+    assert sound_plan(active_case(7302, 400)).time_to_converge < 336.74
+
+
 def test_a_straight_touches_again_where_it_did() -> None:
     """Once bearings had been moved it was looked for elsewhere, and the chain lost: 0.47 s late."""
     assert sound_plan(active_case(6001, 36)).time_to_converge < 247.5
