@@ -213,21 +213,22 @@ def turn_tangent(
 
 
 @njit(cache=True, nogil=True)
-def boundary_arc_end(slot: float, disc: Disc) -> tuple[float, float, float]:
+def boundary_arc_end(ahead: float, left: float, disc: Disc) -> tuple[float, float, float]:
     """Where a boundary arc ends that goes on to the slot by a straight and a turn to its own side.
 
     Backward in time, with the world turned by π, that is a turn and a straight from the slot (see
     `tangent`).
 
     Args:
-        slot: D [R].
+        ahead: how far the leader is ahead of the slot: D, if its route is straight [R].
+        left: how far it is to the left of it [R].
         disc: round a leader that keeps straight.
 
     Returns:
         bearing, straight and turn; the soonest of them. NaN if there is none.
     """
     contacts = np.empty((4, 3))
-    n = straight_tangents(Pose(slot, 0.0, 0.0), mirror_disc(disc), -disc.side, contacts)
+    n = straight_tangents(Pose(ahead, left, 0.0), mirror_disc(disc), -disc.side, contacts)
     best, at = inf, -1
     for k in range(n):
         if contacts[k, 1] + contacts[k, 2] < best:

@@ -135,7 +135,7 @@ def _write_boundary_arcs(pose: Pose, scene: Scene, free: float, out: FloatArray)
     at = 0
     # on the other side all is the mirror image
     left = Disc(scene.alpha, scene.d_min, 1.0, 0.0)
-    end, straight, turn = boundary_arc_end(slot_of(scene), left)
+    end, straight, turn = boundary_arc_end(slot_of(scene), 0.0, left)
     for k in range(4):
         side, sign = 1.0 - 2.0 * (k // 2), 1.0 - 2.0 * (k % 2)
         disc = left if side > 0.0 else mirror_disc(left)

@@ -126,7 +126,7 @@ def _solve_unchecked(task: Task, guess: FloatArray, beat: float, room: Room) -> 
 @njit(cache=True, nogil=True)
 def _solve_to_boundary_arc(task: Task, guess: FloatArray, room: Room) -> tuple[float, float]:
     """By a contact, a turn and a straight to the boundary arc that leads on to the slot."""
-    end, straight, turn = boundary_arc_end(slot_of(task.scene), task.disc)
+    end, straight, turn = boundary_arc_end(slot_of(task.scene), 0.0, task.disc)
     if isnan(end):
         return inf, 0.0
     fixed = np.array((end, straight + turn))
@@ -215,7 +215,7 @@ def _solve_from_boundary_arc(
     disc = task.disc
     end, straight, turn = 0.0, 0.0, 0.0
     if task.on == ON_B:
-        end, straight, turn = boundary_arc_end(slot_of(task.scene), disc)
+        end, straight, turn = boundary_arc_end(slot_of(task.scene), 0.0, disc)
         if isnan(end):
             return inf, 0.0
         straight_turn(disc.side, straight, turn, room.path[1])

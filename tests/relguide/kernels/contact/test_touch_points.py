@@ -104,7 +104,7 @@ def test_two_turns_end_in_the_contact(sign: float, side: float) -> None:
 @pytest.mark.parametrize("side", [1.0, -1.0])
 def test_where_a_boundary_arc_ends_a_straight_and_a_turn_lead_to_the_slot(side: float) -> None:
     slot = 2.9
-    bearing, straight, turn = boundary_arc_end(slot, disc(side))
+    bearing, straight, turn = boundary_arc_end(slot, 0.0, disc(side))
     course = contact_heading(bearing, side, ALPHA)
     start = Pose(DISTANCE * cos(bearing), DISTANCE * sin(bearing), course)
     x, y, h = fly_pieces(start, (0.0, straight), (side, turn))
