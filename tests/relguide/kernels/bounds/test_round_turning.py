@@ -274,7 +274,7 @@ def test_nobody_slides_on_to_the_final_leg_sooner(half: float) -> None:
     """Whole rounds are counted right, wherever the leader has turned to meanwhile."""
     rng = np.random.default_rng(7)
     slid = tight = turned_far = 0
-    for _ in range(400):
+    for _ in range(150):
         scene = turning(rng)
         scene.leader[:, 3] += 2.0 * pi * rng.integers(-1, 2)
         bearing, t = rng.uniform(-pi, pi), rng.uniform(0.0, scene.leader[2, 0])
@@ -289,8 +289,8 @@ def test_nobody_slides_on_to_the_final_leg_sooner(half: float) -> None:
         slid += 1
         tight += soonest > came - 2e-3 - 6.0 * half * scene.d_min
         turned_far += abs(scene.leader[2, 3]) > pi
-    assert min(slid, turned_far) > 40
-    assert tight > 20
+    assert min(slid, turned_far) > 15
+    assert tight > 8
 
 
 def test_nobody_flies_straight_to_the_final_leg_sooner() -> None:
