@@ -81,6 +81,7 @@ def grow_template_labels(
         begun = _whole_chunks(stream, request, part) if resume else {}
         if not resume:
             np.save(stream, np.array(json.dumps(asdict(request))))
+            stream.flush()
         yield from begun.items()
         for number, labels in make_template_labels(request, executor, made=frozenset(begun)):
             np.save(stream, np.array(number))

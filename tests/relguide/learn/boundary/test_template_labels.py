@@ -157,6 +157,21 @@ def test_a_run_that_was_stopped_goes_on_to_the_same_end(tmp_path: Path) -> None:
         list(grow_template_labels(SMALL, tmp_path / "none", Here(), resume=True))
 
 
+def test_a_run_that_is_killed_in_its_first_chunk_can_go_on(tmp_path: Path) -> None:
+    """Nothing had been written by then, and it was said to be of another request."""
+    part, left = tmp_path / "part", tmp_path / "left"
+
+    class Killed(Here):
+        def submit(self, task: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
+            left.write_bytes(part.read_bytes())
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        next(grow_template_labels(SMALL, part, Killed(), resume=False))
+    again = dict(grow_template_labels(SMALL, left, Here(), resume=True))
+    assert same(join_labels(again), join_labels(dict(make_template_labels(SMALL, Here()))))
+
+
 def test_a_file_keeps_all_and_others_are_refused(tmp_path: Path) -> None:
     found, file = template_label_chunk(SMALL, 0), tmp_path / "labels.npz"
     save_template_labels(found, SMALL, {"command": "it"}, file)
