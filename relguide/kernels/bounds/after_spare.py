@@ -10,12 +10,13 @@ again or arrives. So of all such contacts only those matter from which that one 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
-from math import acos, cos, hypot, inf, sin, sqrt
+from math import acos, cos, inf, sin, sqrt
 from typing import NamedTuple
 
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, wrap
+from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.bounds.cells import EDGE, Cell, fastest_turn, poses_of
 from relguide.kernels.bounds.goal import Goal
@@ -78,7 +79,7 @@ def after_spare(scene: Scene, goal: Goal, cell: Cell, left: float) -> Onward:
             at, t = fly_piece(pose, sense, needed), poses.t + begun + needed
             strays = astray + (1.0 + goal.speed) * (off + EDGE)
             strays += (scene.alpha + goal.speed) * poses.span
-            if hypot(at.x - goal.x - goal.speed * t, at.y) <= strays + EDGE:
+            if norm(at.x - goal.x - goal.speed * t, at.y) <= strays + EDGE:
                 soonest = max(begun + needed - off - EDGE, 0.0)
                 break
         pose, begun, sense, parts = fly_piece(pose, sense, turn), begun + turn, -sense, parts + 1
@@ -242,7 +243,7 @@ def _seen(scene: Scene, at: Pose, sense: float, t: float) -> _Seen:
     piece = piece_at(scene.leader, t)
     there, swings = leader_at(scene, piece, t), scene.alpha * scene.leader[piece, 4]
     x, y = at.x - there.x, at.y - there.y
-    far = hypot(x, y)
+    far = norm(x, y)
     x, y = x / far, y / far
     vx, vy = cos(at.h) - scene.alpha * cos(there.h), sin(at.h) - scene.alpha * sin(there.h)
     opens = x * vx + y * vy

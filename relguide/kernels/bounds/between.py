@@ -7,10 +7,11 @@ can.
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise. Contacts lie at d_min itself.
 """
 
-from math import cos, hypot, inf, sin
+from math import cos, inf, sin
 
 from numba import njit
 
+from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Pose, Scene, Velocity, Window
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.breach import no_sieve
@@ -69,7 +70,7 @@ def word_between(
     drifts = 0.0
     met = end.middle
     if min(cell.piece, other.piece) + 1 < len(scene.leader):
-        drifts = begin.span * hypot(begin.vx - end.vx, begin.vy - end.vy)
+        drifts = begin.span * norm(begin.vx - end.vx, begin.vy - end.vy)
     early = begin.t - end.t
     met = Pose(met.x + early * end.vx, met.y + early * end.vy, met.h)
     c, s = cos(met.h), sin(met.h)

@@ -3,10 +3,11 @@
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
-from math import cos, hypot, inf, sin
+from math import cos, inf, sin
 
 from numba import njit
 
+from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Pose, Scene, Velocity, Window
 from relguide.kernels.bounds.breach import no_sieve
 from relguide.kernels.bounds.cells import EDGE, Cell, Poses, poses_of
@@ -70,7 +71,7 @@ def blur_toward(scene: Scene, goal: Goal, cell: Cell, poses: Poses) -> Blur:
     drifts = 0.0
     if cell.piece + 1 < len(scene.leader) or goal.speed != scene.alpha:
         # the goal does not move with the contacts
-        drifts = poses.span * hypot(poses.vx - goal.speed, poses.vy)
+        drifts = poses.span * norm(poses.vx - goal.speed, poses.vy)
     return Blur(poses.left + drifts, poses.right + drifts, poses.differs, 0.0)
 
 

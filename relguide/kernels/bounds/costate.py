@@ -14,12 +14,13 @@ which solves (11)–(13) with μ = 0. At a contact μ is an impulse ν ≥ 0: by
 λ_θ, λ_ψ and H go on unbroken; λ_p changes by −ν e.
 """
 
-from math import atan2, cos, hypot, inf, pi, sin
+from math import atan2, cos, inf, pi, sin
 
 from numba import njit
 
 from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.motion import Motion, advance
+from relguide.kernels.base.norm import norm
 from relguide.kernels.base.roots import FloatArray
 
 
@@ -33,7 +34,7 @@ def polar_costate(lam_x: float, lam_y: float, dx: float, dy: float) -> tuple[flo
         dx: pursuer minus leader, east [m].
         dy: the same, north [m]; not both zero.
     """
-    d = hypot(dx, dy)
+    d = norm(dx, dy)
     return (lam_x * dx + lam_y * dy) / d, lam_x * dy - lam_y * dx
 
 
@@ -148,7 +149,7 @@ def _closing(pursuer: Motion, leader: Motion, t: float) -> tuple[float, float]:
     dx, dy = px - lx, py - ly
     dvx = pursuer.tas * sin(ppsi) - leader.tas * sin(lpsi)
     dvy = pursuer.tas * cos(ppsi) - leader.tas * cos(lpsi)
-    d = hypot(dx, dy)
+    d = norm(dx, dy)
     return d, (dx * dvx + dy * dvy) / max(d, 1e-9)  # 1e-9 m: where they meet it has no rate
 
 

@@ -28,10 +28,11 @@ while the leader turns.
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
-from math import acos, atan2, cos, hypot, inf, pi, sin, sqrt
+from math import acos, atan2, cos, inf, pi, sin, sqrt
 
 from numba import njit
 
+from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.bounds.cells import EDGE, Cell, fastest_turn, poses_of
 from relguide.kernels.bounds.found_word import Junction
@@ -139,7 +140,7 @@ def apart_by(scene: Scene, cell: Cell, pace: float) -> float:
         toward, astray = cell.side * pace * seen[1], parting * took
         if toward < astray + (_BESIDE if seen[0] > 0.0 else 0.0):
             break
-        gap = hypot(seen[0], seen[1]) - d_min - astray
+        gap = norm(seen[0], seen[1]) - d_min - astray
         if gap <= 0.0:
             break
         if atan2(toward, seen[0]) + took + poses.differs + astray / d_min > pi:
@@ -177,10 +178,10 @@ def away_for(scene: Scene, cell: Cell, pace: float, turn: float) -> float:
         t = poses.t + pace * took
         there = leader_at(scene, piece_at(scene.leader, t), t)
         dx, dy = at.x - there.x, at.y - there.y
-        gap = hypot(dx, dy) - scene.d_min
+        gap = norm(dx, dy) - scene.d_min
         closing = dx * (cos(at.h) - scene.alpha * cos(there.h))
         closing += dy * (sin(at.h) - scene.alpha * sin(there.h))
-        grows = pace * closing / hypot(dx, dy)
+        grows = pace * closing / norm(dx, dy)
         step = (grows + sqrt(max(grows * grows + 2.0 * falls * max(gap, 0.0), 0.0))) / falls
         while step > _STRIDE:
             step *= 0.5

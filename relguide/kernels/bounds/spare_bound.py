@@ -6,10 +6,11 @@ It comes there by any way that takes just so long: see `junction`. Where it goes
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise. Contacts lie at d_min itself.
 """
 
-from math import cos, hypot, inf, sin
+from math import cos, inf, sin
 
 from numba import njit
 
+from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Pose, Scene, Window
 from relguide.kernels.bounds.cell_words import onward_bound, word_to
 from relguide.kernels.bounds.cells import EDGE, Cell, Poses, poses_of
@@ -41,7 +42,7 @@ def spare_bound(
     onward = onward_bound(scene, goal, cell, poses, beat - cell.start, on)
     if onward == inf:
         return NEVER, inf
-    strays = poses.span * hypot(poses.vx, poses.vy)
+    strays = poses.span * norm(poses.vx, poses.vy)
     there = Poses(
         poses.t, 0.0, poses.middle, 0.0, 0.0, poses.differs, poses.left + strays,
         poses.right + strays,
@@ -63,7 +64,7 @@ def _can_be_as_long(start: Pose, scene: Scene, poses: Poses, end: float) -> bool
     """
     at = poses.middle
     vx, vy = cos(at.h), sin(at.h)
-    strays = poses.span * (hypot(poses.vx - vx, poses.vy - vy) + poses.differs)
+    strays = poses.span * (norm(poses.vx - vx, poses.vy - vy) + poses.differs)
     strays += (poses.t + poses.span) * poses.differs
     track = Poses(
         poses.t, 0.0, at, vx, vy, poses.differs, poses.left + strays, poses.right + strays

@@ -3,12 +3,13 @@
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
-from math import hypot, inf
+from math import inf
 
 import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, wrap
+from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Pose, Scene, with_limit
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.breach import INSIDE, MOST_LOOKS, Flown, NearWord, breaks_limit
@@ -130,4 +131,4 @@ def _along(start: Pose, row: FloatArray, flown: float) -> tuple[Pose, float]:
 def _gap(at: Pose, scene: Scene, t: float) -> float:
     """How far outside the limit somebody is [R]."""
     there = leader_at(scene, piece_at(scene.leader, t), t)
-    return hypot(at.x - there.x, at.y - there.y) - scene.d_min
+    return norm(at.x - there.x, at.y - there.y) - scene.d_min

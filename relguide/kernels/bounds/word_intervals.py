@@ -28,6 +28,7 @@ from typing import NamedTuple
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, wrap, wrap_signed
+from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Pose, Velocity, Window
 from relguide.kernels.bounds.breach import ROUNDING
 
@@ -114,7 +115,7 @@ def side_of(pose: Pose, blur: Blur, target: Velocity, hand: int) -> Side:
     """The words that begin with a left turn, or with hand = 1 a right one, in the mirror."""
     m = 1.0 - 2.0 * hand
     h = wrap(m * pose.h)
-    alpha = _length(target.ahead, target.left)
+    alpha = norm(target.ahead, target.left)
     circle = (blur.left if hand == 0 else blur.right) + ROUNDING
     heading = blur.heading + ROUNDING
     return Side(
@@ -166,14 +167,14 @@ def _narrow(
     if not greatest < inf:
         return least, greatest
     ax, ay = target
-    steepest = 1.0 + _length(ax, ay)
+    steepest = 1.0 + norm(ax, ay)
     for _ in range(_STEPS):
-        gap = abs(_length(ax * least + ex, ay * least + ey) - least) - blur
+        gap = abs(norm(ax * least + ex, ay * least + ey) - least) - blur
         if gap <= 0.0 or least > greatest:
             break
         least += gap / steepest
     for _ in range(_STEPS):
-        gap = abs(_length(ax * greatest + ex, ay * greatest + ey) - greatest) - blur
+        gap = abs(norm(ax * greatest + ex, ay * greatest + ey) - greatest) - blur
         if gap <= 0.0 or least > greatest:
             break
         greatest -= gap / steepest
@@ -204,8 +205,8 @@ def same_turns(k: int, side: Side, window: Window) -> Interval:
         middle, middle_blur = 0.5 * (least + greatest), 0.5 * (greatest - least)
         to_x, to_y = ax * middle + ex, ay * middle + ey
         slack = side.radius + side.alpha * middle_blur
-        if slack < _length(to_x, to_y):
-            astray = asin(slack / _length(to_x, to_y))
+        if slack < norm(to_x, to_y):
+            astray = asin(slack / norm(to_x, to_y))
             course = atan2(to_y, to_x)
     latest = turned + side.heading + greatest
     return Interval(time, latest, True, turned, -course, astray, middle, middle_blur, least)
@@ -275,7 +276,7 @@ def three_turns_within(
         return NOTHING
     to_x = ax * (turned + mid) - side.cx
     to_y = ay * (turned + mid) + 1.0 - side.cy
-    gap = _length(to_x, to_y)
+    gap = norm(to_x, to_y)
     spread = 2.0 * (1.0 + side.alpha) * half
     if abs(gap - 4.0 * sin_half) > side.radius + spread:
         return NOTHING
@@ -313,11 +314,11 @@ def opposite_turns_within(
     if longest <= 0.0:
         return NOTHING
     qx, qy = c - ax, s - ay
-    q = _length(qx, qy)
+    q = norm(qx, qy)
     vx = ax * turned - side.cx - 2.0 * s
     vy = ay * turned - side.cy - 1.0 + 2.0 * c
     # |v| ≤ l |q| + r, wherever in the interval
-    shortest = (_length(vx, vy) - side.radius - 2.0 * half * (q + half)) / (q + half)
+    shortest = (norm(vx, vy) - side.radius - 2.0 * half * (q + half)) / (q + half)
     near, along, beside = inf, 0.0, 0.0
     if q > 1e-9:
         per_q = 1.0 / q
@@ -363,9 +364,3 @@ def sine_cosine(angle: float) -> tuple[float, float]:
     square = angle * angle
     sine = angle * (1.0 - square * (1.0 - square / 20.0) / 6.0)
     return sine, 1.0 - 0.5 * square * (1.0 - square * (1.0 - square / 30.0) / 12.0)
-
-
-@njit(cache=True, nogil=True, inline="always")
-def _length(x: float, y: float) -> float:
-    """As hypot, which takes pains with numbers that none is so large or small as to need."""
-    return sqrt(x * x + y * y)

@@ -9,7 +9,7 @@ exists only between two looks, its circles are nearest or farthest there, at a t
 form.
 """
 
-from math import atan2, cos, isnan, pi, sin, sqrt
+from math import atan2, isnan, pi, sqrt
 from typing import NamedTuple
 
 from numba import njit
@@ -78,11 +78,11 @@ def append_arrivals(
 @njit(cache=True, nogil=True)
 def _time_of_extreme(passage: Passage, branch: int, begin: float, end: float) -> float:
     """When the circles of a branch are farthest, or nearest for three turns, if in an interval."""
-    word, h = WORD_OF[branch], passage.pose.h
+    word = WORD_OF[branch]
     first, last = SIGNS[word, 0], SIGNS[word, 2]
-    dx, dy = passage.x + first * sin(h), passage.y - first * cos(h)
-    ahead = passage.ahead - last * sin(passage.heading)
-    left = passage.left + last * cos(passage.heading)
+    dx, dy = passage.x + first * passage.sin_h, passage.y - first * passage.cos_h
+    ahead = passage.ahead - last * passage.sin_heading
+    left = passage.left + last * passage.cos_heading
     # the last one's centre is then on the line from the first one's to that of the leader's turn
     to_turn = atan2(dy, dx) - atan2(left, ahead) - leader_heading(passage, begin)
     to_turn += 0.0 if branch < 4 else pi

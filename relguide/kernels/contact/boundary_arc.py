@@ -5,12 +5,13 @@ the boundary arc; nodes lie where the leader's turn rate changes, too. Slot fram
 times in R/V_P, angles counter-clockwise.
 """
 
-from math import ceil, hypot, inf
+from math import ceil, inf
 
 import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, wrap_signed
+from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Contact, Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.contact import (
@@ -171,7 +172,7 @@ def _fly_two_arcs(
     for attempt in range(6):
         between = fly_rate(pose, mean + spread, half)
         end = fly_rate(between, mean - spread, half)
-        off = hypot(end.x - lx, end.y - ly) - distance
+        off = norm(end.x - lx, end.y - ly) - distance
         if abs(off) < 1e-13:
             break
         if attempt == 0:

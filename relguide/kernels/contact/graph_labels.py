@@ -57,7 +57,8 @@ class Graph(NamedTuple):
     """… and its row of `past` then."""
     onward: FloatArray
     """How long the path to the slot takes at least, on the final leg, where that is the same at any
-    time; NaN where it is not known yet, and 0 on other legs [R/V_P]. shape (nodes,)"""
+    time; 0 on other legs, infinite where no contact exists, NaN until words from nodes are looked
+    for [R/V_P]. shape (nodes,)"""
     hopped: FloatArray
     """The label with which words from it were last looked for."""
     delayed: FloatArray

@@ -10,7 +10,7 @@ from numba import njit
 
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.base.clock import time_is_up
-from relguide.kernels.base.records import Scene
+from relguide.kernels.base.records import Contact, Scene
 from relguide.kernels.contact.chain import WORD, earliest_contact
 from relguide.kernels.contact.clear_words import to_slot_frame
 from relguide.kernels.contact.contact import contact_at, contact_exists, contact_on
@@ -30,6 +30,8 @@ _ALIKE = 1e-3  # labels that differ by less lead to the same places [R/V_P]: 50 
 def hop(scene: Scene, nodes: Nodes, graph: Graph, best: float, effort: Effort) -> None:
     """Find words from the most promising nodes to all others."""
     size = len(nodes.time)
+    if np.isnan(graph.onward[0]):
+        _look_onward(scene, nodes, graph)
     early = graph.late if graph.late > 0 else size
     _hop_from_best(scene, nodes, graph, best, effort, 0, early, effort.hops)
     _hop_from_best(scene, nodes, graph, best, effort, early, size, effort.hops // _LATE)
@@ -66,19 +68,21 @@ def _hop_from_best(
 @njit(cache=True, nogil=True)
 def _hop_from(scene: Scene, nodes: Nodes, graph: Graph, n: int, best: float) -> None:
     """Find words from a node to all others that may be in time."""
-    time, left = nodes.time, nodes.time[n]
-    pose = contact_at(scene, left, nodes.bearings[n], nodes.sides[n])
-    onward = words_onward(scene, nodes.bearings[n], nodes.sides[n], left)
+    time, left, leader = nodes.time, nodes.time[n], scene.leader
+    rings, bearings, sides, ahead = nodes.rings, nodes.bearings, nodes.sides, graph.onward
+    pose = contact_at(scene, left, bearings[n], sides[n])
+    onward = words_onward(scene, bearings[n], sides[n], left)
     behind = graph.late_hops if 0 < graph.late <= n else graph.hops
     for node in range(graph.nodes):
-        contact, m = contact_of(nodes, node), node + behind
-        if node == n % graph.nodes or not contact_exists(contact.bearing, scene.alpha):
+        if node == n % graph.nodes or ahead[node] == inf:
             continue
+        piece, m = rings[node] // 2, node + behind
         # what is too late for it whatever the way there need not be asked for the earliest
-        in_time = min(time[m], best - _onward_from(scene, nodes, graph, node))
-        begin, end = scene.leader[contact.piece, 0], piece_end(scene.leader, contact.piece)
+        in_time = min(time[m], best - ahead[node])
+        begin, end = leader[piece, 0], piece_end(leader, piece)
         if max(left, begin) >= in_time or left >= end:
             continue
+        contact = Contact(piece, bearings[node], sides[node])
         t = earliest_arrival(pose, left, scene, contact)
         if t >= min(in_time, end):
             continue
@@ -99,17 +103,18 @@ def _hop_from(scene: Scene, nodes: Nodes, graph: Graph, n: int, best: float) -> 
 
 
 @njit(cache=True, nogil=True)
-def _onward_from(scene: Scene, nodes: Nodes, graph: Graph, node: int) -> float:
-    """How long the path from a node to the slot takes at least [R/V_P]; 0 where nothing is known.
+def _look_onward(scene: Scene, nodes: Nodes, graph: Graph) -> None:
+    """Find how long the path from each node to the slot takes at least [R/V_P].
 
-    On the final leg, where it takes as long whenever it begins, it is found once.
+    That is known on the final leg, where it takes as long whenever it begins; elsewhere it is 0.
     """
-    if np.isnan(graph.onward[node]):
-        final, known = len(scene.leader) - 1, 0.0
-        contact = contact_of(nodes, node)
-        if contact.piece == final:
-            t, row = scene.leader[final, 0], graph.rows[0]
+    final, row = len(scene.leader) - 1, graph.rows[0]
+    t = scene.leader[final, 0]
+    for node in range(graph.nodes):
+        contact, known = contact_of(nodes, node), 0.0
+        if not contact_exists(contact.bearing, scene.alpha):
+            known = inf
+        elif contact.piece == final:
             seen = to_slot_frame(contact_on(scene, contact, t), t, scene.alpha)
             known = row[0] if fastest(seen, scene.alpha, 0.0, 0, graph.scratch, row) else inf
         graph.onward[node] = known
-    return float(graph.onward[node])

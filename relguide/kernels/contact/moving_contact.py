@@ -5,16 +5,17 @@ So does the centre of the circle on which a word comes in to it, round the same 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
-from math import cos, hypot, inf, sin
+from math import acos, cos, inf, sin, sqrt
 from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import wrap_signed
+from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Contact, Pose, Scene, Start
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.contact.contact import contact_distance, contact_heading
+from relguide.kernels.contact.contact import contact_distance
 from relguide.kernels.words.to_point import word_from
 
 _CLOSER = 8  # steps toward the first time at which a contact is in reach
@@ -48,7 +49,15 @@ class Passage(NamedTuple):
     left: float
     """… and to the left."""
     heading: float
-    """On which it is met, relative to the leader's [rad]."""
+    """On which it is met, relative to the leader's [rad] …"""
+    sin_heading: float
+    """… its sine …"""
+    cos_heading: float
+    """… and cosine."""
+    sin_h: float
+    """Sine of the start's heading …"""
+    cos_h: float
+    """… and cosine."""
 
 
 @njit(cache=True, nogil=True)
@@ -56,12 +65,17 @@ def passage_to(pose: Pose, t: float, scene: Scene, contact: Contact) -> Passage:
     """From a pose at time t to a contact on a piece on which the leader turns."""
     begin, x, y, h, turning = scene.leader[contact.piece]
     distance, radius = contact_distance(scene.d_min), scene.alpha / turning
+    s, c = sin(contact.bearing), cos(contact.bearing)
+    # the heading is b + s arccos(α cos b)
+    along = scene.alpha * c
+    across = contact.side * sqrt(max(1.0 - along * along, 0.0))
     return Passage(
         pose, t, scene.until, max(begin, t), scene.leader[contact.piece + 1, 0], turning,
         h + turning * (t - begin),
         x - radius * sin(h) - pose.x, y + radius * cos(h) - pose.y,
-        distance * cos(contact.bearing), distance * sin(contact.bearing) - radius,
-        contact_heading(contact.bearing, contact.side, scene.alpha),
+        distance * c, distance * s - radius,
+        contact.bearing + contact.side * acos(along),
+        s * along + c * across, c * along - s * across, sin(pose.h), cos(pose.h),
     )  # fmt: skip
 
 
@@ -78,10 +92,16 @@ def _seen_from(passage: Passage, t: float) -> Start:
     s, c = sin(lh), cos(lh)
     dx = -passage.x - passage.ahead * c + passage.left * s
     dy = -passage.y - passage.ahead * s - passage.left * c
-    course = lh + passage.heading
-    s, c = sin(course), cos(course)
-    h = passage.pose.h - course
-    return Start(dx * c + dy * s, dy * c - dx * s, h, sin(h), cos(h))
+    # the course on which the contact is met, and the start's heading from there
+    sin_course = s * passage.cos_heading + c * passage.sin_heading
+    cos_course = c * passage.cos_heading - s * passage.sin_heading
+    return Start(
+        dx * cos_course + dy * sin_course,
+        dy * cos_course - dx * sin_course,
+        passage.pose.h - lh - passage.heading,
+        passage.sin_h * cos_course - passage.cos_h * sin_course,
+        passage.cos_h * cos_course + passage.sin_h * sin_course,
+    )
 
 
 @njit(cache=True, nogil=True)
@@ -89,7 +109,7 @@ def distance_at(passage: Passage, t: float) -> float:
     """How far the contact is from the start at t [R]."""
     lh = leader_heading(passage, t)
     s, c = sin(lh), cos(lh)
-    return hypot(
+    return norm(
         passage.x + passage.ahead * c - passage.left * s,
         passage.y + passage.ahead * s + passage.left * c,
     )
@@ -98,7 +118,7 @@ def distance_at(passage: Passage, t: float) -> float:
 @njit(cache=True, nogil=True)
 def speed_of(passage: Passage) -> float:
     """How fast the contact moves [V_P]."""
-    return abs(passage.turning) * hypot(passage.ahead, passage.left)
+    return abs(passage.turning) * norm(passage.ahead, passage.left)
 
 
 @njit(cache=True, nogil=True)

@@ -6,11 +6,12 @@ like any other; while it turns, see `paths_while_turning`.
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
-from math import cos, hypot, inf, sin, sqrt
+from math import cos, inf, sin, sqrt
 
 from numba import njit
 
 from relguide.kernels.base.angles import wrap, wrap_signed
+from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Contact, Pose, Scene, Velocity, Window
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.contact import contact_on, to_frame_of
@@ -90,9 +91,7 @@ def paths_by_words(
     cx, cy, course = contact_on(scene, contact, t)
     left = end - t
     if left < inf and (
-        hypot(
-            cx + scene.alpha * left * cos(lh) - pose.x, cy + scene.alpha * left * sin(lh) - pose.y
-        )
+        norm(cx + scene.alpha * left * cos(lh) - pose.x, cy + scene.alpha * left * sin(lh) - pose.y)
         > left
     ):
         return 0  # not even straight there

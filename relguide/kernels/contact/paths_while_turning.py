@@ -8,7 +8,7 @@ A word is no shorter than the straight between its first and its last circle and
 heading. So most looks see at once that it comes too late, until the next look and often for longer.
 """
 
-from math import asin, atan2, ceil, cos, hypot, inf, isnan, pi, sin, sqrt
+from math import asin, atan2, ceil, cos, inf, isnan, pi, sin, sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -16,6 +16,7 @@ from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, turn_to, wrap, wrap_signed
 from relguide.kernels.base.clock import time_is_up
+from relguide.kernels.base.norm import norm
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.arrivals_while_turning import JUMP, Seen, append_arrivals
 from relguide.kernels.contact.moving_contact import (
@@ -140,14 +141,14 @@ def _centres_of(passage: Passage, step: float) -> FloatArray:
         (_PAIRS, 5)
     """
     centres = np.empty((_PAIRS, 5))
-    s, c = sin(passage.pose.h), cos(passage.pose.h)
-    end_s, end_c = sin(passage.heading), cos(passage.heading)
+    s, c = passage.sin_h, passage.cos_h
+    end_s, end_c = passage.sin_heading, passage.cos_heading
     for pair in range(_PAIRS):
         first, last = SIGNS[pair, 0], SIGNS[pair, 2]
         ahead, left = passage.ahead - last * end_s, passage.left + last * end_c
         centres[pair, 0], centres[pair, 1] = -passage.x - first * s, first * c - passage.y
         centres[pair, 2], centres[pair, 3] = ahead, left
-        centres[pair, 4] = abs(passage.turning) * step * hypot(ahead, left)
+        centres[pair, 4] = abs(passage.turning) * step * norm(ahead, left)
     return centres
 
 

@@ -13,7 +13,7 @@ Lengths in R, times in R/V_P, angles counter-clockwise; positions are relative t
 keeps heading 0.
 """
 
-from math import atan2, ceil, cos, hypot, inf, isnan, pi, sin
+from math import atan2, ceil, cos, inf, isnan, pi, sin
 from typing import NamedTuple
 
 import numpy as np
@@ -23,6 +23,7 @@ from relguide.kernels.base.angles import TWO_PI, wrap
 from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.false_position import Bracket as Crossing
 from relguide.kernels.base.false_position import secant, tightened
+from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Bracket, Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.contact import contact_distance, to_frame_of
@@ -164,7 +165,7 @@ def _miss(approach: _Approach, turned: float, contact: FloatArray) -> float:
         at = fly_piece(begun, second, t - turned)
         contact[0], contact[1], _ = _seen_turning(at, leg, t)
         contact[2], contact[3] = t, at.h - leg.turning * t
-        return hypot(contact[0], contact[1]) - approach.distance
+        return norm(contact[0], contact[1]) - approach.distance
     alpha = leg.alpha
     px, py, ph = begun.x - alpha * turned, begun.y, begun.h
     if second == 0.0:
@@ -177,7 +178,7 @@ def _miss(approach: _Approach, turned: float, contact: FloatArray) -> float:
         return np.nan
     qx, qy, qh = fly_piece(Pose(px, py, ph), second, after)
     contact[0], contact[1], contact[2], contact[3] = qx - alpha * after, qy, turned + after, qh
-    return hypot(contact[0], contact[1]) - approach.distance
+    return norm(contact[0], contact[1]) - approach.distance
 
 
 @njit(cache=True, nogil=True)
@@ -302,7 +303,7 @@ def tangents(start: Pose, scene: Scene) -> FloatArray:
         if time_is_up(scene.until):
             return kept[:n]
         at = leader_at(scene, i, 0.0)
-        if pieces == 1 and hypot(start.x - at.x, start.y - at.y) > distance + NEAR:
+        if pieces == 1 and norm(start.x - at.x, start.y - at.y) > distance + NEAR:
             continue
         leg = Leg(scene.alpha, leader[i, 4], leader[i, 0], piece_end(leader, i))
         m = tangent_contacts(to_frame_of(start, at), leg, distance, found)

@@ -11,12 +11,13 @@ which Newton's method solves from a bearing nearby.
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
-from math import ceil, cos, hypot, inf, sin
+from math import ceil, cos, inf, sin
 
 import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import wrap
+from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Contact, Pose, Scene, Velocity
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.contact import contact_exists, contact_heading, contact_on
@@ -66,7 +67,7 @@ def touch_straight(
     for k in range(steps + 1):
         time = begin + (end - begin) * k / steps
         turned, ahead, left = _turn_and_gap(pose, scene, near, turn, time)
-        late = turned + hypot(ahead, left) - (time - t)
+        late = turned + norm(ahead, left) - (time - t)
         if late * last <= 0.0 and late != last:
             guess = time - (end - begin) / steps * late / (late - last)
             at, then = _solve_near(pose, t, scene, near, turn, guess, row)

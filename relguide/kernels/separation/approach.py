@@ -22,12 +22,13 @@ bounds counts. The work is bounded too: windows are not halved for less than rou
 number is limited.
 """
 
-from math import cos, hypot, inf, sin, sqrt
+from math import cos, inf, sin, sqrt
 
 import numpy as np
 from numba import njit
 
 from relguide.kernels.base.motion import Motion, motion_along
+from relguide.kernels.base.norm import norm
 from relguide.kernels.base.roots import FloatArray
 
 ROUNDING = 1e-6
@@ -62,7 +63,7 @@ def closest_of_straights(
     if speed_squared > 0.0:
         t = -(dx * dvx + dy * dvy) / speed_squared
     t = min(max(t, low), high)
-    return t, hypot(dx + t * dvx, dy + t * dvy)
+    return t, norm(dx + t * dvx, dy + t * dvy)
 
 
 @njit(cache=True, nogil=True)
@@ -133,7 +134,7 @@ def least_separation(
     """
     px, py, ppsi, pv, pursuer_pieces = pursuer
     lx, ly, lpsi, lv, leader_pieces = leader
-    best, best_at = hypot(px - lx, py - ly), 0.0
+    best, best_at = norm(px - lx, py - ly), 0.0
     proved = best
     reach = abs(px) + abs(py) + abs(lx) + abs(ly) + (pv + lv) * horizon
     rounding = ROUNDING + _SHARE * reach
@@ -176,7 +177,7 @@ def least_separation(
                 at = mid + tangent_at
                 ax, ay, _, _ = _advance(px, py, psin, pcos, pv, p_rate, at)
                 bx, by, _, _ = _advance(lx, ly, lsin, lcos, lv, l_rate, at)
-                reached = hypot(ax - bx, ay - by)
+                reached = norm(ax - bx, ay - by)
                 if reached < best:
                     best, best_at = reached, t + at
             if bound >= best - max(tolerance, rounding) or n + 2 > _DEPTH or looked > _MOST_WINDOWS:
@@ -205,7 +206,7 @@ def least_separation(
         while l_left <= 0.0:
             j += 1
             l_left = leader_pieces[j, 0] if j < len(leader_pieces) else inf
-    last = hypot(px - lx, py - ly)
+    last = norm(px - lx, py - ly)
     if last < best:
         best, best_at = last, horizon
     return best, best_at, min(proved, best) - rounding

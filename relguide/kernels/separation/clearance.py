@@ -4,11 +4,13 @@ The same bound as in `approach`, but it stops at the first point found too close
 times in R/V_P, angles counter-clockwise. The leader is a table of its pieces, as in `Scene`.
 """
 
-from math import cos, hypot, inf, sin
+from math import cos, inf, sin
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
+from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 
@@ -20,6 +22,36 @@ _ROUNDING = 1e-9
 _DEPTH = 64
 _NARROW = 1e-6  # a window this short that is still undecided counts as too close
 _MOST_WINDOWS = 32_768  # as does a path that takes more: 1 mm outside the disc takes 10,000
+
+
+class _Course(NamedTuple):
+    """An aircraft on a straight or an arc, with what does not depend on time."""
+
+    x: float
+    """Where it begins [R]."""
+    y: float
+    """[R]."""
+    sin_h: float
+    """Sine of its heading there …"""
+    cos_h: float
+    """… and cosine."""
+    speed: float
+    """[V_P]."""
+    rate: float
+    """Turn rate [V_P/R]."""
+
+
+class _State(NamedTuple):
+    """Where it is at one time, and how fast."""
+
+    x: float
+    """[R]."""
+    y: float
+    """[R]."""
+    vx: float
+    """[V_P]."""
+    vy: float
+    """[V_P]."""
 
 
 @njit(cache=True, nogil=True)
@@ -62,6 +94,7 @@ def piece_clears(pose: Pose, rate: float, t: float, duration: float, scene: Scen
         scene: the leader and d_min.
     """
     leader, alpha, limit = scene.leader, scene.alpha, scene.d_min - _ROUNDING
+    pursuer = _Course(pose.x, pose.y, sin(pose.h), cos(pose.h), 1.0, rate)
     mids = np.empty(_DEPTH)
     halves = np.empty(_DEPTH)
     done = 0.0
@@ -70,26 +103,26 @@ def piece_clears(pose: Pose, rate: float, t: float, duration: float, scene: Scen
     while done < duration:
         end = min(duration, piece_end(leader, i) - t)
         bend = abs(rate) + alpha * abs(leader[i, 4])
+        h, since = leader[i, 3], t - leader[i, 0]
+        led = _Course(leader[i, 1], leader[i, 2], sin(h), cos(h), alpha, leader[i, 4])
         mids[0], halves[0] = 0.5 * (done + end), 0.5 * (end - done)
         n = 1
         while n > 0:
             n -= 1
             looked += 1
             mid, half = mids[n], halves[n]
-            px, py, ph = fly_rate(pose, rate, mid)
-            lx, ly, lh = leader_at(scene, i, t + mid)
-            dx, dy = px - lx, py - ly
-            vx, vy = cos(ph) - alpha * cos(lh), sin(ph) - alpha * sin(lh)
+            here, there = _state_on(pursuer, mid), _state_on(led, since + mid)
+            dx, dy = here.x - there.x, here.y - there.y
+            vx, vy = here.vx - there.vx, here.vy - there.vy
             speed_squared = vx * vx + vy * vy
             at = 0.0
             if speed_squared > 0.0:
                 at = -(dx * vx + dy * vy) / speed_squared
             at = min(max(at, -half), half)
-            if hypot(dx + at * vx, dy + at * vy) - 0.5 * bend * half * half >= limit:
+            if norm(dx + at * vx, dy + at * vy) - 0.5 * bend * half * half >= limit:
                 continue
-            px, py, ph = fly_rate(pose, rate, mid + at)
-            lx, ly, lh = leader_at(scene, i, t + mid + at)
-            close = hypot(px - lx, py - ly) < limit
+            here, there = _state_on(pursuer, mid + at), _state_on(led, since + mid + at)
+            close = norm(here.x - there.x, here.y - there.y) < limit
             if close or half < _NARROW or n + 2 > _DEPTH or looked > _MOST_WINDOWS:
                 return False
             mids[n], halves[n] = mid - 0.5 * half, 0.5 * half
@@ -98,6 +131,24 @@ def piece_clears(pose: Pose, rate: float, t: float, duration: float, scene: Scen
         done = end
         i += 1
     return True
+
+
+@njit(cache=True, nogil=True, inline="always")
+def _state_on(course: _Course, t: float) -> _State:
+    """Where an aircraft is on its course after a time: by sine and cosine of half its turn."""
+    x, y, sin_h, cos_h, speed, rate = course
+    half = 0.5 * rate * t
+    s, c, chord = half, 1.0, speed * t
+    if abs(half) > 1e-9:
+        s, c = sin(half), cos(half)
+        chord *= s / half
+    whole_s, whole_c = 2.0 * s * c, 1.0 - 2.0 * s * s
+    return _State(
+        x + chord * (cos_h * c - sin_h * s),
+        y + chord * (sin_h * c + cos_h * s),
+        speed * (cos_h * whole_c - sin_h * whole_s),
+        speed * (sin_h * whole_c + cos_h * whole_s),
+    )
 
 
 @njit(cache=True, nogil=True)

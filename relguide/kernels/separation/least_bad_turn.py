@@ -3,13 +3,14 @@
 World frame; lengths in m, times in s, headings clockwise from north.
 """
 
-from math import hypot, inf, pi
+from math import inf, pi
 
 import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI
 from relguide.kernels.base.motion import Motion, advance, with_pieces
+from relguide.kernels.base.norm import norm
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.separation.approach import least_separation
 
@@ -58,7 +59,7 @@ def soonest_clear_turn(
             if left <= 0.0:
                 piece += 1
                 left = leader_pieces[piece, 0] if piece < len(leader_pieces) else inf
-            if hypot(px - lx, py - ly) >= d_min:
+            if norm(px - lx, py - ly) >= d_min:
                 if t < best:
                     best, best_angle = t, angle
                 break

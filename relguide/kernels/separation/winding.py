@@ -4,11 +4,12 @@ In steps of 0.9 d/(V_P + V_L) the relative position moves less than 0.9 d, so th
 turns less than 65° in each: what is summed is its turn, not its turn up to 2π.
 """
 
-from math import atan2, hypot
+from math import atan2
 
 from numba import njit
 
 from relguide.kernels.base.motion import advance, motion_along
+from relguide.kernels.base.norm import norm
 from relguide.kernels.base.roots import FloatArray
 
 _STRIDE = 0.9
@@ -35,7 +36,7 @@ def sight_turn(path: FloatArray, leader_path: FloatArray, duration: float, neare
     while left > 0.0:
         p_rate = pursuer_pieces[i, 1] if i < len(pursuer_pieces) else 0.0
         l_rate = leader_pieces[j, 1] if j < len(leader_pieces) else 0.0
-        step = min(left, _STRIDE * max(hypot(dx, dy), nearest) / (pv + lv))
+        step = min(left, _STRIDE * max(norm(dx, dy), nearest) / (pv + lv))
         if i < len(pursuer_pieces):
             step = min(step, p_left)
         if j < len(leader_pieces):

@@ -27,12 +27,13 @@ Where a time to beat is known roots are sought only for courses with A before it
 even with the least of turns A₀, the change of heading, (τ − A₀)² < |d|² − 4 from A₀ to then.
 """
 
-from math import acos, atan2, cos, hypot, inf, pi, sin, sqrt
+from math import acos, atan2, cos, inf, pi, sin, sqrt
 
 import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, turn_to, wrap
+from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Pose, Velocity
 from relguide.kernels.base.roots import MAX_CUTS, FloatArray, all_roots, insert_cut
 
@@ -100,7 +101,7 @@ def lsr(pose: Pose, target: Velocity, beat: float, out: FloatArray, n: int) -> i
     east, north = -(x - sin(h)), -1.0 - (y + cos(h))
     if beat < inf and not _may_be_before(east, north, h, target, beat + _ROUNDING):
         return n
-    alpha, kappa = hypot(ax, ay), atan2(ay, ax)
+    alpha, kappa = norm(ax, ay), atan2(ay, ax)
     c = -(east * cos(kappa) + north * sin(kappa))
     delta = north * cos(kappa) - east * sin(kappa)
     k = np.empty(6)

@@ -8,7 +8,7 @@ refined; those of a straight and a word with a straight in its middle come one t
 The grid may miss a path: these are some of many, and no proof rests on them.
 """
 
-from math import cos, hypot, sin, sqrt
+from math import cos, sin, sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -16,6 +16,7 @@ from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI
 from relguide.kernels.base.false_position import Bracket, secant, tightened
+from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Pose
 from relguide.kernels.base.roots import FloatArray, insert_cut
 from relguide.kernels.words.branches import TO_POINT, WORD_OF
@@ -79,7 +80,7 @@ def straight_delays(pose: Pose, alpha: float, t_release: float, paths: FloatArra
     in its middle grows longer at a rate of 1 − cos(turn between the two), never shorter.
     """
     n, end_x = 0, alpha * t_release
-    if hypot(end_x - pose.x, pose.y) > t_release + _SAME:
+    if norm(end_x - pose.x, pose.y) > t_release + _SAME:
         return n
     n = _put_exact_words(pose, end_x, t_release, paths)
     for branch in range(CSC):
@@ -95,7 +96,7 @@ def straight_delays(pose: Pose, alpha: float, t_release: float, paths: FloatArra
 def turning_delays(pose: Pose, alpha: float, t_release: float, paths: FloatArray, n: int) -> int:
     """Append the rest of `delay_paths` to `n` paths: three turns or more."""
     end_x = alpha * t_release
-    if hypot(end_x - pose.x, pose.y) > t_release + _SAME:
+    if norm(end_x - pose.x, pose.y) > t_release + _SAME:
         return n
     for branch in TO_POINT[CSC:]:
         n = _cross(pose, end_x, t_release, branch, 0.0, paths, n)

@@ -18,13 +18,14 @@ LRL. A root means |d(τ)| ≤ 4, and τ = 2m + w is the middle arc m but for a c
 There |d|² and 8(1 − cos m) must meet.
 """
 
-from math import acos, atan2, cos, hypot, inf, pi, sin, sqrt
+from math import acos, atan2, cos, inf, pi, sin, sqrt
 from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, turn_to, wrap, wrap_signed
+from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Start, Window
 from relguide.kernels.base.roots import MAX_CUTS, FloatArray, all_roots, insert_cut
 
@@ -301,5 +302,5 @@ def _may_meet(ex: float, ey: float, alpha: float, around: float, low: float, hig
     most = 16.0 if low < pi < high else max(at_low, at_high)
     return bool(
         least + ey * ey <= most + _ROUNDING
-        and hypot(max(abs(near), abs(far)), ey) ** 2 >= min(at_low, at_high) - _ROUNDING
+        and norm(max(abs(near), abs(far)), ey) ** 2 >= min(at_low, at_high) - _ROUNDING
     )

@@ -10,12 +10,13 @@ between the centres of their circles and β the course of the straight,
 so four vectors give all eight branches.
 """
 
-from math import asin, atan2, hypot, sqrt
+from math import asin, atan2, sqrt
 
 import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, turn_to
+from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Pose, Start, start_at
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.words.branches import WORD_OF
@@ -52,7 +53,7 @@ def word_between(dx: float, dy: float, h: float, branch: int, piece: FloatArray)
     """The same by the vector from the centre of its first circle to that of its last one [R]."""
     word = WORD_OF[branch]
     first = SIGNS[word, 0]
-    gap = hypot(dx, dy)
+    gap = norm(dx, dy)
     bearing = atan2(dy, dx)
     if word < 2:
         course, middle = bearing, gap
@@ -93,7 +94,7 @@ def every_word(start: Start, words: int, lengths: FloatArray, turns: FloatArray)
         first = 1.0 - 2.0 * k
         if words & (1 << k):
             dx, dy = first * sin_h - x, first - y - first * cos_h
-            gap, course = hypot(dx, dy), atan2(dy, dx)
+            gap, course = norm(dx, dy), atan2(dy, dx)
             _put_turns(first, first, h, course, course, gap, k, lengths, turns)
             short, long = 4 + 2 * k, 5 + 2 * k
             if gap > 4.0:
@@ -111,7 +112,7 @@ def every_word(start: Start, words: int, lengths: FloatArray, turns: FloatArray)
             continue
         # to opposite sides
         dx, dy = first * sin_h - x, -first - y - first * cos_h
-        gap = hypot(dx, dy)
+        gap = norm(dx, dy)
         if gap < 2.0:
             lengths[2 + k] = np.nan
         else:
