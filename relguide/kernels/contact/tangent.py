@@ -109,9 +109,10 @@ def _first_approach(pose: Pose, alpha: float, sign: float) -> float:
 def _seen_turning(pose: Pose, leg: Leg, t: float) -> tuple[float, float, float]:
     """Where the leader sees a pursuer of that pose as it turns, and the rate of d²/2."""
     half = 0.5 * leg.turning * t
-    chord = leg.alpha * sin(half) / (0.5 * leg.turning)
-    dx, dy = pose.x - chord * cos(half), pose.y - chord * sin(half)
-    c, s = cos(2.0 * half), sin(2.0 * half)
+    s, c = sin(half), cos(half)
+    chord = leg.alpha * s / (0.5 * leg.turning)
+    dx, dy = pose.x - chord * c, pose.y - chord * s
+    c, s = 1.0 - 2.0 * s * s, 2.0 * s * c
     rate = dx * (cos(pose.h) - leg.alpha * c) + dy * (sin(pose.h) - leg.alpha * s)
     return dx * c + dy * s, dy * c - dx * s, rate
 
