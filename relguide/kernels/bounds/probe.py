@@ -30,6 +30,7 @@ from relguide.kernels.contact.contact import boundary_arc_sense, contact_exists,
 from relguide.kernels.contact.one_contact import Workspace, descend, through_contact, workspace
 from relguide.kernels.contact.passing import words_toward
 from relguide.kernels.contact.paths_to_contact import paths_by_words
+from relguide.kernels.contact.spare_chains import no_chains
 from relguide.kernels.words.extremals import SIGNS
 
 IntArray = np.ndarray[tuple[int, ...], np.dtype[np.int64]]
@@ -174,7 +175,9 @@ def _probe_chain(start: Pose, find: Find, contacts: FloatArray, stride: float) -
     chain = chain_of(contacts, np.zeros((MAX_LEGS, 6)))
     _, arrival = fly_links(start, 0.0, find.scene, chain, 0, 2, beat)
     if arrival < beat:
-        time, count = refine_chains(start, find.scene, chains, stride, False, beat, find.legs)
+        time, count = refine_chains(
+            start, find.scene, chains, stride, False, beat, find.legs, no_chains(0)
+        )
         if count > 0:
             find.best[0], find.best[1] = time, count
 

@@ -23,6 +23,7 @@ from relguide.kernels.contact.chain_refinement import (
 from relguide.kernels.contact.nearby_chains import search_nearby
 from relguide.kernels.contact.other_words import take_other_words
 from relguide.kernels.contact.slide_from_touch import slide_from_touches
+from relguide.kernels.contact.spare_chains import keep_chain
 
 _AGAIN = 2  # so often a chain that has become faster is begun again from nearby
 _WORTH_AGAIN = 1e-3  # if it was by this much [R/V_P]: 50 ms
@@ -38,6 +39,7 @@ def refine_chains(
     arcs: bool,
     best: float,
     legs: FloatArray,
+    spare: FloatArray,
 ) -> tuple[float, int]:
     """Refine the best chains of a graph.
 
@@ -50,12 +52,14 @@ def refine_chains(
         arcs: whether boundary arcs are put into the best one.
         best: an arrival already known [R/V_P].
         legs: takes those of the best chain. shape (MAX_LEGS, 6)
+        spare: takes some of the others, of `spare_chains`.
 
     Returns:
         the least arrival [R/V_P] and the number of its legs; `best` and 0 if none is earlier.
     """
     tried, given = np.zeros((MAX_LEGS, 6)), best
     won = -1
+    chains[:, 0, 0] = inf
     for k in range(len(chains)):
         if k > 0 and time_is_up(scene.until):
             break
@@ -70,8 +74,12 @@ def refine_chains(
             along = follow_edges(start, scene, chain, here, stride)
             if along < here - GAIN:
                 here = refine_chain(start, scene, chain, along, 0.1 * stride, best)
+        chains[k, 0, 0] = here
         if here < best - GAIN:
             best, won = here, k
+    for k in range(len(chains)):
+        if k != won and chains[k, 0, 0] < inf:
+            keep_chain(spare, chains[k, 0, 0], chains[k, 1 : int(chains[k, 0, 1]) + 1])
     if won < 0:
         return best, 0
     contacts = int(chains[won, 0, 1])

@@ -39,6 +39,7 @@ from relguide.kernels.contact.looped_word import looped_word
 from relguide.kernels.contact.nodes import BoolArray, Nodes, contact_nodes, nodes_closer
 from relguide.kernels.contact.one_contact import descend_basins, scan_contacts
 from relguide.kernels.contact.paths_to_contact import paths_to_contact
+from relguide.kernels.contact.spare_chains import are_alike, keep_chain, no_chains
 from relguide.kernels.separation.clearance import leader_at, piece_at
 from relguide.kernels.words.delay import DELAY_PIECES
 
@@ -49,6 +50,7 @@ _CLOSER = 8  # steps from one bearing to the next where it is looked closer
 _STRIDE = 0.44  # least first step of a bearing round a leader that turns, of what is beside: 2.5°
 _HOPS_CLOSER = 2  # of contacts, to others, where it is looked closer
 _MOST_ALIVE = 10  # contacts that may still matter: of more it is not looked closer
+_SPARE = 3  # other chains that are begun again as well
 _AGAIN, _AGAIN_AT_LIMIT = 120, 250  # effort to begin the best chain again from nearby
 _WORTH = 2e-3  # how much sooner a contact has to promise an arrival for it [R/V_P]: 0.1 s
 
@@ -85,26 +87,44 @@ def best_constrained_path(
     narrow, keeps_straight = _is_slot_at_limit(scene), len(scene.leader) == 1
     if narrow and keeps_straight:
         bearings *= 2
-    chain = np.zeros((MAX_CONTACTS, 4))
-    best, count, may_be_faster = _search(start, scene, bearings, tangents, beat, legs, chain)
+    chain, spare = np.zeros((MAX_CONTACTS, 4)), no_chains(_SPARE)
+    best, count, may_be_faster = _search(start, scene, bearings, tangents, beat, legs, chain, spare)
+    finer = np.zeros_like(legs)
     if narrow and scene.d_min > 1.0 and best > scene.t_release:
         # more bearings do not include the fewer ones, nor find all that these do
-        finer, other = np.zeros_like(legs), np.zeros_like(chain)
+        other = np.zeros_like(chain)
         more = bearings * 7 // 5 if keeps_straight else 2 * bearings
         # round a leader that turns, chains that are far later at first may be sooner once refined
         known = best if keeps_straight else beat
-        time, found, then = _search(start, scene, more, tangents, known, finer, other)
+        time, found, then = _search(start, scene, more, tangents, known, finer, other, spare)
         may_be_faster = may_be_faster or then
         if found > 0 and time < best:
+            if count > 2:
+                keep_chain(spare, best, chain[: count - 1])
             best, count = time, found
             legs[:], chain[:] = finer, other
+        elif found > 2:
+            keep_chain(spare, time, other[: found - 1])
     if not keeps_straight and count > 0 and may_be_faster:
         stride, effort = _STRIDE * _BESIDE, _AGAIN_AT_LIMIT if narrow else _AGAIN
         # a path through one contact is searched for anew, from the start
         contacts = count - 1 if count > 2 else 0
+        was = chain[:contacts].copy()
         time, found = begin_again(start, scene, chain, contacts, best, stride, legs, effort)
         if found > 0:
             best, count = time, found
+        for k in np.argsort(spare[:, 0, 0]):
+            here, contacts = spare[k, 0, 0], int(spare[k, 0, 1])
+            if here == inf or time_is_up(scene.until):
+                break
+            if are_alike(spare[k, 1 : contacts + 1], was):
+                continue
+            time, found = begin_again(
+                start, scene, spare[k, 1:], contacts, here, stride, finer, effort
+            )
+            if found > 0 and time < best:
+                best, count = time, found
+                legs[:] = finer
     time, looped = looped_word(start, scene, best, legs)
     return (time, looped) if looped > 0 else (best, count)
 
@@ -112,11 +132,12 @@ def best_constrained_path(
 @njit(cache=True, nogil=True)
 def _search(
     start: Pose, scene: Scene, bearings: int, tangents: FloatArray, beat: float, legs: FloatArray,
-    chain: FloatArray,
+    chain: FloatArray, spare: FloatArray,
 ) -> tuple[float, int, bool]:  # fmt: skip
-    """As `best_constrained_path`, with so many bearings; `chain` takes contacts if there are two.
+    """As `best_constrained_path`, with so many bearings.
 
-    And whether any contact may lead to a path that is faster by what is worth it.
+    `chain` takes the contacts if there are two, and `spare` other chains. The third value says
+    whether any contact may lead to a path that is faster by what is worth it.
 
     Round a leader that turns it is looked closer where only a few contacts may still matter, since
     windows of bearings are narrow there.
@@ -126,7 +147,7 @@ def _search(
     keeps_straight = len(scene.leader) == 1
     hops = bearings // 2 if keeps_straight else bearings
     effort = Effort(width, hops, _BESIDE)
-    best, count = _look(start, scene, nodes, fresh, alive, effort, beat, legs, chain)
+    best, count = _look(start, scene, nodes, fresh, alive, effort, beat, legs, chain, spare)
     if keeps_straight or not 0 < alive.sum() <= _MOST_ALIVE or time_is_up(scene.until):
         return best, count, bool(alive.any())
     step = width / _CLOSER
@@ -134,7 +155,7 @@ def _search(
     then_alive, found = np.zeros(len(added), np.bool_), np.zeros_like(legs)
     other = np.zeros_like(chain)
     effort = Effort(step, _HOPS_CLOSER, 1.2 * step)
-    time, more = _look(start, scene, closer, added, then_alive, effort, best, found, other)
+    time, more = _look(start, scene, closer, added, then_alive, effort, best, found, other, spare)
     if more > 0:
         best, count = time, more
         legs[:], chain[:] = found, other
@@ -144,7 +165,7 @@ def _search(
 @njit(cache=True, nogil=True)
 def _look(
     start: Pose, scene: Scene, nodes: Nodes, fresh: BoolArray, alive: BoolArray, effort: Effort,
-    beat: float, legs: FloatArray, chain: FloatArray,
+    beat: float, legs: FloatArray, chain: FloatArray, spare: FloatArray,
 ) -> tuple[float, int]:  # fmt: skip
     """As `best_constrained_path`, by way of some nodes.
 
@@ -159,6 +180,7 @@ def _look(
         beat: an arrival already known [R/V_P].
         legs: takes the legs of the path.
         chain: takes its contacts, if there are two or more. shape (MAX_CONTACTS, 4)
+        spare: takes other chains, of `spare_chains`.
     """
     path = np.empty((2, 5))
     best = scan_contacts(start, scene, nodes, fresh, beat, path)
@@ -182,7 +204,7 @@ def _look(
     turns, stride = len(scene.leader) > 1, 0.5 * effort.width
     if turns:
         stride = max(stride, _STRIDE * effort.beside)
-    time, count = refine_chains(start, scene, chains[:kept], stride, turns, best, legs)
+    time, count = refine_chains(start, scene, chains[:kept], stride, turns, best, legs, spare)
     alive[:] = nodes.lower < time - _WORTH
     nodes.time[:], nodes.lower[:] = reached, lower
     if count == 0:
