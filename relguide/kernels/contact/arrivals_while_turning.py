@@ -157,8 +157,6 @@ def _edge_between(
     return _see(passage, branch, inside, piece)
 
 
-
-
 @njit(cache=True, nogil=True)
 def _append_roots(
     passage: Passage, branch: int, before: Seen, after: Seen, rows: FloatArray, n: int,

@@ -18,6 +18,7 @@ from relguide.kernels.contact.graph_labels import Effort, Graph, label_to_beat, 
 from relguide.kernels.contact.nodes import Nodes, contact_of
 from relguide.kernels.contact.passing import words_onward
 from relguide.kernels.contact.paths_to_contact import earliest_arrival, not_before_slot
+from relguide.kernels.contact.swept_bearings import MOST_SWEPT, may_be_swept, sweep_bearings
 from relguide.kernels.separation.clearance import piece_end
 from relguide.kernels.words.fastest import fastest
 
@@ -73,6 +74,8 @@ def _hop_from(scene: Scene, nodes: Nodes, graph: Graph, n: int, best: float) -> 
     pose = contact_at(scene, left, bearings[n], sides[n])
     onward = words_onward(scene, bearings[n], sides[n], left)
     behind = graph.late_hops if 0 < graph.late <= n else graph.hops
+    swept = np.empty((MOST_SWEPT, 2))
+    swept = swept[: sweep_bearings(scene, left, bearings[n], best, swept)]
     for node in range(graph.nodes):
         if node == n % graph.nodes or ahead[node] == inf:
             continue
@@ -82,9 +85,12 @@ def _hop_from(scene: Scene, nodes: Nodes, graph: Graph, n: int, best: float) -> 
         begin, end = leader[piece, 0], piece_end(leader, piece)
         if max(left, begin) >= in_time or left >= end:
             continue
+        in_time_there = min(in_time, end)
+        if not may_be_swept(scene, swept, in_time_there - left, bearings[node]):
+            continue
         contact = Contact(piece, bearings[node], sides[node])
-        t = earliest_arrival(pose, left, scene, contact)
-        if t >= min(in_time, end):
+        t = earliest_arrival(pose, left, scene, contact, in_time_there)
+        if t >= in_time_there:
             continue
         beat = min(label_to_beat(scene, nodes, graph, m, t), in_time)
         if t >= beat:

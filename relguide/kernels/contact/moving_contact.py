@@ -122,8 +122,10 @@ def speed_of(passage: Passage) -> float:
 
 
 @njit(cache=True, nogil=True)
-def earliest_while_turning(passage: Passage) -> float:
+def earliest_while_turning(passage: Passage, beat: float) -> float:
     """No path reaches the contact before this time [R/V_P]; infinite if none does on this turn.
+
+    Times from `beat` on do not matter, and any of them may come back [R/V_P].
 
     The pursuer and the contact close in no faster than at the sum of their speeds, and their
     headings no faster than at the sum of their turn rates.
@@ -142,6 +144,8 @@ def earliest_while_turning(passage: Passage) -> float:
         at += lack
         if at > passage.end:
             return inf
+        if at >= beat:
+            break
     return float(at)
 
 

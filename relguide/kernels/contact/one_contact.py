@@ -116,7 +116,7 @@ def _soonest_arrivals(start: Pose, scene: Scene, nodes: Nodes, fresh: BoolArray)
     for n in range(count):
         contact = contact_of(nodes, n)
         if fresh[n] and contact_exists(contact.bearing, scene.alpha):
-            t = earliest_arrival(start, 0.0, scene, contact)
+            t = earliest_arrival(start, 0.0, scene, contact, inf)
             soonest[n] = max(t, scene.t_release)
             if contact.piece + 1 == len(scene.leader):
                 # on the final leg the contact keeps its place from the slot

@@ -32,14 +32,15 @@ def intercept(dx: float, dy: float, target: Velocity) -> float:
 
 
 @njit(cache=True, nogil=True)
-def earliest_arrival(pose: Pose, t: float, scene: Scene, contact: Contact) -> float:
+def earliest_arrival(pose: Pose, t: float, scene: Scene, contact: Contact, beat: float) -> float:
     """No path from a pose at time t reaches the contact before this time.
 
-    Infinite if none does while the leader is on the contact's piece and turns.
+    Infinite if none does while the leader is on the contact's piece and turns. Times from `beat` on
+    do not matter, and any of them may come back [R/V_P].
     """
     start, rate = max(scene.leader[contact.piece, 0], t), scene.leader[contact.piece, 4]
     if rate != 0.0:
-        return earliest_while_turning(passage_to(pose, t, scene, contact))
+        return earliest_while_turning(passage_to(pose, t, scene, contact), beat)
     lh = scene.leader[contact.piece, 3]
     cx, cy, course = contact_on(scene, contact, t)
     toward = Velocity(scene.alpha * cos(lh), scene.alpha * sin(lh))

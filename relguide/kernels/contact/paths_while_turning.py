@@ -79,7 +79,7 @@ def paths_while_turning(passage: Passage, words: int, beat: float, rows: FloatAr
     One of three turns comes with that which has the same first and last turn.
     """
     begin, end = passage.begin, passage.end
-    first = earliest_while_turning(passage)
+    first = earliest_while_turning(passage, beat)
     if first >= beat:
         return 0
     steps = ceil((end - begin) / _STEP) + 1
@@ -191,8 +191,12 @@ def _look(
         seen = _look_at_same(circles, change)
         look[pair, 0], look[pair, 1], look[pair, 2] = seen.excess, seen.first, seen.last
         free = min(free, seen.free)
+        least = most = inf
+        if gap - circles.swept <= 4.0:
+            least = 2.0 * asin(0.25 * max(gap - circles.swept, 0.0))
+            most = 2.0 * asin(0.25 * min(gap + circles.swept, 4.0))
         for way in range(2):
-            seen, at = _look_at_middle(circles, change, way), 4 + 2 * pair + way
+            seen, at = _look_at_middle(circles, change, way, least, most), 4 + 2 * pair + way
             look[at, 0], look[at, 1], look[at, 2] = seen.excess, seen.first, seen.last
             free = min(free, seen.free)
     return free
@@ -217,17 +221,18 @@ def _look_at_same(circles: _Circles, change: float) -> _Length:
 
 
 @njit(cache=True, nogil=True)
-def _look_at_middle(circles: _Circles, change: float, way: int) -> _Length:
+def _look_at_middle(
+    circles: _Circles, change: float, way: int, least: float, most: float
+) -> _Length:
     """Look at LRL or RLR, one way round the middle circle, 1 the longer; `change` as before.
 
     The first and the last turn less the middle one add up to the change of heading, but for full
-    turns.
+    turns. The shorter middle one is from `least` to `most` a step before and after; infinite if
+    there is none.
     """
     gap, swept, step = circles.gap, circles.swept, circles.step
-    if gap - swept > 4.0:
+    if least == inf:
         return _Length(inf, 0.0, 0.0, (gap - 4.0) / swept * step if swept > 0.0 else inf)
-    least = 2.0 * asin(0.25 * max(gap - swept, 0.0))
-    most = 2.0 * asin(0.25 * min(gap + swept, 4.0))
     twice = least + most if way == 0 else -least - most
     if abs(wrap_signed(change - circles.elapsed + twice)) > most - least + circles.sway + step:
         return _Length(inf, 0.0, 0.0, step)
