@@ -77,7 +77,7 @@ def test_words_to_a_contact_on_a_turn_lead_there_and_none_is_missed(
         # the contact comes past and goes between two looks: two words, and at both looks too long
         ((0.66, 3.43, 1.9, 3.22), (3.93, -1.0), (-2.15, 4.22, 4.54), 0),
         ((0.77, 2.24, -1.97, 3.19), (5.18, -1.0), (2.17, 3.05, 4.59), 4),
-        # the circles pass each other closely: turns change by half a turn, and which way is not seen
+        # the circles pass each other closely, and turns change by half a turn one way or the other
         ((0.55, 1.68, -1.78, 2.5), (5.05, 1.0), (1.828, -1.671, 6.237), 1),
         ((0.89, 2.25, -1.81, 2.5), (5.25, -1.0), (2.892, -2.066, 3.91), 4),
     ],
