@@ -5,7 +5,8 @@ bearings counter-clockwise at most at the rate of
 
     (1 + α sin b)/r − ω ≤ (1 + α sin b)/d_min − ω,
 
-ω being the leader's turn rate, and clockwise at (1 − α sin b)/d_min + ω. The disc lets nobody
+ω being the leader's turn rate, and clockwise at (1 − α sin b)/d_min + ω; behind a leader that is
+faster the numerator may be negative, and then bearings pass fastest far away. The disc lets nobody
 through: so from one bearing all that can be reached lies between two that move so, whatever the
 words. It takes no sine to look up whether another contact is among it, and half are not.
 
@@ -54,10 +55,10 @@ def sweep_bearings(scene: Scene, t: float, bearing: float, until: float, swept: 
             part = to_end if ends else left
             # by the rate in the middle of a step
             half = 0.5 * part
-            middle = high + half * ((1.0 + alpha * sin(high)) / d_min - turning)
-            high += part * ((1.0 + alpha * sin(middle)) / d_min - turning)
-            middle = low - half * ((1.0 - alpha * sin(low)) / d_min + turning)
-            low -= part * ((1.0 - alpha * sin(middle)) / d_min + turning)
+            middle = high + half * (max(1.0 + alpha * sin(high), 0.0) / d_min - turning)
+            high += part * (max(1.0 + alpha * sin(middle), 0.0) / d_min - turning)
+            middle = low - half * (max(1.0 - alpha * sin(low), 0.0) / d_min + turning)
+            low -= part * (max(1.0 - alpha * sin(middle), 0.0) / d_min + turning)
             left = left - part if ends else 0.0
             t += part
             i += 1 if ends else 0
