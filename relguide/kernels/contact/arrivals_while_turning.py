@@ -27,7 +27,7 @@ from relguide.kernels.words.extremals import MAX_ROWS, SIGNS
 
 JUMP = 1.0
 """A word's length does not change by more within one step, unless it jumps [R]."""
-_EDGE_JUMP = 1.5  # or this, where a word ceases to exist [R]
+_EDGE_JUMP = 1.5  # or this, where a word ceases to exist or a turn passes a full one [R]
 _EDGE = 4e-9  # so near to where it does it is looked at [R/V_P]
 _SWING = 2.0  # turns change by less in a step but where circles pass each other closely [rad]
 _HALVINGS = 25  # of a step, to there, where rounding hides it
@@ -172,6 +172,7 @@ def _append_roots(
             before = edge
         else:
             after = edge
+    # the circles of LSR and RSL are never so near
     if branch not in (2, 3) and _may_swing(before, after):
         at = _time_of_extreme(passage, branch, True, before.t, after.t)
         between = _see(passage, branch, at, piece)

@@ -5,13 +5,11 @@ Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 
 from math import inf
 
-import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.records import Scene
-from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain import BOUNDARY_ARC
 from relguide.kernels.contact.contact import (
     boundary_arc_sense,
@@ -21,7 +19,7 @@ from relguide.kernels.contact.contact import (
     slides_back,
 )
 from relguide.kernels.contact.graph_labels import BETTER, Graph, label_to_beat, take_label
-from relguide.kernels.contact.nodes import IntArray, Nodes, contact_of
+from relguide.kernels.contact.nodes import Nodes, contact_of
 from relguide.kernels.contact.paths_to_contact import not_before_slot
 from relguide.kernels.separation.clearance import piece_at, piece_end
 
@@ -30,17 +28,14 @@ from relguide.kernels.separation.clearance import piece_at, piece_end
 def slide_on(scene: Scene, nodes: Nodes, graph: Graph, beat: float) -> None:
     """Fly boundary arcs from node to node, wherever a label falls by it."""
     time, pending = nodes.time, graph.pending
-    waiting, count = np.empty(len(time), np.int64), 0
-    for n in range(len(time)):
-        if pending[n] == 1.0:
-            waiting[count] = n
-            count += 1
-    while count > 0 and not time_is_up(scene.until):
+    while True:
         # in order of time: a label that was taken does not fall again
-        at = _soonest_of(waiting[:count], time)
-        n = waiting[at]
-        count -= 1
-        waiting[at] = waiting[count]
+        n = -1
+        for m in range(len(time)):
+            if pending[m] == 1.0 and (n < 0 or time[m] < time[n]):
+                n = m
+        if n < 0 or time_is_up(scene.until):
+            break
         pending[n] = 0.0
         m, t, goal = _slide_to_next(scene, nodes, n)
         late = 0 < graph.late <= n
@@ -55,21 +50,7 @@ def slide_on(scene: Scene, nodes: Nodes, graph: Graph, beat: float) -> None:
         if not_before_slot(there, t, scene) >= beat:
             continue
         if take_label(nodes, graph, m, t, n, BOUNDARY_ARC, goal - nodes.bearings[n]):
-            if pending[m] == 0.0:
-                waiting[count] = m
-                count += 1
             pending[m] = 1.0
-
-
-@njit(cache=True, nogil=True)
-def _soonest_of(labels: IntArray, time: FloatArray) -> int:
-    """Which of some labels has the least time: where in their list, which is in no order."""
-    at = 0
-    for k in range(1, len(labels)):
-        n, least = labels[k], labels[at]
-        if time[n] < time[least] or (time[n] == time[least] and n < least):
-            at = k
-    return at
 
 
 @njit(cache=True, nogil=True)

@@ -43,7 +43,7 @@ def sweep_bearings(scene: Scene, t: float, bearing: float, until: float, swept: 
     Returns:
         how many steps.
     """
-    alpha, d_min, step = scene.alpha, scene.d_min, _STEP * scene.d_min
+    step = _STEP * scene.d_min
     low = high = bearing
     least, greatest = low - _ROUNDING, high + _ROUNDING
     i, n = piece_at(scene.leader, t), 0
@@ -53,13 +53,9 @@ def sweep_bearings(scene: Scene, t: float, bearing: float, until: float, swept: 
             to_end, turning = piece_end(scene.leader, i) - t, scene.leader[i, 4]
             ends = to_end <= left
             part = to_end if ends else left
-            # by the rate in the middle of a step
-            half = 0.5 * part
-            middle = high + half * (max(1.0 + alpha * sin(high), 0.0) / d_min - turning)
-            high += part * (max(1.0 + alpha * sin(middle), 0.0) / d_min - turning)
-            middle = low - half * (max(1.0 - alpha * sin(low), 0.0) / d_min + turning)
-            low -= part * (max(1.0 - alpha * sin(middle), 0.0) / d_min + turning)
-            left = left - part if ends else 0.0
+            high += part * _rate(scene, high, 1.0, turning, 0.5 * part)
+            low += part * _rate(scene, low, -1.0, turning, 0.5 * part)
+            left -= part
             t += part
             i += 1 if ends else 0
             least, greatest = min(least, low - _ROUNDING), max(greatest, high + _ROUNDING)
@@ -68,6 +64,24 @@ def sweep_bearings(scene: Scene, t: float, bearing: float, until: float, swept: 
     if n == MOST_SWEPT:
         swept[n - 1, 1] = inf
     return n
+
+
+@njit(cache=True, nogil=True)
+def _rate(scene: Scene, bearing: float, sense: float, turning: float, later: float) -> float:
+    """How fast bearings can be passed one way, in the middle of a step [V_P/R].
+
+    Args:
+        scene: the leader and d_min.
+        bearing: at its beginning, from the leader's heading [rad].
+        sense: +1 counter-clockwise, −1 clockwise.
+        turning: the leader's turn rate, ω [V_P/R].
+        later: half of how long the step is [R/V_P].
+    """
+    rate = 0.0
+    for after in (0.0, later):
+        ahead = 1.0 + sense * scene.alpha * sin(bearing + after * rate)
+        rate = sense * max(ahead, 0.0) / scene.d_min - turning
+    return rate
 
 
 @njit(cache=True, nogil=True)

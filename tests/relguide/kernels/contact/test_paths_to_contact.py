@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from relguide.kernels.base.records import Contact, Pose, Scene
 from relguide.kernels.contact.contact import contact_at
-from relguide.kernels.contact.paths_to_contact import paths_to_contact
+from relguide.kernels.contact.paths_to_contact import earliest_arrival, paths_to_contact
 from relguide.kernels.separation.clearance import leader_at
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, fly_piece
 from tests.situations import headings, numbers
@@ -61,6 +61,23 @@ def test_words_to_a_contact_on_a_turn_lead_there_and_none_is_missed(
     for time, word, *_ in fine:
         nearest = min((abs(time - t) for t, w, *_ in coarse if w == word), default=inf)
         assert nearest < 1e-5, (time, word)
+
+
+@given(
+    x=numbers(-2.0, 4.0), y=numbers(-3.0, 3.0), h=headings, bearing=headings,
+    side=st.sampled_from([1.0, -1.0]), rate=st.sampled_from([-1.2, -0.4, 0.7]),
+    beat=numbers(0.0, 3.0),
+)  # fmt: skip
+def test_no_word_arrives_before_the_earliest_time_and_a_time_to_beat_only_cuts_it_short(
+    x: float, y: float, h: float, bearing: float, side: float, rate: float, beat: float
+) -> None:
+    start, scene = Pose(x, y, h), turning_leader(rate, 1)
+    contact = Contact(0, bearing, side)
+    earliest = earliest_arrival(start, 0.0, scene, contact, inf)
+    for time, *_ in paths(start, scene, bearing, side):
+        assert earliest <= time + 1e-9
+    in_time = earliest_arrival(start, 0.0, scene, contact, beat)
+    assert in_time == earliest if earliest < beat else in_time >= beat
 
 
 @pytest.mark.parametrize(
