@@ -5,7 +5,7 @@ last counts too. Bundles of paths are kept by their first contact's cell and the
 heap, the least bound first; that is proved at any moment. Slot frame: lengths in R, times in R/V_P.
 """
 
-from math import inf
+from math import inf, log2
 from typing import NamedTuple
 
 import numpy as np
@@ -32,11 +32,11 @@ from relguide.kernels.bounds.contact_tree import (
     round_to,
     size_of,
 )
+from relguide.kernels.bounds.hopping import REASONS, hops_late
 from relguide.kernels.bounds.joined import apart, only_of, turned_goal, turned_leave
 from relguide.kernels.bounds.narrowing import lasts_left, narrow, with_around
 from relguide.kernels.bounds.probe import Find, probe, probe_between
 from relguide.kernels.bounds.round_turning import whole_rounds
-from relguide.kernels.bounds.side_change import cannot_change_sides
 from relguide.kernels.bounds.tight_contact import LONGEST
 
 MAX_BUNDLES = 400_000
@@ -50,9 +50,12 @@ _SMALLEST = 1e-10  # a cell no wider than this is not halved: rounding counts fo
 _EASED = 0.03  # cells narrower than this are looked at closely [rad]
 _SLACK = 1e-6  # of `round_time`, as part of a whole round
 _HOPS = 4e-3  # cells narrower than this are looked at by hops to and from them [rad]
-_SIDES = 2e-3  # and pairs of cells down to this by how sides are changed [rad]
-_OPEN = 2_000  # but only in searches that have looked at so many bundles,
-_FAILURES = 60  # and the sides as long as that is seldom in vain
+_OPEN = 2_000  # but only in searches that have looked at so many bundles
+_HOPS_AFTER = 1_000  # looks it is asked whether paths that hop between two cells are late,
+_HOP_LEVEL, _DEEP = 5, 9  # from so many halvings of a radian on; and before that from so many on,
+_HOP_LEVELS = 2  # and whenever there are so many more
+_MOST_VAIN = 20  # but no longer when so much was in vain,
+_DEEPEST = 13  # or three times as much in cells that have been halved so often
 _ROOTS = 0.1  # size of the cells of last contacts that are left [rad]
 _MOST_ROOTS = 256  # if there are more, they are kept larger
 _NO_LAST = -1  # of a bundle whose last contact does not matter
@@ -72,10 +75,12 @@ class Search(NamedTuple):
     bounds: FloatArray
     """A heap: no path of a bundle arrives before this [R/V_P]. shape (MAX_BUNDLES,)"""
     bundles: IntArray
-    """Numbers of both cells, and 1 where the time round was looked at closely. shape (·, 3)"""
+    """Numbers of both cells, 1 where the time round was looked at closely, and the level at which
+    it was last asked whether paths hop too late. shape (·, 4)"""
     size: IntArray
-    """How many bundles there are, have been looked at, and have been probed; and of looks at how
-    sides are changed twice those in vain, less the others. shape (4,)"""
+    """How many bundles there are, have been looked at, and have been probed. shape (3,)"""
+    vain: IntArray
+    """Of `hopping.hops_late`. shape (REASONS,)"""
 
 
 @njit(cache=True, nogil=True)
@@ -91,11 +96,12 @@ def begin(problem: Problem, first: FloatArray, exact: int, last: FloatArray) -> 
     """
     search = Search(
         plant(first, MAX_BUNDLES), plant(last, MAX_BUNDLES), np.arange(len(last)),
-        np.empty(MAX_BUNDLES), np.empty((MAX_BUNDLES, 3), np.int64), np.zeros(4, np.int64),
+        np.empty(MAX_BUNDLES), np.empty((MAX_BUNDLES, 4), np.int64), np.zeros(3, np.int64),
+        np.zeros(REASONS, np.int64),
     )  # fmt: skip
     search.first.spare[exact : len(first)] = True
     for n in range(len(first)):
-        _add(search, problem, n, _NO_LAST, 0.0)
+        _add(search, problem, n, _NO_LAST, 0.0, 0)
     return search
 
 
@@ -121,7 +127,7 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
             return bound, STUCK
         if time_is_up(until):
             return bound, SEARCHING
-        n, m, eased = search.bundles[0]
+        n, m, eased, asked = search.bundles[0]
         half = search.first.cells[n, 3]
         if max(half, search.last.cells[m, 3] if m >= 0 else 0.0) < _SMALLEST:
             return bound, STUCK
@@ -135,20 +141,22 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
                 search.first.cells[n, 0] == final
                 or size_of(search.first, n, problem.scene.d_min) < problem.paired
             ) and _goes_on(search, problem, n):
-                _add(search, problem, n, _ONLY, bound)
+                _add(search, problem, n, _ONLY, bound, 0)
                 for k in search.roots:
-                    _add(search, problem, n, k, bound)
+                    _add(search, problem, n, k, bound, 0)
                 continue
-        elif m >= 0 and eased == 0 and max(half, search.last.cells[m, 3]) < _EASED:
-            at_end = search.last.cells[m, 0] == final
-            closer = _round_trip(search, problem, n, m) if at_end else bound
-            if closer < problem.beat and _turns_back_late(search, problem, n, m):
-                closer = problem.beat
-            if closer > bound:
-                if closer < problem.beat:
-                    _push(search, closer, n, m, 1)
+        elif m >= 0 and eased == 0:
+            size = max(half, search.last.cells[m, 3])
+            if size < _EASED and search.last.cells[m, 0] == final:
+                closer = _round_trip(search, problem, n, m)
+                if closer > bound:
+                    if closer < problem.beat:
+                        _push(search, closer, n, m, 1, asked)
+                    continue
+            late, asked = _hops_late(search, problem, n, m, asked)
+            if late:
                 continue
-        if not _halve(search, problem, n, m, bound):
+        if not _halve(search, problem, n, m, bound, asked):
             return bound, STUCK
     return problem.beat, CLOSED
 
@@ -198,7 +206,7 @@ def _probe(search: Search, problem: Problem, find: Find, n: int, m: int) -> None
 
 
 @njit(cache=True, nogil=True)
-def _add(search: Search, problem: Problem, n: int, m: int, least: float) -> None:
+def _add(search: Search, problem: Problem, n: int, m: int, least: float, asked: int) -> None:
     """Keep the paths through these cells, known to arrive no sooner than `least`."""
     soon, onward = reach(search.first, problem, n)
     if soon == inf:
@@ -216,7 +224,7 @@ def _add(search: Search, problem: Problem, n: int, m: int, least: float) -> None
         bound = soon + max(leave(search.first, problem, n), onward)
     bound = max(bound, least, problem.scene.t_release)
     if bound < problem.beat:
-        _push(search, bound, n, m, 0)
+        _push(search, bound, n, m, 0, asked)
 
 
 @njit(cache=True, nogil=True)
@@ -275,19 +283,19 @@ def _pair_bound(search: Search, problem: Problem, n: int, m: int) -> float:
 
 
 @njit(cache=True, nogil=True)
-def _halve(search: Search, problem: Problem, n: int, m: int, bound: float) -> bool:
+def _halve(search: Search, problem: Problem, n: int, m: int, bound: float, asked: int) -> bool:
     """Keep both halves of the larger cell; whether there was room for them."""
     d_min = problem.scene.d_min
     if m >= 0 and size_of(search.last, m, d_min) >= size_of(search.first, n, d_min):
         half = halve(search.last, m, d_min)
         if half >= 0:
-            _add(search, problem, n, half, bound)
-            _add(search, problem, n, half + 1, bound)
+            _add(search, problem, n, half, bound, asked)
+            _add(search, problem, n, half + 1, bound, asked)
         return half >= 0
     half = halve(search.first, n, d_min)
     if half >= 0:
-        _add(search, problem, half, m, bound)
-        _add(search, problem, half + 1, m, bound)
+        _add(search, problem, half, m, bound, asked)
+        _add(search, problem, half + 1, m, bound, asked)
     return half >= 0
 
 
@@ -330,26 +338,26 @@ def _with_hops(search: Search, problem: Problem, n: int, m: int, way: int, trip:
 
 
 @njit(cache=True, nogil=True)
-def _turns_back_late(search: Search, problem: Problem, n: int, m: int) -> bool:
-    """Whether who changes sides between two cells is certainly late."""
-    first, last = search.first.cells[n], search.last.cells[m]
-    if (
-        first[1] == last[1]
-        or max(first[3], last[3]) < _SIDES
-        or search.size[1] < _OPEN // 2
-        or search.size[3] >= _FAILURES
-        or len(problem.scene.leader) > 1
-    ):
-        return False
+def _hops_late(search: Search, problem: Problem, n: int, m: int, asked: int) -> tuple[bool, int]:
+    """Whether who hops between two cells is late, if it is time to ask, and when it was asked."""
+    level = _level(max(search.first.cells[n, 3], search.last.cells[m, 3]))
+    least = _HOP_LEVEL if search.size[1] >= _HOPS_AFTER else _DEEP
+    if len(problem.scene.leader) > 1 or level < max(asked + _HOP_LEVELS, least):
+        return False, asked
     room = problem.beat - reach(search.first, problem, n)[0] - leave(search.last, problem, m)
     cell, other = cell_at(search.first, n), cell_at(search.last, m)
-    late = cannot_change_sides(problem.scene, problem.table, cell, other, room)
-    search.size[3] = max(search.size[3] + (-1 if late else 2), 0)
-    return late
+    most = _MOST_VAIN if level < _DEEPEST else 3 * _MOST_VAIN
+    return hops_late(problem.scene, problem.table, cell, other, room, search.vain, most), level
 
 
 @njit(cache=True, nogil=True)
-def _push(search: Search, bound: float, n: int, m: int, eased: int) -> None:
+def _level(size: float) -> int:
+    """How often a radian is halved to so large a cell."""
+    return int(-log2(size))
+
+
+@njit(cache=True, nogil=True)
+def _push(search: Search, bound: float, n: int, m: int, eased: int, asked: int) -> None:
     """Put a bundle into the heap."""
     at = int(search.size[0])
     search.size[0] += 1
@@ -361,7 +369,8 @@ def _push(search: Search, bound: float, n: int, m: int, eased: int) -> None:
         search.bundles[at] = search.bundles[above]
         at = above
     search.bounds[at] = bound
-    search.bundles[at, 0], search.bundles[at, 1], search.bundles[at, 2] = n, m, eased
+    bundle = search.bundles[at]
+    bundle[0], bundle[1], bundle[2], bundle[3] = n, m, eased, asked
 
 
 @njit(cache=True, nogil=True)

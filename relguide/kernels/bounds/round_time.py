@@ -18,6 +18,7 @@ _ROUND = 16_384
 _ROUND_SLACK = 1e-6
 """What is between two points of it may differ by, as part of a whole round: ten times the square of
 the step, which is more than the curvature makes of it."""
+_TOUCHING = 1e-9  # of a gap so small nothing is said [rad]
 
 
 @njit(cache=True, nogil=True)
@@ -95,6 +96,8 @@ def round_over(table: FloatArray, way: int, bearing: float, gap: float) -> float
         bearing: in [−π, π].
         gap: how far round [rad].
     """
+    if gap < _TOUCHING:
+        return 0.0  # where rounding might make a whole round of it
     sign = 1.0 - 2.0 * way
     end = wrap_signed(bearing + sign * gap)
     took = sign * (round_time(table, way, end) - round_time(table, way, bearing))

@@ -187,6 +187,20 @@ def test_the_time_round_is_that_of_the_boundary_arc(
         assert lowest >= took - 4e-3 * d_min / (1.0 - alpha) - 1e-4 * took
 
 
+@pytest.mark.parametrize("way", [0, 1])
+def test_between_cells_that_touch_no_time_passes(way: int) -> None:
+    table, rng = times_round(0.6, 2.7), np.random.default_rng(4)
+    for _ in range(2_000):
+        # cells as halving makes them, of which one begins where the other one ends
+        half, other_half = pi / 2.0 ** rng.integers(3, 16, 2)
+        edge = rng.integers(-(2**12), 2**12) * pi / 2**12
+        cell = Cell(0, 1.0, edge - half, half, 0.0, inf)
+        other = Cell(0, 1.0, edge + other_half, other_half, 0.0, inf)
+        pair = (cell, other) if way == 0 else (other, cell)
+        if abs(cell.bearing) < pi and abs(other.bearing) < pi:
+            assert round_bound(table, way, *pair) == 0.0
+
+
 def test_who_touches_nothing_is_as_fast_as_an_extremal_that_keeps_clear() -> None:
     rng = np.random.default_rng(0)
     rows = np.empty((MAX_ROWS, 5))

@@ -1,76 +1,20 @@
 """From contact to contact behind a straight leader: nobody who keeps d_min is sooner than said."""
 
-from collections.abc import Iterator
-from math import atan2, cos, hypot, inf, pi, radians, sin
+from math import atan2, inf, pi, radians
 
 import numpy as np
 import pytest
-from numba import njit
 
 from relguide.kernels.base.angles import wrap
-from relguide.kernels.base.records import Pose, Scene, Velocity, Window
-from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.bounds.cells import Cell
+from relguide.kernels.base.records import Scene, Window
 from relguide.kernels.bounds.hop import hop_bound, hops_within, standing, turned_round
 from relguide.kernels.bounds.junction import slide_turns
 from relguide.kernels.bounds.round_time import round_most, round_time, times_round
-from relguide.kernels.bounds.side_change import cannot_change_sides
 from relguide.kernels.bounds.tight_contact import LONGEST, tight_excess
-from relguide.kernels.contact.contact import contact_heading, to_frame_of
-from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, fly_piece, solve_toward
-from tests.costates import with_costate
+from tests.straight_contacts import pose_at, scenes, some_cell, straight, unrolled, words_between
 
 SLACK = 1e-6
 ENOUGH = 3.0
-
-
-def straight(alpha: float, d_min: float) -> Scene:
-    """A leader that begins at the origin and keeps straight along the x axis."""
-    return Scene(np.array([[0.0, 0.0, 0.0, 0.0, 0.0]]), alpha, d_min, 0.0)
-
-
-def pose_at(scene: Scene, bearing: float, side: float) -> Pose:
-    """A contact at t = 0."""
-    heading = contact_heading(bearing, side, scene.alpha)
-    return Pose(scene.d_min * cos(bearing), scene.d_min * sin(bearing), heading)
-
-
-def words_between(scene: Scene, begin: Pose, end: Pose) -> FloatArray:
-    """Words that some costate fits, from a contact to another one, which moves with the leader."""
-    rows, seen = np.empty((MAX_ROWS, 5)), to_frame_of(begin, end)
-    toward = Velocity(scene.alpha * cos(end.h), -scene.alpha * sin(end.h))
-    n = solve_toward(seen._replace(h=seen.h % (2.0 * pi)), toward, 0.0, rows)
-    return with_costate(rows[:n])
-
-
-@njit(nogil=True)
-def unrolled(pose: Pose, row: FloatArray, alpha: float, d_min: float) -> float:
-    """How far a word goes round the leader, counter-clockwise; NaN if it does not keep d_min."""
-    t, went, before = 0.0, 0.0, atan2(pose.y, pose.x)
-    for k in range(3):
-        sign, amount = SIGNS[int(row[1]), k], row[2 + k]
-        for i in range(1, 201):
-            along = amount * i / 200
-            at = fly_piece(pose, sign, along)
-            x = at.x - alpha * (t + along)
-            if hypot(x, at.y) < d_min - 1e-9:
-                return np.nan
-            bearing = atan2(at.y, x)
-            went += wrap(bearing - before + pi) - pi
-            before = bearing
-        pose = fly_piece(pose, sign, amount)
-        t += amount
-    return went
-
-
-def scenes(seed: int, tight: bool) -> Iterator[tuple[Scene, np.random.Generator]]:
-    """Leaders whom a pursuer can slide round, nearly everywhere or everywhere."""
-    rng = np.random.default_rng(seed)
-    while True:
-        alpha = rng.uniform(0.3, 0.97)
-        steepest = (1.0 + alpha) ** 2
-        d_min = rng.uniform(1.02, 0.98 * steepest) if tight else steepest * rng.uniform(1.0, 1.4)
-        yield straight(alpha, d_min), rng
 
 
 def tight_bearing(scene: Scene, rng: np.random.Generator) -> float:
@@ -79,14 +23,6 @@ def tight_bearing(scene: Scene, rng: np.random.Generator) -> float:
         bearing = rng.uniform(0.0, pi)
         if slide_turns(scene, standing(0, 1.0, bearing, 0.0))[0] > 1.01:
             return bearing
-
-
-def some_cell(bearing: float, side: float, rng: np.random.Generator) -> Cell:
-    """A cell that holds a contact, within its quadrant."""
-    half = 10.0 ** rng.uniform(-6.0, -2.0)
-    low = np.floor(bearing / (0.5 * pi)) * 0.5 * pi
-    middle = min(max(bearing + half * rng.uniform(-1.0, 1.0), low + half), low + 0.5 * pi - half)
-    return standing(0, side, middle, half)
 
 
 @pytest.mark.parametrize("last", [True, False])
@@ -159,28 +95,3 @@ def test_flown_back_and_mirrored_a_hop_is_a_hop() -> None:
         least = hop_bound(scene, cell, other, window)
         assert least >= times[0][0] - 1e-4
         assert hops_within(scene, cell, other, window) <= (least < window.beat)
-
-
-def test_nobody_changes_sides_sooner_than_is_said() -> None:
-    found = 0
-    for scene, rng in scenes(8, False):
-        table, side = times_round(scene.alpha, scene.d_min), rng.choice([1.0, -1.0])
-        for _ in range(30):
-            first, last = rng.uniform(-pi, pi, 2)
-            begin, end = pose_at(scene, first, -side), pose_at(scene, last, side)
-            for row in words_between(scene, begin, end):
-                if row[0] > 12.0 or np.isnan(unrolled(begin, row, scene.alpha, scene.d_min)):
-                    continue
-                cell, other = some_cell(first, -side, rng), some_cell(last, side, rng)
-                found += 1
-                assert not cannot_change_sides(scene, table, cell, other, row[0] * (1.0 + 1e-6))
-        if found > 200:
-            return
-
-
-def test_who_passes_ahead_clockwise_is_long_before_it_comes_round_behind() -> None:
-    scene = straight(0.6548544682552312, 3.3264926568360593)
-    table = times_round(scene.alpha, scene.d_min)
-    first, last = standing(0, -1.0, radians(7.87), 3e-3), standing(0, 1.0, radians(148.0), 3e-3)
-    assert cannot_change_sides(scene, table, first, last, 6.88)
-    assert not cannot_change_sides(scene, table, first, last, 7.6)
