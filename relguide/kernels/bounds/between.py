@@ -16,7 +16,7 @@ from relguide.kernels.base.records import Pose, Scene, Velocity, Window
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.breach import no_sieve
 from relguide.kernels.bounds.cell_words import turned_away
-from relguide.kernels.bounds.cells import EDGE, Cell, poses_of
+from relguide.kernels.bounds.cells import EDGE, Cell, Poses, poses_of
 from relguide.kernels.bounds.round_time import round_bound
 from relguide.kernels.bounds.round_turning import round_arrival
 from relguide.kernels.bounds.word_bound import soonest_beyond
@@ -81,4 +81,18 @@ def word_between(
         Blur(begin.left + moved, begin.right + moved, differs, end.differs),
         Velocity(end.vx * c + end.vy * s, end.vy * c - end.vx * s),
         Window(0.0, beat - turned), no_sieve(scene), enough - turned,
+    )  # fmt: skip
+
+
+@njit(cache=True, nogil=True)
+def word_toward(scene: Scene, begin: Poses, end: Poses, beat: float, enough: float) -> float:
+    """No word leads sooner from any of some poses to any of others, which move with the leader.
+
+    Behind a leader that keeps straight. Arguments as `word_between`.
+    """
+    c, s, moved = cos(end.middle.h), sin(end.middle.h), max(end.left, end.right)
+    return soonest_beyond(
+        to_frame_of(begin.middle, end.middle),
+        Blur(begin.left + moved, begin.right + moved, begin.differs + end.differs, end.differs),
+        Velocity(scene.alpha * c, -scene.alpha * s), Window(0.0, beat), no_sieve(scene), enough,
     )  # fmt: skip

@@ -16,7 +16,7 @@ from numba import njit
 from relguide.kernels.base.angles import TWO_PI
 from relguide.kernels.base.records import Pose, Scene, Velocity, Window
 from relguide.kernels.bounds.breach import no_sieve
-from relguide.kernels.bounds.cells import Cell, poses_of
+from relguide.kernels.bounds.cells import Cell, Poses, poses_of
 from relguide.kernels.bounds.junction import junction_of
 from relguide.kernels.bounds.rest import no_rest
 from relguide.kernels.bounds.word_bound import soonest, soonest_by_turn
@@ -49,7 +49,13 @@ def hop_bound(scene: Scene, cell: Cell, other: Cell, window: Window) -> float:
         other: likewise.
         window: words that take less time than `earliest` do not count; infinite from `beat` on.
     """
-    begin, end = poses_of(scene, cell), poses_of(scene, other)
+    return hop_toward(scene, cell, poses_of(scene, other), window)
+
+
+@njit(cache=True, nogil=True)
+def hop_toward(scene: Scene, cell: Cell, end: Poses, window: Window) -> float:
+    """The same to any poses that move with the leader."""
+    begin = poses_of(scene, cell)
     if begin.differs == inf or end.differs == inf:
         return inf
     junction = junction_of(scene, cell, -1.0)

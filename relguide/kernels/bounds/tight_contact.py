@@ -29,17 +29,18 @@ from numba import njit
 from relguide.kernels.base.angles import TWO_PI, wrap
 from relguide.kernels.base.records import Scene, Window
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.bounds.between import word_between
-from relguide.kernels.bounds.cells import Cell
-from relguide.kernels.bounds.hop import hop_bound, standing, turned_round
+from relguide.kernels.bounds.between import word_toward
+from relguide.kernels.bounds.cells import Cell, Poses, poses_of
+from relguide.kernels.bounds.hop import hop_bound, hop_toward, standing, turned_round
 from relguide.kernels.bounds.junction import apart_by, slide_turns
 from relguide.kernels.bounds.round_time import round_bound, round_most
 
-LONGEST = TWO_PI
+_TURNED = 0.1  # more is not turned from the first contact of a cell to its last one [rad]
+LONGEST = TWO_PI - _TURNED
 """What takes longer is not bounded [R/V_P]."""
 _CELLS = 16  # of each side, at first
-_MOST = 100  # times one is halved
-_FINE = 0.5  # and how much smaller than the contact's own cell they may become
+_MOST = 300  # times one is halved
+_FINE = 0.1  # and how much smaller than the contact's own cell they may become
 _ROUNDING = 1e-9  # of a time, as part of it
 
 
@@ -110,7 +111,7 @@ def _excess(
         took = max(took, hop_bound(scene, other, cell, window))
         if took < LONGEST:
             least = min(least, took + back)
-    # before it
+    # before it, and on in the same turn to the heading of the last contact of the cell
     around = ahead + reach >= TWO_PI
     soonest, begin = round_bound(table, 0, other, cell), other.bearing - other.half
     latest = round_most(table, begin, ahead + reach - (TWO_PI if around else 0.0))
@@ -118,17 +119,32 @@ def _excess(
         return 0.0
     if soonest >= LONGEST:
         return least
+    along, most = round_most(table, cell.bearing - cell.half, 2.0 * cell.half), slide_turns(scene, cell)[1]
+    if most * along > _TURNED:
+        return 0.0
+    latest += (most - 1.0) * along
+    end = _turned_on(scene, cell, most)
     took = max(apart, soonest)
-    if took < min(latest + least, LONGEST):
-        window = Window(soonest * (1.0 - _ROUNDING), min(latest + least, LONGEST))
-        took = max(took, hop_bound(scene, other, cell, window))
-    if took >= LONGEST:
+    if took < min(latest + least, TWO_PI):
+        window = Window(soonest * (1.0 - _ROUNDING), min(latest + least, TWO_PI))
+        took = max(took, hop_toward(scene, other, end, window))
+    if took >= TWO_PI:
         return least
     if took < latest + least and other.side > 0.0 and _can_slide(scene, other):
         # sliding to where the word begins counts here as well
-        at = standing(other.piece, 1.0, begin, 0.0)
-        took = max(took, word_between(scene, at, cell, latest + least, 0.0, 0.0, took))
+        at = poses_of(scene, standing(other.piece, 1.0, begin, 0.0))
+        took = max(took, word_toward(scene, at, end, latest + least, took))
     return min(least, max(took - latest, 0.0))
+
+
+@njit(cache=True, nogil=True)
+def _turned_on(scene: Scene, cell: Cell, most: float) -> Poses:
+    """Where all who turn left through a contact of the cell are on the heading of its last one."""
+    last = poses_of(scene, standing(cell.piece, 1.0, cell.bearing + cell.half, 0.0))
+    apart = 2.0 * scene.d_min * cell.half * (most - 1.0)
+    return Poses(
+        last.t, last.span, last.middle, last.vx, last.vy, 0.0, last.left + apart, last.right + apart
+    )
 
 
 @njit(cache=True, nogil=True)
