@@ -3,13 +3,14 @@
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
-from math import cos, inf, sin
+from math import inf
 from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.base.sine import sine_and_cosine
 
 
 class Pose(NamedTuple):
@@ -108,7 +109,7 @@ class Bracket(NamedTuple):
 @njit(cache=True, nogil=True)
 def start_at(pose: Pose) -> Start:
     """A pose as a start."""
-    return Start(pose.x, pose.y, pose.h, sin(pose.h), cos(pose.h))
+    return Start(pose.x, pose.y, pose.h, *sine_and_cosine(pose.h))
 
 
 @njit(cache=True, nogil=True)

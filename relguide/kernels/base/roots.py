@@ -7,10 +7,12 @@ every zero of f′ is found by a change of sign, f is monotone between those, an
 is found, tangential ones included: no grid, nothing to miss.
 """
 
-from math import cos, inf, sin
+from math import inf
 
 import numpy as np
 from numba import njit
+
+from relguide.kernels.base.sine import sine_and_cosine
 
 FloatArray = np.ndarray[tuple[int, ...], np.dtype[np.float64]]
 
@@ -24,7 +26,7 @@ _DIGITS = 1e-15  # a root is right to this, or to what rounding leaves of f
 @njit(cache=True, nogil=True)
 def _value_and_slopes(k: FloatArray, u: float) -> tuple[float, float, float]:
     """f, f′ and f″."""
-    s, c = sin(u), cos(u)
+    s, c = sine_and_cosine(u)
     p = k[3] * u + k[4]
     return (
         (k[0] * u + k[1]) * u + k[2] + p * s + k[5] * c,

@@ -10,7 +10,7 @@ again or arrives. So of all such contacts only those matter from which that one 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
-from math import acos, cos, inf, sin, sqrt
+from math import acos, cos, inf, sqrt
 from typing import NamedTuple
 
 from numba import njit
@@ -18,6 +18,7 @@ from numba import njit
 from relguide.kernels.base.angles import TWO_PI, wrap
 from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Pose, Scene
+from relguide.kernels.base.sine import sine_and_cosine
 from relguide.kernels.bounds.cells import EDGE, Cell, fastest_turn, poses_of
 from relguide.kernels.bounds.goal import Goal
 from relguide.kernels.bounds.junction import (
@@ -191,8 +192,9 @@ def _not_again_for(scene: Scene, cell: Cell, middle: Pose, t: float, alike: floa
     alpha, d_min, sense = scene.alpha, scene.d_min, -cell.side
     there, rate = leader_at(scene, cell.piece, t), scene.leader[cell.piece, 4]
     x, y = (middle.x - there.x) / d_min, (middle.y - there.y) / d_min
-    c, s = cos(middle.h), sin(middle.h)
-    ahead, across = alpha * cos(there.h), alpha * sin(there.h)
+    s, c = sine_and_cosine(middle.h)
+    lead_s, lead_c = sine_and_cosine(there.h)
+    ahead, across = alpha * lead_c, alpha * lead_s
     # first, second and third derivative of r
     vx, vy = c - ahead, s - across
     ax, ay = rate * across - sense * s, sense * c - rate * ahead
@@ -245,8 +247,9 @@ def _seen(scene: Scene, at: Pose, sense: float, t: float) -> _Seen:
     x, y = at.x - there.x, at.y - there.y
     far = norm(x, y)
     x, y = x / far, y / far
-    vx, vy = cos(at.h) - scene.alpha * cos(there.h), sin(at.h) - scene.alpha * sin(there.h)
+    s, c = sine_and_cosine(at.h)
+    lead_s, lead_c = sine_and_cosine(there.h)
+    vx, vy = c - scene.alpha * lead_c, s - scene.alpha * lead_s
     opens = x * vx + y * vy
-    bends = x * (swings * sin(there.h) - sense * sin(at.h))
-    bends += y * (sense * cos(at.h) - swings * cos(there.h))
+    bends = x * (swings * lead_s - sense * s) + y * (sense * c - swings * lead_c)
     return _Seen(far - scene.d_min, opens, bends + (vx * vx + vy * vy - opens * opens) / far)

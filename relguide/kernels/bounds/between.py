@@ -7,13 +7,14 @@ can.
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise. Contacts lie at d_min itself.
 """
 
-from math import cos, inf, sin
+from math import inf
 
 from numba import njit
 
 from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Pose, Scene, Velocity, Window
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.base.sine import sine_and_cosine
 from relguide.kernels.bounds.breach import no_sieve
 from relguide.kernels.bounds.cell_words import turned_away
 from relguide.kernels.bounds.cells import EDGE, Cell, Poses, poses_of
@@ -73,7 +74,7 @@ def word_between(
         drifts = begin.span * norm(begin.vx - end.vx, begin.vy - end.vy)
     early = begin.t - end.t
     met = Pose(met.x + early * end.vx, met.y + early * end.vy, met.h)
-    c, s = cos(met.h), sin(met.h)
+    s, c = sine_and_cosine(met.h)
     moved, differs = max(end.left, end.right) + drifts, begin.differs + end.differs
     turned = after + before
     return turned + soonest_beyond(

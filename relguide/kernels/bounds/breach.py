@@ -3,12 +3,13 @@
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
-from math import cos, inf, sin, sqrt
+from math import inf, sqrt
 from typing import NamedTuple
 
 from numba import njit
 
 from relguide.kernels.base.records import Pose, Scene
+from relguide.kernels.base.sine import sine_and_cosine
 
 ROUNDING = 2e-7
 """Added to every blur: twice what an accepted path may miss its end by, `extremals.CLOSURE` [R]."""
@@ -154,13 +155,14 @@ def breach_time(
         if j != i:
             i = j
             lx, ly, lh, rate = leader[i, 1], leader[i, 2], leader[i, 3], leader[i, 4]
-            cos_l, sin_l = cos(lh), sin(lh)
+            sin_l, cos_l = sine_and_cosine(lh)
         since = now - leader[i, 0]
         ahead, bend = scene.alpha * since, 0.0
         if abs(rate) > _BENDS:
             # as `leader_at`, where sine and cosine are known
             radius, h = scene.alpha / rate, lh + rate * since
-            dx, dy = at.x - lx - radius * (sin(h) - sin_l), at.y - ly + radius * (cos(h) - cos_l)
+            s, c = sine_and_cosine(h)
+            dx, dy = at.x - lx - radius * (s - sin_l), at.y - ly + radius * (c - cos_l)
         else:
             dx, dy = at.x - lx - ahead * cos_l, at.y - ly - ahead * sin_l
             bend = 0.5 * abs(rate * ahead * since)
@@ -180,7 +182,8 @@ def breach_time(
 
 @njit(cache=True, nogil=True, inline="always")
 def _piece_from(at: Pose, sign: float) -> _Piece:
-    return _Piece(at, sign, sin(at.h), cos(at.h))
+    s, c = sine_and_cosine(at.h)
+    return _Piece(at, sign, s, c)
 
 
 @njit(cache=True, nogil=True, inline="always")
@@ -190,4 +193,5 @@ def _along(piece: _Piece, amount: float) -> Pose:
     if sign == 0.0:
         return Pose(x + amount * c, y + amount * s, h)
     end = h + sign * amount
-    return Pose(x + sign * (sin(end) - s), y - sign * (cos(end) - c), end)
+    end_s, end_c = sine_and_cosine(end)
+    return Pose(x + sign * (end_s - s), y - sign * (end_c - c), end)

@@ -3,12 +3,13 @@
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
-from math import cos, inf, sin
+from math import inf
 
 from numba import njit
 
 from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Pose, Scene, Velocity, Window
+from relguide.kernels.base.sine import sine_and_cosine
 from relguide.kernels.bounds.breach import no_sieve
 from relguide.kernels.bounds.cells import EDGE, Cell, Poses, poses_of
 from relguide.kernels.bounds.goal import Goal, track_of
@@ -29,7 +30,7 @@ def word_to(start: Pose, scene: Scene, poses: Poses, window: Window) -> float:
 @njit(cache=True, nogil=True)
 def seen_from_start(start: Pose, poses: Poses) -> tuple[Pose, Velocity]:
     """The middle of some poses read backward, so that the start is what is to be met."""
-    c, s = cos(start.h), sin(start.h)
+    s, c = sine_and_cosine(start.h)
     at, vx, vy = poses.middle, poses.vx, poses.vy
     dx, dy = at.x - poses.t * vx - start.x, at.y - poses.t * vy - start.y
     seen = Pose(-dx * c - dy * s, dx * s - dy * c, at.h - start.h)

@@ -6,12 +6,13 @@ a bearing in b ± w, in a window of time on one piece of the leader's intent.
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise. Contacts lie at d_min itself.
 """
 
-from math import acos, cos, inf, sin, sqrt
+from math import acos, inf, sqrt
 from typing import NamedTuple
 
 from numba import njit
 
 from relguide.kernels.base.records import Pose, Scene
+from relguide.kernels.base.sine import sine_and_cosine
 from relguide.kernels.contact.contact import contact_heading
 from relguide.kernels.separation.clearance import leader_at
 
@@ -78,7 +79,9 @@ class Spread(NamedTuple):
 def contacts_within(cell: Cell, alpha: float, d_min: float) -> Spread:
     """The contacts of a cell."""
     bearing, half, side = cell.bearing, cell.half, cell.side
-    low, high = alpha * cos(bearing - half), alpha * cos(bearing + half)
+    low_s, low_c = sine_and_cosine(bearing - half)
+    high_s, high_c = sine_and_cosine(bearing + half)
+    low, high = alpha * low_c, alpha * high_c
     if alpha > 1.0 - EDGE:
         # not every bearing can be touched, and the heading may change without bound
         if min(low, high) > 1.0 or max(low, high) < -1.0:
@@ -95,8 +98,8 @@ def contacts_within(cell: Cell, alpha: float, d_min: float) -> Spread:
     )
     left, right = 0.0, 0.0
     for end in range(2):
-        along, at = (low, bearing - half) if end == 0 else (high, bearing + half)
-        rate = 1.0 + side * alpha * sin(at) / sqrt(1.0 - along * along)
+        along, ahead = (low, alpha * low_s) if end == 0 else (high, alpha * high_s)
+        rate = 1.0 + side * ahead / sqrt(1.0 - along * along)
         for other in range(2):
             across = low if other == 0 else high
             mixed = 2.0 * d_min * rate * side * sqrt(1.0 - across * across)
@@ -114,13 +117,15 @@ def poses_of(scene: Scene, cell: Cell) -> Poses:
     spread = contacts_within(cell, scene.alpha, scene.d_min)
     there = leader_at(scene, cell.piece, t)
     at = there.h + cell.bearing
-    across, ahead = scene.d_min * sin(at), scene.d_min * cos(at)
+    s, c = sine_and_cosine(at)
+    across, ahead = scene.d_min * s, scene.d_min * c
+    lead_s, lead_c = sine_and_cosine(there.h)
     # the contact of the middle bearing moves like this, and turns with the leader
     rate = scene.leader[cell.piece, 4]
     swing, strays = turning_blur(scene, rate, span)
     return Poses(
         t, span, Pose(there.x + ahead, there.y + across, there.h + spread.heading),
-        scene.alpha * cos(there.h) - rate * across, scene.alpha * sin(there.h) + rate * ahead,
+        scene.alpha * lead_c - rate * across, scene.alpha * lead_s + rate * ahead,
         spread.differs + swing, spread.left + strays, spread.right + strays,
     )  # fmt: skip
 

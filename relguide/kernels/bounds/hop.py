@@ -9,12 +9,13 @@ and mirrored across the leader's beam, the word is one that begins there (`turne
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise. Contacts lie at d_min itself.
 """
 
-from math import cos, inf, pi, sin
+from math import inf, pi
 
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI
 from relguide.kernels.base.records import Pose, Scene, Velocity, Window
+from relguide.kernels.base.sine import sine_and_cosine
 from relguide.kernels.bounds.breach import no_sieve
 from relguide.kernels.bounds.cells import Cell, Poses, poses_of
 from relguide.kernels.bounds.junction import junction_of
@@ -60,7 +61,7 @@ def hop_toward(scene: Scene, cell: Cell, end: Poses, window: Window) -> float:
         return inf
     junction = junction_of(scene, cell, -1.0)
     moved, differs = max(end.left, end.right), begin.differs + end.differs
-    c, s = cos(end.middle.h), sin(end.middle.h)
+    s, c = sine_and_cosine(end.middle.h)
     found = soonest_by_turn(
         to_frame_of(begin.middle, end.middle),
         Blur(begin.left + moved, begin.right + moved, differs, end.differs),
@@ -90,7 +91,7 @@ def hops_within(scene: Scene, cell: Cell, other: Cell, window: Window) -> bool:
     # without one of its loops the path meets the contact earlier, where that is a loop later
     begin, end = poses_of(scene, cell), poses_of(scene, other)
     moved, differs = max(end.left, end.right), begin.differs + end.differs
-    c, s = cos(end.middle.h), sin(end.middle.h)
+    s, c = sine_and_cosine(end.middle.h)
     met = Pose(end.middle.x + TWO_PI * scene.alpha, end.middle.y, end.middle.h)
     left = window.beat - TWO_PI
     looped = soonest(

@@ -28,12 +28,13 @@ while the leader turns.
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
-from math import acos, atan2, cos, inf, pi, sin, sqrt
+from math import acos, atan2, cos, inf, pi, sqrt
 
 from numba import njit
 
 from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Pose, Scene
+from relguide.kernels.base.sine import sine_and_cosine
 from relguide.kernels.bounds.cells import EDGE, Cell, fastest_turn, poses_of
 from relguide.kernels.bounds.found_word import Junction
 from relguide.kernels.separation.clearance import leader_at, piece_at, piece_end
@@ -52,8 +53,10 @@ def slide_turns(scene: Scene, cell: Cell) -> tuple[float, float]:
     low, high = cell.bearing - cell.half, cell.bearing + cell.half
     alpha, d_min, rate = scene.alpha, scene.d_min, scene.leader[cell.piece, 4]
     # in one quadrant both are monotone
-    ahead, far = abs(alpha * cos(low)), abs(alpha * cos(high))
-    beside = alpha * min(sin(low), sin(high)), alpha * max(sin(low), sin(high))
+    low_s, low_c = sine_and_cosine(low)
+    high_s, high_c = sine_and_cosine(high)
+    ahead, far = abs(alpha * low_c), abs(alpha * high_c)
+    beside = alpha * min(low_s, high_s), alpha * max(low_s, high_s)
     if max(ahead, far) > 1.0 - EDGE:
         return -_ANYTHING, _ANYTHING
     least_q = sqrt(1.0 - max(ahead, far) * max(ahead, far))
@@ -179,8 +182,9 @@ def away_for(scene: Scene, cell: Cell, pace: float, turn: float) -> float:
         there = leader_at(scene, piece_at(scene.leader, t), t)
         dx, dy = at.x - there.x, at.y - there.y
         gap = norm(dx, dy) - scene.d_min
-        closing = dx * (cos(at.h) - scene.alpha * cos(there.h))
-        closing += dy * (sin(at.h) - scene.alpha * sin(there.h))
+        s, c = sine_and_cosine(at.h)
+        lead_s, lead_c = sine_and_cosine(there.h)
+        closing = dx * (c - scene.alpha * lead_c) + dy * (s - scene.alpha * lead_s)
         grows = pace * closing / norm(dx, dy)
         step = (grows + sqrt(max(grows * grows + 2.0 * falls * max(gap, 0.0), 0.0))) / falls
         while step > _STRIDE:
@@ -300,5 +304,5 @@ def left_of_piece(scene: Scene, cell: Cell, pace: float) -> float:
 def _seen_along(at: Pose, there: Pose, pace: float) -> tuple[float, float]:
     """How far ahead and to the left something lies of a pose, or with pace −1 of its opposite."""
     dx, dy = pace * (there.x - at.x), pace * (there.y - at.y)
-    c, s = cos(at.h), sin(at.h)
+    s, c = sine_and_cosine(at.h)
     return dx * c + dy * s, dy * c - dx * s

@@ -21,7 +21,7 @@ bank is enough to slide.
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
-from math import acos, cos, floor, inf, pi, sin, sqrt
+from math import acos, cos, floor, inf, pi, sqrt
 from typing import NamedTuple
 
 from numba import njit
@@ -29,6 +29,7 @@ from numba import njit
 from relguide.kernels.base.angles import TWO_PI, wrap, wrap_signed
 from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.base.sine import sine_and_cosine
 from relguide.kernels.bounds.breach import INSIDE
 from relguide.kernels.bounds.cells import EDGE, Cell, fastest_turn, poses_of
 from relguide.kernels.bounds.junction import slide_turns
@@ -341,14 +342,15 @@ def front_from(
     """
     alpha, later = pace * scene.alpha, 0.5 * step
     # where someone heads who slides along the edge, in the middle of the step
-    along = alpha * cos(bearing - there.h)
-    rate = (sqrt(1.0 - along * along) + sense * alpha * sin(bearing - there.h)) / scene.d_min
+    s, c = sine_and_cosine(bearing - there.h)
+    along = alpha * c
+    rate = (sqrt(1.0 - along * along) + sense * alpha * s) / scene.d_min
     on, soon = bearing + sense * rate * later, t + pace * later
     heading = _heading_at(scene, piece_at(scene.leader, soon), soon)
     wanted = sense * (on - bearing) + acos(alpha * cos(on - heading))
     from_course = max(sense * (course - bearing), min(wanted, _WIDEST))
     course = bearing + sense * from_course
-    x, y = cos(course), sin(course)
+    y, x = sine_and_cosine(course)
     past = there.x * x + there.y * y + (scene.d_min - INSIDE) * cos(from_course)
     return Front(sense, course, x, y, from_course, past, 1.0)
 

@@ -6,12 +6,13 @@ It comes there by any way that takes just so long: see `junction`. Where it goes
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise. Contacts lie at d_min itself.
 """
 
-from math import cos, inf, sin
+from math import inf
 
 from numba import njit
 
 from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Pose, Scene, Window
+from relguide.kernels.base.sine import sine_and_cosine
 from relguide.kernels.bounds.cell_words import onward_bound, word_to
 from relguide.kernels.bounds.cells import EDGE, Cell, Poses, poses_of
 from relguide.kernels.bounds.contact_bound import NEVER, Passed, until_again
@@ -63,7 +64,7 @@ def _can_be_as_long(start: Pose, scene: Scene, poses: Poses, end: float) -> bool
     then, if not sooner. The soonest of those that do so is an extremal: see `goal.track_of`.
     """
     at = poses.middle
-    vx, vy = cos(at.h), sin(at.h)
+    vy, vx = sine_and_cosine(at.h)
     strays = poses.span * (norm(poses.vx - vx, poses.vy - vy) + poses.differs)
     strays += (poses.t + poses.span) * poses.differs
     track = Poses(

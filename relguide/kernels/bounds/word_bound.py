@@ -11,12 +11,13 @@ the bound, and never raises it. Words can be told apart by what they do at the s
 Intervals that are left are kept, and a part of the set need only look at those: see `rest`.
 """
 
-from math import cos, floor, inf, sin
+from math import floor, inf
 
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI
 from relguide.kernels.base.records import Pose, Velocity, Window
+from relguide.kernels.base.sine import sine_and_cosine
 from relguide.kernels.bounds.breach import ROUNDING, Sieve
 from relguide.kernels.bounds.found_word import (
     CERTAINLY_OUT,
@@ -219,7 +220,7 @@ def _bound_within(
     part = 0.5 if three_turns else 1.0
     kind = THREE_TURNS if three_turns else OPPOSITE_TURNS
     stack[1, 0], stack[1, 1] = mid, half
-    stack[1, 2], stack[1, 3] = sin(part * mid), cos(part * mid)
+    stack[1, 2], stack[1, 3] = sine_and_cosine(part * mid)
     n = 2
     while n > 1:
         n -= 1
@@ -271,9 +272,10 @@ def _within(
     if kind == SAME_TURNS:
         return same_turns(int(around), side, window)
     if kind == THREE_TURNS:
-        s, c = sin(0.5 * mid), cos(0.5 * mid)
+        s, c = sine_and_cosine(0.5 * mid)
         return three_turns_within(mid, half, s, c, around, side, window)
-    return opposite_turns_within(mid, half, sin(mid), cos(mid), around, side, window)
+    s, c = sine_and_cosine(mid)
+    return opposite_turns_within(mid, half, s, c, around, side, window)
 
 
 @njit(cache=True, nogil=True)

@@ -22,7 +22,7 @@ r is how far the unknown pose may displace what is compared. What cannot be deci
 Lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
-from math import asin, atan2, cos, inf, pi, sin, sqrt
+from math import asin, atan2, inf, pi, sqrt
 from typing import NamedTuple
 
 from numba import njit
@@ -30,6 +30,7 @@ from numba import njit
 from relguide.kernels.base.angles import TWO_PI, wrap, wrap_signed
 from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Pose, Velocity, Window
+from relguide.kernels.base.sine import sine_and_cosine
 from relguide.kernels.bounds.breach import ROUNDING
 
 MOST_TURNS = 4
@@ -118,8 +119,9 @@ def side_of(pose: Pose, blur: Blur, target: Velocity, hand: int) -> Side:
     alpha = norm(target.ahead, target.left)
     circle = (blur.left if hand == 0 else blur.right) + ROUNDING
     heading = blur.heading + ROUNDING
+    s, c = sine_and_cosine(h)
     return Side(
-        h, pose.x - sin(h), m * pose.y + cos(h), circle + alpha * heading, heading, blur.end,
+        h, pose.x - s, m * pose.y + c, circle + alpha * heading, heading, blur.end,
         Velocity(target.ahead, m * target.left), alpha, m, hand,
     )  # fmt: skip
 
@@ -360,7 +362,7 @@ def opposite_turns_within(
 def sine_cosine(angle: float) -> tuple[float, float]:
     """Of an angle that is mostly small."""
     if abs(angle) > _SMALL:
-        return sin(angle), cos(angle)
+        return sine_and_cosine(angle)
     square = angle * angle
     sine = angle * (1.0 - square * (1.0 - square / 20.0) / 6.0)
     return sine, 1.0 - 0.5 * square * (1.0 - square * (1.0 - square / 30.0) / 12.0)

@@ -13,11 +13,12 @@ Sliding means to stay there. With ω the leader's turn rate and q = √(1 − α
 and |h′| is at most 1. Lengths are in R, times in R/V_P, angles counter-clockwise.
 """
 
-from math import acos, cos, inf, sin, sqrt
+from math import acos, cos, inf, sqrt
 
 from numba import njit
 
 from relguide.kernels.base.records import Contact, Disc, Pose, Scene
+from relguide.kernels.base.sine import sine_and_cosine
 from relguide.kernels.separation.clearance import leader_at, piece_at
 
 GRAZE = 3e-7
@@ -66,11 +67,9 @@ def contact_on(scene: Scene, contact: Contact, t: float) -> Pose:
     """
     lx, ly, lh = leader_at(scene, contact.piece, t)
     distance = contact_distance(scene.d_min)
-    return Pose(
-        lx + distance * cos(lh + contact.bearing),
-        ly + distance * sin(lh + contact.bearing),
-        lh + contact_heading(contact.bearing, contact.side, scene.alpha),
-    )
+    s, c = sine_and_cosine(lh + contact.bearing)
+    heading = contact_heading(contact.bearing, contact.side, scene.alpha)
+    return Pose(lx + distance * c, ly + distance * s, lh + heading)
 
 
 @njit(cache=True, nogil=True)
@@ -82,7 +81,7 @@ def contact_at(scene: Scene, t: float, bearing: float, side: float) -> Pose:
 @njit(cache=True, nogil=True)
 def to_frame_of(pose: Pose, origin: Pose) -> Pose:
     """A pose in the frame of another; its heading not wrapped."""
-    c, s = cos(origin.h), sin(origin.h)
+    s, c = sine_and_cosine(origin.h)
     dx, dy = pose.x - origin.x, pose.y - origin.y
     return Pose(dx * c + dy * s, dy * c - dx * s, pose.h - origin.h)
 
@@ -95,11 +94,12 @@ def boundary_arc_rates(bearing: float, disc: Disc) -> tuple[float, float]:
         bearing: as in `contact_heading` [rad].
         disc: with the distance δ of the boundary arc, and the leader's turn rate ω.
     """
-    along = disc.alpha * cos(bearing)
+    s, c = sine_and_cosine(bearing)
+    along = disc.alpha * c
     if abs(along) >= 1.0:
         return inf, inf
     across = sqrt(1.0 - along * along)
-    ahead = disc.alpha * sin(bearing)
+    ahead = disc.alpha * s
     round_it = (disc.side * across + ahead) / disc.distance - disc.turning
     return round_it, disc.turning + round_it * (1.0 + disc.side * ahead / across)
 

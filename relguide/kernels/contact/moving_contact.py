@@ -5,7 +5,7 @@ So does the centre of the circle on which a word comes in to it, round the same 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
-from math import acos, cos, inf, sin, sqrt
+from math import acos, inf, sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -15,6 +15,7 @@ from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Contact, Pose, Scene, Start
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.base.sine import sine_and_cosine
 from relguide.kernels.contact.contact import contact_distance
 from relguide.kernels.words.to_point import word_from
 
@@ -65,17 +66,19 @@ def passage_to(pose: Pose, t: float, scene: Scene, contact: Contact) -> Passage:
     """From a pose at time t to a contact on a piece on which the leader turns."""
     begin, x, y, h, turning = scene.leader[contact.piece]
     distance, radius = contact_distance(scene.d_min), scene.alpha / turning
-    s, c = sin(contact.bearing), cos(contact.bearing)
+    s, c = sine_and_cosine(contact.bearing)
     # the heading is b + s arccos(α cos b)
     along = scene.alpha * c
     across = contact.side * sqrt(max(1.0 - along * along, 0.0))
+    sin_h, cos_h = sine_and_cosine(pose.h)
+    sin_lh, cos_lh = sine_and_cosine(h)
     return Passage(
         pose, t, scene.until, max(begin, t), scene.leader[contact.piece + 1, 0], turning,
         h + turning * (t - begin),
-        x - radius * sin(h) - pose.x, y + radius * cos(h) - pose.y,
+        x - radius * sin_lh - pose.x, y + radius * cos_lh - pose.y,
         distance * c, distance * s - radius,
         contact.bearing + contact.side * acos(along),
-        s * along + c * across, c * along - s * across, sin(pose.h), cos(pose.h),
+        s * along + c * across, c * along - s * across, sin_h, cos_h,
     )  # fmt: skip
 
 
@@ -89,7 +92,7 @@ def leader_heading(passage: Passage, t: float) -> float:
 def _seen_from(passage: Passage, t: float) -> Start:
     """The start as seen from where the contact is at t."""
     lh = leader_heading(passage, t)
-    s, c = sin(lh), cos(lh)
+    s, c = sine_and_cosine(lh)
     dx = -passage.x - passage.ahead * c + passage.left * s
     dy = -passage.y - passage.ahead * s - passage.left * c
     # the course on which the contact is met, and the start's heading from there
@@ -108,7 +111,7 @@ def _seen_from(passage: Passage, t: float) -> Start:
 def distance_at(passage: Passage, t: float) -> float:
     """How far the contact is from the start at t [R]."""
     lh = leader_heading(passage, t)
-    s, c = sin(lh), cos(lh)
+    s, c = sine_and_cosine(lh)
     return norm(
         passage.x + passage.ahead * c - passage.left * s,
         passage.y + passage.ahead * s + passage.left * c,

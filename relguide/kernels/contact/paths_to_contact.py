@@ -6,7 +6,7 @@ like any other; while it turns, see `paths_while_turning`.
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
-from math import cos, inf, sin, sqrt
+from math import inf, sqrt
 
 from numba import njit
 
@@ -14,6 +14,7 @@ from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Contact, Pose, Scene, Velocity, Window
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.base.sine import sine_and_cosine
 from relguide.kernels.contact.contact import contact_on, to_frame_of
 from relguide.kernels.contact.moving_contact import earliest_while_turning, passage_to
 from relguide.kernels.contact.paths_while_turning import paths_while_turning
@@ -43,7 +44,8 @@ def earliest_arrival(pose: Pose, t: float, scene: Scene, contact: Contact, beat:
         return earliest_while_turning(passage_to(pose, t, scene, contact), beat)
     lh = scene.leader[contact.piece, 3]
     cx, cy, course = contact_on(scene, contact, t)
-    toward = Velocity(scene.alpha * cos(lh), scene.alpha * sin(lh))
+    s, c = sine_and_cosine(lh)
+    toward = Velocity(scene.alpha * c, scene.alpha * s)
     straight = intercept(cx - pose.x, cy - pose.y, toward)
     return float(max(t + max(straight, abs(wrap_signed(course - pose.h))), start))
 
@@ -91,12 +93,13 @@ def paths_by_words(
     lh = leader[i, 3]
     cx, cy, course = contact_on(scene, contact, t)
     left = end - t
-    if left < inf and (
-        norm(cx + scene.alpha * left * cos(lh) - pose.x, cy + scene.alpha * left * sin(lh) - pose.y)
-        > left
-    ):
-        return 0  # not even straight there
-    toward = Velocity(scene.alpha * cos(lh - course), scene.alpha * sin(lh - course))
+    if left < inf:
+        s, c = sine_and_cosine(lh)
+        dx = cx + scene.alpha * left * c - pose.x
+        if norm(dx, cy + scene.alpha * left * s - pose.y) > left:
+            return 0  # not even straight there
+    s, c = sine_and_cosine(lh - course)
+    toward = Velocity(scene.alpha * c, scene.alpha * s)
     seen = to_frame_of(pose, Pose(cx, cy, course))
     seen, earliest = Pose(seen.x, seen.y, wrap(seen.h)), max(leader[i, 0] - t, 0.0)
     n = solve_words(seen, toward, words, Window(earliest, min(beat - t, left)), rows)

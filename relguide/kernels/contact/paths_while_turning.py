@@ -8,7 +8,7 @@ A word is no shorter than the straight between its first and its last circle and
 heading. So most looks see at once that it comes too late, until the next look and often for longer.
 """
 
-from math import asin, atan2, ceil, cos, inf, isnan, pi, sin, sqrt
+from math import asin, atan2, ceil, inf, isnan, pi, sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -18,6 +18,7 @@ from relguide.kernels.base.angles import TWO_PI, turn_to, wrap, wrap_signed
 from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.norm import norm
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.base.sine import sine_and_cosine
 from relguide.kernels.contact.arrivals_while_turning import JUMP, Seen, append_arrivals
 from relguide.kernels.contact.moving_contact import (
     Passage,
@@ -171,7 +172,8 @@ def _look(
     """
     h, elapsed = passage.pose.h, t - passage.t_start
     lh = leader_heading(passage, t)
-    s, c, course, sway = sin(lh), cos(lh), lh + passage.heading, abs(passage.turning) * step
+    s, c = sine_and_cosine(lh)
+    course, sway = lh + passage.heading, abs(passage.turning) * step
     free = inf
     for pair in range(_PAIRS):
         if not words & (1 << pair):

@@ -26,6 +26,7 @@ from relguide.kernels.base.false_position import secant, tightened
 from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Bracket, Pose, Scene
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.base.sine import sine_and_cosine
 from relguide.kernels.contact.contact import contact_distance, to_frame_of
 from relguide.kernels.separation.clearance import leader_at, piece_end
 from relguide.kernels.words.extremals import fly_piece
@@ -73,7 +74,7 @@ class _Approach(NamedTuple):
 def _first_approach(pose: Pose, alpha: float, sign: float) -> float:
     """When a full turn first stops closing in on the leader; −1 if it never does."""
     x, y, h = pose
-    s0, c0 = sin(h), cos(h)
+    s0, c0 = sine_and_cosine(h)
     s, c = s0, c0
     last = x * (c - alpha) + y * s
     t = 0.0
@@ -86,7 +87,7 @@ def _first_approach(pose: Pose, alpha: float, sign: float) -> float:
             middle = high - rate * _STEP / (rate - last)
             for _ in range(30):
                 at = h + sign * middle
-                sm, cm = sin(at), cos(at)
+                sm, cm = sine_and_cosine(at)
                 rx, ry = x + sign * (sm - s0) - alpha * middle, y - sign * (cm - c0)
                 value = rx * (cm - alpha) + ry * sm
                 if value < 0.0:
@@ -109,11 +110,12 @@ def _first_approach(pose: Pose, alpha: float, sign: float) -> float:
 def _seen_turning(pose: Pose, leg: Leg, t: float) -> tuple[float, float, float]:
     """Where the leader sees a pursuer of that pose as it turns, and the rate of d²/2."""
     half = 0.5 * leg.turning * t
-    s, c = sin(half), cos(half)
+    s, c = sine_and_cosine(half)
     chord = leg.alpha * s / (0.5 * leg.turning)
     dx, dy = pose.x - chord * c, pose.y - chord * s
     c, s = 1.0 - 2.0 * s * s, 2.0 * s * c
-    rate = dx * (cos(pose.h) - leg.alpha * c) + dy * (sin(pose.h) - leg.alpha * s)
+    sin_h, cos_h = sine_and_cosine(pose.h)
+    rate = dx * (cos_h - leg.alpha * c) + dy * (sin_h - leg.alpha * s)
     return dx * c + dy * s, dy * c - dx * s, rate
 
 
@@ -170,7 +172,8 @@ def _miss(approach: _Approach, turned: float, contact: FloatArray) -> float:
     alpha = leg.alpha
     px, py, ph = begun.x - alpha * turned, begun.y, begun.h
     if second == 0.0:
-        vx, vy = cos(ph) - alpha, sin(ph)
+        vy, cos_h = sine_and_cosine(ph)
+        vx = cos_h - alpha
         speed_squared = vx * vx + vy * vy
         after = -(px * vx + py * vy) / speed_squared if speed_squared > 1e-12 else -1.0
     else:
@@ -276,7 +279,8 @@ def _append_contacts(approach: _Approach, found: FloatArray, n: int) -> int:
             turned = _touch(approach, between, contact)
             value = _miss(approach, turned, contact)
             if abs(value) < 1e-9 and leg.begin <= contact[2] <= leg.end:
-                vx, vy = cos(contact[3]) - leg.alpha, sin(contact[3])
+                vy, cos_h = sine_and_cosine(contact[3])
+                vx = cos_h - leg.alpha
                 found[n, 0] = wrap(atan2(contact[1], contact[0]))
                 found[n, 1] = 1.0 if contact[0] * vy > contact[1] * vx else -1.0
                 found[n, 2] = contact[2]

@@ -16,6 +16,7 @@ from numba import njit
 from relguide.kernels.base.angles import TWO_PI, wrap
 from relguide.kernels.base.records import Bracket, Disc, Pose
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.base.sine import sine_and_cosine
 from relguide.kernels.contact.contact import boundary_arc_sense, slide_within
 from relguide.kernels.words.extremals import fly_piece
 
@@ -41,9 +42,10 @@ def _straight_miss(
         the signed miss times the relative speed, time from the turn to the closest approach, and
         where that is as seen from the leader.
     """
-    c, s = cos(pose.h + sign * turned), sin(pose.h + sign * turned)
-    qx = pose.x + sign * (s - sin(pose.h)) - disc.alpha * turned
-    qy = pose.y - sign * (c - cos(pose.h))
+    sin_h, cos_h = sine_and_cosine(pose.h)
+    s, c = sine_and_cosine(pose.h + sign * turned)
+    qx = pose.x + sign * (s - sin_h) - disc.alpha * turned
+    qy = pose.y - sign * (c - cos_h)
     vx = c - disc.alpha
     speed = sqrt(vx * vx + s * s)
     after = -(qx * vx + qy * s) / max(speed * speed, 1e-12)
@@ -94,8 +96,9 @@ def straight_tangents(pose: Pose, disc: Disc, sign: float, contacts: FloatArray)
     alpha, h = disc.alpha, pose.h
     step = TWO_PI / _SCAN
     # round the circle of the turn by one rotation after the other, which takes no sine
-    c, s = cos(h - sign * step), sin(h - sign * step)
-    mx, my = pose.x - sign * sin(h), pose.y + sign * cos(h)
+    sin_h, cos_h = sine_and_cosine(h)
+    s, c = sine_and_cosine(h - sign * step)
+    mx, my = pose.x - sign * sin_h, pose.y + sign * cos_h
     turn_c, turn_s = cos(step), sign * sin(step)
     before = last = 0.0
     for k in range(-1, _SCAN + 1):
@@ -143,7 +146,8 @@ def next_contact(bearing: float, disc: Disc, course: float, contact: FloatArray)
     Returns:
         whether there is one.
     """
-    pose = Pose(disc.distance * cos(bearing), disc.distance * sin(bearing), course)
+    s, c = sine_and_cosine(bearing)
+    pose = Pose(disc.distance * c, disc.distance * s, course)
     low = _TO_NEXT
     last, _, _, _ = _straight_miss(pose, disc, disc.side, low)
     for k in range(1, _SCAN // 2):
@@ -181,7 +185,7 @@ def turn_tangent(
         # the second arc turns with the end of the first one
         along, across = qx - mx, qy - my
         qx -= alpha * (first + second)
-        c, s = cos(qh), sin(qh)
+        s, c = sine_and_cosine(qh)
         vx, vy = c - alpha, s
         speed = sqrt(vx * vx + vy * vy)
         closing, miss = qx * vx + qy * vy, qx * vy - qy * vx - edge * speed
@@ -193,7 +197,8 @@ def turn_tangent(
         for k in range(2):
             turning = sign if k == 0 else -sign
             if k == 0:
-                dx, dy = cos(mh) - alpha - sign * across, sin(mh) + sign * along
+                sin_m, cos_m = sine_and_cosine(mh)
+                dx, dy = cos_m - alpha - sign * across, sin_m + sign * along
             else:
                 dx, dy = vx, vy
             ux, uy = -turning * s, turning * c

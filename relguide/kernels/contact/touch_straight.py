@@ -11,7 +11,7 @@ which Newton's method solves from a bearing nearby.
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
-from math import ceil, cos, inf, sin
+from math import ceil, inf
 
 import numpy as np
 from numba import njit
@@ -20,6 +20,7 @@ from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Contact, Pose, Scene, Velocity
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.base.sine import sine_and_cosine
 from relguide.kernels.contact.contact import contact_exists, contact_heading, contact_on
 from relguide.kernels.contact.paths_to_contact import intercept
 from relguide.kernels.separation.clearance import piece_end
@@ -58,7 +59,8 @@ def touch_straight(
         begun = t + turned
         _, ahead, left = _turn_and_gap(pose, scene, near, turn, begun)
         off = contact_heading(near.bearing, near.side, scene.alpha)
-        there = Velocity(scene.alpha * cos(off), -scene.alpha * sin(off))
+        s, c = sine_and_cosine(off)
+        there = Velocity(scene.alpha * c, -scene.alpha * s)
         time = begun + intercept(ahead, left, there)
         return _solve_near(pose, t, scene, near, turn, time, row)
     # while the leader turns there may be several times at which it is as far as can be flown
@@ -132,7 +134,7 @@ def _turn_and_gap(
     there = contact_on(scene, contact, time)
     turned = wrap(turn * (there.h - pose.h))
     begun = fly_piece(pose, turn, turned)
-    s, c = sin(there.h), cos(there.h)
+    s, c = sine_and_cosine(there.h)
     dx, dy = there.x - begun.x, there.y - begun.y
     return turned, dx * c + dy * s, dy * c - dx * s
 

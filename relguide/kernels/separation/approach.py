@@ -22,7 +22,7 @@ bounds counts. The work is bounded too: windows are not halved for less than rou
 number is limited.
 """
 
-from math import cos, inf, sin, sqrt
+from math import inf, sqrt
 
 import numpy as np
 from numba import njit
@@ -30,6 +30,7 @@ from numba import njit
 from relguide.kernels.base.motion import Motion, motion_along
 from relguide.kernels.base.norm import norm
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.base.sine import sine_and_cosine
 
 ROUNDING = 1e-6
 """Taken off every proved bound for rounding [m]: coordinates of 1e6 m carry 1e-10 m each."""
@@ -111,7 +112,7 @@ def _advance(
     if rate == 0.0:
         return x + speed * t * s, y + speed * t * c, s, c
     half = 0.5 * rate * t
-    a, b = sin(half), cos(half)
+    a, b = sine_and_cosine(half)
     chord = speed * t * (a / half if half != 0.0 else 1.0)
     mean_s, mean_c = s * b + c * a, c * b - s * a
     return x + chord * mean_s, y + chord * mean_c, mean_s * b + mean_c * a, mean_c * b - mean_s * a
@@ -141,7 +142,8 @@ def least_separation(
     looked = 0
     mids = np.empty(_DEPTH)
     halves = np.empty(_DEPTH)
-    psin, pcos, lsin, lcos = sin(ppsi), cos(ppsi), sin(lpsi), cos(lpsi)
+    psin, pcos = sine_and_cosine(ppsi)
+    lsin, lcos = sine_and_cosine(lpsi)
     t, i, j = 0.0, 0, 0
     p_left = pursuer_pieces[0, 0] if len(pursuer_pieces) > 0 else inf
     l_left = leader_pieces[0, 0] if len(leader_pieces) > 0 else inf
@@ -193,10 +195,10 @@ def least_separation(
         # rounding must not add up from piece to piece
         if p_rate != 0.0:
             ppsi += p_rate * span
-            psin, pcos = sin(ppsi), cos(ppsi)
+            psin, pcos = sine_and_cosine(ppsi)
         if l_rate != 0.0:
             lpsi += l_rate * span
-            lsin, lcos = sin(lpsi), cos(lpsi)
+            lsin, lcos = sine_and_cosine(lpsi)
         t += span
         p_left -= span
         l_left -= span

@@ -4,7 +4,7 @@ The same bound as in `approach`, but it stops at the first point found too close
 times in R/V_P, angles counter-clockwise. The leader is a table of its pieces, as in `Scene`.
 """
 
-from math import cos, inf, sin
+from math import inf, sin
 from typing import NamedTuple
 
 import numpy as np
@@ -13,6 +13,7 @@ from numba import njit
 from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.base.sine import sine_and_cosine
 
 SLACK = 1e-6
 """Touching d_min counts as keeping it, to this much of R: 1 cm for an airliner."""
@@ -79,7 +80,8 @@ def leader_at(scene: Scene, i: int, t: float) -> Pose:
     chord = scene.alpha * flown
     if abs(half) > 1e-9:
         chord *= sin(half) / half
-    return Pose(x + chord * cos(h + half), y + chord * sin(h + half), h + 2.0 * half)
+    s, c = sine_and_cosine(h + half)
+    return Pose(x + chord * c, y + chord * s, h + 2.0 * half)
 
 
 @njit(cache=True, nogil=True)
@@ -94,7 +96,8 @@ def piece_clears(pose: Pose, rate: float, t: float, duration: float, scene: Scen
         scene: the leader and d_min.
     """
     leader, alpha, limit = scene.leader, scene.alpha, scene.d_min - _ROUNDING
-    pursuer = _Course(pose.x, pose.y, sin(pose.h), cos(pose.h), 1.0, rate)
+    s, c = sine_and_cosine(pose.h)
+    pursuer = _Course(pose.x, pose.y, s, c, 1.0, rate)
     mids = np.empty(_DEPTH)
     halves = np.empty(_DEPTH)
     done = 0.0
@@ -103,8 +106,9 @@ def piece_clears(pose: Pose, rate: float, t: float, duration: float, scene: Scen
     while done < duration:
         end = min(duration, piece_end(leader, i) - t)
         bend = abs(rate) + alpha * abs(leader[i, 4])
-        h, since = leader[i, 3], t - leader[i, 0]
-        led = _Course(leader[i, 1], leader[i, 2], sin(h), cos(h), alpha, leader[i, 4])
+        since = t - leader[i, 0]
+        s, c = sine_and_cosine(leader[i, 3])
+        led = _Course(leader[i, 1], leader[i, 2], s, c, alpha, leader[i, 4])
         mids[0], halves[0] = 0.5 * (done + end), 0.5 * (end - done)
         n = 1
         while n > 0:
@@ -140,7 +144,7 @@ def _state_on(course: _Course, t: float) -> _State:
     half = 0.5 * rate * t
     s, c, chord = half, 1.0, speed * t
     if abs(half) > 1e-9:
-        s, c = sin(half), cos(half)
+        s, c = sine_and_cosine(half)
         chord *= s / half
     whole_s, whole_c = 2.0 * s * c, 1.0 - 2.0 * s * s
     return _State(
@@ -155,7 +159,9 @@ def _state_on(course: _Course, t: float) -> _State:
 def fly_rate(pose: Pose, rate: float, t: float) -> Pose:
     """The end of a piece at any turn rate, full bank or less."""
     x, y, h = pose
+    s, c = sine_and_cosine(h)
     if abs(rate) < 1e-9:
-        return Pose(x + t * cos(h), y + t * sin(h), h)
+        return Pose(x + t * c, y + t * s, h)
     end = h + rate * t
-    return Pose(x + (sin(end) - sin(h)) / rate, y - (cos(end) - cos(h)) / rate, end)
+    end_s, end_c = sine_and_cosine(end)
+    return Pose(x + (end_s - s) / rate, y - (end_c - c) / rate, end)

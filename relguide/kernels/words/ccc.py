@@ -11,7 +11,7 @@ Its second derivative 8(α² − cos m) has its zeros at cos m = α²: those are
 as τ grows with m, roots are sought only where the centres are that near, and in time.
 """
 
-from math import acos, atan2, cos, inf, sin, sqrt
+from math import acos, atan2, inf, sqrt
 
 import numpy as np
 from numba import njit
@@ -19,6 +19,7 @@ from numba import njit
 from relguide.kernels.base.angles import TWO_PI, turn_to
 from relguide.kernels.base.records import Pose, Velocity
 from relguide.kernels.base.roots import MAX_CUTS, FloatArray, all_roots, insert_cut
+from relguide.kernels.base.sine import sine_and_cosine
 
 _ROUNDING = 1e-6  # windows are wider by this [R/V_P]
 
@@ -27,7 +28,8 @@ _ROUNDING = 1e-6  # windows are wider by this [R/V_P]
 def lrl(pose: Pose, target: Velocity, beat: float, out: FloatArray, n: int) -> int:
     """All LRL paths; rows (τ, first, middle, last turn). Otherwise as `csc.lsl`."""
     (x, y, h), (ax, ay) = pose, target
-    ex, ey = -(x - sin(h)), 1.0 - (y + cos(h))
+    s, c = sine_and_cosine(h)
+    ex, ey = -(x - s), 1.0 - (y + c)
     alpha_squared = ax * ax + ay * ay
     closing = ax * ex + ay * ey
     # the target never comes within reach of the middle circle

@@ -27,7 +27,7 @@ Where a time to beat is known roots are sought only for courses with A before it
 even with the least of turns A₀, the change of heading, (τ − A₀)² < |d|² − 4 from A₀ to then.
 """
 
-from math import acos, atan2, cos, inf, pi, sin, sqrt
+from math import acos, atan2, inf, pi, sqrt
 
 import numpy as np
 from numba import njit
@@ -36,6 +36,7 @@ from relguide.kernels.base.angles import TWO_PI, turn_to, wrap
 from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Pose, Velocity
 from relguide.kernels.base.roots import MAX_CUTS, FloatArray, all_roots, insert_cut
+from relguide.kernels.base.sine import sine_and_cosine
 
 _ROUNDING = 1e-6  # windows are wider by this [R/V_P]
 
@@ -55,7 +56,8 @@ def lsl(pose: Pose, target: Velocity, beat: float, out: FloatArray, n: int) -> i
         rows filled now.
     """
     (x, y, h), (ax, ay) = pose, target
-    cx, cy = x - sin(h), y + cos(h)
+    s, c = sine_and_cosine(h)
+    cx, cy = x - s, y + c
     one_less = 1.0 - ax * ax - ay * ay
     around = wrap(TWO_PI - h)
     for k in range(2):
@@ -98,12 +100,14 @@ def lsl(pose: Pose, target: Velocity, beat: float, out: FloatArray, n: int) -> i
 def lsr(pose: Pose, target: Velocity, beat: float, out: FloatArray, n: int) -> int:
     """All LSR paths to the target. Arguments and result as `lsl`."""
     (x, y, h), (ax, ay) = pose, target
-    east, north = -(x - sin(h)), -1.0 - (y + cos(h))
+    s, c = sine_and_cosine(h)
+    east, north = -(x - s), -1.0 - (y + c)
     if beat < inf and not _may_be_before(east, north, h, target, beat + _ROUNDING):
         return n
     alpha, kappa = norm(ax, ay), atan2(ay, ax)
-    c = -(east * cos(kappa) + north * sin(kappa))
-    delta = north * cos(kappa) - east * sin(kappa)
+    sin_kappa, cos_kappa = sine_and_cosine(kappa)
+    c = -(east * cos_kappa + north * sin_kappa)
+    delta = north * cos_kappa - east * sin_kappa
     k = np.empty(6)
     cuts = np.empty(MAX_CUTS)
     roots = np.empty(2 * MAX_CUTS)
@@ -132,13 +136,14 @@ def lsr(pose: Pose, target: Velocity, beat: float, out: FloatArray, n: int) -> i
         n_roots = all_roots(k, cuts, n_cuts, roots)
         for i in range(n_roots):
             u = roots[i]
-            gain = 1.0 - alpha * cos(u)
+            sin_u, cos_u = sine_and_cosine(u)
+            gain = 1.0 - alpha * cos_u
             if abs(gain) < 1e-12:  # the equation was multiplied by this: no path, but its own zero
                 continue
             course = u + kappa
             turned = 2.0 * course + around
-            reach = (alpha * (turned + delta * sin(u)) - c) / gain
-            straight = reach * cos(u) + delta * sin(u)
+            reach = (alpha * (turned + delta * sin_u) - c) / gain
+            straight = reach * cos_u + delta * sin_u
             if straight < -1e-9:  # ≈ 1e-5 m at R = 12 km: rounding of a straight of no length
                 continue
             out[n, 0] = turned + max(straight, 0.0)

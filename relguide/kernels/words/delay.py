@@ -8,7 +8,7 @@ refined; those of a straight and a word with a straight in its middle come one t
 The grid may miss a path: these are some of many, and no proof rests on them.
 """
 
-from math import cos, sin, sqrt
+from math import sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -19,6 +19,7 @@ from relguide.kernels.base.false_position import Bracket, secant, tightened
 from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Pose
 from relguide.kernels.base.roots import FloatArray, insert_cut
+from relguide.kernels.base.sine import sine_and_cosine
 from relguide.kernels.words.branches import TO_POINT, WORD_OF
 from relguide.kernels.words.extremals import SIGNS, fly_piece
 from relguide.kernels.words.to_point import word_between, word_to_point
@@ -184,7 +185,7 @@ class _Centres(NamedTuple):
 def _centres(pose: Pose, end_x: float, branch: int, family: _Family) -> _Centres:
     word = WORD_OF[branch]
     first, last = SIGNS[word, 0], SIGNS[word, 2]
-    sin_h, cos_h = sin(pose.h), cos(pose.h)
+    sin_h, cos_h = sine_and_cosine(pose.h)
     px = end_x - pose.x - family.lead * cos_h + first * sin_h
     py = last - pose.y - family.lead * sin_h - first * cos_h
     return _Centres(px, py, 1.0, 0.0) if family.last else _Centres(px, py, cos_h, sin_h)
@@ -200,7 +201,7 @@ def _put_cuts(between: _Centres, h: float, branch: int, span: float, cuts: Float
     px, py, wx, wy = between
     word = WORD_OF[branch]
     beside = SIGNS[word, 0] - SIGNS[word, 2]  # 2ε between opposite sides, else 0
-    sin_h, cos_h = sin(h), cos(h)
+    sin_h, cos_h = sine_and_cosine(h)
     n, cuts[0], cuts[1] = 2, 0.0, span
     if wy != 0.0:
         n = insert_cut(cuts, n, (py + beside) / wy)

@@ -4,7 +4,7 @@ Pontryagin's principle leaves these words only (a turn, a straight or a turn, a 
 roots are found, so the first row is the global optimum of the unlimited problem.
 """
 
-from math import cos, inf, sin
+from math import inf
 
 import numpy as np
 from numba import njit
@@ -13,6 +13,7 @@ from relguide.kernels.base.angles import mirror_heading
 from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Pose, Velocity, Window
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.base.sine import sine_and_cosine
 from relguide.kernels.words.ccc import lrl
 from relguide.kernels.words.csc import lsl, lsr
 
@@ -33,10 +34,12 @@ CLOSURE = 1e-7
 def fly_piece(pose: Pose, sign: float, amount: float) -> Pose:
     """The end of one piece: a turn (sign ±1, amount in rad) or a straight (sign 0, in R)."""
     x, y, h = pose
+    s, c = sine_and_cosine(h)
     if sign == 0.0:
-        return Pose(x + amount * cos(h), y + amount * sin(h), h)
+        return Pose(x + amount * c, y + amount * s, h)
     end = h + sign * amount
-    return Pose(x + sign * (sin(end) - sin(h)), y - sign * (cos(end) - cos(h)), end)
+    end_s, end_c = sine_and_cosine(end)
+    return Pose(x + sign * (end_s - s), y - sign * (end_c - c), end)
 
 
 @njit(cache=True, nogil=True)
@@ -160,14 +163,14 @@ def closes(pose: Pose, target: Velocity, word: int, row: FloatArray) -> bool:
     """Whether a path ends at the target: one of a root next to a tangency may not."""
     # as `fly_piece`, with sine and cosine of each heading found once
     x, y, h = pose
-    s, c = sin(h), cos(h)
+    s, c = sine_and_cosine(h)
     for piece in range(3):
         sign, amount = SIGNS[word, piece], row[piece + 1]
         if sign == 0.0:
             x, y = x + amount * c, y + amount * s
             continue
         h += sign * amount
-        end_s, end_c = sin(h), cos(h)
+        end_s, end_c = sine_and_cosine(h)
         x, y = x + sign * (end_s - s), y - sign * (end_c - c)
         s, c = end_s, end_c
     miss = norm(x - target.ahead * row[0], y - target.left * row[0])

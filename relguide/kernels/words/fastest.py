@@ -3,7 +3,7 @@
 LSL and RSR cost a tenth of the others and come first; their time is to be beaten (see `sooner`).
 """
 
-from math import cos, inf, sin, sqrt
+from math import inf, sqrt
 
 import numpy as np
 from numba import njit
@@ -11,6 +11,7 @@ from numba import njit
 from relguide.kernels.base.angles import mirror_heading
 from relguide.kernels.base.records import Pose, Start, Window, start_at
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.base.sine import sine_and_cosine
 from relguide.kernels.words.extremals import CLOSURE, MAX_ROWS, SIGNS, solve
 from relguide.kernels.words.sooner import EARLY, Scratch, lrl_before, lsl_before, lsr_before
 
@@ -103,7 +104,7 @@ def ends_at_slot(start: Start, alpha: float, word: int, found: FloatArray) -> bo
     x, y, h, sin_h, cos_h = start
     first_sign, sign, last_sign = SIGNS[word, 0], SIGNS[word, 1], SIGNS[word, 2]
     course = h + first_sign * found[1]
-    s, c = sin(course), cos(course)
+    s, c = sine_and_cosine(course)
     x += first_sign * (s - sin_h)
     y -= first_sign * (c - cos_h)
     if sign == 0.0:
@@ -111,12 +112,13 @@ def ends_at_slot(start: Start, alpha: float, word: int, found: FloatArray) -> bo
         y += found[2] * s
     else:
         course += sign * found[2]
-        next_s, next_c = sin(course), cos(course)
+        next_s, next_c = sine_and_cosine(course)
         x += sign * (next_s - s)
         y -= sign * (next_c - c)
         s, c = next_s, next_c
     course += last_sign * found[3]
-    x += last_sign * (sin(course) - s) - alpha * found[0]
-    y -= last_sign * (cos(course) - c)
+    next_s, next_c = sine_and_cosine(course)
+    x += last_sign * (next_s - s) - alpha * found[0]
+    y -= last_sign * (next_c - c)
     # far away the last digits of τ are worth more than CLOSURE
     return bool(sqrt(x * x + y * y) <= CLOSURE + 1e-12 * found[0])

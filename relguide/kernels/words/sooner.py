@@ -18,7 +18,7 @@ LRL. A root means |d(τ)| ≤ 4, and τ = 2m + w is the middle arc m but for a c
 There |d|² and 8(1 − cos m) must meet.
 """
 
-from math import acos, atan2, cos, inf, pi, sin, sqrt
+from math import acos, atan2, cos, inf, pi, sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -28,6 +28,7 @@ from relguide.kernels.base.angles import TWO_PI, turn_to, wrap, wrap_signed
 from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Start, Window
 from relguide.kernels.base.roots import MAX_CUTS, FloatArray, all_roots, insert_cut
+from relguide.kernels.base.sine import sine_and_cosine
 
 MOST_ROOTS = 64
 """Room for the paths of one word."""
@@ -227,7 +228,7 @@ def _lsr_courses(centres: _Centres, low: float, high: float, scratch: Scratch, n
             n_cuts = insert_cut(cuts, n_cuts, TWO_PI - crest)
         for i in range(all_roots(k, cuts, n_cuts, roots)):
             course = roots[i]
-            c, s = cos(course), sin(course)
+            s, c = sine_and_cosine(course)
             turned = 2.0 * course + around
             reach = (alpha * (turned + north * s) + east) / (1.0 - alpha * c)
             straight = reach * c + north * s
