@@ -91,7 +91,7 @@ def word_toward(scene: Scene, begin: Poses, end: Poses, beat: float, enough: flo
 
     Behind a leader that keeps straight. Arguments as `word_between`.
     """
-    c, s, moved = cos(end.middle.h), sin(end.middle.h), max(end.left, end.right)
+    (s, c), moved = sine_and_cosine(end.middle.h), max(end.left, end.right)
     return soonest_beyond(
         to_frame_of(begin.middle, end.middle),
         Blur(begin.left + moved, begin.right + moved, begin.differs + end.differs, end.differs),

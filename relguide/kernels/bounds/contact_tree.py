@@ -34,7 +34,7 @@ from relguide.kernels.bounds.tight_contact import tight_excess
 IntArray = np.ndarray[tuple[int, ...], np.dtype[np.int64]]
 BoolArray = np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
 
-_MORE = 1.5  # than is asked for, is looked for at once
+_MORE = 1.1  # than is asked for, is looked for at once
 _CLOSELY = 50  # times a cell is halved to find what is least in it
 _NARROW = 1e-6  # and how narrow its parts may become: what is left counts for some 1e-5 R/V_P [rad]
 _BY_TURN = 0.1  # how contacts are passed matters in cells smaller than this [rad]

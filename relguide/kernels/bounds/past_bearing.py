@@ -13,38 +13,22 @@ into cells of ρ and η, which are halved.
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
-from math import cos, inf, pi, sin
-from typing import NamedTuple
+from math import inf, pi, sin
 
 import numpy as np
 from numba import njit
 
-from relguide.kernels.base.records import Pose, Scene, Velocity, Window
-from relguide.kernels.bounds.breach import no_sieve
-from relguide.kernels.bounds.cells import Cell, poses_of
+from relguide.kernels.base.records import Pose, Scene
+from relguide.kernels.base.sine import sine_and_cosine
+from relguide.kernels.bounds.between import word_toward
+from relguide.kernels.bounds.cells import Cell, Poses, poses_of
 from relguide.kernels.bounds.hop import standing
-from relguide.kernels.bounds.word_bound import soonest_beyond
-from relguide.kernels.bounds.word_intervals import Blur
-from relguide.kernels.contact.contact import to_frame_of
 from relguide.kernels.separation.clearance import leader_at
 
 _HEADINGS = 8  # cells a whole turn is cut into at first
 _MOST = 1_000  # cells are looked at
 _STACK = 128
 _SMALLEST = 3e-5  # of a cell [R or rad]
-
-
-class _Set(NamedTuple):
-    """Poses at t = 0, which move on with the leader."""
-
-    middle: Pose
-    """Of them."""
-    left: float
-    """How far the centre of their left circles may lie from the middle's [R]."""
-    right: float
-    """And that of their right circles [R]."""
-    differs: float
-    """How much their headings may differ [rad]."""
 
 
 @njit(cache=True, nogil=True)
@@ -61,10 +45,11 @@ def passes_late(
         bearing: between them.
         beat: the time [R/V_P].
     """
-    begin, end = _set_of(scene, cell), _set_of(scene, other)
+    begin = poses_of(scene, standing(cell.piece, cell.side, cell.bearing, cell.half))
+    end = poses_of(scene, standing(other.piece, other.side, other.bearing, other.half))
     if begin.differs == inf or end.differs == inf:
         return False
-    there = leader_at(scene, cell.piece, 0.0)
+    there, (s, c) = leader_at(scene, cell.piece, 0.0), sine_and_cosine(bearing)
     # who is further away is late for coming there, or for going on
     reach = 0.25 * (1.0 + scene.alpha) * beat
     stack = np.empty((_STACK, 4))
@@ -77,12 +62,13 @@ def passes_late(
             return True
         count -= 1
         rho, wide, heading, half = stack[count]
-        if not _changes(scene, heading, half, way, bearing):
+        pace = (1.0 - 2.0 * way) * (sin(heading - bearing) + scene.alpha * s)
+        if pace + half < 0.0:
             continue
-        middle = Pose(there.x + rho * cos(bearing), there.y + rho * sin(bearing), heading)
-        at = _Set(middle, wide + half, wide + half, half)
-        took = _word_between(scene, begin, at, beat)
-        if took >= beat or took + _word_between(scene, at, end, beat - took) >= beat:
+        middle = Pose(there.x + rho * c, there.y + rho * s, heading)
+        at = Poses(0.0, 0.0, middle, 0.0, 0.0, half, wide + half, wide + half)
+        took = word_toward(scene, begin, at, beat, 0.0)
+        if took >= beat or took + word_toward(scene, at, end, beat - took, 0.0) >= beat:
             continue
         if max(wide, half) < _SMALLEST or count + 2 > _STACK:
             return False
@@ -93,28 +79,3 @@ def passes_late(
             stack[count, column] += (2 * k - 1) * stack[count, column + 1]
             count += 1
     return False
-
-
-@njit(cache=True, nogil=True)
-def _set_of(scene: Scene, cell: Cell) -> _Set:
-    poses = poses_of(scene, standing(cell.piece, cell.side, cell.bearing, cell.half))
-    return _Set(poses.middle, poses.left, poses.right, poses.differs)
-
-
-@njit(cache=True, nogil=True)
-def _changes(scene: Scene, heading: float, half: float, way: int, bearing: float) -> bool:
-    """Whether the bearing may change that way, or not at all."""
-    sense = 1.0 - 2.0 * way
-    pace = sense * (sin(heading - bearing) + scene.alpha * sin(bearing))
-    return pace + half >= 0.0
-
-
-@njit(cache=True, nogil=True)
-def _word_between(scene: Scene, begin: _Set, end: _Set, beat: float) -> float:
-    """No word leads sooner from a pose of the one set to one of the other; infinite from `beat`."""
-    c, s, moved = cos(end.middle.h), sin(end.middle.h), max(end.left, end.right)
-    return soonest_beyond(
-        to_frame_of(begin.middle, end.middle),
-        Blur(begin.left + moved, begin.right + moved, begin.differs + end.differs, end.differs),
-        Velocity(scene.alpha * c, -scene.alpha * s), Window(0.0, beat), no_sieve(scene), 0.0,
-    )  # fmt: skip

@@ -39,7 +39,7 @@ _TURNED = 0.1  # more is not turned from the first contact of a cell to its last
 LONGEST = TWO_PI - _TURNED
 """What takes longer is not bounded [R/V_P]."""
 _CELLS = 16  # of each side, at first
-_MOST = 300  # times one is halved
+_MOST = 500  # times one is halved
 _FINE = 0.1  # and how much smaller than the contact's own cell they may become
 _ROUNDING = 1e-9  # of a time, as part of it
 
@@ -119,7 +119,10 @@ def _excess(
         return 0.0
     if soonest >= LONGEST:
         return least
-    along, most = round_most(table, cell.bearing - cell.half, 2.0 * cell.half), slide_turns(scene, cell)[1]
+    along, most = (
+        round_most(table, cell.bearing - cell.half, 2.0 * cell.half),
+        slide_turns(scene, cell)[1],
+    )
     if most * along > _TURNED:
         return 0.0
     latest += (most - 1.0) * along
