@@ -16,6 +16,13 @@ T being the time of the word that leads from P to L: see `hop`. We want the leas
   a bearing P₀ to P, who slides there flies a path that bank allows: so a(P₀ → P) + T(P → L) is no
   less than the time of the soonest word of all from P₀ to L. So of a cell of P only its beginning
   matters. Where it pays to leave the circle λ_ψ = 0, so near the best P this is nearly exact.
+- Who has come to a contact L of a cell may turn on toward the leader to X, where its heading is
+  that of the cell's last contact L₁. The turn takes h(L₁) − h(L), and dh = k da along the circle:
+
+      e ≥ T(P → X) − a(P → L₁) − ∫ (k − 1) da    from L to L₁.
+
+  Seen from the leader X strays from L₁ by d_min (k − 1) |b(L₁) − b(L)| at most. So of a cell of L
+  little more than its end matters where k is hardly more than 1.
 
 From a contact with k > 1 on to the next one it is the same, turned round. Slot frame: lengths in R,
 times in R/V_P, angles counter-clockwise.

@@ -7,6 +7,7 @@ import pytest
 
 from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.records import Scene, Window
+from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.hop import hop_bound, hops_within, standing, turned_round
 from relguide.kernels.bounds.junction import slide_turns
 from relguide.kernels.bounds.round_time import round_most, round_time, times_round
@@ -60,22 +61,41 @@ def test_no_path_to_a_tight_contact_or_from_one_is_longer_round_by_less(last: bo
             return
 
 
-def test_leaving_the_circle_straight_comes_as_near_to_a_tight_contact_as_is_said() -> None:
-    scene = straight(0.6568746823392786, 2.043434249423992)
+def least_excess(scene: Scene, table: FloatArray, bearing: float) -> float:
+    """The least of all words to a contact that passes counter-clockwise, from many before it."""
+    least = inf
+    for p in np.linspace(0.0, bearing - 0.2, 4_000):
+        begin, end = pose_at(scene, p, 1.0), pose_at(scene, bearing, 1.0)
+        took = round_time(table, 0, bearing) - round_time(table, 0, p)
+        for row in words_between(scene, begin, end):
+            if row[0] - took < least and not np.isnan(
+                unrolled(begin, row, scene.alpha, scene.d_min)
+            ):
+                least = row[0] - took
+    return least
+
+
+@pytest.mark.parametrize(
+    ("alpha", "d_min", "bearing", "expected"),
+    [
+        (0.6568746823392786, 2.043434249423992, 55.5, 0.0034),
+        (0.6568746823392786, 2.043434249423992, 64.0, 0.0318),
+        (0.6602820237793915, 2.570147364974542, 84.34, 0.0053),
+    ],
+)
+def test_leaving_the_circle_straight_comes_as_near_to_a_tight_contact_as_is_said(
+    alpha: float, d_min: float, bearing: float, expected: float
+) -> None:
+    scene = straight(alpha, d_min)
     table = times_round(scene.alpha, scene.d_min)
-    for bearing, expected in ((radians(55.5), 0.0034), (radians(64.0), 0.0318)):
-        said = tight_excess(scene, table, standing(0, 1.0, bearing, 1e-6), True, ENOUGH)
-        least = inf
-        for p in np.linspace(0.0, 0.7, 4_000):
-            begin, end = pose_at(scene, p, 1.0), pose_at(scene, bearing, 1.0)
-            took = round_time(table, 0, bearing) - round_time(table, 0, p)
-            for row in words_between(scene, begin, end):
-                if row[0] - took < least and not np.isnan(
-                    unrolled(begin, row, scene.alpha, scene.d_min)
-                ):
-                    least = row[0] - took
-        assert least - 2e-3 < said <= least
-        assert said == pytest.approx(expected, abs=3e-4)
+    least = least_excess(scene, table, radians(bearing))
+    assert least == pytest.approx(expected, abs=3e-4)
+    said = tight_excess(scene, table, standing(0, 1.0, radians(bearing), 1e-6), True, ENOUGH)
+    assert least - 2e-3 < said <= least
+    # no bearing of a cell that begins there comes nearer, and all of it is known nearly as well
+    for half in (3e-4, 1e-3):
+        cell = standing(0, 1.0, radians(bearing) + half, half)
+        assert 0.7 * said < tight_excess(scene, table, cell, True, ENOUGH) <= least
 
 
 def test_flown_back_and_mirrored_a_hop_is_a_hop() -> None:
