@@ -55,7 +55,7 @@ _HOPS_AFTER = 1_000  # looks it is asked whether paths that hop between two cell
 _HOP_LEVEL, _DEEP = 5, 9  # from so many halvings of a radian on; and before that from so many on,
 _HOP_LEVELS = 2  # and whenever there are so many more
 _MOST_VAIN = 20  # but no longer when so much was in vain,
-_DEEPEST = 13  # or three times as much in cells that have been halved so often
+_DEEPER, _DEEPEST = 13, 21  # or three times as much, or anything, after so many halvings
 _ROOTS = 0.1  # size of the cells of last contacts that are left [rad]
 _MOST_ROOTS = 256  # if there are more, they are kept larger
 _NO_LAST = -1  # of a bundle whose last contact does not matter
@@ -346,7 +346,9 @@ def _hops_late(search: Search, problem: Problem, n: int, m: int, asked: int) -> 
         return False, asked
     room = problem.beat - reach(search.first, problem, n)[0] - leave(search.last, problem, m)
     cell, other = cell_at(search.first, n), cell_at(search.last, m)
-    most = _MOST_VAIN if level < _DEEPEST else 3 * _MOST_VAIN
+    most = _MOST_VAIN if level < _DEEPER else 3 * _MOST_VAIN
+    if level >= _DEEPEST:
+        most = MAX_BUNDLES
     return hops_late(problem.scene, problem.table, cell, other, room, search.vain, most), level
 
 
