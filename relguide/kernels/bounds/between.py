@@ -74,26 +74,23 @@ def word_between(
         drifts = begin.span * norm(begin.vx - end.vx, begin.vy - end.vy)
     early = begin.t - end.t
     met = Pose(met.x + early * end.vx, met.y + early * end.vy, met.h)
-    s, c = sine_and_cosine(met.h)
-    moved, differs = max(end.left, end.right) + drifts, begin.differs + end.differs
+    there = Poses(
+        end.t, end.span, met, end.vx, end.vy, end.differs, end.left + drifts, end.right + drifts
+    )
     turned = after + before
-    return turned + soonest_beyond(
-        to_frame_of(begin.middle, met),
-        Blur(begin.left + moved, begin.right + moved, differs, end.differs),
-        Velocity(end.vx * c + end.vy * s, end.vy * c - end.vx * s),
-        Window(0.0, beat - turned), no_sieve(scene), enough - turned,
-    )  # fmt: skip
+    return turned + word_toward(scene, begin, there, beat - turned, enough - turned)
 
 
 @njit(cache=True, nogil=True)
 def word_toward(scene: Scene, begin: Poses, end: Poses, beat: float, enough: float) -> float:
-    """No word leads sooner from any of some poses to any of others, which move with the leader.
+    """No word leads sooner from any of some poses to any of others, which move on as they do.
 
-    Behind a leader that keeps straight. Arguments as `word_between`.
+    Both are where they are as the word begins. Arguments as `word_between`.
     """
     (s, c), moved = sine_and_cosine(end.middle.h), max(end.left, end.right)
     return soonest_beyond(
         to_frame_of(begin.middle, end.middle),
         Blur(begin.left + moved, begin.right + moved, begin.differs + end.differs, end.differs),
-        Velocity(scene.alpha * c, -scene.alpha * s), Window(0.0, beat), no_sieve(scene), enough,
+        Velocity(end.vx * c + end.vy * s, end.vy * c - end.vx * s),
+        Window(0.0, beat), no_sieve(scene), enough,
     )  # fmt: skip

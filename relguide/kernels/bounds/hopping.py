@@ -5,15 +5,13 @@ as much as some twenty looks at a pair of cells, so none is asked for as long as
 Lengths in R, times in R/V_P.
 """
 
-from math import pi
-
 from numba import njit
 
 from relguide.kernels.base.records import Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.cells import Cell
 from relguide.kernels.bounds.contact_tree import IntArray
-from relguide.kernels.bounds.needed_hop import hop_is_late, needs_hop
+from relguide.kernels.bounds.needed_hop import BESIDE, hop_is_late, needs_hop
 from relguide.kernels.bounds.past_bearing import passes_late
 from relguide.kernels.bounds.round_time import round_bound
 
@@ -50,7 +48,7 @@ def hops_late(
         if vain[reason] >= most:
             return False
         if reason == _PASS:
-            late = passes_late(scene, cell, other, way, cell.side * 0.5 * pi, room)
+            late = passes_late(scene, cell, other, way, cell.side * BESIDE, room)
         else:
             late = hop_is_late(scene, table, cell, other, way, room)
         vain[reason] = max(vain[reason] + (-1 if late else _VAIN), 0)

@@ -5,9 +5,10 @@ bank is enough to follow it (see `junction`). But on the way from a contact F to
 are a contact P and the next one, N,
 
 - if F and L are on different sides: P on the side of F, and N on the other;
-- if they are on the same side, but the path goes round the leader the other way, or beside it where
-  nobody can slide: as before; or the path has contacts on that one side only, and from P to N it
-  goes past a bearing where nobody slides that way.
+- if they are on the same side, but the path goes round the leader the other way: as before; or the
+  path has contacts on that one side only, and from P to N it goes past the bearing midway.
+
+Beside the leader, where nobody may be able to slide the right way either, see `past_bearing`.
 
 From F to P, and from N to L, it takes no less than round the disc, the one way or the other, and
 no less than the soonest word; and from P to N as long as a word that begins and ends as it must
@@ -29,13 +30,14 @@ from relguide.kernels.bounds.cells import Cell
 from relguide.kernels.bounds.hop import hops_within, standing
 from relguide.kernels.bounds.round_time import round_bound, round_over
 
+BESIDE = 0.5 * pi
+"""The bearing where who passes counter-clockwise must bank most to slide [rad]."""
 _CELLS = 8  # of each side, at first
 _MOST = 3_000  # pairs of cells are looked at
 _STACK = 256
 _SMALLEST = 1e-3  # of a cell [rad]
 _LARGEST = 0.1  # of one of which words are looked at [rad]
 _ROUNDING = 1e-9  # of a time, as part of it
-_BESIDE = 0.5 * pi  # where who passes counter-clockwise must bank most to slide [rad]
 _ANYHOW = -1  # instead of a way round
 
 
@@ -57,7 +59,7 @@ def needs_hop(scene: Scene, cell: Cell, other: Cell, way: int) -> bool:
         return False
     if cell.side != sense:
         return True
-    beside = wrap(sense * (sense * _BESIDE - cell.bearing))
+    beside = wrap(sense * (sense * BESIDE - cell.bearing))
     between = cell.half < beside < over - other.half
     return between and (1.0 + scene.alpha) ** 2 > scene.d_min
 
@@ -72,7 +74,7 @@ def hop_is_late(
         scene: a leader that keeps straight, and d_min.
         table: of `times_round`.
         cell: of contacts.
-        other: of contacts to which nobody can slide from there: see `needs_hop`.
+        other: of contacts on the other side, or reached the other way round.
         way: which way round, where both are on one side.
         beat: the time [R/V_P].
     """
@@ -83,9 +85,7 @@ def hop_is_late(
     if table[way, -1] <= beat:
         return False
     sense = 1.0 - 2.0 * way
-    past = sense * _BESIDE
-    if cell.side != sense:
-        past = cell.bearing + 0.5 * sense * wrap(sense * (other.bearing - cell.bearing))
+    past = cell.bearing + 0.5 * sense * wrap(sense * (other.bearing - cell.bearing))
     return _is_late(scene, table, cell, other, cell.side, way, past, beat)
 
 

@@ -66,7 +66,7 @@ def passes_late(
         if pace + half < 0.0:
             continue
         middle = Pose(there.x + rho * c, there.y + rho * s, heading)
-        at = Poses(0.0, 0.0, middle, 0.0, 0.0, half, wide + half, wide + half)
+        at = Poses(0.0, 0.0, middle, scene.alpha, 0.0, half, wide + half, wide + half)
         took = word_toward(scene, begin, at, beat, 0.0)
         if took >= beat or took + word_toward(scene, at, end, beat - took, 0.0) >= beat:
             continue

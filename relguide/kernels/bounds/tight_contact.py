@@ -29,6 +29,7 @@ times in R/V_P, angles counter-clockwise.
 """
 
 from math import pi
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit
@@ -49,6 +50,19 @@ _CELLS = 16  # of each side, at first
 _MOST = 500  # times one is halved
 _FINE = 0.1  # and how much smaller than the contact's own cell they may become
 _ROUNDING = 1e-9  # of a time, as part of it
+
+
+class _Tight(NamedTuple):
+    """Contacts that pass counter-clockwise, to which the excess is asked for."""
+
+    cell: Cell
+    """Of them."""
+    end: Poses
+    """Where all who turn left through one of them are on the heading of the cell's last one."""
+    longer: float
+    """How much longer than round the disc it may take to turn there [R/V_P]."""
+    apart: float
+    """For how long there is no other contact before one of them [R/V_P]."""
 
 
 @njit(cache=True, nogil=True)
@@ -73,12 +87,18 @@ def tight_excess(scene: Scene, table: FloatArray, cell: Cell, last: bool, enough
         asked = turned_round(asked)
     if slide_turns(scene, asked)[0] <= 1.0:
         return 0.0
+    along = round_most(table, asked.bearing - asked.half, 2.0 * asked.half)
+    most = slide_turns(scene, asked)[1]
+    if most * along > _TURNED:
+        return 0.0
     at_once = Cell(asked.piece, 1.0, asked.bearing, asked.half, 0.0, 0.0)
-    return _least(scene, table, asked, apart_by(scene, at_once, -1.0), enough)
+    end, longer = _turned_on(scene, asked, most), (most - 1.0) * along
+    tight = _Tight(asked, end, longer, apart_by(scene, at_once, -1.0))
+    return _least(scene, table, tight, enough)
 
 
 @njit(cache=True, nogil=True)
-def _least(scene: Scene, table: FloatArray, cell: Cell, apart: float, enough: float) -> float:
+def _least(scene: Scene, table: FloatArray, tight: _Tight, enough: float) -> float:
     """The least excess by way of any contact, by halving their cells."""
     room = 2 * _CELLS + _MOST
     sides, bearings, halves = np.empty(room), np.empty(room), np.empty(room)
@@ -87,32 +107,31 @@ def _least(scene: Scene, table: FloatArray, cell: Cell, apart: float, enough: fl
     for k in range(_CELLS):
         for side in (1.0, -1.0):
             sides[count], bearings[count], halves[count] = side, (2 * k + 1) * half - pi, half
-            other = standing(cell.piece, side, bearings[count], half)
-            bounds[count] = _excess(scene, table, other, cell, apart, enough)
+            other = standing(tight.cell.piece, side, bearings[count], half)
+            bounds[count] = _excess(scene, table, other, tight, enough)
             count += 1
     at = int(np.argmin(bounds[:count]))
-    while count < room and bounds[at] < enough and halves[at] > _FINE * cell.half:
+    while count < room and bounds[at] < enough and halves[at] > _FINE * tight.cell.half:
         side, bearing, half, least = sides[at], bearings[at], 0.5 * halves[at], bounds[at]
         for k in range(2):
             place = at if k == 0 else count
             sides[place], bearings[place], halves[place] = side, bearing + (2 * k - 1) * half, half
-            other = standing(cell.piece, side, bearings[place], half)
-            bounds[place] = max(least, _excess(scene, table, other, cell, apart, enough))
+            other = standing(tight.cell.piece, side, bearings[place], half)
+            bounds[place] = max(least, _excess(scene, table, other, tight, enough))
         count += 1
         at = int(np.argmin(bounds[:count]))
     return float(bounds[at])
 
 
 @njit(cache=True, nogil=True)
-def _excess(
-    scene: Scene, table: FloatArray, other: Cell, cell: Cell, apart: float, enough: float
-) -> float:
+def _excess(scene: Scene, table: FloatArray, other: Cell, tight: _Tight, enough: float) -> float:
     """The least excess by way of contacts of the other cell, no more than `enough`."""
+    cell = tight.cell
     ahead, reach = wrap(cell.bearing - other.bearing), cell.half + other.half
     least, full = enough, float(table[0, -1])
     # beyond the contact, and back to it
     back = round_bound(table, 0, cell, other)
-    took = max(apart, round_bound(table, 1, other, cell))
+    took = max(tight.apart, round_bound(table, 1, other, cell))
     if took + back < least and took < LONGEST:
         window = Window(0.0, min(least - back, LONGEST))
         took = max(took, hop_bound(scene, other, cell, window))
@@ -126,24 +145,17 @@ def _excess(
         return 0.0
     if soonest >= LONGEST:
         return least
-    along, most = (
-        round_most(table, cell.bearing - cell.half, 2.0 * cell.half),
-        slide_turns(scene, cell)[1],
-    )
-    if most * along > _TURNED:
-        return 0.0
-    latest += (most - 1.0) * along
-    end = _turned_on(scene, cell, most)
-    took = max(apart, soonest)
+    latest += tight.longer
+    took = max(tight.apart, soonest)
     if took < min(latest + least, TWO_PI):
         window = Window(soonest * (1.0 - _ROUNDING), min(latest + least, TWO_PI))
-        took = max(took, hop_toward(scene, other, end, window))
+        took = max(took, hop_toward(scene, other, tight.end, window))
     if took >= TWO_PI:
         return least
     if took < latest + least and other.side > 0.0 and _can_slide(scene, other):
         # sliding to where the word begins counts here as well
         at = poses_of(scene, standing(other.piece, 1.0, begin, 0.0))
-        took = max(took, word_toward(scene, at, end, latest + least, took))
+        took = max(took, word_toward(scene, at, tight.end, latest + least, took))
     return min(least, max(took - latest, 0.0))
 
 
