@@ -187,7 +187,7 @@ class EarlyAlternativeCard:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MissingAlternativeCard:
-    """A word of which no path reaches the slot."""
+    """A word of which no path reaches the slot, or none within 12 hours."""
 
     word: str
     """Its letters, e.g. `LSR`: L and R are turns, S a straight, B slides along d_min."""

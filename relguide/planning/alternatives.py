@@ -23,7 +23,7 @@ from relguide.planning.phrases import duration, too_close
 from relguide.planning.plan import AS_FAST, Plan
 from relguide.planning.slot import SlotFrame
 from relguide.planning.trajectory import Trajectory
-from relguide.planning.words import Candidates, candidates
+from relguide.planning.words import HORIZON, Candidates, candidates
 from relguide.units import Metre, Second
 
 SAME_LENGTH: Metre = 0.01
@@ -101,7 +101,7 @@ class TooEarly:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NoRoot:
-    """A word of which no path reaches the slot, early or late."""
+    """A word of which no path reaches the slot, early or late: none at all, or none in 12 hours."""
 
     word: str
     why: str
@@ -130,27 +130,33 @@ def alternatives(plan: Plan, *, deadline: Second | None = None) -> tuple[AnyAlte
     until = end_of(deadline)
     situation = plan.situation
     found = candidates(situation)
-    early = _first_arrivals(found.frame)
     scale = found.frame.radius / situation.pursuer.tas
     release_time = found.frame.t_release * scale
+    first = {word: time * scale for word, time in _first_arrivals(found.frame).items()}
     late = {WORDS[int(word)] for word in found.rows[:, 1]}
     around = surroundings(found)
     listed: list[Alternative | TooEarly] = [
         *takewhile(lambda _: not time_is_up(until), _release_alternatives(plan, found, around)),
         *takewhile(lambda _: not time_is_up(until), _later_alternatives(plan, found, around)),
     ]
-    for word, first in early.items():
-        time = first * scale
-        if time < release_time - AS_FAST:
+    for word, time in first.items():
+        if time < release_time - (AS_FAST if word in late else 0.0):
             why = f"reaches the slot {duration(release_time - time)} before it opens"
             listed.append(
                 TooEarly(word=word, time_to_converge=time, release_time=release_time, why=why)
             )
-    rootless = [word for word in WORDS if word not in late and word not in early]
+    rootless = [w for w in WORDS if w not in late and first.get(w, release_time) >= release_time]
     return (
         *sorted(listed, key=lambda other: other.time_to_converge),
-        *(NoRoot(word=word, why="no such path to the slot") for word in rootless),
+        *(NoRoot(word=word, why=_why_rootless(first.get(word))) for word in rootless),
     )
+
+
+def _why_rootless(time: Second | None) -> str:
+    """What to say of a word that is there at `time` [s] at the earliest, if at all."""
+    if time is None:
+        return "no such path to the slot"
+    return f"no such path to the slot within {HORIZON / 3600.0:.0f} hours"
 
 
 def _first_arrivals(frame: SlotFrame) -> dict[str, float]:

@@ -614,7 +614,7 @@ export interface Loss {
   announced_s: number[];
 }
 
-/** A word of which no path reaches the slot. */
+/** A word of which no path reaches the slot, or none within 12 hours. */
 export interface MissingAlternativeCard {
   /** Its letters, e.g. `LSR`: L and R are turns, S a straight, B slides along d_min. */
   word: string;

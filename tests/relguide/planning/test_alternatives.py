@@ -184,6 +184,21 @@ def test_a_golden_case_with_intent_whose_slot_opens_later() -> None:
         assert other.release_time == pytest.approx(answer.time_to_converge, abs=1e-6)
 
 
+def test_a_word_that_takes_more_than_twelve_hours_is_said_to() -> None:
+    """With equal headings and nearly equal speeds two turns in the same sense take half a day."""
+    situation = Situation(
+        pursuer=Pursuer(x=6456.0, y=-29_995.0, heading=0.0, tas=150.0, max_bank=15.0 * DEG),
+        leader=Leader(x=0.0, y=0.0, heading=0.0, tas=147.0),
+        slot_distance=8_000.0,
+        min_separation=5_500.0,
+    )
+    assert words_and_reasons(alternatives(find_plan(situation)))[2:] == [
+        ("NoRoot", "RSL: no such path to the slot within 12 hours"),
+        ("NoRoot", "LRL: no such path to the slot"),
+        ("NoRoot", "RLR: no such path to the slot"),
+    ]
+
+
 def test_of_a_word_with_two_paths_both_are_listed_if_both_are_faster() -> None:
     """Both LRL pass on the same side with as small a middle arc; what keeps either from being
     flown is its own separation."""
