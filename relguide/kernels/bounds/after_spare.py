@@ -19,7 +19,8 @@ from relguide.kernels.base.angles import TWO_PI, wrap
 from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.sine import sine_and_cosine
-from relguide.kernels.bounds.cells import EDGE, Cell, fastest_turn, poses_of
+from relguide.kernels.bounds.cell_words import onward_bound
+from relguide.kernels.bounds.cells import EDGE, Cell, Poses, fastest_turn, poses_of
 from relguide.kernels.bounds.goal import Goal
 from relguide.kernels.bounds.junction import (
     growing_for,
@@ -29,6 +30,7 @@ from relguide.kernels.bounds.junction import (
     parted_by,
     slide_turns,
 )
+from relguide.kernels.bounds.rest import no_rest
 from relguide.kernels.separation.clearance import leader_at, piece_at, piece_end
 from relguide.kernels.words.extremals import fly_piece
 
@@ -46,6 +48,8 @@ class Onward(NamedTuple):
     """How long after the contact it can be at the goal, at least; infinite if it cannot be."""
     contact: float
     """How long after it can touch again, at least; infinite if it cannot."""
+    again: float
+    """How long after it can be at the goal if it touches again, at least; infinite if not."""
 
 
 @njit(cache=True, nogil=True)
@@ -64,7 +68,7 @@ def after_spare(scene: Scene, goal: Goal, cell: Cell, left: float) -> Onward:
     turn = 2.0 * acos(min(max(scene.alpha * cos(cell.bearing), -1.0), 1.0))
     # γ may change without bound where the leader is as fast
     if poses.differs == inf or turn < _LEAST or scene.alpha > 1.0 - EDGE:
-        return Onward(0.0, 0.0)
+        return Onward(0.0, 0.0, 0.0)
     contact, until = _followed(scene, cell, poses.middle, poses.t, poses.span, turn, left)
     soonest, begun, pose, sense, parts = inf, 0.0, poses.middle, -cell.side, 1
     while begun <= until:
@@ -84,7 +88,58 @@ def after_spare(scene: Scene, goal: Goal, cell: Cell, left: float) -> Onward:
                 soonest = max(begun + needed - off - EDGE, 0.0)
                 break
         pose, begun, sense, parts = fly_piece(pose, sense, turn), begun + turn, -sense, parts + 1
-    return Onward(soonest, contact)
+    again = inf
+    if contact < inf:
+        there, until = poses_after(scene, cell, contact)
+        start, end = cell.start + until, cell.end + until
+        later = Cell(cell.piece, cell.side, cell.bearing, cell.half, start, end)
+        onward = onward_bound(scene, goal, later, there, left - until, no_rest())
+        again = max(until + onward, contact)
+    return Onward(soonest, contact, again)
+
+
+@njit(cache=True, nogil=True)
+def poses_after(scene: Scene, cell: Cell, contact: float) -> tuple[Poses, float]:
+    """Where those paths are that touch again, shortly before they do.
+
+    Args:
+        scene: as in `after_spare`.
+        cell: likewise.
+        contact: of `Onward` [R/V_P].
+
+    Returns:
+        where, and how long after the contact [R/V_P].
+    """
+    poses, changes = poses_of(scene, cell), _turn_changes(scene, cell)
+    turn = 2.0 * acos(min(max(scene.alpha * cos(cell.bearing), -1.0), 1.0))
+    # before any of them ends a turn, and not until all have begun it
+    begun = int(contact / turn) if turn > _LEAST else 0
+    until = min(contact, (begun + 1) * (turn - changes))
+    if until < begun * (turn + changes):
+        until, begun = begun * (turn - changes), begun - 1
+    if until <= begun * (turn + changes) or changes > turn:
+        return poses, 0.0
+    pose, sense, differs = poses.middle, -cell.side, poses.differs
+    kept = poses.left if sense > 0.0 else poses.right
+    for _ in range(begun):
+        pose, sense = fly_piece(pose, sense, turn), -sense
+        # the centre of the next turn lies across from where this one ends
+        kept += 2.0 * (differs + changes)
+    # they head otherwise where a turn begins, and by when it does
+    differs += changes * (begun + 1 if begun > 0 else 0)
+    pose = fly_piece(pose, sense, until - begun * turn)
+    other = kept + 2.0 * differs
+    left, right = (kept, other) if sense > 0.0 else (other, kept)
+    there = Poses(poses.t + until, poses.span, pose, poses.vx, poses.vy, differs, left, right)
+    return there, until
+
+
+@njit(cache=True, nogil=True)
+def _turn_changes(scene: Scene, cell: Cell) -> float:
+    """How much the length of a turn may differ from that of the middle of the cell [rad]."""
+    low, high = abs(cos(cell.bearing - cell.half)), abs(cos(cell.bearing + cell.half))
+    along = scene.alpha * max(low, high)
+    return 2.0 * min(scene.alpha / sqrt(1.0 - along * along), 1.0) * cell.half
 
 
 @njit(cache=True, nogil=True)
@@ -152,11 +207,14 @@ def _followed(
         seen = _seen(scene, fly_piece(pose, sense, took - begun), sense, t + took)
         _, astray, tilts = _parted(scene, cell, span, parts + 1, took)
         tilts += (1.0 + alpha) * astray / d_min
-        bends = inf
+        bends, falling = inf, 0.0
         if took < first:
             little, slowly = parted_by(scene, cell, span, rate, alike, 1.0, took)
             astray, tilts = min(astray, little), min(tilts, slowly)
             bends = slowly / took if took > 0.0 else inf
+            # nobody touches where d″ < 0
+            fell = -seen.bends - bends - _led_otherwise(scene, cell, span, rate, alike, took)
+            falling = min(fell / jerk, first - took, _same_piece_for(scene, t + took, span))
         room, opens, bent = seen.gap - astray, seen.opens - tilts, seen.bends - bends
         if seen.gap < -astray - EDGE:
             return contact, took
@@ -165,6 +223,7 @@ def _followed(
             step = (opens + sqrt(opens * opens + 2.0 * falls * room)) / falls
             if opens > 0.0 and bent > 0.0:
                 step = max(step, min(3.0 * bent / jerk, alike - took))
+        step = max(step, falling)
         if step < finest:
             # who touches has d′ = 0
             step = max((abs(seen.opens) - tilts) / sways, finest)
@@ -173,6 +232,34 @@ def _followed(
                 contact, finest = took, _COARSE
         took += step
     return min(contact, took), left
+
+
+@njit(cache=True, nogil=True)
+def _led_otherwise(
+    scene: Scene, cell: Cell, span: float, rate: float, left: float, took: float
+) -> float:
+    """How much more d″ may differ in a cell since the leader's pieces end sooner or later.
+
+    Arguments as `parted_by`, on after the contact. In V_P²/R.
+    """
+    if took <= left:
+        return 0.0
+    alpha, d_min, fast = scene.alpha, scene.d_min, 1.0 + scene.alpha
+    pieces = piece_at(scene.leader, 0.5 * (cell.start + cell.end) + span + took) - cell.piece
+    heads = 2.0 * rate * span * pieces
+    bends = rate + 2.0 * fast / d_min
+    moved = (took - left) * ((1.0 + alpha * rate) / d_min + 3.0 * fast * fast / (d_min * d_min))
+    return alpha * heads * (bends + moved)
+
+
+@njit(cache=True, nogil=True)
+def _same_piece_for(scene: Scene, t: float, span: float) -> float:
+    """How long the leader's turn rate stays the same after a time, up to `span` sooner or later.
+
+    0 if it changes in between [R/V_P].
+    """
+    piece = piece_at(scene.leader, max(t - span, 0.0))
+    return max(piece_end(scene.leader, piece) - t - span, 0.0)
 
 
 @njit(cache=True, nogil=True)

@@ -60,25 +60,46 @@ def word_between(
         before: and how far just before the other contact [rad].
         enough: whether a word does so sooner than this does not matter [R/V_P].
     """
-    begin, end = poses_of(scene, cell), poses_of(scene, other)
-    if begin.differs == inf or end.differs == inf:
+    begin = poses_of(scene, cell)
+    if begin.differs == inf:
         return inf
     if after > 0.0:
         begin = turned_away(begin, cell.side, after)
+    on = word_from(scene, begin, cell.piece, other, beat - after, before, enough - after)
+    return after + on
+
+
+@njit(cache=True, nogil=True)
+def word_from(
+    scene: Scene, begin: Poses, piece: int, other: Cell, beat: float, before: float, enough: float
+) -> float:
+    """No word leads sooner to a contact of a cell from any of some poses.
+
+    Args:
+        scene: as in `contact_bound.cell_bound`.
+        begin: the poses.
+        piece: of the leader's intent on which their cell is.
+        other: as in `word_between`.
+        beat: likewise.
+        before: likewise.
+        enough: likewise.
+    """
+    end = poses_of(scene, other)
+    if end.differs == inf:
+        return inf
     if before > 0.0:
         end = turned_away(end, other.side, -before)
     # where the other contact would be at that time, had it always moved as it then does
     drifts = 0.0
     met = end.middle
-    if min(cell.piece, other.piece) + 1 < len(scene.leader):
+    if min(piece, other.piece) + 1 < len(scene.leader):
         drifts = begin.span * norm(begin.vx - end.vx, begin.vy - end.vy)
     early = begin.t - end.t
     met = Pose(met.x + early * end.vx, met.y + early * end.vy, met.h)
     there = Poses(
         end.t, end.span, met, end.vx, end.vy, end.differs, end.left + drifts, end.right + drifts
     )
-    turned = after + before
-    return turned + word_toward(scene, begin, there, beat - turned, enough - turned)
+    return before + word_toward(scene, begin, there, beat - before, enough - before)
 
 
 @njit(cache=True, nogil=True)

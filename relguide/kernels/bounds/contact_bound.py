@@ -73,6 +73,12 @@ def otherwise(passed: Passed) -> float:
 
 
 @njit(cache=True, nogil=True)
+def never_tangent(passed: Passed) -> Passed:
+    """The same, if λ_ψ vanishes at none of the contacts."""
+    return Passed(passed.looped, inf, passed.inward, passed.outward, passed.turned)
+
+
+@njit(cache=True, nogil=True)
 def cell_bound(
     start: Pose, scene: Scene, goal: Goal, cell: Cell, beat: float, closely: bool, to: Rest,
     on: Rest,

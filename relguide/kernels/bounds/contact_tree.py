@@ -21,6 +21,7 @@ from relguide.kernels.bounds.contact_bound import (
     anyhow,
     cell_bound,
     leaving_bound,
+    never_tangent,
     until_again,
 )
 from relguide.kernels.bounds.goal import Goal
@@ -29,6 +30,7 @@ from relguide.kernels.bounds.rest import COLUMNS, MOST, UNKNOWN, Rest
 from relguide.kernels.bounds.round_time import round_time
 from relguide.kernels.bounds.round_turning import slides_from
 from relguide.kernels.bounds.spare_bound import spare_bound
+from relguide.kernels.bounds.tangent_contacts import may_be_tangent
 from relguide.kernels.bounds.tight_contact import tight_excess
 
 IntArray = np.ndarray[tuple[int, ...], np.dtype[np.int64]]
@@ -42,7 +44,7 @@ _TO, _ON, _AWAY = 0, 1, 2  # words to a first contact, on from it, and on from a
 _RESTS = 5  # rows kept, for each cell: if there is no more room, those of larger cells serve
 _SOON, _ONWARD, _LEAVING, _ROUND_FROM, _ROUND_TO = 0, 1, 2, 3, 5  # columns of what is known
 _REACHED, _LEFT, _TIGHT_TO, _TIGHT_FROM, _COLUMNS = 7, 12, 17, 19, 21
-JOINED = 7
+JOINED = 8
 """Columns of `Tree.joined`."""
 
 
@@ -91,6 +93,8 @@ class Problem(NamedTuple):
     that go with it are looked at, one by one [rad]."""
     around: Around
     """When contacts at a bearing can be reached and left."""
+    tangents: FloatArray
+    """First contacts at which λ_ψ vanishes, of `tangent_contacts`."""
 
 
 @njit(cache=True, nogil=True)
@@ -176,6 +180,8 @@ def reach(tree: Tree, problem: Problem, n: int) -> tuple[float, float]:
                 to, on = _rest_of(tree, n, _TO, 0), _rest_of(tree, n, _ON, 1)
                 passed, onward = cell_bound(start, scene, goal, cell, problem.beat, closely, to, on)
                 passed = until_again(scene, cell, 1.0, passed)
+                if closely and not may_be_tangent(problem.tangents, scene, cell):
+                    passed = never_tangent(passed)
                 _keep_rest(tree, n, _TO, to)
             soon = anyhow(passed)
             _keep_rest(tree, n, _ON, on)

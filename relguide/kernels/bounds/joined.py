@@ -9,10 +9,11 @@ from math import inf, isnan
 
 from numba import njit
 
-from relguide.kernels.bounds.after_spare import Onward, after_spare
+from relguide.kernels.bounds.after_spare import Onward, after_spare, poses_after
 from relguide.kernels.bounds.around import soonest_in
+from relguide.kernels.bounds.between import word_from
 from relguide.kernels.bounds.cell_words import turned_after_bound, turned_before_bound
-from relguide.kernels.bounds.cells import EDGE
+from relguide.kernels.bounds.cells import EDGE, Cell
 from relguide.kernels.bounds.contact_tree import (
     Problem,
     Tree,
@@ -25,7 +26,7 @@ from relguide.kernels.bounds.contact_tree import (
 from relguide.kernels.bounds.junction import apart_by
 
 # columns of what is known
-_ONLY, _TURNED, _BEFORE, _APART, _TO_GOAL, _TO_NEXT = 0, 1, 2, 3, 5, 6
+_ONLY, _TURNED, _BEFORE, _APART, _TO_GOAL, _TO_NEXT, _AGAIN = 0, 1, 2, 3, 5, 6, 7
 
 
 @njit(cache=True, nogil=True)
@@ -57,7 +58,20 @@ def spare_onward(tree: Tree, problem: Problem, n: int) -> Onward:
         soon, _ = reach(tree, problem, n)
         onward = after_spare(problem.scene, problem.goal, cell_at(tree, n), problem.beat - soon)
         tree.joined[n, _TO_GOAL], tree.joined[n, _TO_NEXT] = onward.goal, onward.contact
-    return Onward(float(tree.joined[n, _TO_GOAL]), float(tree.joined[n, _TO_NEXT]))
+        tree.joined[n, _AGAIN] = onward.again
+    joined = tree.joined[n]
+    return Onward(float(joined[_TO_GOAL]), float(joined[_TO_NEXT]), float(joined[_AGAIN]))
+
+
+@njit(cache=True, nogil=True)
+def spare_between(
+    tree: Tree, problem: Problem, n: int, other: Cell, beat: float, before: float, enough: float
+) -> float:
+    """As `between.word_between`, from contacts of a cell that are come to with time to spare."""
+    scene, cell = problem.scene, cell_at(tree, n)
+    begin, until = poses_after(scene, cell, spare_onward(tree, problem, n).contact)
+    on = word_from(scene, begin, cell.piece, other, beat - until, before, enough - until)
+    return until + on
 
 
 @njit(cache=True, nogil=True)
@@ -76,7 +90,7 @@ def turned_goal(tree: Tree, problem: Problem, n: int) -> float:
             after = turned_after_bound(problem.scene, problem.goal, cell, turn, beat - soon)
             goal = max(first.turned, first.outward + max(onward, after))
             if goal < beat and tree.spare[n]:
-                goal = max(goal, soon + spare_onward(tree, problem, n).contact)
+                goal = max(goal, soon + spare_onward(tree, problem, n).again)
         tree.joined[n, _TURNED] = goal
     return float(tree.joined[n, _TURNED])
 

@@ -74,7 +74,7 @@ def with_around(problem: Problem, around: Around) -> Problem:
     """The same question, with better times around the leader."""
     return Problem(
         problem.start, problem.scene, problem.goal, problem.table, problem.beat, problem.paired,
-        around,
+        around, problem.tangents,
     )  # fmt: skip
 
 

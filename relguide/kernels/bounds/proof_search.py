@@ -33,7 +33,7 @@ from relguide.kernels.bounds.contact_tree import (
     size_of,
 )
 from relguide.kernels.bounds.hopping import REASONS, hops_late
-from relguide.kernels.bounds.joined import apart, only_of, turned_goal, turned_leave
+from relguide.kernels.bounds.joined import apart, only_of, spare_between, turned_goal, turned_leave
 from relguide.kernels.bounds.narrowing import lasts_left, narrow, with_around
 from relguide.kernels.bounds.probe import Find, probe, probe_between
 from relguide.kernels.bounds.round_turning import whole_rounds
@@ -259,13 +259,17 @@ def _pair_bound(search: Search, problem: Problem, n: int, m: int) -> float:
     # where a turn passes both, a word leads on from the first or to the last: as from an only one
     if on < inf:
         took = between
-        if after > 0.0:
+        if search.first.spare[n]:
+            took = max(took, spare_between(search.first, problem, n, other, room, 0.0, took))
+        elif after > 0.0:
             took = max(took, word_between(scene, cell, other, room, after, 0.0, took))
         there = max(on + took, first.turned, at_last)
         if there <= other.end:
             bound = min(bound, max(there + passed, turned))
         if turn_on < inf:
-            if before > 0.0:
+            if before > 0.0 and search.first.spare[n]:
+                took = max(took, spare_between(search.first, problem, n, other, room, before, took))
+            elif before > 0.0:
                 took = max(took, word_between(scene, cell, other, room, 0.0, before, took))
                 if cell.side != other.side and after > 0.0:
                     took = max(took, word_between(scene, cell, other, room, after, before, took))

@@ -124,7 +124,7 @@ def test_most_contacts_are_ruled_out() -> None:
     for _ in range(300):
         scene, contact = drawn_scene(rng), Contact(1, rng.uniform(-pi, pi), 1.0)
         cell = in_cells(rng, contact, rng.uniform(1.2, 5.0))[2]
-        out += after_spare(scene, NOWHERE, cell, 3.0) == (inf, inf)
+        out += after_spare(scene, NOWHERE, cell, 3.0) == (inf, inf, inf)
     assert out > 250
 
 
@@ -195,4 +195,4 @@ def test_nothing_is_said_of_leaders_as_fast_as_the_pursuer() -> None:
         scene = drawn_scene(rng)._replace(alpha=alpha)
         for bearing in (2.0, 3.1):
             cell = in_cells(rng, Contact(1, bearing, 1.0), 2.0)[2]
-            assert after_spare(scene, NOWHERE, cell, 3.0) == (0.0, 0.0)
+            assert after_spare(scene, NOWHERE, cell, 3.0) == (0.0, 0.0, 0.0)
