@@ -1,11 +1,12 @@
 """First contacts at which λ_ψ vanishes: single points, which are found beforehand.
 
 λ_ψ vanishes where a path changes its turn, and on its straights (see `costate`). So who comes to a
-first contact so has flown a turn and a straight up to it, maybe with a full turn after that; or two
-turns; or three, of which the last is as long as the middle one. Each time two numbers say where the
-path has come to, and that d = d_min and d′ = 0 are two equations for them. So there are a few such
-contacts, no more, while a cell of contacts with words that nearly end so is one of many. Both
-numbers are cut into boxes, and those are left out in which d or d′ is certainly something else.
+first contact so has flown a turn and a straight up to it, or two turns, or three of which the last
+is as long as the middle one. (Or he has flown a full turn more: such paths are bounded anyhow.)
+Each time two numbers say where the path has come to, and d = d_min and d′ = 0 are two equations for
+them. So there are only a few such contacts, while of the cells of contacts a great many hold words
+that nearly end so. Both numbers are cut into boxes, and those are left out in which d or d′ is
+certainly something else.
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
@@ -25,12 +26,11 @@ from relguide.kernels.bounds.cells import EDGE, Cell, fastest_turn
 from relguide.kernels.separation.clearance import leader_at, piece_at
 from relguide.kernels.words.extremals import fly_piece
 
-_STRAIGHT, _LOOPED, _TURN, _AS_LONG = 0, 1, 2, 3
-"""What a path ends with after its first turn: a straight, that and a full turn, a turn, or two of
-the same length."""
-_ENDS = 4
+_STRAIGHT, _TURN, _AS_LONG = 0, 1, 2
+"""What a path ends with after its first turn: a straight, a turn, or two of the same length."""
+_ENDS = 3
 _FINE = 1e-6  # boxes are halved until no place differs by more in them [R]
-_BOXES = 500_000  # if there are more of them, nothing is known
+_BOXES = 500_000  # if there are more of them, which takes 40 ms, nothing is known
 _DEPTH = 128  # more than halvings of both numbers
 _MOST = 96  # no more such contacts are told from each other
 _SIDE, _BEARING, _HALF, _START, _END, _COLUMNS = 0, 1, 2, 3, 4, 5  # of a row
@@ -82,10 +82,7 @@ def tangent_contacts(start: Pose, scene: Scene, beat: float) -> FloatArray:
     for hand in range(2):
         sense = 1.0 - 2.0 * hand
         for end in range(_ENDS):
-            most = beat - (TWO_PI if end == _LOOPED else 0.0)
-            if most <= 0.0:
-                continue
-            first, then = min(most, TWO_PI), most if end <= _LOOPED else min(most, TWO_PI)
+            first, then = min(beat, TWO_PI), beat if end == _STRAIGHT else min(beat, TWO_PI)
             stack[0, 0], stack[0, 1] = 0.5 * first, 0.5 * first + EDGE
             stack[0, 2], stack[0, 3] = 0.5 * then, 0.5 * then + EDGE
             n = 1
@@ -142,14 +139,10 @@ def _seen(start: Pose, scene: Scene, sense: float, end: int, box: _Box) -> _Seen
     # the centre of the first turn
     x, y = start.x - sense * s, start.y + sense * c
     t = box.first + box.then
-    if end <= _LOOPED:
-        at = fly_piece(turned, 0.0, box.then)
-        t += TWO_PI if end == _LOOPED else 0.0
-    else:
-        at = fly_piece(turned, -sense, box.then)
-        if end == _AS_LONG:
-            at = fly_piece(at, sense, box.then)
-            t += box.then
+    at = fly_piece(turned, 0.0 if end == _STRAIGHT else -sense, box.then)
+    if end == _AS_LONG:
+        at = fly_piece(at, sense, box.then)
+        t += box.then
     there = leader_at(scene, piece_at(scene.leader, t), t)
     s, c = sine_and_cosine(at.h)
     lead_s, lead_c = sine_and_cosine(there.h)
@@ -163,12 +156,12 @@ def _seen(start: Pose, scene: Scene, sense: float, end: int, box: _Box) -> _Seen
 def _differs(scene: Scene, end: int, box: _Box, seen: _Seen) -> tuple[float, float, float]:
     """How much the place may differ in a box by each number [R], and the time [R/V_P].
 
-    All that follows on the first turn swings round its centre with it, and the last of three turns
-    swings round the centre of the middle one.
+    All that follows on the first turn swings round its centre with it. Where the last of three
+    turns is as long as the middle one, its end moves as fast as its centre round the middle one's.
     """
     fast, times = 1.0, 1.0
     if end == _AS_LONG:
-        fast, times = 4.0, 2.0
+        fast, times = 2.0, 2.0
     by_first = (seen.arm + fast * box.then_half + scene.alpha) * box.first_half
     by_then = (fast + times * scene.alpha) * box.then_half
     return by_first, by_then, box.first_half + times * box.then_half
@@ -225,9 +218,7 @@ def _row(
 
 
 @njit(cache=True, nogil=True)
-def _with_row(
-    rows: FloatArray, count: int, found: tuple[float, float, float, float, float]
-) -> int:
+def _with_row(rows: FloatArray, count: int, found: tuple[float, float, float, float, float]) -> int:
     """Add contacts to those beside them; how many rows there are then, −1 if too many."""
     side, bearing, half, start, end = found
     for k in range(count):

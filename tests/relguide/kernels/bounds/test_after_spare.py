@@ -9,17 +9,19 @@ from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.base.records import Contact, Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.after_spare import after_spare
-from relguide.kernels.bounds.cells import Cell
+from relguide.kernels.bounds.after_spare import poses_after as cell_after
+from relguide.kernels.bounds.cells import Cell, poses_of
 from relguide.kernels.bounds.goal import Goal
 from relguide.kernels.bounds.junction import can_touch
 from relguide.kernels.bounds.rest import no_rest
 from relguide.kernels.bounds.spare_bound import spare_bound
 from relguide.kernels.contact.contact import contact_heading, contact_on
 from relguide.kernels.separation.clearance import leader_at, piece_at
-from relguide.kernels.words.extremals import fly_piece
+from relguide.kernels.words.extremals import MAX_ROWS, fly_piece, solve
 from tests.relguide.kernels.bounds.test_junction import turning_scene
 
 NOWHERE = Goal(1e6, 0.5, False)
+SLOT = Goal(2.0, 0.5, False)
 LEFT, STEP = 5.0, 2e-3
 
 
@@ -87,7 +89,7 @@ def breaks_at(scene: Scene, contact: Contact, t: float, step: float) -> float:
 
 def test_a_path_that_touches_again_is_never_ruled_out() -> None:
     """Between one that breaks the limit and one that does not lies one that touches."""
-    rng, found = np.random.default_rng(5), 0
+    rng, found, closely = np.random.default_rng(5), 0, 0
     for k in range(200):
         scene, side = drawn_scene(rng), rng.choice((-1.0, 1.0))
         # also from just before the leader begins to turn
@@ -113,9 +115,24 @@ def test_a_path_that_touches_again_is_never_ruled_out() -> None:
                 if 0.2 < again < LEFT - 0.1:
                     found += 1
                     for cell in in_cells(rng, Contact(piece, broken, side), t, begun, ends):
-                        assert after_spare(scene, NOWHERE, cell, LEFT).contact <= again + 0.02
+                        onward = after_spare(scene, NOWHERE, cell, LEFT)
+                        assert onward.contact <= again + 0.02
+                        on = soonest_on(scene, Contact(piece, broken, side), t, again)
+                        late = after_spare(scene, SLOT._replace(speed=scene.alpha), cell, 50.0)
+                        assert late.again <= again + on + 0.05 or again + on > 49.0
+                        closely += again + on - 0.1 < late.again < inf
             last, before = when, float(bearing)
     assert found > 20
+    assert closely > found
+
+
+def soonest_on(scene: Scene, contact: Contact, t: float, took: float) -> float:
+    """How soon a word leads on to the slot from where such a path is then."""
+    (at,) = poses_after(scene, contact, t, np.array([took]))
+    seen = Pose(at.x - SLOT.x - scene.alpha * (t + took), at.y, at.h % (2.0 * pi))
+    rows = np.empty((MAX_ROWS, 5))
+    assert solve(seen, scene.alpha, 0.0, rows) > 0
+    return float(rows[0, 0])
 
 
 def test_most_contacts_are_ruled_out() -> None:
@@ -186,6 +203,38 @@ def test_a_contact_that_some_path_is_at_is_never_ruled_out() -> None:
             nobody = Cell(0, side, cell.bearing, cell.half, 0.0, 0.01)
             out += spare_bound(start, scene, goal, nobody, 1e3, no_rest())[0].outward == inf
     assert out > 2_000
+
+
+def test_where_paths_of_a_cell_are_before_they_touch_again() -> None:
+    """Each path's circles lie beside those of the middle's, as far as they may."""
+    rng, turned, closely = np.random.default_rng(11), 0, 0
+    for _ in range(400):
+        scene, side = drawn_scene(rng), rng.choice((-1.0, 1.0))
+        contact, t = Contact(1, rng.uniform(-pi, pi), side), rng.uniform(1.2, 5.0)
+        if abs(scene.alpha * cos(contact.bearing)) > 0.9:
+            continue
+        for cell in in_cells(rng, contact, t):
+            begin, touching = poses_of(scene, cell), rng.uniform(0.0, 6.0)
+            there, until = cell_after(scene, cell, touching)
+            assert 0.0 <= until <= touching
+            bearing = cell.bearing + rng.uniform(-1.0, 1.0) * cell.half
+            when = rng.uniform(cell.start, cell.end)
+            (at,) = poses_after(scene, Contact(1, bearing, side), when, np.array([until]))
+            later = when - begin.t
+            moved = Pose(at.x - later * begin.vx, at.y - later * begin.vy, at.h)
+            assert abs(wrap_signed(moved.h - there.middle.h)) <= there.differs + 1e-9
+            for sense, blur in ((1.0, there.left), (-1.0, there.right)):
+                assert centres_apart(moved, there.middle, sense) <= blur + 1e-9
+            turned += until > 2.0 * acos(scene.alpha * cos(contact.bearing))
+            closely += touching - until < 0.1
+    assert turned > 100
+    assert closely > 600
+
+
+def centres_apart(pose: Pose, other: Pose, sense: float) -> float:
+    """How far the centres of two turns lie from each other."""
+    x, y = pose.x - other.x, pose.y - other.y
+    return hypot(x - sense * (sin(pose.h) - sin(other.h)), y + sense * (cos(pose.h) - cos(other.h)))
 
 
 def test_nothing_is_said_of_leaders_as_fast_as_the_pursuer() -> None:
