@@ -213,8 +213,7 @@ def _followed(
             astray, tilts = min(astray, little), min(tilts, slowly)
             bends = slowly / took if took > 0.0 else inf
             # nobody touches where d″ < 0
-            fell = -seen.bends - bends - _led_otherwise(scene, cell, span, rate, alike, took)
-            falling = min(fell / jerk, first - took, _same_piece_for(scene, t + took, span))
+            falling = min(falling_for(scene, cell, span, took, seen.bends), first - took)
         room, opens, bent = seen.gap - astray, seen.opens - tilts, seen.bends - bends
         if seen.gap < -astray - EDGE:
             return contact, took
@@ -235,31 +234,32 @@ def _followed(
 
 
 @njit(cache=True, nogil=True)
-def _led_otherwise(
-    scene: Scene, cell: Cell, span: float, rate: float, left: float, took: float
-) -> float:
-    """How much more d″ may differ in a cell since the leader's pieces end sooner or later.
+def falling_for(scene: Scene, cell: Cell, span: float, took: float, bends: float) -> float:
+    """For how long d″ < 0 on all paths of a cell, as long as all are in their first turn.
 
-    Arguments as `parted_by`, on after the contact. In V_P²/R.
+    Args:
+        scene: the leader and d_min.
+        cell: of contacts.
+        span: half of its window of time [R/V_P].
+        took: since the contact [R/V_P].
+        bends: d″ on the path from its middle [V_P²/R].
+
+    Returns:
+        0 or less if it may be positive now, or the leader may change how it turns [R/V_P].
     """
-    if took <= left:
-        return 0.0
-    alpha, d_min, fast = scene.alpha, scene.d_min, 1.0 + scene.alpha
-    pieces = piece_at(scene.leader, 0.5 * (cell.start + cell.end) + span + took) - cell.piece
-    heads = 2.0 * rate * span * pieces
-    bends = rate + 2.0 * fast / d_min
-    moved = (took - left) * ((1.0 + alpha * rate) / d_min + 3.0 * fast * fast / (d_min * d_min))
-    return alpha * heads * (bends + moved)
-
-
-@njit(cache=True, nogil=True)
-def _same_piece_for(scene: Scene, t: float, span: float) -> float:
-    """How long the leader's turn rate stays the same after a time, up to `span` sooner or later.
-
-    0 if it changes in between [R/V_P].
-    """
+    rate, left = fastest_turn(scene, 0, len(scene.leader) - 1), left_of_piece(scene, cell, 1.0)
+    _, slowly = parted_by(scene, cell, span, rate, left, 1.0, took)
+    t = 0.5 * (cell.start + cell.end) + took
     piece = piece_at(scene.leader, max(t - span, 0.0))
-    return max(piece_end(scene.leader, piece) - t - span, 0.0)
+    differs = slowly / took if took > 0.0 else inf
+    if took > left:
+        # the leader heads otherwise since its pieces end sooner or later
+        heads = 2.0 * rate * span * (piece - cell.piece)
+        fast, d_min = 1.0 + scene.alpha, scene.d_min
+        moved = (1.0 + scene.alpha * rate + 3.0 * fast * fast / d_min) / d_min
+        differs += scene.alpha * heads * (rate + 2.0 * fast / d_min + moved * (took - left))
+    same = piece_end(scene.leader, piece) - t - span
+    return float(min((-bends - differs) / jerk_of(scene, rate), same))
 
 
 @njit(cache=True, nogil=True)

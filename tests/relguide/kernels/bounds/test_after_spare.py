@@ -8,7 +8,7 @@ import pytest
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.base.records import Contact, Pose, Scene
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.bounds.after_spare import after_spare
+from relguide.kernels.bounds.after_spare import after_spare, falling_for
 from relguide.kernels.bounds.after_spare import poses_after as cell_after
 from relguide.kernels.bounds.cells import Cell, poses_of
 from relguide.kernels.bounds.goal import Goal
@@ -203,6 +203,48 @@ def test_a_contact_that_some_path_is_at_is_never_ruled_out() -> None:
             nobody = Cell(0, side, cell.bearing, cell.half, 0.0, 0.01)
             out += spare_bound(start, scene, goal, nobody, 1e3, no_rest())[0].outward == inf
     assert out > 2_000
+
+
+def test_the_separation_surely_falls_ever_faster_where_it_is_said_to() -> None:
+    """Of all paths of a cell, as long as they turn away: against second differences."""
+    rng, found, step = np.random.default_rng(12), 0, 1e-4
+    for k in range(3_000):
+        scene, side = drawn_scene(rng), rng.choice((-1.0, 1.0))
+        bearing, t = rng.uniform(-pi, pi), rng.uniform(1.2, 5.0)
+        begun, ends = 1.0, 6.0
+        if k % 3 == 0:
+            # the leader begins to turn just after it
+            t, begun, ends = 1.0 - 10.0 ** rng.uniform(-4, -1), 0.0, 1.0
+        elif k % 3 == 1:
+            t = rng.uniform(5.0, 5.9)
+        piece = int(begun)
+        for cell in in_cells(rng, Contact(piece, bearing, side), t, begun, ends):
+            poses, took = poses_of(scene, cell), 10.0 ** rng.uniform(-3, 0)
+            if k % 3 == 1:
+                # or ends its turn just after that
+                took = (6.0 - poses.t) * (1.0 - 10.0 ** rng.uniform(-5, -2))
+            turn = 2.0 * acos(scene.alpha * cos(bearing))
+            bends = second_difference(
+                scene, Contact(piece, cell.bearing, side), poses.t, took, step
+            )
+            falls = falling_for(scene, cell, poses.span, took, bends)
+            if falls <= 2.0 * step or took + falls > 0.9 * turn:
+                continue
+            found += 1
+            for _ in range(3):
+                member = cell.bearing + rng.choice((-1.0, 1.0)) * cell.half
+                when = rng.choice((cell.start, cell.end))
+                later = took + rng.uniform(0.0, 1.0) ** 8 * (falls - 2.0 * step)
+                contact = Contact(piece, member, side)
+                assert second_difference(scene, contact, when, later + step, step) <= 1e-4
+    assert found > 100
+
+
+def second_difference(scene: Scene, contact: Contact, t: float, took: float, step: float) -> float:
+    """d″ of such a path so long after its contact."""
+    times = np.array([took - step, took, took + step])
+    before, here, after = gaps_after(scene, contact, t, times)
+    return float((before - 2.0 * here + after) / step**2)
 
 
 def test_where_paths_of_a_cell_are_before_they_touch_again() -> None:
