@@ -142,7 +142,7 @@ def test_what_a_coarse_search_misses_the_proof_finds(
     planned = plan(situation)
     assert isinstance(planned, Plan)
     assert planned.time_to_converge == pytest.approx(late, abs=0.1)
-    proved = prove(planned, seconds=2.0)
+    proved = prove(planned, seconds=4.0)
     assert proved.time_to_converge == pytest.approx(best, abs=0.01)
     assert proved.certificate.holds
     assert proved.arrival.holds

@@ -22,6 +22,7 @@ from relguide.kernels.bounds.contact_tree import (
 )
 from relguide.kernels.bounds.joined import only_of
 from relguide.kernels.bounds.round_time import times_round
+from relguide.kernels.bounds.tangent_contacts import tangent_contacts
 from relguide.kernels.contact.contact import contact_heading
 from relguide.kernels.separation.clearance import leader_at, piece_at
 from relguide.kernels.words.extremals import fly_piece
@@ -123,7 +124,7 @@ def problem_of(touch: Touch) -> Problem:
     table = times_round(asked.scene.alpha, asked.scene.d_min)
     return Problem(
         asked.start, asked.scene, asked.goal, table, 1.1 * touch.time, asked.paired,
-        unknown_around(),
+        unknown_around(), tangent_contacts(asked.start, asked.scene, 1.1 * touch.time),
     )  # fmt: skip
 
 
