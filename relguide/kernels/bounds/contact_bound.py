@@ -73,15 +73,9 @@ def otherwise(passed: Passed) -> float:
 
 
 @njit(cache=True, nogil=True)
-def never_tangent(passed: Passed) -> Passed:
-    """The same, if λ_ψ vanishes at none of the contacts."""
-    return Passed(passed.looped, inf, passed.inward, passed.outward, passed.turned)
-
-
-@njit(cache=True, nogil=True)
 def cell_bound(
-    start: Pose, scene: Scene, goal: Goal, cell: Cell, beat: float, closely: bool, to: Rest,
-    on: Rest,
+    start: Pose, scene: Scene, goal: Goal, cell: Cell, beat: float, closely: bool, switch: bool,
+    to: Rest, on: Rest,
 ) -> tuple[Passed, float]:  # fmt: skip
     """How soon a path can be at a contact of the cell, its first, and how soon at the goal from it.
 
@@ -92,6 +86,7 @@ def cell_bound(
         cell: of contacts.
         beat: arrivals from here on do not matter, and all times come back as infinite [R/V_P].
         closely: whether it matters how the contact is passed.
+        switch: whether λ_ψ may vanish at a contact of the cell, see `tangent_contacts`.
         to: what is left of the words that lead to the contact, see `rest`.
         on: and of those that lead on.
     """
@@ -108,7 +103,7 @@ def cell_bound(
     inside = with_limit(scene, scene.d_min - INSIDE)
     sieve, window = Sieve(True, start, 0.0, inside, 1.0, 0.0, 0.0), Window(earliest, end)
     if closely:
-        junction = junction_of(scene, cell, 1.0)
+        junction = junction_of(scene, cell, 1.0, switch)
         found = soonest_by_turn(at, blur, target, window, sieve, junction, to)
         if not found.any:
             return NEVER, onward
@@ -186,7 +181,7 @@ def leaving_bound(
     sieve = Sieve(True, end, goal.speed, inside, -1.0, cell.start, cell.end)
     later = seen_from(Goal(goal.x + TWO_PI * goal.speed, goal.speed, False), poses)
     if closely:
-        junction = junction_of(scene, cell, -1.0)
+        junction = junction_of(scene, cell, -1.0, True)
         found = soonest_by_turn(seen, blur, target, window, sieve, junction, on)
         window = Window(0.0, beat - TWO_PI)
         looped = TWO_PI + soonest(later, blur, target, window, no_sieve(scene))

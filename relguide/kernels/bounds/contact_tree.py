@@ -21,7 +21,6 @@ from relguide.kernels.bounds.contact_bound import (
     anyhow,
     cell_bound,
     leaving_bound,
-    never_tangent,
     until_again,
 )
 from relguide.kernels.bounds.goal import Goal
@@ -178,10 +177,11 @@ def reach(tree: Tree, problem: Problem, n: int) -> tuple[float, float]:
                 passed, onward = spare_bound(start, scene, goal, cell, problem.beat, on)
             else:
                 to, on = _rest_of(tree, n, _TO, 0), _rest_of(tree, n, _ON, 1)
-                passed, onward = cell_bound(start, scene, goal, cell, problem.beat, closely, to, on)
+                switch = not closely or may_be_tangent(problem.tangents, scene, cell)
+                passed, onward = cell_bound(
+                    start, scene, goal, cell, problem.beat, closely, switch, to, on
+                )
                 passed = until_again(scene, cell, 1.0, passed)
-                if closely and not may_be_tangent(problem.tangents, scene, cell):
-                    passed = never_tangent(passed)
                 _keep_rest(tree, n, _TO, to)
             soon = anyhow(passed)
             _keep_rest(tree, n, _ON, on)

@@ -41,6 +41,9 @@ class Junction(NamedTuple):
     """Whether the costate of the heading may vanish at the set."""
     inward: bool
     """Whether the turn may then be toward the leader."""
+    switch: bool
+    """Whether there may be a pose in the set at which a path arrives as its turn changes, or has
+    flown two turns only; where not, these words are only nearly so."""
 
 
 class ByTurn(NamedTuple):
@@ -79,7 +82,7 @@ class Asked(NamedTuple):
     """What a set that holds this one has left, and takes what is left now."""
 
 
-NO_JUNCTION = Junction(False, 0, 0.0, False, False)
+NO_JUNCTION = Junction(False, 0, 0.0, False, False, True)
 """Nothing is asked of the turn."""
 
 
@@ -180,8 +183,12 @@ def _has_lesser_middle(found: Interval, first: float, other: float, spare: float
 
 
 @njit(cache=True, nogil=True)
-def _is_free(found: Interval, signs: tuple[float, float, float], first: float) -> bool:
+def _is_free(
+    found: Interval, signs: tuple[float, float, float], first: float, junction: Junction
+) -> bool:
     """Whether the word may have two turns only, so that the costate vanishes anywhere."""
+    if not junction.switch:
+        return False
     return first <= found.astray if signs[1] != 0.0 else found.shortest <= 0.0
 
 
@@ -201,7 +208,7 @@ def _costate_vanishes(
     if side.hand != junction.outward and not junction.inward:
         return False
     back = signs[1] != 0.0 and abs(turn - found.middle) <= spare + found.middle_blur
-    return _is_free(found, signs, first) or back or abs(turn - TWO_PI) <= spare
+    return _is_free(found, signs, first, junction) or back or abs(turn - TWO_PI) <= spare
 
 
 @njit(cache=True, nogil=True)
@@ -210,7 +217,7 @@ def _lasted(
     junction: Junction,
 ) -> float:  # fmt: skip
     """How long the turn was there before the set, at least. Arguments as `take`."""
-    if _is_free(found, signs, first):
+    if _is_free(found, signs, first, junction):
         return 0.0
     whole = found.shortest if signs[1] != 0.0 else TWO_PI
     turn = found.turned - first

@@ -59,7 +59,7 @@ def hop_toward(scene: Scene, cell: Cell, end: Poses, window: Window) -> float:
     begin = poses_of(scene, cell)
     if begin.differs == inf or end.differs == inf:
         return inf
-    junction = junction_of(scene, cell, -1.0)
+    junction = junction_of(scene, cell, -1.0, True)
     moved, differs = max(end.left, end.right), begin.differs + end.differs
     s, c = sine_and_cosine(end.middle.h)
     found = soonest_by_turn(

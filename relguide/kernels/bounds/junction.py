@@ -79,17 +79,19 @@ def can_touch(scene: Scene, cell: Cell) -> bool:
 
 
 @njit(cache=True, nogil=True)
-def junction_of(scene: Scene, cell: Cell, pace: float) -> Junction:
+def junction_of(scene: Scene, cell: Cell, pace: float, switch: bool) -> Junction:
     """What is asked of the turn with which a word comes to a contact in a cell, or leaves it.
 
     Args:
         scene: the leader and d_min.
         cell: of contacts.
         pace: +1 of words that come to it, which are read backward; −1 of words that leave it.
+        switch: as in `Junction`.
     """
     _, most = slide_turns(scene, cell)
     outward = 0 if pace * cell.side > 0.0 else 1
-    return Junction(True, outward, beyond_outward(scene, cell, pace), most >= 0.0, most >= 1.0)
+    beyond, straight = beyond_outward(scene, cell, pace), switch and most >= 0.0
+    return Junction(True, outward, beyond, straight, most >= 1.0, switch)
 
 
 @njit(cache=True, nogil=True)

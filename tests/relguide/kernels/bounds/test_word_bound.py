@@ -139,7 +139,7 @@ def test_words_leave_a_pose_as_the_junction_asks() -> None:
         inward = bool(rng.integers(2))
         leaving = soonest_by_turn(
             Pose(x, y, h), Blur(0.0, 0.0, 0.0, 0.0), Velocity(*a), Window(0.0, inf), NO_SIEVE,
-            Junction(True, outward, beyond, True, inward), no_rest(),
+            Junction(True, outward, beyond, True, inward, True), no_rest(),
         )  # fmt: skip
         for row in rows:
             word, (first, middle, last) = WORDS[int(row[1])], row[2:]
