@@ -31,8 +31,6 @@ _ALIKE = 1e-3  # labels that differ by less lead to the same places [R/V_P]: 50 
 def hop(scene: Scene, nodes: Nodes, graph: Graph, best: float, effort: Effort) -> None:
     """Find words from the most promising nodes to all others."""
     size = len(nodes.time)
-    if np.isnan(graph.onward[0]):
-        _look_onward(scene, nodes, graph)
     early = graph.late if graph.late > 0 else size
     _hop_from_best(scene, nodes, graph, best, effort, 0, early, effort.hops)
     _hop_from_best(scene, nodes, graph, best, effort, early, size, effort.hops // _LATE)
@@ -69,6 +67,8 @@ def _hop_from_best(
 @njit(cache=True, nogil=True)
 def _hop_from(scene: Scene, nodes: Nodes, graph: Graph, n: int, best: float) -> None:
     """Find words from a node to all others that may be in time."""
+    if np.isnan(graph.onward[0]):
+        _look_onward(scene, nodes, graph)
     time, left, leader = nodes.time, nodes.time[n], scene.leader
     rings, bearings, sides, ahead = nodes.rings, nodes.bearings, nodes.sides, graph.onward
     pose = contact_at(scene, left, bearings[n], sides[n])

@@ -35,6 +35,8 @@ from relguide.kernels.contact.paths_to_contact import (
     paths_by_words,
 )
 from relguide.kernels.words.extremals import MAX_ROWS, solve
+from relguide.kernels.words.fastest import may_arrive_before
+from relguide.kernels.words.sooner import Scratch, make_scratch
 
 _BASINS = 8  # refined: the best of them wins in every reference case; the rest is insurance
 _HIDDEN = 0.14  # how much a basin may fall below what the scan sees of it [R/V_P]
@@ -62,14 +64,17 @@ class Workspace(NamedTuple):
     when it is reached last, there by a word that ends almost straight, as before a boundary arc, if
     there is one; a lower bound of the arrival from there; and by which word, as `chain.link_by`.
     Infinite if it is not reached later than first. shape (3,)"""
+    scratch: Scratch
+    """Room for `may_arrive_before`."""
 
 
 @njit(cache=True, nogil=True)
 def workspace() -> Workspace:
     """Room, empty."""
     return Workspace(
-        np.empty((MAX_ROWS, 5)), np.empty((MAX_ROWS, 5)), np.empty((2, 5)), np.empty(3), np.empty(3)
-    )
+        np.empty((MAX_ROWS, 5)), np.empty((MAX_ROWS, 5)), np.empty((2, 5)), np.empty(3),
+        np.empty(3), make_scratch(),
+    )  # fmt: skip
 
 
 @njit(cache=True, nogil=True)
@@ -329,6 +334,13 @@ def through_contact(
         return inf
     if time_is_up(scene.until):
         return beat
+    final = contact.piece + 1 == len(scene.leader)
+    if final:
+        # the cheapest test of all: not even if nothing had to be turned on the way there?
+        t = earliest_arrival(start, 0.0, scene, contact, inf)
+        there = to_slot_frame(contact_on(scene, contact, t), t, scene.alpha)
+        if not may_arrive_before(there, scene.alpha, beat - t, room.scratch):
+            return beat
     words = words_toward(scene, contact)
     n = paths_by_words(start, 0.0, scene, contact, words, beat, room.rows)
     m, back, last = -1, slides_back(scene, contact), (0.0, 0.0, 0.0)
@@ -339,14 +351,22 @@ def through_contact(
         there = contact_on(scene, contact, t)
         if not_before_slot(there, t, scene) >= beat:
             continue
-        if m < 0 or contact.piece + 1 < len(scene.leader):
+        if m < 0 or not final:
+            # the cheap tests first: could it be in time at all?
+            seen = to_slot_frame(there, t, scene.alpha)
+            if not may_arrive_before(seen, scene.alpha, beat - t, room.scratch):
+                continue
+            if not word_clears(start, 0.0, room.rows[k], scene):
+                continue
             # on the final leg the paths on are the same at any time
-            m = solve(to_slot_frame(there, t, scene.alpha), scene.alpha, 0.0, onward)
+            m = solve(seen, scene.alpha, 0.0, onward)
+        elif m == 0 or t + onward[0, 0] >= beat or not word_clears(start, 0.0, room.rows[k], scene):
+            continue
         if m == 0:
             continue
-        # the cheap test first: could it be in time at all? What is too early may be delayed
+        # what is too early may be delayed
         lower = max(t + onward[0, 0], scene.t_release)
-        if lower >= beat or not word_clears(start, 0.0, room.rows[k], scene):
+        if lower >= beat:
             continue
         if t < reached[0]:
             reached[0], reached[1] = t, lower

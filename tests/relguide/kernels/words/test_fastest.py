@@ -7,7 +7,7 @@ import pytest
 
 from relguide.kernels.base.records import Pose, Window, start_at
 from relguide.kernels.words.extremals import MAX_ROWS, solve
-from relguide.kernels.words.fastest import fastest, word_before
+from relguide.kernels.words.fastest import fastest, may_arrive_before, word_before
 from relguide.kernels.words.sooner import make_scratch
 
 SCRATCH = make_scratch()
@@ -69,3 +69,25 @@ def test_all_of_a_word_before_a_time_are_found(word: int) -> None:
         assert all(t <= beat + 2e-6 for t in found) or word >= 4
         seen += len(expected)
     assert seen > 300
+
+
+@pytest.mark.parametrize("within", [2.0, 6.0, 25.0])
+def test_what_may_arrive_before_a_time_does(within: float) -> None:
+    rng = np.random.default_rng(int(within))
+    every, seen = np.empty((MAX_ROWS, 5)), 0
+    for x, y, h, alpha, share in rng.uniform(
+        (-within, -within, 0.0, 0.1, 0.9), (within, within, 2.0 * pi, 0.99, 1.1), (4000, 5)
+    ).tolist():
+        pose = Pose(x, y, h)
+        assert solve(pose, alpha, 0.0, every) > 0
+        beat = share * every[0, 0]
+        may = may_arrive_before(pose, alpha, beat, SCRATCH)
+        assert may or beat <= every[0, 0] + CLOSE, (x, y, h, alpha, share)
+        seen += may and beat < every[0, 0]
+    # nothing is lost if it is said of some that arrive a little later, or beside the slot
+    assert seen < 40
+
+
+def test_of_a_slot_at_rest_or_no_slower_nothing_is_said() -> None:
+    for alpha in (0.0, 1.0, 1.1):
+        assert may_arrive_before(Pose(9.0, 9.0, 1.0), alpha, 0.1, SCRATCH)
