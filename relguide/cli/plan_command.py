@@ -82,6 +82,7 @@ def run(chosen: argparse.Namespace) -> int:
     """Plan, and print the answers."""
     need("pydantic", "orjson", "rich")
     if chosen.batch:
+        need("msgspec")
         return _run(chosen)
     refuse_batch_options(chosen)
     with _no_collection():

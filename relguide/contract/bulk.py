@@ -36,8 +36,8 @@ Fields = Literal["times", "plan", "full"]
 """How much of each plan is wanted: its time alone, the plan, or that with all that may be included.
 """
 Record = tuple[int, object]
-"""The number of a line, and what JSON it holds; or the `ContractError` that says why it holds none.
-"""
+"""The number of a line, and its JSON text, or what that holds, or the `ContractError` that says why
+it holds nothing."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -74,20 +74,14 @@ def answer_all(records: Iterable[Record], wanted: Wanted) -> list[dict[str, Any]
     answers: list[dict[str, Any]] = []
     plain: list[_Plain] = []
     for record in records:
-        content = record[1]
-        reply: dict[str, Any] = {}
-        row: Row | None = None
-        if isinstance(content, dict):
-            reply = _name(content)
-            if "id" in reply or "id" not in content:
-                row = plain_row(content)
+        row = plain_row(record[1])
         if row is not None and wanted.in_columns:
             plain.append(_Plain(len(answers), record, row))
+            answers.append({})
         else:
-            reply |= _answer_one(record, row, wanted)
-        answers.append(reply)
+            answers.append(_answer_one(record, row, wanted))
     for one, reply in zip(plain, _answer_plain(plain, wanted), strict=True):
-        answers[one.at] |= reply
+        answers[one.at] = one.row.named | reply
     return answers
 
 
@@ -106,12 +100,8 @@ def answer_line(
         include: as in `answer`.
         deadline: as in `answer` [s].
     """
-    try:
-        content: object = quick_loads(line)
-    except ContractError as error:
-        content = error
     wanted = Wanted(planner=planner, include=include, deadline=deadline)
-    (reply,) = answer_all([(1, content)], wanted)
+    (reply,) = answer_all([(1, line)], wanted)
     reply.pop("line", None)
     return reply
 
@@ -135,15 +125,19 @@ def _answer_one(record: Record, row: Row | None, wanted: Wanted) -> dict[str, An
     """The answer to a record, and to its row if it is plain."""
     line, content = record
     anchor: Anchor = Unanchored()
+    named: dict[str, Any] = {} if row is None else row.named
     situation = None if row is None else situation_of(row)
     if situation is None:
         try:
+            if isinstance(content, bytes):
+                content = quick_loads(content)
+            named = _name(content)
             situation, anchor = _read(content)
         except ContractError as error:
-            return {"status": "invalid", "line": line, "message": str(error)}
+            return {**named, "status": "invalid", "line": line, "message": str(error)}
     if wanted.fields == "times":
-        return _time_of(ask(wanted.planner, situation, deadline=wanted.deadline).plan)
-    return answer(
+        return named | _time_of(ask(wanted.planner, situation, deadline=wanted.deadline).plan)
+    return named | answer(
         situation, anchor, wanted.planner, include=wanted.include, deadline=wanted.deadline
     )
 
@@ -156,9 +150,9 @@ def _read(content: object) -> tuple[Situation, Anchor]:
     return situation_from_body(parse(NamedSituationBody, content))
 
 
-def _name(content: dict[str, Any]) -> dict[str, Any]:
+def _name(content: object) -> dict[str, Any]:
     """The `id` alone, if it is one that can be written back."""
-    match content.get("id"):
+    match content.get("id") if isinstance(content, dict) else None:
         case bool():
             return {}
         case int(number) if abs(number) <= MAX_INTEGER:

@@ -91,15 +91,14 @@ def read_situation(body: bytes) -> tuple[Situation, Anchor]:
     Raises:
         Refusal: naming each field that is wrong.
     """
+    row = plain_row(body)
+    situation = None if row is None or row.named else situation_of(row)
+    if situation is not None:
+        return situation, UNANCHORED
     try:
         content = quick_loads(body)
     except ContractError as error:
         raise refusal_of(error, 400) from None
-    if isinstance(content, dict) and "id" not in content:
-        row = plain_row(content)
-        situation = None if row is None else situation_of(row)
-        if situation is not None:
-            return situation, UNANCHORED
     return _read(content, SituationBody)
 
 

@@ -13,7 +13,6 @@ from relguide.cli.batch.source import Chunk
 from relguide.cli.proving import prove_after
 from relguide.contract.bulk import Record, Wanted, answer_all
 from relguide.contract.flat import Kind, answer_columns, row_of_answer, situation_of_row
-from relguide.contract.plain import quick_loads
 from relguide.contract.refusal import ContractError, decode
 from relguide.learn.planners import make_planner
 
@@ -59,28 +58,23 @@ def _records(order: Order, chunk: Chunk) -> Iterator[Record]:
     if order.source == "parquet":
         yield from enumerate(_parquet_rows(chunk), start=chunk.first)
         return
-    json = order.source == "jsonl"
     for number, line in enumerate(chunk.content.split(b"\n"), start=chunk.first):
         if line.strip():
-            try:
-                content = quick_loads(line) if json else _csv_row(line, order.header)
-            except ContractError as error:
-                yield number, error
-            else:
-                yield number, content
+            yield number, line if order.source == "jsonl" else _csv_row(line, order.header)
 
 
-def _csv_row(line: bytes, header: Sequence[str]) -> dict[str, Any]:
+def _csv_row(line: bytes, header: Sequence[str]) -> dict[str, Any] | ContractError:
     """A line of CSV by itself: a quote that is not closed spoils no other line."""
     try:
         (cells,) = csv.reader([decode(line).rstrip("\r")], strict=True)
+        if len(cells) == len(header):
+            return situation_of_row(header, cells)
+        message = f"This line must have {len(header)} cells, as the first has, not {len(cells)}."
     except csv.Error as error:
         message = f"This is not a line of CSV: {error}."
-        raise ContractError([("", message)]) from None
-    if len(cells) != len(header):
-        message = f"This line must have {len(header)} cells, as the first has, not {len(cells)}."
-        raise ContractError([("", message)])
-    return situation_of_row(header, cells)
+    except ContractError as error:
+        return error
+    return ContractError([("", message)])
 
 
 def _parquet_rows(chunk: Chunk) -> Iterator[object]:
@@ -107,7 +101,9 @@ def _parquet_rows(chunk: Chunk) -> Iterator[object]:
 def encode(order: Order, answers: Sequence[Mapping[str, Any]]) -> bytes:
     """Answers as they are written into the file."""
     if order.to == "jsonl":
-        return b"".join(orjson.dumps(answer) + b"\n" for answer in answers)
+        return b"".join(
+            [orjson.dumps(answer, option=orjson.OPT_APPEND_NEWLINE) for answer in answers]
+        )
     columns = answer_columns(order.fields, order.include)
     rows = [row_of_answer(answer, columns) for answer in answers]
     if order.to == "csv":

@@ -2,6 +2,7 @@
 
 import json
 from copy import deepcopy
+from math import inf, nan
 from typing import Any
 
 import numpy as np
@@ -204,6 +205,42 @@ def test_a_plain_row_is_what_the_models_read(
     assert changes or (sound[0] and situation_of(row) == situation)
 
 
+@given(
+    name=st.none() | st.integers(-9, 9) | st.text(max_size=9),
+    wind=st.booleans(),
+    pieces=st.none() | st.lists(st.sampled_from(["turn", "straight"]), max_size=3),
+)
+def test_a_plain_row_of_text_is_that_of_what_it_holds(
+    name: int | str | None, wind: bool, pieces: list[str] | None
+) -> None:
+    body = deepcopy(PLAIN)
+    if name is not None:
+        body["id"] = name
+    if not wind:
+        del body["wind"]
+    if pieces is not None:
+        body["leader"]["intent"] = [
+            TURN if kind == "turn" else {"straight_s": 9} for kind in pieces
+        ]
+    row = plain_row(body)
+    assert row is not None
+    assert row.named == ({} if name is None else {"id": name})
+    text = json.dumps(body).encode()
+    assert plain_row(text) == plain_row(json.dumps(body, ensure_ascii=False).encode()) == row
+    # a key that is given twice
+    for again in (b'{"slot_distance_m": 1, ', b'{"id": "a:b", "id": "c", '):
+        assert plain_row(again + text[1:]) is None
+    assert plain_row(text[:-1]) is None
+    assert plain_row(text + b"{}") is None
+
+
+@pytest.mark.parametrize("line", [b"", b"3", b"null", b"nonsense", b'"\xff"', b"[" * 2000])
+def test_text_that_is_no_situation_is_not_plain(line: bytes) -> None:
+    assert plain_row(line) is None
+    reply = one(line)
+    assert (reply["status"], reply["line"]) == ("invalid", 1)
+
+
 def with_intent(*pieces: Any) -> dict[str, Any]:
     return change("leader.intent", list(pieces))
 
@@ -219,6 +256,8 @@ TURN = {"turn_to_heading_deg": 90.0, "direction": "left", "bank_deg": 20.0}
         change("pursuer.x_m", True),
         change("pursuer.x_m", "1"),
         change("pursuer.x_m", None),
+        change("pursuer.heading_deg", inf),
+        change("wind.from_deg", nan),
         change("pursuer", []),
         change("wind", None),
         change("wind.speed_mps", ...),
@@ -234,10 +273,12 @@ TURN = {"turn_to_heading_deg": 90.0, "direction": "left", "bank_deg": 20.0}
         with_intent({**TURN, "direction": ["left"]}),
         with_intent({**TURN, "bank_deg": None}),
         with_intent({**TURN, "turn_to_heading_deg": 10**400}),
+        with_intent({**TURN, "turn_to_heading_deg": -inf}),
     ],
 )
 def test_what_is_not_plain_is_left_to_the_models(body: dict[str, Any]) -> None:
     assert plain_row(body) is None
+    assert plain_row(json.dumps(body).encode()) is None
     assert plain_row(with_intent(TURN)) is not None
 
 
