@@ -7,7 +7,8 @@ Ten million situations may be given at once: they are taken in blocks, so that b
 and the answer, 18 bytes a situation, there are some 40 MB.
 """
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, fields
 from math import inf
 from numbers import Integral
@@ -230,8 +231,6 @@ def plan_arrays(
     Raises:
         ValueError: for situations that cannot be flown.
     """
-    from concurrent.futures import ThreadPoolExecutor  # 15 ms to import, which `plan` need not pay
-
     expect("situations", situations, Situations)
     limited = truth("limited", limited)
     if threads is not None:
@@ -247,7 +246,7 @@ def plan_arrays(
         verdicts=np.empty(size, np.int8),
         words=np.empty(size, np.int8),
     )
-    with ThreadPoolExecutor(threads or cpu_count() or 1) as pool:
+    with _threads(threads or cpu_count() or 1) as run:
         for start in range(0, size, BLOCK):
             block = slice(start, min(start + BLOCK, size))
             rows, scale = _to_slot_frame(*(column[block] for column in columns))
@@ -260,11 +259,23 @@ def plan_arrays(
                 kernel.plan_rows(rows, latest, BEARINGS, HARDER, limited, first, last, answers)
                 return last - first
 
-            for done in pool.map(work, range(0, len(rows), chunk)):
+            for done in run(work, range(0, len(rows), chunk)):
                 if progress is not None:
                     progress(done)
             _take(times, block, answers, scale)
     return times
+
+
+@contextmanager
+def _threads(count: int) -> Iterator[Callable[..., Iterable[int]]]:
+    """Map a function by so many threads; one is this thread."""
+    if count == 1:
+        yield map
+        return
+    from concurrent.futures import ThreadPoolExecutor  # 15 ms to import, which `plan` need not pay
+
+    with ThreadPoolExecutor(count) as pool:
+        yield pool.map
 
 
 def _take(times: Times, block: slice, answers: Floats, scale: Floats) -> None:
