@@ -169,19 +169,18 @@ def answer_columns(fields: Fields, include: Collection[Include]) -> dict[str, Ki
     return columns | dict(_leaves(NoPlanCard))
 
 
-def row_of_answer(answer: Mapping[str, Any], columns: Mapping[str, Kind]) -> list[Cell]:
-    """An answer's cells, in the order of the columns; `None` where it has no such field."""
-    cells: dict[str, Any] = {}
-    _flatten(answer, "", cells)
-    return [
-        orjson.dumps(cells[name]).decode() if kind == "json" and name in cells else cells.get(name)
-        for name, kind in columns.items()
-    ]
+def cells_of_answers(
+    answers: Sequence[Mapping[str, Any]], columns: Mapping[str, Kind]
+) -> list[list[Cell]]:
+    """The cells of each column, in order; `None` where an answer has no such field."""
+    return [_cells(answers, name, kind) for name, kind in columns.items()]
 
 
-def _flatten(members: Mapping[str, Any], path: str, cells: dict[str, Any]) -> None:
-    for name, value in members.items():
-        if isinstance(value, dict):
-            _flatten(value, f"{path}{name}.", cells)
-        else:
-            cells[path + name] = value
+def _cells(answers: Sequence[Mapping[str, Any]], name: str, kind: Kind) -> list[Cell]:
+    *outer, last = name.split(".")
+    holders = answers
+    for step in outer:
+        holders = [holder.get(step, {}) for holder in holders]
+    if kind == "json":
+        return [orjson.dumps(h[last]).decode() if last in h else None for h in holders]
+    return [holder.get(last) for holder in holders]

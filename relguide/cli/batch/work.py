@@ -1,7 +1,7 @@
 """answer_chunk(order, chunk) → Answered: what a process that plans does, in turn with others."""
 
 import csv
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from io import StringIO
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -12,7 +12,7 @@ from relguide.cli.batch.order import Order
 from relguide.cli.batch.source import Chunk
 from relguide.cli.proving import prove_after
 from relguide.contract.bulk import Record, Wanted, answer_all
-from relguide.contract.flat import Kind, answer_columns, row_of_answer, situation_of_row
+from relguide.contract.flat import Kind, answer_columns, cells_of_answers, situation_of_row
 from relguide.contract.refusal import ContractError, decode
 from relguide.learn.planners import make_planner
 
@@ -105,10 +105,10 @@ def encode(order: Order, answers: Sequence[Mapping[str, Any]]) -> bytes:
             [orjson.dumps(answer, option=orjson.OPT_APPEND_NEWLINE) for answer in answers]
         )
     columns = answer_columns(order.fields, order.include)
-    rows = [row_of_answer(answer, columns) for answer in answers]
+    cells = cells_of_answers(answers, columns)
     if order.to == "csv":
-        return _csv_lines(rows)
-    return bytes(_batch(rows, columns, whole_ids=order.whole_ids).serialize())
+        return _csv_lines(zip(*cells, strict=True))
+    return bytes(_batch(cells, columns, whole_ids=order.whole_ids).serialize())
 
 
 def beginning(order: Order) -> bytes:
@@ -117,20 +117,21 @@ def beginning(order: Order) -> bytes:
         return b""
     columns = answer_columns(order.fields, order.include)
     if order.to == "csv":
-        return _csv_lines([list(columns)])
-    return bytes(_batch([], columns, whole_ids=order.whole_ids).schema.serialize())
+        return _csv_lines([tuple(columns)])
+    none = cells_of_answers([], columns)
+    return bytes(_batch(none, columns, whole_ids=order.whole_ids).schema.serialize())
 
 
-def _csv_lines(rows: Sequence[Sequence[Any]]) -> bytes:
+def _csv_lines(rows: Iterable[Sequence[Any]]) -> bytes:
     text = StringIO()
     csv.writer(text, lineterminator="\n").writerows(rows)
     return text.getvalue().encode()
 
 
 def _batch(
-    rows: Sequence[Sequence[Any]], columns: Mapping[str, Kind], *, whole_ids: bool
+    cells: Sequence[Sequence[Any]], columns: Mapping[str, Kind], *, whole_ids: bool
 ) -> "pyarrow.RecordBatch":
-    """Rows as Arrow's columns."""
+    """The cells of each column as Arrow's."""
     import pyarrow as pa
 
     types = {
@@ -141,11 +142,10 @@ def _batch(
         "json": pa.string(),
     }
     arrays = []
-    for i, (name, kind) in enumerate(columns.items()):
-        cells = [row[i] for row in rows]
+    for (name, kind), column in zip(columns.items(), cells, strict=True):
         if name == "id":
             kind = "whole" if whole_ids else "text"
             if not whole_ids:
-                cells = [None if cell is None else str(cell) for cell in cells]
-        arrays.append(pa.array(cells, types[kind]))
+                column = [None if cell is None else str(cell) for cell in column]
+        arrays.append(pa.array(column, types[kind]))
     return pa.record_batch(arrays, names=list(columns))

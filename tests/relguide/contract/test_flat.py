@@ -11,8 +11,8 @@ from relguide.contract.bodies import NamedSituationBody, situation_from_json
 from relguide.contract.flat import (
     SITUATION_COLUMNS,
     answer_columns,
+    cells_of_answers,
     check_columns,
-    row_of_answer,
     situation_of_row,
 )
 from relguide.contract.refusal import ContractError, parse
@@ -90,8 +90,7 @@ def test_an_answer_is_a_row_and_nothing_is_left_out(include: Any) -> None:
     for body in (BODY, change("leader.tas_mps", 300)):
         reply = answer(*situation_from_json(body), plan, include=include)
         named = {"id": 7, **reply}
-        row = row_of_answer(named, columns)
-        assert len(row) == len(columns)
+        row = [cell for (cell,) in cells_of_answers([named], columns)]
         cells = {name: cell for name, cell in zip(columns, row, strict=True) if cell is not None}
         assert cells.keys() == flat(named).keys()
         for name, cell in cells.items():
