@@ -25,8 +25,10 @@ from relguide.kernels.contact.other_words import take_other_words
 from relguide.kernels.contact.slide_from_touch import slide_from_touches
 from relguide.kernels.contact.spare_chains import keep_chain
 
-_AGAIN = 2  # so often a chain that has become faster is begun again from nearby
+AGAIN = 2
+"""So often a chain that has become faster is begun again from nearby."""
 _WORTH_AGAIN = 1e-3  # if it was by this much [R/V_P]: 50 ms
+_SAME = 1e-3  # two that arrive this near to each other are taken for one [R/V_P]: 50 ms
 _AT_EDGE = 0.02  # chains this near to the best are followed along edges [R/V_P]
 
 
@@ -91,11 +93,12 @@ def refine_chains(
 @njit(cache=True, nogil=True)
 def begin_again(
     start: Pose, scene: Scene, contacts: FloatArray, count: int, best: float, stride: float,
-    legs: FloatArray, effort: int,
+    legs: FloatArray, effort: int, begun: FloatArray,
 ) -> tuple[float, int]:  # fmt: skip
-    """Look for a faster chain near the best one.
+    """Look for a faster chain near the best one, or near another.
 
-    By other words to its contacts, by straights that touch, and as in `nearby_chains`.
+    By other words to its contacts, by straights that touch, and as in `nearby_chains`. Several
+    chains often come to the same one by that: from there it is looked nearby once only.
 
     Args:
         start: where it begins, at t = 0.
@@ -106,22 +109,36 @@ def begin_again(
         stride: how far is looked at first [rad].
         legs: takes those of a faster chain. shape (MAX_LEGS, 6)
         effort: as of `search_nearby`.
+        begun: arrivals of chains that were begun again from nearby, infinite behind the last one;
+            takes those of this [R/V_P].
 
     Returns:
         the least arrival [R/V_P] and the number of its legs; `best` and 0 if none is earlier.
     """
     room, given = np.zeros((MAX_LEGS, 6)), best
-    for _ in range(_AGAIN):
+    for _ in range(AGAIN):
         before = best
         best, count = take_other_words(start, scene, contacts, count, best, stride, room)
         best, count = slide_from_touches(start, scene, contacts, count, best, stride, room)
-        if count == 0:
+        if count == 0 or _was_begun(begun, best):
             break
         best, count = search_nearby(start, scene, contacts, count, best, stride, room, effort)
         if best > before - _WORTH_AGAIN:
             break
         best, count = _finished(start, scene, contacts, count, best, stride, True)
     return _put_down(start, scene, contacts[:count], given, legs)
+
+
+@njit(cache=True, nogil=True)
+def _was_begun(begun: FloatArray, arrival: float) -> bool:
+    """Whether a chain that arrives then was begun again before; if not it is put down as such."""
+    for k in range(len(begun)):
+        if begun[k] == inf:
+            begun[k] = arrival
+            break
+        if abs(begun[k] - arrival) < _SAME:
+            return True
+    return False
 
 
 @njit(cache=True, nogil=True)

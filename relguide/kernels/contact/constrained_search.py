@@ -18,7 +18,7 @@ from relguide.kernels.base.angles import TWO_PI
 from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.records import Contact, Pose, Scene, with_limit, with_time
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.contact.best_chain import begin_again, refine_chains
+from relguide.kernels.contact.best_chain import AGAIN, begin_again, refine_chains
 from relguide.kernels.contact.chain import (
     BOUNDARY_ARC,
     DELAY,
@@ -48,6 +48,7 @@ _CHAINS = 4  # of the graph, refined
 _BESIDE = 0.1  # contacts this close lead to the same places: 6° [rad]
 _CLOSER = 8  # steps from one bearing to the next where it is looked closer
 _STRIDE = 0.44  # least first step of a bearing round a leader that turns, of what is beside: 2.5°
+_TRIES = 8  # times the places hopped from: so many contacts are left by a delay path, 0.3 ms each
 _HOPS_CLOSER = 2  # of contacts, to others, where it is looked closer
 _MOST_ALIVE = 10  # contacts that may still matter: of more it is not looked closer
 _SPARE = 3  # other chains that are begun again as well
@@ -88,7 +89,17 @@ def best_constrained_path(
     if narrow and keeps_straight:
         bearings *= 2
     chain, spare = np.zeros((MAX_CONTACTS, 4)), no_chains(_SPARE)
-    best, count, may_be_faster = _search(start, scene, bearings, tangents, beat, legs, chain, spare)
+    best, count, may_be_faster = _search(
+        start,
+        scene,
+        bearings,
+        _effort_of(scene, bearings, bearings),
+        tangents,
+        beat,
+        legs,
+        chain,
+        spare,
+    )
     finer = np.zeros_like(legs)
     if narrow and scene.d_min > 1.0 and best > scene.t_release:
         # more bearings do not include the fewer ones, nor find all that these do
@@ -96,7 +107,11 @@ def best_constrained_path(
         more = bearings * 7 // 5 if keeps_straight else 2 * bearings
         # round a leader that turns, chains that are far later at first may be sooner once refined
         known = best if keeps_straight else beat
-        time, found, then = _search(start, scene, more, tangents, known, finer, other, spare)
+        # … and as many contacts are followed as before, since close ones lead to the same places
+        effort = _effort_of(scene, more, more if keeps_straight else bearings)
+        time, found, then = _search(
+            start, scene, more, effort, tangents, known, finer, other, spare
+        )
         may_be_faster = may_be_faster or then
         if found > 0 and time < best:
             if count > 2:
@@ -106,11 +121,11 @@ def best_constrained_path(
         elif found > 2:
             keep_chain(spare, time, other[: found - 1])
     if not keeps_straight and count > 0 and may_be_faster:
-        stride, effort = _STRIDE * _BESIDE, _AGAIN_AT_LIMIT if narrow else _AGAIN
+        stride, work = _STRIDE * _BESIDE, _AGAIN_AT_LIMIT if narrow else _AGAIN
         # a path through one contact is searched for anew, from the start
         contacts = count - 1 if count > 2 else 0
-        was = chain[:contacts].copy()
-        time, found = begin_again(start, scene, chain, contacts, best, stride, legs, effort)
+        was, begun = chain[:contacts].copy(), np.full(AGAIN * (1 + _SPARE), inf)
+        time, found = begin_again(start, scene, chain, contacts, best, stride, legs, work, begun)
         if found > 0:
             best, count = time, found
         for k in np.argsort(spare[:, 0, 0]):
@@ -120,7 +135,7 @@ def best_constrained_path(
             if are_alike(spare[k, 1 : contacts + 1], was):
                 continue
             time, found = begin_again(
-                start, scene, spare[k, 1:], contacts, here, stride, finer, effort
+                start, scene, spare[k, 1:], contacts, here, stride, finer, work, begun
             )
             if found > 0 and time < best:
                 best, count = time, found
@@ -131,10 +146,10 @@ def best_constrained_path(
 
 @njit(cache=True, nogil=True)
 def _search(
-    start: Pose, scene: Scene, bearings: int, tangents: FloatArray, beat: float, legs: FloatArray,
-    chain: FloatArray, spare: FloatArray,
+    start: Pose, scene: Scene, bearings: int, effort: Effort, tangents: FloatArray, beat: float,
+    legs: FloatArray, chain: FloatArray, spare: FloatArray,
 ) -> tuple[float, int, bool]:  # fmt: skip
-    """As `best_constrained_path`, with so many bearings.
+    """As `best_constrained_path`, with so many bearings and so much effort.
 
     `chain` takes the contacts if there are two, and `spare` other chains. The third value says
     whether any contact may lead to a path that is faster by what is worth it.
@@ -142,24 +157,35 @@ def _search(
     Round a leader that turns it is looked closer where only a few contacts may still matter, since
     windows of bearings are narrow there.
     """
-    nodes, width = contact_nodes(scene, bearings, tangents), TWO_PI / bearings
+    nodes = contact_nodes(scene, bearings, tangents)
     fresh, alive = np.ones(len(nodes.bearings), np.bool_), np.zeros(len(nodes.bearings), np.bool_)
-    keeps_straight = len(scene.leader) == 1
-    hops = bearings // 2 if keeps_straight else bearings
-    effort = Effort(width, hops, _BESIDE)
     best, count = _look(start, scene, nodes, fresh, alive, effort, beat, legs, chain, spare)
-    if keeps_straight or not 0 < alive.sum() <= _MOST_ALIVE or time_is_up(scene.until):
+    keeps_straight, few = len(scene.leader) == 1, 0 < alive.sum() <= _MOST_ALIVE
+    if keeps_straight or not few or time_is_up(scene.until):
         return best, count, bool(alive.any())
-    step = width / _CLOSER
+    step = effort.width / _CLOSER
     closer, added = nodes_closer(nodes, alive, step)
     then_alive, found = np.zeros(len(added), np.bool_), np.zeros_like(legs)
     other = np.zeros_like(chain)
-    effort = Effort(step, _HOPS_CLOSER, 1.2 * step)
+    effort = Effort(step, _HOPS_CLOSER, 0, _TRIES * _HOPS_CLOSER, 1.2 * step)
     time, more = _look(start, scene, closer, added, then_alive, effort, best, found, other, spare)
     if more > 0:
         best, count = time, more
         legs[:], chain[:] = found, other
     return best, count, bool(alive.any())
+
+
+@njit(cache=True, nogil=True)
+def _effort_of(scene: Scene, bearings: int, places: int) -> Effort:
+    """How closely the graph of so many bearings is searched, with contacts followed at some places.
+
+    Round a leader that turns as many of those are followed that begin with late words, and twice as
+    many others where the slot lies at the limit: hops to and from contacts beside it are many.
+    """
+    turns = len(scene.leader) > 1
+    hops = places if turns and _is_slot_at_limit(scene) else places // 2
+    tries = _TRIES * (places if turns else places // 2)
+    return Effort(TWO_PI / bearings, hops, places // 3, tries, _BESIDE)
 
 
 @njit(cache=True, nogil=True)

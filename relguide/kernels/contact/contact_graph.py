@@ -28,7 +28,6 @@ from relguide.kernels.contact.graph_labels import Effort, labels_of, start_graph
 from relguide.kernels.contact.graph_words import hop
 from relguide.kernels.contact.nodes import BoolArray, Nodes
 
-_TRIES = 8  # times the hops of a round: so many nodes are left by a delay path, 0.3 ms each
 _ROUNDS = 4  # of hops, with boundary arcs before and after: chains with up to three hops
 
 
@@ -56,7 +55,7 @@ def best_chains(
     copies = 1 if len(scene.leader) == 1 else 6
     labels = labels_of(nodes, copies)
     graph = start_graph(scene, labels, len(nodes.time), beat + NEARLY)
-    best, tries, end = beat, _TRIES * effort.hops, -1
+    best, tries, end = beat, effort.delays, -1
     if delays and scene.t_release < beat:
         end = delay_by_straights(scene, nodes)
     for turn in range(_ROUNDS):

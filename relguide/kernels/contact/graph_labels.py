@@ -79,7 +79,11 @@ class Effort(NamedTuple):
     width: float
     """From one bearing that has not been looked at before to the next [rad]."""
     hops: int
-    """From how many nodes words to other nodes are looked for, in each round."""
+    """From how many nodes words to other nodes are looked for, in each round …"""
+    late: int
+    """… and from how many that begin with late words."""
+    delays: int
+    """How many nodes are left by a delay path at most."""
     beside: float
     """Nodes this close lead to the same places: of those one is followed in a round [rad]."""
 

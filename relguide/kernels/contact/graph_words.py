@@ -23,7 +23,6 @@ from relguide.kernels.separation.clearance import piece_end
 from relguide.kernels.words.fastest import fastest
 
 _WORTH = 2e-4  # how much sooner the slot has to be in reach for it to be followed [R/V_P]: 10 ms
-_LATE = 3  # of labels that begin with late words so many times fewer are followed
 _ALIKE = 1e-3  # labels that differ by less lead to the same places [R/V_P]: 50 ms
 
 
@@ -33,7 +32,7 @@ def hop(scene: Scene, nodes: Nodes, graph: Graph, best: float, effort: Effort) -
     size = len(nodes.time)
     early = graph.late if graph.late > 0 else size
     _hop_from_best(scene, nodes, graph, best, effort, 0, early, effort.hops)
-    _hop_from_best(scene, nodes, graph, best, effort, early, size, effort.hops // _LATE)
+    _hop_from_best(scene, nodes, graph, best, effort, early, size, effort.late)
 
 
 @njit(cache=True, nogil=True)
