@@ -51,7 +51,7 @@ _STRIDE = 0.44  # least first step of a bearing round a leader that turns, of wh
 _TRIES = 8  # times the places hopped from: so many contacts are left by a delay path, 0.3 ms each
 _HOPS_CLOSER = 2  # of contacts, to others, where it is looked closer
 _MOST_ALIVE = 10  # contacts that may still matter: of more it is not looked closer
-_SPARE = 3  # other chains that are begun again as well
+_SPARE, _SPARE_AT_LIMIT = 2, 3  # other chains that are begun again as well
 _AGAIN, _AGAIN_AT_LIMIT = 120, 250  # effort to begin the best chain again from nearby
 _WORTH = 2e-3  # how much sooner a contact has to promise an arrival for it [R/V_P]: 0.1 s
 
@@ -88,7 +88,8 @@ def best_constrained_path(
     narrow, keeps_straight = _is_slot_at_limit(scene), len(scene.leader) == 1
     if narrow and keeps_straight:
         bearings *= 2
-    chain, spare = np.zeros((MAX_CONTACTS, 4)), no_chains(_SPARE)
+    spares = _SPARE_AT_LIMIT if narrow else _SPARE
+    chain, spare = np.zeros((MAX_CONTACTS, 4)), no_chains(spares)
     best, count, may_be_faster = _search(
         start,
         scene,
@@ -124,7 +125,7 @@ def best_constrained_path(
         stride, work = _STRIDE * _BESIDE, _AGAIN_AT_LIMIT if narrow else _AGAIN
         # a path through one contact is searched for anew, from the start
         contacts = count - 1 if count > 2 else 0
-        was, begun = chain[:contacts].copy(), np.full(AGAIN * (1 + _SPARE), inf)
+        was, begun = chain[:contacts].copy(), np.full(AGAIN * (1 + spares), inf)
         time, found = begin_again(start, scene, chain, contacts, best, stride, legs, work, begun)
         if found > 0:
             best, count = time, found
@@ -179,8 +180,8 @@ def _search(
 def _effort_of(scene: Scene, bearings: int, places: int) -> Effort:
     """How closely the graph of so many bearings is searched, with contacts followed at some places.
 
-    Round a leader that turns as many of those are followed that begin with late words, and twice as
-    many others where the slot lies at the limit: hops to and from contacts beside it are many.
+    Round a leader that turns as many with late words, and where the slot lies at the limit twice as
+    many others: most contacts lead on to it there, so more of them share the least bound.
     """
     turns = len(scene.leader) > 1
     hops = places if turns and _is_slot_at_limit(scene) else places // 2

@@ -42,6 +42,7 @@ _BASINS = 8  # refined: the best of them wins in every reference case; the rest 
 _HIDDEN = 0.14  # how much a basin may fall below what the scan sees of it [R/V_P]
 _JUMP = 2e-3  # what is less may be a bend [R/V_P]: 0.1 s
 _ALMOST = 0.3  # a word that turns less at its end than this ends almost straight [rad]
+_AT_RELEASE = 1e-6  # what arrives so soon after t_release is not bettered [R/V_P]: 50 µs
 _HALVINGS = 10  # of the bearings between a node and a neighbour without an arrival: to 0.005°
 
 
@@ -149,7 +150,7 @@ def descend_basins(
     Returns:
         the least arrival [R/V_P].
     """
-    room, nearby = workspace(), np.empty((2, 5))
+    room, nearby, enough = workspace(), np.empty((2, 5)), scene.t_release + _AT_RELEASE
     taken = np.zeros(len(nodes.bearings))
     for n in range(len(taken)):
         before, after = neighbours(nodes, n)
@@ -157,7 +158,7 @@ def descend_basins(
             taken[n] = 1.0
     for _ in range(_BASINS):
         at = _lowest_basin(nodes, taken)
-        if at < 0:
+        if at < 0 or best <= enough:
             break
         taken[at] = 1.0
         here, contact = nodes.arrival[at], contact_of(nodes, at)
@@ -170,6 +171,8 @@ def descend_basins(
     # while the leader turns windows are narrow: it may fall towards the end of one
     if len(scene.leader) > 1:
         for n in range(len(nodes.bearings)):
+            if best <= enough:
+                break
             for beside in neighbours(nodes, n):
                 if (
                     nodes.arrival[n] < inf
