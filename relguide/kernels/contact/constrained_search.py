@@ -90,16 +90,9 @@ def best_constrained_path(
         bearings *= 2
     spares = _SPARE_AT_LIMIT if narrow else _SPARE
     chain, spare = np.zeros((MAX_CONTACTS, 4)), no_chains(spares)
+    effort = _effort_of(scene, bearings, bearings)
     best, count, may_be_faster = _search(
-        start,
-        scene,
-        bearings,
-        _effort_of(scene, bearings, bearings),
-        tangents,
-        beat,
-        legs,
-        chain,
-        spare,
+        start, scene, bearings, effort, tangents, beat, legs, chain, spare
     )
     finer = np.zeros_like(legs)
     if narrow and scene.d_min > 1.0 and best > scene.t_release:
@@ -108,7 +101,7 @@ def best_constrained_path(
         more = bearings * 7 // 5 if keeps_straight else 2 * bearings
         # round a leader that turns, chains that are far later at first may be sooner once refined
         known = best if keeps_straight else beat
-        # … and as many contacts are followed as before, since close ones lead to the same places
+        # and as many contacts are followed as before, since those beside them lead nowhere else
         effort = _effort_of(scene, more, more if keeps_straight else bearings)
         time, found, then = _search(
             start, scene, more, effort, tangents, known, finer, other, spare
@@ -178,10 +171,11 @@ def _search(
 
 @njit(cache=True, nogil=True)
 def _effort_of(scene: Scene, bearings: int, places: int) -> Effort:
-    """How closely the graph of so many bearings is searched, with contacts followed at some places.
+    """How closely the graph of so many bearings is searched, if there were `places` all round.
 
-    Round a leader that turns as many with late words, and where the slot lies at the limit twice as
-    many others: most contacts lead on to it there, so more of them share the least bound.
+    Half of the places are followed in a round. Round a leader that turns, a third again as begin
+    with late words; and all of them where the slot lies at the limit, since paths slide and hop
+    along the disc to it, so that far more contacts share the least bound.
     """
     turns = len(scene.leader) > 1
     hops = places if turns and _is_slot_at_limit(scene) else places // 2
