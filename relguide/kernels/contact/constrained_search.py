@@ -90,10 +90,7 @@ def best_constrained_path(
         bearings *= 2
     spares = _SPARE_AT_LIMIT if narrow else _SPARE
     chain, spare = np.zeros((MAX_CONTACTS, 4)), no_chains(spares)
-    effort = _effort_of(scene, bearings, bearings)
-    best, count, may_be_faster = _search(
-        start, scene, bearings, effort, tangents, beat, legs, chain, spare
-    )
+    best, count, may_be_faster = _search(start, scene, bearings, tangents, beat, legs, chain, spare)
     finer = np.zeros_like(legs)
     if narrow and scene.d_min > 1.0 and best > scene.t_release:
         # more bearings do not include the fewer ones, nor find all that these do
@@ -101,11 +98,7 @@ def best_constrained_path(
         more = bearings * 7 // 5 if keeps_straight else 2 * bearings
         # round a leader that turns, chains that are far later at first may be sooner once refined
         known = best if keeps_straight else beat
-        # and as many contacts are followed as before, since those beside them lead nowhere else
-        effort = _effort_of(scene, more, more if keeps_straight else bearings)
-        time, found, then = _search(
-            start, scene, more, effort, tangents, known, finer, other, spare
-        )
+        time, found, then = _search(start, scene, more, tangents, known, finer, other, spare)
         may_be_faster = may_be_faster or then
         if found > 0 and time < best:
             if count > 2:
@@ -140,10 +133,10 @@ def best_constrained_path(
 
 @njit(cache=True, nogil=True)
 def _search(
-    start: Pose, scene: Scene, bearings: int, effort: Effort, tangents: FloatArray, beat: float,
-    legs: FloatArray, chain: FloatArray, spare: FloatArray,
+    start: Pose, scene: Scene, bearings: int, tangents: FloatArray, beat: float, legs: FloatArray,
+    chain: FloatArray, spare: FloatArray,
 ) -> tuple[float, int, bool]:  # fmt: skip
-    """As `best_constrained_path`, with so many bearings and so much effort.
+    """As `best_constrained_path`, with so many bearings.
 
     `chain` takes the contacts if there are two, and `spare` other chains. The third value says
     whether any contact may lead to a path that is faster by what is worth it.
@@ -151,7 +144,7 @@ def _search(
     Round a leader that turns it is looked closer where only a few contacts may still matter, since
     windows of bearings are narrow there.
     """
-    nodes = contact_nodes(scene, bearings, tangents)
+    nodes, effort = contact_nodes(scene, bearings, tangents), _effort_of(scene, bearings)
     fresh, alive = np.ones(len(nodes.bearings), np.bool_), np.zeros(len(nodes.bearings), np.bool_)
     best, count = _look(start, scene, nodes, fresh, alive, effort, beat, legs, chain, spare)
     keeps_straight, few = len(scene.leader) == 1, 0 < alive.sum() <= _MOST_ALIVE
@@ -170,17 +163,18 @@ def _search(
 
 
 @njit(cache=True, nogil=True)
-def _effort_of(scene: Scene, bearings: int, places: int) -> Effort:
-    """How closely the graph of so many bearings is searched, if there were `places` all round.
+def _effort_of(scene: Scene, bearings: int) -> Effort:
+    """How closely the graph of so many bearings is searched.
 
-    Half of the places are followed in a round. Round a leader that turns, a third again as begin
-    with late words; and all of them where the slot lies at the limit, since paths slide and hop
-    along the disc to it, so that far more contacts share the least bound.
+    Half as many contacts are followed in a round as there are bearings. Round a leader that turns,
+    a third as many again begin with late words; and where the slot lies at the limit the others are
+    as many as the bearings, since paths slide and hop along the disc to it.
     """
-    turns = len(scene.leader) > 1
-    hops = places if turns and _is_slot_at_limit(scene) else places // 2
-    tries = _TRIES * (places if turns else places // 2)
-    return Effort(TWO_PI / bearings, hops, places // 3, tries, _BESIDE)
+    hops = tries = bearings // 2
+    if len(scene.leader) > 1:
+        tries = bearings
+        hops = bearings if _is_slot_at_limit(scene) else hops
+    return Effort(TWO_PI / bearings, hops, bearings // 3, _TRIES * tries, _BESIDE)
 
 
 @njit(cache=True, nogil=True)
