@@ -91,6 +91,7 @@ class Question:
             pass
         search, problem, firsts = self._begin(0.0)
         look_around(search, problem, firsts, 1.0, inf)
+        tangent_contacts(self.start, self.scene, 0.0)
 
     def search(self, beat: float, find: Find, gap: float, until: float = inf) -> Iterator[float]:
         """The same; paths that are found on the way lower `beat`.

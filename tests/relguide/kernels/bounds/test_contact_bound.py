@@ -427,8 +427,7 @@ def test_who_goes_straight_past_a_contact_is_told_too() -> None:
             goal = Goal(end.x * c + end.y * s - speed * (t + ahead + bend), speed, False)
             seen = scene._replace(leader=table)
             assert (
-                leaving_bound(seen, goal, cell, FAR, True, True, no_rest()).tangent
-                <= ahead + bend + 1e-4
+                leaving_bound(seen, goal, cell, FAR, True, no_rest()).tangent <= ahead + bend + 1e-4
             )
             left += 1
     assert past > 50
