@@ -27,7 +27,7 @@ from relguide.kernels.bounds.goal import Goal
 from relguide.kernels.bounds.probe import Find, begin_find
 from relguide.kernels.bounds.proof_search import SEARCHING, Search, begin, go_on, look_around
 from relguide.kernels.bounds.round_time import times_round
-from relguide.kernels.bounds.tangent_contacts import anything_tangent, tangent_contacts
+from relguide.kernels.bounds.tangent_contacts import tangent_contacts
 from relguide.kernels.bounds.untouched import untouched_bound
 
 _QUADRANT_CELLS = 2
@@ -91,7 +91,6 @@ class Question:
             pass
         search, problem, firsts = self._begin(0.0)
         look_around(search, problem, firsts, 1.0, inf)
-        tangent_contacts(self.start, self.scene, 0.0)
 
     def search(self, beat: float, find: Find, gap: float, until: float = inf) -> Iterator[float]:
         """The same; paths that are found on the way lower `beat`.
@@ -120,9 +119,7 @@ class Question:
         # no path that nowhere touches d_min arrives sooner than the first of these
         beat = untouched_bound(self.start, self.scene, self.goal, beat)
         table, nothing = times_round(self.scene.alpha, self.scene.d_min), unknown_around()
-        tangents = anything_tangent()
-        if len(self.scene.leader) > 1:
-            tangents = tangent_contacts(self.start, self.scene, beat)
+        tangents = tangent_contacts(self.start, self.scene, beat)
         problem = Problem(
             self.start, self.scene, self.goal, table, beat, self.paired, nothing, tangents
         )

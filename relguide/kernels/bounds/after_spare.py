@@ -19,7 +19,7 @@ from relguide.kernels.base.angles import TWO_PI, wrap
 from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.sine import sine_and_cosine
-from relguide.kernels.bounds.cell_words import onward_bound
+from relguide.kernels.bounds.cell_words import later_bound
 from relguide.kernels.bounds.cells import EDGE, Cell, Poses, fastest_turn, poses_of
 from relguide.kernels.bounds.goal import Goal
 from relguide.kernels.bounds.junction import (
@@ -30,7 +30,6 @@ from relguide.kernels.bounds.junction import (
     parted_by,
     slide_turns,
 )
-from relguide.kernels.bounds.rest import no_rest
 from relguide.kernels.separation.clearance import leader_at, piece_at, piece_end
 from relguide.kernels.words.extremals import fly_piece
 
@@ -65,7 +64,7 @@ def after_spare(scene: Scene, goal: Goal, cell: Cell, left: float) -> Onward:
         left: arrivals and contacts after this do not matter [R/V_P].
     """
     poses = poses_of(scene, cell)
-    turn = 2.0 * acos(min(max(scene.alpha * cos(cell.bearing), -1.0), 1.0))
+    turn = _turn_of(scene, cell)
     # γ may change without bound where the leader is as fast
     if poses.differs == inf or turn < _LEAST or scene.alpha > 1.0 - EDGE:
         return Onward(0.0, 0.0, 0.0)
@@ -90,16 +89,13 @@ def after_spare(scene: Scene, goal: Goal, cell: Cell, left: float) -> Onward:
         pose, begun, sense, parts = fly_piece(pose, sense, turn), begun + turn, -sense, parts + 1
     again = inf
     if contact < inf:
-        there, until = poses_after(scene, cell, contact)
-        start, end = cell.start + until, cell.end + until
-        later = Cell(cell.piece, cell.side, cell.bearing, cell.half, start, end)
-        onward = onward_bound(scene, goal, later, there, left - until, no_rest())
-        again = max(until + onward, contact)
+        there, until = before_touching(scene, cell, contact)
+        again = max(later_bound(scene, goal, cell, there, until, left), contact)
     return Onward(soonest, contact, again)
 
 
 @njit(cache=True, nogil=True)
-def poses_after(scene: Scene, cell: Cell, contact: float) -> tuple[Poses, float]:
+def before_touching(scene: Scene, cell: Cell, contact: float) -> tuple[Poses, float]:
     """Where those paths are that touch again, shortly before they do.
 
     Args:
@@ -111,7 +107,7 @@ def poses_after(scene: Scene, cell: Cell, contact: float) -> tuple[Poses, float]
         where, and how long after the contact [R/V_P].
     """
     poses, changes = poses_of(scene, cell), _turn_changes(scene, cell)
-    turn = 2.0 * acos(min(max(scene.alpha * cos(cell.bearing), -1.0), 1.0))
+    turn = _turn_of(scene, cell)
     # before any of them ends a turn, and not until all have begun it
     begun = int(contact / turn) if turn > _LEAST else 0
     until = min(contact, (begun + 1) * (turn - changes))
@@ -135,10 +131,17 @@ def poses_after(scene: Scene, cell: Cell, contact: float) -> tuple[Poses, float]
 
 
 @njit(cache=True, nogil=True)
+def _turn_of(scene: Scene, cell: Cell) -> float:
+    """How long each turn is after the contact in the middle of a cell [rad]."""
+    return 2.0 * acos(min(max(scene.alpha * cos(cell.bearing), -1.0), 1.0))
+
+
+@njit(cache=True, nogil=True)
 def _turn_changes(scene: Scene, cell: Cell) -> float:
     """How much the length of a turn may differ from that of the middle of the cell [rad]."""
     low, high = abs(cos(cell.bearing - cell.half)), abs(cos(cell.bearing + cell.half))
     along = scene.alpha * max(low, high)
+    # γ changes no faster than this with the bearing, nor than the bearing
     return 2.0 * min(scene.alpha / sqrt(1.0 - along * along), 1.0) * cell.half
 
 
@@ -159,13 +162,9 @@ def _parted(
         their headings [rad], where they are, seen from the leader [R], and how fast that grows.
     """
     rate = fastest_turn(scene, 0, len(scene.leader) - 1)
-    low, high = abs(cos(cell.bearing - cell.half)), abs(cos(cell.bearing + cell.half))
-    along = scene.alpha * max(low, high)
-    # γ changes no faster than this with the bearing
-    changes = scene.alpha / (1.0 - along * along) ** 0.5
     swing = cell.half + rate * span
     # each turn ends where the line is met, so the next one's heading is off by two more
-    off = swing + (2 * parts + 1) * min(changes, 1.0) * cell.half
+    off = swing + (parts + 0.5) * _turn_changes(scene, cell)
     grows = off + scene.alpha * rate * span
     return off, scene.d_min * swing + grows * took, grows
 

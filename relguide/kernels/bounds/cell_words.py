@@ -114,5 +114,22 @@ def turned_after_bound(scene: Scene, goal: Goal, cell: Cell, turn: float, beat: 
         beat: arrivals from here on do not matter, and all times come back as infinite [R/V_P].
     """
     after = turned_away(poses_of(scene, cell), cell.side, turn)
-    later = Cell(cell.piece, cell.side, cell.bearing, cell.half, cell.start + turn, cell.end + turn)
-    return turn + onward_bound(scene, goal, later, after, beat - turn, no_rest())
+    return later_bound(scene, goal, cell, after, turn, beat)
+
+
+@njit(cache=True, nogil=True)
+def later_bound(
+    scene: Scene, goal: Goal, cell: Cell, there: Poses, took: float, beat: float
+) -> float:
+    """How soon a path can be at the goal from a contact of the cell, if it is there so much later.
+
+    Args:
+        scene: as in `turned_after_bound`.
+        goal: likewise.
+        cell: likewise.
+        there: where paths of the cell are then.
+        took: how long after the contact [R/V_P].
+        beat: as in `turned_after_bound`.
+    """
+    later = Cell(cell.piece, cell.side, cell.bearing, cell.half, cell.start + took, cell.end + took)
+    return took + onward_bound(scene, goal, later, there, beat - took, no_rest())

@@ -177,7 +177,7 @@ def reach(tree: Tree, problem: Problem, n: int) -> tuple[float, float]:
                 passed, onward = spare_bound(start, scene, goal, cell, problem.beat, on)
             else:
                 to, on = _rest_of(tree, n, _TO, 0), _rest_of(tree, n, _ON, 1)
-                switch = not closely or may_be_tangent(problem.tangents, scene, cell)
+                switch = not closely or may_be_tangent(problem.tangents, cell)
                 passed, onward = cell_bound(
                     start, scene, goal, cell, problem.beat, closely, switch, to, on
                 )

@@ -9,7 +9,7 @@ from math import inf, isnan
 
 from numba import njit
 
-from relguide.kernels.bounds.after_spare import Onward, after_spare, poses_after
+from relguide.kernels.bounds.after_spare import Onward, after_spare, before_touching
 from relguide.kernels.bounds.around import soonest_in
 from relguide.kernels.bounds.between import word_from
 from relguide.kernels.bounds.cell_words import turned_after_bound, turned_before_bound
@@ -69,7 +69,7 @@ def spare_between(
 ) -> float:
     """As `between.word_between`, from contacts of a cell that are come to with time to spare."""
     scene, cell = problem.scene, cell_at(tree, n)
-    begin, until = poses_after(scene, cell, spare_onward(tree, problem, n).contact)
+    begin, until = before_touching(scene, cell, spare_onward(tree, problem, n).contact)
     on = word_from(scene, begin, cell.piece, other, beat - until, before, enough - until)
     return until + on
 

@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from relguide.kernels.base.angles import TWO_PI, wrap
+from relguide.kernels.base.angles import TWO_PI, wrap_signed
 from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.roots import FloatArray
@@ -30,7 +30,7 @@ _STRAIGHT, _TURN, _AS_LONG = 0, 1, 2
 """What a path ends with after its first turn: a straight, a turn, or two of the same length."""
 _ENDS = 3
 _FINE = 1e-6  # boxes are halved until no place differs by more in them [R]
-_BOXES = 500_000  # if there are more of them, which takes 40 ms, nothing is known
+_BOXES = 500_000  # if there are more of them, which takes 60 ms, nothing is known
 _DEPTH = 128  # more than halvings of both numbers
 _MOST = 96  # no more such contacts are told from each other
 _SIDE, _BEARING, _HALF, _START, _END, _COLUMNS = 0, 1, 2, 3, 4, 5  # of a row
@@ -64,7 +64,7 @@ def anything_tangent() -> FloatArray:
 
 @njit(cache=True, nogil=True)
 def tangent_contacts(start: Pose, scene: Scene, beat: float) -> FloatArray:
-    """Where all those contacts lie that are no later than a time.
+    """Where all those contacts lie that are no later than a time, round a leader that turns.
 
     Args:
         start: where paths begin, at t = 0.
@@ -76,9 +76,9 @@ def tangent_contacts(start: Pose, scene: Scene, beat: float) -> FloatArray:
         when its window of time begins and ends [R/V_P]. shape (·, 5)
     """
     rows, count, looked = np.empty((_MOST, _COLUMNS)), 0, 0
-    if not 0.0 < beat < inf or scene.alpha > _FAST:
+    if len(scene.leader) == 1 or not 0.0 < beat < inf or scene.alpha > _FAST:
         return anything_tangent()
-    stack = np.empty((_DEPTH, 4))
+    stack, rate = np.empty((_DEPTH, 4)), fastest_turn(scene, 0, len(scene.leader) - 1)
     for hand in range(2):
         sense = 1.0 - 2.0 * hand
         for end in range(_ENDS):
@@ -95,10 +95,12 @@ def tangent_contacts(start: Pose, scene: Scene, beat: float) -> FloatArray:
                 seen = _seen(start, scene, sense, end, box)
                 far = norm(seen.x, seen.y)
                 by_first, by_then, later = _differs(scene, end, box, seen)
-                if not _can_touch(scene, end, box, seen, far, by_first + by_then, later, beat):
+                if seen.t - later >= beat or not _can_touch(
+                    scene, end, box, seen, far, by_first + by_then, later, rate
+                ):
                     continue
                 if by_first + by_then < _FINE:
-                    found = _row(scene, seen, far, by_first + by_then, later)
+                    found = _row(seen, far, by_first + by_then, later, rate)
                     count = _with_row(rows, count, found)
                     if count < 0:
                         return anything_tangent()
@@ -111,7 +113,7 @@ def tangent_contacts(start: Pose, scene: Scene, beat: float) -> FloatArray:
 
 
 @njit(cache=True, nogil=True)
-def may_be_tangent(rows: FloatArray, scene: Scene, cell: Cell) -> bool:
+def may_be_tangent(rows: FloatArray, cell: Cell) -> bool:
     """Whether one of these contacts may lie in a cell."""
     for k in range(len(rows)):
         row = rows[k]
@@ -119,16 +121,10 @@ def may_be_tangent(rows: FloatArray, scene: Scene, cell: Cell) -> bool:
             row[_SIDE] != -cell.side
             and row[_START] <= cell.end
             and cell.start <= row[_END]
-            and abs(_apart(cell.bearing, row[_BEARING])) <= cell.half + row[_HALF]
+            and abs(wrap_signed(cell.bearing - row[_BEARING])) <= cell.half + row[_HALF]
         ):
             return True
     return False
-
-
-@njit(cache=True, nogil=True)
-def _apart(bearing: float, other: float) -> float:
-    """By how much two bearings differ, between −π and π [rad]."""
-    return wrap(bearing - other + 0.5 * TWO_PI) - 0.5 * TWO_PI
 
 
 @njit(cache=True, nogil=True)
@@ -170,7 +166,7 @@ def _differs(scene: Scene, end: int, box: _Box, seen: _Seen) -> tuple[float, flo
 @njit(cache=True, nogil=True)
 def _can_touch(
     scene: Scene, end: int, box: _Box, seen: _Seen, far: float, differs: float, later: float,
-    beat: float,
+    rate: float,
 ) -> bool:  # fmt: skip
     """Whether the disc may be touched in a box.
 
@@ -182,13 +178,13 @@ def _can_touch(
         far: from the leader [R].
         differs: how much the place may differ [R].
         later: and the time [R/V_P].
-        beat: of `tangent_contacts` [R/V_P].
+        rate: the leader's greatest turn rate [V_P/R].
     """
-    if seen.t - later >= beat or abs(far - scene.d_min) > differs + EDGE:
+    if abs(far - scene.d_min) > differs + EDGE:
         return False
     opens = (seen.x * seen.vx + seen.y * seen.vy) / far if far > 0.0 else 0.0
     turns = box.first_half + (box.then_half if end == _TURN else 0.0)
-    turns += scene.alpha * fastest_turn(scene, 0, len(scene.leader) - 1) * later
+    turns += scene.alpha * rate * later
     # directions differ so much if one of the places is on the disc
     tilts = 2.0 * (1.0 + scene.alpha) * differs / (far + scene.d_min) + turns
     return bool(abs(opens) <= tilts + EDGE)
@@ -208,13 +204,12 @@ def _halve(stack: FloatArray, n: int, box: _Box, first: bool) -> None:
 
 @njit(cache=True, nogil=True)
 def _row(
-    scene: Scene, seen: _Seen, far: float, differs: float, later: float
+    seen: _Seen, far: float, differs: float, later: float, rate: float
 ) -> tuple[float, float, float, float, float]:
     """The contacts of a box."""
     side = 1.0 if seen.x * seen.vy - seen.y * seen.vx > 0.0 else -1.0
-    swings = fastest_turn(scene, 0, len(scene.leader) - 1) * later
     bearing = atan2(seen.y, seen.x) - seen.ahead
-    return side, bearing, 2.0 * differs / far + swings, seen.t - later, seen.t + later
+    return side, bearing, 2.0 * differs / far + rate * later, seen.t - later, seen.t + later
 
 
 @njit(cache=True, nogil=True)
@@ -223,7 +218,7 @@ def _with_row(rows: FloatArray, count: int, found: tuple[float, float, float, fl
     side, bearing, half, start, end = found
     for k in range(count):
         row = rows[k]
-        off = _apart(bearing, row[_BEARING])
+        off = wrap_signed(bearing - row[_BEARING])
         if (
             row[_SIDE] == side
             and start <= row[_END]

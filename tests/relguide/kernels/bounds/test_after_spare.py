@@ -8,8 +8,7 @@ import pytest
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.base.records import Contact, Pose, Scene
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.bounds.after_spare import after_spare, falling_for
-from relguide.kernels.bounds.after_spare import poses_after as cell_after
+from relguide.kernels.bounds.after_spare import after_spare, before_touching, falling_for
 from relguide.kernels.bounds.cells import Cell, poses_of
 from relguide.kernels.bounds.goal import Goal
 from relguide.kernels.bounds.junction import can_touch
@@ -257,7 +256,7 @@ def test_where_paths_of_a_cell_are_before_they_touch_again() -> None:
             continue
         for cell in in_cells(rng, contact, t):
             begin, touching = poses_of(scene, cell), rng.uniform(0.0, 6.0)
-            there, until = cell_after(scene, cell, touching)
+            there, until = before_touching(scene, cell, touching)
             assert 0.0 <= until <= touching
             bearing = cell.bearing + rng.uniform(-1.0, 1.0) * cell.half
             when = rng.uniform(cell.start, cell.end)
