@@ -4,7 +4,14 @@ from collections.abc import Mapping, Sequence
 from math import hypot, inf
 
 from relguide.cli.output import write
-from relguide.cli.shared_tables import percent, print_table, short, table, with_interval
+from relguide.cli.shared_tables import (
+    percent,
+    print_latency,
+    print_table,
+    short,
+    table,
+    with_interval,
+)
 from relguide.learn.audits.branch_audit import Audit, Group, Miss
 from relguide.learn.audits.latency import Latency
 from relguide.learn.audits.side_by_side import Ground, Method, two
@@ -29,14 +36,7 @@ def print_audit(
         methods: these methods.
     """
     _print_groups(audit)
-    write(
-        "One query; median, mean and 99th percentile of CPU time:\n"
-        + ", ".join(
-            f"{name} {asked.median:.1f} / {asked.mean:.1f} / {asked.late:.1f} µs"
-            for name, asked in latency.items()
-        )
-        + ".\n"
-    )
+    print_latency(latency)
     _print_gaps(audit)
     if ground is not None:
         _print_methods(ground, methods)

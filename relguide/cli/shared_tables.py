@@ -1,5 +1,6 @@
 """Tables for people, and how times, lengths and shares are written in them."""
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from relguide.learn.training.shares import Share
@@ -7,6 +8,8 @@ from relguide.units import NM
 
 if TYPE_CHECKING:
     from rich.table import Table
+
+    from relguide.learn.audits.latency import Latency
 
 WIDTH = 100
 """Of an audit's tables [characters]."""
@@ -32,6 +35,16 @@ def print_table(shown: "Table") -> None:
     from rich.console import Console
 
     Console(width=WIDTH).print(shown)
+
+
+def print_latency(asked: Mapping[str, "Latency"]) -> None:
+    """Print what a query takes, a row for each who is asked."""
+    shown = table("CPU time of one query, µs")
+    for heading in ("median", "mean", "99 %"):
+        shown.add_column(heading, justify="right", no_wrap=True)
+    for name, found in asked.items():
+        shown.add_row(name, *(f"{spent:,.1f}" for spent in found))
+    print_table(shown)
 
 
 def clock(seconds: float) -> str:

@@ -4,7 +4,14 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from relguide.cli.output import write
-from relguide.cli.shared_tables import percent, print_table, short, table, with_interval
+from relguide.cli.shared_tables import (
+    percent,
+    print_latency,
+    print_table,
+    short,
+    table,
+    with_interval,
+)
 from relguide.learn.audits.latency import Latency
 from relguide.learn.audits.planner_judging import UNIT
 from relguide.learn.audits.template_audit import (
@@ -41,14 +48,8 @@ def print_template_audit(audit: TemplateAudit, latency: Mapping[str, Latency]) -
     _print_late(audit)
     if audit.everywhere:
         _print_everywhere(audit)
-    write(
-        "One query where d_min binds; median, mean and 99th percentile of CPU time:\n"
-        + ", ".join(
-            f"{name} {asked.median:,.0f} / {asked.mean:,.0f} / {asked.late:,.0f} µs"
-            for name, asked in latency.items()
-        )
-        + ".\n"
-    )
+    write("One query where d_min binds.\n")
+    print_latency(latency)
     if "together" in latency:
         write("Together: the network, and the search for what it passes on.\n")
     _print_gaps(audit)
