@@ -52,7 +52,8 @@ _TRIES = 8  # times the places hopped from: so many contacts are left by a delay
 _HOPS_CLOSER = 2  # of contacts, to others, where it is looked closer
 _MOST_ALIVE = 10  # contacts that may still matter: of more it is not looked closer
 _SPARE, _SPARE_AT_LIMIT = 2, 3  # other chains that are begun again as well
-_AGAIN, _AGAIN_AT_LIMIT = 120, 250  # effort to begin the best chain again from nearby
+_AGAIN, _AGAIN_AT_LIMIT = 120, 250  # effort to begin the best chain again from nearby …
+_AGAIN_STRAIGHT = 50  # … round a leader that keeps straight
 _WORTH = 2e-3  # how much sooner a contact has to promise an arrival for it [R/V_P]: 0.1 s
 
 
@@ -88,11 +89,12 @@ def best_constrained_path(
     narrow, keeps_straight = _is_slot_at_limit(scene), len(scene.leader) == 1
     if narrow and keeps_straight:
         bearings *= 2
-    spares = _SPARE_AT_LIMIT if narrow else _SPARE
+    spares = 0 if keeps_straight else _SPARE_AT_LIMIT if narrow else _SPARE
     chain, spare = np.zeros((MAX_CONTACTS, 4)), no_chains(spares)
     best, count, may_be_faster = _search(start, scene, bearings, tangents, beat, legs, chain, spare)
     finer = np.zeros_like(legs)
-    if narrow and scene.d_min > 1.0 and best > scene.t_release:
+    long_way = narrow and scene.d_min > 1.0
+    if long_way and best > scene.t_release:
         # more bearings do not include the fewer ones, nor find all that these do
         other = np.zeros_like(chain)
         more = bearings * 7 // 5 if keeps_straight else 2 * bearings
@@ -107,8 +109,10 @@ def best_constrained_path(
             legs[:], chain[:] = finer, other
         elif found > 2:
             keep_chain(spare, time, other[: found - 1])
-    if not keeps_straight and count > 0 and may_be_faster:
+    if count > 0 and may_be_faster and (long_way or not keeps_straight):
         stride, work = _STRIDE * _BESIDE, _AGAIN_AT_LIMIT if narrow else _AGAIN
+        if keeps_straight:
+            work = _AGAIN_STRAIGHT
         # a path through one contact is searched for anew, from the start
         contacts = count - 1 if count > 2 else 0
         was, begun = chain[:contacts].copy(), np.full(AGAIN * (1 + spares), inf)
