@@ -120,7 +120,7 @@ def probe_between(start: Pose, find: Find, cell: Cell, other: Cell) -> None:
         if not contact_exists(contact.bearing, find.scene.alpha):
             continue
         words = words_toward(find.scene, contact)
-        n = paths_by_words(start, 0.0, find.scene, contact, words, cell.end, rows)
+        n = paths_by_words(start, 0.0, find.scene, contact, words, 0.0, cell.end, rows)
         named = 0
         for j in range(n):
             if rows[j, 0] >= cell.start:

@@ -66,19 +66,19 @@ def with_contacts(chain: Chain, contacts: FloatArray) -> Chain:
 
 @njit(cache=True, nogil=True)
 def earliest_contact(
-    pose: Pose, t: float, scene: Scene, contact: Contact, onward: int, beat: float,
+    pose: Pose, t: float, scene: Scene, contact: Contact, words: int, earliest: float, beat: float,
     rows: FloatArray,
 ) -> tuple[float, int]:  # fmt: skip
     """The earliest arrival at a contact with d_min kept on the way, and its row.
 
-    `onward` are the words that may lead on from the pose, as in `passing`. Infinite and −1 if none
-    arrives before `beat`.
+    `words` are those that may lead on from the pose and to the contact, as in `passing`, and none
+    arrives before `earliest`, as of `paths_by_words`. Infinite and −1 if none arrives before
+    `beat`.
     """
     best, at = beat, -1
-    words = onward & words_toward(scene, contact)
     # while the leader turns, words with the same outer turns are found together
     alike = words | (words & _THREE_TURNS) >> _APART
-    n = paths_by_words(pose, t, scene, contact, alike, beat, rows)
+    n = paths_by_words(pose, t, scene, contact, alike, earliest, beat, rows)
     for k in range(n):
         asked = words & (1 << int(rows[k, 1]))
         if asked and rows[k, 0] < best and word_clears(pose, t, rows[k], scene):
@@ -101,14 +101,19 @@ def contact_by(
     pose: Pose, t: float, scene: Scene, contact: Contact, link: float, onward: int, beat: float,
     rows: FloatArray,
 ) -> tuple[float, int]:  # fmt: skip
-    """As `earliest_contact`, by way of a link of `link_by`."""
-    if link >= NAMED:
-        onward &= 1 << int(link - NAMED)
-        return earliest_contact(pose, t, scene, contact, onward, beat, rows)
+    """As `earliest_contact`, by way of a link of `link_by` or by any word.
+
+    `onward` are the words that may lead on from the pose.
+    """
+    words = onward & words_toward(scene, contact)
+    if link == WORD or link >= NAMED:
+        if link >= NAMED:
+            words &= 1 << int(link - NAMED)
+        return earliest_contact(pose, t, scene, contact, words, 0.0, beat, rows)
     word = int(AGAIN - link) % len(WORDS)
-    words = onward & words_toward(scene, contact) & (1 << word)
+    words &= 1 << word
     alike = words | (words & _THREE_TURNS) >> _APART
-    n = paths_by_words(pose, t, scene, contact, alike, beat, rows)
+    n = paths_by_words(pose, t, scene, contact, alike, 0.0, beat, rows)
     for k in range(n):
         asked = rows[k, 1] == word and link_by(rows[:n], k) == link
         if asked and rows[k, 0] < beat and word_clears(pose, t, rows[k], scene):

@@ -23,7 +23,6 @@ from relguide.kernels.contact.chain import (
     WORD,
     Chain,
     contact_by,
-    earliest_contact,
     with_contacts,
 )
 from relguide.kernels.contact.clear_words import best_word, word_clears
@@ -108,10 +107,7 @@ def fly_links(
                 contacts[k, 2] = bearing
             else:
                 link = contacts[k, 3]
-                if link == WORD:
-                    t, at = earliest_contact(pose, t, scene, contact, onward, beat, rows)
-                else:
-                    t, at = contact_by(pose, t, scene, contact, link, onward, beat, rows)
+                t, at = contact_by(pose, t, scene, contact, link, onward, beat, rows)
             if at < 0:
                 return pose, inf
             legs[k, 1:6] = rows[at]

@@ -59,6 +59,9 @@ class Graph(NamedTuple):
     """How long the path to the slot takes at least, on the final leg, where that is the same at any
     time; 0 on other legs, infinite where no contact exists, NaN until words from nodes are looked
     for [R/V_P]. shape (nodes,)"""
+    toward: IntArray
+    """The words that may lead to each node, as in `passing`, once `onward` is known. shape
+    (nodes,)"""
     hopped: FloatArray
     """The label with which words from it were last looked for."""
     delayed: FloatArray
@@ -121,8 +124,8 @@ def start_graph(scene: Scene, nodes: Nodes, count: int, beat: float) -> Graph:
     graph = Graph(
         count, behind, 2 * behind, 3 * behind, 4 * behind, 5 * behind, past, np.array([size]),
         np.arange(size), np.full(size, inf), np.arange(size), np.full(count, np.nan),
-        np.full(size, inf), np.full(size, inf), np.zeros(size), np.zeros(size),
-        np.empty((MAX_ROWS, 5)), make_scratch(),
+        np.zeros(count, np.int64), np.full(size, inf), np.full(size, inf), np.zeros(size),
+        np.zeros(size), np.empty((MAX_ROWS, 5)), make_scratch(),
     )  # fmt: skip
     for n in range(size):
         if nodes.lower[n] < beat:

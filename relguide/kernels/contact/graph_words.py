@@ -16,7 +16,7 @@ from relguide.kernels.contact.clear_words import to_slot_frame
 from relguide.kernels.contact.contact import contact_at, contact_exists, contact_on
 from relguide.kernels.contact.graph_labels import Effort, Graph, label_to_beat, take_label
 from relguide.kernels.contact.nodes import Nodes, contact_of
-from relguide.kernels.contact.passing import words_onward
+from relguide.kernels.contact.passing import words_onward, words_toward
 from relguide.kernels.contact.paths_to_contact import earliest_arrival, not_before_slot
 from relguide.kernels.contact.swept_bearings import MOST_SWEPT, may_be_swept, sweep_bearings
 from relguide.kernels.separation.clearance import piece_end
@@ -99,7 +99,8 @@ def _hop_from(scene: Scene, nodes: Nodes, graph: Graph, n: int, best: float) -> 
             continue
         if time_is_up(scene.until):
             break
-        t, _ = earliest_contact(pose, left, scene, contact, onward, beat, graph.rows)
+        words = onward & graph.toward[node]
+        t, _ = earliest_contact(pose, left, scene, contact, words, t, beat, graph.rows)
         if t == inf:
             continue
         # one that hugs the disc is a boundary arc, and would hide another that does not
@@ -109,9 +110,10 @@ def _hop_from(scene: Scene, nodes: Nodes, graph: Graph, n: int, best: float) -> 
 
 @njit(cache=True, nogil=True)
 def _look_onward(scene: Scene, nodes: Nodes, graph: Graph) -> None:
-    """Find how long the path from each node to the slot takes at least [R/V_P].
+    """Find how long the path from each node to the slot takes at least, and words that lead to it.
 
-    That is known on the final leg, where it takes as long whenever it begins; elsewhere it is 0.
+    That is known on the final leg, where it takes as long whenever it begins; elsewhere it is 0
+    [R/V_P].
     """
     final, row = len(scene.leader) - 1, graph.rows[0]
     t = scene.leader[final, 0]
@@ -123,3 +125,5 @@ def _look_onward(scene: Scene, nodes: Nodes, graph: Graph) -> None:
             seen = to_slot_frame(contact_on(scene, contact, t), t, scene.alpha)
             known = row[0] if fastest(seen, scene.alpha, 0.0, 0, graph.scratch, row) else inf
         graph.onward[node] = known
+        if known < inf:
+            graph.toward[node] = words_toward(scene, contact)

@@ -345,7 +345,7 @@ def through_contact(
         if not may_arrive_before(there, scene.alpha, beat - t, room.scratch):
             return beat
     words = words_toward(scene, contact)
-    n = paths_by_words(start, 0.0, scene, contact, words, beat, room.rows)
+    n = paths_by_words(start, 0.0, scene, contact, words, 0.0, beat, room.rows)
     m, back, last = -1, slides_back(scene, contact), (0.0, 0.0, 0.0)
     for k in range(n):
         t = room.rows[k, 0]

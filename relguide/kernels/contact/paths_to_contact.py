@@ -75,21 +75,27 @@ def paths_to_contact(
     Returns:
         how many rows. Fewer if the time for the search is up.
     """
-    return paths_by_words(pose, t, scene, contact, ALL_WORDS, beat, rows)
+    return paths_by_words(pose, t, scene, contact, ALL_WORDS, 0.0, beat, rows)
 
 
 @njit(cache=True, nogil=True)
 def paths_by_words(
-    pose: Pose, t: float, scene: Scene, contact: Contact, words: int, beat: float,
+    pose: Pose, t: float, scene: Scene, contact: Contact, words: int, earliest: float, beat: float,
     rows: FloatArray,
 ) -> int:  # fmt: skip
-    """As `paths_to_contact`, of a set of words as in `passing`."""
+    """As `paths_to_contact`, of a set of words as in `passing`.
+
+    None of them may arrive before `earliest` [R/V_P]: 0, or what `earliest_arrival` says.
+    """
     leader, i = scene.leader, contact.piece
     end = piece_end(leader, i)
     if end <= t or words == 0:
         return 0
     if leader[i, 4] != 0.0:
-        return paths_while_turning(passage_to(pose, t, scene, contact), words, beat, rows)
+        passage = passage_to(pose, t, scene, contact)
+        if earliest <= t:
+            earliest = earliest_while_turning(passage, beat)
+        return paths_while_turning(passage, words, earliest, beat, rows)
     lh = leader[i, 3]
     cx, cy, course = contact_on(scene, contact, t)
     left = end - t

@@ -22,6 +22,7 @@ SLACK = 1e-6
 _ROUNDING = 1e-9
 _DEPTH = 64
 _NARROW = 1e-6  # a window this short that is still undecided counts as too close
+_BENT = 0.5  # longer windows are not asked whether d² is convex there [R/V_P]
 _MOST_WINDOWS = 32_768  # as does a path that takes more: 1 mm outside the disc takes 10,000
 
 
@@ -129,12 +130,53 @@ def piece_clears(pose: Pose, rate: float, t: float, duration: float, scene: Scen
             close = norm(here.x - there.x, here.y - there.y) < limit
             if close or half < _NARROW or n + 2 > _DEPTH or looked > _MOST_WINDOWS:
                 return False
+            if half < _BENT and _bulges_away(pursuer, led, mid, half, since, limit):
+                continue
             mids[n], halves[n] = mid - 0.5 * half, 0.5 * half
             mids[n + 1], halves[n + 1] = mid + 0.5 * half, 0.5 * half
             n += 2
         done = end
         i += 1
     return True
+
+
+@njit(cache=True, nogil=True)
+def _bulges_away(
+    pursuer: _Course, led: _Course, mid: float, half: float, since: float, limit: float
+) -> bool:
+    """Whether d² is convex from half before mid to half behind, and its tangents there stay clear.
+
+    Where a piece touches the disc that is seen at once: the bound by straights is as far inside as
+    they are long, squared.
+
+    With the difference Δ of the two, (d²)″/2 = |Δ′|² + Δ·Δ″, and how fast that changes,
+    3 Δ′·Δ″ + Δ·Δ‴, is at most 3 (1 + α) (w + αω) + |Δ| (w² + αω²).
+    """
+    here, there = _state_on(pursuer, mid), _state_on(led, since + mid)
+    dx, dy, vx, vy = here.x - there.x, here.y - there.y, here.vx - there.vx, here.vy - there.vy
+    ax = led.rate * there.vy - pursuer.rate * here.vy
+    ay = pursuer.rate * here.vx - led.rate * there.vx
+    bend = abs(pursuer.rate) + led.speed * abs(led.rate)
+    jerk, fastest = pursuer.rate * pursuer.rate + led.speed * led.rate * led.rate, 1.0 + led.speed
+    farthest = norm(dx, dy) + fastest * half
+    convex = vx * vx + vy * vy + dx * ax + dy * ay
+    if convex < half * (3.0 * fastest * bend + farthest * jerk):
+        return False
+    here, there = _state_on(pursuer, mid - half), _state_on(led, since + mid - half)
+    dx, dy = here.x - there.x, here.y - there.y
+    first = dx * dx + dy * dy - limit * limit
+    leaving = dx * (here.vx - there.vx) + dy * (here.vy - there.vy)
+    if first < 0.0 or leaving >= 0.0:
+        return first >= 0.0
+    here, there = _state_on(pursuer, mid + half), _state_on(led, since + mid + half)
+    dx, dy = here.x - there.x, here.y - there.y
+    last = dx * dx + dy * dy - limit * limit
+    coming = dx * (here.vx - there.vx) + dy * (here.vy - there.vy)
+    if last < 0.0 or coming <= 0.0:
+        return last >= 0.0
+    # where the two tangents meet
+    meet = (last - first - 4.0 * coming * half) / (2.0 * (leaving - coming))
+    return first + 2.0 * leaving * meet >= 0.0
 
 
 @njit(cache=True, nogil=True, inline="always")

@@ -3,6 +3,7 @@
 from math import inf
 
 import numpy as np
+import pytest
 
 from relguide.kernels.base.angles import TWO_PI
 from relguide.kernels.base.records import Contact, Pose, Scene
@@ -27,7 +28,7 @@ def test_each_way_to_a_contact_has_a_link_of_its_own_by_which_it_is_flown() -> N
     for _ in range(300):
         start = Pose(*rng.uniform(-4.0, 4.0, 2), rng.uniform(0.0, TWO_PI))
         contact = Contact(0, rng.uniform(0.0, TWO_PI), rng.choice([-1.0, 1.0]))
-        n = paths_by_words(start, 0.0, scene, contact, ALL_WORDS, inf, rows)
+        n = paths_by_words(start, 0.0, scene, contact, ALL_WORDS, 0.0, inf, rows)
         links = [link_by(rows[:n], k) for k in range(n)]
         assert len(set(links)) == n
         for k in range(n):
@@ -38,7 +39,7 @@ def test_each_way_to_a_contact_has_a_link_of_its_own_by_which_it_is_flown() -> N
                 continue
             t, at = contact_by(start, 0.0, scene, contact, links[k], ALL_WORDS, inf, again)
             if at >= 0:  # a contact that its word would pass turning toward the leader is none
-                assert t == rows[k, 0] == again[at, 0]
+                assert t == again[at, 0] == pytest.approx(rows[k, 0], abs=1e-12)
                 assert again[at, 1] == word
                 flown += 1
                 later += before > 1
