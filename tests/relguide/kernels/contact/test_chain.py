@@ -39,7 +39,7 @@ def test_each_way_to_a_contact_has_a_link_of_its_own_by_which_it_is_flown() -> N
                 continue
             t, at = contact_by(start, 0.0, scene, contact, links[k], ALL_WORDS, inf, again)
             if at >= 0:  # a contact that its word would pass turning toward the leader is none
-                assert t == again[at, 0] == pytest.approx(rows[k, 0], abs=1e-12)
+                assert t == again[at, 0] == pytest.approx(rows[k, 0], abs=1e-9)
                 assert again[at, 1] == word
                 flown += 1
                 later += before > 1

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from relguide.kernels.base.angles import TWO_PI
 from relguide.kernels.base.records import Contact, Pose, Scene
 from relguide.kernels.contact.contact import contact_at
 from relguide.kernels.contact.paths_to_contact import earliest_arrival, paths_to_contact
@@ -78,6 +79,29 @@ def test_no_word_arrives_before_the_earliest_time_and_a_time_to_beat_only_cuts_i
         assert earliest <= time + 1e-9
     in_time = earliest_arrival(start, 0.0, scene, contact, beat)
     assert in_time == earliest if earliest < beat else in_time >= beat
+
+
+def test_a_word_is_found_to_where_it_leads() -> None:
+    """The leader is put where a word drawn at random comes to a contact."""
+    rng, rows = np.random.default_rng(8), np.empty((MAX_ROWS, 5))
+    for _ in range(3_000):
+        word, amounts = int(rng.integers(6)), rng.uniform(0.0, 6.2, 3)
+        # others exist hardly longer than for that moment
+        amounts[1] = rng.uniform(3.6, 6.0) if word > 3 else 0.3 + rng.exponential(2.0)
+        start, time = Pose(0.0, 0.0, rng.uniform(0.0, TWO_PI)), float(amounts.sum())
+        end = start
+        for sign, amount in zip(SIGNS[word], amounts, strict=True):
+            end = fly_piece(end, sign, amount)
+        rate, begun = rng.uniform(-1.5, 1.5), max(time - rng.uniform(0.1, 4.0), 0.0)
+        bearing, side = rng.uniform(0.0, TWO_PI), rng.choice([-1.0, 1.0])
+        leader = np.array([[begun, 0.0, 0.0, 0.0, rate], [time + 0.1, 0.0, 0.0, 0.0, 0.0]])
+        scene = Scene(leader, rng.uniform(0.5, 0.95), rng.uniform(0.3, 4.0), 0.0)
+        # first turned, then moved to where the word ends
+        leader[0, 3] = end.h - contact_at(scene, time, bearing, side).h
+        there = contact_at(scene, time, bearing, side)
+        leader[0, 1], leader[0, 2] = end.x - there.x, end.y - there.y
+        n = paths_to_contact(start, 0.0, scene, Contact(0, bearing, side), inf, rows)
+        assert any(row[1] == word and abs(row[0] - time) < 1e-6 for row in rows[:n])
 
 
 @pytest.mark.parametrize(
