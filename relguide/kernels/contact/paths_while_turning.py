@@ -1,11 +1,12 @@
 """Words to a contact with d = d_min while the leader turns: the contact moves on a circle.
 
 A word arrives when its length to where the contact then is equals the time for it. That is looked
-at on a grid of times, for all branches at once; for its roots between two times see
+at step by step, for all branches at once; for its roots between two times see
 `arrivals_while_turning`.
 
 A word is no shorter than the straight between its first and its last circle and the change of
-heading. So most looks see at once that it comes too late, until the next look and often for longer.
+heading, and its length changes no faster than these move, but for full turns. So most looks see at
+once that it does not arrive until the next step, and often for longer.
 """
 
 from math import asin, atan2, ceil, inf, isnan, pi, sqrt
@@ -30,8 +31,10 @@ from relguide.kernels.words.branches import SIZE, TO_POINT
 from relguide.kernels.words.extremals import SIGNS
 
 _STEP = 0.15  # the leader turns by some 10° in it [R/V_P]
+_BEFORE = 0.1  # so much of a step before the first time at which one may arrive it is looked at
 _LONGEST_DETOUR = 24.0  # 6π + 4, rounded up
 _BESIDE = 2.2  # circles so near each other turn the straight between them no faster than they move
+_FARTHEST = 3.999  # circles so far from each other change the turn between them too fast to say
 _QUARTER = 0.5 * pi  # the arc over a chord is no longer than so many times the chord
 _PAIRS = 4  # of first and last circles, in the order of the words with a straight between them
 _SEEN = SIZE + _PAIRS  # rows of one look
@@ -107,7 +110,8 @@ def paths_while_turning(
     looks = np.full((2 * _SEEN + 2 * _PAIRS, 3), np.nan)
     _put_centres(passage, step, looks)
     n, last_t, follows, last, here = 0, begin, False, _SEEN, 0
-    t, goes_on = max(first - 0.1 * step, begin), True
+    # a straight may arrive just then
+    t, goes_on = max(first - _BEFORE * step, begin), True
     while goes_on:
         goes_on = t < end
         elapsed = t - passage.t_start
@@ -234,14 +238,12 @@ def _put_down(looks: FloatArray, row: int, seen: _Length) -> float:
 def _middle_of(circles: _Circles) -> _Middle:
     """The shorter middle turn of LRL or RLR, whose circles are 4 R apart at most."""
     gap, swept = circles.gap, circles.swept
-    if gap >= 4.0 or swept == 0.0:
-        return _Middle(pi if gap >= 4.0 else 2.0 * asin(0.25 * gap), 0.0, 0.0)
-    farther = 0.125 * (gap + 4.0)
-    return _Middle(
-        2.0 * asin(0.25 * gap),
-        0.5 * swept / sqrt(1.0 - farther * farther),
-        0.5 * (4.0 - gap) / swept,
-    )
+    turn = 2.0 * asin(0.25 * min(gap, 4.0))
+    if gap > _FARTHEST or swept == 0.0:
+        return _Middle(turn, 0.0, 0.0)
+    # until they are half as far from 4 R it changes no faster than there
+    there = 0.125 * (gap + 4.0)
+    return _Middle(turn, 0.5 * swept / sqrt(1.0 - there * there), 0.5 * (4.0 - gap) / swept)
 
 
 @njit(cache=True, nogil=True)
@@ -308,10 +310,9 @@ def _look_at_opposite(circles: _Circles) -> _Length:
     if straight + max(change - circles.sway, 0.0) > circles.elapsed + step:
         late = (gap - 2.0 + change - circles.elapsed) / (step + circles.swept + circles.sway)
         return _Length(inf, 0.0, 0.0, step * max(late, 1.0))
-    if gap + circles.swept < 2.0:
-        return _Length(
-            inf, 0.0, 0.0, (2.0 - gap) / circles.swept * step if circles.swept > 0.0 else inf
-        )
+    if gap < 2.0 - circles.swept:
+        steps = (2.0 - gap) / circles.swept if circles.swept > 0.0 else inf
+        return _Length(inf, 0.0, 0.0, steps * step)
     if gap < 2.0:
         return _Length(np.nan, 0.0, 0.0, 0.0)
     bearing = atan2(circles.dy, circles.dx) + first * asin(2.0 / gap)
