@@ -182,48 +182,23 @@ SLIDES_TWICE = (
         ),
         330.492,
     ),
-    (
-        Situation(
-            pursuer=Pursuer(
-                x=0.0, y=0.0, heading=1.9325105940276104,
-                tas=145.02041433928372, max_bank=0.2629029525179894,
-            ),
-            leader=Leader(
-                x=-13_714.993227929714, y=-9_681.102420299121, heading=1.148301244320406,
-                tas=139.01896381603333,
-            ),
-            slot_distance=13_815.5140315425,
-            min_separation=13_815.5140315425,
-        ),
-        469.607,
-    ),
-    (
-        Situation(
-            pursuer=Pursuer(
-                x=0.0, y=0.0, heading=0.9889916378284556,
-                tas=163.6527273518862, max_bank=0.2897004404098533,
-            ),
-            leader=Leader(
-                x=-12_603.492356436196, y=17_190.913389168843, heading=0.4790252292718077,
-                tas=159.45139451396724,
-            ),
-            slot_distance=18_776.5219710672,
-            min_separation=18_776.5219710672,
-        ),
-        266.510,
-    ),
 )  # fmt: skip
-"""Situations, and times found with twenty times the bearings.
-
-One grid alone misses the first two; the others need the best chain begun again with a straight that
-touches the disc.
-"""
+"""Situations, and times found with twenty times the bearings: one grid alone misses both paths."""
 
 
 @pytest.mark.parametrize(("situation", "known"), SLIDES_TWICE)
 def test_a_path_that_leaves_the_disc_between_two_slides_is_found(
     situation: Situation, known: float
 ) -> None:
+    assert arrival_time(situation) < known + 0.05
+
+
+@pytest.mark.parametrize(("case", "known"), [(580, 266.510), (626, 469.607)])
+def test_a_straight_that_touches_is_put_into_the_best_chain(case: int, known: float) -> None:
+    """Two bearings had to be moved together; they came 0.19 and 0.24 s later than known now."""
+    rng = np.random.default_rng([1302, case])
+    rng.random(2)  # as `tests.bench.limit` draws them
+    situation = draws.active(rng, tight=True, slot_at_limit=True)
     assert arrival_time(situation) < known + 0.05
 
 
