@@ -7,10 +7,10 @@ import type { Guidance } from "../store/states";
 
 const CAPTIONS = [
   "The white arrowhead is the leader; you are the yellow aircraft. Click the leader, or press D: it is to be joined.",
-  "Dashed yellow is a path to its slot. CNV says how long it takes, the dotted circle how close you come. Accept it, or press C.",
+  "Dashed yellow leads to its slot: CNV says in what time, the dotted circle how close you come. Accept it, or press C.",
   "Dashed cyan: accepted, and not flown yet. Engage it, or press E.",
-  "Green is what the aircraft will fly. The gate with the pennant is the slot, D behind the leader. ×10 makes it faster.",
-  "Now let the leader turn: type a heading into its panel, and the path is made anew. PLAN is a map for a situation of your own.",
+  "Green will be flown. The gate with the pennant is the slot, D behind the leader. ×10 makes it faster.",
+  "Now let the leader turn: type its heading, and the path is made anew. PLAN is a map for situations of your own.",
 ] as const;
 
 /** Which of them belongs to a state; those of flying are turned by hand. */
