@@ -14,6 +14,8 @@ from tests.browser.service import Service, Watch
 
 CUT = (Path(__file__).parent / "cut.js").read_text()
 """Lists everything on the page that does not fit where it stands."""
+BOTTOM = "(element) => element.getBoundingClientRect().bottom"
+"""Where an element ends, from the top of the window [px]."""
 MOVED = 700
 """Long enough for a picture to have moved [ms]."""
 
@@ -113,6 +115,38 @@ def test_nothing_is_cut(page: Page, watched: Watch, size: tuple[int, int]) -> No
     page.set_viewport_size({"width": size[0], "height": size[1]})
     page.wait_for_timeout(MOVED)
     assert page.evaluate(CUT) == []
+    assert watched.complaints == []
+
+
+def test_a_small_page_shows_the_aircraft_under_every_caption(page: Page, watched: Watch) -> None:
+    """The captions of the first minute take no more than two lines."""
+    page.set_viewport_size({"width": 1024, "height": 768})
+    caption = page.get_by_label("First steps").locator("b")
+    for number, step in ((4, None), (5, "Next"), (1, "x"), (2, "d"), (3, "c")):
+        if step == "Next":
+            page.get_by_role("button", name=step).click()
+        elif step is not None:
+            page.keyboard.press(step)
+        expect(caption).to_have_text(f"{number} of 5")
+        table, body = page.locator(".states"), page.locator(".aircraft .panel-body")
+        assert page.evaluate(BOTTOM, table.element_handle()) <= page.evaluate(
+            BOTTOM, body.element_handle()
+        )
+    assert watched.complaints == []
+
+
+@pytest.mark.parametrize("width", [1440, 1280, 1279, 1024])
+def test_the_unit_of_ranges_stands_clear_of_them(page: Page, watched: Watch, width: int) -> None:
+    page.set_viewport_size({"width": width, "height": 768})
+    panel, last, unit = (
+        page.locator(each).last.bounding_box()
+        for each in (".efis", ".efis .ranges button", ".efis-unit")
+    )
+    assert panel is not None
+    assert last is not None
+    assert unit is not None
+    assert last["x"] + last["width"] + 4.0 <= unit["x"]
+    assert unit["x"] + unit["width"] + 4.0 <= panel["x"] + panel["width"]
     assert watched.complaints == []
 
 
