@@ -18,18 +18,21 @@ from relguide.kernels.base.sine import sine_and_cosine
 from relguide.kernels.bounds.breach import no_sieve
 from relguide.kernels.bounds.cell_words import turned_away
 from relguide.kernels.bounds.cells import EDGE, Cell, Poses, poses_of
+from relguide.kernels.bounds.kept_fronts import Fronts, round_arrival
 from relguide.kernels.bounds.round_time import round_bound
-from relguide.kernels.bounds.round_turning import round_arrival
 from relguide.kernels.bounds.word_bound import soonest_beyond
 from relguide.kernels.bounds.word_intervals import Blur
 from relguide.kernels.contact.contact import to_frame_of
 
 
 @njit(cache=True, nogil=True)
-def round_between(scene: Scene, table: FloatArray, cell: Cell, other: Cell, beat: float) -> float:
+def round_between(
+    fronts: Fronts, n: int, scene: Scene, table: FloatArray, cell: Cell, other: Cell, beat: float
+) -> float:
     """How soon a path can be at a contact of the other cell from one of this, round the leader.
 
-    Arguments as `contact_bound.cell_bound` and `round_bound`; infinite from `beat` on.
+    Arguments as `contact_bound.cell_bound`, `round_bound` and `round_arrival`; infinite from `beat`
+    on.
     """
     if other.end < cell.start:
         return inf
@@ -40,7 +43,8 @@ def round_between(scene: Scene, table: FloatArray, cell: Cell, other: Cell, beat
             apart, min(round_bound(table, 0, cell, other), round_bound(table, 1, cell, other))
         )
     elif apart < beat:
-        apart = max(apart, round_arrival(scene, table, cell, other, cell.start + beat) - cell.start)
+        arrival = round_arrival(fronts, n, scene, table, cell, other, cell.start + beat)
+        apart = max(apart, arrival - cell.start)
     return apart if apart < beat else inf
 
 

@@ -14,7 +14,7 @@ from relguide.kernels.bounds.breach import no_sieve
 from relguide.kernels.bounds.cells import EDGE, Cell, Poses, poses_of
 from relguide.kernels.bounds.goal import Goal, track_of
 from relguide.kernels.bounds.rest import Rest, no_rest
-from relguide.kernels.bounds.word_bound import soonest, soonest_kept
+from relguide.kernels.bounds.word_bound import soonest, soonest_beyond, soonest_kept
 from relguide.kernels.bounds.word_intervals import Blur
 from relguide.kernels.words.extremals import fly_piece
 
@@ -50,11 +50,11 @@ def onward_bound(
     left = scene.t_release - cell.start
     if not goal.holds or left <= 0.0 or left >= beat or onward <= opens:
         return onward
-    # who is there as the slot opens has met this point by then
+    # who is there as the slot opens has met this point by then; when does not matter before that
     track = track_of(goal, scene.t_release)
-    early = soonest(
+    early = soonest_beyond(
         seen_from(track, poses), blur_toward(scene, track, cell, poses),
-        Velocity(track.speed, 0.0), Window(0.0, left + EDGE), no_sieve(scene),
+        Velocity(track.speed, 0.0), Window(0.0, left + EDGE), no_sieve(scene), opens,
     )  # fmt: skip
     return min(onward, max(opens, early)) if early < inf else onward
 

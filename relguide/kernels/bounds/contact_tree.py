@@ -13,6 +13,7 @@ from numba import njit
 
 from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.bounds.after_spare import Onward, after_spare
 from relguide.kernels.bounds.around import Around, is_last
 from relguide.kernels.bounds.cells import Cell
 from relguide.kernels.bounds.contact_bound import (
@@ -24,7 +25,7 @@ from relguide.kernels.bounds.contact_bound import (
     until_again,
 )
 from relguide.kernels.bounds.goal import Goal
-from relguide.kernels.bounds.junction import can_touch
+from relguide.kernels.bounds.junction import beyond_outward, can_touch
 from relguide.kernels.bounds.rest import COLUMNS, MOST, UNKNOWN, Rest
 from relguide.kernels.bounds.round_time import round_time
 from relguide.kernels.bounds.round_turning import slides_from
@@ -44,7 +45,8 @@ _RESTS = 5  # rows kept, for each cell: if there is no more room, those of large
 _SOON, _ONWARD, _LEAVING, _ROUND_FROM, _ROUND_TO = 0, 1, 2, 3, 5  # columns of what is known
 _REACHED, _LEFT, _TIGHT_TO, _TIGHT_FROM, _COLUMNS = 7, 12, 17, 19, 21
 JOINED = 8
-"""Columns of `Tree.joined`."""
+"""Columns of `Tree.joined`: those of `joined`, and then of `spare_onward`."""
+_TO_GOAL, _TO_NEXT, _AGAIN = 5, 6, 7
 
 
 class Tree(NamedTuple):
@@ -174,7 +176,7 @@ def reach(tree: Tree, problem: Problem, n: int) -> tuple[float, float]:
             closely = size_of(tree, n, scene.d_min) < _BY_TURN
             if tree.spare[n]:
                 on = _rest_of(tree, n, _ON, 0)
-                passed, onward = spare_bound(start, scene, goal, cell, problem.beat, on)
+                soon, onward = spare_bound(start, scene, goal, cell, problem.beat, on)
             else:
                 to, on = _rest_of(tree, n, _TO, 0), _rest_of(tree, n, _ON, 1)
                 switch = not closely or may_be_tangent(problem.tangents, cell)
@@ -182,18 +184,39 @@ def reach(tree: Tree, problem: Problem, n: int) -> tuple[float, float]:
                     start, scene, goal, cell, problem.beat, closely, switch, to, on
                 )
                 passed = until_again(scene, cell, 1.0, passed)
+                soon = anyhow(passed)
                 _keep_rest(tree, n, _TO, to)
-            soon = anyhow(passed)
             _keep_rest(tree, n, _ON, on)
         known[_SOON], known[_ONWARD] = soon, onward
-        _keep(known[_REACHED:], passed)
         if soon < inf and cell.end < inf:
             tree.cells[n, 4] = soon
             tree.cells[n, 5] = min(cell.end, max(problem.beat - onward, soon))
+        if tree.spare[n] and soon < inf:
+            lasts = 0.0
+            if soon + onward < problem.beat:
+                lasts = spare_onward(tree, problem, n).contact
+                lasts = min(lasts, beyond_outward(problem.scene, cell, 1.0))
+            passed = Passed(inf, inf, inf, soon, soon + lasts)
+        _keep(known[_REACHED:], passed)
     soon, onward = float(known[_SOON]), float(known[_ONWARD])
     if soon < inf and is_last(problem.around, problem.scene, cell_at(tree, n)):
         onward = max(onward, leave(tree, problem, n))
     return soon, onward
+
+
+@njit(cache=True, nogil=True)
+def spare_onward(tree: Tree, problem: Problem, n: int) -> Onward:
+    """How long it takes from a contact in a cell, come to with time to spare, to the next or goal.
+
+    See `after_spare` [R/V_P]. How soon one can be there is known, see `reach`.
+    """
+    joined = tree.joined[n]
+    if isnan(joined[_TO_GOAL]):
+        left = problem.beat - float(tree.known[n, _SOON])
+        onward = after_spare(problem.scene, problem.goal, cell_at(tree, n), left)
+        joined[_TO_GOAL], joined[_TO_NEXT] = onward.goal, onward.contact
+        joined[_AGAIN] = onward.again
+    return Onward(float(joined[_TO_GOAL]), float(joined[_TO_NEXT]), float(joined[_AGAIN]))
 
 
 @njit(cache=True, nogil=True)

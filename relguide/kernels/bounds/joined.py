@@ -9,7 +9,7 @@ from math import inf, isnan
 
 from numba import njit
 
-from relguide.kernels.bounds.after_spare import Onward, after_spare, before_touching
+from relguide.kernels.bounds.after_spare import before_touching
 from relguide.kernels.bounds.around import soonest_in
 from relguide.kernels.bounds.between import word_from
 from relguide.kernels.bounds.cell_words import turned_after_bound, turned_before_bound
@@ -22,11 +22,11 @@ from relguide.kernels.bounds.contact_tree import (
     leave,
     reach,
     reached,
+    spare_onward,
 )
 from relguide.kernels.bounds.junction import apart_by
 
-# columns of what is known
-_ONLY, _TURNED, _BEFORE, _APART, _TO_GOAL, _TO_NEXT, _AGAIN = 0, 1, 2, 3, 5, 6, 7
+_ONLY, _TURNED, _BEFORE, _APART = 0, 1, 2, 3  # columns of what is known
 
 
 @njit(cache=True, nogil=True)
@@ -46,21 +46,6 @@ def only_of(tree: Tree, problem: Problem, n: int) -> float:
                 only = max(only, soon + spare_onward(tree, problem, n).goal)
         tree.joined[n, _ONLY] = only
     return float(tree.joined[n, _ONLY])
-
-
-@njit(cache=True, nogil=True)
-def spare_onward(tree: Tree, problem: Problem, n: int) -> Onward:
-    """How long it takes from a contact in a cell, come to with time to spare, to the next or goal.
-
-    See `after_spare` [R/V_P].
-    """
-    if isnan(tree.joined[n, _TO_GOAL]):
-        soon, _ = reach(tree, problem, n)
-        onward = after_spare(problem.scene, problem.goal, cell_at(tree, n), problem.beat - soon)
-        tree.joined[n, _TO_GOAL], tree.joined[n, _TO_NEXT] = onward.goal, onward.contact
-        tree.joined[n, _AGAIN] = onward.again
-    joined = tree.joined[n]
-    return Onward(float(joined[_TO_GOAL]), float(joined[_TO_NEXT]), float(joined[_AGAIN]))
 
 
 @njit(cache=True, nogil=True)
@@ -86,11 +71,12 @@ def turned_goal(tree: Tree, problem: Problem, n: int) -> float:
         goal = inf
         if max(first.turned, first.outward + onward) < beat:
             cell = cell_at(tree, n)
-            turn = max(first.turned - min(beat - onward, cell.end + EDGE), 0.0)
-            after = turned_after_bound(problem.scene, problem.goal, cell, turn, beat - soon)
+            if tree.spare[n]:
+                after = spare_onward(tree, problem, n).again
+            else:
+                turn = max(first.turned - min(beat - onward, cell.end + EDGE), 0.0)
+                after = turned_after_bound(problem.scene, problem.goal, cell, turn, beat - soon)
             goal = max(first.turned, first.outward + max(onward, after))
-            if goal < beat and tree.spare[n]:
-                goal = max(goal, soon + spare_onward(tree, problem, n).again)
         tree.joined[n, _TURNED] = goal
     return float(tree.joined[n, _TURNED])
 

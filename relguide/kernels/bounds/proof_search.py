@@ -34,6 +34,7 @@ from relguide.kernels.bounds.contact_tree import (
 )
 from relguide.kernels.bounds.hopping import REASONS, hops_late
 from relguide.kernels.bounds.joined import apart, only_of, spare_between, turned_goal, turned_leave
+from relguide.kernels.bounds.kept_fronts import Fronts, begin_fronts
 from relguide.kernels.bounds.narrowing import lasts_left, narrow, with_around
 from relguide.kernels.bounds.probe import Find, probe, probe_between
 from relguide.kernels.bounds.round_turning import whole_rounds
@@ -81,6 +82,8 @@ class Search(NamedTuple):
     """How many bundles there are, have been looked at, and have been probed. shape (3,)"""
     vain: IntArray
     """Of `hopping.hops_late`. shape (REASONS,)"""
+    fronts: Fronts
+    """From cells of first contacts."""
 
 
 @njit(cache=True, nogil=True)
@@ -97,7 +100,7 @@ def begin(problem: Problem, first: FloatArray, exact: int, last: FloatArray) -> 
     search = Search(
         plant(first, MAX_BUNDLES), plant(last, MAX_BUNDLES), np.arange(len(last)),
         np.empty(MAX_BUNDLES), np.empty((MAX_BUNDLES, 4), np.int64), np.zeros(3, np.int64),
-        np.zeros(REASONS, np.int64),
+        np.zeros(REASONS, np.int64), begin_fronts(),
     )  # fmt: skip
     search.first.spare[exact : len(first)] = True
     for n in range(len(first)):
@@ -245,7 +248,8 @@ def _pair_bound(search: Search, problem: Problem, n: int, m: int) -> float:
     room = beat - soon - leaving
     between = max(apart(search.first, problem, n, 1.0), apart(search.last, problem, m, -1.0))
     if between < room:
-        between = max(between, round_between(scene, table, cell, other, room))
+        on_edge = round_between(search.fronts, n, scene, table, cell, other, room)
+        between = max(between, on_edge)
     if between < room:
         between = max(between, word_between(scene, cell, other, room, 0.0, 0.0, between))
     if between >= room or soon + between > other.end:

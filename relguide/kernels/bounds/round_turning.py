@@ -31,14 +31,13 @@ from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.base.sine import sine_and_cosine
 from relguide.kernels.bounds.breach import INSIDE
-from relguide.kernels.bounds.cells import EDGE, Cell, fastest_turn, poses_of
-from relguide.kernels.bounds.junction import slide_turns
-from relguide.kernels.bounds.round_time import round_anywhere, round_over
+from relguide.kernels.bounds.cells import EDGE, Cell, fastest_turn
+from relguide.kernels.bounds.round_time import round_anywhere
 from relguide.kernels.separation.clearance import leader_at, piece_at, piece_end
 
 _STEP = 0.1  # for which a front keeps its direction, in d_min and at V_P …
-_CLOSE, _PARTS = 0.05, 4  # … and a part of it for cells narrower than this [rad]
-_CLOSER, _FINER = 2e-3, 16  # likewise
+_PARTS = 4  # … and a part of it from cells on another leg to the final one
+_CLOSER, _FINER = 2e-3, 16  # and of those narrower than this [rad]
 _WIDEST = 3.1  # e is no further than this from the bearing of P, so that the disc is beside it
 _TRIES = 8  # to say when P arrives within a step, to a tenth of `ROUNDING`
 ROUNDING = 1e-5  # 0.5 ms for an airliner: more than what rounding makes of all of this [R/V_P]
@@ -66,6 +65,21 @@ class Front(NamedTuple):
     """How fast the line moves along e [V_P]."""
 
 
+class Place(NamedTuple):
+    """Where a front is, and how far it has come."""
+
+    t: float
+    """When [R/V_P]."""
+    bearing: float
+    """Of P then [rad]."""
+    course: float
+    """Of e until then [rad]."""
+    swept: float
+    """How far round P has moved since it began [rad] …"""
+    most: float
+    """… and how far at most, at any time until then."""
+
+
 class Headings(NamedTuple):
     """How something heads that goes from one contact to another, turning at most at full bank."""
 
@@ -83,45 +97,13 @@ class Headings(NamedTuple):
     """It does not end after [R/V_P]."""
 
 
-_ANY = Headings(0.0, inf, 0.0, 0.0, inf, 0.0)
-
-
-@njit(cache=True, nogil=True)
-def round_arrival(scene: Scene, table: FloatArray, cell: Cell, other: Cell, latest: float) -> float:
-    """How soon something that starts in a cell of contacts can be in another one [R/V_P].
-
-    Args:
-        scene: the leader and d_min.
-        table: of `round_time.times_round`.
-        cell: from which it starts; its window of time has an end.
-        other: to which it goes.
-        latest: arrivals from here on do not matter, and come back as infinite.
-    """
-    low, high = bearings_of(scene, cell)
-    begin, end = bearings_of(scene, other)
-    blur = 0.5 * (high - low) + 0.5 * (end - begin)
-    apart = 0.5 * (begin + end) - 0.5 * (low + high)
-    soonest = inf
-    # the shorter way first: it ends the search along the other
-    shorter = 0 if wrap(apart) < pi else 1
-    for way in (shorter, 1 - shorter):
-        sense = 1.0 - 2.0 * way
-        angle = wrap(sense * apart) - blur
-        if angle <= 0.0 or angle + 2.0 * blur >= TWO_PI or scene.alpha > FAST:
-            return cell.start
-        edge, end, step = high if way == 0 else low, min(latest, soonest), step_of(scene)
-        width = max(cell.half, other.half)
-        fine = step / (_FINER if width < _CLOSER else _PARTS) if width < _CLOSE else step
-        arrival = _sweep_freely(scene, table, cell.start, edge, angle, way, end, fine)
-        slides = _may_slide(scene, cell, sense) and _may_slide(scene, other, sense)
-        if arrival < end and width < _CLOSE and not slides:
-            step /= _PARTS
-            headings = _headings_of(scene, cell, other, end)
-            end = min(end, headings.until)
-            closer = _sweep(scene, cell.start, edge, angle, sense, end, step, headings)
-            arrival = max(arrival, closer)
-        soonest = min(soonest, arrival)
-    return soonest
+FREE = Headings(0.0, inf, 0.0, 0.0, inf, inf)
+"""It heads wherever it likes."""
+GOING, LATE, SLIDES, ARRIVED = 0, 1, 2, 3
+"""A front is followed so many steps; until it is too late; until on the final leg `round_time` says
+what follows; or until it has swept the angle."""
+ANY = 1_000_000_000
+"""More steps than any front is followed."""
 
 
 @njit(cache=True, nogil=True)
@@ -149,90 +131,70 @@ def leader_then(scene: Scene, t: float) -> Pose:
 
 
 @njit(cache=True, nogil=True)
-def _may_slide(scene: Scene, cell: Cell, sense: float) -> bool:
-    """Whether who touches in a cell may slide along the edge that way round, for all that is known.
-
-    Then it does not matter how it heads.
-    """
-    return cell.side == sense and slide_turns(scene, cell)[0] <= 1.0
+def begins(t: float, edge: float) -> Place:
+    """A front where it begins, at a bearing, with e outward."""
+    return Place(t, edge, edge, 0.0, 0.0)
 
 
 @njit(cache=True, nogil=True)
-def _headings_of(scene: Scene, cell: Cell, other: Cell, latest: float) -> Headings:
-    """The headings of contacts of a cell, and of contacts of another to which something goes."""
-    first, last = poses_of(scene, cell), poses_of(scene, other)
-    return Headings(
-        first.middle.h, first.differs, cell.start,
-        last.middle.h, last.differs, min(latest, other.end + EDGE),
-    )  # fmt: skip
+def follow(
+    scene: Scene, place: Place, sense: float, step: float, steps: int, angle: float, latest: float,
+    headings: Headings, free: bool,
+) -> tuple[Place, int]:  # fmt: skip
+    """Follow a front until it has swept an angle.
 
-
-@njit(cache=True, nogil=True)
-def _sweep(
-    scene: Scene, t: float, bearing: float, angle: float, sense: float, latest: float, step: float,
-    headings: Headings,
-) -> float:  # fmt: skip
-    """When a front that begins at a bearing has swept an angle; infinite from `latest` on."""
-    course, there = bearing, leader_then(scene, t)
-    while t < latest:
-        front = front_from(scene, t, there, bearing, course, sense, 1.0, step)
-        front = _slowed(front, t, step, headings)
-        there = leader_then(scene, t + step)
-        reached = reached_by(scene, front, there, step)
-        swept = swept_by(front, reached)
-        if swept >= angle:
-            t += time_to(scene, front, t, 1.0, angle, step, reached)
-            break
-        if front.speed < 1.0 and _may_sweep(scene, front, t, step, reached, angle):
-            break
-        bearing, course = bearing + sense * swept, front.course
-        angle -= swept
-        t += step
-    return t - ROUNDING if t < latest else inf
-
-
-@njit(cache=True, nogil=True)
-def _sweep_freely(
-    scene: Scene, table: FloatArray, t: float, bearing: float, angle: float, way: int,
-    latest: float, step: float,
-) -> float:  # fmt: skip
-    """As `_sweep`, for something that needs no time to turn; on the final leg by `round_time`."""
-    t, bearing, angle = _to_final_leg(scene, t, bearing, angle, way, latest, step)
-    if 0.0 < angle < inf and t < latest:
-        took = round_over(table, way, wrap_signed(bearing - scene.leader[-1, 3]), angle)
-        t += took * (1.0 - INSIDE / scene.d_min)
-    return t - ROUNDING if t < latest else inf
-
-
-@njit(cache=True, nogil=True)
-def _to_final_leg(
-    scene: Scene, t: float, bearing: float, angle: float, way: int, latest: float, step: float
-) -> tuple[float, float, float]:
-    """Follow a front to the final leg, until e may be turned to where someone sliding heads.
+    Args:
+        scene: the leader and d_min.
+        place: where it is.
+        sense: as in `Front`.
+        step: how long it keeps its direction [R/V_P].
+        steps: of these it is followed so many at most.
+        angle: since it began [rad].
+        latest: when to end [R/V_P].
+        headings: how something heads that goes with it.
+        free: whether that needs no time to turn. On the final leg it is followed until e may be
+            turned to where someone sliding heads: what comes then `round_time` says.
 
     Returns:
-        when it is there, or has swept the angle before, or `latest`; the bearing; and what is left
-        of the angle.
+        where it is then, and why it is not followed further.
     """
-    course, sense = bearing, 1.0 - 2.0 * way
+    t, bearing, course, swept, most = place
     there, final = leader_then(scene, t), len(scene.leader) - 1
-    while t < latest:
-        piece = piece_at(scene.leader, t)
-        ahead = sense * (course - bearing)
-        if piece == final and ahead <= acos(scene.alpha * cos(bearing - there.h)):
-            break
-        took = min(step, piece_end(scene.leader, piece) - t + EDGE)
+    for _ in range(steps):
+        if t >= latest:
+            return Place(t, bearing, course, swept, most), LATE
+        took = step
+        if free:
+            piece = piece_at(scene.leader, t)
+            ahead = sense * (course - bearing)
+            if piece == final and ahead <= acos(scene.alpha * cos(bearing - there.h)):
+                return Place(t, bearing, course, swept, most), SLIDES
+            took = min(step, piece_end(scene.leader, piece) - t + EDGE)
         front = front_from(scene, t, there, bearing, course, sense, 1.0, took)
+        if not free:
+            front = _slowed(front, t, took, headings)
         there = leader_then(scene, t + took)
         reached = reached_by(scene, front, there, took)
-        swept = swept_by(front, reached)
-        if swept >= angle or swept == inf:
-            t += time_to(scene, front, t, 1.0, min(angle, TWO_PI), took, reached)
-            return t, bearing, 0.0
-        bearing, course = bearing + sense * swept, front.course
-        angle -= swept
+        by = swept_by(front, reached)
+        if swept + by >= angle:
+            t += time_to(scene, front, t, 1.0, min(angle - swept, TWO_PI), took, reached)
+            return Place(t, bearing, course, swept, most), ARRIVED
+        if front.speed < 1.0:
+            meanwhile = swept + _swept_meanwhile(scene, front, t, took, reached)
+            if meanwhile >= angle:
+                return Place(t, bearing, course, swept, most), ARRIVED
+            most = max(most, meanwhile)
+        bearing, course = bearing + sense * by, front.course
+        swept += by
+        most = max(most, swept)
         t += took
-    return t, bearing, angle
+    return Place(t, bearing, course, swept, most), GOING
+
+
+@njit(cache=True, nogil=True)
+def inside_share(scene: Scene) -> float:
+    """What is left of the time round the disc on the final leg, since fronts go round inside it."""
+    return 1.0 - INSIDE / scene.d_min
 
 
 @njit(cache=True, nogil=True)
@@ -257,14 +219,15 @@ def slides_from(scene: Scene, table: FloatArray, cell: Cell, way: int, latest: f
         return UNKNOWN
     step = step_of(scene) / (_FINER if cell.half < _CLOSER else _PARTS)
     edge = high if way == 0 else low
-    t, bearing, angle = _to_final_leg(scene, cell.start, edge, inf, way, latest, step)
-    if angle == 0.0:
+    sense = 1.0 - 2.0 * way
+    place, fate = follow(scene, begins(cell.start, edge), sense, step, ANY, inf, latest, FREE, True)
+    if fate == ARRIVED:
         return UNKNOWN
-    if t >= latest:
+    if fate == LATE:
         return inf
     less = ROUNDING + table[way, -1] * INSIDE / scene.d_min
-    since = (1.0 - 2.0 * way) * round_anywhere(table, way, bearing - scene.leader[-1, 3])
-    return float(t - less - since)
+    since = sense * round_anywhere(table, way, place.bearing - scene.leader[-1, 3])
+    return float(place.t - less - since)
 
 
 @njit(cache=True, nogil=True)
@@ -307,14 +270,11 @@ def _slowed(front: Front, t: float, step: float, headings: Headings) -> Front:
 
 
 @njit(cache=True, nogil=True)
-def _may_sweep(
-    scene: Scene, front: Front, t: float, step: float, reached: float, angle: float
-) -> bool:
-    """Whether P may have moved so far round at some time of the step, and back again."""
+def _swept_meanwhile(scene: Scene, front: Front, t: float, step: float, reached: float) -> float:
+    """How far round P may have moved at some time of the step, to come back again [rad]."""
     rate = fastest_turn(scene, piece_at(scene.leader, t), piece_at(scene.leader, t + step))
     bends = 0.125 * scene.alpha * rate * step * step / (scene.d_min - INSIDE)
-    most = max(cos(front.from_course), reached) + bends
-    return swept_by(front, most) >= angle
+    return swept_by(front, max(cos(front.from_course), reached) + bends)
 
 
 @njit(cache=True, nogil=True)

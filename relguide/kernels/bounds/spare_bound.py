@@ -13,21 +13,24 @@ from numba import njit
 from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Pose, Scene, Window
 from relguide.kernels.base.sine import sine_and_cosine
-from relguide.kernels.bounds.cell_words import onward_bound, word_to
+from relguide.kernels.bounds.breach import no_sieve
+from relguide.kernels.bounds.cell_words import onward_bound, seen_from_start, word_to
 from relguide.kernels.bounds.cells import EDGE, Cell, Poses, poses_of
-from relguide.kernels.bounds.contact_bound import NEVER, Passed, until_again
 from relguide.kernels.bounds.goal import Goal
-from relguide.kernels.bounds.junction import beyond_outward
 from relguide.kernels.bounds.rest import Rest
+from relguide.kernels.bounds.word_bound import soonest_beyond
+from relguide.kernels.bounds.word_intervals import Blur
+
+_MOMENT = 0.02  # a window of time no wider than twice this is not narrowed further [R/V_P]
 
 
 @njit(cache=True, nogil=True)
 def spare_bound(
     start: Pose, scene: Scene, goal: Goal, cell: Cell, beat: float, on: Rest
-) -> tuple[Passed, float]:
-    """As `contact_bound.cell_bound`, of paths with time to spare before the contact.
+) -> tuple[float, float]:
+    """How soon a path can be at a contact of the cell with time to spare, and at the goal from it.
 
-    They come there by any way that is long enough, so no sooner than the shortest word.
+    It comes there by any way that is long enough, so no sooner than by the shortest word.
 
     Args:
         start: as in `contact_bound.cell_bound`.
@@ -39,21 +42,19 @@ def spare_bound(
     """
     poses = poses_of(scene, cell)
     if poses.differs == inf:
-        return NEVER, inf
+        return inf, inf
     onward = onward_bound(scene, goal, cell, poses, beat - cell.start, on)
-    if onward == inf:
-        return NEVER, inf
+    end = min(beat - onward, cell.end + EDGE)
+    if onward == inf or not _can_be_as_long(start, scene, poses, end):
+        return inf, onward
+    if poses.span < _MOMENT:
+        return cell.start, onward
     strays = poses.span * norm(poses.vx, poses.vy)
     there = Poses(
         poses.t, 0.0, poses.middle, 0.0, 0.0, poses.differs, poses.left + strays,
         poses.right + strays,
     )  # fmt: skip
-    end = min(beat - onward, cell.end + EDGE)
-    soon = max(word_to(start, scene, there, Window(0.0, end)), cell.start)
-    if soon == inf or not _can_be_as_long(start, scene, poses, end):
-        return NEVER, onward
-    away = Passed(inf, inf, inf, soon, soon + beyond_outward(scene, cell, 1.0))
-    return until_again(scene, cell, 1.0, away), onward
+    return max(word_to(start, scene, there, Window(0.0, end)), cell.start), onward
 
 
 @njit(cache=True, nogil=True)
@@ -70,4 +71,8 @@ def _can_be_as_long(start: Pose, scene: Scene, poses: Poses, end: float) -> bool
     track = Poses(
         poses.t, 0.0, at, vx, vy, poses.differs, poses.left + strays, poses.right + strays
     )  # fmt: skip
-    return word_to(start, scene, track, Window(0.0, end)) < inf
+    seen, target = seen_from_start(start, track)
+    blur = Blur(track.right, track.left, track.differs, 0.0)
+    # how soon does not matter
+    met = soonest_beyond(seen, blur, target, Window(0.0, end), no_sieve(scene), end)
+    return bool(met < inf)

@@ -19,8 +19,9 @@ from relguide.kernels.bounds.around import (
     unknown_around,
 )
 from relguide.kernels.bounds.cells import Cell
+from relguide.kernels.bounds.kept_fronts import begin_fronts, round_arrival
 from relguide.kernels.bounds.round_time import round_bound, round_time, times_round
-from relguide.kernels.bounds.round_turning import round_arrival, slides_from, whole_rounds
+from relguide.kernels.bounds.round_turning import slides_from, whole_rounds
 from relguide.kernels.contact.clear_words import word_clears
 from relguide.kernels.contact.contact import contact_heading, to_frame_of
 from relguide.kernels.separation.clearance import leader_at, piece_at
@@ -107,7 +108,8 @@ def test_nobody_slides_round_sooner_and_who_has_no_turn_to_wait_for_hardly_later
 
 def arrival(scene: Scene, start: Cell, end: Cell, latest: float) -> float:
     """How soon something that starts in one cell can be in the other one."""
-    return round_arrival(scene, times_round(scene.alpha, scene.d_min), start, end, latest)
+    table = times_round(scene.alpha, scene.d_min)
+    return round_arrival(begin_fronts(), 0, scene, table, start, end, latest)
 
 
 def straight_flights(rng: np.random.Generator) -> Iterator[tuple[Scene, Cell, Cell]]:
