@@ -43,7 +43,7 @@ _BY_TURN = 0.1  # how contacts are passed matters in cells smaller than this [ra
 _TO, _ON, _AWAY = 0, 1, 2  # words to a first contact, on from it, and on from a last one
 _RESTS = 5  # rows kept, for each cell: if there is no more room, those of larger cells serve
 _SOON, _ONWARD, _LEAVING, _ROUND_FROM, _ROUND_TO = 0, 1, 2, 3, 5  # columns of what is known
-_REACHED, _LEFT, _TIGHT_TO, _TIGHT_FROM, _COLUMNS = 7, 12, 17, 19, 21
+_REACHED, _LEFT, _LEFT_END, _TIGHT_TO, _TIGHT_FROM, _COLUMNS = 7, 12, 17, 17, 19, 21
 JOINED = 8
 """Columns of `Tree.joined`: those of `joined`, and then of `spare_onward`."""
 _TO_GOAL, _TO_NEXT, _AGAIN = 5, 6, 7
@@ -55,8 +55,9 @@ class Tree(NamedTuple):
     cells: FloatArray
     """The fields of each `Cell`. shape (n, 6)"""
     halves: IntArray
-    """The first of its two halves, the other being the next; −1 if it has not been halved, and in
-    the last place how many cells there are. shape (n + 1,)"""
+    """The first of its two halves, the other being the next, −1 if it has not been halved; and the
+    cell of which it is one, −1 if of none. In the last row how many cells there are.
+    shape (n + 1, 2)"""
     joined: FloatArray
     """What is known of it as one of several contacts: see `joined`. shape (n, JOINED)"""
     known: FloatArray
@@ -103,13 +104,13 @@ def plant(cells: FloatArray, room: int) -> Tree:
     """A tree of these cells, shape (n, 6), with room for so many in all."""
     count = len(cells)
     tree = Tree(
-        np.empty((room, 6)), np.empty(room + 1, np.int64), np.empty((room, JOINED)),
+        np.empty((room, 6)), np.empty((room + 1, 2), np.int64), np.empty((room, JOINED)),
         np.empty((room, _COLUMNS)), np.empty((_RESTS * room, COLUMNS)),
         np.empty(room, np.bool_), np.empty((room + 1, 3), np.int64),
     )  # fmt: skip
     tree.cells[:count] = cells
     tree.halves[:count], tree.known[:count], tree.joined[:count] = -1, np.nan, np.nan
-    tree.halves[room], tree.spare[:count] = count, False
+    tree.halves[room, 0], tree.spare[:count] = count, False
     tree.rest_of[:count], tree.rest_of[room] = UNKNOWN, 0
     return tree
 
@@ -128,15 +129,16 @@ def halve(tree: Tree, n: int, d_min: float) -> int:
     It is cut across the longer side, of bearings or times.
     """
     room = len(tree.cells)
-    if tree.halves[n] >= 0:
-        return int(tree.halves[n])
-    if tree.halves[room] + 2 > room:
+    if tree.halves[n, 0] >= 0:
+        return int(tree.halves[n, 0])
+    first = int(tree.halves[room, 0])
+    if first + 2 > room:
         return -1
-    first = int(tree.halves[room])
-    tree.halves[room] += 2
-    tree.halves[n] = first
+    tree.halves[room, 0] += 2
+    tree.halves[n, 0] = first
     cell = cell_at(tree, n)
-    tree.halves[first : first + 2], tree.known[first : first + 2] = -1, np.nan
+    tree.halves[first : first + 2, 0], tree.halves[first : first + 2, 1] = -1, n
+    tree.known[first : first + 2] = np.nan
     tree.joined[first : first + 2], tree.spare[first : first + 2] = np.nan, tree.spare[n]
     for child in (first, first + 1):
         for which in range(3):
@@ -236,6 +238,46 @@ def leave(tree: Tree, problem: Problem, n: int) -> float:
         known[_LEAVING] = anyhow(passed)
         _keep(known[_LEFT:], passed)
     return float(known[_LEAVING])
+
+
+@njit(cache=True, nogil=True)
+def bury(tree: Tree, n: int) -> None:
+    """Put down that no path in time has its last contact in a cell."""
+    known = tree.known[n]
+    known[_LEAVING] = inf
+    _keep(known[_LEFT:], NEVER)
+
+
+@njit(cache=True, nogil=True)
+def is_buried(tree: Tree, n: int) -> bool:
+    """Whether it is known that no path in time has its last contact in a cell."""
+    return bool(tree.known[n, _LEAVING] == inf)
+
+
+@njit(cache=True, nogil=True)
+def learn(tree: Tree, n: int) -> None:
+    """Let a cell know of leaving it what both its halves know, and so the cell that it is half of.
+
+    Args:
+        tree: with the cell.
+        n: its number, or −1.
+    """
+    while n >= 0:
+        half = tree.halves[n, 0]
+        if half < 0:
+            break
+        known, one, other = tree.known[n], tree.known[half], tree.known[half + 1]
+        if isnan(one[_LEAVING]) or isnan(other[_LEAVING]):
+            break
+        raised = False
+        for k in range(_LEFT_END - _LEFT + 1):
+            at = _LEAVING if k == 0 else _LEFT + k - 1
+            least = min(one[at], other[at])
+            if least > known[at]:
+                known[at], raised = least, True
+        if not raised:
+            break
+        n = tree.halves[n, 1]
 
 
 @njit(cache=True, nogil=True)

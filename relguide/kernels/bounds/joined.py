@@ -14,9 +14,11 @@ from relguide.kernels.bounds.around import soonest_in
 from relguide.kernels.bounds.between import word_from
 from relguide.kernels.bounds.cell_words import turned_after_bound, turned_before_bound
 from relguide.kernels.bounds.cells import EDGE, Cell
+from relguide.kernels.bounds.contact_bound import otherwise
 from relguide.kernels.bounds.contact_tree import (
     Problem,
     Tree,
+    bury,
     cell_at,
     departed,
     leave,
@@ -98,6 +100,21 @@ def turned_leave(tree: Tree, problem: Problem, n: int) -> float:
                 turned = inf
         tree.joined[n, _BEFORE] = turned
     return float(tree.joined[n, _BEFORE])
+
+
+@njit(cache=True, nogil=True)
+def may_be_last(tree: Tree, problem: Problem, n: int) -> bool:
+    """Whether a path in time may have its last contact in a cell; if not, that is put down."""
+    leaving, cell, beat = leave(tree, problem, n), cell_at(tree, n), problem.beat
+    since = max(cell.start, soonest_in(problem.around, problem.scene, cell))
+    may_be = since <= cell.end and since + leaving < beat
+    if may_be:
+        last = departed(tree, problem, n)
+        away = since + last.outward < beat and turned_leave(tree, problem, n) < inf
+        may_be = away or since + otherwise(last) < beat
+    if not may_be:
+        bury(tree, n)
+    return may_be
 
 
 @njit(cache=True, nogil=True)

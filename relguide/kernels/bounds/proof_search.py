@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from relguide.kernels.base.borrowed import borrowed
 from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.around import is_last, soonest_in
@@ -24,6 +25,8 @@ from relguide.kernels.bounds.contact_tree import (
     departed,
     excess,
     halve,
+    is_buried,
+    learn,
     leave,
     plant,
     reach,
@@ -33,7 +36,14 @@ from relguide.kernels.bounds.contact_tree import (
     size_of,
 )
 from relguide.kernels.bounds.hopping import REASONS, hops_late
-from relguide.kernels.bounds.joined import apart, only_of, spare_between, turned_goal, turned_leave
+from relguide.kernels.bounds.joined import (
+    apart,
+    may_be_last,
+    only_of,
+    spare_between,
+    turned_goal,
+    turned_leave,
+)
 from relguide.kernels.bounds.kept_fronts import Fronts, begin_fronts
 from relguide.kernels.bounds.narrowing import lasts_left, narrow, with_around
 from relguide.kernels.bounds.probe import Find, probe, probe_between
@@ -61,6 +71,10 @@ _ROOTS = 0.1  # size of the cells of last contacts that are left [rad]
 _MOST_ROOTS = 256  # if there are more, they are kept larger
 _NO_LAST = -1  # of a bundle whose last contact does not matter
 _ONLY = -2  # of a bundle whose first contact is the last one
+_SMALL_LASTS, _MOST_LASTS = (
+    0.02,
+    4_000,
+)  # cells of last contacts, looked at alone: size [rad], number
 _JOINED = 0.1  # cells smaller than this are looked at by how contacts are passed [rad]
 
 
@@ -79,7 +93,8 @@ class Search(NamedTuple):
     """Numbers of both cells, 1 where the time round was looked at closely, and the level at which
     it was last asked whether paths hop too late. shape (·, 4)"""
     size: IntArray
-    """How many bundles there are, have been looked at, and have been probed. shape (3,)"""
+    """How many bundles there are, have been looked at, and have been probed; and whether last
+    contacts have been looked at alone. shape (4,)"""
     vain: IntArray
     """Of `hopping.hops_late`. shape (REASONS,)"""
     fronts: Fronts
@@ -99,7 +114,7 @@ def begin(problem: Problem, first: FloatArray, exact: int, last: FloatArray) -> 
     """
     search = Search(
         plant(first, MAX_BUNDLES), plant(last, MAX_BUNDLES), np.arange(len(last)),
-        np.empty(MAX_BUNDLES), np.empty((MAX_BUNDLES, 4), np.int64), np.zeros(3, np.int64),
+        np.empty(MAX_BUNDLES), np.empty((MAX_BUNDLES, 4), np.int64), np.zeros(4, np.int64),
         np.zeros(REASONS, np.int64), begin_fronts(),
     )  # fmt: skip
     search.first.spare[exact : len(first)] = True
@@ -122,6 +137,7 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
         the least bound, or `beat`, and what it ended with.
     """
     final = len(problem.scene.leader) - 1
+    search, problem, find = borrowed(search), borrowed(problem), borrowed(find)
     while search.size[0] > 0:
         bound = search.bounds[0]
         if bound >= problem.beat:
@@ -131,6 +147,9 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
         if time_is_up(until):
             return bound, SEARCHING
         n, m, eased, asked = search.bundles[0]
+        if m >= 0 and is_buried(search.last, m):
+            _drop_least(search)
+            continue
         half = search.first.cells[n, 3]
         if max(half, search.last.cells[m, 3] if m >= 0 else 0.0) < _SMALLEST:
             return bound, STUCK
@@ -145,8 +164,11 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
                 or size_of(search.first, n, problem.scene.d_min) < problem.paired
             ) and _goes_on(search, problem, n):
                 _add(search, problem, n, _ONLY, bound, 0)
+                if search.size[3] == 0:
+                    _look_at_lasts(search, problem, until)
                 for k in search.roots:
-                    _add(search, problem, n, k, bound, 0)
+                    if not is_buried(search.last, k):
+                        _add(search, problem, n, k, bound, 0)
                 continue
         elif m >= 0 and eased == 0:
             size = max(half, search.last.cells[m, 3])
@@ -177,12 +199,33 @@ def look_around(
         size: see `narrowing.narrow` [rad].
         until: when to end without having learned anything, by `clock.now` [s].
     """
-    around = narrow(
-        problem, search.first, search.last, np.arange(firsts), search.roots, size, until
-    )
+    first, last, roots = borrowed(search.first), borrowed(search.last), search.roots
+    around = narrow(problem, first, last, np.arange(firsts), roots, size, until)
     problem = with_around(problem, around)
-    roots = lasts_left(problem, search.last, search.roots, _ROOTS, _MOST_ROOTS)
+    roots = lasts_left(borrowed(problem), last, roots, _ROOTS, _MOST_ROOTS)
     return Search(search.first, search.last, roots, *search[3:]), problem
+
+
+@njit(cache=True, nogil=True)
+def _look_at_lasts(search: Search, problem: Problem, until: float) -> None:
+    """Find out where no contact can be a last one, before it is asked with each first one."""
+    tree, d_min = search.last, problem.scene.d_min
+    cells = np.empty(max(_MOST_LASTS, len(search.roots)), np.int64)
+    count = len(search.roots)
+    cells[:count] = search.roots
+    at = 0
+    while at < count and not time_is_up(until):
+        n = cells[at]
+        at += 1
+        if not may_be_last(tree, problem, n) or size_of(tree, n, d_min) < _SMALL_LASTS:
+            continue
+        half = halve(tree, n, d_min) if count + 2 <= len(cells) else -1
+        if half >= 0:
+            cells[count], cells[count + 1] = half, half + 1
+            count += 2
+    for k in range(at):
+        learn(tree, cells[at - 1 - k])
+    search.size[3] = 1
 
 
 @njit(cache=True, nogil=True)
@@ -234,11 +277,11 @@ def _add(search: Search, problem: Problem, n: int, m: int, least: float, asked: 
 def _pair_bound(search: Search, problem: Problem, n: int, m: int) -> float:
     """How soon a path can arrive with its first contact in a cell, and another last one."""
     scene, table, beat = problem.scene, problem.table, problem.beat
+    if not may_be_last(search.last, problem, m):
+        return inf
     soon, leaving = reach(search.first, problem, n)[0], leave(search.last, problem, m)
     cell, other = cell_at(search.first, n), cell_at(search.last, m)
     at_last = max(other.start, soonest_in(problem.around, scene, other))
-    if at_last > other.end or at_last + leaving >= beat:
-        return inf
     first, last = reached(search.first, problem, n), departed(search.last, problem, m)
     straight, passed = otherwise(first), otherwise(last)
     turned, turn_on = turned_goal(search.first, problem, n), turned_leave(search.last, problem, m)
@@ -299,6 +342,7 @@ def _halve(search: Search, problem: Problem, n: int, m: int, bound: float, asked
         if half >= 0:
             _add(search, problem, n, half, bound, asked)
             _add(search, problem, n, half + 1, bound, asked)
+            learn(search.last, m)
         return half >= 0
     half = halve(search.first, n, d_min)
     if half >= 0:

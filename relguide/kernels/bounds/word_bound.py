@@ -16,6 +16,7 @@ from math import floor, inf
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI
+from relguide.kernels.base.borrowed import borrowed
 from relguide.kernels.base.records import Pose, Velocity, Window
 from relguide.kernels.base.sine import sine_and_cosine
 from relguide.kernels.bounds.breach import ROUNDING, Sieve
@@ -94,7 +95,8 @@ def _of_any(
     rest: Rest,
 ) -> tuple[float, bool]:  # fmt: skip
     work = nothing_known(window.beat)
-    asked = Asked(window.earliest, window.beat, enough, sieve, NO_JUNCTION, work, rest)
+    lent = borrowed(work)
+    asked = Asked(window.earliest, window.beat, enough, sieve, NO_JUNCTION, lent, rest)
     _bound_all(pose, blur, target, asked)
     return float(work[0, 0]) if work[0, 0] < window.beat else inf, bool(work[0, FOUND] < inf)
 
@@ -117,7 +119,8 @@ def soonest_by_turn(
         rest: what was left by a set that holds this one; takes what is left now.
     """
     work = nothing_known(window.beat)
-    asked = Asked(window.earliest, window.beat, 0.0, sieve, junction, work, rest)
+    lent = borrowed(work)
+    asked = Asked(window.earliest, window.beat, 0.0, sieve, junction, lent, rest)
     _bound_all(pose, blur, target, asked)
     for k in range(LASTING):
         if work[0, k] >= window.beat:

@@ -1,0 +1,44 @@
+"""Arrays whose references are not counted, for kernels that hand them on a million times.
+
+Numba counts the references to each array of a tuple at every call that takes it, with instructions
+that wait for other cores: a fifth of the time of a proof. A borrowed array is the same one, and
+nobody counts. Whoever borrows must see to it that the array itself is kept meanwhile: it must be an
+argument of his, or be used again after the last use of what was borrowed.
+"""
+
+from typing import Any
+
+from numba.core import cgutils as numba_cgutils
+from numba.core import types as numba_types
+from numba.extending import intrinsic
+
+cgutils: Any = numba_cgutils
+types: Any = numba_types
+
+
+def _uncounted(context: Any, builder: Any, kind: Any, value: Any) -> Any:
+    """The same value, with no owner of its arrays."""
+    if isinstance(kind, types.Array):
+        array = context.make_array(kind)(context, builder, value)
+        array.meminfo = cgutils.get_null_value(array.meminfo.type)
+        array.parent = cgutils.get_null_value(array.parent.type)
+        return array._getvalue()
+    if isinstance(kind, types.BaseTuple):
+        parts = [
+            _uncounted(context, builder, part, builder.extract_value(value, k))
+            for k, part in enumerate(kind)
+        ]
+        return context.make_tuple(builder, kind, parts)
+    return value
+
+
+def _borrowing(_: Any, of: Any) -> Any:
+    """An array, or a tuple with arrays in it, whose references are not counted."""
+
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        return _uncounted(context, builder, signature.args[0], arguments[0])
+
+    return of(of), generate
+
+
+borrowed: Any = intrinsic(_borrowing)
