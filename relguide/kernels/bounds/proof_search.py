@@ -75,6 +75,8 @@ _SMALL_LASTS, _MOST_LASTS = (
     0.02,
     4_000,
 )  # cells of last contacts, looked at alone: size [rad], number
+_BESIDE = 0.5  # a cell of first contacts so large beside one of last ones stands for all in it
+_TOGETHER = 131_071  # so many pairs of cells are remembered
 _JOINED = 0.1  # cells smaller than this are looked at by how contacts are passed [rad]
 
 
@@ -99,6 +101,10 @@ class Search(NamedTuple):
     """Of `hopping.hops_late`. shape (REASONS,)"""
     fronts: Fronts
     """From cells of first contacts."""
+    pairs: IntArray
+    """Which cells were looked at together, as one number … shape (_TOGETHER,)"""
+    together: FloatArray
+    """… and the bound of their paths [R/V_P]. shape (_TOGETHER,)"""
 
 
 @njit(cache=True, nogil=True)
@@ -115,7 +121,7 @@ def begin(problem: Problem, first: FloatArray, exact: int, last: FloatArray) -> 
     search = Search(
         plant(first, MAX_BUNDLES), plant(last, MAX_BUNDLES), np.arange(len(last)),
         np.empty(MAX_BUNDLES), np.empty((MAX_BUNDLES, 4), np.int64), np.zeros(4, np.int64),
-        np.zeros(REASONS, np.int64), begin_fronts(),
+        np.zeros(REASONS, np.int64), begin_fronts(), np.full(_TOGETHER, -1), np.empty(_TOGETHER),
     )  # fmt: skip
     search.first.spare[exact : len(first)] = True
     for n in range(len(first)):
@@ -259,7 +265,7 @@ def _add(search: Search, problem: Problem, n: int, m: int, least: float, asked: 
         return
     bound = soon + onward
     if m >= 0:
-        bound = _pair_bound(search, problem, n, m)
+        bound = _bound_together(search, problem, n, m)
     elif size_of(search.first, n, problem.scene.d_min) < _JOINED and bound < problem.beat:
         bound = only_of(search.first, problem, n)
         if m == _NO_LAST and bound > soon + onward:
@@ -271,6 +277,27 @@ def _add(search: Search, problem: Problem, n: int, m: int, least: float, asked: 
     bound = max(bound, least, problem.scene.t_release)
     if bound < problem.beat:
         _push(search, bound, n, m, 0, asked)
+
+
+@njit(cache=True, nogil=True)
+def _bound_together(search: Search, problem: Problem, n: int, m: int) -> float:
+    """As `_pair_bound`, for many cells of first contacts at once where last ones lie further apart.
+
+    That is asked of the largest that holds this one and is small beside the cell of last contacts.
+    """
+    tree, d_min, whole = search.first, problem.scene.d_min, n
+    most = _BESIDE * size_of(search.last, m, d_min)
+    above = tree.halves[n, 1]
+    while above >= 0 and size_of(tree, above, d_min) <= most:
+        whole = above
+        above = tree.halves[whole, 1]
+    if whole == n:
+        return _pair_bound(search, problem, n, m)
+    pair = whole * MAX_BUNDLES + m
+    at = pair % _TOGETHER
+    if search.pairs[at] != pair:
+        search.pairs[at], search.together[at] = pair, _pair_bound(search, problem, whole, m)
+    return float(search.together[at])
 
 
 @njit(cache=True, nogil=True)
