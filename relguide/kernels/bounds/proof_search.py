@@ -76,6 +76,7 @@ _SMALL_LASTS, _MOST_LASTS = (
     4_000,
 )  # cells of last contacts, looked at alone: size [rad], number
 _BESIDE = 0.5  # a cell of first contacts so large beside one of last ones stands for all in it
+_DEPTH = 128  # more than halvings of a cell of last contacts
 _TOGETHER = 131_071  # so many pairs of cells are remembered
 _JOINED = 0.1  # cells smaller than this are looked at by how contacts are passed [rad]
 
@@ -148,7 +149,7 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
         bound = search.bounds[0]
         if bound >= problem.beat:
             break
-        if search.size[0] + 2 * len(search.roots) >= MAX_BUNDLES:
+        if not _has_room(search):
             return bound, STUCK
         if time_is_up(until):
             return bound, SEARCHING
@@ -174,7 +175,7 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
                     _look_at_lasts(search, problem, until)
                 for k in search.roots:
                     if not is_buried(search.last, k):
-                        _add(search, problem, n, k, bound, 0)
+                        _add_pairs(search, problem, find, n, k, bound, 0)
                 continue
         elif m >= 0 and eased == 0:
             size = max(half, search.last.cells[m, 3])
@@ -187,7 +188,7 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
             late, asked = _hops_late(search, problem, n, m, asked)
             if late:
                 continue
-        if not _halve(search, problem, n, m, bound, asked):
+        if not _halve(search, problem, find, n, m, bound, asked):
             return bound, STUCK
     return problem.beat, CLOSED
 
@@ -361,7 +362,9 @@ def _pair_bound(search: Search, problem: Problem, n: int, m: int) -> float:
 
 
 @njit(cache=True, nogil=True)
-def _halve(search: Search, problem: Problem, n: int, m: int, bound: float, asked: int) -> bool:
+def _halve(
+    search: Search, problem: Problem, find: Find, n: int, m: int, bound: float, asked: int
+) -> bool:
     """Keep both halves of the larger cell; whether there was room for them."""
     d_min = problem.scene.d_min
     if m >= 0 and size_of(search.last, m, d_min) >= size_of(search.first, n, d_min):
@@ -372,10 +375,67 @@ def _halve(search: Search, problem: Problem, n: int, m: int, bound: float, asked
             learn(search.last, m)
         return half >= 0
     half = halve(search.first, n, d_min)
-    if half >= 0:
-        _add(search, problem, half, m, bound, asked)
-        _add(search, problem, half + 1, m, bound, asked)
-    return half >= 0
+    if half < 0:
+        return False
+    for child in (half, half + 1):
+        if m >= 0:
+            _add_pairs(search, problem, find, child, m, bound, asked)
+        else:
+            _add(search, problem, child, m, bound, asked)
+    return True
+
+
+@njit(cache=True, nogil=True)
+def _has_room(search: Search) -> bool:
+    """Whether so many bundles may be added as one look adds."""
+    return bool(search.size[0] + 2 * len(search.roots) + _DEPTH < MAX_BUNDLES)
+
+
+@njit(cache=True, nogil=True)
+def _add_pairs(
+    search: Search, problem: Problem, find: Find, n: int, m: int, least: float, asked: int
+) -> None:
+    """As `_add`, of two cells. One of last contacts that is large beside the other is halved first.
+
+    So it is not kept for each of many first contacts beside each other, see `_bound_together`.
+    """
+    if reach(search.first, problem, n)[0] == inf:
+        return
+    least = max(least, problem.scene.t_release)
+    stack, bounds, count = np.empty(_DEPTH, np.int64), np.empty(_DEPTH), 1
+    stack[0], bounds[0] = m, max(_bound_together(search, problem, n, m), least)
+    while count > 0:
+        count -= 1
+        m, bound = int(stack[count]), bounds[count]
+        if bound >= problem.beat or is_buried(search.last, m):
+            continue
+        half = -1
+        if _is_wide(search, problem, n, m) and count + 2 <= _DEPTH and _has_room(search):
+            half = halve(search.last, m, problem.scene.d_min)
+        if half < 0:
+            _push(search, bound, n, m, 0, asked)
+            continue
+        search.size[1] += 1
+        if find.best[0] > bound:
+            _probe(search, problem, find, n, m)
+        for child in (half, half + 1):
+            stack[count] = child
+            bounds[count] = max(_bound_together(search, problem, n, child), bound)
+            count += 1
+        learn(search.last, m)
+
+
+@njit(cache=True, nogil=True)
+def _is_wide(search: Search, problem: Problem, n: int, m: int) -> bool:
+    """Whether a cell of last contacts is large beside one of first ones, and nothing else is asked.
+
+    Round a leader that keeps straight much else is, of small cells.
+    """
+    pieces, d_min = len(problem.scene.leader), problem.scene.d_min
+    size = size_of(search.last, m, d_min)
+    if pieces == 1 or (search.last.cells[m, 0] == pieces - 1 and size < _EASED):
+        return False
+    return bool(_BESIDE * size >= size_of(search.first, n, d_min))
 
 
 @njit(cache=True, nogil=True)
