@@ -39,6 +39,7 @@ BoolArray = np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
 _MORE = 1.1  # than is asked for, is looked for at once
 _CLOSELY = 50  # times a cell is halved to find what is least in it
 _NARROW = 1e-6  # and how narrow its parts may become: what is left counts for some 1e-5 R/V_P [rad]
+_NARROW_ELSEWHERE = 5e-5  # on other legs than the final one, where each takes 0.1 ms [rad]
 _BY_TURN = 0.1  # how contacts are passed matters in cells smaller than this [rad]
 _TO, _ON, _AWAY = 0, 1, 2  # words to a first contact, on from it, and on from a last one
 _RESTS = 5  # rows kept, for each cell: if there is no more room, those of larger cells serve
@@ -391,8 +392,10 @@ def _least(tree: Tree, problem: Problem, n: int, way: int, last: bool) -> float:
     numbers, bounds = np.empty(_CLOSELY + 2, np.int64), np.empty(_CLOSELY + 2)
     numbers[0], bounds[0] = n, _with_round(tree, problem, n, way, last)
     count, at = 1, 0
+    elsewhere = tree.cells[n, 0] + 1 < len(problem.scene.leader)
+    narrow = _NARROW_ELSEWHERE if elsewhere else _NARROW
     for _ in range(_CLOSELY):
-        if bounds[at] == inf or tree.cells[numbers[at], 3] < _NARROW:
+        if bounds[at] == inf or tree.cells[numbers[at], 3] < narrow:
             break
         first = halve(tree, numbers[at], problem.scene.d_min)
         if first < 0:
