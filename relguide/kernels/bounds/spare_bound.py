@@ -74,5 +74,5 @@ def _can_be_as_long(start: Pose, scene: Scene, poses: Poses, end: float) -> bool
     seen, target = seen_from_start(start, track)
     blur = Blur(track.right, track.left, track.differs, 0.0)
     # how soon does not matter
-    met = soonest_beyond(seen, blur, target, Window(0.0, end), no_sieve(scene), end)
+    met = soonest_beyond(seen, blur, target, Window(0.0, end), no_sieve(scene), end - EDGE)
     return bool(met < inf)
