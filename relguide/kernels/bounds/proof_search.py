@@ -175,7 +175,7 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
                     _look_at_lasts(search, problem, until)
                 for k in search.roots:
                     if not is_buried(search.last, k):
-                        _add_pairs(search, problem, find, n, k, bound, 0)
+                        _add_pairs(search, problem, find, n, k, bound, 0, until)
                 continue
         elif m >= 0 and eased == 0:
             size = max(half, search.last.cells[m, 3])
@@ -188,7 +188,7 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
             late, asked = _hops_late(search, problem, n, m, asked)
             if late:
                 continue
-        if not _halve(search, problem, find, n, m, bound, asked):
+        if not _halve(search, problem, find, n, m, bound, asked, until):
             return bound, STUCK
     return problem.beat, CLOSED
 
@@ -363,8 +363,9 @@ def _pair_bound(search: Search, problem: Problem, n: int, m: int) -> float:
 
 @njit(cache=True, nogil=True)
 def _halve(
-    search: Search, problem: Problem, find: Find, n: int, m: int, bound: float, asked: int
-) -> bool:
+    search: Search, problem: Problem, find: Find, n: int, m: int, bound: float, asked: int,
+    until: float,
+) -> bool:  # fmt: skip
     """Keep both halves of the larger cell; whether there was room for them."""
     d_min = problem.scene.d_min
     if m >= 0 and size_of(search.last, m, d_min) >= size_of(search.first, n, d_min):
@@ -379,7 +380,7 @@ def _halve(
         return False
     for child in (half, half + 1):
         if m >= 0:
-            _add_pairs(search, problem, find, child, m, bound, asked)
+            _add_pairs(search, problem, find, child, m, bound, asked, until)
         else:
             _add(search, problem, child, m, bound, asked)
     return True
@@ -393,8 +394,9 @@ def _has_room(search: Search) -> bool:
 
 @njit(cache=True, nogil=True)
 def _add_pairs(
-    search: Search, problem: Problem, find: Find, n: int, m: int, least: float, asked: int
-) -> None:
+    search: Search, problem: Problem, find: Find, n: int, m: int, least: float, asked: int,
+    until: float,
+) -> None:  # fmt: skip
     """As `_add`, of two cells. One of last contacts that is large beside the other is halved first.
 
     So it is not kept for each of many first contacts beside each other, see `_bound_together`.
@@ -409,8 +411,8 @@ def _add_pairs(
         m, bound = int(stack[count]), bounds[count]
         if bound >= problem.beat or is_buried(search.last, m):
             continue
-        half = -1
-        if _is_wide(search, problem, n, m) and count + 2 <= _DEPTH and _has_room(search):
+        half, goes_on = -1, count + 2 <= _DEPTH and _has_room(search) and not time_is_up(until)
+        if goes_on and _is_wide(search, problem, n, m):
             half = halve(search.last, m, problem.scene.d_min)
         if half < 0:
             _push(search, bound, n, m, 0, asked)
