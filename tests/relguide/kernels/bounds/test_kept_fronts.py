@@ -1,0 +1,61 @@
+"""Fronts that are kept say what they say when they are followed anew for each pair of cells."""
+
+from math import inf, pi
+
+import numpy as np
+import pytest
+
+from relguide.kernels.base.records import Scene
+from relguide.kernels.bounds.cells import Cell
+from relguide.kernels.bounds.kept_fronts import begin_fronts, round_arrival
+from relguide.kernels.bounds.round_time import times_round
+from relguide.kernels.separation.clearance import leader_at, piece_at
+
+CLOSE = 1e-9
+"""Times that differ by no more are the same but for rounding [R/V_P]."""
+
+
+def turning(rng: np.random.Generator) -> Scene:
+    """A leader that turns once or twice, gently or tightly, round a small disc or a large one."""
+    turns = rng.integers(1, 3)
+    leader = np.zeros((2 * turns + 1, 5))
+    leader[1::2, 4] = rng.choice((-1.0, 1.0), turns) * rng.uniform(0.3, 2.9, turns)
+    leader[1:, 0] = np.cumsum(rng.uniform(0.2, 4.0, 2 * turns))
+    scene = Scene(leader, rng.uniform(0.3, 0.98), rng.uniform(0.35, 5.0), 0.0)
+    for i in range(2 * turns):
+        leader[i + 1, 1:4] = leader_at(scene, i, leader[i + 1, 0])
+    return scene
+
+
+def cell_after(rng: np.random.Generator, scene: Scene, since: float) -> Cell:
+    """A cell of contacts, of any size, that lies in one quadrant and on one piece."""
+    start = rng.uniform(since, scene.leader[-1, 0] + 3.0)
+    piece, half = piece_at(scene.leader, start), 10.0 ** rng.uniform(-6.0, -1.0)
+    ends = scene.leader[piece + 1, 0] if piece + 1 < len(scene.leader) else inf
+    middle = pi / 8 + rng.integers(-4, 4) * pi / 4
+    bearing = middle + rng.uniform(-1.0, 1.0) * (pi / 8 - half)
+    return Cell(piece, rng.choice((-1.0, 1.0)), bearing, half, start, min(start + half, ends))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_what_is_kept_of_a_front_changes_nothing(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    came = late = 0
+    for _ in range(60):
+        scene, kept = turning(rng), begin_fronts()
+        table = times_round(scene.alpha, scene.d_min)
+        firsts = [cell_after(rng, scene, 0.0) for _ in range(4)]
+        for _ in range(60):
+            n = int(rng.integers(len(firsts)))
+            cell = firsts[n]
+            other = cell_after(rng, scene, cell.start)
+            if cell.piece + 1 == len(scene.leader):
+                continue
+            latest = cell.start + rng.choice((inf, rng.uniform(0.0, 8.0)))
+            anew = round_arrival(begin_fronts(), 0, scene, table, cell, other, latest)
+            again = round_arrival(kept, n, scene, table, cell, other, latest)
+            assert again == pytest.approx(anew, abs=CLOSE)
+            came += cell.start < anew < inf
+            late += anew == inf
+    assert came > 200
+    assert late > 200
