@@ -40,7 +40,8 @@ from relguide.kernels.bounds.round_turning import (
 
 IntArray = np.ndarray[tuple[int, ...], np.dtype[np.int64]]
 
-_KEPT = 8191  # fronts, at most: a prime number, so that those of neighbours do not share a place
+KEPT = 8191
+"""Fronts at most: a prime number, so that those of neighbours do not share a place."""
 _PLACES = 96  # that are kept of one
 _T, _BEARING, _COURSE, _SWEPT, _MOST, _COLUMNS = 0, 1, 2, 3, 4, 5
 _OWNER, _COUNT, _ENDED = 0, 1, 2
@@ -55,15 +56,15 @@ class Fronts(NamedTuple):
     """Where fronts have been that go round from cells of contacts."""
 
     places: FloatArray
-    """The fields of `Place` of each front, one place after another. shape (_KEPT, _PLACES, 5)"""
+    """The fields of `Place` of each front, one place after another. shape (KEPT, _PLACES, 5)"""
     kept: IntArray
-    """Whose they are, how many there are, and whether nothing comes after them. shape (_KEPT, 3)"""
+    """Whose they are, how many there are, and whether nothing comes after them. shape (KEPT, 3)"""
 
 
 @njit(cache=True, nogil=True)
 def begin_fronts() -> Fronts:
     """None has been followed."""
-    return Fronts(np.empty((_KEPT, _PLACES, _COLUMNS)), np.full((_KEPT, 3), -1))
+    return Fronts(np.empty((KEPT, _PLACES, _COLUMNS)), np.full((KEPT, 3), -1))
 
 
 @njit(cache=True, nogil=True)
@@ -186,7 +187,7 @@ def _go_on(
     Returns:
         where in `fronts` it is.
     """
-    at, kind = number % _KEPT, number % _KINDS
+    at, kind = number % KEPT, number % _KINDS
     kept, places = fronts.kept[at], fronts.places[at]
     if kept[_OWNER] != number:
         kept[_OWNER], kept[_COUNT], kept[_ENDED] = number, 1, 0

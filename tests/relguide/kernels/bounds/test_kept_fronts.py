@@ -7,8 +7,15 @@ import pytest
 
 from relguide.kernels.base.records import Scene
 from relguide.kernels.bounds.cells import Cell
-from relguide.kernels.bounds.kept_fronts import begin_fronts, round_arrival
+from relguide.kernels.bounds.kept_fronts import (
+    KEPT,
+    _last_before,
+    _last_unaware,
+    begin_fronts,
+    round_arrival,
+)
 from relguide.kernels.bounds.round_time import times_round
+from relguide.kernels.bounds.round_turning import Headings
 from relguide.kernels.separation.clearance import leader_at, piece_at
 
 CLOSE = 1e-9
@@ -34,7 +41,8 @@ def cell_after(rng: np.random.Generator, scene: Scene, since: float) -> Cell:
     ends = scene.leader[piece + 1, 0] if piece + 1 < len(scene.leader) else inf
     middle = pi / 8 + rng.integers(-4, 4) * pi / 4
     bearing = middle + rng.uniform(-1.0, 1.0) * (pi / 8 - half)
-    return Cell(piece, rng.choice((-1.0, 1.0)), bearing, half, start, min(start + half, ends))
+    lasts = half if scene.leader[piece, 4] != 0.0 else rng.choice((half, rng.uniform(0.0, 4.0)))
+    return Cell(piece, rng.choice((-1.0, 1.0)), bearing, half, start, min(start + lasts, ends))
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -53,9 +61,28 @@ def test_what_is_kept_of_a_front_changes_nothing(seed: int) -> None:
                 continue
             latest = cell.start + rng.choice((inf, rng.uniform(0.0, 8.0)))
             anew = round_arrival(begin_fronts(), 0, scene, table, cell, other, latest)
-            again = round_arrival(kept, n, scene, table, cell, other, latest)
+            # two of them share a place
+            again = round_arrival(kept, n // 2 + KEPT * (n % 2), scene, table, cell, other, latest)
             assert again == pytest.approx(anew, abs=CLOSE)
             came += cell.start < anew < inf
             late += anew == inf
     assert came > 200
     assert late > 200
+
+
+def test_a_front_that_comes_back_has_swept_what_it_swept_before() -> None:
+    fronts, swept = begin_fronts(), np.array((0.0, 0.5, 0.3, 0.6, 0.7))
+    fronts.places[7, :5, 3], fronts.places[7, :5, 4] = swept, np.maximum.accumulate(swept)
+    fronts.kept[7, 1] = 5
+    for angle, last in ((0.2, 0.0), (0.4, 0.0), (0.55, 0.3), (0.65, 0.6), (0.8, 0.7)):
+        assert _last_before(fronts, 7, angle).swept == last
+
+
+def test_a_front_that_must_turn_back_at_its_end_is_followed_anew_from_there() -> None:
+    fronts, there = begin_fronts(), np.arange(6.0)
+    fronts.places[7, :6, 0] = fronts.places[7, :6, 3] = fronts.places[7, :6, 4] = there
+    fronts.places[7, :6, 2] = 0.0  # e keeps its course
+    fronts.kept[7, 1] = 6
+    for last, differs, place in ((pi, 0.0, 2), (pi, 0.5, 3), (pi, 1.5, 4), (0.5, 0.0, 4)):
+        headings = Headings(0.0, inf, 0.0, last, differs, 6.0)
+        assert _last_unaware(fronts, 7, 4.5, headings).t == place
