@@ -36,16 +36,19 @@ def only_of(tree: Tree, problem: Problem, n: int) -> float:
     """How soon a path can be at the goal whose only contact lies in a cell [R/V_P]."""
     if isnan(tree.joined[n, _ONLY]):
         soon, onward = reach(tree, problem, n)
-        leaving = leave(tree, problem, n)
-        only = soon + max(leaving, onward)
+        only = soon + onward
+        if tree.spare[n] and only < problem.beat:
+            # where that path leads is known already
+            only = max(only, soon + spare_onward(tree, problem, n).goal)
+        if only < problem.beat:
+            leaving = leave(tree, problem, n)
+            only = max(only, soon + leaving)
         if only < problem.beat:
             first, last = reached(tree, problem, n), departed(tree, problem, n)
             # a turn goes on as it was
             turned = min(first.inward + last.inward, first.outward + last.outward)
             looped = min(first.looped + leaving, soon + last.looped)
             only = max(only, min(turned, looped, soon + last.tangent))
-            if tree.spare[n]:
-                only = max(only, soon + spare_onward(tree, problem, n).goal)
         tree.joined[n, _ONLY] = only
     return float(tree.joined[n, _ONLY])
 
