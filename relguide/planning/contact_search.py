@@ -21,11 +21,12 @@ import numpy as np
 from relguide.kernels.base.clock import now
 from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.bounds.around import unknown_around
+from relguide.kernels.bounds.bundles import Search
 from relguide.kernels.bounds.cells import Cell
 from relguide.kernels.bounds.contact_tree import Problem
 from relguide.kernels.bounds.goal import Goal
 from relguide.kernels.bounds.probe import Find, begin_find
-from relguide.kernels.bounds.proof_search import SEARCHING, Search, begin, go_on, look_around
+from relguide.kernels.bounds.proof_search import SEARCHING, begin, go_on, look_around
 from relguide.kernels.bounds.round_time import times_round
 from relguide.kernels.bounds.tangent_contacts import tangent_contacts
 from relguide.kernels.bounds.untouched import untouched_bound

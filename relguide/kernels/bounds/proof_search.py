@@ -6,7 +6,6 @@ heap, the least bound first; that is proved at any moment. Slot frame: lengths i
 """
 
 from math import inf, log2
-from typing import NamedTuple
 
 import numpy as np
 from numba import njit
@@ -14,15 +13,20 @@ from numba import njit
 from relguide.kernels.base.borrowed import borrowed
 from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.bounds.around import is_last, soonest_in
-from relguide.kernels.bounds.between import round_between, word_between
+from relguide.kernels.bounds.around import is_last
+from relguide.kernels.bounds.bundles import (
+    DEPTH,
+    MAX_BUNDLES,
+    TOGETHER,
+    Search,
+    drop_least,
+    has_room,
+    push,
+)
 from relguide.kernels.bounds.contact_bound import otherwise
 from relguide.kernels.bounds.contact_tree import (
-    IntArray,
     Problem,
-    Tree,
     cell_at,
-    departed,
     excess,
     halve,
     is_buried,
@@ -37,21 +41,17 @@ from relguide.kernels.bounds.contact_tree import (
 )
 from relguide.kernels.bounds.hopping import REASONS, hops_late
 from relguide.kernels.bounds.joined import (
-    apart,
     may_be_last,
     only_of,
-    spare_between,
     turned_goal,
-    turned_leave,
 )
-from relguide.kernels.bounds.kept_fronts import Fronts, begin_fronts
+from relguide.kernels.bounds.kept_fronts import begin_fronts
 from relguide.kernels.bounds.narrowing import lasts_left, narrow, with_around
+from relguide.kernels.bounds.pair_bound import BESIDE, bound_together
 from relguide.kernels.bounds.probe import Find, probe, probe_between
 from relguide.kernels.bounds.round_turning import whole_rounds
 from relguide.kernels.bounds.tight_contact import LONGEST
 
-MAX_BUNDLES = 400_000
-"""Most bundles of paths kept, and cells; the search ends there."""
 SEARCHING, CLOSED, STUCK = 0, 1, 2
 """What a round ends with: there is more to do; no bundle is left; nothing more can be done."""
 _PROBED = (0.06, 8e-3, 1e-3)
@@ -75,37 +75,7 @@ _SMALL_LASTS, _MOST_LASTS = (
     0.02,
     4_000,
 )  # cells of last contacts, looked at alone: size [rad], number
-_BESIDE = 0.5  # a cell of first contacts so large beside one of last ones stands for all in it
-_DEPTH = 128  # more than halvings of a cell of last contacts
-_TOGETHER = 131_071  # so many pairs of cells are remembered
 _JOINED = 0.1  # cells smaller than this are looked at by how contacts are passed [rad]
-
-
-class Search(NamedTuple):
-    """The bundles of paths that may arrive before what is to be beaten."""
-
-    first: Tree
-    """Of first contacts."""
-    last: Tree
-    """Of last contacts."""
-    roots: IntArray
-    """Numbers of cells that hold all last contacts. shape (·,)"""
-    bounds: FloatArray
-    """A heap: no path of a bundle arrives before this [R/V_P]. shape (MAX_BUNDLES,)"""
-    bundles: IntArray
-    """Numbers of both cells, 1 where the time round was looked at closely, and the level at which
-    it was last asked whether paths hop too late. shape (·, 4)"""
-    size: IntArray
-    """How many bundles there are, have been looked at, and have been probed; and whether last
-    contacts have been looked at alone. shape (4,)"""
-    vain: IntArray
-    """Of `hopping.hops_late`. shape (REASONS,)"""
-    fronts: Fronts
-    """From cells of first contacts."""
-    pairs: IntArray
-    """Which cells were looked at together, as one number … shape (_TOGETHER,)"""
-    together: FloatArray
-    """… and the bound of their paths [R/V_P]. shape (_TOGETHER,)"""
 
 
 @njit(cache=True, nogil=True)
@@ -122,7 +92,7 @@ def begin(problem: Problem, first: FloatArray, exact: int, last: FloatArray) -> 
     search = Search(
         plant(first, MAX_BUNDLES), plant(last, MAX_BUNDLES), np.arange(len(last)),
         np.empty(MAX_BUNDLES), np.empty((MAX_BUNDLES, 4), np.int64), np.zeros(4, np.int64),
-        np.zeros(REASONS, np.int64), begin_fronts(), np.full(_TOGETHER, -1), np.empty(_TOGETHER),
+        np.zeros(REASONS, np.int64), begin_fronts(), np.full(TOGETHER, -1), np.empty(TOGETHER),
     )  # fmt: skip
     search.first.spare[exact : len(first)] = True
     for n in range(len(first)):
@@ -149,13 +119,13 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
         bound = search.bounds[0]
         if bound >= problem.beat:
             break
-        if not _has_room(search):
+        if not has_room(search):
             return bound, STUCK
         if time_is_up(until):
             return bound, SEARCHING
         n, m, eased, asked = search.bundles[0]
         if m >= 0 and is_buried(search.last, m):
-            _drop_least(search)
+            drop_least(search)
             continue
         half = search.first.cells[n, 3]
         if max(half, search.last.cells[m, 3] if m >= 0 else 0.0) < _SMALLEST:
@@ -163,7 +133,7 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
         search.size[1] += 1
         if eased == 0 and find.best[0] > bound:
             _probe(search, problem, find, n, m)
-        _drop_least(search)
+        drop_least(search)
         if m == _NO_LAST:
             # elsewhere than on the final leg the cells of last contacts are very many
             if (
@@ -183,7 +153,7 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
                 closer = _round_trip(search, problem, n, m)
                 if closer > bound:
                     if closer < problem.beat:
-                        _push(search, closer, n, m, 1, asked)
+                        push(search, closer, n, m, 1, asked)
                     continue
             late, asked = _hops_late(search, problem, n, m, asked)
             if late:
@@ -266,7 +236,7 @@ def _add(search: Search, problem: Problem, n: int, m: int, least: float, asked: 
         return
     bound = soon + onward
     if m >= 0:
-        bound = _bound_together(search, problem, n, m)
+        bound = bound_together(search, problem, n, m)
     elif size_of(search.first, n, problem.scene.d_min) < _JOINED and bound < problem.beat:
         bound = only_of(search.first, problem, n)
         if m == _NO_LAST and bound > soon + onward:
@@ -277,88 +247,7 @@ def _add(search: Search, problem: Problem, n: int, m: int, least: float, asked: 
         bound = soon + max(leave(search.first, problem, n), onward)
     bound = max(bound, least, problem.scene.t_release)
     if bound < problem.beat:
-        _push(search, bound, n, m, 0, asked)
-
-
-@njit(cache=True, nogil=True)
-def _bound_together(search: Search, problem: Problem, n: int, m: int) -> float:
-    """As `_pair_bound`, for many cells of first contacts at once where last ones lie further apart.
-
-    That is asked of the largest that holds this one and is small beside the cell of last contacts.
-    """
-    tree, d_min, whole = search.first, problem.scene.d_min, n
-    most = _BESIDE * size_of(search.last, m, d_min)
-    above = tree.halves[n, 1]
-    while above >= 0 and size_of(tree, above, d_min) <= most:
-        whole = above
-        above = tree.halves[whole, 1]
-    if whole == n:
-        return _pair_bound(search, problem, n, m)
-    pair = whole * MAX_BUNDLES + m
-    at = pair % _TOGETHER
-    if search.pairs[at] != pair:
-        search.pairs[at], search.together[at] = pair, _pair_bound(search, problem, whole, m)
-    return float(search.together[at])
-
-
-@njit(cache=True, nogil=True)
-def _pair_bound(search: Search, problem: Problem, n: int, m: int) -> float:
-    """How soon a path can arrive with its first contact in a cell, and another last one."""
-    scene, table, beat = problem.scene, problem.table, problem.beat
-    if not may_be_last(search.last, problem, m):
-        return inf
-    soon, leaving = reach(search.first, problem, n)[0], leave(search.last, problem, m)
-    cell, other = cell_at(search.first, n), cell_at(search.last, m)
-    at_last = max(other.start, soonest_in(problem.around, scene, other))
-    first, last = reached(search.first, problem, n), departed(search.last, problem, m)
-    straight, passed = otherwise(first), otherwise(last)
-    turned, turn_on = turned_goal(search.first, problem, n), turned_leave(search.last, problem, m)
-    on = first.outward if turned < beat else inf
-    if min(straight, on) + min(passed, turn_on) >= beat:
-        return inf
-    room = beat - soon - leaving
-    between = max(apart(search.first, problem, n, 1.0), apart(search.last, problem, m, -1.0))
-    if between < room:
-        on_edge = round_between(search.fronts, n, scene, table, cell, other, room)
-        between = max(between, on_edge)
-    if between < room:
-        between = max(between, word_between(scene, cell, other, room, 0.0, 0.0, between))
-    if between >= room or soon + between > other.end:
-        return inf
-    # each contact is passed straight or turning away
-    there = max(straight + between, at_last)
-    bound = there + passed if there <= other.end else inf
-    # for how long they turn away at least: what is not in time does not matter
-    after = max(first.turned - min(cell.end, beat - between - leaving), 0.0)
-    before = max(last.turned - (beat - max(soon + between, at_last)), 0.0)
-    # where a turn passes both, a word leads on from the first or to the last: as from an only one
-    if on < inf:
-        took = between
-        if search.first.spare[n]:
-            took = max(took, spare_between(search.first, problem, n, other, room, 0.0, took))
-        elif after > 0.0:
-            took = max(took, word_between(scene, cell, other, room, after, 0.0, took))
-        there = max(on + took, first.turned, at_last)
-        if there <= other.end:
-            bound = min(bound, max(there + passed, turned))
-        if turn_on < inf:
-            if before > 0.0 and search.first.spare[n]:
-                took = max(took, spare_between(search.first, problem, n, other, room, before, took))
-            elif before > 0.0:
-                took = max(took, word_between(scene, cell, other, room, 0.0, before, took))
-                if cell.side != other.side and after > 0.0:
-                    took = max(took, word_between(scene, cell, other, room, after, before, took))
-            there = max(on + took, first.turned, at_last)
-            if there <= other.end:
-                bound = min(bound, max(there + last.outward, on + turn_on, turned))
-    if turn_on < inf and straight < inf:
-        took = between
-        if before > 0.0:
-            took = max(took, word_between(scene, cell, other, room, 0.0, before, took))
-        there = max(straight + took, at_last)
-        if there <= other.end:
-            bound = min(bound, max(there + last.outward, straight + turn_on))
-    return bound
+        push(search, bound, n, m, 0, asked)
 
 
 @njit(cache=True, nogil=True)
@@ -387,42 +276,36 @@ def _halve(
 
 
 @njit(cache=True, nogil=True)
-def _has_room(search: Search) -> bool:
-    """Whether so many bundles may be added as one look adds."""
-    return bool(search.size[0] + 2 * len(search.roots) + _DEPTH < MAX_BUNDLES)
-
-
-@njit(cache=True, nogil=True)
 def _add_pairs(
     search: Search, problem: Problem, find: Find, n: int, m: int, least: float, asked: int,
     until: float,
 ) -> None:  # fmt: skip
     """As `_add`, of two cells. One of last contacts that is large beside the other is halved first.
 
-    So it is not kept for each of many first contacts beside each other, see `_bound_together`.
+    So it is not kept for each of many first contacts beside each other, see `bound_together`.
     """
     if reach(search.first, problem, n)[0] == inf:
         return
     least = max(least, problem.scene.t_release)
-    stack, bounds, count = np.empty(_DEPTH, np.int64), np.empty(_DEPTH), 1
-    stack[0], bounds[0] = m, max(_bound_together(search, problem, n, m), least)
+    stack, bounds, count = np.empty(DEPTH, np.int64), np.empty(DEPTH), 1
+    stack[0], bounds[0] = m, max(bound_together(search, problem, n, m), least)
     while count > 0:
         count -= 1
         m, bound = int(stack[count]), bounds[count]
         if bound >= problem.beat or is_buried(search.last, m):
             continue
-        half, goes_on = -1, count + 2 <= _DEPTH and _has_room(search) and not time_is_up(until)
+        half, goes_on = -1, count + 2 <= DEPTH and has_room(search) and not time_is_up(until)
         if goes_on and _is_wide(search, problem, n, m):
             half = halve(search.last, m, problem.scene.d_min)
         if half < 0:
-            _push(search, bound, n, m, 0, asked)
+            push(search, bound, n, m, 0, asked)
             continue
         search.size[1] += 1
         if find.best[0] > bound:
             _probe(search, problem, find, n, m)
         for child in (half, half + 1):
             stack[count] = child
-            bounds[count] = max(_bound_together(search, problem, n, child), bound)
+            bounds[count] = max(bound_together(search, problem, n, child), bound)
             count += 1
         learn(search.last, m)
 
@@ -437,7 +320,7 @@ def _is_wide(search: Search, problem: Problem, n: int, m: int) -> bool:
     size = size_of(search.last, m, d_min)
     if pieces == 1 or (search.last.cells[m, 0] == pieces - 1 and size < _EASED):
         return False
-    return bool(_BESIDE * size >= size_of(search.first, n, d_min))
+    return bool(BESIDE * size >= size_of(search.first, n, d_min))
 
 
 @njit(cache=True, nogil=True)
@@ -497,40 +380,3 @@ def _hops_late(search: Search, problem: Problem, n: int, m: int, asked: int) -> 
 def _level(size: float) -> int:
     """How often a radian is halved to so large a cell."""
     return int(-log2(size))
-
-
-@njit(cache=True, nogil=True)
-def _push(search: Search, bound: float, n: int, m: int, eased: int, asked: int) -> None:
-    """Put a bundle into the heap."""
-    at = int(search.size[0])
-    search.size[0] += 1
-    while at > 0:
-        above = (at - 1) // 2
-        if search.bounds[above] <= bound:
-            break
-        search.bounds[at] = search.bounds[above]
-        search.bundles[at] = search.bundles[above]
-        at = above
-    search.bounds[at] = bound
-    bundle = search.bundles[at]
-    bundle[0], bundle[1], bundle[2], bundle[3] = n, m, eased, asked
-
-
-@njit(cache=True, nogil=True)
-def _drop_least(search: Search) -> None:
-    """Take the least bundle from the heap."""
-    bounds, bundles = search.bounds, search.bundles
-    search.size[0] -= 1
-    count, at = int(search.size[0]), 0
-    bound = bounds[count]
-    while 2 * at + 1 < count:
-        below = 2 * at + 1
-        if below + 1 < count and bounds[below + 1] < bounds[below]:
-            below += 1
-        if bounds[below] >= bound:
-            break
-        bounds[at] = bounds[below]
-        bundles[at] = bundles[below]
-        at = below
-    bounds[at] = bound
-    bundles[at] = bundles[count]
