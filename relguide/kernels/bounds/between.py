@@ -93,17 +93,25 @@ def word_from(
         return inf
     if before > 0.0:
         end = turned_away(end, other.side, -before)
-    # where the other contact would be at that time, had it always moved as it then does
-    drifts = 0.0
-    met = end.middle
-    if min(piece, other.piece) + 1 < len(scene.leader):
-        drifts = begin.span * norm(begin.vx - end.vx, begin.vy - end.vy)
-    early = begin.t - end.t
-    met = Pose(met.x + early * end.vx, met.y + early * end.vy, met.h)
-    there = Poses(
-        end.t, end.span, met, end.vx, end.vy, end.differs, end.left + drifts, end.right + drifts
-    )
+    there = moved_with(end, begin, min(piece, other.piece) + 1 < len(scene.leader))
     return before + word_toward(scene, begin, there, beat - before, enough - before)
+
+
+@njit(cache=True, nogil=True)
+def moved_with(end: Poses, begin: Poses, drifts: bool) -> Poses:
+    """Where some poses would be at the time of others, had they always moved as they then do.
+
+    Args:
+        end: the ones.
+        begin: the others.
+        drifts: whether these move otherwise.
+    """
+    strays = begin.span * norm(begin.vx - end.vx, begin.vy - end.vy) if drifts else 0.0
+    early = begin.t - end.t
+    met = Pose(end.middle.x + early * end.vx, end.middle.y + early * end.vy, end.middle.h)
+    return Poses(
+        end.t, end.span, met, end.vx, end.vy, end.differs, end.left + strays, end.right + strays
+    )
 
 
 @njit(cache=True, nogil=True)

@@ -15,6 +15,7 @@ from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.after_spare import Onward, after_spare
 from relguide.kernels.bounds.around import Around, is_last
+from relguide.kernels.bounds.as_long import can_be_at
 from relguide.kernels.bounds.cells import Cell
 from relguide.kernels.bounds.contact_bound import (
     NEVER,
@@ -24,7 +25,7 @@ from relguide.kernels.bounds.contact_bound import (
     leaving_bound,
     until_again,
 )
-from relguide.kernels.bounds.goal import Goal
+from relguide.kernels.bounds.goal import Goal, is_track
 from relguide.kernels.bounds.junction import beyond_outward, can_touch
 from relguide.kernels.bounds.rest import COLUMNS, MOST, UNKNOWN, Rest
 from relguide.kernels.bounds.round_time import round_time
@@ -228,8 +229,10 @@ def leave(tree: Tree, problem: Problem, n: int) -> float:
     known = tree.known[n]
     if isnan(known[_LEAVING]):
         passed, cell = NEVER, cell_at(tree, n)
-        if can_touch(problem.scene, cell):
-            scene, left = problem.scene, problem.beat - cell.start
+        scene, left = problem.scene, problem.beat - cell.start
+        # elsewhere than as the slot opens that takes as much time as it saves
+        asked = isnan(known[_SOON]) and is_track(problem.goal, scene.alpha)
+        if can_touch(scene, cell) and (not asked or can_be_at(problem.start, scene, cell)):
             closely = size_of(tree, n, scene.d_min) < _BY_TURN
             # words on from the cell itself are known more closely
             on = _rest_of(tree, n, _AWAY if isnan(known[_SOON]) else _ON, 0)

@@ -43,6 +43,12 @@ def track_of(goal: Goal, t_release: float) -> Goal:
 
 
 @njit(cache=True, nogil=True)
+def is_track(goal: Goal, alpha: float) -> bool:
+    """Whether a goal is a point of `track_of`, and not the slot."""
+    return bool(goal.speed != alpha)
+
+
+@njit(cache=True, nogil=True)
 def arrives_at_release(x: float, y: float, h: float, alpha: float, t_release: float) -> bool:
     """Whether a path without the limit may be at the slot just as it opens.
 

@@ -11,9 +11,10 @@ from numba import njit
 
 from relguide.kernels.bounds.after_spare import before_touching
 from relguide.kernels.bounds.around import soonest_in
+from relguide.kernels.bounds.as_long import can_go_on_to
 from relguide.kernels.bounds.between import word_from
 from relguide.kernels.bounds.cell_words import turned_after_bound, turned_before_bound
-from relguide.kernels.bounds.cells import EDGE, Cell
+from relguide.kernels.bounds.cells import EDGE, Cell, poses_of
 from relguide.kernels.bounds.contact_bound import otherwise
 from relguide.kernels.bounds.contact_tree import (
     Problem,
@@ -62,6 +63,22 @@ def spare_between(
     begin, until = before_touching(scene, cell, spare_onward(tree, problem, n).contact)
     on = word_from(scene, begin, cell.piece, other, beat - until, before, enough - until)
     return until + on
+
+
+@njit(cache=True, nogil=True)
+def may_go_on_to(tree: Tree, problem: Problem, n: int, other: Cell) -> bool:
+    """Whether any path from a first contact in a cell is at one of another just when it is there.
+
+    See `as_long`.
+    """
+    scene, cell = problem.scene, cell_at(tree, n)
+    if cell.end == inf:
+        return True
+    if tree.spare[n]:
+        begin, _ = before_touching(scene, cell, spare_onward(tree, problem, n).contact)
+    else:
+        begin = poses_of(scene, cell)
+    return can_go_on_to(scene, begin, other)
 
 
 @njit(cache=True, nogil=True)

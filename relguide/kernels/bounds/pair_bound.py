@@ -17,9 +17,11 @@ from relguide.kernels.bounds.contact_tree import (
     reached,
     size_of,
 )
+from relguide.kernels.bounds.goal import is_track
 from relguide.kernels.bounds.joined import (
     apart,
     may_be_last,
+    may_go_on_to,
     spare_between,
     turned_goal,
     turned_leave,
@@ -107,4 +109,7 @@ def _pair_bound(search: Search, problem: Problem, n: int, m: int) -> float:
         there = max(straight + took, at_last)
         if there <= other.end:
             bound = min(bound, max(there + last.outward, straight + turn_on))
+    asked = bound < beat and is_track(problem.goal, scene.alpha)
+    if asked and not may_go_on_to(search.first, problem, n, other):
+        return inf
     return bound
