@@ -26,6 +26,7 @@ from relguide.kernels.bounds.contact_bound import (
     until_again,
 )
 from relguide.kernels.bounds.goal import Goal, is_track
+from relguide.kernels.bounds.hop import final_leg, on_final_leg
 from relguide.kernels.bounds.junction import beyond_outward, can_touch
 from relguide.kernels.bounds.rest import COLUMNS, MOST, UNKNOWN, Rest
 from relguide.kernels.bounds.round_time import round_time
@@ -357,8 +358,8 @@ def excess(tree: Tree, problem: Problem, n: int, last: bool, enough: float) -> f
 
     Args:
         tree: with the cell.
-        problem: what is asked, with a leader that keeps straight.
-        n: number of the cell.
+        problem: what is asked.
+        n: number of the cell, on the final leg.
         last: as in `tight_excess`.
         enough: likewise; there may be more.
     """
@@ -366,7 +367,8 @@ def excess(tree: Tree, problem: Problem, n: int, last: bool, enough: float) -> f
     known = tree.known[n, column]
     if isnan(known) or tree.known[n, column + 1] <= known < enough:
         wanted = _MORE * enough
-        known = tight_excess(problem.scene, problem.table, cell_at(tree, n), last, wanted)
+        cell = on_final_leg(cell_at(tree, n))
+        known = tight_excess(final_leg(problem.scene), problem.table, cell, last, wanted)
         tree.known[n, column], tree.known[n, column + 1] = known, wanted
     return float(known)
 

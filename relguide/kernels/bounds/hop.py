@@ -1,10 +1,11 @@
 """How soon a path can come from one contact to its next one: proved. Behind a straight leader only.
 
-Behind a leader that keeps straight nothing depends on the time, so a contact is a bearing and a
-side. From one contact to the next a path is a word, which begins and ends as contacts can be passed
-(see `junction`): where k < 1 it does not begin with a turn toward the leader, and where k < 0 it
-does not begin straight. The same is asked of how it ends: flown back, with the leader backward too,
-and mirrored across the leader's beam, the word is one that begins there (`turned_round`).
+Behind a leader that keeps straight, as one that has turned does on its final leg, nothing depends
+on the time, so a contact is a bearing and a side. From one contact to the next a path is a word,
+which begins and ends as contacts can be passed (see `junction`): where k < 1 it does not begin with
+a turn toward the leader, and where k < 0 it does not begin straight. The same is asked of how it
+ends: flown back, with the leader backward too, and mirrored across the leader's beam, the word is
+one that begins there (`turned_round`).
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise. Contacts lie at d_min itself.
 """
@@ -29,6 +30,19 @@ from relguide.kernels.contact.contact import to_frame_of
 def standing(piece: int, side: float, bearing: float, half: float) -> Cell:
     """A cell behind a leader that keeps straight, where times do not matter."""
     return Cell(piece, side, bearing, half, 0.0, inf)
+
+
+@njit(cache=True, nogil=True)
+def final_leg(scene: Scene) -> Scene:
+    """The same leader as if it had never turned. Of its pieces there is only the first one."""
+    last = scene.leader[len(scene.leader) - 1 :]
+    return Scene(last, scene.alpha, scene.d_min, scene.t_release, scene.until)
+
+
+@njit(cache=True, nogil=True)
+def on_final_leg(cell: Cell) -> Cell:
+    """The contacts of a cell on the final leg, whenever they are, as `final_leg` has them."""
+    return standing(0, cell.side, cell.bearing, cell.half)
 
 
 @njit(cache=True, nogil=True)

@@ -39,6 +39,7 @@ from relguide.kernels.bounds.contact_tree import (
     round_to,
     size_of,
 )
+from relguide.kernels.bounds.hop import final_leg, on_final_leg
 from relguide.kernels.bounds.hopping import REASONS, hops_late
 from relguide.kernels.bounds.joined import (
     may_be_last,
@@ -348,7 +349,7 @@ def _with_hops(search: Search, problem: Problem, n: int, m: int, way: int, trip:
         enough <= 0.0
         or max(first[3], last[3]) >= _HOPS
         or search.size[1] < _OPEN
-        or len(problem.scene.leader) > 1
+        or not _is_final(search, problem, n, m)
     ):
         return trip
     sense, more = 1.0 - 2.0 * way, 0.0
@@ -366,14 +367,22 @@ def _hops_late(search: Search, problem: Problem, n: int, m: int, asked: int) -> 
     """Whether who hops between two cells is late, if it is time to ask, and when it was asked."""
     level = _level(max(search.first.cells[n, 3], search.last.cells[m, 3]))
     least = _HOP_LEVEL if search.size[1] >= _HOPS_AFTER else _DEEP
-    if len(problem.scene.leader) > 1 or level < max(asked + _HOP_LEVELS, least):
+    if level < max(asked + _HOP_LEVELS, least) or not _is_final(search, problem, n, m):
         return False, asked
     room = problem.beat - reach(search.first, problem, n)[0] - leave(search.last, problem, m)
-    cell, other = cell_at(search.first, n), cell_at(search.last, m)
+    cell, other = on_final_leg(cell_at(search.first, n)), on_final_leg(cell_at(search.last, m))
     most = _MOST_VAIN if level < _DEEPER else 3 * _MOST_VAIN
     if level >= _DEEPEST:
         most = MAX_BUNDLES
-    return hops_late(problem.scene, problem.table, cell, other, room, search.vain, most), level
+    scene = final_leg(problem.scene)
+    return hops_late(scene, problem.table, cell, other, room, search.vain, most), level
+
+
+@njit(cache=True, nogil=True)
+def _is_final(search: Search, problem: Problem, n: int, m: int) -> bool:
+    """Whether two cells, and all contacts between theirs, lie on the final leg."""
+    final = len(problem.scene.leader) - 1
+    return bool(min(search.first.cells[n, 0], search.last.cells[m, 0]) == final)
 
 
 @njit(cache=True, nogil=True)

@@ -16,6 +16,7 @@ from relguide.kernels.bounds.goal import Goal
 from relguide.planning.contact_search import Question
 from relguide.planning.prove import question_of
 from tests.bench import draws
+from tests.bench.proofs import KINDS, draw
 
 LEADER = np.array(
     [[0.0, 1.0, 0.5, -0.7, 0.4], [2.0, 2.6, 0.2, 0.1, -0.2], [3.0, 3.5, 0.3, -0.1, 0.0]]
@@ -127,3 +128,15 @@ def test_paths_with_time_to_spare_before_a_contact_are_reckoned_with() -> None:
     scale = pursuer.turn_radius / pursuer.tas
     proved = max(islice(question.bounds(579.05 / scale), 200))
     assert proved * scale < 577.85
+
+
+def test_hops_are_reckoned_with_on_the_final_leg_of_a_leader_who_has_turned() -> None:
+    """No bank is enough to slide from the first contact on: a tenth of a second stayed open."""
+    kind, number = KINDS[2], 30
+    rng = np.random.default_rng([205, KINDS.index(kind), number])
+    planned = plan(draw(kind, rng, number))
+    assert isinstance(planned, Plan)
+    question = question_of(candidates(planned.situation))
+    pursuer = planned.situation.pursuer
+    beat = (planned.time_to_converge - 0.1) * pursuer.tas / pursuer.turn_radius
+    assert max(islice(question.bounds(beat), 1_000)) == pytest.approx(beat, abs=1e-9)
