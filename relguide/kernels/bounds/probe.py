@@ -18,6 +18,7 @@ from relguide.kernels.bounds.cells import Cell
 from relguide.kernels.contact.best_chain import refine_chains
 from relguide.kernels.contact.chain import (
     BOUNDARY_ARC,
+    DELAY,
     MAX_CONTACTS,
     MAX_LEGS,
     NAMED,
@@ -25,17 +26,27 @@ from relguide.kernels.contact.chain import (
     chain_of,
 )
 from relguide.kernels.contact.chain_refinement import fly_links
+from relguide.kernels.contact.clear_delay import delay_until_contact
+from relguide.kernels.contact.clear_words import best_word
 from relguide.kernels.contact.constrained_search import ease_to_start, fly_to_delay
-from relguide.kernels.contact.contact import boundary_arc_sense, contact_exists, disc_on
+from relguide.kernels.contact.contact import (
+    boundary_arc_sense,
+    contact_exists,
+    contact_on,
+    disc_on,
+)
 from relguide.kernels.contact.one_contact import Workspace, descend, through_contact, workspace
 from relguide.kernels.contact.passing import words_toward
 from relguide.kernels.contact.paths_to_contact import paths_by_words
 from relguide.kernels.contact.spare_chains import no_chains
+from relguide.kernels.separation.clearance import piece_at
+from relguide.kernels.words.delay import DELAY_PIECES
 from relguide.kernels.words.extremals import SIGNS
 
 IntArray = np.ndarray[tuple[int, ...], np.dtype[np.int64]]
 
 _SEEN = 4096  # so many probed cells are remembered
+_STEPS = 24  # of the search beside such a contact
 _MOST_DELAYS = 400  # cells from which a delay path is looked for, 0.3 ms each
 
 
@@ -103,6 +114,53 @@ def probe(start: Pose, find: Find, cell: Cell) -> None:
     arrival = descend(start, find.scene, contact, arrival, cell.half, find.room, path)
     find.best[0], find.best[1] = arrival, 2.0
     find.legs[:2, 0], find.legs[:2, 1:6] = WORD, path
+
+
+@njit(cache=True, nogil=True)
+def probe_spare(start: Pose, find: Find, cell: Cell) -> None:
+    """Take a path to a contact near the middle of a cell that has time to spare before it.
+
+    It comes there by a delay path and goes on by the soonest word: so bearing and time are searched
+    for the soonest arrival, in ever smaller steps.
+    """
+    if find.at_release or not _is_new(find, 31 * _number(cell) + int(1e5 * cell.start)):
+        return
+    bearing, t = cell.bearing, 0.5 * (cell.start + cell.end)
+    step, moment = cell.half, 0.5 * (cell.end - cell.start)
+    found = False
+    for _ in range(_STEPS):
+        better = False
+        for k in range(5):
+            # the middle itself once, then beside it in both, and sooner and later
+            if k == 0 and found:
+                continue
+            along, later = step * ((k == 1) - (k == 2)), moment * ((k == 3) - (k == 4))
+            if _take_spare(start, find, cell, bearing + along, t + later):
+                bearing, t, better, found = bearing + along, t + later, True, True
+        if not found:
+            return
+        if not better:
+            step, moment = 0.5 * step, 0.5 * moment
+
+
+@njit(cache=True, nogil=True)
+def _take_spare(start: Pose, find: Find, cell: Cell, bearing: float, t: float) -> bool:
+    """Take the path to a contact at a time with time to spare, if it is faster than any known."""
+    scene, contact = find.scene, Contact(cell.piece, bearing, cell.side)
+    if not contact_exists(bearing, scene.alpha) or piece_at(scene.leader, t) != cell.piece:
+        return False
+    there, rows = contact_on(scene, contact, t), find.room.rows
+    arrival, k = best_word(there, t, scene, find.best[0] - find.gain, rows)
+    if k < 0:
+        return False
+    pieces = np.empty((DELAY_PIECES, 2))
+    if not delay_until_contact(start, 0.0, scene, there, t, pieces):
+        return False
+    find.best[0], find.best[1] = arrival, 2.0
+    find.legs[0, 0], find.legs[0, 1], find.legs[0, 2] = DELAY, cell.piece, cell.side
+    find.legs[0, 3], find.legs[0, 4] = bearing, t
+    find.legs[1, 0], find.legs[1, 1:6] = WORD, rows[k]
+    return True
 
 
 @njit(cache=True, nogil=True)

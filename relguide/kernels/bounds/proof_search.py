@@ -49,7 +49,7 @@ from relguide.kernels.bounds.joined import (
 from relguide.kernels.bounds.kept_fronts import begin_fronts
 from relguide.kernels.bounds.narrowing import lasts_left, narrow, with_around
 from relguide.kernels.bounds.pair_bound import BESIDE, bound_together
-from relguide.kernels.bounds.probe import Find, probe, probe_between
+from relguide.kernels.bounds.probe import Find, probe, probe_between, probe_spare
 from relguide.kernels.bounds.round_turning import whole_rounds
 from relguide.kernels.bounds.tight_contact import LONGEST
 
@@ -223,7 +223,9 @@ def _probe(search: Search, problem: Problem, find: Find, n: int, m: int) -> None
         if 0.5 * probed < half <= probed:
             search.size[2] += 1
             cell = cell_at(search.first, n)
-            if m < 0:
+            if m < 0 and search.first.spare[n] and not find.at_release:
+                probe_spare(problem.start, find, cell)
+            elif m < 0:
                 probe(problem.start, find, cell)
             else:
                 probe_between(problem.start, find, cell, cell_at(search.last, m))

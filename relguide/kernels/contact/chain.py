@@ -22,7 +22,8 @@ from relguide.kernels.contact.paths_to_contact import paths_by_words
 from relguide.kernels.words.extremals import MAX_ROWS, WORDS
 
 WORD, BOUNDARY_ARC, DELAY = 0.0, 1.0, 2.0
-"""How a contact is reached, or the slot: in the last case by a path of just the right length."""
+"""How a contact is reached, or the slot: in the last case by a path of just the right length. Of a
+leg to a contact that is not the slot its piece, side, bearing and time follow."""
 NAMED = 3.0
 """And with a word's number in `extremals` more, how a contact is reached: by this word only. While
 the leader turns, who is later at a contact than by the soonest word may be ahead of that."""
@@ -47,7 +48,7 @@ class Chain(NamedTuple):
     the disc the bearing is near the one that it comes to, which it takes. shape (n, 4)"""
     legs: FloatArray
     """Takes WORD and a row of `solve`, or BOUNDARY_ARC, side, first and last bearing and the
-    leader's piece at its end, for each leg. shape (≥ n + 1, 6)"""
+    leader's piece at its end, or DELAY, for each leg. shape (≥ n + 1, 6)"""
     rows: FloatArray
     """Room for words. shape (MAX_ROWS, 5)"""
 

@@ -29,10 +29,10 @@ from relguide.kernels.contact.chain import (
     chain_of,
 )
 from relguide.kernels.contact.chain_refinement import fly_links
+from relguide.kernels.contact.clear_delay import delay_until_release
 from relguide.kernels.contact.clear_words import word_clears
 from relguide.kernels.contact.contact import contact_at, contact_exists
 from relguide.kernels.contact.contact_graph import best_chains
-from relguide.kernels.contact.delay_after_contact import delay_until_release
 from relguide.kernels.contact.graph_chains import LATE
 from relguide.kernels.contact.graph_labels import Effort
 from relguide.kernels.contact.looped_word import looped_word

@@ -10,9 +10,9 @@ from numba import njit
 
 from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.records import Scene
+from relguide.kernels.contact.clear_delay import delay_until_release, delays_by_straights
 from relguide.kernels.contact.clear_words import first_clear, to_slot_frame
 from relguide.kernels.contact.contact import contact_at
-from relguide.kernels.contact.delay_after_contact import delay_until_release, delays_by_straights
 from relguide.kernels.contact.graph_labels import Graph
 from relguide.kernels.contact.nodes import Nodes
 from relguide.kernels.words.delay import DELAY_PIECES

@@ -6,7 +6,7 @@ Slot frame: lengths in R, times in R/V_P, angles counter-clockwise. What comes o
 import numpy as np
 from numba import njit
 
-from relguide.kernels.base.records import Pose, Scene, with_limit, with_release
+from relguide.kernels.base.records import Contact, Pose, Scene, with_limit, with_release
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.boundary_arc import (
     MAX_NODES,
@@ -14,9 +14,9 @@ from relguide.kernels.contact.boundary_arc import (
     boundary_arc_pieces,
 )
 from relguide.kernels.contact.chain import BOUNDARY_ARC, DELAY
+from relguide.kernels.contact.clear_delay import delay_until_contact, delay_until_release
 from relguide.kernels.contact.clear_words import best_word_near
-from relguide.kernels.contact.contact import GRAZE
-from relguide.kernels.contact.delay_after_contact import delay_until_release
+from relguide.kernels.contact.contact import GRAZE, contact_on
 from relguide.kernels.words.delay import DELAY_PIECES
 from relguide.kernels.words.extremals import SIGNS, fly_piece
 
@@ -79,7 +79,13 @@ def pieces_of(
             continue
         if legs[k, 0] == DELAY:
             delay = np.empty((DELAY_PIECES, 2))
-            if not delay_until_release(pose, t, eased, delay):
+            if k + 1 == len(legs):
+                found = delay_until_release(pose, t, eased, delay)
+            else:
+                contact, planned = Contact(int(legs[k, 1]), legs[k, 3], legs[k, 2]), legs[k, 4]
+                there = contact_on(eased, contact, planned)
+                found = delay_until_contact(pose, t, eased, there, planned, delay)
+            if not found:
                 return pieces[:, :0]
             signs, amounts = delay[:, 0], delay[:, 1]
         else:

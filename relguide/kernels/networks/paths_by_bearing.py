@@ -11,9 +11,9 @@ from numba import njit
 from relguide.kernels.base.records import start_at
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain import DELAY, WORD
+from relguide.kernels.contact.clear_delay import delay_until_release
 from relguide.kernels.contact.clear_words import word_clears
 from relguide.kernels.contact.contact import to_frame_of
-from relguide.kernels.contact.delay_after_contact import delay_until_release
 from relguide.kernels.networks.near_guess import (
     Room,
     Task,

@@ -12,8 +12,8 @@ from relguide.kernels.base.angles import TWO_PI
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.boundary_arc import boundary_arc_arrival
 from relguide.kernels.contact.chain import BOUNDARY_ARC, DELAY, WORD
+from relguide.kernels.contact.clear_delay import delay_until_release
 from relguide.kernels.contact.clear_words import EARLY, word_clears
-from relguide.kernels.contact.delay_after_contact import delay_until_release
 from relguide.kernels.contact.touch_points import boundary_arc_end
 from relguide.kernels.networks.near_guess import (
     LR,

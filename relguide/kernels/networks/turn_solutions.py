@@ -11,9 +11,9 @@ from numba import njit
 from relguide.kernels.base.records import Pose, Scene, with_limit
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain import DELAY, WORD
+from relguide.kernels.contact.clear_delay import delay_until_release
 from relguide.kernels.contact.clear_words import best_word
 from relguide.kernels.contact.contact import GRAZE, disc_on
-from relguide.kernels.contact.delay_after_contact import delay_until_release
 from relguide.kernels.networks.near_guess import LS, ON_DELAY, ON_LR, ON_RL, Task, empty_room
 from relguide.kernels.networks.paths_by_bearing import (
     begin_anew,

@@ -22,10 +22,10 @@ from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.records import Pose, Scene, with_limit
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.contact.chain import DELAY, MAX_LEGS, WORD
+from relguide.kernels.contact.clear_delay import delay_until_release
 from relguide.kernels.contact.clear_words import pieces_clear, word_clears
 from relguide.kernels.contact.constrained_search import best_constrained_path
 from relguide.kernels.contact.contact import GRAZE
-from relguide.kernels.contact.delay_after_contact import delay_until_release
 from relguide.kernels.contact.path_pieces import NO_TURN
 from relguide.kernels.contact.tangent import tangents
 from relguide.kernels.words.delay import DELAY_PIECES, MAX_DELAYS, straight_delays

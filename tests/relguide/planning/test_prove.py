@@ -276,3 +276,14 @@ def test_a_probe_comes_to_its_first_contact_by_a_later_word_too() -> None:
     probe_between(question.start, find, first, last)
     assert find.best[1] > 0.0
     assert find.best[0] * scale < 259.32
+
+
+def test_a_proof_finds_paths_that_have_time_to_spare_before_their_first_contact() -> None:
+    """They come to it by no word, and go on sooner than who is there by one."""
+    rng = np.random.default_rng([205, proofs.KINDS.index(TURNING), 111])
+    planned = plan(proofs.draw(TURNING, rng, 111))
+    assert isinstance(planned, Plan)
+    proved = prove(planned, seconds=20.0)
+    assert proved.certificate.holds
+    assert proved.time_to_converge < planned.time_to_converge - 0.16
+    assert proved.optimality.proof == "certified"
