@@ -7,6 +7,7 @@ from numba import njit
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.contact_tree import IntArray, Tree
 from relguide.kernels.bounds.kept_fronts import Fronts
+from relguide.kernels.bounds.next_contact import Following
 
 MAX_BUNDLES = 400_000
 """Most bundles of paths kept, and cells; the search ends there."""
@@ -41,6 +42,8 @@ class Search(NamedTuple):
     """Which cells were looked at together, as one number … shape (TOGETHER,)"""
     together: FloatArray
     """… and the bound of their paths [R/V_P]. shape (TOGETHER,)"""
+    following: Following
+    """Which contacts may be the next ones after first ones."""
 
 
 @njit(cache=True, nogil=True)

@@ -133,7 +133,9 @@ def take_all(
         if (
             -found.astray - side.end <= first <= TWO_PI + found.astray + side.end
             and -spare <= other <= TWO_PI + spare
-            and not (signs[1] != 0.0 and _has_lesser_middle(found, first, other, spare))
+            and not (
+                signs[1] != 0.0 and _has_lesser_middle(found, first, other, spare, asked.junction)
+            )
         ):
             fate = max(fate, take(found, signs, first, spare, side, asked))
     return fate
@@ -170,15 +172,17 @@ def take(
 
 
 @njit(cache=True, nogil=True)
-def _has_lesser_middle(found: Interval, first: float, other: float, spare: float) -> bool:
+def _has_lesser_middle(
+    found: Interval, first: float, other: float, spare: float, junction: Junction
+) -> bool:
     """Whether the middle of three turns is certainly less than an outer one: then no costate fits.
 
     λ_ψ vanishes on a line, on which both switches lie: so it would again, as long after the second
-    and before the first (see `costate`).
+    and before the first (see `costate`). With two turns only, it may be any line.
     """
-    middle = found.middle + found.middle_blur
-    return (first - found.astray > middle and other > spare) or (
-        other - spare > middle and first > found.astray
+    middle, three = found.middle + found.middle_blur, junction.asked and not junction.switch
+    return (first - found.astray > middle and (three or other > spare)) or (
+        other - spare > middle and (three or first > found.astray)
     )
 
 

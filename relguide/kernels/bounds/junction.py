@@ -130,28 +130,33 @@ def apart_by(scene: Scene, cell: Cell, pace: float) -> float:
         return 0.0
     poses, alpha, d_min = poses_of(scene, cell), scene.alpha, scene.d_min
     rate = fastest_turn(scene, 0, len(scene.leader) - 1)
-    took = min(growing_for(scene, cell, least - 1.0, rate), left_of_piece(scene, cell, pace))
-    if took <= 0.0:
-        return 0.0
+    left, fast = left_of_piece(scene, cell, pace), 1.0 + alpha
+    took = min(growing_for(scene, cell, least - 1.0, rate), left)
     # how fast two paths of the cell part, seen from the leader
-    parting = poses.differs + (1.0 + alpha) * (cell.half + rate * poses.span)
+    parting = poses.differs + fast * (cell.half + rate * poses.span)
     for _ in range(_LOOKS):
-        if took >= pi:
+        if not 0.0 < took < pi:
             break
         at = fly_piece(poses.middle, cell.side, pace * took)
         t = poses.t + pace * took
         there = leader_at(scene, piece_at(scene.leader, t), t)
-        seen = _seen_along(at, there, pace)
-        toward, astray = cell.side * pace * seen[1], parting * took
-        if toward < astray + (_BESIDE if seen[0] > 0.0 else 0.0):
+        seen, far = _seen_along(at, there, pace), norm(at.x - there.x, at.y - there.y)
+        toward, blur = cell.side * pace * seen[1], d_min * cell.half + parting * took
+        beside = toward - blur - (_BESIDE if seen[0] > 0.0 else 0.0)
+        behind = pi - atan2(toward, seen[0]) - took - poses.differs - blur / d_min
+        if min(beside, behind) <= 0.0:
             break
-        gap = norm(seen[0], seen[1]) - d_min - astray
-        if gap <= 0.0:
+        # whoever is outside is so for this long, and whoever turns toward the leader for that, and
+        # others longer as long as the leader lies so
+        step = (far - d_min - parting * took) / fast
+        lies = min(beside / (3.0 + far + parting), behind / (2.0 + (fast + parting) / d_min), 0.5)
+        if step < lies:
+            closely = _outside_for(scene, cell, poses.span, rate, left, at, there, pace, took)
+            step = max(step, min(closely, lies))
+        if step < _STRIDE:
             break
-        if atan2(toward, seen[0]) + took + poses.differs + astray / d_min > pi:
-            break
-        took += max(gap / (1.0 + alpha), _STRIDE)
-    return took
+        took += step
+    return max(took, 0.0)
 
 
 @njit(cache=True, nogil=True)
@@ -170,34 +175,60 @@ def away_for(scene: Scene, cell: Cell, pace: float, turn: float) -> float:
     poses = poses_of(scene, cell)
     if poses.differs == inf:
         return 0.0
-    rate = fastest_turn(scene, 0, len(scene.leader) - 1)
-    left = left_of_piece(scene, cell, pace)
     # contacts at any time from its start on are alike as long as the leader keeps straight
+    rate, left = fastest_turn(scene, 0, len(scene.leader) - 1), left_of_piece(scene, cell, pace)
     turn = min(turn, left) if cell.end == inf else turn
     took = leaves_for(scene, cell, pace, turn)
-    falls = 1.0 + scene.alpha * rate
     for _ in range(_LOOKS):
         if took <= 0.0 or took >= turn:
             break
         at = fly_piece(poses.middle, -cell.side, pace * took)
         t = poses.t + pace * took
         there = leader_at(scene, piece_at(scene.leader, t), t)
-        dx, dy = at.x - there.x, at.y - there.y
-        gap = norm(dx, dy) - scene.d_min
-        s, c = sine_and_cosine(at.h)
-        lead_s, lead_c = sine_and_cosine(there.h)
-        closing = dx * (c - scene.alpha * lead_c) + dy * (s - scene.alpha * lead_s)
-        grows = pace * closing / norm(dx, dy)
-        step = (grows + sqrt(max(grows * grows + 2.0 * falls * max(gap, 0.0), 0.0))) / falls
-        while step > _STRIDE:
-            step *= 0.5
-            astray, _ = parted_by(scene, cell, poses.span, rate, left, pace, took + step)
-            if min(gap, gap + step * (grows - 0.5 * falls * step)) > astray:
-                break
-        if step <= _STRIDE:
+        step = _outside_for(scene, cell, poses.span, rate, left, at, there, pace, took)
+        if step < _STRIDE:
             break
         took += step
     return min(took, turn)
+
+
+@njit(cache=True, nogil=True)
+def _outside_for(
+    scene: Scene, cell: Cell, span: float, rate: float, left: float, at: Pose, there: Pose,
+    pace: float, took: float,
+) -> float:  # fmt: skip
+    """For how much longer no path of a cell touches that turns as one in its middle does [R/V_P].
+
+    By d and d′ of that path, and d″ being no less than −(1 + α ω); others differ by `parted_by`.
+
+    Args:
+        scene: the leader and d_min.
+        cell: of contacts.
+        span: half of its window of time [R/V_P].
+        rate: the leader's greatest turn rate [V_P/R].
+        left: of `left_of_piece` [R/V_P].
+        at: where the path from its middle is.
+        there: and the leader.
+        pace: as in `away_for`.
+        took: since the contact [R/V_P].
+
+    Returns:
+        0 if less than `_STRIDE` is known.
+    """
+    falls = 1.0 + scene.alpha * rate
+    dx, dy = at.x - there.x, at.y - there.y
+    far = norm(dx, dy)
+    s, c = sine_and_cosine(at.h)
+    lead_s, lead_c = sine_and_cosine(there.h)
+    closing = dx * (c - scene.alpha * lead_c) + dy * (s - scene.alpha * lead_s)
+    gap, grows = far - scene.d_min, pace * closing / far
+    step = (grows + sqrt(max(grows * grows + 2.0 * falls * max(gap, 0.0), 0.0))) / falls
+    while step > _STRIDE:
+        step *= 0.5
+        astray, _ = parted_by(scene, cell, span, rate, left, pace, took + step)
+        if min(gap, gap + step * (grows - 0.5 * falls * step)) > astray:
+            return step
+    return 0.0
 
 
 @njit(cache=True, nogil=True)

@@ -48,6 +48,7 @@ from relguide.kernels.bounds.joined import (
 )
 from relguide.kernels.bounds.kept_fronts import begin_fronts
 from relguide.kernels.bounds.narrowing import lasts_left, narrow, with_around
+from relguide.kernels.bounds.next_contact import begin_following, is_alone
 from relguide.kernels.bounds.pair_bound import BESIDE, bound_together
 from relguide.kernels.bounds.probe import Find, probe, probe_between, probe_spare
 from relguide.kernels.bounds.round_turning import whole_rounds
@@ -94,6 +95,7 @@ def begin(problem: Problem, first: FloatArray, exact: int, last: FloatArray) -> 
         plant(first, MAX_BUNDLES), plant(last, MAX_BUNDLES), np.arange(len(last)),
         np.empty(MAX_BUNDLES), np.empty((MAX_BUNDLES, 4), np.int64), np.zeros(4, np.int64),
         np.zeros(REASONS, np.int64), begin_fronts(), np.full(TOGETHER, -1), np.empty(TOGETHER),
+        begin_following(len(last)),
     )  # fmt: skip
     search.first.spare[exact : len(first)] = True
     for n in range(len(first)):
@@ -135,6 +137,10 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
         if eased == 0 and find.best[0] > bound:
             _probe(search, problem, find, n, m)
         drop_least(search)
+        if m != _ONLY and _is_alone(search, problem, n):
+            if m == _NO_LAST:
+                _add(search, problem, n, _ONLY, bound, 0)
+            continue
         if m == _NO_LAST:
             # elsewhere than on the final leg the cells of last contacts are very many
             if (
@@ -204,6 +210,13 @@ def _look_at_lasts(search: Search, problem: Problem, until: float) -> None:
     for k in range(at):
         learn(tree, cells[at - 1 - k])
     search.size[3] = 1
+
+
+@njit(cache=True, nogil=True)
+def _is_alone(search: Search, problem: Problem, n: int) -> bool:
+    """Whether first contacts in a cell have no other one after them, from which it is in time."""
+    following, looks = search.following, search.size[1]
+    return is_alone(following, search.first, search.last, problem, n, looks)
 
 
 @njit(cache=True, nogil=True)

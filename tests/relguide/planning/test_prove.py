@@ -287,3 +287,11 @@ def test_a_proof_finds_paths_that_have_time_to_spare_before_their_first_contact(
     assert proved.certificate.holds
     assert proved.time_to_converge < planned.time_to_converge - 0.16
     assert proved.optimality.proof == "certified"
+
+
+def test_a_contact_with_no_other_one_after_it_is_known_to_be_the_only_one() -> None:
+    """A proof that stood still, since other contacts beside the first one were not ruled out."""
+    rng = np.random.default_rng([205, proofs.KINDS.index(TURNING), 25])
+    planned = plan(proofs.draw(TURNING, rng, 25))
+    assert isinstance(planned, Plan)
+    assert prove(planned, seconds=20.0).optimality.proof == "certified"
