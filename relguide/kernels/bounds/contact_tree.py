@@ -45,13 +45,11 @@ _NARROW_ELSEWHERE = 5e-6  # on other legs than the final one, where each takes 0
 _BY_TURN = 0.1  # how contacts are passed matters in cells smaller than this [rad]
 _TO, _ON, _AWAY = 0, 1, 2  # words to a first contact, on from it, and on from a last one
 _RESTS = 5  # rows kept, for each cell: if there is no more room, those of larger cells serve
-_SOON, ONWARD, _LEAVING, _ROUND_FROM, _ROUND_TO = 0, 1, 2, 3, 5  # columns of what is known
+_SOON, _ONWARD, _LEAVING, _ROUND_FROM, _ROUND_TO = 0, 1, 2, 3, 5  # columns of what is known
 _REACHED, _LEFT, _LEFT_END, _TIGHT_TO, _TIGHT_FROM, _COLUMNS = 7, 12, 17, 17, 19, 21
-JOINED = 10
-"""Columns of `Tree.joined`: those of `joined`, then of `spare_onward`, and then …"""
+JOINED = 11
+"""Columns of `Tree.joined`: those of `joined`, then of `spare_onward`, then of `next_contact`."""
 _TO_GOAL, _TO_NEXT, _AGAIN = 5, 6, 7
-NEXT_BEGIN, NEXT_COUNT = 8, 9
-"""… where the cells begin that may hold the next contact, and how many: see `next_contact`."""
 
 
 class Tree(NamedTuple):
@@ -194,7 +192,7 @@ def reach(tree: Tree, problem: Problem, n: int) -> tuple[float, float]:
                 soon = anyhow(passed)
                 _keep_rest(tree, n, _TO, to)
             _keep_rest(tree, n, _ON, on)
-        known[_SOON], known[ONWARD] = soon, onward
+        known[_SOON], known[_ONWARD] = soon, onward
         if soon < inf and cell.end < inf:
             tree.cells[n, 4] = soon
             tree.cells[n, 5] = min(cell.end, max(problem.beat - onward, soon))
@@ -205,7 +203,7 @@ def reach(tree: Tree, problem: Problem, n: int) -> tuple[float, float]:
                 lasts = min(lasts, beyond_outward(problem.scene, cell, 1.0))
             passed = Passed(inf, inf, inf, soon, soon + lasts)
         _keep(known[_REACHED:], passed)
-    soon, onward = float(known[_SOON]), float(known[ONWARD])
+    soon, onward = float(known[_SOON]), float(known[_ONWARD])
     if soon < inf and is_last(problem.around, problem.scene, cell_at(tree, n)):
         onward = max(onward, leave(tree, problem, n))
     return soon, onward

@@ -202,11 +202,11 @@ def _outside_for(
     By d and d′ of that path, and d″ being no less than −(1 + α ω); others differ by `parted_by`.
 
     Args:
-        scene: the leader and d_min.
-        cell: of contacts.
-        span: half of its window of time [R/V_P].
-        rate: the leader's greatest turn rate [V_P/R].
-        left: of `left_of_piece` [R/V_P].
+        scene: as in `parted_by`.
+        cell: likewise.
+        span: likewise.
+        rate: likewise.
+        left: likewise.
         at: where the path from its middle is.
         there: and the leader.
         pace: as in `away_for`.

@@ -14,23 +14,20 @@ that hold these, once for all in them.
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
-from math import inf, isnan, log2
+from math import inf, isnan
 from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI
-from relguide.kernels.base.records import Scene, Velocity, Window
-from relguide.kernels.base.sine import sine_and_cosine
+from relguide.kernels.base.records import Scene, Window
 from relguide.kernels.bounds.around import is_last, soonest_in
-from relguide.kernels.bounds.between import moved_with, word_toward
+from relguide.kernels.bounds.between import moved_with, seen_from_end, word_toward
+from relguide.kernels.bounds.breach import no_sieve
 from relguide.kernels.bounds.cell_words import onward_bound, turned_away
-from relguide.kernels.bounds.cells import EDGE, Cell, Poses, poses_of
+from relguide.kernels.bounds.cells import EDGE, Cell, Poses, level_of, poses_of, taken_later
 from relguide.kernels.bounds.contact_tree import (
-    NEXT_BEGIN,
-    NEXT_COUNT,
-    ONWARD,
     IntArray,
     Problem,
     Tree,
@@ -44,10 +41,7 @@ from relguide.kernels.bounds.contact_tree import (
 from relguide.kernels.bounds.joined import apart
 from relguide.kernels.bounds.junction import can_touch
 from relguide.kernels.bounds.rest import no_rest
-from relguide.kernels.bounds.round_time import round_bound
-from relguide.kernels.bounds.word_bound import begins_with_turn
-from relguide.kernels.bounds.word_intervals import Blur
-from relguide.kernels.contact.contact import to_frame_of
+from relguide.kernels.bounds.word_bound import is_met_turning
 
 _MOST = 128  # so many cells of next contacts are told from each other; if there are more, larger
 _BESIDE = 4.0  # than a cell of first contacts, so much larger those of next ones may remain
@@ -60,6 +54,8 @@ _LEVEL, _LOOKS = 6, 1_000  # asked after so many halvings, in a search that has 
 _STAYS = 0.6  # … if this part of what a bound lacks would be left, were the cell halved for ever
 _TRIED, _SOME, _WORTH = 8, 32, 2  # first so often, then if one in so many helps, or now and then
 _MAY_BE, _ASKED, _HELPED = 0, 1, 2  # columns of `Following.tried`
+_BEGIN, _COUNT = 8, 9  # of `Tree.joined`: which of `Following.cells` are a first contact's, …
+_ONWARD = 10  # … and how soon at the goal from any contact of a cell of last ones
 
 
 class Following(NamedTuple):
@@ -121,16 +117,18 @@ def is_alone(
         n: number of the cell.
         looks: how often the search has looked at bundles.
     """
-    if not is_passed_turning(first, problem, n):
+    # pairs are many before the final leg, and only there
+    if first.cells[n, 0] + 1 == len(problem.scene.leader) or not is_passed_turning(
+        first, problem, n
+    ):
         return False
     if _left_above(following, first, n)[1] == 0:
         return True
-    level = min(int(-log2(size_of(first, n, problem.scene.d_min))), _LEVELS - 1)
+    level = min(level_of(size_of(first, n, problem.scene.d_min)), _LEVELS - 1)
     if (
         level < _LEVEL
         or looks < _LOOKS
-        or first.cells[n, 0] + 1 == len(problem.scene.leader)
-        or not isnan(first.joined[n, NEXT_COUNT])
+        or not isnan(first.joined[n, _COUNT])
         or not _stays(first, problem, n)
     ):
         return False
@@ -153,7 +151,7 @@ def is_passed_turning(first: Tree, problem: Problem, n: int) -> bool:
 
     So it is if they have no time to spare before, and no full loop either.
     """
-    if first.spare[n] or first.cells[n, 5] == inf:
+    if first.spare[n]:
         return False
     passed, onward = reached(first, problem, n), reach(first, problem, n)[1]
     return min(passed.tangent, passed.looped) + onward >= problem.beat
@@ -163,7 +161,7 @@ def is_passed_turning(first: Tree, problem: Problem, n: int) -> bool:
 def ask_next(following: Following, first: Tree, last: Tree, problem: Problem, n: int) -> bool:
     """Find out which cells may hold the next contact; whether there are none.
 
-    Arguments as `is_alone`, of a cell of which `is_passed_turning` holds.
+    Arguments as `is_alone`, of a cell before the final leg of which `is_passed_turning` holds.
     """
     return _left_above(following, first, n)[1] == 0 or _look_at(
         following, first, last, problem, n, False
@@ -176,7 +174,7 @@ def _look_above(following: Following, first: Tree, last: Tree, problem: Problem,
     d_min = problem.scene.d_min
     larger, count = np.empty(_DEPTH, np.int64), 0
     size, at = _SIZES * size_of(first, n, d_min), int(first.halves[n, 1])
-    while at >= 0 and count < _DEPTH and isnan(first.joined[at, NEXT_COUNT]):
+    while at >= 0 and count < _DEPTH and isnan(first.joined[at, _COUNT]):
         if size <= size_of(first, at, d_min) < _LARGEST:
             larger[count], size = at, _SIZES * size_of(first, at, d_min)
             count += 1
@@ -241,7 +239,7 @@ def _look_at(
         following.cells[begin : begin + count] = stack[:count]
         following.cells[begin + count : end] = kept[:left]
         following.size[0] = end
-        first.joined[n, NEXT_BEGIN], first.joined[n, NEXT_COUNT] = begin, count + left
+        first.joined[n, _BEGIN], first.joined[n, _COUNT] = begin, count + left
     return count + left == 0
 
 
@@ -252,8 +250,8 @@ def _left_above(following: Following, first: Tree, n: int) -> tuple[int, int]:
     The first is −1 where all cells are left.
     """
     while n >= 0:
-        if not isnan(first.joined[n, NEXT_COUNT]):
-            return int(first.joined[n, NEXT_BEGIN]), int(first.joined[n, NEXT_COUNT])
+        if not isnan(first.joined[n, _COUNT]):
+            return int(first.joined[n, _BEGIN]), int(first.joined[n, _COUNT])
         n = int(first.halves[n, 1])
     return -1, int(following.size[1])
 
@@ -280,69 +278,54 @@ def _may_follow(passing: _Passing, last: Tree, problem: Problem, m: int) -> bool
     since = max(other.start, soonest_in(problem.around, scene, other))
     latest = min(other.end, beat - _onward_from(last, problem, m))
     least, end = max(since - cell.end - EDGE, passing.apart), latest - cell.start + EDGE
-    drifts = min(cell.piece, other.piece) + 1 < len(scene.leader)
-    if not drifts and least < end:
-        left = round_bound(problem.table, 0, cell, other)
-        least = max(least, min(left, round_bound(problem.table, 1, cell, other)))
     if least >= end:
         return False
     there = poses_of(scene, other)
     if there.differs == inf:
         return False
-    if passing.inward:
-        met, window = moved_with(there, passing.begin, drifts), Window(least, end)
-        if _is_met(passing.begin, met, 1 - passing.hand, window, scene):
+    hand, after = passing.hand, passing.after
+    if passing.inward and _is_met(passing.begin, there, Window(least, end), 1 - hand, scene):
+        return True
+    if passing.outward and end > after:
+        window = Window(max(least - after, 0.0), end - after)
+        if _is_met(passing.turned, there, window, hand, scene):
             return True
-    if passing.outward and end > passing.after:
-        met = moved_with(there, passing.turned, drifts)
-        window = Window(max(least - passing.after, 0.0), end - passing.after)
-        if _is_met(passing.turned, met, passing.hand, window, scene):
-            return True
-    return end > TWO_PI and _is_met_with_loop(passing.begin, there, drifts, end - TWO_PI, scene)
+    return end > TWO_PI and _is_met_with_loop(passing.begin, there, end - TWO_PI, scene)
 
 
 @njit(cache=True, nogil=True)
-def _is_met(begin: Poses, there: Poses, hand: int, window: Window, scene: Scene) -> bool:
+def _is_met(begin: Poses, there: Poses, window: Window, hand: int, scene: Scene) -> bool:
     """Whether a word may be there just then that begins with a turn to that side, or with none."""
-    (s, c), moved = sine_and_cosine(there.middle.h), max(there.left, there.right)
-    return begins_with_turn(
-        to_frame_of(begin.middle, there.middle),
-        Blur(begin.left + moved, begin.right + moved, begin.differs + there.differs, there.differs),
-        Velocity(there.vx * c + there.vy * s, there.vy * c - there.vx * s),
-        window, hand, scene,
-    )  # fmt: skip
+    seen, blur, target = seen_from_end(begin, moved_with(there, begin, True))
+    return is_met_turning(seen, blur, target, window, no_sieve(scene), hand)
 
 
 @njit(cache=True, nogil=True)
-def _is_met_with_loop(begin: Poses, there: Poses, drifts: bool, left: float, scene: Scene) -> bool:
+def _is_met_with_loop(begin: Poses, there: Poses, left: float, scene: Scene) -> bool:
     """Whether a path may be there in time with a full loop, or more: see `looped_bound`.
 
     Args:
         begin: where it begins.
         there: where it is to be.
-        drifts: as in `moved_with`.
         left: time for all of it but one loop [R/V_P].
         scene: the leader and d_min.
     """
-    later = Poses(
-        begin.t + TWO_PI, begin.span, begin.middle, begin.vx, begin.vy, begin.differs, begin.left,
-        begin.right,
-    )  # fmt: skip
-    return word_toward(scene, later, moved_with(there, later, drifts), left, 0.0) < left
+    later = taken_later(begin, TWO_PI)
+    return word_toward(scene, later, moved_with(there, later, True), left, 0.0) < left
 
 
 @njit(cache=True, nogil=True)
 def _onward_from(last: Tree, problem: Problem, m: int) -> float:
     """How soon at the goal from any contact in a cell that is reached in time [R/V_P]."""
-    known, scene, cell = last.known[m], problem.scene, cell_at(last, m)
-    if isnan(known[ONWARD]):
-        known[ONWARD] = inf
+    known, scene, cell = last.joined[m], problem.scene, cell_at(last, m)
+    if isnan(known[_ONWARD]):
+        known[_ONWARD] = inf
         since = max(cell.start, soonest_in(problem.around, scene, cell))
         if can_touch(scene, cell) and since <= cell.end:
             poses, left = poses_of(scene, cell), problem.beat - since
             if poses.differs < inf:
-                known[ONWARD] = onward_bound(scene, problem.goal, cell, poses, left, no_rest())
-    onward = float(known[ONWARD])
+                known[_ONWARD] = onward_bound(scene, problem.goal, cell, poses, left, no_rest())
+    onward = float(known[_ONWARD])
     if onward < inf and is_last(problem.around, scene, cell):
         onward = max(onward, leave(last, problem, m))
     return onward

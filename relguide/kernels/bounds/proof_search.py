@@ -5,7 +5,7 @@ last counts too. Bundles of paths are kept by their first contact's cell and the
 heap, the least bound first; that is proved at any moment. Slot frame: lengths in R, times in R/V_P.
 """
 
-from math import inf, log2
+from math import inf
 
 import numpy as np
 from numba import njit
@@ -23,6 +23,7 @@ from relguide.kernels.bounds.bundles import (
     has_room,
     push,
 )
+from relguide.kernels.bounds.cells import level_of
 from relguide.kernels.bounds.contact_bound import otherwise
 from relguide.kernels.bounds.contact_tree import (
     Problem,
@@ -137,7 +138,9 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
         if eased == 0 and find.best[0] > bound:
             _probe(search, problem, find, n, m)
         drop_least(search)
-        if m != _ONLY and _is_alone(search, problem, n):
+        if m != _ONLY and is_alone(
+            search.following, search.first, search.last, problem, n, search.size[1]
+        ):
             if m == _NO_LAST:
                 _add(search, problem, n, _ONLY, bound, 0)
             continue
@@ -210,13 +213,6 @@ def _look_at_lasts(search: Search, problem: Problem, until: float) -> None:
     for k in range(at):
         learn(tree, cells[at - 1 - k])
     search.size[3] = 1
-
-
-@njit(cache=True, nogil=True)
-def _is_alone(search: Search, problem: Problem, n: int) -> bool:
-    """Whether first contacts in a cell have no other one after them, from which it is in time."""
-    following, looks = search.following, search.size[1]
-    return is_alone(following, search.first, search.last, problem, n, looks)
 
 
 @njit(cache=True, nogil=True)
@@ -380,7 +376,7 @@ def _with_hops(search: Search, problem: Problem, n: int, m: int, way: int, trip:
 @njit(cache=True, nogil=True)
 def _hops_late(search: Search, problem: Problem, n: int, m: int, asked: int) -> tuple[bool, int]:
     """Whether who hops between two cells is late, if it is time to ask, and when it was asked."""
-    level = _level(max(search.first.cells[n, 3], search.last.cells[m, 3]))
+    level = level_of(max(search.first.cells[n, 3], search.last.cells[m, 3]))
     least = _HOP_LEVEL if search.size[1] >= _HOPS_AFTER else _DEEP
     if level < max(asked + _HOP_LEVELS, least) or not _is_final(search, problem, n, m):
         return False, asked
@@ -398,9 +394,3 @@ def _is_final(search: Search, problem: Problem, n: int, m: int) -> bool:
     """Whether two cells, and all contacts between theirs, lie on the final leg."""
     final = len(problem.scene.leader) - 1
     return bool(min(search.first.cells[n, 0], search.last.cells[m, 0]) == final)
-
-
-@njit(cache=True, nogil=True)
-def _level(size: float) -> int:
-    """How often a radian is halved to so large a cell."""
-    return int(-log2(size))

@@ -17,9 +17,9 @@ from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI
 from relguide.kernels.base.borrowed import borrowed
-from relguide.kernels.base.records import Pose, Scene, Velocity, Window
+from relguide.kernels.base.records import Pose, Velocity, Window
 from relguide.kernels.base.sine import sine_and_cosine
-from relguide.kernels.bounds.breach import ROUNDING, Sieve, no_sieve
+from relguide.kernels.bounds.breach import ROUNDING, Sieve
 from relguide.kernels.bounds.found_word import (
     CERTAINLY_OUT,
     FOUND,
@@ -130,8 +130,8 @@ def soonest_by_turn(
 
 
 @njit(cache=True, nogil=True)
-def begins_with_turn(
-    pose: Pose, blur: Blur, target: Velocity, window: Window, hand: int, scene: Scene
+def is_met_turning(
+    pose: Pose, blur: Blur, target: Velocity, window: Window, sieve: Sieve, hand: int
 ) -> bool:
     """Whether any word may meet the target that begins with a turn to one side, or with none.
 
@@ -140,45 +140,43 @@ def begins_with_turn(
         blur: likewise.
         target: likewise.
         window: likewise.
+        sieve: likewise.
         hand: 0 left, 1 right.
-        scene: any, of which nothing is asked.
     """
     work = nothing_known(window.beat)
     lent = borrowed(work)
     # the first one that is found is enough
     enough = window.beat * (1.0 - ROUNDING)
-    asked = Asked(
-        window.earliest, window.beat, enough, no_sieve(scene), NO_JUNCTION, lent, no_rest()
-    )
-    astray = min(blur.left, blur.right) + blur.heading + ROUNDING
-    if asked.beat > intercept_span(-pose.x, -pose.y, target, astray)[0]:
-        _bound_side(side_of(pose, blur, target, hand), asked)
+    asked = Asked(window.earliest, window.beat, enough, sieve, NO_JUNCTION, lent, no_rest())
+    _bound_hands(pose, blur, target, hand, hand + 1, asked)
     return bool(work[0, 0] < window.beat)
 
 
 @njit(cache=True, nogil=True)
 def _bound_all(pose: Pose, blur: Blur, target: Velocity, asked: Asked) -> None:
     """Lower what is known to what any word comes to."""
+    _bound_hands(pose, blur, target, 0, 2, asked)
+
+
+@njit(cache=True, nogil=True)
+def _bound_hands(
+    pose: Pose, blur: Blur, target: Velocity, first: int, end: int, asked: Asked
+) -> None:
+    """The same, by words that begin with a turn to some sides: `first` to before `end`."""
     begin_rest(asked.rest)
     # a word is no shorter than the way to where the target can be met
     astray = min(blur.left, blur.right) + blur.heading + ROUNDING
     if asked.beat <= intercept_span(-pose.x, -pose.y, target, astray)[0]:
         return
-    for hand in range(2):
+    for hand in range(first, end):
         side = side_of(pose, blur, target, hand)
         if asked.rest.known >= 0:
             _bound_rest(side, asked)
-        else:
-            _bound_side(side, asked)
-
-
-@njit(cache=True, nogil=True)
-def _bound_side(side: Side, asked: Asked) -> None:
-    """As `_bound_all`, for words that begin with a turn to one side."""
-    for k in range(MOST_TURNS):
-        _bound_same_side(k, side, asked)
-    for turns in range(2):
-        _bound_by_halves(turns == 1, side, asked)
+            continue
+        for k in range(MOST_TURNS):
+            _bound_same_side(k, side, asked)
+        for turns in range(2):
+            _bound_by_halves(turns == 1, side, asked)
 
 
 @njit(cache=True, nogil=True)

@@ -42,9 +42,6 @@ from relguide.kernels.words.extremals import (
     solve_and_measure,
     solve_toward,
 )
-from relguide.planning.prove import question_of
-from relguide.planning.words import candidates
-from tests.bench import proofs
 from tests.costates import with_costate
 from tests.situations import numbers
 
@@ -509,16 +506,3 @@ def test_who_is_there_as_the_slot_opens_is_who_a_delay_leads_there() -> None:
         seen[shortest <= t_release, found] += 1
     assert set(seen) == {(False, False), (True, False), (True, True)}
     assert seen[True, False] > 20
-
-
-def test_where_all_have_flown_three_turns_none_has_a_middle_one_shorter_than_the_last() -> None:
-    """What ends with two turns is known to be elsewhere: so a turn away is known to go on."""
-    rng = np.random.default_rng([205, 3, 118])
-    question = question_of(candidates(proofs.draw(proofs.KINDS[3], rng, 118)))
-    start, scene, goal = question.start, question.scene, question.goal
-    cell = Cell(1, 1.0, 0.51197, 3.8e-4, 0.96904, 0.97181)
-    for switch, least, most in ((True, 0.0, 0.01), (False, 1.5, 1.7)):
-        passed, _ = cell_bound(
-            start, scene, goal, cell, 10.0, True, switch, no_rest(), no_rest()
-        )  # fmt: skip
-        assert least <= passed.turned - passed.outward <= most

@@ -198,9 +198,7 @@ def test_who_weaves_may_touch_sooner_than_who_turns_toward_a_leader_behind() -> 
         assert 0.1 < apart_by(scene, Cell(0, 1.0, bearing, half, 0.0, 0.0), -1.0) < took
 
 
-def test_contacts_are_known_to_be_apart_as_long_as_the_leader_is_beside_not_just_for_a_moment() -> (
-    None
-):
+def test_contacts_are_known_to_be_apart_for_more_than_a_moment() -> None:
     """Paths of a cell hardly part at first: the separation from the leader grows alike on all."""
     for rate, alpha, d_min, bearing, ahead, back in (
         (2.0, 0.8, 0.8, -2.75, 0.15, 2.0),

@@ -1,13 +1,15 @@
 """The contact after a first one: no path that is flown from one to the other is left out."""
 
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import islice
-from math import acos, cos, hypot, inf, pi
+from math import acos, cos, inf, pi
 
 import numpy as np
 
 from relguide.kernels.base.records import Contact, Pose, Scene
+from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.around import unknown_around
 from relguide.kernels.bounds.cells import Cell
 from relguide.kernels.bounds.contact_tree import Problem, plant
@@ -16,20 +18,20 @@ from relguide.kernels.bounds.junction import slide_turns
 from relguide.kernels.bounds.next_contact import (
     ask_next,
     begin_following,
+    is_alone,
     is_passed_turning,
 )
 from relguide.kernels.bounds.round_time import times_round
-from relguide.kernels.bounds.tangent_contacts import tangent_contacts
+from relguide.kernels.bounds.tangent_contacts import anything_tangent, tangent_contacts
+from relguide.kernels.contact.clear_words import word_clears
 from relguide.kernels.contact.contact import contact_on
 from relguide.kernels.contact.paths_to_contact import paths_by_words
-from relguide.kernels.separation.clearance import leader_at, piece_at
-from relguide.kernels.words.extremals import ALL_WORDS, MAX_ROWS, SIGNS, fly_piece
+from relguide.kernels.words.extremals import ALL_WORDS, MAX_ROWS, SIGNS
+from tests.costates import with_costate
 from tests.relguide.kernels.bounds.test_junction import turning_scene
 
 BEAT, LAST = 80.0, 12.0
-"""Arrivals after this do not matter, and no word takes longer than that [R/V_P]."""
-
-Pieces = list[tuple[float, float]]
+"""Arrivals after this do not matter, and no contact is later than that [R/V_P]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -48,41 +50,12 @@ class Passage:
     """Whether the turn is toward the leader."""
 
 
-def words_between(
-    pose: Pose, t: float, scene: Scene, contact: Contact
-) -> Iterator[tuple[float, Pieces]]:
-    """When words from a pose are at a contact, and their pieces that are no shorter than 1e-3."""
+def words_between(pose: Pose, t: float, scene: Scene, contact: Contact) -> list[FloatArray]:
+    """Words of three pieces from a pose to a contact that have a costate and keep the limit."""
     rows = np.empty((MAX_ROWS, 5))
-    for k in range(paths_by_words(pose, t, scene, contact, ALL_WORDS, 0.0, LAST, rows)):
-        signs, amounts = SIGNS[int(rows[k, 1])], rows[k, 2:]
-        pieces = [
-            (float(sign), float(amount))
-            for sign, amount in zip(signs, amounts, strict=True) if amount > 1e-3
-        ]  # fmt: skip
-        end = pose
-        for sign, amount in pieces:
-            end = fly_piece(end, sign, amount)
-        took = sum(amount for _, amount in pieces)
-        there = contact_on(scene, contact, t + took)
-        turning = all(sign != 0.0 for sign in signs)
-        has_costate = not turning or amounts[1] > max(amounts[0], amounts[2])
-        if (
-            len(pieces) == 3 and has_costate and took < LAST
-            and hypot(end.x - there.x, end.y - there.y) < 1e-5
-        ):  # fmt: skip
-            yield t + took, pieces
-
-
-def keeps_clear(pose: Pose, t: float, pieces: Pieces, scene: Scene) -> bool:
-    """Whether a path from a time on keeps the limit."""
-    clear = True
-    for sign, amount in pieces:
-        for along in np.arange(0.0, amount, 5e-3):
-            at = fly_piece(pose, sign, float(along))
-            there = leader_at(scene, piece_at(scene.leader, t + along), t + along)
-            clear &= hypot(at.x - there.x, at.y - there.y) > scene.d_min - 1e-6
-        pose, t = fly_piece(pose, sign, amount), t + amount
-    return clear
+    n = paths_by_words(pose, t, scene, contact, ALL_WORDS, 0.0, LAST, rows)
+    clear = [row for row in with_costate(rows[:n]) if word_clears(pose, t, row, scene)]
+    return [row for row in clear if min(row[2:]) > 1e-3 and row[0] < LAST]
 
 
 def can_be_passed(scene: Scene, contact: Contact, turn: float) -> bool:
@@ -101,23 +74,21 @@ def passages(seed: int) -> Iterator[Passage]:
         start = Pose(*rng.uniform(-5.0, 5.0, 2), rng.uniform(-pi, pi))
         side = float(rng.choice((1.0, -1.0)))
         first = Contact(int(rng.integers(2)), rng.uniform(-pi, pi), side)
-        for at, pieces in words_between(start, 0.0, scene, first):
-            if not keeps_clear(start, 0.0, pieces, scene):
-                continue
-            toward, pose = pieces[-1][0] * side, contact_on(scene, first, at)
-            if toward == 0.0 or not can_be_passed(scene, first, pieces[-1][0]):
+        for word in words_between(start, 0.0, scene, first):
+            at, turn = word[0], SIGNS[int(word[1]), 2]
+            if turn == 0.0 or not can_be_passed(scene, first, turn):
                 continue
             # the turn goes on, away from the leader for so long at least
-            least = 2.0 * acos(alpha * cos(first.bearing)) if toward < 0.0 else 0.0
+            inward = bool(turn == side)
+            least = 0.0 if inward else 2.0 * acos(alpha * cos(first.bearing))
             piece = int(rng.integers(first.piece, 3))
             then = Contact(piece, rng.uniform(-pi, pi), float(rng.choice((1.0, -1.0))))
-            for then_at, on in words_between(pose, at, scene, then):
-                goes_on = on[0][0] == pieces[-1][0] and on[0][1] > least
-                touches = can_be_passed(scene, then, on[-1][0])
-                if goes_on and touches and keeps_clear(pose, at, on, scene):
+            for on in words_between(contact_on(scene, first, at), at, scene, then):
+                begins, _, ends = SIGNS[int(on[1])]
+                if begins == turn and on[2] > least and can_be_passed(scene, then, ends):
                     yield Passage(
-                        start=start, scene=scene, first=first, at=at, then=then, then_at=then_at,
-                        inward=toward > 0.0,
+                        start=start, scene=scene, first=first, at=at, then=then, then_at=on[0],
+                        inward=inward,
                     )  # fmt: skip
 
 
@@ -128,18 +99,20 @@ def cell_round(scene: Scene, contact: Contact, t: float, half: float) -> Cell:
     return Cell(contact.piece, contact.side, contact.bearing, half, *window)
 
 
+def problem_of(passage: Passage, tangents: FloatArray) -> Problem:
+    """How soon can a path be where the slot is at first?"""
+    scene, here = passage.scene, Goal(0.0, 0.0, False)
+    table = times_round(scene.alpha, scene.d_min)
+    return Problem(passage.start, scene, here, table, BEAT, 1e-4, unknown_around(), tangents)
+
+
 def may_follow(passage: Passage, half: float, other: Cell) -> bool | None:
     """Whether the contact after the passage's first one may be in another cell.
 
     `None` where it is not known how the first one is passed, by a cell so large round it.
     """
-    scene, here = passage.scene, Goal(0.0, 0.0, False)
-    table = times_round(scene.alpha, scene.d_min)
-    tangents = tangent_contacts(passage.start, scene, BEAT)
-    problem = Problem(
-        passage.start, scene, here, table, BEAT, 1e-4, unknown_around(), tangents
-    )  # fmt: skip
-    first = plant(np.array([cell_round(scene, passage.first, passage.at, half)]), 1)
+    problem = problem_of(passage, tangent_contacts(passage.start, passage.scene, BEAT))
+    first = plant(np.array([cell_round(passage.scene, passage.first, passage.at, half)]), 1)
     last = plant(np.array([other]), 1)
     if not is_passed_turning(first, problem, 0):
         return None
@@ -147,13 +120,14 @@ def may_follow(passage: Passage, half: float, other: Cell) -> bool | None:
 
 
 def test_a_next_contact_that_is_flown_to_is_never_left_out() -> None:
-    rng, sides = np.random.default_rng(2), set()
+    rng, asked = np.random.default_rng(2), Counter[bool]()
     for passage in islice(passages(1), 200):
         half = 10.0 ** rng.uniform(-4.0, -2.0)
         other = cell_round(passage.scene, passage.then, passage.then_at, half)
-        assert may_follow(passage, half, other) is not False
-        sides.add(passage.inward)
-    assert sides == {True, False}
+        may_be = may_follow(passage, half, other)
+        assert may_be is not False
+        asked[passage.inward] += may_be is not None
+    assert min(asked[True], asked[False]) > 40
 
 
 def test_most_others_are_left_out() -> None:
@@ -163,3 +137,20 @@ def test_most_others_are_left_out() -> None:
         other = cell_round(passage.scene, there, passage.then_at, 1e-3)
         left.append(may_follow(passage, 1e-3, other))
     assert left.count(False) > 80
+
+
+def test_nothing_is_said_of_a_contact_from_which_a_path_may_slide() -> None:
+    """Of a larger cell it was asked for those only where nobody can, and what was found is kept."""
+    sliding = 0
+    for passage in islice(passages(4), 100):
+        cell = np.array([cell_round(passage.scene, passage.first, passage.at, 0.01)])
+        nowhere = np.array([cell_round(passage.scene, passage.first, passage.at, 1e-6)])
+        following, last, asked = begin_following(1), plant(nowhere, 1), plant(cell, 1)
+        assert ask_next(following, asked, last, problem_of(passage, np.empty((0, 5))), 0)
+        for tangents in (np.empty((0, 5)), anything_tangent()):
+            first, problem = plant(cell, 1), problem_of(passage, tangents)
+            first.joined[:] = asked.joined
+            known = is_alone(following, first, last, problem, 0, 0)
+            assert known == is_passed_turning(first, problem, 0)
+            sliding += not known
+    assert sliding > 3
