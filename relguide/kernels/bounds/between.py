@@ -120,16 +120,10 @@ def word_toward(scene: Scene, begin: Poses, end: Poses, beat: float, enough: flo
 
     Both are where they are as the word begins. Arguments as `word_between`.
     """
-    seen, blur, target = seen_from_end(begin, end)
-    return soonest_beyond(seen, blur, target, Window(0.0, beat), no_sieve(scene), enough)
-
-
-@njit(cache=True, nogil=True)
-def seen_from_end(begin: Poses, end: Poses) -> tuple[Pose, Blur, Velocity]:
-    """The middle of some poses seen from that of others, how far they reach, and how those move."""
     (s, c), moved = sine_and_cosine(end.middle.h), max(end.left, end.right)
-    return (
+    return soonest_beyond(
         to_frame_of(begin.middle, end.middle),
         Blur(begin.left + moved, begin.right + moved, begin.differs + end.differs, end.differs),
         Velocity(end.vx * c + end.vy * s, end.vy * c - end.vx * s),
-    )
+        Window(0.0, beat), no_sieve(scene), enough,
+    )  # fmt: skip

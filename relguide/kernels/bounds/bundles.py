@@ -2,19 +2,30 @@
 
 from typing import NamedTuple
 
+import numpy as np
 from numba import njit
 
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.contact_tree import IntArray, Tree
 from relguide.kernels.bounds.kept_fronts import Fronts
-from relguide.kernels.bounds.next_contact import Following
 
 MAX_BUNDLES = 400_000
 """Most bundles of paths kept, and cells; the search ends there."""
 TOGETHER = 131_071
 """So many pairs of cells are remembered."""
 DEPTH = 128
-"""More than halvings of a cell of last contacts."""
+"""More than halvings of a cell."""
+_LASTS = 1_000_000  # so many cells of last contacts are kept for cells of first ones
+
+
+class Lasts(NamedTuple):
+    """Which contacts may be last ones after first ones, see `last_contacts`."""
+
+    cells: IntArray
+    """Numbers of cells of last contacts, those of one cell of first contacts after another's …
+    shape (_LASTS,)"""
+    size: IntArray
+    """… and how many they are in all. shape (1,)"""
 
 
 class Search(NamedTuple):
@@ -42,8 +53,14 @@ class Search(NamedTuple):
     """Which cells were looked at together, as one number … shape (TOGETHER,)"""
     together: FloatArray
     """… and the bound of their paths [R/V_P]. shape (TOGETHER,)"""
-    following: Following
-    """Which contacts may be the next ones after first ones."""
+    lasts: Lasts
+    """Which contacts may be last ones after first ones."""
+
+
+@njit(cache=True, nogil=True)
+def begin_lasts() -> Lasts:
+    """Nothing is known."""
+    return Lasts(np.empty(_LASTS, np.int64), np.zeros(1, np.int64))
 
 
 @njit(cache=True, nogil=True)

@@ -6,7 +6,7 @@ a bearing in b ± w, in a window of time on one piece of the leader's intent.
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise. Contacts lie at d_min itself.
 """
 
-from math import acos, inf, log2, sqrt
+from math import acos, inf, sqrt
 from typing import NamedTuple
 
 from numba import njit
@@ -127,21 +127,6 @@ def poses_of(scene: Scene, cell: Cell) -> Poses:
         t, span, Pose(there.x + ahead, there.y + across, there.h + spread.heading),
         scene.alpha * lead_c - rate * across, scene.alpha * lead_s + rate * ahead,
         spread.differs + swing, spread.left + strays, spread.right + strays,
-    )  # fmt: skip
-
-
-@njit(cache=True, nogil=True)
-def level_of(size: float) -> int:
-    """How often a radian is halved to so large a cell."""
-    return int(-log2(size))
-
-
-@njit(cache=True, nogil=True)
-def taken_later(poses: Poses, by: float) -> Poses:
-    """The same poses, so much later [R/V_P]."""
-    return Poses(
-        poses.t + by, poses.span, poses.middle, poses.vx, poses.vy, poses.differs, poses.left,
-        poses.right,
     )  # fmt: skip
 
 

@@ -24,7 +24,7 @@ from relguide.kernels.bounds.cell_words import (
     seen_from_start,
     word_to,
 )
-from relguide.kernels.bounds.cells import EDGE, Cell, poses_of, taken_later
+from relguide.kernels.bounds.cells import EDGE, Cell, Poses, poses_of
 from relguide.kernels.bounds.found_word import ByTurn, Junction
 from relguide.kernels.bounds.goal import Goal
 from relguide.kernels.bounds.junction import away_for, junction_of
@@ -153,7 +153,11 @@ def looped_bound(start: Pose, scene: Scene, cell: Cell, end: float) -> float:
 
     They are paths no sooner than a word. Arguments as `cell_bound`; infinite from `end` on.
     """
-    later = taken_later(poses_of(scene, cell), -TWO_PI)
+    poses = poses_of(scene, cell)
+    later = Poses(
+        poses.t - TWO_PI, poses.span, poses.middle, poses.vx, poses.vy, poses.differs, poses.left,
+        poses.right,
+    )  # fmt: skip
     # a second loop takes 4π in all
     earliest = 0.0 if cell.end >= 2.0 * TWO_PI else cell.start - TWO_PI - EDGE
     return TWO_PI + word_to(start, scene, later, Window(earliest, end - TWO_PI))

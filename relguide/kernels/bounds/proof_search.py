@@ -5,7 +5,7 @@ last counts too. Bundles of paths are kept by their first contact's cell and the
 heap, the least bound first; that is proved at any moment. Slot frame: lengths in R, times in R/V_P.
 """
 
-from math import inf
+from math import inf, log2
 
 import numpy as np
 from numba import njit
@@ -19,11 +19,11 @@ from relguide.kernels.bounds.bundles import (
     MAX_BUNDLES,
     TOGETHER,
     Search,
+    begin_lasts,
     drop_least,
     has_room,
     push,
 )
-from relguide.kernels.bounds.cells import level_of
 from relguide.kernels.bounds.contact_bound import otherwise
 from relguide.kernels.bounds.contact_tree import (
     Problem,
@@ -48,8 +48,8 @@ from relguide.kernels.bounds.joined import (
     turned_goal,
 )
 from relguide.kernels.bounds.kept_fronts import begin_fronts
+from relguide.kernels.bounds.last_contacts import ask_lasts, lasts_of
 from relguide.kernels.bounds.narrowing import lasts_left, narrow, with_around
-from relguide.kernels.bounds.next_contact import begin_following, is_alone
 from relguide.kernels.bounds.pair_bound import BESIDE, bound_together
 from relguide.kernels.bounds.probe import Find, probe, probe_between, probe_spare
 from relguide.kernels.bounds.round_turning import whole_rounds
@@ -96,7 +96,7 @@ def begin(problem: Problem, first: FloatArray, exact: int, last: FloatArray) -> 
         plant(first, MAX_BUNDLES), plant(last, MAX_BUNDLES), np.arange(len(last)),
         np.empty(MAX_BUNDLES), np.empty((MAX_BUNDLES, 4), np.int64), np.zeros(4, np.int64),
         np.zeros(REASONS, np.int64), begin_fronts(), np.full(TOGETHER, -1), np.empty(TOGETHER),
-        begin_following(len(last)),
+        begin_lasts(),
     )  # fmt: skip
     search.first.spare[exact : len(first)] = True
     for n in range(len(first)):
@@ -138,11 +138,8 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
         if eased == 0 and find.best[0] > bound:
             _probe(search, problem, find, n, m)
         drop_least(search)
-        if m != _ONLY and is_alone(
-            search.following, search.first, search.last, problem, n, search.size[1]
-        ):
-            if m == _NO_LAST:
-                _add(search, problem, n, _ONLY, bound, 0)
+        if m == _NO_LAST and len(lasts_of(search, n)) == 0:
+            _add(search, problem, n, _ONLY, bound, 0)
             continue
         if m == _NO_LAST:
             # elsewhere than on the final leg the cells of last contacts are very many
@@ -153,7 +150,9 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
                 _add(search, problem, n, _ONLY, bound, 0)
                 if search.size[3] == 0:
                     _look_at_lasts(search, problem, until)
-                for k in search.roots:
+                if search.first.cells[n, 0] != final:
+                    ask_lasts(search, problem, n, until)
+                for k in lasts_of(search, n):
                     if not is_buried(search.last, k):
                         _add_pairs(search, problem, find, n, k, bound, 0, until)
                 continue
@@ -376,7 +375,7 @@ def _with_hops(search: Search, problem: Problem, n: int, m: int, way: int, trip:
 @njit(cache=True, nogil=True)
 def _hops_late(search: Search, problem: Problem, n: int, m: int, asked: int) -> tuple[bool, int]:
     """Whether who hops between two cells is late, if it is time to ask, and when it was asked."""
-    level = level_of(max(search.first.cells[n, 3], search.last.cells[m, 3]))
+    level = _level(max(search.first.cells[n, 3], search.last.cells[m, 3]))
     least = _HOP_LEVEL if search.size[1] >= _HOPS_AFTER else _DEEP
     if level < max(asked + _HOP_LEVELS, least) or not _is_final(search, problem, n, m):
         return False, asked
@@ -394,3 +393,9 @@ def _is_final(search: Search, problem: Problem, n: int, m: int) -> bool:
     """Whether two cells, and all contacts between theirs, lie on the final leg."""
     final = len(problem.scene.leader) - 1
     return bool(min(search.first.cells[n, 0], search.last.cells[m, 0]) == final)
+
+
+@njit(cache=True, nogil=True)
+def _level(size: float) -> int:
+    """How often a radian is halved to so large a cell."""
+    return int(-log2(size))

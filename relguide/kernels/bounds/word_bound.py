@@ -130,45 +130,14 @@ def soonest_by_turn(
 
 
 @njit(cache=True, nogil=True)
-def is_met_turning(
-    pose: Pose, blur: Blur, target: Velocity, window: Window, sieve: Sieve, hand: int
-) -> bool:
-    """Whether any word may meet the target that begins with a turn to one side, or with none.
-
-    Args:
-        pose: as in `soonest_by_turn`.
-        blur: likewise.
-        target: likewise.
-        window: likewise.
-        sieve: likewise.
-        hand: 0 left, 1 right.
-    """
-    work = nothing_known(window.beat)
-    lent = borrowed(work)
-    # the first one that is found is enough
-    enough = window.beat * (1.0 - ROUNDING)
-    asked = Asked(window.earliest, window.beat, enough, sieve, NO_JUNCTION, lent, no_rest())
-    _bound_hands(pose, blur, target, hand, hand + 1, asked)
-    return bool(work[0, 0] < window.beat)
-
-
-@njit(cache=True, nogil=True)
 def _bound_all(pose: Pose, blur: Blur, target: Velocity, asked: Asked) -> None:
     """Lower what is known to what any word comes to."""
-    _bound_hands(pose, blur, target, 0, 2, asked)
-
-
-@njit(cache=True, nogil=True)
-def _bound_hands(
-    pose: Pose, blur: Blur, target: Velocity, first: int, end: int, asked: Asked
-) -> None:
-    """The same, by words that begin with a turn to some sides: `first` to before `end`."""
     begin_rest(asked.rest)
     # a word is no shorter than the way to where the target can be met
     astray = min(blur.left, blur.right) + blur.heading + ROUNDING
     if asked.beat <= intercept_span(-pose.x, -pose.y, target, astray)[0]:
         return
-    for hand in range(first, end):
+    for hand in range(2):
         side = side_of(pose, blur, target, hand)
         if asked.rest.known >= 0:
             _bound_rest(side, asked)
