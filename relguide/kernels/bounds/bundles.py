@@ -15,7 +15,9 @@ TOGETHER = 131_071
 """So many pairs of cells are remembered."""
 DEPTH = 128
 """More than halvings of a cell."""
-_LASTS = 1_000_000  # so many cells of last contacts are kept for cells of first ones
+MOST_LASTS = 256
+"""So many cells of last contacts are kept of a cell of first ones, or as many as hold all."""
+_LASTS = 1_000_000  # so many in all
 
 
 class Lasts(NamedTuple):
@@ -25,7 +27,7 @@ class Lasts(NamedTuple):
     """Numbers of cells of last contacts, those of one cell of first contacts after another's …
     shape (_LASTS,)"""
     size: IntArray
-    """… and how many they are in all. shape (1,)"""
+    """… how many they are in all, and never more of one than this. shape (2,)"""
 
 
 class Search(NamedTuple):
@@ -58,15 +60,17 @@ class Search(NamedTuple):
 
 
 @njit(cache=True, nogil=True)
-def begin_lasts() -> Lasts:
-    """Nothing is known."""
-    return Lasts(np.empty(_LASTS, np.int64), np.zeros(1, np.int64))
+def begin_lasts(roots: int) -> Lasts:
+    """Nothing is known, but that so many cells hold all last contacts."""
+    size = np.zeros(2, np.int64)
+    size[1] = max(roots, MOST_LASTS + 1)
+    return Lasts(np.empty(_LASTS, np.int64), size)
 
 
 @njit(cache=True, nogil=True)
 def has_room(search: Search) -> bool:
     """Whether so many bundles may be added as one look adds."""
-    return bool(search.size[0] + 2 * len(search.roots) + DEPTH < MAX_BUNDLES)
+    return bool(search.size[0] + 2 * search.lasts.size[1] + DEPTH < MAX_BUNDLES)
 
 
 @njit(cache=True, nogil=True)

@@ -12,11 +12,10 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.clock import time_is_up
-from relguide.kernels.bounds.bundles import DEPTH, Search
+from relguide.kernels.bounds.bundles import DEPTH, MOST_LASTS, Search
 from relguide.kernels.bounds.contact_tree import IntArray, Problem, halve, is_buried, size_of
 from relguide.kernels.bounds.pair_bound import bound_together
 
-_MOST = 256  # so many cells of last contacts are told from each other; if there are more, larger
 _BESIDE = 2.0  # than a cell of first contacts, so much larger those of last ones may remain
 _SIZES = 4.0  # after a cell it is asked of one so much larger that holds it
 _LARGEST = 0.2  # but of none larger than this [rad]
@@ -66,7 +65,7 @@ def _keep_lasts(search: Search, problem: Problem, n: int, until: float) -> int:
     most = _BESIDE * size_of(search.first, n, d_min)
     known = lasts_of(search, n)
     count, left = len(known), 0
-    room = max(count, _MOST) + 2
+    room = max(count, MOST_LASTS) + 2
     stack, kept = np.empty(room, np.int64), np.empty(room, np.int64)
     stack[:count] = known
     while count > 0 and not time_is_up(until):
@@ -75,7 +74,7 @@ def _keep_lasts(search: Search, problem: Problem, n: int, until: float) -> int:
         if is_buried(last, m) or bound_together(search, problem, n, m) >= problem.beat:
             continue
         half = -1
-        if size_of(last, m, d_min) > most and count + left < _MOST:
+        if size_of(last, m, d_min) > most and count + left < MOST_LASTS:
             half = halve(last, m, d_min)
         if half >= 0:
             stack[count], stack[count + 1] = half, half + 1

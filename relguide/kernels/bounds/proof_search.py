@@ -96,7 +96,7 @@ def begin(problem: Problem, first: FloatArray, exact: int, last: FloatArray) -> 
         plant(first, MAX_BUNDLES), plant(last, MAX_BUNDLES), np.arange(len(last)),
         np.empty(MAX_BUNDLES), np.empty((MAX_BUNDLES, 4), np.int64), np.zeros(4, np.int64),
         np.zeros(REASONS, np.int64), begin_fronts(), np.full(TOGETHER, -1), np.empty(TOGETHER),
-        begin_lasts(),
+        begin_lasts(len(last)),
     )  # fmt: skip
     search.first.spare[exact : len(first)] = True
     for n in range(len(first)):
