@@ -30,6 +30,7 @@ from relguide.kernels.bounds.junction import (
     parted_by,
     slide_turns,
 )
+from relguide.kernels.bounds.ways import no_ways
 from relguide.kernels.separation.clearance import leader_at, piece_at, piece_end
 from relguide.kernels.words.extremals import fly_piece
 
@@ -126,7 +127,9 @@ def before_touching(scene: Scene, cell: Cell, contact: float) -> tuple[Poses, fl
     pose = fly_piece(pose, sense, until - begun * turn)
     other = kept + 2.0 * differs
     left, right = (kept, other) if sense > 0.0 else (other, kept)
-    there = Poses(poses.t + until, poses.span, pose, poses.vx, poses.vy, differs, left, right)
+    there = Poses(
+        poses.t + until, poses.span, pose, poses.vx, poses.vy, differs, left, right, no_ways()
+    )
     return there, until
 
 

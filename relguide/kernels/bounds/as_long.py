@@ -17,10 +17,10 @@ from relguide.kernels.base.records import Pose, Scene, Window
 from relguide.kernels.base.sine import sine_and_cosine
 from relguide.kernels.bounds.between import moved_with, word_toward
 from relguide.kernels.bounds.breach import no_sieve
-from relguide.kernels.bounds.cell_words import seen_from_start
+from relguide.kernels.bounds.cell_words import blur_backward, seen_from_start
 from relguide.kernels.bounds.cells import EDGE, Cell, Poses, poses_of
+from relguide.kernels.bounds.ways import no_ways
 from relguide.kernels.bounds.word_bound import soonest_beyond
-from relguide.kernels.bounds.word_intervals import Blur
 
 
 @njit(cache=True, nogil=True)
@@ -35,7 +35,7 @@ def can_be_there(start: Pose, scene: Scene, poses: Poses, end: float) -> bool:
     """
     track = _track_of(poses, poses.t + poses.span)
     seen, target = seen_from_start(start, track)
-    blur = Blur(track.right, track.left, track.differs, 0.0)
+    blur = blur_backward(start, track)
     # how soon does not matter
     met = soonest_beyond(seen, blur, target, Window(0.0, end), no_sieve(scene), end - EDGE)
     return bool(met < inf)
@@ -80,5 +80,5 @@ def _track_of(poses: Poses, longest: float) -> Poses:
     strays += longest * poses.differs
     return Poses(
         poses.t, 0.0, poses.middle, vx, vy, poses.differs, poses.left + strays,
-        poses.right + strays,
+        poses.right + strays, no_ways(),
     )  # fmt: skip

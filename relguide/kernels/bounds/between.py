@@ -20,6 +20,7 @@ from relguide.kernels.bounds.cell_words import turned_away
 from relguide.kernels.bounds.cells import EDGE, Cell, Poses, poses_of
 from relguide.kernels.bounds.kept_fronts import Fronts, round_arrival
 from relguide.kernels.bounds.round_time import round_bound
+from relguide.kernels.bounds.ways import drifting, ways_from
 from relguide.kernels.bounds.word_bound import soonest_beyond
 from relguide.kernels.bounds.word_intervals import Blur
 from relguide.kernels.contact.contact import to_frame_of
@@ -106,12 +107,26 @@ def moved_with(end: Poses, begin: Poses, drifts: bool) -> Poses:
         begin: the others.
         drifts: whether these move otherwise.
     """
-    strays = begin.span * norm(begin.vx - end.vx, begin.vy - end.vy) if drifts else 0.0
+    x, y = begin.span * (begin.vx - end.vx), begin.span * (begin.vy - end.vy)
+    strays = norm(x, y) if drifts else 0.0
     early = begin.t - end.t
     met = Pose(end.middle.x + early * end.vx, end.middle.y + early * end.vy, end.middle.h)
     return Poses(
-        end.t, end.span, met, end.vx, end.vy, end.differs, end.left + strays, end.right + strays
-    )
+        end.t, end.span, met, end.vx, end.vy, end.differs, end.left + strays, end.right + strays,
+        end.ways,
+    )  # fmt: skip
+
+
+@njit(cache=True, nogil=True)
+def blur_between(begin: Poses, end: Poses) -> Blur:
+    """How far some poses may lie from their middle, as others see them that may lie so far."""
+    moved, (s, c) = max(end.left, end.right), sine_and_cosine(end.middle.h)
+    # who begins earlier or later finds the others elsewhere
+    x, y = begin.span * (begin.vx - end.vx), begin.span * (begin.vy - end.vy)
+    return Blur(
+        begin.left + moved, begin.right + moved, begin.differs + end.differs, end.differs,
+        ways_from(drifting(begin.ways, x, y), s, c), ways_from(end.ways, s, c),
+    )  # fmt: skip
 
 
 @njit(cache=True, nogil=True)
@@ -120,10 +135,9 @@ def word_toward(scene: Scene, begin: Poses, end: Poses, beat: float, enough: flo
 
     Both are where they are as the word begins. Arguments as `word_between`.
     """
-    (s, c), moved = sine_and_cosine(end.middle.h), max(end.left, end.right)
+    s, c = sine_and_cosine(end.middle.h)
     return soonest_beyond(
-        to_frame_of(begin.middle, end.middle),
-        Blur(begin.left + moved, begin.right + moved, begin.differs + end.differs, end.differs),
+        to_frame_of(begin.middle, end.middle), blur_between(begin, end),
         Velocity(end.vx * c + end.vy * s, end.vy * c - end.vx * s),
         Window(0.0, beat), no_sieve(scene), enough,
     )  # fmt: skip

@@ -14,6 +14,7 @@ from relguide.kernels.bounds.breach import no_sieve
 from relguide.kernels.bounds.cells import EDGE, Cell, Poses, poses_of
 from relguide.kernels.bounds.goal import Goal, track_of
 from relguide.kernels.bounds.rest import Rest, no_rest
+from relguide.kernels.bounds.ways import drifting, fixed, ways_after_turn, ways_from
 from relguide.kernels.bounds.word_bound import soonest, soonest_beyond, soonest_kept
 from relguide.kernels.bounds.word_intervals import Blur
 from relguide.kernels.words.extremals import fly_piece
@@ -23,8 +24,7 @@ from relguide.kernels.words.extremals import fly_piece
 def word_to(start: Pose, scene: Scene, poses: Poses, window: Window) -> float:
     """How soon a word can lead from the start, at t = 0, to one of the poses, which move on."""
     at, target = seen_from_start(start, poses)
-    blur = Blur(poses.right, poses.left, poses.differs, 0.0)
-    return soonest(at, blur, target, window, no_sieve(scene))
+    return soonest(at, blur_backward(start, poses), target, window, no_sieve(scene))
 
 
 @njit(cache=True, nogil=True)
@@ -35,6 +35,14 @@ def seen_from_start(start: Pose, poses: Poses) -> tuple[Pose, Velocity]:
     dx, dy = at.x - poses.t * vx - start.x, at.y - poses.t * vy - start.y
     seen = Pose(-dx * c - dy * s, dx * s - dy * c, at.h - start.h)
     return seen, Velocity(vx * c + vy * s, vy * c - vx * s)
+
+
+@njit(cache=True, nogil=True)
+def blur_backward(start: Pose, poses: Poses) -> Blur:
+    """How far some poses, read backward, may lie from their middle, as the start sees them."""
+    s, c = sine_and_cosine(start.h)
+    # left is right
+    return Blur(poses.right, poses.left, poses.differs, 0.0, ways_from(poses.ways, -s, -c), fixed())
 
 
 @njit(cache=True, nogil=True)
@@ -69,11 +77,12 @@ def seen_from(goal: Goal, poses: Poses) -> Pose:
 @njit(cache=True, nogil=True)
 def blur_toward(scene: Scene, goal: Goal, cell: Cell, poses: Poses) -> Blur:
     """How far the poses of a cell may lie from their middle, as the goal sees them."""
-    drifts = 0.0
+    drifts, ways = 0.0, poses.ways
     if cell.piece + 1 < len(scene.leader) or goal.speed != scene.alpha:
         # the goal does not move with the contacts
-        drifts = poses.span * norm(poses.vx - goal.speed, poses.vy)
-    return Blur(poses.left + drifts, poses.right + drifts, poses.differs, 0.0)
+        x, y = poses.span * (poses.vx - goal.speed), poses.span * poses.vy
+        drifts, ways = norm(x, y), drifting(ways, x, y)
+    return Blur(poses.left + drifts, poses.right + drifts, poses.differs, 0.0, ways, fixed())
 
 
 @njit(cache=True, nogil=True)
@@ -84,7 +93,13 @@ def turned_away(poses: Poses, side: float, turn: float) -> Poses:
     other = kept + 2.0 * poses.differs
     left, right = (other, kept) if side > 0.0 else (kept, other)
     middle = fly_piece(poses.middle, -side, turn)
-    return Poses(poses.t + turn, poses.span, middle, poses.vx, poses.vy, poses.differs, left, right)
+    ways = ways_after_turn(
+        poses.ways, sine_and_cosine(poses.middle.h), sine_and_cosine(middle.h), -side,
+        poses.differs,
+    )  # fmt: skip
+    return Poses(
+        poses.t + turn, poses.span, middle, poses.vx, poses.vy, poses.differs, left, right, ways
+    )
 
 
 @njit(cache=True, nogil=True)

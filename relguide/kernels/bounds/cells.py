@@ -13,6 +13,7 @@ from numba import njit
 
 from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.sine import sine_and_cosine
+from relguide.kernels.bounds.ways import Way, Ways
 from relguide.kernels.contact.contact import contact_heading
 from relguide.kernels.separation.clearance import leader_at
 
@@ -60,6 +61,8 @@ class Poses(NamedTuple):
     it kept its velocity [R]."""
     right: float
     """And that of their right circles [R]."""
+    ways: Ways
+    """How they differ from it, to first order."""
 
 
 class Spread(NamedTuple):
@@ -73,6 +76,13 @@ class Spread(NamedTuple):
     """How far the centre of their left circles may lie from the middle's [R]."""
     right: float
     """And that of their right circles [R]."""
+    turns: float
+    """How fast the heading changes with the bearing in the middle."""
+    bends: float
+    """How far besides the centres of the circles may lie, to second order in the bearing; infinite
+    if that is not known [R]."""
+    twists: float
+    """And how much besides the heading may differ [rad]."""
 
 
 @njit(cache=True, nogil=True)
@@ -85,27 +95,37 @@ def contacts_within(cell: Cell, alpha: float, d_min: float) -> Spread:
     if alpha > 1.0 - EDGE:
         # not every bearing can be touched, and the heading may change without bound
         if min(low, high) > 1.0 or max(low, high) < -1.0:
-            return Spread(0.0, inf, inf, inf)
+            return Spread(0.0, inf, inf, inf, 0.0, inf, 0.0)
         first, second = acos(min(max(low, -1.0), 1.0)), acos(min(max(high, -1.0), 1.0))
         differs = half + 0.5 * abs(first - second)
         blur = d_min * half + differs
-        return Spread(bearing + side * 0.5 * (first + second), differs, blur, blur)
+        return Spread(bearing + side * 0.5 * (first + second), differs, blur, blur, 0.0, inf, 0.0)
     heading = contact_heading(bearing, side, alpha)
     # the heading grows with the bearing, at a rate between 0 and 2 that is monotone in a quadrant
     differs = max(
         contact_heading(bearing + half, side, alpha) - heading,
         heading - contact_heading(bearing - half, side, alpha),
     )
-    left, right = 0.0, 0.0
+    left, right, fastest = 0.0, 0.0, 0.0
     for end in range(2):
         along, ahead = (low, alpha * low_s) if end == 0 else (high, alpha * high_s)
         rate = 1.0 + side * ahead / sqrt(1.0 - along * along)
+        fastest = max(fastest, rate)
         for other in range(2):
             across = low if other == 0 else high
             mixed = 2.0 * d_min * rate * side * sqrt(1.0 - across * across)
             left = max(left, d_min * d_min - mixed + rate * rate)
             right = max(right, d_min * d_min + mixed + rate * rate)
-    return Spread(heading, differs, half * sqrt(max(left, 0.0)), half * sqrt(max(right, 0.0)))
+    s, c = sine_and_cosine(bearing)
+    turns = 1.0 + side * alpha * s / sqrt(1.0 - alpha * c * alpha * c)
+    # its second derivative is α cos b (1 − α²)/q³
+    most = max(abs(low), abs(high))
+    twists = most * (1.0 - alpha * alpha) / (1.0 - most * most) ** 1.5
+    square = 0.5 * half * half
+    return Spread(
+        heading, differs, half * sqrt(max(left, 0.0)), half * sqrt(max(right, 0.0)), turns,
+        square * (d_min + fastest * fastest + twists), square * twists,
+    )  # fmt: skip
 
 
 @njit(cache=True, nogil=True)
@@ -123,10 +143,17 @@ def poses_of(scene: Scene, cell: Cell) -> Poses:
     # the contact of the middle bearing moves like this, and turns with the leader
     rate = scene.leader[cell.piece, 4]
     swing, strays = turning_blur(scene, rate, span)
+    # to second order: by the bearing, by both, and by the time
+    bends = spread.bends + swing * max(spread.left, spread.right) + strays - swing
+    half = cell.half
+    ways = Ways(
+        Way(-half * across, half * ahead, half * spread.turns), Way(0.0, 0.0, rate * span), bends,
+        spread.twists,
+    )  # fmt: skip
     return Poses(
         t, span, Pose(there.x + ahead, there.y + across, there.h + spread.heading),
         scene.alpha * lead_c - rate * across, scene.alpha * lead_s + rate * ahead,
-        spread.differs + swing, spread.left + strays, spread.right + strays,
+        spread.differs + swing, spread.left + strays, spread.right + strays, ways,
     )  # fmt: skip
 
 

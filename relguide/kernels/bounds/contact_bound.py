@@ -18,6 +18,7 @@ from relguide.kernels.base.angles import TWO_PI
 from relguide.kernels.base.records import Pose, Scene, Velocity, Window, with_limit
 from relguide.kernels.bounds.breach import INSIDE, Sieve, no_sieve
 from relguide.kernels.bounds.cell_words import (
+    blur_backward,
     blur_toward,
     onward_bound,
     seen_from,
@@ -34,7 +35,6 @@ from relguide.kernels.bounds.word_bound import (
     soonest_by_turn,
     soonest_kept,
 )
-from relguide.kernels.bounds.word_intervals import Blur
 
 
 class Passed(NamedTuple):
@@ -76,7 +76,7 @@ def otherwise(passed: Passed) -> float:
 def cell_bound(
     start: Pose, scene: Scene, goal: Goal, cell: Cell, beat: float, closely: bool, switch: bool,
     to: Rest, on: Rest,
-) -> tuple[Passed, float]:  # fmt: skip
+) -> tuple[Passed, float, float]:  # fmt: skip
     """How soon a path can be at a contact of the cell, its first, and how soon at the goal from it.
 
     Args:
@@ -92,28 +92,28 @@ def cell_bound(
     """
     poses = poses_of(scene, cell)
     if poses.differs == inf:
-        return NEVER, inf
+        return NEVER, inf, inf
     onward = onward_bound(scene, goal, cell, poses, beat - cell.start, on)
     if onward == inf:
-        return NEVER, inf
+        return NEVER, inf, inf
     earliest, end = cell.start - EDGE, min(beat - onward, cell.end + EDGE)
     at, target = seen_from_start(start, poses)
-    # read backward, left is right
-    blur = Blur(poses.right, poses.left, poses.differs, 0.0)
+    blur = blur_backward(start, poses)
     inside = with_limit(scene, scene.d_min - INSIDE)
     sieve, window = Sieve(True, start, 0.0, inside, 1.0, 0.0, 0.0), Window(earliest, end)
     if closely:
         junction = junction_of(scene, cell, 1.0, switch)
-        found = soonest_by_turn(at, blur, target, window, sieve, junction, to)
+        found = soonest_by_turn(at, blur, target, window, sieve, junction, to, True)
         if not found.any:
-            return NEVER, onward
+            return NEVER, onward, inf
         looped = looped_bound(start, scene, cell, end)
-        return _passed(found, junction, looped, cell.start), onward
+        latest = found.latest if looped == inf else inf
+        return _passed(found, junction, looped, cell.start), onward, latest
     soon, any_word = soonest_kept(at, blur, target, window, sieve, to)
     if not any_word:
-        return NEVER, onward
+        return NEVER, onward, inf
     soon = max(min(soon, looped_bound(start, scene, cell, min(end, soon))), cell.start)
-    return Passed(soon, soon, soon, soon, soon), onward
+    return Passed(soon, soon, soon, soon, soon), onward, inf
 
 
 @njit(cache=True, nogil=True)
@@ -156,7 +156,7 @@ def looped_bound(start: Pose, scene: Scene, cell: Cell, end: float) -> float:
     poses = poses_of(scene, cell)
     later = Poses(
         poses.t - TWO_PI, poses.span, poses.middle, poses.vx, poses.vy, poses.differs, poses.left,
-        poses.right,
+        poses.right, poses.ways,
     )  # fmt: skip
     # a second loop takes 4π in all
     earliest = 0.0 if cell.end >= 2.0 * TWO_PI else cell.start - TWO_PI - EDGE
@@ -182,7 +182,7 @@ def leaving_bound(
     later = seen_from(Goal(goal.x + TWO_PI * goal.speed, goal.speed, False), poses)
     if closely:
         junction = junction_of(scene, cell, -1.0, True)
-        found = soonest_by_turn(seen, blur, target, window, sieve, junction, on)
+        found = soonest_by_turn(seen, blur, target, window, sieve, junction, on, False)
         window = Window(0.0, beat - TWO_PI)
         looped = TWO_PI + soonest(later, blur, target, window, no_sieve(scene))
         return _passed(found, junction, looped, 0.0)

@@ -16,7 +16,7 @@ from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.after_spare import Onward, after_spare
 from relguide.kernels.bounds.around import Around, is_last
 from relguide.kernels.bounds.as_long import can_be_at
-from relguide.kernels.bounds.cells import Cell
+from relguide.kernels.bounds.cells import EDGE, Cell
 from relguide.kernels.bounds.contact_bound import (
     NEVER,
     Passed,
@@ -175,7 +175,7 @@ def reach(tree: Tree, problem: Problem, n: int) -> tuple[float, float]:
     known = tree.known[n]
     if isnan(known[_SOON]):
         cell = cell_at(tree, n)
-        soon, onward, passed = inf, inf, NEVER
+        soon, onward, latest, passed = inf, inf, inf, NEVER
         if can_touch(problem.scene, cell):
             start, scene, goal = problem.start, problem.scene, problem.goal
             closely = size_of(tree, n, scene.d_min) < _BY_TURN
@@ -185,7 +185,7 @@ def reach(tree: Tree, problem: Problem, n: int) -> tuple[float, float]:
             else:
                 to, on = _rest_of(tree, n, _TO, 0), _rest_of(tree, n, _ON, 1)
                 switch = not closely or may_be_tangent(problem.tangents, cell)
-                passed, onward = cell_bound(
+                passed, onward, latest = cell_bound(
                     start, scene, goal, cell, problem.beat, closely, switch, to, on
                 )
                 passed = until_again(scene, cell, 1.0, passed)
@@ -195,7 +195,7 @@ def reach(tree: Tree, problem: Problem, n: int) -> tuple[float, float]:
         known[_SOON], known[_ONWARD] = soon, onward
         if soon < inf and cell.end < inf:
             tree.cells[n, 4] = soon
-            tree.cells[n, 5] = min(cell.end, max(problem.beat - onward, soon))
+            tree.cells[n, 5] = min(cell.end, max(min(problem.beat - onward, latest + EDGE), soon))
         if tree.spare[n] and soon < inf:
             lasts = 0.0
             if soon + onward < problem.beat:

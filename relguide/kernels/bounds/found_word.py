@@ -14,15 +14,17 @@ from relguide.kernels.base.angles import TWO_PI
 from relguide.kernels.base.records import Pose
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.breach import Flown, NearWord, Sieve, breach_time
+from relguide.kernels.bounds.first_order import FIRST_ROW, ROWS
 from relguide.kernels.bounds.rest import Rest
 from relguide.kernels.bounds.word_intervals import Interval, Side
 
 TANGENT, LASTING = 2, 3
 """Columns of the first row of `Asked.work`, after both turns at the set …"""
 _BEAT, _BREACH = 4, 5  # … how late a word may be, where the last one left out broke the limit …
-FOUND = 6
-"""… and the time of any word that was found, also of those that were left out."""
-_DEPTH, _COLUMNS = 64, 8  # more rows than halvings of a whole turn to the shortest interval
+FOUND, LATEST = 6, 7
+"""… the time of any word that was found, also of those that were left out; and how late one may
+be."""
+_COLUMNS = 8
 IMPOSSIBLE, CERTAINLY_OUT, POSSIBLE = 0, 1, 2
 """What words in an interval are."""
 _STRIDE = 0.02  # least step of the look for a breach [R/V_P]
@@ -59,6 +61,8 @@ class ByTurn(NamedTuple):
     """In an outward turn, and how long that was there before the set, too [R/V_P]."""
     any: bool
     """Whether it is met by words at all, also by those left out."""
+    latest: float
+    """No word meets it later, if that was asked for [R/V_P]."""
 
 
 class Asked(NamedTuple):
@@ -77,9 +81,12 @@ class Asked(NamedTuple):
     work: FloatArray
     """Its first row is lowered: the fields of `ByTurn`, and how late a word may be; or one of any
     word. Then how far along the last word that was left out broke the limit, and when any was
-    found. The other rows are a stack of intervals. shape (_DEPTH, _COLUMNS)"""
+    found. The other rows are a stack of intervals, more than halvings of a whole turn to the
+    shortest one; and the last of them those of `first_order`. shape (FIRST_ROW + ROWS, _COLUMNS)"""
     rest: Rest
     """What a set that holds this one has left, and takes what is left now."""
+    late: bool
+    """Whether it matters how late words are."""
 
 
 NO_JUNCTION = Junction(False, 0, 0.0, False, False, True)
@@ -89,10 +96,11 @@ NO_JUNCTION = Junction(False, 0, 0.0, False, False, True)
 @njit(cache=True, nogil=True, inline="always")
 def nothing_known(beat: float) -> FloatArray:
     """Nothing but `beat` is known: see `Asked.work`."""
-    work = np.empty((_DEPTH, _COLUMNS))
+    work = np.empty((FIRST_ROW + ROWS, _COLUMNS))
     for k in range(FOUND + 1):
         work[0, k] = beat
     work[0, LASTING] = work[0, _BREACH] = work[0, FOUND] = inf
+    work[0, LATEST] = -inf
     return work
 
 
@@ -100,6 +108,8 @@ def nothing_known(beat: float) -> FloatArray:
 def beat_of(side: Side, asked: Asked) -> float:
     """Words of this side that are later do not lower anything."""
     junction, work = asked.junction, asked.work
+    if asked.late:
+        return asked.beat
     if not junction.asked:
         return float(work[0, 0]) if work[0, 0] > asked.enough else 0.0
     beat = max(work[0, side.hand], work[0, TANGENT] if junction.straight else 0.0)
@@ -148,6 +158,8 @@ def take(
 ) -> int:  # fmt: skip
     """As `take_all`, for one first turn; the turn at the set may differ by `spare`."""
     junction, work, time = asked.junction, asked.work, found.time
+    if time >= asked.beat or found.latest < asked.earliest:
+        return IMPOSSIBLE
     work[0, FOUND] = time
     hand = side.hand if junction.asked else 0
     sooner, tangent, lasts = time < work[0, hand], False, inf
@@ -158,7 +170,10 @@ def take(
             lasts = time + _lasted(found, signs, first, spare, junction)
             if lasts >= work[0, LASTING]:
                 lasts = inf
-    if not (sooner or tangent or lasts < inf):
+    later = asked.late and found.latest > work[0, LATEST]
+    if later and side.hand != junction.outward and not junction.inward:
+        later = junction.straight and _costate_vanishes(found, signs, first, spare, side, junction)
+    if not (sooner or tangent or lasts < inf or later):
         return POSSIBLE
     if _is_ruled_out(found, signs, first, side, asked):
         return CERTAINLY_OUT
@@ -168,6 +183,8 @@ def take(
         work[0, TANGENT] = time
     if lasts < inf:
         work[0, LASTING] = lasts
+    if later:
+        work[0, LATEST] = found.latest
     return POSSIBLE
 
 

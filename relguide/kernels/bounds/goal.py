@@ -12,6 +12,7 @@ from numba import njit
 from relguide.kernels.base.records import Pose, Scene, Velocity, Window
 from relguide.kernels.bounds.breach import no_sieve
 from relguide.kernels.bounds.cells import EDGE
+from relguide.kernels.bounds.ways import fixed
 from relguide.kernels.bounds.word_bound import soonest
 from relguide.kernels.bounds.word_intervals import Blur
 
@@ -62,7 +63,7 @@ def arrives_at_release(x: float, y: float, h: float, alpha: float, t_release: fl
     track = track_of(Goal(0.0, alpha, True), t_release)
     nobody = Scene(np.zeros((1, 5)), 0.0, 0.0, 0.0, inf)
     meets = soonest(
-        Pose(x - track.x, y, h), Blur(0.0, 0.0, 0.0, 0.0), Velocity(1.0, 0.0),
+        Pose(x - track.x, y, h), Blur(0.0, 0.0, 0.0, 0.0, fixed(), fixed()), Velocity(1.0, 0.0),
         Window(0.0, t_release + EDGE), no_sieve(nobody),
     )  # fmt: skip
     return bool(meets < inf)

@@ -17,12 +17,12 @@ from numba import njit
 from relguide.kernels.base.angles import TWO_PI
 from relguide.kernels.base.records import Pose, Scene, Velocity, Window
 from relguide.kernels.base.sine import sine_and_cosine
+from relguide.kernels.bounds.between import blur_between
 from relguide.kernels.bounds.breach import no_sieve
 from relguide.kernels.bounds.cells import Cell, Poses, poses_of
 from relguide.kernels.bounds.junction import junction_of
 from relguide.kernels.bounds.rest import no_rest
 from relguide.kernels.bounds.word_bound import soonest, soonest_by_turn
-from relguide.kernels.bounds.word_intervals import Blur
 from relguide.kernels.contact.contact import to_frame_of
 
 
@@ -74,12 +74,11 @@ def hop_toward(scene: Scene, cell: Cell, end: Poses, window: Window) -> float:
     if begin.differs == inf or end.differs == inf:
         return inf
     junction = junction_of(scene, cell, -1.0, True)
-    moved, differs = max(end.left, end.right), begin.differs + end.differs
     s, c = sine_and_cosine(end.middle.h)
     found = soonest_by_turn(
-        to_frame_of(begin.middle, end.middle),
-        Blur(begin.left + moved, begin.right + moved, differs, end.differs),
+        to_frame_of(begin.middle, end.middle), blur_between(begin, end),
         Velocity(scene.alpha * c, -scene.alpha * s), window, no_sieve(scene), junction, no_rest(),
+        False,
     )  # fmt: skip
     outward, inward = found.left, found.right
     if junction.outward == 1:
@@ -104,13 +103,11 @@ def hops_within(scene: Scene, cell: Cell, other: Cell, window: Window) -> bool:
         return False
     # without one of its loops the path meets the contact earlier, where that is a loop later
     begin, end = poses_of(scene, cell), poses_of(scene, other)
-    moved, differs = max(end.left, end.right), begin.differs + end.differs
     s, c = sine_and_cosine(end.middle.h)
     met = Pose(end.middle.x + TWO_PI * scene.alpha, end.middle.y, end.middle.h)
     left = window.beat - TWO_PI
     looped = soonest(
-        to_frame_of(begin.middle, met),
-        Blur(begin.left + moved, begin.right + moved, differs, end.differs),
+        to_frame_of(begin.middle, met), blur_between(begin, end),
         Velocity(scene.alpha * c, -scene.alpha * s), Window(0.0, left), no_sieve(scene),
     )  # fmt: skip
     return bool(looped < left)

@@ -23,6 +23,7 @@ from relguide.kernels.base.sine import sine_and_cosine
 from relguide.kernels.bounds.between import word_toward
 from relguide.kernels.bounds.cells import Cell, Poses, poses_of
 from relguide.kernels.bounds.hop import standing
+from relguide.kernels.bounds.ways import no_ways
 from relguide.kernels.separation.clearance import leader_at
 
 _HEADINGS = 8  # cells a whole turn is cut into at first
@@ -66,7 +67,7 @@ def passes_late(
         if pace + half < 0.0:
             continue
         middle = Pose(there.x + rho * c, there.y + rho * s, heading)
-        at = Poses(0.0, 0.0, middle, scene.alpha, 0.0, half, wide + half, wide + half)
+        at = Poses(0.0, 0.0, middle, scene.alpha, 0.0, half, wide + half, wide + half, no_ways())
         took = word_toward(scene, begin, at, beat, 0.0)
         if took >= beat or took + word_toward(scene, at, end, beat - took, 0.0) >= beat:
             continue

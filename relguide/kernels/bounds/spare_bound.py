@@ -17,6 +17,7 @@ from relguide.kernels.bounds.cell_words import onward_bound, word_to
 from relguide.kernels.bounds.cells import EDGE, Cell, Poses, poses_of
 from relguide.kernels.bounds.goal import Goal
 from relguide.kernels.bounds.rest import Rest
+from relguide.kernels.bounds.ways import drifting
 
 _MOMENT = 0.02  # a window of time no wider than twice this is not narrowed further [R/V_P]
 
@@ -46,9 +47,10 @@ def spare_bound(
         return inf, onward
     if poses.span < _MOMENT:
         return cell.start, onward
-    strays = poses.span * norm(poses.vx, poses.vy)
+    x, y = poses.span * poses.vx, poses.span * poses.vy
+    strays, ways = norm(x, y), drifting(poses.ways, x, y)
     there = Poses(
         poses.t, 0.0, poses.middle, 0.0, 0.0, poses.differs, poses.left + strays,
-        poses.right + strays,
+        poses.right + strays, ways,
     )  # fmt: skip
     return max(word_to(start, scene, there, Window(0.0, end)), cell.start), onward

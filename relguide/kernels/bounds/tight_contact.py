@@ -42,6 +42,7 @@ from relguide.kernels.bounds.cells import Cell, Poses, poses_of
 from relguide.kernels.bounds.hop import hop_bound, hop_toward, standing, turned_round
 from relguide.kernels.bounds.junction import apart_by, slide_turns
 from relguide.kernels.bounds.round_time import round_bound, round_most
+from relguide.kernels.bounds.ways import no_ways
 
 _TURNED = 0.1  # more is not turned from the first contact of a cell to its last one [rad]
 LONGEST = TWO_PI - _TURNED
@@ -165,8 +166,9 @@ def _turned_on(scene: Scene, cell: Cell, most: float) -> Poses:
     last = poses_of(scene, standing(cell.piece, 1.0, cell.bearing + cell.half, 0.0))
     apart = 2.0 * scene.d_min * cell.half * (most - 1.0)
     return Poses(
-        last.t, last.span, last.middle, last.vx, last.vy, 0.0, last.left + apart, last.right + apart
-    )
+        last.t, last.span, last.middle, last.vx, last.vy, 0.0, last.left + apart,
+        last.right + apart, no_ways(),
+    )  # fmt: skip
 
 
 @njit(cache=True, nogil=True)

@@ -20,11 +20,18 @@ from relguide.kernels.base.borrowed import borrowed
 from relguide.kernels.base.records import Pose, Velocity, Window
 from relguide.kernels.base.sine import sine_and_cosine
 from relguide.kernels.bounds.breach import ROUNDING, Sieve
+from relguide.kernels.bounds.first_order import (
+    opposite_turns_closely,
+    put_ways,
+    same_turns_closely,
+    three_turns_closely,
+)
 from relguide.kernels.bounds.found_word import (
     CERTAINLY_OUT,
     FOUND,
     IMPOSSIBLE,
     LASTING,
+    LATEST,
     NO_JUNCTION,
     POSSIBLE,
     TANGENT,
@@ -96,7 +103,7 @@ def _of_any(
 ) -> tuple[float, bool]:  # fmt: skip
     work = nothing_known(window.beat)
     lent = borrowed(work)
-    asked = Asked(window.earliest, window.beat, enough, sieve, NO_JUNCTION, lent, rest)
+    asked = Asked(window.earliest, window.beat, enough, sieve, NO_JUNCTION, lent, rest, False)
     _bound_all(pose, blur, target, asked)
     return float(work[0, 0]) if work[0, 0] < window.beat else inf, bool(work[0, FOUND] < inf)
 
@@ -104,7 +111,7 @@ def _of_any(
 @njit(cache=True, nogil=True)
 def soonest_by_turn(
     pose: Pose, blur: Blur, target: Velocity, window: Window, sieve: Sieve, junction: Junction,
-    rest: Rest,
+    rest: Rest, late: bool,
 ) -> ByTurn:  # fmt: skip
     """The same by what words do at the set.
 
@@ -117,16 +124,18 @@ def soonest_by_turn(
         sieve: words left out.
         junction: what is asked.
         rest: what was left by a set that holds this one; takes what is left now.
+        late: whether it matters how late words are.
     """
     work = nothing_known(window.beat)
     lent = borrowed(work)
-    asked = Asked(window.earliest, window.beat, 0.0, sieve, junction, lent, rest)
+    asked = Asked(window.earliest, window.beat, 0.0, sieve, junction, lent, rest, late)
     _bound_all(pose, blur, target, asked)
     for k in range(LASTING):
         if work[0, k] >= window.beat:
             work[0, k] = inf
     any_word = bool(work[0, FOUND] < inf)
-    return ByTurn(work[0, 0], work[0, 1], work[0, TANGENT], work[0, LASTING], any_word)
+    latest = float(work[0, LATEST])
+    return ByTurn(work[0, 0], work[0, 1], work[0, TANGENT], work[0, LASTING], any_word, latest)
 
 
 @njit(cache=True, nogil=True)
@@ -139,6 +148,7 @@ def _bound_all(pose: Pose, blur: Blur, target: Velocity, asked: Asked) -> None:
         return
     for hand in range(2):
         side = side_of(pose, blur, target, hand)
+        put_ways(blur, side, asked.work)
         if asked.rest.known >= 0:
             _bound_rest(side, asked)
             continue
@@ -186,7 +196,7 @@ def _bound_rest(side: Side, asked: Asked) -> None:
 def _bound_same_side(turns: int, side: Side, asked: Asked) -> None:
     """As `_bound_all`, for LSL, see `same_turns`."""
     left = Window(asked.earliest, beat_of(side, asked))
-    found = same_turns(turns, side, left)
+    found = same_turns_closely(same_turns(turns, side, left), side, asked.work)
     fate = IMPOSSIBLE
     if found.time < inf:
         fate = take_all(found, (-1.0, 0.0, -1.0), 3, 0.0, side, asked)
@@ -257,10 +267,12 @@ def _bound_within(
                 stack[n, 2], stack[n, 3] = s * cosine + c * sine, c * cosine - s * sine
                 n += 1
         elif three_turns:
+            found = three_turns_closely(found, half, s, c, side, asked.work)
             fate = take_all(found, (-1.0, 1.0, -1.0), 2, half, side, asked)
             _keep(fate, kind, mid, half, around, side, asked)
         else:
             spare = half + side.heading
+            found = opposite_turns_closely(found, half, s, c, side, asked.work)
             fate = take(found, (1.0, 0.0, -1.0), found.first, spare, side, asked)
             fate = _also_later(fate, found, left, kind, mid, half, around, side, asked)
             _keep(fate, kind, mid, half, around, side, asked)

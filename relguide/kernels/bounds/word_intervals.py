@@ -32,6 +32,7 @@ from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Pose, Velocity, Window
 from relguide.kernels.base.sine import sine_and_cosine
 from relguide.kernels.bounds.breach import ROUNDING
+from relguide.kernels.bounds.ways import Ways
 
 MOST_TURNS = 4
 """Of `same_turns`."""
@@ -54,6 +55,10 @@ class Blur(NamedTuple):
     """[rad]."""
     end: float
     """How much of that is because the heading on which the target is met may differ [rad]."""
+    ways: Ways
+    """How the poses differ from their middle, to first order …"""
+    met: Ways
+    """… and how the target does, as it is met."""
 
 
 class Side(NamedTuple):

@@ -121,7 +121,9 @@ def test_no_contact_of_a_cell_is_reached_or_left_sooner(
     start, scene = Pose(x, y, h), straight(alpha, d_min, d_min + behind)
     assume(hypot(x - d_min - behind, y) > d_min)
     goal = Goal(0.0, alpha, False)
-    passed, onward = cell_bound(start, scene, goal, cell, FAR, closely, True, no_rest(), no_rest())
+    passed, onward, _ = cell_bound(
+        start, scene, goal, cell, FAR, closely, True, no_rest(), no_rest()
+    )
     soon = anyhow(passed)
     leaving = anyhow(leaving_bound(scene, goal, cell, FAR, closely, no_rest()))
     b = cell.bearing + share * cell.half
@@ -299,7 +301,7 @@ def test_no_contact_with_a_leader_that_turns_is_reached_or_left_sooner(seed: int
         start = flown_backward(contact, row)
         goal = Goal(rng.uniform(-6.0, 6.0), rng.choice((scene.alpha, 0.0, 1.0)), False)
         closely = bool(rng.integers(2))
-        passed, onward = cell_bound(
+        passed, onward, _ = cell_bound(
             start, scene, goal, cell, FAR, closely, True, no_rest(), no_rest()
         )
         soon = anyhow(passed)
@@ -358,7 +360,7 @@ def test_who_turns_away_at_a_contact_is_told_from_who_turns_toward_the_leader() 
         start = flown_backward(contact, word)
         goal = Goal(rng.uniform(-6.0, 6.0), scene.alpha, False)
         if turned < 2.0 * pi and keeps(start, word, scene):
-            passed, onward = cell_bound(
+            passed, onward, _ = cell_bound(
                 start, scene, goal, cell, FAR, True, True, no_rest(), no_rest()
             )
             if onward < inf and away:
@@ -403,7 +405,7 @@ def test_who_goes_straight_past_a_contact_is_told_too() -> None:
         start = flown_backward(contact, word)
         goal = Goal(rng.uniform(-6.0, 6.0), scene.alpha, False)
         if keeps(start, word, scene):
-            passed, onward = cell_bound(
+            passed, onward, _ = cell_bound(
                 start, scene, goal, cell, FAR, True, True, no_rest(), no_rest()
             )
             if onward < inf:

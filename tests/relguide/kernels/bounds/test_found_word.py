@@ -17,7 +17,7 @@ def test_of_three_turns_that_are_not_two_the_middle_one_is_the_longest() -> None
     start, scene, goal = question.start, question.scene, question.goal
     cell = Cell(1, 1.0, 0.51197, 3.8e-4, 0.96904, 0.97181)
     for switch, least, most in ((True, 0.0, 0.01), (False, 1.5, 1.7)):
-        passed, _ = cell_bound(
+        passed, _, _ = cell_bound(
             start, scene, goal, cell, 10.0, True, switch, no_rest(), no_rest()
         )  # fmt: skip
         assert least <= passed.turned - passed.outward <= most

@@ -9,6 +9,7 @@ import pytest
 from relguide import Plan, plan
 from relguide.kernels.base.records import Pose, Velocity, Window
 from relguide.kernels.bounds.rest import COLUMNS, MOST, UNKNOWN, Rest
+from relguide.kernels.bounds.ways import no_ways
 from relguide.kernels.bounds.word_bound import soonest_kept
 from relguide.kernels.bounds.word_intervals import Blur
 from relguide.kernels.words.extremals import MAX_ROWS, solve_toward
@@ -31,8 +32,8 @@ def test_no_pose_in_part_of_part_of_a_set_meets_the_target_sooner(seed: int) -> 
         for level in range(9):
             room = (level % 2) * (MOST + 1)
             soon, _ = soonest_kept(
-                Pose(*at, h), Blur(blur, blur, blur, 0.0), Velocity(speed, 0.0), Window(0.0, beat),
-                NO_SIEVE, Rest(table, known, room),
+                Pose(*at, h), Blur(blur, blur, blur, 0.0, no_ways(), no_ways()),
+                Velocity(speed, 0.0), Window(0.0, beat), NO_SIEVE, Rest(table, known, room),
             )  # fmt: skip
             known = room if 0.0 <= table[room, 0] <= MOST else UNKNOWN
             # a part of it, well inside

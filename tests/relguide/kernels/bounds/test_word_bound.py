@@ -10,6 +10,7 @@ from relguide.kernels.base.records import Pose, Scene, Velocity, Window
 from relguide.kernels.bounds.breach import Flown, NearWord, Sieve, breach_time, breaks_limit
 from relguide.kernels.bounds.found_word import Junction
 from relguide.kernels.bounds.rest import no_rest
+from relguide.kernels.bounds.ways import fixed, no_ways
 from relguide.kernels.bounds.word_bound import soonest, soonest_by_turn
 from relguide.kernels.bounds.word_intervals import Blur, intercept_span
 from relguide.kernels.separation.clearance import leader_at
@@ -35,7 +36,11 @@ def bound(
     not_before: float = 0.0, beat: float = inf,
 ) -> float:  # fmt: skip
     return soonest(
-        Pose(*pose), Blur(blur, blur, turn, 0.0), Velocity(*a), Window(not_before, beat), NO_SIEVE
+        Pose(*pose),
+        Blur(blur, blur, turn, 0.0, no_ways(), no_ways()),
+        Velocity(*a),
+        Window(not_before, beat),
+        NO_SIEVE,
     )
 
 
@@ -138,8 +143,9 @@ def test_words_leave_a_pose_as_the_junction_asks() -> None:
         rows, outward, beyond = exact(x, y, h, a, 0.0), int(rng.integers(2)), rng.uniform(0.0, 6.0)
         inward = bool(rng.integers(2))
         leaving = soonest_by_turn(
-            Pose(x, y, h), Blur(0.0, 0.0, 0.0, 0.0), Velocity(*a), Window(0.0, inf), NO_SIEVE,
-            Junction(True, outward, beyond, True, inward, True), no_rest(),
+            Pose(x, y, h), Blur(0.0, 0.0, 0.0, 0.0, fixed(), fixed()), Velocity(*a),
+            Window(0.0, inf), NO_SIEVE,
+            Junction(True, outward, beyond, True, inward, True), no_rest(), False,
         )  # fmt: skip
         for row in rows:
             word, (first, middle, last) = WORDS[int(row[1])], row[2:]
