@@ -33,8 +33,7 @@ from relguide.kernels.bounds.untouched import untouched_bound
 
 _QUADRANT_CELLS = 2
 """Cells a quadrant is cut into at first; none may reach into two."""
-_LOOKS_AT_TRACK = {12: 0.02, 13: 5e-3, 24: 2e-3}
-_LOOKS_AT_SLOT = {2: 0.02, 12: 5e-3, 24: 2e-3}
+_LOOKS = {24: 0.02, 36: 5e-3}
 """Before which rounds it is looked around a leader that turns, and how closely [rad]. Elsewhere
 than at d_min > R words say more: see `kernels/bounds/narrowing.py`."""
 _ROUND = 5e-3
@@ -132,7 +131,7 @@ class Question:
     def _looks(self) -> dict[int, float]:
         if len(self.scene.leader) == 1 or self.scene.d_min <= 1.0:
             return {}
-        return _LOOKS_AT_SLOT if self.goal.speed == self.scene.alpha else _LOOKS_AT_TRACK
+        return _LOOKS
 
     def _windows(self) -> Iterator[tuple[float, float]]:
         """When the leader's pieces begin and end."""
