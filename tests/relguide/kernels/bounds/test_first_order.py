@@ -68,9 +68,7 @@ def words(begin: Pose, end: Pose) -> np.ndarray:
 
 def found(seen: Pose, blur: Blur, target: Velocity, window: Window) -> ByTurn:
     nobody = Scene(np.zeros((1, 5)), 0.5, 0.0, 0.0)
-    return soonest_by_turn(
-        seen, blur, target, window, no_sieve(nobody), ANYHOW, no_rest(), True
-    )  # fmt: skip
+    return soonest_by_turn(seen, blur, target, window, no_sieve(nobody), ANYHOW, no_rest(), True)
 
 
 def without_ways(blur: Blur) -> Blur:
@@ -147,10 +145,8 @@ def test_no_word_leads_from_cell_to_cell_sooner_or_later_than_is_said(seed: int)
         poses = poses_of(scene, cell)
         poses = poses._replace(t=poses.t + ended - row[0] - begun)
         there = moved_with(poses_of(other, to), poses, True)
-        (s, c), seen = (
-            (sin(there.middle.h), cos(there.middle.h)),
-            to_frame_of(poses.middle, there.middle),
-        )
+        s, c = sin(there.middle.h), cos(there.middle.h)
+        seen = to_frame_of(poses.middle, there.middle)
         target = Velocity(there.vx * c + there.vy * s, there.vy * c - there.vx * s)
         blur, window = blur_between(poses, there), Window(0.0, row[0] + 20.0 * size)
         close = found(seen, blur, target, window)

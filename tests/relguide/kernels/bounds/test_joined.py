@@ -107,7 +107,7 @@ def test_no_plan_with_one_contact_is_sooner_than_what_is_said_of_that() -> None:
 def test_a_part_of_a_cell_begins_with_what_is_left_of_the_cell() -> None:
     """No plan is sooner than what is said then."""
     parts = 0
-    for touch in touches(33, 60):
+    for touch in touches(33, 80):
         problem, cell = later_than(touch), touch.cell
         wide, leader, d_min = 0.125 * pi, problem.scene.leader, problem.scene.d_min
         middle = (floor(cell.bearing / (2.0 * wide)) + 0.5) * 2.0 * wide
@@ -119,4 +119,4 @@ def test_a_part_of_a_cell_begins_with_what_is_left_of_the_cell() -> None:
             assert soon + max(onward, leave(tree, problem, n)) <= touch.time + 1e-3
             parts += 1
             n = toward(tree, n, touch)
-    assert parts > 150
+    assert parts > 200
