@@ -107,8 +107,7 @@ def moved_with(end: Poses, begin: Poses, drifts: bool) -> Poses:
         begin: the others.
         drifts: whether these move otherwise.
     """
-    x, y = begin.span * (begin.vx - end.vx), begin.span * (begin.vy - end.vy)
-    strays = norm(x, y) if drifts else 0.0
+    strays = begin.span * norm(begin.vx - end.vx, begin.vy - end.vy) if drifts else 0.0
     early = begin.t - end.t
     met = Pose(end.middle.x + early * end.vx, end.middle.y + early * end.vy, end.middle.h)
     return Poses(
