@@ -47,8 +47,8 @@ _TO, _ON, _AWAY = 0, 1, 2  # words to a first contact, on from it, and on from a
 _RESTS = 5  # rows kept, for each cell: if there is no more room, those of larger cells serve
 _SOON, _ONWARD, _LEAVING, _ROUND_FROM, _ROUND_TO = 0, 1, 2, 3, 5  # columns of what is known
 _REACHED, _LEFT, _LEFT_END, _TIGHT_TO, _TIGHT_FROM, _COLUMNS = 7, 12, 17, 17, 19, 21
-JOINED = 10
-"""Columns of `Tree.joined`: those of `joined`, then of `spare_onward`, then of `last_contacts`."""
+JOINED = 11
+"""Columns of `Tree.joined`: those of `joined`, of `spare_onward` and of `last_contacts`."""
 _TO_GOAL, _TO_NEXT, _AGAIN = 5, 6, 7
 
 

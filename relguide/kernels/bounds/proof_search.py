@@ -13,8 +13,9 @@ from numba import njit
 from relguide.kernels.base.borrowed import borrowed
 from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.bounds.around import is_last
+from relguide.kernels.bounds.asking import goes_on, only_touches
 from relguide.kernels.bounds.bundles import (
+    ASKS,
     DEPTH,
     MAX_BUNDLES,
     TOGETHER,
@@ -94,9 +95,9 @@ def begin(problem: Problem, first: FloatArray, exact: int, last: FloatArray) -> 
     """
     search = Search(
         plant(first, MAX_BUNDLES), plant(last, MAX_BUNDLES), np.arange(len(last)),
-        np.empty(MAX_BUNDLES), np.empty((MAX_BUNDLES, 4), np.int64), np.zeros(4, np.int64),
+        np.empty(MAX_BUNDLES), np.empty((MAX_BUNDLES, 4), np.int64), np.zeros(5, np.int64),
         np.zeros(REASONS, np.int64), begin_fronts(), np.full(TOGETHER, -1), np.empty(TOGETHER),
-        begin_lasts(len(last)),
+        begin_lasts(len(last)), np.zeros((2, ASKS, 3), np.int64),
     )  # fmt: skip
     search.first.spare[exact : len(first)] = True
     for n in range(len(first)):
@@ -141,12 +142,15 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
         if m == _NO_LAST and len(lasts_of(search, n)) == 0:
             _add(search, problem, n, _ONLY, bound, 0)
             continue
+        if m == _NO_LAST and only_touches(search, problem, n):
+            _add(search, problem, n, _ONLY, bound, 0)
+            continue
         if m == _NO_LAST:
             # elsewhere than on the final leg the cells of last contacts are very many
             if (
                 search.first.cells[n, 0] == final
                 or size_of(search.first, n, problem.scene.d_min) < problem.paired
-            ) and _goes_on(search, problem, n):
+            ) and goes_on(search, problem, n):
                 _add(search, problem, n, _ONLY, bound, 0)
                 if search.size[3] == 0:
                     _look_at_lasts(search, problem, until)
@@ -215,13 +219,6 @@ def _look_at_lasts(search: Search, problem: Problem, until: float) -> None:
 
 
 @njit(cache=True, nogil=True)
-def _goes_on(search: Search, problem: Problem, n: int) -> bool:
-    """Whether who touches in a cell first may have to touch again."""
-    leaves = leave(search.first, problem, n) > reach(search.first, problem, n)[1] + _SMALLEST
-    return leaves and not is_last(problem.around, problem.scene, cell_at(search.first, n))
-
-
-@njit(cache=True, nogil=True)
 def _probe(search: Search, problem: Problem, find: Find, n: int, m: int) -> None:
     """Look for a path in a bundle that has become small."""
     half = max(search.first.cells[n, 3], search.last.cells[m, 3] if m >= 0 else 0.0)
@@ -279,10 +276,10 @@ def _halve(
     if half < 0:
         return False
     for child in (half, half + 1):
-        if m >= 0:
-            _add_pairs(search, problem, find, child, m, bound, asked, until)
-        else:
+        if m < 0:
             _add(search, problem, child, m, bound, asked)
+        elif not only_touches(search, problem, child):
+            _add_pairs(search, problem, find, child, m, bound, asked, until)
     return True
 
 
