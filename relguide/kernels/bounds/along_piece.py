@@ -207,8 +207,8 @@ def _may_touch_in(
     if goes_on_late:
         return False
     queue[0, 0] = float(n)
-    row, outward = queue[n], 0 if cell.side > 0.0 else 1
-    row[0], row[1] = 1 - outward if inward else outward, 0.0 if piece.known == STRAIGHT else 1.0
+    row = queue[n]
+    row[0], row[1] = 1.0 if inward else 0.0, 0.0 if piece.known == STRAIGHT else 1.0
     row[2], row[3], row[4], row[5] = zone.begin, zone.end, piece.least, piece.most
     row[6], row[7], row[8] = cell.piece, cell.side, cell.bearing
     row[9], row[10], row[11] = cell.half, cell.start, cell.end

@@ -80,13 +80,16 @@ def touches_again(
         return True, 0
     at, target = seen_from_start(start, poses)
     sieve = Sieve(True, start, 0.0, with_limit(scene, scene.d_min - INSIDE), 1.0, 0.0, 0.0)
+    junction = junction_of(scene, cell, 1.0, False)
     words = words_by_turn(
         at, blur_backward(start, poses), target, Window(cell.start - EDGE, cell.end + EDGE), sieve,
-        junction_of(scene, cell, 1.0, False), rest,
+        junction, rest,
     )  # fmt: skip
     count = int(words[0, 0])
     if count > MOST_WORDS:
         return True, 0
+    for k in range(1, count + 1):
+        words[k, 0] = 0.0 if words[k, 0] == junction.outward else 1.0
     queue = np.empty((QUEUE + 1, ROW))
     together = _joined(words)
     may = _any_goes_on(scene, goal, cell, beat, apart, together, queue)
@@ -178,7 +181,8 @@ def _queued_go_on(scene: Scene, goal: Goal, beat: float, queue: FloatArray) -> b
 
 @njit(cache=True, nogil=True)
 def _arrived(row: FloatArray) -> Arrived:
-    return Arrived(int(row[0]), row[1] != 0.0, max(row[2], 0.0), row[3], row[4], row[5])
+    """How a contact is come to, by its row in the queue; words have the same columns."""
+    return Arrived(row[0] != 0.0, row[1] != 0.0, max(row[2], 0.0), row[3], row[4], row[5])
 
 
 @njit(cache=True, nogil=True)
@@ -213,11 +217,10 @@ def _goes_on(course: Course, arrived: Arrived, apart: float, queue: FloatArray) 
     poses = poses_of(course.scene, cell)
     if poses.ways.bends == inf:
         return True
-    inward = arrived.hand != (0 if cell.side > 0.0 else 1)
-    sense = cell.side if inward else -cell.side
+    inward, sense = arrived.inward, cell.side if arrived.inward else -cell.side
     one, other = _eta(course.scene, cell, -1.0), _eta(course.scene, cell, 1.0)
     eta, eta_off = 0.5 * (one + other), 0.5 * abs(one - other)
-    pencil = pencil_of(arrived, eta if inward else -eta, eta_off)
+    pencil = pencil_of(arrived, eta, eta_off)
     # the turn would have gone on for so long without the contact, and does if nothing else counts
     low, high = TWO_PI - arrived.high, TWO_PI - arrived.low
     if arrived.three:

@@ -31,8 +31,8 @@ _ROUNDING, _TINY = 1e-9, 1e-300
 class Arrived(NamedTuple):
     """How paths come to a contact, in a turn."""
 
-    hand: int
-    """The turn, 0 left, 1 right."""
+    inward: bool
+    """Whether that is toward the leader."""
     three: bool
     """Whether another turn comes before it, or a straight."""
     low: float
@@ -67,7 +67,14 @@ class Pencil(NamedTuple):
 
 @njit(cache=True, nogil=True)
 def pencil_of(arrived: Arrived, eta: float, eta_off: float) -> Pencil:
-    """The lines after a contact."""
+    """The lines after a contact.
+
+    Args:
+        arrived: how it is come to.
+        eta: how far the leader is to one side of the heading there [rad].
+        eta_off: how much that may differ [rad].
+    """
+    eta = eta if arrived.inward else -eta
     turn, turn_off = 0.5 * (arrived.low + arrived.high), 0.5 * (arrived.high - arrived.low)
     tilt, tilt_off = 0.0, 0.0
     if arrived.three:

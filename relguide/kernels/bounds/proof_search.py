@@ -139,10 +139,7 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
         if eased == 0 and find.best[0] > bound:
             _probe(search, problem, find, n, m)
         drop_least(search)
-        if m == _NO_LAST and len(lasts_of(search, n)) == 0:
-            _add(search, problem, n, _ONLY, bound, 0)
-            continue
-        if m == _NO_LAST and only_touches(search, problem, n):
+        if m == _NO_LAST and (len(lasts_of(search, n)) == 0 or only_touches(search, problem, n)):
             _add(search, problem, n, _ONLY, bound, 0)
             continue
         if m == _NO_LAST:

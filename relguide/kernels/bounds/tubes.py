@@ -44,8 +44,7 @@ class Shift(NamedTuple):
     """When it is there [R/V_P]."""
 
 
-NOTHING = Shift(0.0, 0.0, 0.0, 0.0)
-"""What does not differ."""
+_NOTHING = Shift(0.0, 0.0, 0.0, 0.0)
 
 
 class Tube(NamedTuple):
@@ -162,7 +161,7 @@ def tube_from(poses: Poses) -> Tube:
     way, span = poses.ways.bearing, poses.span
     return Tube(
         poses.middle, poses.t, 0.0, Shift(way.x, way.y, way.h, 0.0),
-        Shift(span * poses.vx, span * poses.vy, poses.ways.time.h, span), NOTHING, NOTHING,
+        Shift(span * poses.vx, span * poses.vy, poses.ways.time.h, span), _NOTHING, _NOTHING,
         poses.ways.bends, poses.ways.twists,
     )  # fmt: skip
 

@@ -1,6 +1,6 @@
 """The last contact after a first one: none that a plan has is left out."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from math import inf
 
@@ -75,20 +75,31 @@ def holds(tree: Tree, n: int, contact: Contact, t: float) -> bool:
     )
 
 
-def cells_round(passage: Passage, search: Search, problem: Problem, size: float) -> list[int]:
-    """The cells of first contacts of a size in which a plan's may lie."""
-    tree, d_min = search.first, problem.scene.d_min
-    open_cells, found = list(range(int(tree.halves[-1, 0]))), []
+def parts_of(
+    tree: Tree, cells: Iterable[int], d_min: float, size: float, wanted: Callable[[int], bool]
+) -> Iterator[int]:
+    """Parts of cells that are no larger than that, and are wanted as what they are part of is."""
+    open_cells = [*cells]
     while open_cells:
         n = open_cells.pop()
-        if not holds(tree, n, passage.first, passage.at) or reach(tree, problem, n)[0] == inf:
+        if not wanted(n):
             continue
         if size_of(tree, n, d_min) <= size:
-            found.append(n)
+            yield n
             continue
         half = halve(tree, n, d_min)
         open_cells += [half, half + 1]
-    return found
+
+
+def cells_round(passage: Passage, search: Search, problem: Problem, size: float) -> list[int]:
+    """The cells of first contacts of a size in which a plan's may lie."""
+    tree = search.first
+
+    def holds_first(n: int) -> bool:
+        return holds(tree, n, passage.first, passage.at) and reach(tree, problem, n)[0] < inf
+
+    begun = range(int(tree.halves[-1, 0]))
+    return [*parts_of(tree, begun, problem.scene.d_min, size, holds_first)]
 
 
 def test_the_last_contact_of_a_plan_is_never_left_out() -> None:

@@ -1,11 +1,12 @@
 """Whether paths touch again after a first contact, against plans that do, and by how often."""
 
-from math import inf
+from collections.abc import Iterable, Iterator
+from itertools import islice
 
 import numpy as np
 
 from relguide.kernels.bounds.bundles import Search
-from relguide.kernels.bounds.contact_tree import Problem, Tree, cell_at, halve, reach, size_of
+from relguide.kernels.bounds.contact_tree import Problem, Tree, cell_at, reach
 from relguide.kernels.bounds.joined import asked_next, may_touch_again
 from relguide.kernels.bounds.proof_search import begin
 from relguide.kernels.bounds.tangent_contacts import may_be_tangent
@@ -15,6 +16,7 @@ from tests.planned_contacts import flown, problem_of
 from tests.relguide.kernels.bounds.test_last_contacts import (
     Passage,
     cells_round,
+    parts_of,
     passages,
     search_for,
 )
@@ -49,24 +51,15 @@ def test_plans_that_touch_again_are_never_ruled_out() -> None:
     assert asked > 10
 
 
-def small_cells(
-    tree: Tree, problem: Problem, begun: list[int], size: float, most: int
-) -> list[int]:
-    """Some cells of first contacts from which the goal may be reached in time."""
-    open_cells = begun
-    found: list[int] = []
-    final, d_min = len(problem.scene.leader) - 1, problem.scene.d_min
-    while open_cells and len(found) < most:
-        n = open_cells.pop()
+def small_cells(tree: Tree, problem: Problem, begun: Iterable[int]) -> Iterator[int]:
+    """Cells of first contacts, not on the final leg, from which the goal may be reached in time."""
+    final = len(problem.scene.leader) - 1
+
+    def may_be_in_time(n: int) -> bool:
         soon, onward = reach(tree, problem, n)
-        if tree.cells[n, 0] == final or soon == inf or soon + onward >= problem.beat:
-            continue
-        if size_of(tree, n, d_min) <= size:
-            found.append(n)
-            continue
-        half = halve(tree, n, d_min)
-        open_cells += [half, half + 1]
-    return found
+        return tree.cells[n, 0] != final and soon + onward < problem.beat
+
+    return parts_of(tree, begun, problem.scene.d_min, 1e-3, may_be_in_time)
 
 
 def test_of_many_first_contacts_it_is_found_out_that_no_other_comes_next() -> None:
@@ -80,8 +73,8 @@ def test_of_many_first_contacts_it_is_found_out_that_no_other_comes_next() -> No
         first, spare = [*path.question.first_contacts()], [*path.question.spare_contacts()]
         last = np.array([*path.question.last_contacts()])
         tree = begin(problem, np.array(first + spare), len(first), last).first
-        kinds = list(range(len(first))), list(range(len(first), len(first) + len(spare)))
-        for n in (n for begun in kinds for n in small_cells(tree, problem, begun, 1e-3, 30)):
+        kinds = range(len(first)), range(len(first), len(first) + len(spare))
+        for n in (n for kind in kinds for n in islice(small_cells(tree, problem, kind), 30)):
             may, pieces = may_touch_again(tree, problem, n)
             assert asked_next(tree, n) == may
             # what is known is not asked again

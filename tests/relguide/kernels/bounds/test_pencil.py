@@ -15,11 +15,11 @@ CLOSE = 5e-3
 """What that may count for [rad]."""
 
 
-def arrived(rng: np.random.Generator, three: bool) -> Arrived:
+def arrived(rng: np.random.Generator, three: bool, inward: bool) -> Arrived:
     """A turn after a straight, or after another turn that is longer."""
     arc = rng.uniform(0.3, 6.0)
     turn = rng.uniform(0.1, 0.9 * arc if three else 4.0)
-    return Arrived(0, three, turn, turn, arc, arc)
+    return Arrived(inward, three, turn, turn, arc, arc)
 
 
 def costate(known: Arrived) -> tuple[float, float, float]:
@@ -53,7 +53,7 @@ def test_the_line_is_met_at_the_angle_that_is_said(three: bool, inward: bool, wi
     rng = np.random.default_rng(11)
     told = 0
     for _ in range(300):
-        known, eta = arrived(rng, three), rng.uniform(0.1, 3.0) * (1.0 if inward else -1.0)
+        known, eta = arrived(rng, three, inward), rng.uniform(0.1, 3.0) * (1.0 if inward else -1.0)
         x, y, at_contact = costate(known)
         change = np.exp(rng.uniform(-4.0, 4.0))
         x, y = x + change * cos(eta), y + change * sin(eta)
@@ -65,7 +65,7 @@ def test_the_line_is_met_at_the_angle_that_is_said(three: bool, inward: bool, wi
             least=known.least - wide * rng.uniform(), most=known.most + wide * rng.uniform(),
         )  # fmt: skip
         off = wide * rng.uniform(-1.0, 1.0)
-        pencil = pencil_of(around, eta + off, abs(off))
+        pencil = pencil_of(around, abs(eta) + off, abs(off))
         half = STEP + wide * rng.uniform()
         middle = turn + rng.uniform(-1.0, 1.0) * (half - STEP)
         least, most = off_line(pencil, middle, half)
@@ -81,7 +81,7 @@ def test_straights_begin_where_the_line_only_touches(three: bool, inward: bool) 
     rng = np.random.default_rng(12)
     asked = 0
     for _ in range(60):
-        known, eta = arrived(rng, three), rng.uniform(0.1, 3.0) * (1.0 if inward else -1.0)
+        known, eta = arrived(rng, three, inward), rng.uniform(0.1, 3.0) * (1.0 if inward else -1.0)
         x, y, at_contact = costate(known)
         if abs(wrap_signed(eta - atan2(y, x))) > 2.8:
             continue
@@ -91,7 +91,7 @@ def test_straights_begin_where_the_line_only_touches(three: bool, inward: bool) 
             float(np.min(switching(x + nu * cos(eta), y + nu * sin(eta), at_contact, turns)))
             for nu in changes
         ]
-        pencil = pencil_of(known, eta, 0.0)
+        pencil = pencil_of(known, abs(eta), 0.0)
         for k in np.flatnonzero(np.diff(np.sign(least))):
             nu = 0.5 * (changes[k] + changes[k + 1])
             px, py = x + nu * cos(eta), y + nu * sin(eta)
@@ -106,7 +106,7 @@ def test_straights_begin_where_the_line_only_touches(three: bool, inward: bool) 
 
 
 def test_a_turn_after_a_straight_leads_on_to_a_straight_by_cotangents() -> None:
-    known = Arrived(0, False, 1.0, 1.0, 0.0, 0.0)
+    known = Arrived(True, False, 1.0, 1.0, 0.0, 0.0)
     low, high = straight_after(known, pencil_of(known, 0.8, 0.0), 0)
     assert low == pytest.approx(high)
     assert 1.0 / np.tan(0.5 * low) == pytest.approx(2.0 / np.tan(0.8) + 1.0 / np.tan(0.5))
