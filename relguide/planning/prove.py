@@ -96,7 +96,10 @@ def check_seconds(seconds: object) -> Second:
 
 
 def bounds(plan: Plan, *, seconds: Second) -> Iterator[Bound]:
-    """Reports of rising bounds, some twenty a second, and of faster plans."""
+    """Reports of rising bounds, some twenty a second, and of faster plans.
+
+    Another one comes as soon as the plan is within `CERTIFIED` of its bound.
+    """
     search = _Search(plan)
     best = min(plan.optimality.lower_bound, plan.time_to_converge)
 
@@ -108,16 +111,17 @@ def bounds(plan: Plan, *, seconds: Second) -> Iterator[Bound]:
     steps = search.rising_bounds()
     next(steps)  # loads the kernels
     search.until = now() + seconds
-    started, reported = perf_counter(), 0.0
+    started, reported, told = perf_counter(), 0.0, False
     for proved in steps:
         elapsed = perf_counter() - started
         if elapsed > seconds:
             break
         best = min(max(best, proved * search.scale), search.plan.time_to_converge)
-        if search.plan.time_to_converge - best <= TOLERANCE:
+        gap = search.plan.time_to_converge - best
+        if gap <= TOLERANCE:
             break
-        if elapsed - reported > _REPORT:
-            reported = elapsed
+        if elapsed - reported > _REPORT or (gap <= CERTIFIED and not told):
+            reported, told = elapsed, gap <= CERTIFIED
             yield report(elapsed)
     yield report(perf_counter() - started)
 

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from numba import njit
 
+from relguide.kernels.base.borrowed import uncounted
 from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.sine import sine_and_cosine
 
@@ -92,7 +93,7 @@ class _Piece(NamedTuple):
     """cos h there."""
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def breaks_limit(start: Pose, word: NearWord, flown: Flown, scene: Scene, stride: float) -> bool:
     """Whether every path of a word with amounts near these comes closer than the limit in time.
 
@@ -101,7 +102,7 @@ def breaks_limit(start: Pose, word: NearWord, flown: Flown, scene: Scene, stride
     return breach_time(start, word, flown, scene, stride, inf) < inf
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def breach_time(
     start: Pose, word: NearWord, flown: Flown, scene: Scene, stride: float, guess: float
 ) -> float:

@@ -20,8 +20,7 @@ times in R/V_P, angles counter-clockwise.
 
 from math import inf
 
-from numba import njit
-
+from relguide.kernels.base.borrowed import uncounted
 from relguide.kernels.base.norm import norm
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.base.sine import sine_and_cosine
@@ -39,7 +38,7 @@ _FLAT = 1e-3  # a slope no steeper than this says nothing
 _WIDE = 0.5  # directions are known to within this, or nothing is said
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def put_ways(blur: Blur, side: Side, rows: FloatArray) -> None:
     """Put down the ways of a set, as the words of a side see them.
 
@@ -66,7 +65,7 @@ def put_ways(blur: Blur, side: Side, rows: FloatArray) -> None:
         row[0], row[1], row[2], row[3], row[4], row[5] = x + h, y, x - h, y, 0.0, h
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def same_turns_closely(found: Interval, side: Side, rows: FloatArray) -> Interval:
     """What is known of LSL, closer as to when it meets the target."""
     strays, astray = rows[FIRST_ROW + _LAST, 0], found.astray
@@ -85,7 +84,7 @@ def same_turns_closely(found: Interval, side: Side, rows: FloatArray) -> Interva
     return _between(found, (at - strays) / slope, high / slope)
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def opposite_turns_closely(
     found: Interval, half: float, s: float, c: float, side: Side, rows: FloatArray
 ) -> Interval:
@@ -105,7 +104,7 @@ def opposite_turns_closely(
     return _between(found, (at - strays) / slope, (at + strays + 0.5 * longest * square) / slope)
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def three_turns_closely(
     found: Interval, half: float, s: float, c: float, side: Side, rows: FloatArray
 ) -> Interval:
@@ -134,7 +133,7 @@ def three_turns_closely(
     return _between(found, met + min(low, high), met + max(low, high))
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def _between(found: Interval, time: float, latest: float) -> Interval:
     """The same, if it meets the target no sooner and no later than that."""
     time, latest = max(time, found.time), min(latest, found.latest)

@@ -11,6 +11,7 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI
+from relguide.kernels.base.borrowed import uncounted
 from relguide.kernels.base.records import Pose
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.breach import Flown, NearWord, Sieve, breach_time
@@ -114,7 +115,7 @@ def nothing_known(beat: float) -> FloatArray:
     return work
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def beat_of(side: Side, asked: Asked) -> float:
     """Words of this side that are later do not lower anything."""
     junction, work = asked.junction, asked.work
@@ -128,7 +129,7 @@ def beat_of(side: Side, asked: Asked) -> float:
     return float(beat)
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def take_all(
     found: Interval, signs: tuple[float, float, float], turns: int, half: float, side: Side,
     asked: Asked,
@@ -161,7 +162,7 @@ def take_all(
     return fate
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def take(
     found: Interval, signs: tuple[float, float, float], first: float, spare: float, side: Side,
     asked: Asked,
@@ -200,7 +201,7 @@ def take(
     return POSSIBLE
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def _list(
     found: Interval, signs: tuple[float, float, float], first: float, spare: float, side: Side,
     work: FloatArray,
@@ -215,7 +216,7 @@ def _list(
     row[4], row[5] = found.middle - found.middle_blur, found.middle + found.middle_blur
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def _has_lesser_middle(
     found: Interval, first: float, other: float, spare: float, junction: Junction
 ) -> bool:
@@ -230,7 +231,7 @@ def _has_lesser_middle(
     )
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def _is_free(
     found: Interval, signs: tuple[float, float, float], first: float, junction: Junction
 ) -> bool:
@@ -240,7 +241,7 @@ def _is_free(
     return first <= found.astray if signs[1] != 0.0 else found.shortest <= 0.0
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def _costate_vanishes(
     found: Interval, signs: tuple[float, float, float], first: float, spare: float, side: Side,
     junction: Junction,
@@ -259,7 +260,7 @@ def _costate_vanishes(
     return _is_free(found, signs, first, junction) or back or abs(turn - TWO_PI) <= spare
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def _lasted(
     found: Interval, signs: tuple[float, float, float], first: float, spare: float,
     junction: Junction,
@@ -272,7 +273,7 @@ def _lasted(
     return max(min(whole - turn - spare, junction.beyond), 0.0)
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def _is_ruled_out(
     found: Interval, signs: tuple[float, float, float], first: float, side: Side, asked: Asked
 ) -> bool:

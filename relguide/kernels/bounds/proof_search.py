@@ -60,7 +60,7 @@ SEARCHING, CLOSED, STUCK = 0, 1, 2
 """What a round ends with: there is more to do; no bundle is left; nothing more can be done."""
 _PROBED = (0.06, 8e-3, 1e-3)
 """Cells are probed when their bearings differ by this, or down to half as much [rad]."""
-_PROBES, _EVERY = 512, 64  # so many are made at once, and one more for so many bundles looked at
+_PROBES, _EVERY = 256, 256  # so many are made at once, and one more for so many bundles looked at
 _SMALLEST = 1e-10  # a cell no wider than this is not halved: rounding counts for more [rad]
 _EASED = 0.03  # cells narrower than this are looked at closely [rad]
 _SLACK = 1e-6  # of `round_time`, as part of a whole round

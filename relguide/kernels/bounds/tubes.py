@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 from numba import njit
 
+from relguide.kernels.base.borrowed import uncounted
 from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Pose, Scene, Velocity
 from relguide.kernels.base.sine import sine_and_cosine
@@ -22,7 +23,7 @@ from relguide.kernels.bounds.goal import Goal
 from relguide.kernels.bounds.junction import jerk_of, left_of_piece, parted_by
 from relguide.kernels.bounds.ways import no_ways
 from relguide.kernels.bounds.word_intervals import intercept_span
-from relguide.kernels.separation.clearance import leader_at, piece_at
+from relguide.kernels.separation.clearance import leader_heading, piece_at
 from relguide.kernels.words.extremals import fly_piece
 
 _STEPS = 2_000  # no more of them
@@ -155,7 +156,7 @@ def course_of(scene: Scene, goal: Goal, cell: Cell, beat: float) -> Course:
     )  # fmt: skip
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def tube_from(poses: Poses) -> Tube:
     """The tube that begins at the contacts of a cell with these poses."""
     way, span = poses.ways.bearing, poses.span
@@ -166,7 +167,7 @@ def tube_from(poses: Poses) -> Tube:
     )  # fmt: skip
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def flown(tube: Tube, sign: float, amount: float) -> Tube:
     """The tube at the end of a piece."""
     at = fly_piece(tube.at, sign, amount)
@@ -178,7 +179,7 @@ def flown(tube: Tube, sign: float, amount: float) -> Tube:
     )  # fmt: skip
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def with_turn(tube: Tube, sign: float, half: float) -> Tube:
     """The tube where the turn that ends there may be longer or shorter by so much."""
     return Tube(
@@ -187,7 +188,7 @@ def with_turn(tube: Tube, sign: float, half: float) -> Tube:
     )  # fmt: skip
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def with_piece(tube: Tube, sign: float, half: float) -> Tube:
     """The tube where another piece that ends there may be longer or shorter by so much.
 
@@ -201,7 +202,7 @@ def with_piece(tube: Tube, sign: float, half: float) -> Tube:
     )  # fmt: skip
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def with_bearing(tube: Tube, sign: float, half: float) -> Tube:
     """The tube where the piece that ends there is longer by so much at the end of the bearings."""
     longer, bearing = _longer(tube.at, sign, half), tube.bearing
@@ -214,7 +215,7 @@ def with_bearing(tube: Tube, sign: float, half: float) -> Tube:
     )  # fmt: skip
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def poses_in(tube: Tube, goal: Goal) -> tuple[Poses, float]:
     """Where the paths of a tube are as their piece begins, and how much earlier or later [R/V_P].
 
@@ -232,7 +233,7 @@ def poses_in(tube: Tube, goal: Goal) -> tuple[Poses, float]:
     return there, times
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def touching(course: Course, tube: Tube, sign: float, begin: float, lasts: float) -> Zone:
     """Where along a piece paths may touch first.
 
@@ -245,15 +246,22 @@ def touching(course: Course, tube: Tube, sign: float, begin: float, lasts: float
     """
     scene, goal, d_min, alpha = course.scene, course.goal, course.scene.d_min, course.scene.alpha
     touch, far, w, fast = inf, 0.0, begin, 1.0 + course.scene.alpha
+    x, y, h = tube.at
+    s, c = sine_and_cosine(h)
     for _ in range(_STEPS):
         if w >= lasts:
             return Zone(touch, lasts, True, far)
-        at, t = fly_piece(tube.at, sign, w), tube.t + w
-        seen = seen_at(scene, at, t)
+        # as `fly_piece`, with sine and cosine of each heading found once
+        t, on_s, on_c = tube.t + w, s, c
+        at = Pose(x + w * c, y + w * s, h)
+        if sign != 0.0:
+            on_s, on_c = sine_and_cosine(h + sign * w)
+            at = Pose(x + sign * (on_s - s), y - sign * (on_c - c), h + sign * w)
+        seen = _seen(scene, at, on_s, on_c, t)
         spread = spread_of(course, tube, at, w, seen)
         # who is to be at the goal in time cannot be further away than this
-        astray, x = spread.far + fast * spread.times, goal.x + goal.speed * t - at.x
-        on = intercept_span(x, -at.y, Velocity(goal.speed, 0.0), astray)[0]
+        astray, ahead = spread.far + fast * spread.times, goal.x + goal.speed * t - at.x
+        on = intercept_span(ahead, -at.y, Velocity(goal.speed, 0.0), astray)[0]
         if t - spread.times + on >= course.beat:
             return Zone(touch, w, False, far)
         gap, opens = seen.d - d_min, seen.ex * seen.vx + seen.ey * seen.vy
@@ -279,18 +287,18 @@ def touching(course: Course, tube: Tube, sign: float, begin: float, lasts: float
     return Zone(min(touch, w), lasts, True, inf)
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def _moved(shift: Shift, dx: float, dy: float) -> Shift:
     return Shift(shift.x - shift.h * dy, shift.y + shift.h * dx, shift.h, shift.t)
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def _longer(at: Pose, sign: float, half: float) -> Shift:
     s, c = sine_and_cosine(at.h)
     return Shift(half * c, half * s, half * sign, half)
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def _of(tube: Tube, k: int) -> Shift:
     if k == 0:
         return tube.bearing
@@ -299,7 +307,7 @@ def _of(tube: Tube, k: int) -> Shift:
     return tube.turn if k == 2 else tube.piece
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def _second(tube: Tube, w: float, heads: float, times: float) -> float:
     """How far paths may be from where first order says [R]."""
     turned, length = heads + tube.twists, tube.flown + w
@@ -308,20 +316,25 @@ def _second(tube: Tube, w: float, heads: float, times: float) -> float:
     )
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def seen_at(scene: Scene, at: Pose, t: float) -> Seen:
     """What the leader sees of a pose at a time."""
+    s, c = sine_and_cosine(at.h)
+    return _seen(scene, at, s, c, t)
+
+
+@uncounted
+def _seen(scene: Scene, at: Pose, s: float, c: float, t: float) -> Seen:
+    """The same, with sine and cosine of the heading."""
     piece = piece_at(scene.leader, t)
-    there = leader_at(scene, piece, t)
+    there, lead_s, lead_c = leader_heading(scene, piece, t)
     dx, dy = at.x - there.x, at.y - there.y
     d = norm(dx, dy)
-    s, c = sine_and_cosine(at.h)
-    lead_s, lead_c = sine_and_cosine(there.h)
-    x, y = scene.alpha * lead_c, scene.alpha * lead_s
-    return Seen(d, dx / d, dy / d, c - x, s - y, c, s, x, y, scene.leader[piece, 4])
+    x, y, per = scene.alpha * lead_c, scene.alpha * lead_s, 1.0 / d
+    return Seen(d, dx * per, dy * per, c - x, s - y, c, s, x, y, scene.leader[piece, 4])
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def spread_of(course: Course, tube: Tube, at: Pose, w: float, seen: Seen) -> Spread:
     """How much paths differ in a tube.
 
@@ -332,11 +345,11 @@ def spread_of(course: Course, tube: Tube, at: Pose, w: float, seen: Seen) -> Spr
         w: … so far along the piece [R/V_P].
         seen: of it.
     """
-    scene, d_min, fast = course.scene, course.scene.d_min, 1.0 + course.scene.alpha
+    scene, fast = course.scene, 1.0 + course.scene.alpha
     gap, opens, far, heads, times = 0.0, 0.0, 0.0, 0.0, 0.0
-    along = seen.ex * seen.vx + seen.ey * seen.vy
+    along, per, curved = seen.ex * seen.vx + seen.ey * seen.vy, 1.0 / seen.d, 1.0 / scene.d_min
     # how the direction from the leader changes
-    ux, uy = (seen.vx - along * seen.ex) / seen.d, (seen.vy - along * seen.ey) / seen.d
+    ux, uy = per * (seen.vx - along * seen.ex), per * (seen.vy - along * seen.ey)
     dx, dy = at.x - tube.at.x, at.y - tube.at.y
     for k in range(4):
         shift = _moved(_of(tube, k), dx, dy)
@@ -351,13 +364,13 @@ def spread_of(course: Course, tube: Tube, at: Pose, w: float, seen: Seen) -> Spr
     second = _second(tube, w, heads, times) + swings * times
     heads += tube.twists
     far += second
-    second += 0.55 * far * far / d_min
+    second += 0.55 * curved * far * far
     t = tube.t + w
     if piece_at(scene.leader, max(t - times, 0.0)) != piece_at(scene.leader, t + times):
         opens += 2.0 * swings
     turned = heads + course.rate * times
-    opens += 2.0 * (second * fast / d_min + turned * turned + far * turned / d_min) + tube.twists
-    opens += 2.0 * fast * far * far / (d_min * d_min)
+    opens += 2.0 * (turned * turned + curved * (second * fast + far * turned)) + tube.twists
+    opens += 2.0 * fast * (curved * far) * (curved * far)
     gap += second
     if tube.flown == 0.0:
         # nothing differs but the contact: there neither d nor d′ does
@@ -368,13 +381,13 @@ def spread_of(course: Course, tube: Tube, at: Pose, w: float, seen: Seen) -> Spr
     return Spread(gap, opens, far, heads, times)
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def _rate_from(scene: Scene, t: float) -> float:
     """The leader's greatest turn rate from then on, either way [V_P/R]."""
     return fastest_turn(scene, piece_at(scene.leader, max(t, 0.0)), len(scene.leader) - 1)
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def _falls(
     course: Course, seen: Seen, spread: Spread, sign: float, t: float, opens: float, lasts: float
 ) -> bool:

@@ -16,7 +16,7 @@ from math import floor, inf
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI
-from relguide.kernels.base.borrowed import borrowed
+from relguide.kernels.base.borrowed import borrowed, uncounted
 from relguide.kernels.base.records import Pose, Velocity, Window
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.base.sine import sine_and_cosine
@@ -157,7 +157,7 @@ def words_by_turn(
     return work[WORDS_ROW:].copy()
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def _bound_all(pose: Pose, blur: Blur, target: Velocity, asked: Asked) -> None:
     """Lower what is known to what any word comes to."""
     begin_rest(asked.rest)
@@ -177,7 +177,7 @@ def _bound_all(pose: Pose, blur: Blur, target: Velocity, asked: Asked) -> None:
             _bound_by_halves(turns == 1, side, asked)
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def _bound_rest(side: Side, asked: Asked) -> None:
     """As `_bound_all`, for intervals that are known to be all that is left of a larger set."""
     table, known = asked.rest.table, asked.rest.known
@@ -211,7 +211,7 @@ def _bound_rest(side: Side, asked: Asked) -> None:
             _bound_within(kind == THREE_TURNS, mid, half, around, side, asked)
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def _bound_same_side(turns: int, side: Side, asked: Asked) -> None:
     """As `_bound_all`, for LSL, see `same_turns`."""
     left = Window(asked.earliest, beat_of(side, asked))
@@ -224,7 +224,7 @@ def _bound_same_side(turns: int, side: Side, asked: Asked) -> None:
         _keep(fate, SAME_TURNS, 0.0, 0.0, float(turns), side, asked)
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def _bound_by_halves(three_turns: bool, side: Side, asked: Asked) -> None:
     """As `_bound_all`, for LSR, or for LRL if `three_turns`."""
     for k in range(-1, 4):
@@ -235,14 +235,14 @@ def _bound_by_halves(three_turns: bool, side: Side, asked: Asked) -> None:
             _bound_within(three_turns, mid, half, around, side, asked)
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def _span_of(three_turns: bool, around: float, side: Side, asked: Asked) -> tuple[float, float]:
     """As `span_of`. Words that are too late to matter now may matter to a part of the set."""
     beat = asked.beat if asked.rest.room >= 0 else beat_of(side, asked)
     return span_of(three_turns, around, side, Window(asked.earliest, beat))
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def _bound_within(
     three_turns: bool, mid: float, half: float, around: float, side: Side, asked: Asked
 ) -> None:
@@ -297,7 +297,7 @@ def _bound_within(
             _keep(fate, kind, mid, half, around, side, asked)
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def _within(
     kind: int, mid: float, half: float, around: float, side: Side, asked: Asked
 ) -> Interval:
@@ -312,7 +312,7 @@ def _within(
     return opposite_turns_within(mid, half, s, c, around, side, window)
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def _also_later(
     fate: int, found: Interval, left: Window, kind: int, mid: float, half: float, around: float,
     side: Side, asked: Asked,
@@ -333,7 +333,7 @@ def _also_later(
     return POSSIBLE
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def _keep(
     fate: int, kind: int, mid: float, half: float, around: float, side: Side, asked: Asked
 ) -> None:

@@ -4,12 +4,13 @@ The same bound as in `approach`, but it stops at the first point found too close
 times in R/V_P, angles counter-clockwise. The leader is a table of its pieces, as in `Scene`.
 """
 
-from math import inf, sin
+from math import inf
 from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
+from relguide.kernels.base.borrowed import uncounted
 from relguide.kernels.base.norm import norm
 from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.roots import FloatArray
@@ -56,7 +57,7 @@ class _State(NamedTuple):
     """[V_P]."""
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def piece_at(leader: FloatArray, t: float) -> int:
     """The leader's piece at time t."""
     i = 0
@@ -65,24 +66,32 @@ def piece_at(leader: FloatArray, t: float) -> int:
     return i
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def piece_end(leader: FloatArray, i: int) -> float:
     """When the leader's piece i ends, and the next begins [R/V_P]; infinite if it is the last."""
     return float(leader[i + 1, 0]) if i + 1 < len(leader) else inf
 
 
-@njit(cache=True, nogil=True)
+@uncounted
 def leader_at(scene: Scene, i: int, t: float) -> Pose:
     """The leader's pose at time t on its piece i."""
+    return leader_heading(scene, i, t)[0]
+
+
+@uncounted
+def leader_heading(scene: Scene, i: int, t: float) -> tuple[Pose, float, float]:
+    """The same, with sine and cosine of its heading."""
     leader = scene.leader
     x, y, h, rate = leader[i, 1], leader[i, 2], leader[i, 3], leader[i, 4]
     flown = t - leader[i, 0]
     half = 0.5 * rate * flown
     chord = scene.alpha * flown
+    half_s, half_c = sine_and_cosine(half)
     if abs(half) > 1e-9:
-        chord *= sin(half) / half
+        chord *= half_s / half
     s, c = sine_and_cosine(h + half)
-    return Pose(x + chord * c, y + chord * s, h + 2.0 * half)
+    there = Pose(x + chord * c, y + chord * s, h + 2.0 * half)
+    return there, s * half_c + c * half_s, c * half_c - s * half_s
 
 
 @njit(cache=True, nogil=True)
