@@ -14,7 +14,7 @@ from relguide.kernels.bounds.bundles import ASKS, Search
 from relguide.kernels.bounds.contact_tree import Problem, cell_at, leave, reach, size_of
 from relguide.kernels.bounds.joined import asked_next, may_touch_again
 
-_LARGEST = 6e-3  # cells of which it is asked [rad]
+_LARGEST = 1.5e-2  # cells of which it is asked [rad]
 _AFTER = 1_000  # bundles, in searches that take longer than that
 _PIECES, _ASKING = 12, 10  # pieces are followed for each of these at most; asking is worth so many
 _TRIED, _WORTH = 8, 3  # cells of a size, and how many for one of which it was found out

@@ -23,12 +23,13 @@ from relguide.kernels.bounds.goal import Goal
 from relguide.kernels.bounds.junction import jerk_of, left_of_piece, parted_by
 from relguide.kernels.bounds.ways import no_ways
 from relguide.kernels.bounds.word_intervals import intercept_span
-from relguide.kernels.separation.clearance import leader_heading, piece_at
+from relguide.kernels.separation.clearance import leader_heading, piece_at, piece_end
 from relguide.kernels.words.extremals import fly_piece
 
 _STEPS = 2_000  # no more of them
 _FINEST = 1e-5  # shortest step [R/V_P], or
 _PART = 0.2  # as part of how far d may differ
+_SHARE = 1.0  # or for which d′ changes by this part of how far it may differ
 _STRAIGHT = 1e-3  # d″ is taken to be able to fall to less than minus this [V_P²/R]
 
 
@@ -270,19 +271,26 @@ def touching(course: Course, tube: Tube, sign: float, begin: float, lasts: float
         rate = _rate_from(scene, t - spread.times)
         # d″ is no less than −falls, nor greater than sways outside the disc
         falls = max(abs(sign) + alpha * rate, _STRAIGHT)
-        sways, finest = falls + fast * fast / d_min, max(_FINEST, _PART * spread.gap)
+        sways, sure = falls + fast * fast / d_min, _SHARE * spread.opens
+        finest = max(_FINEST, _PART * spread.gap, sure / sways)
         step, room, least, touches = 0.0, gap - spread.gap, opens - spread.opens, False
         if room > 0.0:
             step = (least + sqrt(least * least + 2.0 * falls * room)) / falls
         if step < finest:
-            step = max((abs(opens) - spread.opens) / sways, finest)
-            touches = abs(opens) <= spread.opens + sways * finest and not _falls(
-                course, seen, spread, sign, t, opens, finest
-            )
+            bends, differs, alike = _bends(course, seen, spread, sign, t, opens)
+            free, bent = (abs(opens) - spread.opens) / sways, abs(bends) + differs
+            # so long d′ changes by no more than `sure`, as far as d″ is known
+            slow = 2.0 * sure / (bent + sqrt(bent * bent + 4.0 * course.jerk * sure))
+            if finest < min(slow, alike):
+                finest, sways = min(slow, alike), bent + course.jerk * slow
+            # nobody touches while d″ < 0, nor before d′ may vanish
+            falling = min((-bends - differs) / course.jerk, alike)
+            touches = abs(opens) <= spread.opens + sways * finest and falling < finest
+            step = max(free, finest, falling)
         if touches:
             touch, far = min(touch, w), max(far, spread.far)
         elif touch < inf:
-            return Zone(touch, w, True, far)
+            return Zone(touch, w, True, max(far, spread.far))
         w += step
     return Zone(min(touch, w), lasts, True, inf)
 
@@ -388,19 +396,21 @@ def _rate_from(scene: Scene, t: float) -> float:
 
 
 @uncounted
-def _falls(
-    course: Course, seen: Seen, spread: Spread, sign: float, t: float, opens: float, lasts: float
-) -> bool:
-    """Whether d″ < 0 on all paths of a tube, now and for so long."""
+def _bends(
+    course: Course, seen: Seen, spread: Spread, sign: float, t: float, opens: float
+) -> tuple[float, float, float]:
+    """d″ on the middle of a tube, and how much it may differ on other paths [V_P²/R].
+
+    And how long the leader goes on as it does, seen from all of them [R/V_P].
+    """
     scene, d_min, fast = course.scene, course.scene.d_min, 1.0 + course.scene.alpha
-    since, until = max(t - spread.times, 0.0), t + spread.times + lasts
-    if piece_at(scene.leader, since) != piece_at(scene.leader, until):
-        return False
+    piece = piece_at(scene.leader, max(t - spread.times, 0.0))
+    alike = piece_end(scene.leader, piece) - t - spread.times
     ax = seen.rate * seen.lead_y - sign * seen.s
     ay = sign * seen.c - seen.rate * seen.lead_x
     bends = (seen.vx * seen.vx + seen.vy * seen.vy - opens * opens) / seen.d
     bends += seen.ex * ax + seen.ey * ay
     turned = spread.heads + course.rate * spread.times
-    off = spread.far * (1.0 + scene.alpha * course.rate + 3.0 * fast * fast / d_min) / d_min
-    off += turned * (1.0 + scene.alpha * course.rate + 4.0 * fast / d_min)
-    return bool(bends + 1.1 * off + course.jerk * lasts < 0.0)
+    differs = spread.far * (1.0 + scene.alpha * course.rate + 3.0 * fast * fast / d_min) / d_min
+    differs += turned * (1.0 + scene.alpha * course.rate + 4.0 * fast / d_min)
+    return bends, 1.1 * differs, alike
