@@ -31,7 +31,7 @@ from relguide.kernels.bounds.junction import (
     slide_turns,
 )
 from relguide.kernels.bounds.ways import no_ways
-from relguide.kernels.separation.clearance import leader_at, piece_at, piece_end
+from relguide.kernels.separation.clearance import leader_at, leader_heading, piece_at, piece_end
 from relguide.kernels.words.extremals import fly_piece
 
 _LEAST = 0.3  # if the path turns by less than this at a time, it is not followed [rad]
@@ -231,6 +231,9 @@ def _followed(
             if abs(seen.opens) <= tilts + sways * finest and contact == inf:
                 # from here on only where the limit is surely broken matters
                 contact, finest = took, _COARSE
+        if contact < inf:
+            # nor is it sooner broken than this
+            step = max(step, (seen.gap + astray) / (1.0 + alpha))
         took += step
     return min(contact, took), left
 
@@ -332,12 +335,11 @@ class _Seen(NamedTuple):
 def _seen(scene: Scene, at: Pose, sense: float, t: float) -> _Seen:
     """How the leader is seen from a pose at a time, in a turn of that sense."""
     piece = piece_at(scene.leader, t)
-    there, swings = leader_at(scene, piece, t), scene.alpha * scene.leader[piece, 4]
-    x, y = at.x - there.x, at.y - there.y
+    there, lead_s, lead_c = leader_heading(scene, piece, t)
+    x, y, swings = at.x - there.x, at.y - there.y, scene.alpha * scene.leader[piece, 4]
     far = norm(x, y)
     x, y = x / far, y / far
     s, c = sine_and_cosine(at.h)
-    lead_s, lead_c = sine_and_cosine(there.h)
     vx, vy = c - scene.alpha * lead_c, s - scene.alpha * lead_s
     opens = x * vx + y * vy
     bends = x * (swings * lead_s - sense * s) + y * (sense * c - swings * lead_c)

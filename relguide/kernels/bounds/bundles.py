@@ -73,13 +73,13 @@ def begin_lasts(roots: int) -> Lasts:
     return Lasts(np.empty(_LASTS, np.int64), size)
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, forceinline=True)
 def has_room(search: Search) -> bool:
     """Whether so many bundles may be added as one look adds."""
     return bool(search.size[0] + 2 * search.lasts.size[1] + DEPTH < MAX_BUNDLES)
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, forceinline=True)
 def push(search: Search, bound: float, n: int, m: int, eased: int, asked: int) -> None:
     """Put a bundle into the heap."""
     at = int(search.size[0])
@@ -96,7 +96,7 @@ def push(search: Search, bound: float, n: int, m: int, eased: int, asked: int) -
     bundle[0], bundle[1], bundle[2], bundle[3] = n, m, eased, asked
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, forceinline=True)
 def drop_least(search: Search) -> None:
     """Take the least bundle from the heap."""
     bounds, bundles = search.bounds, search.bundles

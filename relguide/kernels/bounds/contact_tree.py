@@ -118,7 +118,7 @@ def plant(cells: FloatArray, room: int) -> Tree:
     return tree
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, forceinline=True)
 def cell_at(tree: Tree, n: int) -> Cell:
     """A cell by its number."""
     piece, side, bearing, half, start, end = tree.cells[n]
@@ -159,7 +159,7 @@ def halve(tree: Tree, n: int, d_min: float) -> int:
     return first
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, forceinline=True)
 def size_of(tree: Tree, n: int, d_min: float) -> float:
     """The longer side of a cell [rad]."""
     span = 0.5 * (tree.cells[n, 5] - tree.cells[n, 4])
@@ -253,7 +253,7 @@ def bury(tree: Tree, n: int) -> None:
     _keep(known[_LEFT:], NEVER)
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, forceinline=True)
 def is_buried(tree: Tree, n: int) -> bool:
     """Whether it is known that no path in time has its last contact in a cell."""
     return bool(tree.known[n, _LEAVING] == inf)
@@ -285,7 +285,7 @@ def learn(tree: Tree, n: int) -> None:
         n = tree.halves[n, 1]
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, forceinline=True)
 def reached(tree: Tree, problem: Problem, n: int) -> Passed:
     """How soon a first contact can be in the cell, by how it is passed."""
     reach(tree, problem, n)
@@ -293,7 +293,7 @@ def reached(tree: Tree, problem: Problem, n: int) -> Passed:
     return Passed(known[0], known[1], known[2], known[3], known[4])
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, forceinline=True)
 def departed(tree: Tree, problem: Problem, n: int) -> Passed:
     """How soon the goal can be reached from a last contact in the cell, by how it is passed."""
     leave(tree, problem, n)

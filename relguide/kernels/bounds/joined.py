@@ -140,7 +140,7 @@ def may_be_last(tree: Tree, problem: Problem, n: int) -> bool:
     return may_be
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, forceinline=True)
 def apart(tree: Tree, problem: Problem, n: int, pace: float) -> float:
     """For how long there is no other contact after one in a cell, or with pace −1 before it."""
     column = _APART if pace > 0.0 else _APART + 1

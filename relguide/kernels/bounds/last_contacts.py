@@ -22,7 +22,7 @@ _LARGEST = 0.2  # but of none larger than this [rad]
 _BEGIN, _COUNT = 8, 9  # of `Tree.joined`: which of `Lasts.cells` are a first contact's
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, forceinline=True)
 def lasts_of(search: Search, n: int) -> IntArray:
     """Numbers of cells that hold all last contacts after first ones in a cell."""
     joined = search.first.joined

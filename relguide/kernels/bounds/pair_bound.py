@@ -31,7 +31,7 @@ BESIDE = 0.5
 """A cell of first contacts so large beside one of last ones stands for all in it."""
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, forceinline=True)
 def bound_together(search: Search, problem: Problem, n: int, m: int) -> float:
     """As `_pair_bound`, for many cells of first contacts at once where last ones lie further apart.
 

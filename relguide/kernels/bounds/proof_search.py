@@ -139,23 +139,20 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
         if eased == 0 and find.best[0] > bound:
             _probe(search, problem, find, n, m)
         drop_least(search)
-        if m == _NO_LAST and (len(lasts_of(search, n)) == 0 or only_touches(search, problem, n)):
-            _add(search, problem, n, _ONLY, bound, 0)
-            continue
         if m == _NO_LAST:
+            only = len(lasts_of(search, n)) == 0 or only_touches(search, problem, n)
             # elsewhere than on the final leg the cells of last contacts are very many
-            if (
+            small = (
                 search.first.cells[n, 0] == final
                 or size_of(search.first, n, problem.scene.d_min) < problem.paired
-            ) and goes_on(search, problem, n):
+            )
+            paired = not only and small and goes_on(search, problem, n)
+            if only or paired:
                 _add(search, problem, n, _ONLY, bound, 0)
-                if search.size[3] == 0:
-                    _look_at_lasts(search, problem, until)
-                if search.first.cells[n, 0] != final:
-                    ask_lasts(search, problem, n, until)
-                for k in lasts_of(search, n):
-                    if not is_buried(search.last, k):
-                        _add_pairs(search, problem, find, n, k, bound, 0, until)
+            if only:
+                continue
+            if paired:
+                _pair(search, problem, find, n, bound, until)
                 continue
         elif m >= 0 and eased == 0:
             size = max(half, search.last.cells[m, 3])
@@ -262,22 +259,31 @@ def _halve(
 ) -> bool:  # fmt: skip
     """Keep both halves of the larger cell; whether there was room for them."""
     d_min = problem.scene.d_min
-    if m >= 0 and size_of(search.last, m, d_min) >= size_of(search.first, n, d_min):
-        half = halve(search.last, m, d_min)
-        if half >= 0:
-            _add(search, problem, n, half, bound, asked)
-            _add(search, problem, n, half + 1, bound, asked)
-            learn(search.last, m)
-        return half >= 0
-    half = halve(search.first, n, d_min)
+    of_last = m >= 0 and size_of(search.last, m, d_min) >= size_of(search.first, n, d_min)
+    half = halve(search.last, m, d_min) if of_last else halve(search.first, n, d_min)
     if half < 0:
         return False
     for child in (half, half + 1):
-        if m < 0:
-            _add(search, problem, child, m, bound, asked)
+        if of_last or m < 0:
+            first, last = (n, child) if of_last else (child, m)
+            _add(search, problem, first, last, bound, asked)
         elif not only_touches(search, problem, child):
             _add_pairs(search, problem, find, child, m, bound, asked, until)
+    if of_last:
+        learn(search.last, m)
     return True
+
+
+@njit(cache=True, nogil=True)
+def _pair(search: Search, problem: Problem, find: Find, n: int, bound: float, until: float) -> None:
+    """Keep the paths whose first contact lies in a cell, by the cells of their last ones."""
+    if search.size[3] == 0:
+        _look_at_lasts(search, problem, until)
+    if search.first.cells[n, 0] != len(problem.scene.leader) - 1:
+        ask_lasts(search, problem, n, until)
+    for k in lasts_of(search, n):
+        if not is_buried(search.last, k):
+            _add_pairs(search, problem, find, n, k, bound, 0, until)
 
 
 @njit(cache=True, nogil=True)
