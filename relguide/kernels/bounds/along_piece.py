@@ -33,7 +33,7 @@ may be, only touched; or all along the straight before it."""
 _MOST = 400  # pieces that are followed in all
 _NEARLY = 0.03  # how closely it is looked how long a piece may last [R/V_P]
 _ZONES = 20  # along a piece in which paths may touch; no more of them
-_PARTS = 8  # into which such a zone is cut
+_PARTS, _MOST_PARTS = 8, 24  # into which such a zone is cut; and if it is long, no more than these
 _WIDE = 0.3  # contacts are not put into cells that are larger [rad, R/V_P]
 
 
@@ -125,10 +125,12 @@ def _may_touch(
     course: Course, tube: Tube, piece: Piece, zone: Zone, fine: bool, queue: FloatArray
 ) -> bool:
     """Whether paths may touch in a zone of a piece and be in time: as `along`."""
-    if zone.far == inf or zone.end - zone.begin > _WIDE:
-        return True
     length = zone.end - zone.begin
-    parts = min(max(int(length / (2.0 * zone.far)), 1), _PARTS) if fine else 1
+    needed = int(length / (_WIDE * min(course.scene.d_min, 1.0))) + 1
+    if zone.far == inf or needed > _MOST_PARTS:
+        return True
+    parts = min(int(length / (2.0 * zone.far)), _PARTS) if fine else 1
+    parts = max(parts, needed)
     for k in range(parts):
         begin, end = zone.begin + k * length / parts, zone.begin + (k + 1) * length / parts
         part = Zone(begin, end, zone.lives, zone.far)
