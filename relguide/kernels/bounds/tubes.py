@@ -277,7 +277,7 @@ def touching(course: Course, tube: Tube, sign: float, begin: float, lasts: float
         if room > 0.0:
             step = (least + sqrt(least * least + 2.0 * falls * room)) / falls
         if step < finest:
-            bends, differs, alike = _bends(course, seen, spread, sign, t, opens)
+            bends, differs, alike = bends_of(course, seen, spread, sign, t, opens)
             free, bent = (abs(opens) - spread.opens) / sways, abs(bends) + differs
             # so long d′ changes by no more than `sure`, as far as d″ is known
             slow = 2.0 * sure / (bent + sqrt(bent * bent + 4.0 * course.jerk * sure))
@@ -396,7 +396,7 @@ def _rate_from(scene: Scene, t: float) -> float:
 
 
 @uncounted
-def _bends(
+def bends_of(
     course: Course, seen: Seen, spread: Spread, sign: float, t: float, opens: float
 ) -> tuple[float, float, float]:
     """d″ on the middle of a tube, and how much it may differ on other paths [V_P²/R].

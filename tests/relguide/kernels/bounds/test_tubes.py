@@ -10,6 +10,7 @@ from relguide.kernels.bounds.goal import Goal
 from relguide.kernels.bounds.tubes import (
     Course,
     Tube,
+    bends_of,
     course_of,
     flown,
     seen_at,
@@ -88,6 +89,36 @@ def test_no_path_differs_by_more_than_the_tube_may(size: float) -> None:
     assert len(used) > 200
     # all differ at once somewhere only
     assert np.median(used) > (0.1 if size > 1e-2 else 0.5)
+
+
+@pytest.mark.parametrize("size", [3e-2, 3e-3])
+def test_no_path_bends_otherwise_than_the_tube_may(size: float) -> None:
+    rng, used, brief = np.random.default_rng(7), [], 1e-4
+    for _ in range(150):
+        paths = Paths(rng, size)
+        tube, course, sign = paths.tube(), paths.course(), paths.signs[2]
+        for w in rng.uniform(2.0 * brief, 2.5, 4):
+            at, t = fly_piece(tube.at, sign, w), tube.t + w
+            seen = seen_at(paths.scene, at, t)
+            spread, opens = (
+                spread_of(course, tube, at, w, seen),
+                seen.ex * seen.vx + seen.ey * seen.vy,
+            )
+            bends, differs, alike = bends_of(course, seen, spread, sign, t, opens)
+            if seen.d < paths.scene.d_min or alike < 2.0 * brief:
+                continue
+            most = 0.0
+            for _ in range(12):
+                ways = rng.choice((-1.0, 1.0, rng.uniform(-1.0, 1.0)), 4)
+                before, after = (paths.seen(ways, w + k * brief) for k in (-1.0, 1.0))
+                if min(before[0], after[0]) < paths.scene.d_min:
+                    continue
+                bent = (after[1] - before[1]) / (2.0 * brief)
+                assert abs(bent - bends) <= differs + 1e-4
+                most = max(most, abs(bent - bends))
+            used.append(most / differs)
+    assert len(used) > 150
+    assert max(used) > 0.1
 
 
 def least_along(paths: Paths, ways: np.ndarray) -> tuple[float, float]:
