@@ -71,6 +71,15 @@ def test_a_proof_ends_as_soon_as_the_gap_is_within_the_tolerance() -> None:
     assert last.gap > 0.5 * TOLERANCE
 
 
+def test_a_plan_is_reported_once_as_soon_as_it_is_certified(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("relguide.planning.prove._REPORT", inf)
+    begun, certified, last = bounds(golden_plan("R053"), seconds=20.0)
+    assert last.gap < certified.gap <= CERTIFIED < begun.gap
+    assert certified.elapsed < last.elapsed
+
+
 @pytest.mark.slow
 @given(situation=situations())
 def test_no_plan_is_faster_than_what_is_proved(situation: Situation) -> None:
