@@ -26,11 +26,11 @@ from relguide.kernels.bounds.contact_bound import (
     until_again,
 )
 from relguide.kernels.bounds.goal import Goal, is_track
+from relguide.kernels.bounds.held_front import holds_of, slides_from
 from relguide.kernels.bounds.hop import final_leg, on_final_leg
 from relguide.kernels.bounds.junction import beyond_outward, can_touch
 from relguide.kernels.bounds.rest import COLUMNS, MOST, UNKNOWN, Rest
 from relguide.kernels.bounds.round_time import round_time
-from relguide.kernels.bounds.round_turning import slides_from
 from relguide.kernels.bounds.spare_bound import spare_bound
 from relguide.kernels.bounds.tangent_contacts import may_be_tangent
 from relguide.kernels.bounds.tight_contact import tight_excess
@@ -374,7 +374,9 @@ def excess(tree: Tree, problem: Problem, n: int, last: bool, enough: float) -> f
 
 
 @njit(cache=True, nogil=True)
-def _with_round(tree: Tree, problem: Problem, n: int, way: int, last: bool) -> float:
+def _with_round(
+    tree: Tree, problem: Problem, n: int, way: int, last: bool, holds: FloatArray
+) -> float:
     sense, bearing, half = 1.0 - 2.0 * way, tree.cells[n, 2], tree.cells[n, 3]
     if last:
         edge = bearing - sense * half
@@ -384,7 +386,7 @@ def _with_round(tree: Tree, problem: Problem, n: int, way: int, last: bool) -> f
         cell = cell_at(tree, n)
         if soon == inf or not soon <= cell.end:
             return inf
-        return slides_from(problem.scene, problem.table, cell, way, problem.beat)
+        return slides_from(problem.scene, problem.table, cell, way, problem.beat, holds)
     return soon - sense * round_time(problem.table, way, bearing + sense * half)
 
 
@@ -395,9 +397,12 @@ def _least(tree: Tree, problem: Problem, n: int, way: int, last: bool) -> float:
     if not isnan(tree.known[n, column]):
         return float(tree.known[n, column])
     numbers, bounds = np.empty(_CLOSELY + 2, np.int64), np.empty(_CLOSELY + 2)
-    numbers[0], bounds[0] = n, _with_round(tree, problem, n, way, last)
+    elsewhere = not last and tree.cells[n, 0] + 1 < len(problem.scene.leader)
+    holds: FloatArray = np.empty((0, 2))
+    if elsewhere:
+        holds = holds_of(problem.scene, cell_at(tree, n), way, problem.beat)
+    numbers[0], bounds[0] = n, _with_round(tree, problem, n, way, last, holds)
     count, at = 1, 0
-    elsewhere = tree.cells[n, 0] + 1 < len(problem.scene.leader)
     narrow = _NARROW_ELSEWHERE if elsewhere else _NARROW
     for _ in range(_CLOSELY):
         if bounds[at] == inf or tree.cells[numbers[at], 3] < narrow:
@@ -409,7 +414,7 @@ def _least(tree: Tree, problem: Problem, n: int, way: int, last: bool) -> float:
         for k in range(2):
             place = at if k == 0 else count
             numbers[place] = first + k
-            bounds[place] = max(parent, _with_round(tree, problem, first + k, way, last))
+            bounds[place] = max(parent, _with_round(tree, problem, first + k, way, last, holds))
         count += 1
         at = int(np.argmin(bounds[:count]))
     tree.known[n, column] = bounds[at]

@@ -28,17 +28,14 @@ from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI, wrap, wrap_signed
 from relguide.kernels.base.records import Pose, Scene
-from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.base.sine import sine_and_cosine
 from relguide.kernels.bounds.breach import INSIDE
 from relguide.kernels.bounds.cells import EDGE, Cell, fastest_turn
-from relguide.kernels.bounds.round_time import round_anywhere
 from relguide.kernels.separation.clearance import leader_at, piece_at, piece_end
 
-_STEP = 0.1  # for which a front keeps its direction, in d_min and at V_P …
-_PARTS = 4  # … and a part of it from cells on another leg to the final one
-_CLOSER, _FINER = 2e-3, 16  # and of those narrower than this [rad]
+_STEP = 0.1  # for which a front keeps its direction, in d_min and at V_P
 _WIDEST = 3.1  # e is no further than this from the bearing of P, so that the disc is beside it
+_NARROWEST = 0.05  # nor is it held back nearer than this
 _TRIES = 8  # to say when P arrives within a step, to a tenth of `ROUNDING`
 ROUNDING = 1e-5  # 0.5 ms for an airliner: more than what rounding makes of all of this [R/V_P]
 UNKNOWN = -1e9
@@ -97,6 +94,17 @@ class Headings(NamedTuple):
     """It does not end after [R/V_P]."""
 
 
+class Hold(NamedTuple):
+    """Where a front is not turned, since it pays later on: see `held_front`."""
+
+    course: float
+    """e, counted the way it is turned, is not turned beyond this [rad] …"""
+    until: float
+    """… before then [R/V_P]."""
+
+
+NO_HOLD = Hold(inf, -inf)
+"""It is turned wherever it is slower for that at once."""
 FREE = Headings(0.0, inf, 0.0, 0.0, inf, inf)
 """It heads wherever it likes."""
 GOING, LATE, SLIDES, ARRIVED = 0, 1, 2, 3
@@ -139,7 +147,7 @@ def begins(t: float, edge: float) -> Place:
 @njit(cache=True, nogil=True)
 def follow(
     scene: Scene, place: Place, sense: float, step: float, steps: int, angle: float, latest: float,
-    headings: Headings, free: bool,
+    headings: Headings, free: bool, hold: Hold,
 ) -> tuple[Place, int]:  # fmt: skip
     """Follow a front until it has swept an angle.
 
@@ -154,6 +162,7 @@ def follow(
         headings: how something heads that goes with it.
         free: whether that needs no time to turn. On the final leg it is followed until e may be
             turned to where someone sliding heads: what comes then `round_time` says.
+        hold: where it is not turned.
 
     Returns:
         where it is then, and why it is not followed further.
@@ -170,7 +179,8 @@ def follow(
             if piece == final and ahead <= acos(scene.alpha * cos(bearing - there.h)):
                 return Place(t, bearing, course, swept, most), SLIDES
             took = min(step, piece_end(scene.leader, piece) - t + EDGE)
-        front = front_from(scene, t, there, bearing, course, sense, 1.0, took)
+        cap = hold.course if t < hold.until else inf
+        front = front_from(scene, t, there, bearing, course, sense, 1.0, took, cap)
         if not free:
             front = _slowed(front, t, took, headings)
         there = leader_then(scene, t + took)
@@ -195,39 +205,6 @@ def follow(
 def inside_share(scene: Scene) -> float:
     """What is left of the time round the disc on the final leg, since fronts go round inside it."""
     return 1.0 - INSIDE / scene.d_min
-
-
-@njit(cache=True, nogil=True)
-def slides_from(scene: Scene, table: FloatArray, cell: Cell, way: int, latest: float) -> float:
-    """How soon something can be anywhere on the final leg that starts in a cell, elsewhere.
-
-    At a bearing y it is no sooner than this and sense · `round_time(table, way, y)`, and as long as
-    `whole_rounds` take. So what is known of the cell, and of y, need not be looked at together.
-
-    Args:
-        scene: the leader and d_min.
-        table: of `round_time.times_round`.
-        cell: of contacts on another leg.
-        way: 0 counter-clockwise round the leader, 1 clockwise.
-        latest: what is on the final leg no sooner does not matter, and comes back as infinite.
-
-    Returns:
-        `UNKNOWN` if a front leaves the disc.
-    """
-    low, high = bearings_of(scene, cell)
-    if scene.alpha > FAST:
-        return UNKNOWN
-    step = step_of(scene) / (_FINER if cell.half < _CLOSER else _PARTS)
-    edge = high if way == 0 else low
-    sense = 1.0 - 2.0 * way
-    place, fate = follow(scene, begins(cell.start, edge), sense, step, ANY, inf, latest, FREE, True)
-    if fate == ARRIVED:
-        return UNKNOWN
-    if fate == LATE:
-        return inf
-    less = ROUNDING + table[way, -1] * INSIDE / scene.d_min
-    since = sense * round_anywhere(table, way, place.bearing - scene.leader[-1, 3])
-    return float(place.t - less - since)
 
 
 @njit(cache=True, nogil=True)
@@ -286,7 +263,7 @@ def step_of(scene: Scene) -> float:
 @njit(cache=True, nogil=True)
 def front_from(
     scene: Scene, t: float, there: Pose, bearing: float, course: float, sense: float, pace: float,
-    step: float,
+    step: float, cap: float,
 ) -> Front:  # fmt: skip
     """A front for the next step.
 
@@ -299,6 +276,7 @@ def front_from(
         sense: as in `Front`.
         pace: +1 on in time, −1 back, where the leader flies backward.
         step: how long it is [R/V_P].
+        cap: e is not turned beyond this, of `Hold.course` [rad].
     """
     alpha, later = pace * scene.alpha, 0.5 * step
     # where someone heads who slides along the edge, in the middle of the step
@@ -308,6 +286,7 @@ def front_from(
     on, soon = bearing + sense * rate * later, t + pace * later
     heading = _heading_at(scene, piece_at(scene.leader, soon), soon)
     wanted = sense * (on - bearing) + acos(alpha * cos(on - heading))
+    wanted = min(wanted, max(cap - sense * bearing, _NARROWEST))
     from_course = max(sense * (course - bearing), min(wanted, _WIDEST))
     course = bearing + sense * from_course
     y, x = sine_and_cosine(course)

@@ -19,9 +19,10 @@ from relguide.kernels.bounds.around import (
     unknown_around,
 )
 from relguide.kernels.bounds.cells import Cell
+from relguide.kernels.bounds.held_front import holds_of, slides_from
 from relguide.kernels.bounds.kept_fronts import begin_fronts, round_arrival
 from relguide.kernels.bounds.round_time import round_bound, round_time, times_round
-from relguide.kernels.bounds.round_turning import slides_from, whole_rounds
+from relguide.kernels.bounds.round_turning import whole_rounds
 from relguide.kernels.contact.clear_words import word_clears
 from relguide.kernels.contact.contact import contact_heading, to_frame_of
 from relguide.kernels.separation.clearance import leader_at, piece_at
@@ -267,7 +268,8 @@ def by_slide(scene: Scene, start: Cell, end: Cell) -> float:
         edge = end.bearing - (1.0 - 2.0 * way) * end.half
         took = (1.0 - 2.0 * way) * round_time(table, way, edge)
         took += whole_rounds(scene, start, end, way) * float(table[way, -1])
-        soonest = min(soonest, slides_from(scene, table, start, way, inf) + took)
+        holds = holds_of(scene, start, way, inf)
+        soonest = min(soonest, slides_from(scene, table, start, way, inf, holds) + took)
     return soonest
 
 
