@@ -11,14 +11,14 @@ the course is the front is a bound; this one is the best.
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
-from math import acos, cos, inf, sin
+from math import cos, inf, sin
 from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
 from relguide.kernels.base.norm import norm
-from relguide.kernels.base.records import Scene
+from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.breach import INSIDE
 from relguide.kernels.bounds.cells import Cell
@@ -41,6 +41,7 @@ from relguide.kernels.bounds.round_turning import (
     leader_then,
     step_of,
 )
+from relguide.kernels.contact.contact import contact_at
 
 _PARTS = 4  # a front keeps its direction for such a part of a step from cells elsewhere
 _CLOSER, _FINER = 2e-3, 16  # and of those narrower than this, which may be held as well [rad]
@@ -142,10 +143,10 @@ def _begins(scene: Scene, cell: Cell, way: int) -> Place:
 
 
 @njit(cache=True, nogil=True)
-def _slides_at(scene: Scene, place: Place, sense: float) -> float:
-    """How who slides heads where a front is, counted the way fronts are turned [rad]."""
+def _sliding(scene: Scene, place: Place, sense: float) -> Pose:
+    """The pose of who slides where a front is."""
     there = leader_then(scene, place.t)
-    return float(sense * place.bearing + acos(scene.alpha * cos(place.bearing - there.h)))
+    return contact_at(scene, place.t, place.bearing - there.h, sense)
 
 
 @njit(cache=True, nogil=True)
@@ -154,7 +155,7 @@ def _zone_ahead(scene: Scene, place: Place, sense: float, step: float, latest: f
     low, high, fate = inf, inf, GOING
     while fate == GOING and place.t < latest:
         place, fate = follow(scene, place, sense, step, 1, inf, latest, FREE, True, NO_HOLD)
-        slides, course = _slides_at(scene, place, sense), sense * place.course
+        slides, course = sense * _sliding(scene, place, sense).h, sense * place.course
         if slides < course - _NEARLY:
             low, high = min(low, slides), course
         elif high < inf:
@@ -207,11 +208,9 @@ def _passes(
         before = place
         place, fate = follow(scene, place, sense, step, 1, inf, latest, FREE, True, hold)
         if begun == -inf and sense * place.course >= course - _NEARLY:
-            begun, there = before.t, leader_then(scene, before.t)
-            x = there.x + scene.d_min * cos(before.bearing)
-            y = there.y + scene.d_min * sin(before.bearing)
+            begun, (x, y, _) = before.t, _sliding(scene, before, sense)
         if begun > -inf:
-            away = _slides_at(scene, place, sense) < course - _NEARLY
+            away = sense * _sliding(scene, place, sense).h < course - _NEARLY
             if turned and not away:
                 there, took = leader_then(scene, place.t), place.t - begun
                 x += took * cos(sense * course) - there.x
