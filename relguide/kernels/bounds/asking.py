@@ -36,7 +36,7 @@ def only_touches(search: Search, problem: Problem, n: int) -> bool:
     size = size_of(tree, n, d_min)
     if size > _LARGEST or not goes_on(search, problem, n):
         return False
-    if search.size[4] > _PIECES * (search.size[1] - _AFTER):
+    if search.size[3] > _PIECES * (search.size[1] - _AFTER):
         return False
     tally = search.asks[1 if tree.spare[n] else 0, min(int(-log2(size)), ASKS - 1)]
     if tally[0] >= _TRIED and _WORTH * tally[1] < tally[0]:
@@ -46,7 +46,7 @@ def only_touches(search: Search, problem: Problem, n: int) -> bool:
         tally[2] = 0
     may, pieces = may_touch_again(tree, problem, n)
     tally[0] += 1
-    search.size[4] += pieces + _ASKING
+    search.size[3] += pieces + _ASKING
     if may:
         return False
     tally[1] += 1

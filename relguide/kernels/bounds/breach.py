@@ -31,7 +31,7 @@ class Sieve(NamedTuple):
     used: bool
     """Whether any are."""
     end: Pose
-    """The end that is known, at t = 0, on the heading it is left on."""
+    """The end that is known, on the heading it is left on; one that moves at t = 0."""
     speed: float
     """Of that end, along the x axis [V_P]."""
     scene: Scene
@@ -39,7 +39,8 @@ class Sieve(NamedTuple):
     sense: float
     """+1 from the start on, −1 back from the goal."""
     low: float
-    """The earliest that the other end is left, when flown back [R/V_P]."""
+    """When the known end is left, and when flown back the earliest that the other one is
+    [R/V_P]."""
     high: float
     """And the latest; infinite only on the final leg [R/V_P]."""
 

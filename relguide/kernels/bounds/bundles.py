@@ -47,8 +47,8 @@ class Search(NamedTuple):
     """Numbers of both cells, 1 where the time round was looked at closely, and the level at which
     it was last asked whether paths hop too late. shape (·, 4)"""
     size: IntArray
-    """How many bundles there are, have been looked at, and have been probed; whether last contacts
-    have been looked at alone; and how many pieces of paths were followed. shape (5,)"""
+    """How many bundles there are, and have been looked at; whether last contacts have been looked
+    at alone; and how many pieces of paths were followed. shape (4,)"""
     vain: IntArray
     """Of `hopping.hops_late`. shape (REASONS,)"""
     fronts: Fronts
@@ -63,6 +63,8 @@ class Search(NamedTuple):
     """Of `asking`: by whether there is time to spare, and how many halvings of a radian come to the
     cell, how often it was asked, how often found out, and how often not asked since.
     shape (2, ASKS, 3)"""
+    probes: IntArray
+    """How many bundles have been probed, by their size."""
 
 
 @njit(cache=True, nogil=True)

@@ -1,8 +1,6 @@
 """Cells of contacts as a tree: each knows its halves, and what is known of it is computed once.
 
-The time round the disc is the difference of two times, one for each contact. So each may be looked
-at with its own, and much more closely than both together: that is what `round_from` and `round_to`
-do. Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
+Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
 from math import inf, isnan
@@ -26,27 +24,21 @@ from relguide.kernels.bounds.contact_bound import (
     until_again,
 )
 from relguide.kernels.bounds.goal import Goal, is_track
-from relguide.kernels.bounds.held_front import holds_of, slides_from
-from relguide.kernels.bounds.hop import final_leg, on_final_leg
 from relguide.kernels.bounds.junction import beyond_outward, can_touch
 from relguide.kernels.bounds.rest import COLUMNS, MOST, UNKNOWN, Rest
-from relguide.kernels.bounds.round_time import round_time
 from relguide.kernels.bounds.spare_bound import spare_bound
 from relguide.kernels.bounds.tangent_contacts import may_be_tangent
-from relguide.kernels.bounds.tight_contact import tight_excess
 
 IntArray = np.ndarray[tuple[int, ...], np.dtype[np.int64]]
 BoolArray = np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
 
-_MORE = 1.1  # than is asked for, is looked for at once
-_CLOSELY = 50  # times a cell is halved to find what is least in it
-_NARROW = 1e-6  # and how narrow its parts may become: what is left counts for some 1e-5 R/V_P [rad]
-_NARROW_ELSEWHERE = 5e-6  # on other legs than the final one, where each takes 0.1 ms [rad]
 _BY_TURN = 0.1  # how contacts are passed matters in cells smaller than this [rad]
 _TO, _ON, _AWAY = 0, 1, 2  # words to a first contact, on from it, and on from a last one
 _RESTS = 5  # rows kept, for each cell: if there is no more room, those of larger cells serve
-_SOON, _ONWARD, _LEAVING, _ROUND_FROM, _ROUND_TO = 0, 1, 2, 3, 5  # columns of what is known
-_REACHED, _LEFT, _LEFT_END, _TIGHT_TO, _TIGHT_FROM, _COLUMNS = 7, 12, 17, 17, 19, 21
+_SOON, _ONWARD, _LEAVING = 0, 1, 2  # columns of what is known
+ROUND_FROM, ROUND_TO, TIGHT_TO, TIGHT_FROM, HOPS_FROM = 3, 5, 17, 20, 23
+"""And those of `round_closely`."""
+_REACHED, _LEFT, _LEFT_END, _COLUMNS = 7, 12, 17, 29
 JOINED = 11
 """Columns of `Tree.joined`: those of `joined`, of `spare_onward` and of `last_contacts`."""
 _TO_GOAL, _TO_NEXT, _AGAIN = 5, 6, 7
@@ -66,8 +58,9 @@ class Tree(NamedTuple):
     known: FloatArray
     """How soon a first contact can be there, the goal from it, and the goal from a last one; bounds
     of both with the time round, either way; the first and the last of these by how the contact
-    is passed; and of both what `tight_excess` comes to, and what was asked for. NaN while it is not
-    known. shape (n, 21)"""
+    is passed; what hops to a last contact, from a first one on its leg, and from one to the final
+    leg, either way, take longer than round the disc, how much was asked for, and how long they may
+    be. NaN while it is not known. shape (n, 29)"""
     rests: FloatArray
     """Intervals of the words' unknown that were left, one cell's after another's: see `rest`.
     shape (·, 5)"""
@@ -331,91 +324,3 @@ def _keep_rest(tree: Tree, n: int, which: int, rest: Rest) -> None:
 def _keep(known: FloatArray, passed: Passed) -> None:
     for k in range(len(passed)):
         known[k] = passed[k]
-
-
-@njit(cache=True, nogil=True)
-def round_from(tree: Tree, problem: Problem, n: int, way: int) -> float:
-    """How soon a first contact can be in a cell, less the time round to there, looked at closely.
-
-    Args:
-        tree: with the cell.
-        problem: what is asked.
-        n: number of the cell.
-        way: 0 counter-clockwise round the leader, 1 clockwise.
-    """
-    return _least(tree, problem, n, way, False)
-
-
-@njit(cache=True, nogil=True)
-def round_to(tree: Tree, problem: Problem, n: int, way: int) -> float:
-    """How soon the goal can be reached from a last contact in a cell, with the time round to it."""
-    return _least(tree, problem, n, way, True)
-
-
-@njit(cache=True, nogil=True)
-def excess(tree: Tree, problem: Problem, n: int, last: bool, enough: float) -> float:
-    """How much longer than round the disc it takes to a contact of a cell, or on from it.
-
-    Args:
-        tree: with the cell.
-        problem: what is asked.
-        n: number of the cell, on the final leg.
-        last: as in `tight_excess`.
-        enough: likewise; there may be more.
-    """
-    column = _TIGHT_TO if last else _TIGHT_FROM
-    known = tree.known[n, column]
-    if isnan(known) or tree.known[n, column + 1] <= known < enough:
-        wanted = _MORE * enough
-        cell = on_final_leg(cell_at(tree, n))
-        known = tight_excess(final_leg(problem.scene), problem.table, cell, last, wanted)
-        tree.known[n, column], tree.known[n, column + 1] = known, wanted
-    return float(known)
-
-
-@njit(cache=True, nogil=True)
-def _with_round(
-    tree: Tree, problem: Problem, n: int, way: int, last: bool, holds: FloatArray
-) -> float:
-    sense, bearing, half = 1.0 - 2.0 * way, tree.cells[n, 2], tree.cells[n, 3]
-    if last:
-        edge = bearing - sense * half
-        return leave(tree, problem, n) + sense * round_time(problem.table, way, edge)
-    soon, _ = reach(tree, problem, n)
-    if tree.cells[n, 0] + 1 < len(problem.scene.leader):
-        cell = cell_at(tree, n)
-        if soon == inf or not soon <= cell.end:
-            return inf
-        return slides_from(problem.scene, problem.table, cell, way, problem.beat, holds)
-    return soon - sense * round_time(problem.table, way, bearing + sense * half)
-
-
-@njit(cache=True, nogil=True)
-def _least(tree: Tree, problem: Problem, n: int, way: int, last: bool) -> float:
-    """The least that `_with_round` comes to in a cell."""
-    column = (_ROUND_TO if last else _ROUND_FROM) + way
-    if not isnan(tree.known[n, column]):
-        return float(tree.known[n, column])
-    numbers, bounds = np.empty(_CLOSELY + 2, np.int64), np.empty(_CLOSELY + 2)
-    elsewhere = not last and tree.cells[n, 0] + 1 < len(problem.scene.leader)
-    holds: FloatArray = np.empty((0, 2))
-    if elsewhere:
-        holds = holds_of(problem.scene, cell_at(tree, n), way, problem.beat)
-    numbers[0], bounds[0] = n, _with_round(tree, problem, n, way, last, holds)
-    count, at = 1, 0
-    narrow = _NARROW_ELSEWHERE if elsewhere else _NARROW
-    for _ in range(_CLOSELY):
-        if bounds[at] == inf or tree.cells[numbers[at], 3] < narrow:
-            break
-        first = halve(tree, numbers[at], problem.scene.d_min)
-        if first < 0:
-            break
-        parent = bounds[at]
-        for k in range(2):
-            place = at if k == 0 else count
-            numbers[place] = first + k
-            bounds[place] = max(parent, _with_round(tree, problem, first + k, way, last, holds))
-        count += 1
-        at = int(np.argmin(bounds[:count]))
-    tree.known[n, column] = bounds[at]
-    return float(bounds[at])

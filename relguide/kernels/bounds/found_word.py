@@ -286,7 +286,7 @@ def _is_ruled_out(
         (m * signs[0], m * signs[1], m * signs[2]), first, found.astray, found.middle,
         found.middle_blur, found.time,
     )  # fmt: skip
-    begin, astray = 0.0, 0.0
+    begin, astray = sieve.low, 0.0
     if sieve.sense < 0.0:
         # flown back from the goal, of which it is known only nearly when it is met
         begin = sieve.low + found.time

@@ -15,15 +15,19 @@ from math import inf, pi
 from numba import njit
 
 from relguide.kernels.base.angles import TWO_PI
-from relguide.kernels.base.records import Pose, Scene, Velocity, Window
+from relguide.kernels.base.norm import norm
+from relguide.kernels.base.records import Pose, Scene, Velocity, Window, with_limit
 from relguide.kernels.base.sine import sine_and_cosine
 from relguide.kernels.bounds.between import blur_between
-from relguide.kernels.bounds.breach import no_sieve
+from relguide.kernels.bounds.breach import INSIDE, Sieve, no_sieve
 from relguide.kernels.bounds.cells import Cell, Poses, poses_of
 from relguide.kernels.bounds.junction import junction_of
 from relguide.kernels.bounds.rest import no_rest
 from relguide.kernels.bounds.word_bound import soonest, soonest_by_turn
 from relguide.kernels.contact.contact import to_frame_of
+
+LONG = 2.0
+"""Words that take no longer do not come so close that it is looked for [R/V_P]."""
 
 
 @njit(cache=True, nogil=True)
@@ -56,7 +60,7 @@ def turned_round(cell: Cell) -> Cell:
 def hop_bound(scene: Scene, cell: Cell, other: Cell, window: Window) -> float:
     """No word without full loops leads sooner from a contact of a cell to the next, in the other.
 
-    Only how it begins is looked at.
+    Only how it begins is looked at, and that it does not come through the disc.
 
     Args:
         scene: a leader that keeps straight, and d_min.
@@ -64,27 +68,54 @@ def hop_bound(scene: Scene, cell: Cell, other: Cell, window: Window) -> float:
         other: likewise.
         window: words that take less time than `earliest` do not count; infinite from `beat` on.
     """
-    return hop_toward(scene, cell, poses_of(scene, other), window)
+    return hop_toward(scene, cell, poses_of(scene, other), window, 0.0)
 
 
 @njit(cache=True, nogil=True)
-def hop_toward(scene: Scene, cell: Cell, end: Poses, window: Window) -> float:
-    """The same to any poses that move with the leader."""
+def hop_toward(scene: Scene, cell: Cell, end: Poses, window: Window, astray: float) -> float:
+    """The same to any poses that move with the leader.
+
+    Args:
+        scene: as in `hop_bound`.
+        cell: likewise.
+        end: the poses.
+        window: as in `hop_bound`.
+        astray: how far from the word the path may lie that keeps the limit [R].
+    """
     begin = poses_of(scene, cell)
     if begin.differs == inf or end.differs == inf:
         return inf
     junction = junction_of(scene, cell, -1.0, True)
     s, c = sine_and_cosine(end.middle.h)
+    back = Pose(end.middle.x, end.middle.y, end.middle.h + pi)
+    inside = limit_for(scene, end, window.beat, astray)
+    sieve = Sieve(window.beat > LONG, back, scene.alpha, inside, -1.0, 0.0, inf)
     found = soonest_by_turn(
         to_frame_of(begin.middle, end.middle), blur_between(begin, end),
-        Velocity(scene.alpha * c, -scene.alpha * s), window, no_sieve(scene), junction, no_rest(),
-        False,
+        Velocity(scene.alpha * c, -scene.alpha * s), window, sieve, junction, no_rest(), False,
     )  # fmt: skip
     outward, inward = found.left, found.right
     if junction.outward == 1:
         outward, inward = inward, outward
     soon = min(found.tangent, outward)
     return min(soon, inward) if junction.inward else soon
+
+
+@njit(cache=True, nogil=True)
+def limit_for(scene: Scene, poses: Poses, longest: float, astray: float) -> Scene:
+    """The limit that a path from the middle of some poses breaks if one from any of them may not.
+
+    That one is the same path, moved and turned as its pose is.
+
+    Args:
+        scene: the leader and d_min.
+        poses: of contacts.
+        longest: no path takes longer [R/V_P].
+        astray: how far besides from it that one may lie [R].
+    """
+    moved = astray + max(poses.left, poses.right) + poses.differs * (2.0 + longest)
+    moved += poses.span * (norm(poses.vx, poses.vy) + scene.alpha)
+    return with_limit(scene, max(scene.d_min - INSIDE - moved, 0.0))
 
 
 @njit(cache=True, nogil=True)

@@ -29,7 +29,6 @@ from relguide.kernels.bounds.contact_bound import otherwise
 from relguide.kernels.bounds.contact_tree import (
     Problem,
     cell_at,
-    excess,
     halve,
     is_buried,
     learn,
@@ -37,8 +36,6 @@ from relguide.kernels.bounds.contact_tree import (
     plant,
     reach,
     reached,
-    round_from,
-    round_to,
     size_of,
 )
 from relguide.kernels.bounds.hop import final_leg, on_final_leg
@@ -53,19 +50,17 @@ from relguide.kernels.bounds.last_contacts import ask_lasts, lasts_of
 from relguide.kernels.bounds.narrowing import lasts_left, narrow, with_around
 from relguide.kernels.bounds.pair_bound import BESIDE, bound_together
 from relguide.kernels.bounds.probe import Find, probe, probe_between, probe_spare
-from relguide.kernels.bounds.round_turning import whole_rounds
-from relguide.kernels.bounds.tight_contact import LONGEST
+from relguide.kernels.bounds.round_trip import is_final, round_trip
 
 SEARCHING, CLOSED, STUCK = 0, 1, 2
 """What a round ends with: there is more to do; no bundle is left; nothing more can be done."""
 _PROBED = (0.06, 8e-3, 1e-3)
 """Cells are probed when their bearings differ by this, or down to half as much [rad]."""
-_PROBES, _EVERY = 256, 256  # so many are made at once, and one more for so many bundles looked at
+_PROBES, _DELAYS, _EVERY = 64, 160, 512
+"""So many of each size are made at once, and of those that look for a path that arrives just as the
+slot opens; and one more for so many bundles looked at."""
 _SMALLEST = 1e-10  # a cell no wider than this is not halved: rounding counts for more [rad]
 _EASED = 0.03  # cells narrower than this are looked at closely [rad]
-_SLACK = 1e-6  # of `round_time`, as part of a whole round
-_HOPS = 1.2e-2  # cells narrower than this are looked at by hops to and from them [rad]
-_OPEN = 2_000  # but only in searches that have looked at so many bundles
 _HOPS_AFTER = 1_000  # looks it is asked whether paths that hop between two cells are late,
 _HOP_LEVEL, _DEEP = 5, 9  # from so many halvings of a radian on; and before that from so many on,
 _HOP_LEVELS = 2  # and whenever there are so many more
@@ -95,9 +90,10 @@ def begin(problem: Problem, first: FloatArray, exact: int, last: FloatArray) -> 
     """
     search = Search(
         plant(first, MAX_BUNDLES), plant(last, MAX_BUNDLES), np.arange(len(last)),
-        np.empty(MAX_BUNDLES), np.empty((MAX_BUNDLES, 4), np.int64), np.zeros(5, np.int64),
+        np.empty(MAX_BUNDLES), np.empty((MAX_BUNDLES, 4), np.int64), np.zeros(4, np.int64),
         np.zeros(REASONS, np.int64), begin_fronts(), np.full(TOGETHER, -1), np.empty(TOGETHER),
         begin_lasts(len(last)), np.zeros((2, ASKS, 3), np.int64),
+        np.zeros(len(_PROBED), np.int64),
     )  # fmt: skip
     search.first.spare[exact : len(first)] = True
     for n in range(len(first)):
@@ -157,7 +153,7 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
         elif m >= 0 and eased == 0:
             size = max(half, search.last.cells[m, 3])
             if size < _EASED and search.last.cells[m, 0] == final:
-                closer = _round_trip(search, problem, n, m)
+                closer = round_trip(search, problem, n, m)
                 if closer > bound:
                     if closer < problem.beat:
                         push(search, closer, n, m, 1, asked)
@@ -209,18 +205,19 @@ def _look_at_lasts(search: Search, problem: Problem, until: float) -> None:
             count += 2
     for k in range(at):
         learn(tree, cells[at - 1 - k])
-    search.size[3] = 1
+    search.size[2] = 1
 
 
 @njit(cache=True, nogil=True)
 def _probe(search: Search, problem: Problem, find: Find, n: int, m: int) -> None:
     """Look for a path in a bundle that has become small."""
     half = max(search.first.cells[n, 3], search.last.cells[m, 3] if m >= 0 else 0.0)
-    if search.size[2] >= _PROBES + search.size[1] // _EVERY:
-        return
-    for probed in _PROBED:
-        if 0.5 * probed < half <= probed:
-            search.size[2] += 1
+    for k in range(len(_PROBED)):
+        if 0.5 * _PROBED[k] < half <= _PROBED[k]:
+            most = _DELAYS if find.at_release else _PROBES
+            if search.probes[k] >= most + search.size[1] // _EVERY:
+                return
+            search.probes[k] += 1
             cell = cell_at(search.first, n)
             if m < 0 and search.first.spare[n] and not find.at_release:
                 probe_spare(problem.start, find, cell)
@@ -277,7 +274,7 @@ def _halve(
 @njit(cache=True, nogil=True)
 def _pair(search: Search, problem: Problem, find: Find, n: int, bound: float, until: float) -> None:
     """Keep the paths whose first contact lies in a cell, by the cells of their last ones."""
-    if search.size[3] == 0:
+    if search.size[2] == 0:
         _look_at_lasts(search, problem, until)
     if search.first.cells[n, 0] != len(problem.scene.leader) - 1:
         ask_lasts(search, problem, n, until)
@@ -335,49 +332,11 @@ def _is_wide(search: Search, problem: Problem, n: int, m: int) -> bool:
 
 
 @njit(cache=True, nogil=True)
-def _round_trip(search: Search, problem: Problem, n: int, m: int) -> float:
-    """How soon paths can arrive that go round from one cell to another, on the final leg."""
-    first, last = search.first.cells[n], search.last.cells[m]
-    cell, other = cell_at(search.first, n), cell_at(search.last, m)
-    closest = inf
-    for way in range(2):
-        apart = (1.0 - 2.0 * way) * (first[2] - last[2])
-        rounds = 1.0 if apart >= first[3] + last[3] else 0.0
-        if first[0] < last[0]:
-            rounds = whole_rounds(problem.scene, cell, other, way)
-        whole = problem.table[way, -1] * (rounds - 2.0 * _SLACK)
-        trip = round_from(search.first, problem, n, way) + round_to(search.last, problem, m, way)
-        closest = min(closest, _with_hops(search, problem, n, m, way, trip + whole))
-    return closest
-
-
-@njit(cache=True, nogil=True)
-def _with_hops(search: Search, problem: Problem, n: int, m: int, way: int, trip: float) -> float:
-    """A bound for who goes round from one cell to another, where no bank is enough to slide."""
-    first, last, enough = search.first.cells[n], search.last.cells[m], problem.beat - trip
-    if (
-        enough <= 0.0
-        or max(first[3], last[3]) >= _HOPS
-        or search.size[1] < _OPEN
-        or not _is_final(search, problem, n, m)
-    ):
-        return trip
-    sense, more = 1.0 - 2.0 * way, 0.0
-    if last[1] == sense:
-        more = excess(search.last, problem, m, True, enough)
-    if first[1] == sense and more < enough:
-        # by only one of them, since both may be the same hop
-        more = max(more, excess(search.first, problem, n, False, enough))
-    longest = reach(search.first, problem, n)[0] + LONGEST + leave(search.last, problem, m)
-    return min(trip + more, max(trip, longest))
-
-
-@njit(cache=True, nogil=True)
 def _hops_late(search: Search, problem: Problem, n: int, m: int, asked: int) -> tuple[bool, int]:
     """Whether who hops between two cells is late, if it is time to ask, and when it was asked."""
     level = _level(max(search.first.cells[n, 3], search.last.cells[m, 3]))
     least = _HOP_LEVEL if search.size[1] >= _HOPS_AFTER else _DEEP
-    if level < max(asked + _HOP_LEVELS, least) or not _is_final(search, problem, n, m):
+    if level < max(asked + _HOP_LEVELS, least) or not is_final(search, problem, n, m):
         return False, asked
     room = problem.beat - reach(search.first, problem, n)[0] - leave(search.last, problem, m)
     cell, other = on_final_leg(cell_at(search.first, n)), on_final_leg(cell_at(search.last, m))
@@ -386,13 +345,6 @@ def _hops_late(search: Search, problem: Problem, n: int, m: int, asked: int) -> 
         most = MAX_BUNDLES
     scene = final_leg(problem.scene)
     return hops_late(scene, problem.table, cell, other, room, search.vain, most), level
-
-
-@njit(cache=True, nogil=True)
-def _is_final(search: Search, problem: Problem, n: int, m: int) -> bool:
-    """Whether two cells, and all contacts between theirs, lie on the final leg."""
-    final = len(problem.scene.leader) - 1
-    return bool(min(search.first.cells[n, 0], search.last.cells[m, 0]) == final)
 
 
 @njit(cache=True, nogil=True)

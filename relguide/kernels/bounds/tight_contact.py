@@ -64,10 +64,16 @@ class _Tight(NamedTuple):
     """How much longer than round the disc it may take to turn there [R/V_P]."""
     apart: float
     """For how long there is no other contact before one of them [R/V_P]."""
+    longest: float
+    """What takes longer to one of them is not bounded [R/V_P] …"""
+    until: float
+    """… nor what takes longer until it is on that heading [R/V_P]."""
 
 
 @njit(cache=True, nogil=True)
-def tight_excess(scene: Scene, table: FloatArray, cell: Cell, last: bool, enough: float) -> float:
+def tight_excess(
+    scene: Scene, table: FloatArray, cell: Cell, last: bool, enough: float, longest: float
+) -> float:
     """How much longer than round the disc it takes to any contact of a cell, or on from it.
 
     That is from any other contact, or to any, the way that the cell's side says.
@@ -78,9 +84,11 @@ def tight_excess(scene: Scene, table: FloatArray, cell: Cell, last: bool, enough
         cell: of contacts.
         last: whether it is come to, and not left.
         enough: no more than this is wanted [R/V_P].
+        longest: what takes longer to the next contact does not matter, nor what takes `LONGEST`
+            [R/V_P].
 
     Returns:
-        [R/V_P], for what takes less than `LONGEST` in all; 0 where somebody might slide.
+        [R/V_P], for what takes less than that to the next contact; 0 where somebody might slide.
     """
     # mirrored, so that it passes counter-clockwise; and turned round, so that it is come to
     asked = standing(cell.piece, 1.0, cell.side * cell.bearing, cell.half)
@@ -94,7 +102,10 @@ def tight_excess(scene: Scene, table: FloatArray, cell: Cell, last: bool, enough
         return 0.0
     at_once = Cell(asked.piece, 1.0, asked.bearing, asked.half, 0.0, 0.0)
     end, longer = _turned_on(scene, asked, most), (most - 1.0) * along
-    tight = _Tight(asked, end, longer, apart_by(scene, at_once, -1.0))
+    longest = min(longest, LONGEST)
+    tight = _Tight(
+        asked, end, longer, apart_by(scene, at_once, -1.0), longest, longest + most * along
+    )
     return _least(scene, table, tight, enough)
 
 
@@ -133,25 +144,27 @@ def _excess(scene: Scene, table: FloatArray, other: Cell, tight: _Tight, enough:
     # beyond the contact, and back to it
     back = round_bound(table, 0, cell, other)
     took = max(tight.apart, round_bound(table, 1, other, cell))
-    if took + back < least and took < LONGEST:
-        window = Window(0.0, min(least - back, LONGEST))
+    if took + back < least and took < tight.longest:
+        window = Window(0.0, min(least - back, tight.longest))
         took = max(took, hop_bound(scene, other, cell, window))
-        if took < LONGEST:
+        if took < tight.longest:
             least = min(least, took + back)
     # before it, and on in the same turn to the heading of the last contact of the cell
     around = ahead + reach >= TWO_PI
     soonest, begin = round_bound(table, 0, other, cell), other.bearing - other.half
     latest = round_most(table, begin, ahead + reach - (TWO_PI if around else 0.0))
-    if around and full - latest < LONGEST:
+    if around and full - latest < tight.longest:
         return 0.0
-    if soonest >= LONGEST:
+    if soonest >= tight.longest:
         return least
     latest += tight.longer
     took = max(tight.apart, soonest)
-    if took < min(latest + least, TWO_PI):
-        window = Window(soonest * (1.0 - _ROUNDING), min(latest + least, TWO_PI))
-        took = max(took, hop_toward(scene, other, tight.end, window))
-    if took >= TWO_PI:
+    if took < min(latest + least, tight.until):
+        window = Window(soonest * (1.0 - _ROUNDING), min(latest + least, tight.until))
+        # who turns on flies no word to there, but lies that near one
+        astray = (tight.until - tight.longest) * (2.0 + window.beat)
+        took = max(took, hop_toward(scene, other, tight.end, window, astray))
+    if took >= tight.until:
         return least
     if took < latest + least and other.side > 0.0 and _can_slide(scene, other):
         # sliding to where the word begins counts here as well

@@ -43,6 +43,7 @@ NAMES = [answer["id"] for _, _, answer in ACTIVE]
 SHORTFALL = 0.05
 """Golden plans keep d_min but for half a metre, which is worth some hundredths of a second."""
 TURNING = proofs.KINDS[2]
+IN_WIND = "turning, in wind"
 LONG = "R097"
 """Its leader is as fast as the pursuer but for 3 %: its proof takes more than a second."""
 QUICK = "R051"
@@ -274,8 +275,8 @@ def test_the_bar_shows_the_gap(
 
 def test_a_probe_comes_to_its_first_contact_by_a_later_word_too() -> None:
     """Who is later is ahead there: by the soonest word the path arrives 0.8 s later."""
-    rng = np.random.default_rng([105, proofs.KINDS.index("turning, in wind"), 56])
-    situation = proofs.draw("turning, in wind", rng, 56)
+    rng = np.random.default_rng([105, proofs.KINDS.index(IN_WIND), 56])
+    situation = proofs.draw(IN_WIND, rng, 56)
     found = candidates(situation)
     question, scale = question_of(found), found.frame.radius / situation.pursuer.tas
     find = begin_find(question.start, question.scene, inf, 0.0, False)
@@ -302,3 +303,27 @@ def test_a_contact_with_no_other_one_after_it_is_known_to_be_the_only_one() -> N
     planned = plan(proofs.draw(TURNING, rng, 6))
     assert isinstance(planned, Plan)
     assert any(bound.gap <= CERTIFIED for bound in bounds(planned, seconds=10.0))
+
+
+@pytest.mark.parametrize(
+    ("seed", "case"),
+    [(221, 22), (234, 112), (233, 80)],
+    ids=["words through the disc", "hops to the final leg", "short hops"],
+)
+def test_where_nobody_can_slide_the_bound_comes_to_the_plan(seed: int, case: int) -> None:
+    """These lacked 0.05 s to 0.4 s of a certificate however long they took."""
+    rng = np.random.default_rng([seed, proofs.KINDS.index(IN_WIND), case])
+    planned = plan(proofs.draw(IN_WIND, rng, case))
+    assert isinstance(planned, Plan)
+    assert any(bound.gap <= CERTIFIED for bound in bounds(planned, seconds=10.0))
+
+
+def test_a_proof_finds_a_path_that_is_only_seen_in_the_smallest_cells() -> None:
+    """Beside it larger ones have no path that arrives as soon."""
+    rng = np.random.default_rng([233, proofs.KINDS.index(IN_WIND), 67])
+    planned = plan(proofs.draw(IN_WIND, rng, 67))
+    assert isinstance(planned, Plan)
+    proved = prove(planned, seconds=2.0)
+    assert proved.certificate.holds
+    assert proved.time_to_converge < planned.time_to_converge - 0.3
+    assert proved.optimality.proof == "certified"

@@ -33,8 +33,8 @@ def test_no_path_to_a_tight_contact_or_from_one_is_longer_round_by_less(last: bo
         bearing = tight_bearing(scene, rng)
         side, other_side = rng.choice([1.0, -1.0]), rng.choice([1.0, 1.0, -1.0])
         cell = some_cell(side * bearing, side, rng)
-        excess = tight_excess(scene, times_round(scene.alpha, scene.d_min), cell, last, ENOUGH)
-        table = times_round(scene.alpha, scene.d_min)
+        table, longest = times_round(scene.alpha, scene.d_min), rng.choice([LONGEST, 3.0, 1.0])
+        excess = tight_excess(scene, table, cell, last, ENOUGH, longest)
         tight = pose_at(scene, side * bearing, side)
         for _ in range(60):
             # mostly from a little before it, or to a little after it
@@ -44,7 +44,7 @@ def test_no_path_to_a_tight_contact_or_from_one_is_longer_round_by_less(last: bo
             begin, end = (other, tight) if last else (tight, other)
             for row in words_between(scene, begin, end):
                 went = unrolled(begin, row, scene.alpha, scene.d_min)
-                if np.isnan(went) or row[0] >= LONGEST or row[0] < 1e-3:
+                if np.isnan(went) or row[0] >= longest or row[0] < 1e-3:
                     continue
                 # mirrored, if it is clockwise
                 at = side * atan2(begin.y, begin.x)
@@ -90,12 +90,28 @@ def test_leaving_the_circle_straight_comes_as_near_to_a_tight_contact_as_is_said
     table = times_round(scene.alpha, scene.d_min)
     least = least_excess(scene, table, radians(bearing))
     assert least == pytest.approx(expected, abs=3e-4)
-    said = tight_excess(scene, table, standing(0, 1.0, radians(bearing), 1e-6), True, ENOUGH)
+    said = tight_excess(scene, table, standing(0, 1.0, radians(bearing), 1e-6), True, ENOUGH, inf)
     assert least - 2e-3 < said <= least
     # no bearing of a cell that begins there comes nearer, and all of it is known nearly as well
     for half in (3e-4, 1e-3):
         cell = standing(0, 1.0, radians(bearing) + half, half)
-        assert 0.7 * said < tight_excess(scene, table, cell, True, ENOUGH) <= least
+        assert 0.7 * said < tight_excess(scene, table, cell, True, ENOUGH, inf) <= least
+
+
+def test_words_that_come_through_the_disc_lead_to_no_contact() -> None:
+    """They would be no longer than round it, to contacts far round that are passed either way."""
+    scene, bearing, least = straight(0.965, 3.609), 1.3831, inf
+    table, begin = times_round(scene.alpha, scene.d_min), pose_at(scene, bearing, 1.0)
+    for ahead in np.linspace(0.1, 6.2, 1_500):
+        other = wrap(bearing + ahead + pi) - pi
+        for side in (1.0, -1.0):
+            for row in words_between(scene, begin, pose_at(scene, other, side)):
+                went = unrolled(begin, row, scene.alpha, scene.d_min)
+                if row[0] < LONGEST and went > 0.0:
+                    least = min(least, row[0] - round_most(table, bearing, went))
+    said = tight_excess(scene, table, standing(0, 1.0, bearing, 1e-6), False, ENOUGH, inf)
+    assert least == pytest.approx(0.063, abs=1e-3)
+    assert least - 1e-3 < said <= least + SLACK
 
 
 def test_flown_back_and_mirrored_a_hop_is_a_hop() -> None:

@@ -1,0 +1,176 @@
+"""How much later than round the disc paths are that go from one contact to another: each closely.
+
+The time round the disc is the difference of two times, one for each contact. So each may be looked
+at with its own, and much more closely than both together: that is what `round_from` and `round_to`
+do. Where nobody can slide a path takes longer (`excess`, `hop_excess`). All of it is kept with the
+cells. Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
+"""
+
+from math import inf, isnan
+
+import numpy as np
+from numba import njit
+
+from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.bounds.contact_tree import (
+    HOPS_FROM,
+    ROUND_FROM,
+    ROUND_TO,
+    TIGHT_FROM,
+    TIGHT_TO,
+    Problem,
+    Tree,
+    cell_at,
+    halve,
+    leave,
+    reach,
+)
+from relguide.kernels.bounds.held_front import holds_of, slides_from
+from relguide.kernels.bounds.hop import final_leg, on_final_leg
+from relguide.kernels.bounds.hop_to_final import hops_from, never_round
+from relguide.kernels.bounds.joined import apart
+from relguide.kernels.bounds.round_time import round_time
+from relguide.kernels.bounds.round_turning import UNKNOWN
+from relguide.kernels.bounds.tight_contact import LONGEST, tight_excess
+
+_CLOSELY = 50  # times a cell is halved to find what is least in it
+_NARROW = 1e-6  # and how narrow its parts may become: what is left counts for some 1e-5 R/V_P [rad]
+_NARROW_ELSEWHERE = 5e-6  # on other legs than the final one, where each takes 0.1 ms [rad]
+_MORE, _LONGER = 1.1, 1.05  # than is asked for, is looked for at once
+_SHORTER = 1.2  # than that hops must be to be asked for again
+
+
+@njit(cache=True, nogil=True)
+def round_from(tree: Tree, problem: Problem, n: int, way: int) -> float:
+    """How soon a first contact can be in a cell, less the time round to there, looked at closely.
+
+    Args:
+        tree: with the cell.
+        problem: what is asked.
+        n: number of the cell.
+        way: 0 counter-clockwise round the leader, 1 clockwise.
+    """
+    return _least(tree, problem, n, way, False)
+
+
+@njit(cache=True, nogil=True)
+def round_to(tree: Tree, problem: Problem, n: int, way: int) -> float:
+    """How soon the goal can be reached from a last contact in a cell, with the time round to it."""
+    return _least(tree, problem, n, way, True)
+
+
+@njit(cache=True, nogil=True)
+def excess(
+    tree: Tree, problem: Problem, n: int, last: bool, enough: float, longest: float
+) -> float:
+    """How much longer than round the disc it takes to a contact of a cell, or on from it.
+
+    Args:
+        tree: with the cell.
+        problem: what is asked.
+        n: number of the cell, on the final leg.
+        last: as in `tight_excess`.
+        enough: likewise; there may be more.
+        longest: likewise.
+    """
+    column = TIGHT_TO if last else TIGHT_FROM
+    kept = tree.known[n, column : column + 3]
+    if not _is_known(kept, enough, longest, LONGEST):
+        kept[1], kept[2] = _MORE * enough, _LONGER * longest
+        scene, cell = final_leg(problem.scene), on_final_leg(cell_at(tree, n))
+        kept[0] = tight_excess(scene, problem.table, cell, last, kept[1], kept[2])
+    return float(kept[0])
+
+
+@njit(cache=True, nogil=True)
+def hop_excess(
+    tree: Tree, problem: Problem, n: int, way: int, enough: float, longest: float
+) -> float:
+    """How much later than `round_from` says who hops from a contact of a cell to the final leg is.
+
+    Args:
+        tree: with the cell.
+        problem: what is asked.
+        n: number of the cell, on another leg.
+        way: 0 counter-clockwise round the leader, 1 clockwise.
+        enough: no more than this matters [R/V_P].
+        longest: as in `hops_from`.
+    """
+    slides = round_from(tree, problem, n, way)
+    if slides <= UNKNOWN or slides == inf:
+        return 0.0
+    kept = tree.known[n, HOPS_FROM + 3 * way : HOPS_FROM + 3 * way + 3]
+    if not _is_known(kept, enough, longest, never_round(problem.scene)):
+        kept[1], kept[2] = _MORE * enough, _LONGER * longest
+        alone = apart(tree, problem, n, 1.0)
+        latest = hops_from(
+            problem.scene, problem.table, cell_at(tree, n), way, slides, alone, slides + kept[1],
+            kept[2],
+        )  # fmt: skip
+        kept[0] = latest - slides
+    return float(kept[0])
+
+
+@njit(cache=True, nogil=True)
+def _is_known(kept: FloatArray, enough: float, longest: float, most: float) -> bool:
+    """Whether what is kept of hops says as much as they would if they were asked about now.
+
+    Args:
+        kept: how much longer they take, how much was asked for, and how long they may be.
+        enough: no more than this matters.
+        longest: how long they may be now.
+        most: what takes longer is never asked about.
+    """
+    if isnan(kept[0]) or longest > kept[2]:
+        return False
+    return bool(
+        kept[0] >= enough or (kept[0] < kept[1] and _SHORTER * longest >= min(kept[2], most))
+    )
+
+
+@njit(cache=True, nogil=True)
+def _with_round(
+    tree: Tree, problem: Problem, n: int, way: int, last: bool, holds: FloatArray
+) -> float:
+    sense, bearing, half = 1.0 - 2.0 * way, tree.cells[n, 2], tree.cells[n, 3]
+    if last:
+        edge = bearing - sense * half
+        return leave(tree, problem, n) + sense * round_time(problem.table, way, edge)
+    soon, _ = reach(tree, problem, n)
+    if tree.cells[n, 0] + 1 < len(problem.scene.leader):
+        cell = cell_at(tree, n)
+        if soon == inf or not soon <= cell.end:
+            return inf
+        return slides_from(problem.scene, problem.table, cell, way, problem.beat, holds)
+    return soon - sense * round_time(problem.table, way, bearing + sense * half)
+
+
+@njit(cache=True, nogil=True)
+def _least(tree: Tree, problem: Problem, n: int, way: int, last: bool) -> float:
+    """The least that `_with_round` comes to in a cell."""
+    column = (ROUND_TO if last else ROUND_FROM) + way
+    if not isnan(tree.known[n, column]):
+        return float(tree.known[n, column])
+    numbers, bounds = np.empty(_CLOSELY + 2, np.int64), np.empty(_CLOSELY + 2)
+    elsewhere = not last and tree.cells[n, 0] + 1 < len(problem.scene.leader)
+    holds: FloatArray = np.empty((0, 2))
+    if elsewhere:
+        holds = holds_of(problem.scene, cell_at(tree, n), way, problem.beat)
+    numbers[0], bounds[0] = n, _with_round(tree, problem, n, way, last, holds)
+    count, at = 1, 0
+    narrow = _NARROW_ELSEWHERE if elsewhere else _NARROW
+    for _ in range(_CLOSELY):
+        if bounds[at] == inf or tree.cells[numbers[at], 3] < narrow:
+            break
+        first = halve(tree, numbers[at], problem.scene.d_min)
+        if first < 0:
+            break
+        parent = bounds[at]
+        for k in range(2):
+            place = at if k == 0 else count
+            numbers[place] = first + k
+            bounds[place] = max(parent, _with_round(tree, problem, first + k, way, last, holds))
+        count += 1
+        at = int(np.argmin(bounds[:count]))
+    tree.known[n, column] = bounds[at]
+    return float(bounds[at])

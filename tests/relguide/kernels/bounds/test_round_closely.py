@@ -1,0 +1,55 @@
+"""What is kept of hops with a cell is what they take, for whatever it is asked next."""
+
+from math import inf, radians
+
+import numpy as np
+import pytest
+
+from relguide.kernels.base.records import Pose, Scene
+from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.bounds.around import unknown_around
+from relguide.kernels.bounds.contact_tree import Problem, Tree, plant
+from relguide.kernels.bounds.goal import Goal
+from relguide.kernels.bounds.hop import standing
+from relguide.kernels.bounds.round_closely import excess
+from relguide.kernels.bounds.round_time import times_round
+from relguide.kernels.bounds.tight_contact import LONGEST, tight_excess
+from tests.straight_contacts import straight
+
+HALF = 1e-3
+"""Half of the cell's width [rad]."""
+
+
+def asked(bearing: float, alpha: float, d_min: float) -> tuple[Problem, Tree, Scene, FloatArray]:
+    """A cell on the final leg, and the same leader as if he had never turned."""
+    never = straight(alpha, d_min)
+    turned = np.array([[0.0, -1.0, 0.3, 0.9, 0.4], [2.0, 0.1, 1.2, 0.0, 0.0]])
+    scene, table = Scene(turned, *never[1:]), times_round(never.alpha, never.d_min)
+    problem = Problem(
+        Pose(-9.0, 0.0, 0.0), scene, Goal(-3.0, never.alpha, False), table, 20.0, 2e-5,
+        unknown_around(), np.empty((0, 5)),
+    )  # fmt: skip
+    return problem, plant(np.array([[1.0, 1.0, bearing, HALF, 2.0, inf]]), 16), never, table
+
+
+@pytest.mark.parametrize("last", [True, False])
+def test_on_the_final_leg_hops_are_as_behind_a_leader_who_never_turned(last: bool) -> None:
+    bearing = radians(64.0 if last else 116.0)
+    problem, tree, never, table = asked(bearing, 0.6568746823392786, 2.043434249423992)
+    expected = tight_excess(never, table, standing(0, 1.0, bearing, HALF), last, 1.0, LONGEST)
+    assert excess(tree, problem, 0, last, 1.0, inf) == pytest.approx(expected, abs=1e-4)
+    assert expected > 0.02
+
+
+def test_hops_that_must_be_shorter_are_longer_round() -> None:
+    """Who has longer may come to the next contact from the other side, through what is narrow."""
+    raised = 0
+    for alpha in (0.7, 0.8, 0.9, 0.95):
+        problem, tree, _, _ = asked(radians(95.0), alpha, 0.9 * (1.0 + alpha) ** 2)
+        said = [excess(tree, problem, 0, False, 1.0, longest) for longest in (inf, 1.0, 0.5, inf)]
+        assert said[0] <= said[1] + 1e-9
+        assert said[1] <= said[2] + 1e-9
+        # the longer are asked for again
+        assert said[3] == pytest.approx(said[0], abs=1e-9)
+        raised += said[1] > said[0] + 1e-6
+    assert raised > 0
