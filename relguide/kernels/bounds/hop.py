@@ -21,6 +21,7 @@ from relguide.kernels.base.sine import sine_and_cosine
 from relguide.kernels.bounds.between import blur_between
 from relguide.kernels.bounds.breach import INSIDE, Sieve, no_sieve
 from relguide.kernels.bounds.cells import Cell, Poses, poses_of
+from relguide.kernels.bounds.found_word import ByTurn, Junction
 from relguide.kernels.bounds.junction import junction_of
 from relguide.kernels.bounds.rest import no_rest
 from relguide.kernels.bounds.word_bound import soonest, soonest_by_turn
@@ -94,6 +95,17 @@ def hop_toward(scene: Scene, cell: Cell, end: Poses, window: Window, astray: flo
         to_frame_of(begin.middle, end.middle), blur_between(begin, end),
         Velocity(scene.alpha * c, -scene.alpha * s), window, sieve, junction, no_rest(), False,
     )  # fmt: skip
+    return as_may_be(found, junction)
+
+
+@njit(cache=True, nogil=True)
+def as_may_be(found: ByTurn, junction: Junction) -> float:
+    """How soon a word leads from a contact, or to it, as one may that has others beside it.
+
+    Args:
+        found: by what the words do there.
+        junction: what was asked of that.
+    """
     outward, inward = found.left, found.right
     if junction.outward == 1:
         outward, inward = inward, outward

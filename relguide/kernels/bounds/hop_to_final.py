@@ -31,7 +31,7 @@ from relguide.kernels.bounds.between import blur_between, moved_with, word_towar
 from relguide.kernels.bounds.breach import Sieve, no_sieve
 from relguide.kernels.bounds.cell_words import seen_from_start
 from relguide.kernels.bounds.cells import Cell, Poses, poses_of
-from relguide.kernels.bounds.hop import LONG, limit_for, standing
+from relguide.kernels.bounds.hop import LONG, as_may_be, limit_for, standing
 from relguide.kernels.bounds.junction import junction_of, slide_turns
 from relguide.kernels.bounds.rest import no_rest
 from relguide.kernels.bounds.round_time import round_anywhere
@@ -190,11 +190,7 @@ def _hop_back(scene: Scene, begin: Poses, there: Poses, other: Cell, window: Win
     inside = limit_for(scene, begin, window.beat, 0.0)
     sieve = Sieve(window.beat > LONG, begin.middle, 0.0, inside, 1.0, begin.t, begin.t)
     found = soonest_by_turn(seen, blur, target, window, sieve, junction, no_rest(), False)
-    outward, inward = found.left, found.right
-    if junction.outward == 1:
-        outward, inward = inward, outward
-    soon = min(found.tangent, outward)
-    return min(soon, inward) if junction.inward else soon
+    return as_may_be(found, junction)
 
 
 @njit(cache=True, nogil=True)
