@@ -64,7 +64,7 @@ class Search(NamedTuple):
     cell, how often it was asked, how often found out, and how often not asked since.
     shape (2, ASKS, 3)"""
     probes: IntArray
-    """How many bundles have been probed, by their size."""
+    """How many bundles have been probed, by their size. shape (·,)"""
 
 
 @njit(cache=True, nogil=True)

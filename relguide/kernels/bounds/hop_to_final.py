@@ -32,7 +32,7 @@ from relguide.kernels.bounds.breach import Sieve, no_sieve
 from relguide.kernels.bounds.cell_words import seen_from_start
 from relguide.kernels.bounds.cells import Cell, Poses, poses_of
 from relguide.kernels.bounds.hop import LONG, as_may_be, limit_for, standing
-from relguide.kernels.bounds.junction import junction_of, slide_turns
+from relguide.kernels.bounds.junction import can_slide, junction_of
 from relguide.kernels.bounds.rest import no_rest
 from relguide.kernels.bounds.round_time import round_anywhere
 from relguide.kernels.bounds.round_turning import bearings_of
@@ -156,7 +156,7 @@ def _by_way_of(
         took = max(took, min(_hop_back(scene, leaving.begin, there, other, window), looped))
     if took >= until:
         return enough
-    if other.side == sense and _can_slide(scene, other):
+    if other.side == sense and can_slide(scene, other):
         # sliding to where it is left counts here as well
         to = standing(other.piece, sense, wrap_signed(other.bearing + sense * other.half), 0.0)
         far = moved_with(poses_of(scene, to), leaving.begin, True)
@@ -214,10 +214,3 @@ def _at_once(poses: Poses) -> Poses:
         0.0, poses.span, poses.middle, poses.vx, poses.vy, poses.differs, poses.left, poses.right,
         poses.ways,
     )  # fmt: skip
-
-
-@njit(cache=True, nogil=True)
-def _can_slide(scene: Scene, cell: Cell) -> bool:
-    """Whether bank is enough to follow the circle in all of a cell."""
-    least, most = slide_turns(scene, cell)
-    return bool(-1.0 <= least and most <= 1.0)

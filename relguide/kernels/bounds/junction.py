@@ -73,6 +73,13 @@ def slide_turns(scene: Scene, cell: Cell) -> tuple[float, float]:
 
 
 @njit(cache=True, nogil=True)
+def can_slide(scene: Scene, cell: Cell) -> bool:
+    """Whether bank is enough to follow the circle in all of a cell."""
+    least, most = slide_turns(scene, cell)
+    return bool(-1.0 <= least and most <= 1.0)
+
+
+@njit(cache=True, nogil=True)
 def can_touch(scene: Scene, cell: Cell) -> bool:
     """Whether there can be a contact in a cell."""
     return slide_turns(scene, cell)[1] >= -1.0 - EDGE

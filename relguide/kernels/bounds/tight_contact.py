@@ -40,7 +40,7 @@ from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.between import word_toward
 from relguide.kernels.bounds.cells import Cell, Poses, poses_of
 from relguide.kernels.bounds.hop import hop_bound, hop_toward, standing, turned_round
-from relguide.kernels.bounds.junction import apart_by, slide_turns
+from relguide.kernels.bounds.junction import apart_by, can_slide, slide_turns
 from relguide.kernels.bounds.round_time import round_bound, round_most
 from relguide.kernels.bounds.ways import no_ways
 
@@ -166,7 +166,7 @@ def _excess(scene: Scene, table: FloatArray, other: Cell, tight: _Tight, enough:
         took = max(took, hop_toward(scene, other, tight.end, window, astray))
     if took >= tight.until:
         return least
-    if took < latest + least and other.side > 0.0 and _can_slide(scene, other):
+    if took < latest + least and other.side > 0.0 and can_slide(scene, other):
         # sliding to where the word begins counts here as well
         at = poses_of(scene, standing(other.piece, 1.0, begin, 0.0))
         took = max(took, word_toward(scene, at, tight.end, latest + least, took))
@@ -182,10 +182,3 @@ def _turned_on(scene: Scene, cell: Cell, most: float) -> Poses:
         last.t, last.span, last.middle, last.vx, last.vy, 0.0, last.left + apart,
         last.right + apart, no_ways(),
     )  # fmt: skip
-
-
-@njit(cache=True, nogil=True)
-def _can_slide(scene: Scene, cell: Cell) -> bool:
-    """Whether bank is enough to follow the circle in all of a cell."""
-    least, most = slide_turns(scene, cell)
-    return bool(-1.0 <= least and most <= 1.0)
