@@ -23,6 +23,7 @@ from relguide.kernels.bounds.contact_bound import (
     leaving_bound,
     until_again,
 )
+from relguide.kernels.bounds.cutting import begin_cuts, cuts_times, learn_cut, length_of
 from relguide.kernels.bounds.goal import Goal, is_track
 from relguide.kernels.bounds.junction import beyond_outward, can_touch
 from relguide.kernels.bounds.rest import COLUMNS, MOST, UNKNOWN, Rest
@@ -71,6 +72,8 @@ class Tree(NamedTuple):
     """Where those of a cell begin, or of a larger one that holds it: of words to a first contact,
     on from it, and on from a last one; in the last place how many rows there are.
     shape (n + 1, 3)"""
+    cuts: FloatArray
+    """How they are cut in two: see `cutting`. shape (2, 3)"""
 
 
 class Problem(NamedTuple):
@@ -102,7 +105,7 @@ def plant(cells: FloatArray, room: int) -> Tree:
     tree = Tree(
         np.empty((room, 6)), np.empty((room + 1, 2), np.int64), np.empty((room, JOINED)),
         np.empty((room, _COLUMNS)), np.empty((_RESTS * room, COLUMNS)),
-        np.empty(room, np.bool_), np.empty((room + 1, 3), np.int64),
+        np.empty(room, np.bool_), np.empty((room + 1, 3), np.int64), begin_cuts(),
     )  # fmt: skip
     tree.cells[:count] = cells
     tree.halves[:count], tree.known[:count], tree.joined[:count] = -1, np.nan, np.nan
@@ -122,7 +125,7 @@ def cell_at(tree: Tree, n: int) -> Cell:
 def halve(tree: Tree, n: int, d_min: float) -> int:
     """The number of the first half of a cell, the other's being one more; −1 if there is no room.
 
-    It is cut across the longer side, of bearings or times.
+    It is cut across its bearings or its times, see `cutting`.
     """
     room = len(tree.cells)
     if tree.halves[n, 0] >= 0:
@@ -143,7 +146,7 @@ def halve(tree: Tree, n: int, d_min: float) -> int:
             tree.rest_of[child, _ON] = tree.rest_of[n, _AWAY]
     tree.cells[first] = tree.cells[first + 1] = tree.cells[n]
     span = 0.5 * (cell.end - cell.start)
-    if inf > span > (d_min + 1.0) * cell.half:
+    if cuts_times(tree.cuts, tree.spare[n], cell.half, span, d_min):
         tree.cells[first, 5] = tree.cells[first + 1, 4] = cell.start + span
     else:
         half = 0.5 * cell.half
@@ -156,7 +159,15 @@ def halve(tree: Tree, n: int, d_min: float) -> int:
 def size_of(tree: Tree, n: int, d_min: float) -> float:
     """The longer side of a cell [rad]."""
     span = 0.5 * (tree.cells[n, 5] - tree.cells[n, 4])
-    return float(max(tree.cells[n, 3], span / (d_min + 1.0) if span < inf else 0.0))
+    return float(max(tree.cells[n, 3], length_of(span, d_min)))
+
+
+@njit(cache=True, nogil=True)
+def learn_gain(tree: Tree, n: int, gain: float) -> None:
+    """Put down what it has gained to halve a cell, see `cutting.learn_cut`."""
+    if tree.cells[n, 5] < inf:  # else there was no choice
+        times = bool(tree.cells[tree.halves[n, 0], 3] == tree.cells[n, 3])
+        learn_cut(tree.cuts, tree.spare[n], times, gain)
 
 
 @njit(cache=True, nogil=True)

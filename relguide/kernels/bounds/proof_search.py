@@ -32,6 +32,7 @@ from relguide.kernels.bounds.contact_tree import (
     halve,
     is_buried,
     learn,
+    learn_gain,
     leave,
     plant,
     reach,
@@ -228,11 +229,11 @@ def _probe(search: Search, problem: Problem, find: Find, n: int, m: int) -> None
 
 
 @njit(cache=True, nogil=True)
-def _add(search: Search, problem: Problem, n: int, m: int, least: float, asked: int) -> None:
-    """Keep the paths through these cells, known to arrive no sooner than `least`."""
+def _add(search: Search, problem: Problem, n: int, m: int, least: float, asked: int) -> float:
+    """Keep the paths through these cells, known to arrive no sooner than `least`; their bound."""
     soon, onward = reach(search.first, problem, n)
     if soon == inf:
-        return
+        return inf
     bound = soon + onward
     if m >= 0:
         bound = bound_together(search, problem, n, m)
@@ -247,6 +248,7 @@ def _add(search: Search, problem: Problem, n: int, m: int, least: float, asked: 
     bound = max(bound, least, problem.scene.t_release)
     if bound < problem.beat:
         push(search, bound, n, m, 0, asked)
+    return bound
 
 
 @njit(cache=True, nogil=True)
@@ -260,12 +262,16 @@ def _halve(
     half = halve(search.last, m, d_min) if of_last else halve(search.first, n, d_min)
     if half < 0:
         return False
+    gain = 0.0
     for child in (half, half + 1):
         if of_last or m < 0:
             first, last = (n, child) if of_last else (child, m)
-            _add(search, problem, first, last, bound, asked)
+            closer = _add(search, problem, first, last, bound, asked)
+            gain += 0.5 * min((closer - bound) / (problem.beat - bound), 1.0)
         elif not only_touches(search, problem, child):
             _add_pairs(search, problem, find, child, m, bound, asked, until)
+    if m < 0:
+        learn_gain(search.first, n, gain)
     if of_last:
         learn(search.last, m)
     return True

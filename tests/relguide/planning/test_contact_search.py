@@ -85,12 +85,12 @@ def test_last_contacts_are_those_of_every_leg() -> None:
     [
         (Cell(0, 1.0, 0.3, 0.1, 0.0, 2.0), True),
         (Cell(0, 1.0, 0.3, 0.1, 1.9, 2.0), False),
-        (Cell(0, 1.0, 0.3, 0.1, 1.66, 2.0), False),  # half of 0.34 against 1.8 times 0.1
-        (Cell(0, 1.0, 0.3, 0.1, 1.62, 2.0), True),
+        (Cell(0, 1.0, 0.3, 0.1, 1.83, 2.0), False),  # half of 0.17 against 0.9 times 0.1
+        (Cell(0, 1.0, 0.3, 0.1, 1.81, 2.0), True),
         (Cell(2, -1.0, 0.3, 0.1, 5.0, inf), False),
     ],
 )
-def test_the_halves_of_a_cell_are_the_cell_cut_across_its_longer_side(
+def test_the_halves_of_a_cell_are_the_cell_cut_across_its_bearings_or_its_times(
     cell: Cell, by_time: bool
 ) -> None:
     tree = plant(np.array([cell]), 3)
