@@ -38,6 +38,9 @@ _NARROW = 1e-6  # and how narrow its parts may become: what is left counts for s
 _NARROW_ELSEWHERE = 5e-6  # on other legs than the final one, where each takes 0.1 ms [rad]
 _MORE, _LONGER = 1.1, 1.05  # than is asked for, is looked for at once
 _SHORTER = 1.2  # than that hops must be to be asked for again
+_TIMES, _STEEP = 1.5, 200.0
+"""A part of a cell is hoped to have so many times its excess, and so much more for half its width
+[R/V_P a radian]."""
 
 
 @njit(cache=True, nogil=True)
@@ -75,11 +78,41 @@ def excess(
     """
     column = TIGHT_TO if last else TIGHT_FROM
     kept = tree.known[n, column : column + 3]
+    if isnan(kept[0]):
+        known = _far_from_enough(tree, n, column, enough, longest)
+        if known > 0.0:
+            return known
     if not _is_known(kept, enough, longest, LONGEST):
         kept[1], kept[2] = _MORE * enough, _LONGER * longest
         scene, cell = final_leg(problem.scene), on_final_leg(cell_at(tree, n))
         kept[0] = tight_excess(scene, problem.table, cell, last, kept[1], kept[2])
     return float(kept[0])
+
+
+@njit(cache=True, nogil=True)
+def _far_from_enough(tree: Tree, n: int, column: int, enough: float, longest: float) -> float:
+    """What `excess` is in a larger cell that holds this one, if there is little hope for more here.
+
+    Args:
+        tree: with the cell.
+        n: number of the cell.
+        column: of what is asked for.
+        enough: no more than this is wanted [R/V_P].
+        longest: what takes longer does not matter.
+
+    Returns:
+        0 if it must be asked for in the cell itself [R/V_P].
+    """
+    above = int(tree.halves[n, 1])
+    while above >= 0 and isnan(tree.known[above, column]):
+        above = int(tree.halves[above, 1])
+    if above < 0:
+        return 0.0
+    kept = tree.known[above, column : column + 3]
+    if kept[0] >= kept[1] or longest > kept[2]:
+        return 0.0
+    hoped = _TIMES * kept[0] + _STEEP * tree.cells[above, 3]
+    return float(kept[0]) if enough > hoped else 0.0
 
 
 @njit(cache=True, nogil=True)

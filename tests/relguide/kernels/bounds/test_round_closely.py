@@ -8,7 +8,14 @@ import pytest
 from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.around import unknown_around
-from relguide.kernels.bounds.contact_tree import Problem, Tree, plant
+from relguide.kernels.bounds.contact_tree import (
+    TIGHT_FROM,
+    TIGHT_TO,
+    Problem,
+    Tree,
+    halve,
+    plant,
+)
 from relguide.kernels.bounds.goal import Goal
 from relguide.kernels.bounds.hop import standing
 from relguide.kernels.bounds.round_closely import excess
@@ -53,3 +60,25 @@ def test_hops_that_must_be_shorter_are_longer_round() -> None:
         assert said[3] == pytest.approx(said[0], abs=1e-9)
         raised += said[1] > said[0] + 1e-6
     assert raised > 0
+
+
+@pytest.mark.parametrize("last", [True, False])
+def test_a_part_of_a_cell_far_from_enough_is_not_looked_at_itself(last: bool) -> None:
+    """It has the excess of the cell; and where there is hope its own, which is no less."""
+    problem, tree, never, _ = asked(
+        radians(64.0 if last else 116.0), 0.6568746823392786, 2.043434249423992
+    )
+    whole = excess(tree, problem, 0, last, 1.0, 5.0)
+    half = halve(tree, 0, never.d_min)
+    quarter = halve(tree, half, never.d_min)
+    column = TIGHT_TO if last else TIGHT_FROM
+    for n in (half, quarter):
+        assert excess(tree, problem, n, last, 1.0, 5.0) == whole
+        assert np.isnan(tree.known[n, column])
+    for n in (half, quarter):
+        own = excess(tree, problem, n, last, 0.1, 5.0)
+        assert tree.known[n, column] == own >= whole
+    assert own > whole
+    # what may take longer has not been asked for
+    assert excess(tree, problem, half + 1, last, 1.0, 5.9) >= 0.0
+    assert not np.isnan(tree.known[half + 1, column])
