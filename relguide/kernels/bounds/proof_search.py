@@ -57,7 +57,7 @@ SEARCHING, CLOSED, STUCK = 0, 1, 2
 """What a round ends with: there is more to do; no bundle is left; nothing more can be done."""
 _PROBED = (0.06, 8e-3, 1e-3)
 """Cells are probed when their bearings differ by this, or down to half as much [rad]."""
-_PROBES, _DELAYS, _EVERY = 32, 160, 1024
+_PROBES, _DELAYS, _EVERY = 64, 160, 512
 """So many of each size are made at once, and of those that look for a path that arrives just as the
 slot opens; and one more for so many bundles looked at."""
 _SMALLEST = 1e-10  # a cell no wider than this is not halved: rounding counts for more [rad]
