@@ -2,8 +2,8 @@
 
 The time round the disc is the difference of two times, one for each contact. So each may be looked
 at with its own, and much more closely than both together: that is what `round_from` and `round_to`
-do. Where nobody can slide a path takes longer (`excess`, `hop_excess`). All of it is kept with the
-cells. Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
+do. Where nobody can slide a path takes longer (`excess`, `hop_excess`, `lag_from`). All of it is
+kept with the cells. Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
 from math import inf, isnan
@@ -14,6 +14,7 @@ from numba import njit
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.contact_tree import (
     HOPS_FROM,
+    LAG_FROM,
     ROUND_FROM,
     ROUND_TO,
     TIGHT_FROM,
@@ -32,8 +33,12 @@ from relguide.kernels.bounds.joined import apart
 from relguide.kernels.bounds.round_time import round_time
 from relguide.kernels.bounds.round_turning import UNKNOWN
 from relguide.kernels.bounds.tight_contact import LONGEST, tight_excess
+from relguide.kernels.bounds.turn_lag import Lag, lags_from
 
 _CLOSELY = 50  # times a cell is halved to find what is least in it
+_LATER, _PART = 20.0, 4.0
+"""Who turns at full bank at most may be so much later from a part of a cell, for half its width
+[R/V_P a radian]; that is asked of a part that is so much narrower."""
 _NARROW = 1e-6  # and how narrow its parts may become: what is left counts for some 1e-5 R/V_P [rad]
 _NARROW_ELSEWHERE = 5e-6  # on other legs than the final one, where each takes 0.1 ms [rad]
 _MORE, _LONGER = 1.1, 1.05  # than is asked for, is looked for at once
@@ -142,6 +147,35 @@ def hop_excess(
         )  # fmt: skip
         kept[0] = latest - slides
     return float(kept[0])
+
+
+@njit(cache=True, nogil=True)
+def lag_from(tree: Tree, problem: Problem, n: int, way: int, wanted: float) -> Lag:
+    """When who turns at full bank at most is on the final leg, from first contacts of a cell.
+
+    What is known of a larger cell that holds it serves as well, if there is little hope for more.
+
+    Args:
+        tree: with the cell.
+        problem: what is asked.
+        n: number of the cell.
+        way: 0 counter-clockwise round the leader, 1 clockwise: as these contacts pass.
+        wanted: no later than this is asked for, as `held_front.slides_from` counts [R/V_P].
+    """
+    column, at = LAG_FROM + 6 * way, n
+    while at >= 0 and isnan(tree.known[at, column]):
+        at = int(tree.halves[at, 1])
+    if at >= 0:
+        kept, half = tree.known[at, column : column + 6], tree.cells[at, 3]
+        hoped = kept[0] + _LATER * half
+        if at == n or wanted <= kept[0] or wanted > hoped or _PART * tree.cells[n, 3] > half:
+            return Lag(kept[0], kept[1], kept[2], kept[3], kept[4], kept[5])
+    cell = cell_at(tree, n)
+    holds = holds_of(problem.scene, cell, way, problem.beat)
+    lag = lags_from(problem.scene, problem.table, cell, way, problem.beat, holds)
+    for k in range(len(lag)):
+        tree.known[n, column + k] = lag[k]
+    return lag
 
 
 @njit(cache=True, nogil=True)

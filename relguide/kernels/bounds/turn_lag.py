@@ -1,0 +1,374 @@
+"""How soon something is round the leader that turns at full bank at most: fronts that fall behind.
+
+As `held_front`, with all that something falls behind where no bank is enough: see `falls`. After a
+fall the front goes on from where its line is then. Who has his last contact before a fall is over
+has fallen behind by less: how much is known for some places where that may be. Slot frame: lengths
+in R, times in R/V_P, angles counter-clockwise.
+"""
+
+from math import acos, cos, inf, sin
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from relguide.kernels.base.records import Scene
+from relguide.kernels.base.roots import FloatArray
+from relguide.kernels.bounds.breach import INSIDE
+from relguide.kernels.bounds.cells import Cell
+from relguide.kernels.bounds.falls import (
+    NO_FALL,
+    Fall,
+    best_fall,
+    fall_from_contact,
+    grown,
+    is_least,
+    lost_by_turning,
+    turn_between,
+)
+from relguide.kernels.bounds.round_time import round_anywhere
+from relguide.kernels.bounds.round_turning import (
+    ANY,
+    ARRIVED,
+    FREE,
+    LATE,
+    NO_HOLD,
+    ROUNDING,
+    Hold,
+    Place,
+    bearings_of,
+    begins,
+    follow,
+    leader_then,
+    step_of,
+)
+from relguide.kernels.bounds.slides import AHEAD, AT, BEARING, TURNED, slide_of, turns_at
+
+_PARTS = 4  # a front keeps its direction for such a part of a step
+_FALLS = 3  # one after another
+_STEPS = 60  # until a front may slide again
+_TRIED = 12  # of places where who has his last contact before the change may have left the edge
+_SHARES = (0.98, 0.3, 0.03)  # of how far behind one falls, known of last contacts that are nearer
+_NEARLY = 1e-9  # of a heading [rad]
+_MISSED = 1e-6  # of how V grows [R]
+_CERTAIN = 0.999  # part of how much less far round something is, by steps
+
+
+class Lag(NamedTuple):
+    """When something is on the final leg, as `held_front.slides_from` counts."""
+
+    since: float
+    """Of who has his last contact no nearer than … [R/V_P]"""
+    past: float
+    """… at this bearing, as `Place` counts, less the slot's heading [rad]."""
+    nearer: float
+    """Of who has it no nearer than … [R/V_P]"""
+    past_nearer: float
+    """… at this one [rad]."""
+    nearest: float
+    """And of who has it no nearer than … [R/V_P]"""
+    past_nearest: float
+    """… at this one [rad]."""
+
+
+NO_LAG = Lag(-inf, 0.0, -inf, 0.0, -inf, 0.0)
+"""Nothing is known."""
+
+
+@njit(cache=True, nogil=True)
+def lags_from(
+    scene: Scene, table: FloatArray, cell: Cell, way: int, latest: float, holds: FloatArray
+) -> Lag:
+    """How soon something is on the final leg that has its first and its last contact on one side.
+
+    Args:
+        scene: the leader and d_min.
+        table: of `times_round`.
+        cell: of first contacts, which pass this way; its window of time has an end.
+        way: 0 counter-clockwise round the leader, 1 clockwise.
+        latest: what is on the final leg no sooner does not matter [R/V_P].
+        holds: of `held_front.holds_of`.
+
+    Returns:
+        that; −∞ where no more is known than `slides_from` says.
+    """
+    sense, step = 1.0 - 2.0 * way, step_of(scene) / _PARTS
+    low, high = bearings_of(scene, cell)
+    place = begins(cell.start, high if way == 0 else low)
+    best, touches, fallen = NO_LAG, True, False
+    for k in range(len(holds)):
+        hold = Hold(holds[k, 0], holds[k, 1])
+        end = min(hold.until, latest)
+        place, falls = _fall_before(scene, cell, place, sense, end, hold, touches)
+        touches, fallen = False, fallen or falls
+        place, fate = follow(scene, place, sense, step, ANY, inf, end, FREE, True, hold)
+        if fate != LATE:
+            return NO_LAG
+    for _ in range(_FALLS):
+        place, slides = _until_sliding(scene, place, sense, latest, NO_HOLD)
+        if not slides:
+            break
+        if fallen and best.since == -inf:
+            best = _as_it_is(scene, table, way, place, latest)
+        rows = slide_of(scene, place, sense, latest, inf)
+        fall = _first_fall(scene, cell, rows, touches)
+        touches, behind = False, _behind(scene, rows, fall)
+        if behind <= 0.0:
+            break
+        lag = _lag_of(scene, table, way, rows, fall, behind, latest)
+        if lag.since > best.since and best.since > -inf:
+            # who has his last contact before this fall has fallen behind before
+            best = Lag(
+                lag.since, lag.past, best.since, best.past, best.nearest, best.past_nearest
+            )  # fmt: skip
+        elif lag.since > best.since:
+            best = lag
+        place = _line_behind(scene, rows, fall, _certainly(rows, fall, behind), sense)
+        if place.t == inf:
+            break
+    return best
+
+
+@njit(cache=True, nogil=True)
+def _fall_before(
+    scene: Scene, cell: Cell, place: Place, sense: float, end: float, hold: Hold, touches: bool
+) -> tuple[Place, bool]:
+    """Where a front is after falls on a slide that ends where it is held; whether any falls."""
+    falls = False
+    for _ in range(_FALLS):
+        at, slides = _until_sliding(scene, place, sense, end, hold)
+        if not slides:
+            break
+        rows = slide_of(scene, at, sense, end, hold.course)
+        fall = _first_fall(scene, cell, rows, touches)
+        touches, behind = False, _behind(scene, rows, fall)
+        if behind <= 0.0:
+            break
+        at = _line_behind(scene, rows, fall, _certainly(rows, fall, behind), sense)
+        if at.t == inf:
+            break
+        place, falls = at, True
+    return place, falls
+
+
+@njit(cache=True, nogil=True)
+def _first_fall(scene: Scene, cell: Cell, rows: FloatArray, touches: bool) -> Fall:
+    """The best fall on a slide; or the best that ends before that begins, if there is any.
+
+    Args:
+        scene: the leader and d_min.
+        cell: of contacts.
+        rows: of `slide_of`.
+        touches: whether the slide begins in one of these contacts.
+    """
+    fall, within = best_fall(rows), rows
+    for _ in range(2):
+        if touches:
+            other = _fall_from_cell(scene, cell, within)
+            if other.lag > fall.lag:
+                fall = other
+        within = rows[:, : fall.begin + 1]
+        sooner = best_fall(within)
+        if sooner.lag > 0.0:
+            fall = sooner
+        elif not touches:
+            break
+    return fall
+
+
+@njit(cache=True, nogil=True)
+def _fall_from_cell(scene: Scene, cell: Cell, rows: FloatArray) -> Fall:
+    """As `fall_from_contact`, of all contacts of a cell, where the slide begins at its edge."""
+    fall = fall_from_contact(rows)
+    if fall.end < 0:
+        return NO_FALL
+    low, high = bearings_of(scene, cell)
+    span = cell.end - cell.start
+    # to first order V is no less than 0 beside the edge
+    apart = high - low + span * (1.0 + scene.alpha) / scene.d_min
+    r, _ = grown(rows, 0, fall.turn, fall.end)
+    less = scene.d_min * apart * apart + 1.5 * span * r * max(turns_at(rows, 0) - 1.0, 0.0)
+    return Fall(fall.lag - less, 0, 0, fall.end, fall.turn, fall.scale, fall.off)
+
+
+@njit(cache=True, nogil=True)
+def _behind(scene: Scene, rows: FloatArray, fall: Fall) -> float:
+    """How V grows in a fall, less what may be missed [R]; no more than 0 if nothing is known.
+
+    Where the vector changes something may be nearer the leader than the tangent there, as it is
+    behind and the disc is round.
+    """
+    if fall.end < 0:
+        return 0.0
+    less = _MISSED
+    if fall.change > fall.begin:
+        before = rows[TURNED, fall.change] - rows[TURNED, fall.begin]
+        after = rows[TURNED, fall.end] - rows[TURNED, fall.change]
+        outward = (fall.scale * sin(after) + sin(before)) / sin(rows[AHEAD, fall.change])
+        # twice as far round as at the end
+        astray = 2.0 * _lags_round(scene, rows, fall, fall.lag * fall.scale)
+        less += outward * scene.d_min * 0.5 * astray * astray
+    return fall.lag * fall.scale - less
+
+
+@njit(cache=True, nogil=True)
+def _lags_round(scene: Scene, rows: FloatArray, fall: Fall, behind: float) -> float:
+    """How much less far round the line is at the end of a fall [rad]; infinite if it is nowhere."""
+    ahead = rows[AHEAD, fall.end]
+    reached = cos(ahead) - behind / (fall.scale * scene.d_min)
+    return acos(reached) - ahead if -1.0 < reached < 1.0 else inf
+
+
+@njit(cache=True, nogil=True)
+def _line_behind(scene: Scene, rows: FloatArray, fall: Fall, behind: float, sense: float) -> Place:
+    """Where the front is that is as far behind as something falls; at no time if it is nowhere."""
+    lags, end = _lags_round(scene, rows, fall, behind), fall.end
+    if lags == inf:
+        return Place(inf, 0.0, 0.0, 0.0, 0.0)
+    bearing = rows[BEARING, end]
+    return Place(
+        rows[AT, end], bearing - sense * lags, bearing + sense * rows[AHEAD, end], 0.0, 0.0
+    )
+
+
+@njit(cache=True, nogil=True)
+def _certainly(rows: FloatArray, fall: Fall, behind: float) -> float:
+    """How V grows by the end of a fall, of whoever turns off as well [R]."""
+    return min(behind, fall.scale * lost_by_turning(rows, fall))
+
+
+@njit(cache=True, nogil=True)
+def _until_sliding(
+    scene: Scene, place: Place, sense: float, latest: float, hold: Hold
+) -> tuple[Place, bool]:
+    """Follow a front until it may be turned to where someone sliding heads; whether it may be."""
+    step = step_of(scene) / _PARTS
+    for _ in range(_STEPS):
+        ahead = acos(scene.alpha * cos(place.bearing - leader_then(scene, place.t).h))
+        if place.t >= latest:
+            break
+        if sense * (place.course - place.bearing) <= ahead + _NEARLY:
+            return place, True
+        place, fate = follow(scene, place, sense, step, 1, inf, latest, FREE, False, hold)
+        if fate == ARRIVED:
+            break
+    return place, False
+
+
+@njit(cache=True, nogil=True)
+def _since(scene: Scene, table: FloatArray, way: int, place: Place, latest: float) -> float:
+    """When a front is on the final leg, less the time round to there; −∞ if that is not known."""
+    sense, step = 1.0 - 2.0 * way, step_of(scene) / _PARTS
+    place, fate = follow(scene, place, sense, step, ANY, inf, latest, FREE, True, NO_HOLD)
+    if fate == ARRIVED:
+        return -inf
+    if fate == LATE:
+        return inf
+    return float(place.t - sense * round_anywhere(table, way, place.bearing - scene.leader[-1, 3]))
+
+
+@njit(cache=True, nogil=True)
+def _as_it_is(scene: Scene, table: FloatArray, way: int, place: Place, latest: float) -> Lag:
+    """What a front says that has fallen behind before the final leg."""
+    if place.t >= scene.leader[-1, 0]:
+        return NO_LAG
+    since = _since(scene, table, way, place, latest) - _slack(scene, table, way)
+    past = -(1.0 - 2.0 * way) * inf
+    return Lag(since, past, since, past, since, past)
+
+
+@njit(cache=True, nogil=True)
+def _slack(scene: Scene, table: FloatArray, way: int) -> float:
+    """As fronts that are followed are wrong by, and the time round by how near one may come."""
+    return float(ROUNDING + table[way, -1] * INSIDE / scene.d_min)
+
+
+@njit(cache=True, nogil=True)
+def _lag_of(
+    scene: Scene, table: FloatArray, way: int, rows: FloatArray, fall: Fall, behind: float,
+    latest: float,
+) -> Lag:  # fmt: skip
+    """What a fall says of who comes to the final leg."""
+    sense, at = 1.0 - 2.0 * way, fall.end
+    freely = _since(scene, table, way, _line_behind(scene, rows, fall, 0.0, sense), latest)
+    place = _line_behind(scene, rows, fall, behind, sense)
+    if not -inf < freely < inf or place.t == inf:
+        return NO_LAG
+    # by when he has his last contact who turns off has turned back, too
+    lost = 2.0 * lost_by_turning(rows, fall) / (1.0 + scene.alpha)
+    since = min(_since(scene, table, way, place, latest), freely + lost)
+    ends, heading = float(scene.leader[-1, 0]), float(scene.leader[-1, 3])
+    slack = _slack(scene, table, way)
+    if rows[AT, at] <= ends:
+        past = -sense * inf
+        return Lag(since - slack, past, since - slack, past, since - slack, past)
+    found, least = np.empty((len(_SHARES), 2)), since
+    for k in range(len(_SHARES)):
+        wanted = freely + _SHARES[k] * (since - freely)
+        while at > 0 and rows[AT, at - 1] >= ends:
+            then = _since_at(scene, table, way, rows, fall, behind, at - 1)
+            if then < wanted:
+                break
+            at -= 1
+            least = min(least, then)
+        found[k, 0], found[k, 1] = least - slack, rows[BEARING, at] - heading
+    (one, past), (two, past_two), (three, past_three) = found
+    return Lag(one, past, two, past_two, three, past_three)
+
+
+@njit(cache=True, nogil=True)
+def _since_at(
+    scene: Scene, table: FloatArray, way: int, rows: FloatArray, fall: Fall, behind: float, i: int
+) -> float:
+    """The same of who has his last contact when the front is at a point."""
+    if i >= fall.change:
+        turn = max(fall.turn - (rows[AT, i] - rows[AT, fall.change]), 0.0)
+        r, rest = grown(rows, i, turn, fall.end)
+        turned = rows[TURNED, fall.end] - rows[TURNED, i]
+        vector = fall.scale * cos(turned), fall.scale * sin(turned), fall.scale * r
+        return _at_contact(scene, table, way, rows, i, vector, behind - fall.scale * rest)
+    # the vector need not change before it
+    best, step = -inf, max((i - fall.begin) // _TRIED, 1)
+    for begin in range(fall.begin, i, step):
+        turn, turned = turn_between(rows, begin, i), rows[TURNED, i] - rows[TURNED, begin]
+        if rows[AHEAD, i] <= turned or not is_least(turned, turn, fall.off):
+            continue
+        r, grows = grown(rows, i, turn, begin)
+        vector = cos(turned), -sin(turned), r
+        best = max(best, _at_contact(scene, table, way, rows, i, vector, grows - _MISSED))
+    return best
+
+
+@njit(cache=True, nogil=True)
+def _at_contact(
+    scene: Scene, table: FloatArray, way: int, rows: FloatArray, i: int,
+    vector: tuple[float, float, float], behind: float,
+) -> float:  # fmt: skip
+    """When something is in a contact, less the time round to there, that is behind at a point.
+
+    How far round it is follows from V, which grows as that falls.
+
+    Args:
+        scene: the leader and d_min.
+        table: of `times_round`.
+        way: 0 counter-clockwise round the leader, 1 clockwise.
+        rows: of `slide_of`.
+        i: the point.
+        vector: m, p and r there.
+        behind: V there [R].
+    """
+    sense, ahead, d_min, (m, p, r) = 1.0 - 2.0 * way, rows[AHEAD, i], scene.d_min, vector
+    bearing = rows[BEARING, i] - leader_then(scene, rows[AT, i]).h
+    slope = d_min * (m * sin(ahead) + p * cos(ahead)) + r
+    if behind <= 0.0 or slope <= 0.0:
+        return -inf
+    lags = behind / slope
+    for _ in range(4):
+        less = acos(scene.alpha * cos(bearing - sense * lags))
+        value = m * d_min * (cos(ahead) - cos(ahead + lags))
+        value += p * d_min * (sin(ahead + lags) - sin(ahead)) + r * (ahead - less + lags)
+        if value <= 0.0:
+            return -inf
+        lags *= behind / value
+    at = rows[BEARING, i] - sense * _CERTAIN * lags - scene.leader[-1, 3]
+    return float(rows[AT, i] - sense * round_anywhere(table, way, at))
