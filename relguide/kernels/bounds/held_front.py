@@ -128,8 +128,9 @@ def slides_from(
     place, fate = follow(scene, place, sense, step, ANY, inf, latest, FREE, True, NO_HOLD)
     if fate == ARRIVED:
         return UNKNOWN
-    if fate == LATE:
+    if fate == LATE and place.t < scene.leader[-1, 0]:
         return inf
+    # a front that may not slide yet is faster, so it has gained most at last
     less = ROUNDING + table[way, -1] * INSIDE / scene.d_min
     since = sense * round_anywhere(table, way, place.bearing - scene.leader[-1, 3])
     return float(place.t - less - since)

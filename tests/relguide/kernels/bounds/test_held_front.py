@@ -129,3 +129,23 @@ def test_wherever_a_front_is_held_nobody_is_sooner() -> None:
             assert since(flown, holds) < flown.since + flown.missed + 1e-3
             looked += 1
     assert looked > 100
+
+
+def test_who_is_on_the_final_leg_in_time_is_no_sooner_than_the_front() -> None:
+    """Though the front may slide on only later than that."""
+    rng, looked, later = np.random.default_rng(3), 0, 0
+    while looked < 400:
+        scene, way = turning(rng), int(rng.integers(2))
+        sense, ends = 1.0 - 2.0 * way, float(scene.leader[2, 0])
+        t, bearing = rng.uniform(scene.leader[1, 0], ends), rng.uniform(-pi, pi)
+        start, latest = contact(scene, bearing, t, sense), ends + rng.uniform(0.01, 1.0)
+        while t < ends:
+            bearing, t = on_edge(scene, bearing, t, sense), t + STEP
+        table = times_round(scene.alpha, scene.d_min)
+        slid = t - sense * round_anywhere(table, way, bearing - scene.leader[2, 3])
+        holds = holds_of(scene, start, way, latest)
+        soonest = slides_from(scene, table, start, way, latest, holds)
+        assert soonest < slid + 1e-3
+        later += soonest > slides_from(scene, table, start, way, inf, holds) + 1e-3
+        looked += 1
+    assert later > 10
