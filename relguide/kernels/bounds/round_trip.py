@@ -11,10 +11,11 @@ from relguide.kernels.base.angles import TWO_PI
 from relguide.kernels.bounds.bundles import Search
 from relguide.kernels.bounds.contact_tree import Problem, cell_at, leave, reach
 from relguide.kernels.bounds.hop_to_final import never_round
-from relguide.kernels.bounds.round_closely import excess, hop_excess, lag_from, round_from, round_to
+from relguide.kernels.bounds.round_closely import excess, hop_excess, lags_of, round_from, round_to
 from relguide.kernels.bounds.round_time import ROUND_SLACK
 from relguide.kernels.bounds.round_turning import UNKNOWN, whole_rounds
 from relguide.kernels.bounds.tight_contact import LONGEST
+from relguide.kernels.bounds.turn_lag import lag_at
 
 _HOPS = 1.2e-2  # cells narrower than this are looked at by hops to and from them [rad]
 _HOPS_ELSEWHERE = 1e-3  # and by those from other legs to the final one [rad]
@@ -55,20 +56,15 @@ def _turning(
         m: number of the last one.
         way: 0 counter-clockwise round the leader, 1 clockwise.
         rounds: whole rounds by which the last contact is further than its bearing says.
-        wanted: as in `lag_from` [R/V_P].
+        wanted: as in `lags_of` [R/V_P].
     """
     first, last, sense = search.first.cells[n], search.last.cells[m], 1.0 - 2.0 * way
     if first[1] != sense or last[1] != sense:
         return -inf
     if first[3] > _HOPS_ELSEWHERE or search.size[1] < _OPEN:
         return -inf
-    lag = lag_from(search.first, problem, n, way, wanted)
-    at = last[2] + sense * (TWO_PI * rounds - last[3])
-    if sense * (at - lag.past) >= 0.0:
-        return lag.since
-    if sense * (at - lag.past_nearer) >= 0.0:
-        return lag.nearer
-    return lag.nearest if sense * (at - lag.past_nearest) >= 0.0 else -inf
+    lags = lags_of(search.first, problem, n, way, wanted)
+    return lag_at(lags, last[2] + sense * (TWO_PI * rounds - last[3]), sense)
 
 
 @njit(cache=True, nogil=True)

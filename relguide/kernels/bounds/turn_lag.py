@@ -2,12 +2,11 @@
 
 As `held_front`, with all that something falls behind where no bank is enough: see `falls`. After a
 fall the front goes on from where its line is then. Who has his last contact before a fall is over
-has fallen behind by less: how much is known for some places where that may be. Slot frame: lengths
+has fallen behind by less: that is known for some places where he may have it. Slot frame: lengths
 in R, times in R/V_P, angles counter-clockwise.
 """
 
 from math import acos, cos, inf, sin
-from typing import NamedTuple
 
 import numpy as np
 from numba import njit
@@ -44,41 +43,33 @@ from relguide.kernels.bounds.round_turning import (
 )
 from relguide.kernels.bounds.slides import AHEAD, AT, BEARING, TURNED, slide_of, turns_at
 
+LEVELS = 20
+"""Rows of `lags_from`."""
+SINCE, PAST = 0, 1
+"""And its columns."""
 _PARTS = 4  # a front keeps its direction for such a part of a step
 _FALLS = 3  # one after another
 _STEPS = 60  # until a front may slide again
 _TRIED = 12  # of places where who has his last contact before the change may have left the edge
-_SHARES = (0.98, 0.3, 0.03)  # of how far behind one falls, known of last contacts that are nearer
+_SHARES = (0.98, 0.8, 0.65, 0.5, 0.4, 0.32, 0.25, 0.2, 0.16, 0.12, 0.09, 0.06, 0.04, 0.025, 0.015)
+"""Of how far behind one falls: from where on last contacts that are nearer are so late."""
 _NEARLY = 1e-9  # of a heading [rad]
 _MISSED = 1e-6  # of how V grows [R]
 _CERTAIN = 0.999  # part of how much less far round something is, by steps
 
 
-class Lag(NamedTuple):
-    """When something is on the final leg, as `held_front.slides_from` counts."""
-
-    since: float
-    """Of who has his last contact no nearer than … [R/V_P]"""
-    past: float
-    """… at this bearing, as `Place` counts, less the slot's heading [rad]."""
-    nearer: float
-    """Of who has it no nearer than … [R/V_P]"""
-    past_nearer: float
-    """… at this one [rad]."""
-    nearest: float
-    """And of who has it no nearer than … [R/V_P]"""
-    past_nearest: float
-    """… at this one [rad]."""
-
-
-NO_LAG = Lag(-inf, 0.0, -inf, 0.0, -inf, 0.0)
-"""Nothing is known."""
+@njit(cache=True, nogil=True)
+def no_lags() -> FloatArray:
+    """Nothing is known: see `lags_from`."""
+    lags = np.zeros((LEVELS, 2))
+    lags[:, SINCE] = -inf
+    return lags
 
 
 @njit(cache=True, nogil=True)
 def lags_from(
     scene: Scene, table: FloatArray, cell: Cell, way: int, latest: float, holds: FloatArray
-) -> Lag:
+) -> FloatArray:
     """How soon something is on the final leg that has its first and its last contact on one side.
 
     Args:
@@ -90,12 +81,14 @@ def lags_from(
         holds: of `held_front.holds_of`.
 
     Returns:
-        that; −∞ where no more is known than `slides_from` says.
+        in each row that, as `slides_from` counts, of who has his last contact no nearer than at a
+        bearing, and that bearing, as `Place` counts, less the slot's heading [R/V_P, rad]. Those
+        are the later, the further round; −∞ where nothing is known. shape (LEVELS, 2)
     """
     sense, step = 1.0 - 2.0 * way, step_of(scene) / _PARTS
     low, high = bearings_of(scene, cell)
     place = begins(cell.start, high if way == 0 else low)
-    best, touches, fallen = NO_LAG, True, False
+    lags, touches, fallen = no_lags(), True, False
     for k in range(len(holds)):
         hold = Hold(holds[k, 0], holds[k, 1])
         end = min(hold.until, latest)
@@ -103,30 +96,54 @@ def lags_from(
         touches, fallen = False, fallen or falls
         place, fate = follow(scene, place, sense, step, ANY, inf, end, FREE, True, hold)
         if fate != LATE:
-            return NO_LAG
+            return lags
     for _ in range(_FALLS):
         place, slides = _until_sliding(scene, place, sense, latest, NO_HOLD)
         if not slides:
             break
-        if fallen and best.since == -inf:
-            best = _as_it_is(scene, table, way, place, latest)
+        if fallen and lags[0, SINCE] == -inf and place.t < scene.leader[-1, 0]:
+            since = _since(scene, table, way, place, latest) - _slack(scene, table, way)
+            _put(lags, since, -sense * inf, sense)
         rows = slide_of(scene, place, sense, latest, inf)
         fall = _first_fall(scene, cell, rows, touches)
         touches, behind = False, _behind(scene, rows, fall)
         if behind <= 0.0:
             break
-        lag = _lag_of(scene, table, way, rows, fall, behind, latest)
-        if lag.since > best.since and best.since > -inf:
-            # who has his last contact before this fall has fallen behind before
-            best = Lag(
-                lag.since, lag.past, best.since, best.past, best.nearest, best.past_nearest
-            )  # fmt: skip
-        elif lag.since > best.since:
-            best = lag
+        _put_fall(lags, scene, table, way, rows, fall, behind, latest)
         place = _line_behind(scene, rows, fall, _certainly(rows, fall, behind), sense)
         if place.t == inf:
             break
-    return best
+    return lags
+
+
+@njit(cache=True, nogil=True)
+def lag_at(lags: FloatArray, bearing: float, sense: float) -> float:
+    """What `lags_from` says of who has his last contact at a bearing, or further round."""
+    for k in range(LEVELS):
+        if sense * (bearing - lags[k, PAST]) >= 0.0:
+            return float(lags[k, SINCE])
+    return -inf
+
+
+@njit(cache=True, nogil=True)
+def _put(lags: FloatArray, since: float, past: float, sense: float) -> None:
+    """Put down that, in place of what says no more; the least are left out if there is no room."""
+    if since <= lag_at(lags, past, sense):
+        return
+    k, count = 0, 0
+    kept = no_lags()
+    while k < LEVELS and lags[k, SINCE] > since:
+        kept[count] = lags[k]
+        k, count = k + 1, count + 1
+    if count < LEVELS:
+        kept[count, SINCE], kept[count, PAST] = since, past
+        count += 1
+    while k < LEVELS and count < LEVELS:
+        if lags[k, SINCE] > -inf and sense * (lags[k, PAST] - past) < 0.0:
+            kept[count] = lags[k]
+            count += 1
+        k += 1
+    lags[:] = kept
 
 
 @njit(cache=True, nogil=True)
@@ -262,19 +279,9 @@ def _since(scene: Scene, table: FloatArray, way: int, place: Place, latest: floa
     place, fate = follow(scene, place, sense, step, ANY, inf, latest, FREE, True, NO_HOLD)
     if fate == ARRIVED:
         return -inf
-    if fate == LATE:
+    if fate == LATE and place.t < scene.leader[-1, 0]:
         return inf
     return float(place.t - sense * round_anywhere(table, way, place.bearing - scene.leader[-1, 3]))
-
-
-@njit(cache=True, nogil=True)
-def _as_it_is(scene: Scene, table: FloatArray, way: int, place: Place, latest: float) -> Lag:
-    """What a front says that has fallen behind before the final leg."""
-    if place.t >= scene.leader[-1, 0]:
-        return NO_LAG
-    since = _since(scene, table, way, place, latest) - _slack(scene, table, way)
-    past = -(1.0 - 2.0 * way) * inf
-    return Lag(since, past, since, past, since, past)
 
 
 @njit(cache=True, nogil=True)
@@ -284,25 +291,25 @@ def _slack(scene: Scene, table: FloatArray, way: int) -> float:
 
 
 @njit(cache=True, nogil=True)
-def _lag_of(
-    scene: Scene, table: FloatArray, way: int, rows: FloatArray, fall: Fall, behind: float,
-    latest: float,
-) -> Lag:  # fmt: skip
-    """What a fall says of who comes to the final leg."""
+def _put_fall(
+    lags: FloatArray, scene: Scene, table: FloatArray, way: int, rows: FloatArray, fall: Fall,
+    behind: float, latest: float,
+) -> None:  # fmt: skip
+    """Put down what a fall says of who comes to the final leg."""
     sense, at = 1.0 - 2.0 * way, fall.end
     freely = _since(scene, table, way, _line_behind(scene, rows, fall, 0.0, sense), latest)
     place = _line_behind(scene, rows, fall, behind, sense)
     if not -inf < freely < inf or place.t == inf:
-        return NO_LAG
+        return
     # by when he has his last contact who turns off has turned back, too
     lost = 2.0 * lost_by_turning(rows, fall) / (1.0 + scene.alpha)
     since = min(_since(scene, table, way, place, latest), freely + lost)
     ends, heading = float(scene.leader[-1, 0]), float(scene.leader[-1, 3])
     slack = _slack(scene, table, way)
     if rows[AT, at] <= ends:
-        past = -sense * inf
-        return Lag(since - slack, past, since - slack, past, since - slack, past)
-    found, least = np.empty((len(_SHARES), 2)), since
+        _put(lags, since - slack, -sense * inf, sense)
+        return
+    least = since
     for k in range(len(_SHARES)):
         wanted = freely + _SHARES[k] * (since - freely)
         while at > 0 and rows[AT, at - 1] >= ends:
@@ -311,9 +318,7 @@ def _lag_of(
                 break
             at -= 1
             least = min(least, then)
-        found[k, 0], found[k, 1] = least - slack, rows[BEARING, at] - heading
-    (one, past), (two, past_two), (three, past_three) = found
-    return Lag(one, past, two, past_two, three, past_three)
+        _put(lags, least - slack, rows[BEARING, at] - heading, sense)
 
 
 @njit(cache=True, nogil=True)

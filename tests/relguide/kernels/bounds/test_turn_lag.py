@@ -11,7 +11,7 @@ from relguide.kernels.bounds.cells import Cell
 from relguide.kernels.bounds.held_front import holds_of, slides_from
 from relguide.kernels.bounds.junction import slide_turns
 from relguide.kernels.bounds.round_time import ROUND_SLACK, round_anywhere, times_round
-from relguide.kernels.bounds.turn_lag import Lag, lags_from
+from relguide.kernels.bounds.turn_lag import SINCE, lag_at, lags_from
 from relguide.kernels.contact.contact import contact_at
 from relguide.kernels.separation.clearance import leader_at, piece_at
 from tests.relguide.kernels.bounds.test_held_front import STEP, on_edge
@@ -32,7 +32,8 @@ class Sliding(NamedTuple):
     table: np.ndarray
     front: float
     """When the front is on the final leg, less the time round to there [R/V_P]."""
-    lag: Lag
+    lags: np.ndarray
+    """Of `lags_from`."""
     places: list[tuple[float, float]]
     """When and at which bearing he is [R/V_P, rad]."""
 
@@ -65,22 +66,16 @@ def slides(rng: np.random.Generator, half: float) -> Iterator[Sliding]:
         if {piece_at(scene.leader, cell.start), piece_at(scene.leader, cell.end)} != {piece}:
             continue
         table, holds = times_round(scene.alpha, scene.d_min), holds_of(scene, cell, way, inf)
-        lag = lags_from(scene, table, cell, way, inf, holds)
+        lags = lags_from(scene, table, cell, way, inf, holds)
         front = slides_from(scene, table, cell, way, inf, holds)
-        if max(lag.since, lag.nearest) > front + MATTERS:
+        if lags[0, SINCE] > front + MATTERS:
             places = slid(scene, cell, sense)
-            yield Sliding(scene, cell, way, table, front, lag, places)
+            yield Sliding(scene, cell, way, table, front, lags, places)
 
 
 def said_of(sliding: Sliding, bearing: float) -> float:
     """When somebody may be in his last contact there, less the time round to there."""
-    sense, lag = 1.0 - 2.0 * sliding.way, sliding.lag
-    for since, past in (
-        (lag.since, lag.past), (lag.nearer, lag.past_nearer), (lag.nearest, lag.past_nearest)
-    ):  # fmt: skip
-        if sense * (bearing - past) >= 0.0:
-            return since
-    return -inf
+    return float(lag_at(sliding.lags, bearing, 1.0 - 2.0 * sliding.way))
 
 
 def hops(sliding: Sliding, rng: np.random.Generator, count: int) -> Iterator[tuple[float, float]]:
@@ -126,7 +121,7 @@ def test_fronts_fall_behind_nearly_as_far_as_the_best_hop_does() -> None:
             default=inf,
         )  # fmt: skip
         if best < inf:
-            shares.append((sliding.lag.since - sliding.front) / (best - sliding.front))
+            shares.append((sliding.lags[0, SINCE] - sliding.front) / (best - sliding.front))
         if len(shares) == 12:
             break
     assert max(shares) > 0.8
