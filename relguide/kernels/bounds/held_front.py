@@ -43,7 +43,8 @@ from relguide.kernels.bounds.round_turning import (
 )
 from relguide.kernels.contact.contact import contact_at
 
-_PARTS = 4  # a front keeps its direction for such a part of a step from cells elsewhere
+PARTS = 4
+"""A front keeps its direction for such a part of a step from cells elsewhere."""
 _CLOSER, _FINER = 2e-3, 16  # and of those narrower than this, which may be held as well [rad]
 _DEEP = 1e-3  # in a zone he turns away by more than this [rad]
 _LEAST = 0.1  # the first course that is tried, as part of the way from `low` to `high`
@@ -77,7 +78,7 @@ def holds_of(scene: Scene, cell: Cell, way: int, latest: float) -> FloatArray:
     """
     holds, count = np.empty((_ZONES, 2)), 0
     if cell.half < _CLOSER and scene.alpha <= FAST:
-        place, sense, step = _begins(scene, cell, way), 1.0 - 2.0 * way, step_of(scene) / _PARTS
+        place, sense, step = _begins(scene, cell, way), 1.0 - 2.0 * way, step_of(scene) / PARTS
         for _ in range(_ZONES):
             zone = _zone_ahead(scene, place, sense, step, latest)
             if zone.high == inf:
@@ -117,7 +118,7 @@ def slides_from(
     """
     if scene.alpha > FAST:
         return UNKNOWN
-    step = step_of(scene) / (_FINER if cell.half < _CLOSER else _PARTS)
+    step = step_of(scene) / (_FINER if cell.half < _CLOSER else PARTS)
     sense, place = 1.0 - 2.0 * way, _begins(scene, cell, way)
     for k in range(len(holds)):
         hold = Hold(holds[k, 0], holds[k, 1])
@@ -125,15 +126,38 @@ def slides_from(
         place, fate = follow(scene, place, sense, step, ANY, inf, end, FREE, True, hold)
         if fate == ARRIVED:
             return UNKNOWN
+    return since_of(scene, table, way, place, step, latest)
+
+
+@njit(cache=True, nogil=True)
+def since_of(
+    scene: Scene, table: FloatArray, way: int, place: Place, step: float, latest: float
+) -> float:
+    """As `slides_from`, of a front that is somewhere and is not held from then on.
+
+    Args:
+        scene: the leader and d_min.
+        table: of `round_time.times_round`.
+        way: 0 counter-clockwise round the leader, 1 clockwise.
+        place: where it is.
+        step: how long it keeps its direction [R/V_P].
+        latest: as in `slides_from`.
+    """
+    sense = 1.0 - 2.0 * way
     place, fate = follow(scene, place, sense, step, ANY, inf, latest, FREE, True, NO_HOLD)
     if fate == ARRIVED:
         return UNKNOWN
     if fate == LATE and place.t < scene.leader[-1, 0]:
         return inf
     # a front that may not slide yet is faster, so it has gained most at last
-    less = ROUNDING + table[way, -1] * INSIDE / scene.d_min
     since = sense * round_anywhere(table, way, place.bearing - scene.leader[-1, 3])
-    return float(place.t - less - since)
+    return float(place.t - slack_of(scene, table, way) - since)
+
+
+@njit(cache=True, nogil=True)
+def slack_of(scene: Scene, table: FloatArray, way: int) -> float:
+    """What may be missed of when a front is on the final leg, and of the time round from there."""
+    return float(ROUNDING + table[way, -1] * INSIDE / scene.d_min)
 
 
 @njit(cache=True, nogil=True)

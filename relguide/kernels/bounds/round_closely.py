@@ -110,9 +110,7 @@ def _far_from_enough(tree: Tree, n: int, column: int, enough: float, longest: fl
     Returns:
         0 if it must be asked for in the cell itself [R/V_P].
     """
-    above = int(tree.halves[n, 1])
-    while above >= 0 and isnan(tree.known[above, column]):
-        above = int(tree.halves[above, 1])
+    above = _where_known(tree, n, column)
     if above < 0:
         return 0.0
     kept = tree.known[above, column : column + 3]
@@ -120,6 +118,14 @@ def _far_from_enough(tree: Tree, n: int, column: int, enough: float, longest: fl
         return 0.0
     hoped = _TIMES * kept[0] + _STEEP * tree.cells[above, 3]
     return float(kept[0]) if enough > hoped else 0.0
+
+
+@njit(cache=True, nogil=True)
+def _where_known(tree: Tree, n: int, column: int) -> int:
+    """The smallest cell that holds a cell, or is it, of which something is known; −1 if none."""
+    while n >= 0 and isnan(tree.known[n, column]):
+        n = int(tree.halves[n, 1])
+    return n
 
 
 @njit(cache=True, nogil=True)
@@ -164,9 +170,7 @@ def lags_of(tree: Tree, problem: Problem, n: int, way: int, wanted: float) -> Fl
         way: 0 counter-clockwise round the leader, 1 clockwise: as these contacts pass.
         wanted: no later than this is asked for [R/V_P].
     """
-    at = n
-    while at >= 0 and isnan(tree.known[at, LAG_FROM + way]):
-        at = int(tree.halves[at, 1])
+    at = _where_known(tree, n, LAG_FROM + way)
     if at >= 0:
         kept: FloatArray = tree.lags[int(tree.known[at, LAG_FROM + way])]
         half = tree.cells[at, 3]

@@ -13,7 +13,6 @@ from numba import njit
 
 from relguide.kernels.base.records import Scene
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.bounds.breach import INSIDE
 from relguide.kernels.bounds.cells import Cell
 from relguide.kernels.bounds.falls import (
     NO_FALL,
@@ -25,6 +24,7 @@ from relguide.kernels.bounds.falls import (
     lost_by_turning,
     turn_between,
 )
+from relguide.kernels.bounds.held_front import PARTS, since_of, slack_of
 from relguide.kernels.bounds.round_time import round_anywhere
 from relguide.kernels.bounds.round_turning import (
     ANY,
@@ -32,7 +32,7 @@ from relguide.kernels.bounds.round_turning import (
     FREE,
     LATE,
     NO_HOLD,
-    ROUNDING,
+    UNKNOWN,
     Hold,
     Place,
     bearings_of,
@@ -47,7 +47,6 @@ LEVELS = 20
 """Rows of `lags_from`."""
 SINCE, PAST = 0, 1
 """And its columns."""
-_PARTS = 4  # a front keeps its direction for such a part of a step
 _FALLS = 3  # one after another
 _STEPS = 60  # until a front may slide again
 _TRIED = 12  # of places where who has his last contact before the change may have left the edge
@@ -85,7 +84,7 @@ def lags_from(
         bearing, and that bearing, as `Place` counts, less the slot's heading [R/V_P, rad]. Those
         are the later, the further round; −∞ where nothing is known. shape (LEVELS, 2)
     """
-    sense, step = 1.0 - 2.0 * way, step_of(scene) / _PARTS
+    sense, step = 1.0 - 2.0 * way, step_of(scene) / PARTS
     low, high = bearings_of(scene, cell)
     place = begins(cell.start, high if way == 0 else low)
     lags, touches, fallen = no_lags(), True, False
@@ -102,7 +101,7 @@ def lags_from(
         if not slides:
             break
         if fallen and lags[0, SINCE] == -inf and place.t < scene.leader[-1, 0]:
-            since = _since(scene, table, way, place, latest) - _slack(scene, table, way)
+            since = since_of(scene, table, way, place, step, latest)
             _put(lags, since, -sense * inf, sense)
         rows = slide_of(scene, place, sense, latest, inf)
         fall = _first_fall(scene, cell, rows, touches)
@@ -128,7 +127,7 @@ def lag_at(lags: FloatArray, bearing: float, sense: float) -> float:
 @njit(cache=True, nogil=True)
 def _put(lags: FloatArray, since: float, past: float, sense: float) -> None:
     """Put down that, in place of what says no more; the least are left out if there is no room."""
-    if since <= lag_at(lags, past, sense):
+    if since <= max(UNKNOWN, lag_at(lags, past, sense)):
         return
     k, count = 0, 0
     kept = no_lags()
@@ -186,10 +185,9 @@ def _first_fall(scene: Scene, cell: Cell, rows: FloatArray, touches: bool) -> Fa
                 fall = other
         within = rows[:, : fall.begin + 1]
         sooner = best_fall(within)
-        if sooner.lag > 0.0:
-            fall = sooner
-        elif not touches:
+        if sooner.lag <= 0.0:
             break
+        fall = sooner
     return fall
 
 
@@ -259,7 +257,7 @@ def _until_sliding(
     scene: Scene, place: Place, sense: float, latest: float, hold: Hold
 ) -> tuple[Place, bool]:
     """Follow a front until it may be turned to where someone sliding heads; whether it may be."""
-    step = step_of(scene) / _PARTS
+    step = step_of(scene) / PARTS
     for _ in range(_STEPS):
         ahead = acos(scene.alpha * cos(place.bearing - leader_then(scene, place.t).h))
         if place.t >= latest:
@@ -273,52 +271,35 @@ def _until_sliding(
 
 
 @njit(cache=True, nogil=True)
-def _since(scene: Scene, table: FloatArray, way: int, place: Place, latest: float) -> float:
-    """When a front is on the final leg, less the time round to there; −∞ if that is not known."""
-    sense, step = 1.0 - 2.0 * way, step_of(scene) / _PARTS
-    place, fate = follow(scene, place, sense, step, ANY, inf, latest, FREE, True, NO_HOLD)
-    if fate == ARRIVED:
-        return -inf
-    if fate == LATE and place.t < scene.leader[-1, 0]:
-        return inf
-    return float(place.t - sense * round_anywhere(table, way, place.bearing - scene.leader[-1, 3]))
-
-
-@njit(cache=True, nogil=True)
-def _slack(scene: Scene, table: FloatArray, way: int) -> float:
-    """As fronts that are followed are wrong by, and the time round by how near one may come."""
-    return float(ROUNDING + table[way, -1] * INSIDE / scene.d_min)
-
-
-@njit(cache=True, nogil=True)
 def _put_fall(
     lags: FloatArray, scene: Scene, table: FloatArray, way: int, rows: FloatArray, fall: Fall,
     behind: float, latest: float,
 ) -> None:  # fmt: skip
     """Put down what a fall says of who comes to the final leg."""
-    sense, at = 1.0 - 2.0 * way, fall.end
-    freely = _since(scene, table, way, _line_behind(scene, rows, fall, 0.0, sense), latest)
+    sense, at, step = 1.0 - 2.0 * way, fall.end, step_of(scene) / PARTS
+    place = _line_behind(scene, rows, fall, 0.0, sense)
+    freely = since_of(scene, table, way, place, step, latest)
     place = _line_behind(scene, rows, fall, behind, sense)
-    if not -inf < freely < inf or place.t == inf:
+    if not UNKNOWN < freely < inf or place.t == inf:
         return
     # by when he has his last contact who turns off has turned back, too
     lost = 2.0 * lost_by_turning(rows, fall) / (1.0 + scene.alpha)
-    since = min(_since(scene, table, way, place, latest), freely + lost)
+    since = min(since_of(scene, table, way, place, step, latest), freely + lost)
     ends, heading = float(scene.leader[-1, 0]), float(scene.leader[-1, 3])
-    slack = _slack(scene, table, way)
+    slack = slack_of(scene, table, way)
     if rows[AT, at] <= ends:
-        _put(lags, since - slack, -sense * inf, sense)
+        _put(lags, since, -sense * inf, sense)
         return
     least = since
     for k in range(len(_SHARES)):
         wanted = freely + _SHARES[k] * (since - freely)
         while at > 0 and rows[AT, at - 1] >= ends:
-            then = _since_at(scene, table, way, rows, fall, behind, at - 1)
+            then = _since_at(scene, table, way, rows, fall, behind, at - 1) - slack
             if then < wanted:
                 break
             at -= 1
             least = min(least, then)
-        _put(lags, least - slack, rows[BEARING, at] - heading, sense)
+        _put(lags, least, rows[BEARING, at] - heading, sense)
 
 
 @njit(cache=True, nogil=True)
