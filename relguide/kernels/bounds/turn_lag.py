@@ -29,6 +29,7 @@ from relguide.kernels.bounds.round_time import round_anywhere
 from relguide.kernels.bounds.round_turning import (
     ANY,
     ARRIVED,
+    FAST,
     FREE,
     LATE,
     NO_HOLD,
@@ -88,6 +89,8 @@ def lags_from(
     low, high = bearings_of(scene, cell)
     place = begins(cell.start, high if way == 0 else low)
     lags, touches, fallen = no_lags(), True, False
+    if scene.alpha > FAST:
+        return lags
     for k in range(len(holds)):
         hold = Hold(holds[k, 0], holds[k, 1])
         end = min(hold.until, latest)

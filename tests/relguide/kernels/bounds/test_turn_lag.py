@@ -1,6 +1,7 @@
 """Nobody who turns at full bank at most is round sooner than is said of how fronts fall behind."""
 
 from collections.abc import Iterator
+from itertools import islice
 from math import inf, pi
 from typing import NamedTuple
 
@@ -126,3 +127,13 @@ def test_fronts_fall_behind_nearly_as_far_as_the_best_hop_does() -> None:
             break
     assert max(shares) > 0.8
     assert np.median(shares) > 0.3
+
+
+def test_round_a_leader_nearly_as_fast_nothing_is_known() -> None:
+    """As of fronts, see `round_turning.FAST`."""
+    for sliding in islice(slides(np.random.default_rng(4), 1e-7), 20):
+        scene = sliding.scene._replace(alpha=0.9995)
+        table = times_round(scene.alpha, scene.d_min)
+        holds = holds_of(scene, sliding.cell, sliding.way, inf)
+        lags = lags_from(scene, table, sliding.cell, sliding.way, inf, holds)
+        assert (lags[:, SINCE] == -inf).all()
