@@ -140,22 +140,22 @@ page: .make/dev
 
 .PHONY: bench
 bench: .make/dev .make/kernels .make/bench/ready
-	@$(BIN)/python -m tests.bench
+	@$(BIN)/python -m benchmarks
 
 # The pictures and tables of docs/planner.md; some minutes.
 .PHONY: planner-figures
 planner-figures: .make/dev .make/kernels .make/bench/ready
-	@$(BIN)/python -m tests.bench.figures
+	@$(BIN)/python -m benchmarks.figures
 
-# More flights, or some families only: .venv/bin/python -m tests.campaign fly --help
+# More flights, or some families only: .venv/bin/python -m tools.campaign fly --help
 .PHONY: campaign
 campaign: .make/dev .make/kernels .make/traffic
-	@$(BIN)/python -m tests.campaign fly
+	@$(BIN)/python -m tools.campaign fly
 
 # The pictures and tables of docs/flight.md; the campaign's, of build/campaign.jsonl if that is there.
 .PHONY: flight-figures
 flight-figures: .make/dev .make/kernels
-	@$(BIN)/python -m tests.campaign report $(wildcard build/campaign.jsonl)
+	@$(BIN)/python -m tools.campaign report $(wildcard build/campaign.jsonl)
 
 .make/bench/ready: .make/dev pyproject.toml
 	@mkdir -p .make/bench
@@ -203,4 +203,4 @@ lock: .make/dev
 clean:
 	rm -rf .venv .make dist build web/dist web/node_modules .pytest_cache .mypy_cache .ruff_cache \
 		.import_linter_cache .hypothesis
-	find relguide server tests -name __pycache__ -type d -prune -exec rm -rf {} +
+	find benchmarks relguide server tests tools -name __pycache__ -type d -prune -exec rm -rf {} +

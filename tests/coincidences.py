@@ -11,13 +11,13 @@ from math import cos, hypot, pi, sin
 
 import numpy as np
 
+from benchmarks import draws
 from relguide import CALM, FlyStraight, Leader, Plan, Situation, plan
 from relguide.kernels.base.records import Pose
 from relguide.kernels.contact.contact import contact_heading
 from relguide.kernels.words.extremals import MAX_ROWS, solve
 from relguide.planning.limits import DISTANCE
 from relguide.planning.slot import slot_frame
-from tests.bench import draws
 
 _ROUNDS = 8
 """A switch is moved this often to where the plan then touches d_min."""

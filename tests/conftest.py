@@ -15,7 +15,7 @@ from hypothesis import HealthCheck, settings
 
 from relguide.kernels.compiling import first_use
 
-APART = ("bench", "browser")
+APART = ("browser",)
 
 # The first call of a kernel compiles it, so no example has a deadline.
 settings.register_profile(
@@ -45,6 +45,6 @@ def _seeds() -> None:
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
-    """`tests/bench` and `tests/browser` run only when named: `make bench`, `make test`."""
+    """`tests/browser` runs only when named, as by `make test`."""
     apart = collection_path.parent == Path(__file__).parent and collection_path.name in APART
     return True if apart and not any(collection_path.name in arg for arg in config.args) else None

@@ -7,6 +7,14 @@ import numpy as np
 import pytest
 from hypothesis import given
 
+from benchmarks import draws, network
+from benchmarks.cases import turning_cases, unlimited_cases
+from benchmarks.exhaustive import least_time
+from benchmarks.limit import main, plan_twice
+from benchmarks.network_batch import as_row
+from benchmarks.network_rows import BY_NETWORK, answer_rows
+from benchmarks.page import BEGIN, COMMAND, END, FOLDER, PAGE, PICTURES, with_block
+from benchmarks.starts import guesses
 from relguide import NoPlan
 from relguide.kernels.base.angles import FULL_TURN_SLACK
 from relguide.kernels.base.records import Pose
@@ -15,14 +23,6 @@ from relguide.learn.boundary.template_network import load_template_network
 from relguide.learn.network_planner import network_planner
 from relguide.learn.words.branch_network import load_network
 from relguide.planning.constrained_path import BEARINGS
-from tests.bench import draws, network
-from tests.bench.cases import turning_cases, unlimited_cases
-from tests.bench.exhaustive import least_time
-from tests.bench.limit import main, plan_twice
-from tests.bench.network_batch import as_row
-from tests.bench.network_rows import BY_NETWORK, answer_rows
-from tests.bench.page import BEGIN, COMMAND, END, FOLDER, PAGE, PICTURES, with_block
-from tests.bench.starts import guesses
 from tests.situations import headings, numbers
 
 ROOT = Path(__file__).parents[1]

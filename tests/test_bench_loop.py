@@ -5,8 +5,7 @@ from dataclasses import replace
 import pytest
 from rich.table import Table
 
-from relguide import plan
-from tests.bench.loop import (
+from benchmarks.loop import (
     BREACH,
     decisions_table,
     failures,
@@ -15,6 +14,7 @@ from tests.bench.loop import (
     losses_table,
     main,
 )
+from relguide import plan
 
 
 def rows(table: Table) -> list[tuple[str, ...]]:

@@ -6,9 +6,8 @@ from subprocess import CalledProcessError
 
 import pytest
 
-from relguide.flying.guidance.settings import DEFAULT
-from tests.bench import simulators
-from tests.bench.simulators import (
+from benchmarks import simulators
+from benchmarks.simulators import (
     ASKED,
     NOTE,
     Measured,
@@ -21,6 +20,7 @@ from tests.bench.simulators import (
     table_cells,
     their_rows,
 )
+from relguide.flying.guidance.settings import DEFAULT
 
 
 @pytest.mark.slow

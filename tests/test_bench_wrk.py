@@ -2,8 +2,8 @@
 
 import pytest
 
-from tests.bench.service.speed import say_ticks
-from tests.bench.service.wrk import main, read
+from benchmarks.service.speed import say_ticks
+from benchmarks.service.wrk import main, read
 
 PRINTED = """Running 4s test @ http://127.0.0.1:8000/healthz
   1 threads and 16 connections
@@ -51,7 +51,7 @@ def test_without_wrk_it_says_what_does_the_same(
     monkeypatch.setattr("shutil.which", lambda name: None)
     with pytest.raises(SystemExit, match="2"):
         main([])
-    assert "run python -m tests.bench.service.speed" in capsys.readouterr().err
+    assert "run python -m benchmarks.service.speed" in capsys.readouterr().err
 
 
 def test_ticks_are_said_for_each_watcher() -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from benchmarks.draws import active
 from relguide.flying.cards import plan_card
 from relguide.flying.documents import Alert, FlightEnded, ForecastChanged, Sample, Unable
 from relguide.flying.flight import fly
@@ -16,13 +17,13 @@ from relguide.planning import situation as situation_words
 from relguide.planning.plan import plan
 from relguide.planning.situation import Leader, Pursuer, Situation
 from relguide.units import DEG, NM
-from tests.bench.draws import active
-from tests.campaign import recordings
-from tests.campaign.__main__ import main
-from tests.campaign.evasion import best_turn
-from tests.campaign.families import FAMILIES, REACH, draw
-from tests.campaign.flights import failed_row, fly_case, row_of
-from tests.campaign.paths import (
+from tests.plans import find_plan, golden_plan
+from tools.campaign import recordings
+from tools.campaign.__main__ import main
+from tools.campaign.evasion import best_turn
+from tools.campaign.families import FAMILIES, REACH, draw
+from tools.campaign.flights import failed_row, fly_case, row_of
+from tools.campaign.paths import (
     circles,
     distance_from,
     lone_circles,
@@ -31,9 +32,8 @@ from tests.campaign.paths import (
     reversals_of,
     turns_flown,
 )
-from tests.campaign.row import FIGURES, read_rows, row_from
-from tests.campaign.tables import distributions, ranking
-from tests.plans import find_plan, golden_plan
+from tools.campaign.row import FIGURES, read_rows, row_from
+from tools.campaign.tables import distributions, ranking
 
 DRAWN = [family for family in FAMILIES if family != "recorded"]
 

@@ -11,9 +11,9 @@ from control import StateSpace
 from relguide.flying.airframe import Airframe
 from relguide.kernels.base.turn import turn_rate
 from relguide.units import DEG
-from tests.campaign import pictures, report, responses
-from tests.campaign.constants import constants_cells
-from tests.campaign.loops import (
+from tools.campaign import pictures, report, responses
+from tools.campaign.constants import constants_cells
+from tools.campaign.loops import (
     FOLLOW_GAINS,
     PATH_GAINS,
     STEP,
@@ -25,7 +25,7 @@ from tests.campaign.loops import (
     roll_loop,
     straight_loop,
 )
-from tests.campaign.report import (
+from tools.campaign.report import (
     AUTOPILOT,
     CAMPAIGN,
     FOLDER,

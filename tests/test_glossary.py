@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.docs.glossary import FOLDER, drawings
+from tools.glossary_drawings import FOLDER, drawings
 
 ROOT = Path(__file__).parents[1]
 GLOSSARY = (ROOT / "docs" / "glossary.md").read_text()
@@ -48,4 +48,4 @@ def test_names_occur(column: int) -> None:
 
 def test_drawings_are_fresh() -> None:
     stale = [name for name, svg in drawings().items() if (FOLDER / name).read_text() != svg]
-    assert not stale, "draw them anew: python -m tests.docs.glossary"
+    assert not stale, "draw them anew: python -m tools.glossary_drawings"

@@ -24,9 +24,9 @@ from relguide_server import health
 from relguide_server.app import create_app
 from relguide_server.settings import Settings
 
-from tests.container.composition import composition
-from tests.container.dockerfile import ROOT, copied, steps
 from tests.server.serving import ideal_app, serve
+from tools.container.composition import composition
+from tools.container.dockerfile import ROOT, copied, steps
 
 LOCK = (ROOT / "requirements.lock").read_text()
 COMPOSE = composition()

@@ -6,12 +6,12 @@ from pathlib import Path
 
 import pytest
 
-from tests.mutation.chosen_tests import judges_of
-from tests.mutation.named import NAMED, Named
-from tests.mutation.operators import edits
-from tests.mutation.outcomes import EQUIVALENT, Journal, Outcome, score, survivors
-from tests.mutation.sampling import mutant, sample
-from tests.mutation.workshop import Workshop
+from tools.mutation.chosen_tests import judges_of
+from tools.mutation.named import NAMED, Named
+from tools.mutation.operators import edits
+from tools.mutation.outcomes import EQUIVALENT, Journal, Outcome, score, survivors
+from tools.mutation.sampling import mutant, sample
+from tools.mutation.workshop import Workshop
 
 ROOT = Path(__file__).parents[1]
 PLANNING, KERNELS = Path("relguide/planning"), Path("relguide/kernels")
@@ -82,11 +82,11 @@ def test_a_file_is_judged_by_its_own_tests_those_of_its_users_and_the_golden_ans
 def test_faults_are_noticed_or_not_and_the_source_comes_back(tmp_path: Path) -> None:
     root, tests = tmp_path / "repository", [Path("tests/relguide/planning/test_toy.py")]
     toy = PLANNING / "toy.py"
-    hasty = Path("tests/mutation/hasty.py")
+    hasty = Path("tools/mutation/hasty.py")
     for file, text in ((toy, TOY), (tests[0], TEST), (hasty, (ROOT / hasty).read_text())):
         (root / file).parent.mkdir(parents=True, exist_ok=True)
         (root / file).write_text(text)
-    for package in ("relguide", PLANNING, "tests", "tests/mutation"):
+    for package in ("relguide", PLANNING, "tests", "tools", "tools/mutation"):
         (root / package / "__init__.py").touch()
     subprocess.run(["git", "init", "-q"], cwd=root, check=True)
     workshop = Workshop(root=root, folder=tmp_path / "workshop")

@@ -2,10 +2,10 @@
 
 import re
 
-from tests.notices import NOTICES, bundled_notices, imports_of_page, installed_notices
+from tools.notices import NOTICES, bundled_notices, imports_of_page, installed_notices
 
 SHOWN = NOTICES.read_text("utf-8")
-RENEW = "python -m tests.notices writes the file anew"
+RENEW = "python -m tools.notices writes the file anew"
 
 
 def test_each_distribution_of_the_container_has_its_licence() -> None:

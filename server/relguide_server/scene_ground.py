@@ -1,6 +1,6 @@
 """The ground of the 3D scene where a flight has a place on the earth: coast lines and airports.
 
-Both come from `earth.npz`, which `tests/earth.py` makes: coast lines of Natural Earth, airports of
+Both come from `earth.npz`, which `tools/earth.py` makes: coast lines of Natural Earth, airports of
 airportsdata, longitudes and latitudes in steps of `STEP`, the lines as differences.
 """
 

@@ -1,6 +1,6 @@
 """Attackers hold up neither the event loop nor who asks for little; docs/service.md has figures.
 
-The bounds here are wide: other tests run beside these. `tests.bench.service.attacks` measures.
+The bounds here are wide: other tests run beside these. `benchmarks.service.attacks` measures.
 """
 
 import asyncio
@@ -15,8 +15,8 @@ from relguide_server.app import create_app
 from relguide_server.jobs import load
 from relguide_server.settings import Settings
 
-from tests.bench.service.attackers import KINDS, attack
-from tests.bench.service.situations import STRAIGHT
+from benchmarks.service.attackers import KINDS, attack
+from benchmarks.service.situations import STRAIGHT
 from tests.server.serving import ideal_departures, serve
 from tests.server.test_service_life import wait_until
 

@@ -13,7 +13,7 @@ from relguide_server.plan_desk import PlanDesk
 from relguide_server.plans import EXAMPLE, PATH
 from starlette.middleware import Middleware
 
-from tests.bench.service.situations import HEAD_ON
+from benchmarks.service.situations import HEAD_ON
 from tests.server.serving import TestClient, ideal_app, serve
 
 UNLIMITED = {**EXAMPLE, "min_separation_m": 0.0}

@@ -14,9 +14,9 @@ from relguide_server.plans import EXAMPLE
 from relguide_server.preparation import Preparation, steps_for
 from relguide_server.settings import Settings
 
+from benchmarks.deadline import draw
 from relguide.planning.plan import NoPlan, Plan, Reason, plan, plan_at_once
 from relguide.warm_up import STEPS, Preparing, WarmUpError
-from tests.bench.deadline import draw
 from tests.server.serving import TestClient
 from tests.situations import golden
 

@@ -7,12 +7,12 @@ import orjson
 import pytest
 from hypothesis import given
 
+from benchmarks.deadline import draw
 from relguide import Plan, Situation, plan
 from relguide.contract.plain_answer import plain_plan
 from relguide.contract.wire import to_wire
 from relguide.flying.cards import plan_card
 from relguide.planning.trajectory import BoundaryArc
-from tests.bench.deadline import draw
 from tests.situations import golden, situations
 
 

@@ -16,8 +16,8 @@ from relguide.contract.wire import dumps, tick, to_wire
 from relguide.flying.aircraft_documents import AircraftSample, GuidanceSample, HeadingReference
 from relguide.flying.documents import ForecastChanged, Sample, SeparationLost
 from relguide.flying.plan_documents import PathPoint
-from tests.display_flights import FOLDER, SITUATIONS, display_flight
 from tests.documents import documents
+from tools.display_flights import FOLDER, SITUATIONS, display_flight
 
 AIRCRAFT = AircraftSample(
     ident="RG 06",
@@ -174,7 +174,7 @@ def test_the_flights_that_the_display_is_tested_with_are_fresh(name: str) -> Non
     written = json.loads((FOLDER / f"{name}.json").read_text("utf-8"))
     for document, expected in zip(written, display_flight(name), strict=True):
         # searches end a little differently on other processors
-        assert_equal(from_wire(document), expected, 1e-5)  # if not: python -m tests.display_flights
+        assert_equal(from_wire(document), expected, 1e-5)  # if not: python -m tools.display_flights
 
 
 json_values = st.recursive(

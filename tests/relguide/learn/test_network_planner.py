@@ -10,6 +10,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
+from benchmarks import draws
 from relguide import (
     LEFT,
     Leader,
@@ -31,7 +32,6 @@ from relguide.learn.words.branch_network import BranchNetwork, load_network
 from relguide.planning.candidate import Candidate
 from relguide.planning.plan import AS_FAST
 from relguide.units import DEG
-from tests.bench import draws
 from tests.relguide.learn.words.networks import network
 from tests.situations import coincidences, golden, situations
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from benchmarks import draws
 from relguide import Situation
-from tests.bench import draws
 from tests.relguide.planning.test_path_round_turning_leader import sound_plan
 
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 
+from benchmarks import draws
 from relguide import (
     LEFT,
     Arc,
@@ -23,7 +24,6 @@ from relguide.kernels.separation.clearance import SLACK
 from relguide.planning.batch import TimeRow, plan_arrays
 from relguide.planning.slot import slot_frame
 from relguide.units import DEG
-from tests.bench import draws
 from tests.columns import columns_of
 from tests.oracle import arrival_error
 from tests.situations import coincidences
@@ -197,7 +197,7 @@ def test_a_path_that_leaves_the_disc_between_two_slides_is_found(
 def test_a_straight_that_touches_is_put_into_the_best_chain(case: int, known: float) -> None:
     """Two bearings had to be moved together; they came 0.19 and 0.24 s later than known now."""
     rng = np.random.default_rng([1302, case])
-    rng.random(2)  # as `tests.bench.limit` draws them
+    rng.random(2)  # as `benchmarks.limit` draws them
     situation = draws.active(rng, tight=True, slot_at_limit=True)
     assert arrival_time(situation) < known + 0.05
 

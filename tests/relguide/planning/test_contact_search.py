@@ -8,6 +8,8 @@ from math import inf, pi
 import numpy as np
 import pytest
 
+from benchmarks import draws
+from benchmarks.proofs import KINDS, draw
 from relguide import Plan, candidates, plan
 from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.bounds.cells import Cell
@@ -15,8 +17,6 @@ from relguide.kernels.bounds.contact_tree import cell_at, halve, plant
 from relguide.kernels.bounds.goal import Goal
 from relguide.planning.contact_search import Question
 from relguide.planning.prove import question_of
-from tests.bench import draws
-from tests.bench.proofs import KINDS, draw
 
 LEADER = np.array(
     [[0.0, 1.0, 0.5, -0.7, 0.4], [2.0, 2.6, 0.2, 0.1, -0.2], [3.0, 3.5, 0.3, -0.1, 0.0]]

@@ -11,6 +11,7 @@ from time import thread_time
 import numpy as np
 import pytest
 
+from benchmarks import deadline as bench
 from relguide import (
     LEFT,
     RIGHT,
@@ -32,13 +33,12 @@ from relguide.planning.acceptance import ask, takes_deadline
 from relguide.planning.deadline import MAX_DEADLINE, load_kernels
 from relguide.planning.trajectory import Turn
 from relguide.units import DEG
-from tests.bench import deadline as bench
 from tests.bodies import BODY
 from tests.plans import find_plan, golden_plan, straight_behind
 
 LATE = 0.1
 """So long after its deadline each answer has come [s]: without one these take from 0.3 s to hours.
-How many come 5 ms late is measured where nothing runs beside it, by `tests.bench.deadline`."""
+How many come 5 ms late is measured where nothing runs beside it, by `benchmarks.deadline`."""
 ROUNDING = 1e-3
 """A path is flown as it was found to 2e-4 R/V_P: times of one and the same differ by less [s]."""
 

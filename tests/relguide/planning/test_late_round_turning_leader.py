@@ -5,6 +5,7 @@ from math import inf
 import numpy as np
 import pytest
 
+from benchmarks import draws
 from relguide import Situation, candidates
 from relguide.kernels.contact.boundary_arc import (
     MAX_NODES,
@@ -14,7 +15,6 @@ from relguide.kernels.contact.boundary_arc import (
 from relguide.kernels.contact.chain import BOUNDARY_ARC
 from relguide.kernels.contact.contact import contact_at
 from relguide.planning.tables import scene_of
-from tests.bench import draws
 from tests.relguide.planning.test_path_round_turning_leader import limit_case, sound_plan
 
 

@@ -5,6 +5,7 @@ from math import hypot
 import numpy as np
 import pytest
 
+from benchmarks import draws, proofs
 from relguide import (
     LEFT,
     RIGHT,
@@ -27,11 +28,10 @@ from relguide.kernels.contact.chain import BOUNDARY_ARC
 from relguide.kernels.contact.contact import GRAZE, contact_at
 from relguide.kernels.separation.clearance import fly_rate, piece_clears
 from relguide.planning.tables import scene_of
-from tests.bench import draws, proofs
 
 
 def limit_case(seed: int, case: int, *, tight: bool, slot_at_limit: bool) -> Situation:
-    """As `tests.bench.limit` draws it, once it is known what kind it is to be."""
+    """As `benchmarks.limit` draws it, once it is known what kind it is to be."""
     rng = np.random.default_rng([seed, case])
     rng.random(1 + slot_at_limit)  # which kind it is
     return draws.active(rng, tight=tight, intent=True, slot_at_limit=slot_at_limit)
@@ -227,7 +227,7 @@ def test_where_few_contacts_may_still_matter_it_is_looked_closer(
 def test_a_boundary_arc_that_ends_in_a_window_of_one_degree_is_found() -> None:
     """IPOPT found this path, 3.0 s faster than the plan."""
     rng = np.random.default_rng([2026, 15])
-    _, calm = rng.random(2)  # as `tests.bench.duel` draws whether the leader turns, and the wind
+    _, calm = rng.random(2)  # as `benchmarks.duel` draws whether the leader turns, and the wind
     answer = plan(draws.active(rng, tight=False, intent=True, calm=calm < 0.5))
     assert isinstance(answer, Plan)
     assert answer.certificate.holds
@@ -237,7 +237,7 @@ def test_a_boundary_arc_that_ends_in_a_window_of_one_degree_is_found() -> None:
 def test_a_word_that_exists_for_a_moment_is_found() -> None:
     """IPOPT found this path, 12.8 s faster: its circles were near enough between two looks only."""
     rng = np.random.default_rng([2041, 145])
-    _, calm = rng.random(2)  # as `tests.bench.duel` draws whether the leader turns, and the wind
+    _, calm = rng.random(2)  # as `benchmarks.duel` draws whether the leader turns, and the wind
     answer = plan(draws.active(rng, tight=False, intent=True, calm=calm < 0.5))
     assert isinstance(answer, Plan)
     assert answer.certificate.holds
@@ -276,7 +276,7 @@ def test_the_best_chain_is_begun_again_from_nearby(
 ) -> None:
     """They came 22.9 s, 9.3 s, 7.8 s, 1.1 s and 0.2 s later: stuck at cliffs of the arrival."""
     rng = np.random.default_rng([seed, case])
-    rng.random(1 + slot_at_limit)  # as `tests.bench.limit` draws what kind it is
+    rng.random(1 + slot_at_limit)  # as `benchmarks.limit` draws what kind it is
     tight = case % 2 == 0
     answer = sound_plan(draws.active(rng, tight=tight, intent=True, slot_at_limit=slot_at_limit))
     assert answer.time_to_converge < best

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from hypothesis import assume, given
 
+from benchmarks import draws, proofs
 from relguide import NoPlan, Plan, Situation, plan, prove
 from relguide.__main__ import main
 from relguide.kernels.bounds.cells import Cell
@@ -28,7 +29,6 @@ from relguide.planning.prove import (
     question_of,
 )
 from relguide.planning.words import candidates
-from tests.bench import draws, proofs
 from tests.bodies import BODY
 from tests.plans import golden_plan, straight_behind
 from tests.situations import GOLDEN, golden, situations

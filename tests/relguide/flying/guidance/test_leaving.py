@@ -21,11 +21,11 @@ from relguide.kernels.base.angles import wrap_signed
 from relguide.planning.plan import NoPlan, Reason, plan
 from relguide.planning.situation import Leader, Pursuer, Situation
 from relguide.units import DEG, KT, NM
-from tests.campaign.families import draw
-from tests.campaign.flights import fly_case
 from tests.flights import Flown, fly_whole, random_start
 from tests.relguide.flying.guidance.beliefs import FIG_6B, behind, observe
 from tests.relguide.flying.guidance.test_forecast import make_forecast
+from tools.campaign.families import draw
+from tools.campaign.flights import fly_case
 
 FOLLOWED = replace(FIG_6B, after_joining=600.0)
 JOINED = 950.0

@@ -2,12 +2,12 @@
 
 import numpy as np
 
+from benchmarks import proofs
 from relguide.kernels.bounds.cells import Cell
 from relguide.kernels.bounds.contact_bound import cell_bound
 from relguide.kernels.bounds.rest import no_rest
 from relguide.planning.prove import question_of
 from relguide.planning.words import candidates
-from tests.bench import proofs
 
 
 def test_of_three_turns_that_are_not_two_the_middle_one_is_the_longest() -> None:

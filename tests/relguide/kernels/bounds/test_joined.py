@@ -6,6 +6,7 @@ from math import floor, inf, pi
 
 import numpy as np
 
+from benchmarks import draws
 from relguide.kernels.bounds.cells import Cell
 from relguide.kernels.bounds.contact_tree import (
     Problem,
@@ -20,7 +21,6 @@ from relguide.kernels.bounds.contact_tree import (
 from relguide.kernels.bounds.joined import only_of
 from relguide.planning.contact_search import Question
 from relguide.planning.plan import Plan, plan
-from tests.bench import draws
 from tests.planned_contacts import flown, problem_of
 
 HALF = 1e-4

@@ -6,6 +6,7 @@ from math import inf
 
 import numpy as np
 
+from benchmarks import draws
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.base.records import Contact
 from relguide.kernels.bounds.bundles import Search
@@ -13,7 +14,6 @@ from relguide.kernels.bounds.contact_tree import Problem, Tree, cell_at, halve, 
 from relguide.kernels.bounds.last_contacts import ask_lasts, lasts_of
 from relguide.kernels.bounds.proof_search import begin
 from relguide.planning.plan import Plan, plan
-from tests.bench import draws
 from tests.planned_contacts import Flown, flown, problem_of
 
 STEP, TOUCH, NEAR = 2e-3, 5e-6, 5e-3

@@ -5,13 +5,13 @@ from itertools import islice
 
 import numpy as np
 
+from benchmarks import draws
 from relguide.kernels.bounds.bundles import Search
 from relguide.kernels.bounds.contact_tree import Problem, Tree, cell_at, reach
 from relguide.kernels.bounds.joined import asked_next, may_touch_again
 from relguide.kernels.bounds.proof_search import begin
 from relguide.kernels.bounds.tangent_contacts import may_be_tangent
 from relguide.planning.plan import Plan, plan
-from tests.bench import draws
 from tests.planned_contacts import flown, problem_of
 from tests.relguide.kernels.bounds.test_last_contacts import (
     Passage,

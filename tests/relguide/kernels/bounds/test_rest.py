@@ -6,6 +6,7 @@ from math import cos, pi, sin
 import numpy as np
 import pytest
 
+from benchmarks import draws
 from relguide import Plan, plan
 from relguide.kernels.base.records import Pose, Velocity, Window
 from relguide.kernels.bounds.rest import COLUMNS, MOST, UNKNOWN, Rest
@@ -15,7 +16,6 @@ from relguide.kernels.bounds.word_intervals import Blur
 from relguide.kernels.words.extremals import MAX_ROWS, solve_toward
 from relguide.planning.prove import question_of
 from relguide.planning.words import candidates
-from tests.bench import draws
 from tests.costates import with_costate
 from tests.relguide.kernels.bounds.test_word_bound import NO_SIEVE
 

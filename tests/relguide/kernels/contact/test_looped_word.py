@@ -6,13 +6,13 @@ from math import cos, inf, pi, sin
 import numpy as np
 import pytest
 
+from benchmarks import draws
 from relguide import Plan, Situation, check, plan
 from relguide.kernels.base.angles import TWO_PI, wrap_signed
 from relguide.kernels.base.records import Pose, Scene
 from relguide.kernels.contact.clear_words import word_clears
 from relguide.kernels.contact.looped_word import looped_word
 from relguide.kernels.words.extremals import SIGNS, fly_piece
-from tests.bench import draws
 
 
 def crossing(rng: np.random.Generator) -> tuple[Pose, Scene]:

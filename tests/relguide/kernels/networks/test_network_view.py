@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from hypothesis import given
 
+from benchmarks import draws
 from relguide import Situation
 from relguide.kernels.contact.constrained_rows import limit_binds
 from relguide.kernels.networks.network_view import Where, view
 from relguide.kernels.separation.clearance import SLACK
 from relguide.kernels.words.branches import needs_mirror
 from relguide.planning.slot import slot_frame
-from tests.bench import draws
 from tests.situations import situations
 
 

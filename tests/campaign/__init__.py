@@ -1,1 +1,0 @@
-"""Thousands of flights drawn at random, and what became of them: `python -m tests.campaign`."""

@@ -1,1 +1,0 @@
-"""Pictures of docs/ that are drawn from the library's own answers."""

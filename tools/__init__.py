@@ -1,0 +1,1 @@
+"""Programs that serve developers: each is run with `python -m tools.NAME`."""

@@ -1,0 +1,223 @@
+"""The tables and pictures of docs/flight.md, between markers in the page.
+
+What stands around them is written by hand. Margins, step responses and their pictures are computed
+in a minute; the campaign's tables are of files that were flown before.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+
+from control import StateSpace
+
+from benchmarks.page import DOCS, FOLDER
+from relguide.flying.airframe import Airframe
+from relguide.units import DEG
+from tests.aloft import A306
+from tools.campaign import pictures, responses, tables
+from tools.campaign.constants import CONSTANTS, constants_cells
+from tools.campaign.loops import (
+    FOLLOW_GAINS,
+    PATH_GAINS,
+    PathGains,
+    heading_loop,
+    margins,
+    path_loop,
+    roll_loop,
+    straight_loop,
+)
+from tools.campaign.row import Row
+from tools.campaign.tables import Cells, markdown
+
+PAGE = DOCS / "flight.md"
+AUTOPILOT, PATH, CAMPAIGN = "flight-autopilot.svg", "flight-path.svg", "flight-campaign.svg"
+OTHER_GAINS = (
+    PathGains(omega=0.07, damping=0.9, look_ahead=0.0),
+    PathGains(omega=0.11, damping=0.9, look_ahead=0.0),
+    PathGains(omega=0.13, damping=0.8, look_ahead=0.0),
+    PathGains(omega=0.07, damping=0.9, look_ahead=1.75),
+    FOLLOW_GAINS,
+    PathGains(omega=0.11, damping=0.9, look_ahead=1.75),
+    PATH_GAINS,
+    PathGains(omega=0.16, damping=0.8, look_ahead=1.75),
+    PathGains(omega=0.20, damping=0.8, look_ahead=1.75),
+)
+"""Of the path loop, side by side."""
+
+
+def write_loops(page: Path = PAGE, folder: Path = FOLDER) -> None:
+    """Compute the loops, draw them and write their tables."""
+    folder.mkdir(exist_ok=True)
+    pictures.draw_autopilot(folder / AUTOPILOT)
+    pictures.draw_path(folder / PATH)
+    text = page.read_text()
+    text = with_named_block(text, "margins", markdown(MARGINS, margins_cells()))
+    text = with_named_block(text, "gains", markdown(GAINS, gains_cells()))
+    text = with_named_block(text, "responses", markdown(RESPONSES, responses_cells()))
+    text = with_named_block(text, "tube", markdown(TUBE, tube_cells()))
+    constants = markdown(CONSTANTS, constants_cells(), prose=True)
+    text = with_named_block(text, "constants", constants)
+    page.write_text(text)
+
+
+def write_campaign(rows: Sequence[Row], page: Path = PAGE, folder: Path = FOLDER) -> None:
+    """Draw the campaign and write its tables."""
+    folder.mkdir(exist_ok=True)
+    pictures.draw_campaign(rows, folder / CAMPAIGN)
+    page.write_text(with_named_block(page.read_text(), "campaign", campaign_block(rows)))
+
+
+def campaign_block(rows: Sequence[Row]) -> str:
+    """The tables of a campaign: an overview, then each family's figures and its worst flights."""
+    parts = [markdown(tables.OVERVIEW, tables.overview(rows))]
+    for family, own in tables.by_family(rows):
+        parts += [f"### {family}", markdown(tables.DISTRIBUTION, tables.distributions(own))]
+        if any(row.losses for row in own):
+            parts.append(markdown(tables.LOSSES, tables.losses(own)[: tables.WORST]))
+    return "\n\n".join(parts)
+
+
+def with_named_block(page: str, name: str, written: str) -> str:
+    """The page with what stands between a block's markers exchanged.
+
+    Raises:
+        ValueError: if it does not have both markers, once each and in order.
+    """
+    begin, end = f"<!-- {name}: begin -->", f"<!-- {name}: end -->"
+    before, found, rest = page.partition(begin)
+    _, closed, after = rest.partition(end)
+    if not found or not closed or begin in rest or end in after:
+        raise ValueError(f"The page must hold {begin} and then {end}, once each.")
+    return f"{before}{begin}\n\n{written}\n\n{end}{after}"
+
+
+MARGINS = "loop", "crossover, rad/s", "bears a delay of", "gain margin", "phase margin"
+ROLL_MODES = (1.0, 0.7, 1.3)
+"""Factors of the roll mode's time constant."""
+
+
+def margins_cells() -> Cells:
+    """Each loop; in brackets with the roll mode quicker and slower."""
+    models = [
+        replace(A306, roll_time_constant=factor * A306.roll_time_constant) for factor in ROLL_MODES
+    ]
+    cells = []
+    for name, loop in LOOPS.items():
+        found = [margins(loop(model)) for model in models]
+        plain, *others = found
+        gains = ", ".join(f"{one.gain:.0f}" for one in others)
+        phases = ", ".join(f"{one.phase:.0f}°" for one in others)
+        cells.append(
+            [
+                name,
+                f"{plain.crossover:.3f}",
+                f"{plain.delay:.1f} s",
+                f"× {plain.gain:.0f} ({gains})",
+                f"{plain.phase:.0f}° ({phases})",
+            ]
+        )
+    return cells
+
+
+LOOPS: dict[str, Callable[[Airframe], StateSpace]] = {
+    "roll": roll_loop,
+    "heading": partial(heading_loop, tas=240.0),
+    "path": partial(path_loop, tas=240.0),
+    "path, on a straight": partial(straight_loop, tas=240.0),
+    "leader's path": partial(path_loop, tas=240.0, gains=FOLLOW_GAINS),
+    "leader's path, on a straight": partial(straight_loop, tas=240.0, gains=FOLLOW_GAINS),
+}
+"""By name."""
+
+GAINS = (
+    "ω, rad/s", "ζ", "look-ahead, s", "gain margin", "phase margin",
+    "100 m to 5 m, s", "with 2.5° in hand, s",
+)  # fmt: skip
+
+
+def gains_cells() -> Cells:
+    """The path loop with other gains; the same at any speed."""
+    cells = []
+    for gains in OTHER_GAINS:
+        found = margins(path_loop(tas=240.0, gains=gains))
+        times = []
+        for in_hand in (25.0, 2.5):
+            response = responses.path_step(100.0, tas=240.0, gains=gains, in_hand=in_hand * DEG)
+            times.append(f"{response.settled(response.across, 5.0):.0f}")
+        chosen = "**" if gains in (PATH_GAINS, FOLLOW_GAINS) else ""
+        numbers = [f"{gains.omega:.2f}", f"{gains.damping:.1f}", f"{gains.look_ahead:.2f}"]
+        numbers += [f"× {found.gain:.1f}", f"{found.phase:.0f}°", *times]
+        cells.append([f"{chosen}{number}{chosen}" for number in numbers])
+    return cells
+
+
+AIRCRAFT = (
+    ("as it is", A306),
+    ("slow in roll", pictures.SLUGGISH),
+    ("quick in roll", pictures.NIMBLE),
+)
+"""Flown side by side."""
+RESPONSES = "step", "aircraft", "settled after", "overshoot"
+
+
+def responses_cells() -> Cells:
+    """Step responses in numbers, the aircraft as it is and 30 % off."""
+    return [cells for name, model in AIRCRAFT for cells in _response_cells(name, model)]
+
+
+def _response_cells(name: str, model: Airframe) -> Cells:
+    cells = []
+    for before, after in ((0.0, 25.0), (-25.0, 25.0)):
+        found = responses.bank_step(before * DEG, after * DEG, model=model)
+        cells.append(
+            [
+                f"bank {before:.0f}° to {after:.0f}°",
+                name,
+                f"{found.settled(found.bank, 1.0 * DEG):.1f} s to 1°",
+                f"{responses.overshoot(found.bank, after * DEG) / DEG:.1f}°",
+            ]
+        )
+    for tas in (240.0, 120.0):
+        turned = responses.heading_step(90.0 * DEG, tas=tas, model=model)
+        cells.append(
+            [
+                f"heading by 90° at {tas:.0f} m/s",
+                name,
+                f"{turned.settled(turned.heading, 1.0 * DEG):.0f} s to 1°",
+                f"{responses.overshoot(turned.heading, 90.0 * DEG) / DEG:.2f}°",
+            ]
+        )
+    for tas in (240.0, 120.0):
+        back = responses.path_step(300.0, tas=tas, model=model)
+        cells.append(
+            [
+                f"path from 300 m at {tas:.0f} m/s",
+                name,
+                f"{back.settled(back.across, 10.0):.0f} s to 10 m",
+                f"{responses.overshoot(back.across, 0.0):.1f} m",
+            ]
+        )
+    return cells
+
+
+TUBE = "turns", *(f"{name}, m" for name, _ in AIRCRAFT)
+TURNS = {
+    "70° right": (70.0,),
+    "70° right, 70° left": (70.0, -70.0),
+    "30° to each side, thrice": (30.0, -30.0, 30.0),
+}
+
+
+def tube_cells() -> Cells:
+    """How far aircraft come off the path of a plan at 240 m/s."""
+    return [
+        [
+            name,
+            *(
+                f"{responses.off_path([turn * DEG for turn in turns], tas=240.0, model=model):.0f}"
+                for _, model in AIRCRAFT
+            ),
+        ]
+        for name, turns in TURNS.items()
+    ]

@@ -1,0 +1,138 @@
+"""Rows as tables: distributions by family, and the worst of each figure."""
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from tools.campaign.row import FIGURES, Figure, Row
+
+WORST = 10
+Cells = list[list[str]]
+OVERVIEW = (
+    "family", "flights", "planned", "joined", "losses, planned", "losses, not planned",
+    "of these avoidable", "losses without a word", "circles", "errors", "simulated s per CPU s",
+)  # fmt: skip
+DISTRIBUTION = "figure", "flights", "mean", "median", "95 %", "99 %", "worst", "in flight"
+
+
+def overview(rows: Sequence[Row]) -> Cells:
+    """A line for each family: what became of its flights."""
+    return [_overview_cells(family, own) for family, own in by_family(rows)]
+
+
+def _overview_cells(family: str, rows: Sequence[Row]) -> list[str]:
+    cpu = sum(row.cpu_s for row in rows)
+    flown = sum(row.flown_s for row in rows)
+    return [
+        family,
+        f"{len(rows):,}",
+        f"{sum(row.planned for row in rows):,}",
+        f"{sum(row.joined for row in rows):,}",
+        f"{sum(bool(row.losses) for row in rows if row.planned):,}",
+        f"{sum(bool(row.losses) for row in rows if not row.planned):,}",
+        f"{sum(row.avoidable for row in rows if not row.planned):,}",
+        f"{sum(row.silent_losses > 0 for row in rows):,}",
+        f"{sum(row.loops > 0 for row in rows):,}",
+        f"{sum(bool(row.error) for row in rows):,}",
+        f"{flown / cpu:,.0f}" if cpu > 0.0 else "",
+    ]
+
+
+def distributions(rows: Sequence[Row]) -> Cells:
+    """A line for each figure."""
+    return [_distribution(figure, rows) for figure in FIGURES if figure.values(rows)]
+
+
+def _distribution(figure: Figure, rows: Sequence[Row]) -> list[str]:
+    ranked = ranking(figure, rows)
+    values = np.array([value for value, _ in ranked])
+    # 95 of 100 flights are no worse than this, whichever way is worse
+    shares = (50.0, 5.0, 1.0) if figure.low_is_worse else (50.0, 95.0, 99.0)
+    numbers = [values.mean(), *np.percentile(values, shares), values[0]]
+    return [
+        figure.heading,
+        f"{len(values):,}",
+        *(f"{number:,.{figure.decimals}f}" for number in numbers),
+        str(ranked[0][1].number),
+    ]
+
+
+def ranking(figure: Figure, rows: Sequence[Row]) -> list[tuple[float, Row]]:
+    """Values with their rows, the worst first; of equals the flight with the lowest number."""
+    sign = 1.0 if figure.low_is_worse else -1.0
+    return sorted(figure.values(rows), key=lambda pair: (sign * pair[0], pair[1].number))
+
+
+def worst(rows: Sequence[Row]) -> Cells:
+    """A line for each figure: the flights that are worst in it, with what they have."""
+    cells = []
+    for figure in FIGURES:
+        bad = ranking(figure, rows)[:WORST]
+        named = [
+            f"{row.number} ({value:,.{figure.decimals}f})"
+            for value, row in bad
+            if figure.low_is_worse or value > 0.0
+        ]
+        if named:
+            cells.append([figure.heading, ", ".join(named)])
+    return cells
+
+
+def losses(rows: Sequence[Row]) -> Cells:
+    """Each loss, the worst first."""
+    found = [(loss.separation_m, loss, row) for row in rows for loss in row.losses]
+    return [
+        [
+            row.name,
+            "yes" if row.planned else "no",
+            f"{loss.t_s:,.0f}",
+            f"{loss.separation_m:,.0f}",
+            f"{loss.seconds:,.0f}",
+            loss.mode,
+            "silent" if loss.announced_s is None else f"{loss.announced_s:,.0f}",
+            loss.cause,
+        ]
+        for _, loss, row in sorted(found, key=lambda item: (item[0], item[2].number))
+    ]
+
+
+LOSSES = "flight", "planned", "at s", "least m", "for s", "mode", "announced s before", "cause"
+
+
+def by_family(rows: Sequence[Row]) -> Iterator[tuple[str, list[Row]]]:
+    """Families in the order in which they were flown, with their rows."""
+    for family in dict.fromkeys(row.family for row in rows):
+        yield family, [row for row in rows if row.family == family]
+
+
+def text(headings: Sequence[str], cells: Cells) -> str:
+    """A table for a terminal."""
+    widths = [max(map(len, column)) for column in zip(headings, *cells, strict=True)]
+    lines = [list(headings), ["─" * width for width in widths], *cells]
+    return "\n".join(
+        "  ".join(
+            cell.ljust(width) if i == 0 else cell.rjust(width)
+            for i, (cell, width) in enumerate(zip(line, widths, strict=True))
+        ).rstrip()
+        for line in lines
+    )
+
+
+def markdown(headings: Sequence[str], cells: Cells, *, prose: bool = False) -> str:
+    """A table for a page; its last column is of figures, or of prose."""
+    sides = ["---", *("---:" for _ in headings[1:])]
+    if prose:
+        sides[-1] = "---"
+    lines = [list(headings), sides, *cells]
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
+
+
+def page(rows: Sequence[Row]) -> str:
+    """Everything there is to say of rows, for a terminal."""
+    parts = [text(OVERVIEW, overview(rows))]
+    for family, own in by_family(rows):
+        parts += [family.upper(), text(DISTRIBUTION, distributions(own))]
+        parts.append(text(("figure", f"the {WORST} worst flights"), worst(own)))
+        if any(row.losses for row in own):
+            parts.append(text(LOSSES, losses(own)[: 2 * WORST]))
+    return "\n\n".join(parts)
