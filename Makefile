@@ -71,7 +71,7 @@ endif
 
 # What is compiled is kept beside the sources, so this happens once.
 .make/kernels: .make/dev $(KERNELS)
-	@echo "== Compiling the kernels (the first time: two minutes)"
+	@echo "== Compiling the kernels (the first time: a minute or two)"
 	@$(BIN)/python -m relguide.warm_up
 	@touch $@
 
@@ -175,7 +175,7 @@ picture: .make/dev page .make/kernels .make/browser .make/traffic
 # Kernels compiled for any CPU of this kind; relguide files them under the name of the CPU it runs on.
 .PHONY: wheel
 wheel: .make/dev
-	@echo "== Compiling the kernels for any CPU of this kind (the first time: two minutes)"
+	@echo "== Compiling the kernels for any CPU of this kind (the first time: a minute or two)"
 	@NUMBA_CACHE_DIR=$(CURDIR)/build/kernels NUMBA_CPU_NAME=generic $(BIN)/python -m relguide.warm_up
 	@RELGUIDE_KERNELS=$(CURDIR)/build/kernels/relguide $(PIP) wheel --no-deps --wheel-dir dist .
 

@@ -13,7 +13,7 @@ from relguide.cli.batch.options import (
     refuse_batch_options,
 )
 from relguide.cli.output import DONE, FAILED, write_json
-from relguide.cli.proving import prove_after
+from relguide.cli.proving import compile_proofs, prove_after
 from relguide.cli.shared_options import add_planner, seconds
 from relguide.cli.situation_file import read_situation
 from relguide.learn.planners import make_planner
@@ -102,6 +102,8 @@ def _no_collection() -> Iterator[None]:
 def _run(chosen: argparse.Namespace) -> int:
     planner = make_planner(chosen.planner)
     asked = Asked(chosen.prove, chosen.include, chosen.deadline)
+    if asked.prove:
+        compile_proofs()
     if asked.deadline is not None:
         from relguide.planning.acceptance import takes_deadline
 
