@@ -17,8 +17,6 @@ DEPTH = 128
 """More than halvings of a cell."""
 MOST_LASTS = 256
 """So many cells of last contacts are kept of a cell of first ones, or as many as hold all."""
-ASKS = 64
-"""More than halvings of a radian."""
 _LASTS = 1_000_000  # so many in all
 
 
@@ -47,8 +45,8 @@ class Search(NamedTuple):
     """Numbers of both cells, 1 where the time round was looked at closely, and the level at which
     it was last asked whether paths hop too late. shape (·, 4)"""
     size: IntArray
-    """How many bundles there are, and have been looked at; whether last contacts have been looked
-    at alone; and how many pieces of paths were followed. shape (4,)"""
+    """How many bundles there are, and have been looked at; and whether last contacts have been
+    looked at alone. shape (3,)"""
     vain: IntArray
     """Of `hopping.hops_late`. shape (REASONS,)"""
     fronts: Fronts
@@ -59,10 +57,6 @@ class Search(NamedTuple):
     """… and the bound of their paths [R/V_P]. shape (TOGETHER,)"""
     lasts: Lasts
     """Which contacts may be last ones after first ones."""
-    asks: IntArray
-    """Of `asking`: by whether there is time to spare, and how many halvings of a radian come to the
-    cell, how often it was asked, how often found out, and how often not asked since.
-    shape (2, ASKS, 3)"""
     probes: IntArray
     """How many bundles have been probed, by their size. shape (·,)"""
 

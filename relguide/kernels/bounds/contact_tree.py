@@ -43,7 +43,7 @@ ROUND_FROM, ROUND_TO, TIGHT_TO, TIGHT_FROM, HOPS_FROM, LAG_FROM = 3, 5, 17, 20, 
 _REACHED, _LEFT, _LEFT_END, _COLUMNS = 7, 12, 17, 31
 MOST_LAGS = 8_000
 """Cells at most whose `lags_from` are kept."""
-JOINED = 11
+JOINED = 10
 """Columns of `Tree.joined`: those of `joined`, of `spare_onward` and of `last_contacts`."""
 _TO_GOAL, _TO_NEXT, _AGAIN = 5, 6, 7
 

@@ -28,12 +28,6 @@ be."""
 _COLUMNS = 8
 IMPOSSIBLE, CERTAINLY_OUT, POSSIBLE = 0, 1, 2
 """What words in an interval are."""
-WORDS_ROW = FIRST_ROW + ROWS
-"""Of `Asked.work`: how many words are listed. After it a row of each: the hand of its last turn; 1
-if another turn comes before that, 0 if a straight; and the least and the greatest that these may be
-[rad, rad or R]."""
-MOST_WORDS = 24
-"""Words that are listed; if there are more, the others are only counted."""
 _STRIDE = 0.02  # least step of the look for a breach [R/V_P]
 
 
@@ -89,14 +83,11 @@ class Asked(NamedTuple):
     """Its first row is lowered: the fields of `ByTurn`, and how late a word may be; or one of any
     word. Then how far along the last word that was left out broke the limit, and when any was
     found. The other rows are a stack of intervals, more than halvings of a whole turn to the
-    shortest one; then those of `first_order`, and the words that are listed.
-    shape (WORDS_ROW + MOST_WORDS + 1, _COLUMNS)"""
+    shortest one; then those of `first_order`. shape (FIRST_ROW + ROWS, _COLUMNS)"""
     rest: Rest
     """What a set that holds this one has left, and takes what is left now."""
     late: bool
     """Whether it matters how late words are."""
-    listed: bool
-    """Whether words that are not left out are listed, see `WORDS_ROW`."""
 
 
 NO_JUNCTION = Junction(False, 0, 0.0, False, False, True)
@@ -106,8 +97,7 @@ NO_JUNCTION = Junction(False, 0, 0.0, False, False, True)
 @njit(cache=True, nogil=True, inline="always")
 def nothing_known(beat: float) -> FloatArray:
     """Nothing but `beat` is known: see `Asked.work`."""
-    work = np.empty((WORDS_ROW + MOST_WORDS + 1, _COLUMNS))
-    work[WORDS_ROW, 0] = 0.0
+    work = np.empty((FIRST_ROW + ROWS, _COLUMNS))
     for k in range(FOUND + 1):
         work[0, k] = beat
     work[0, LASTING] = work[0, _BREACH] = work[0, FOUND] = inf
@@ -184,12 +174,10 @@ def take(
     later = asked.late and found.latest > work[0, LATEST]
     if later and side.hand != junction.outward and not junction.inward:
         later = junction.straight and _costate_vanishes(found, signs, first, spare, side, junction)
-    if not (sooner or tangent or lasts < inf or later or asked.listed):
+    if not (sooner or tangent or lasts < inf or later):
         return POSSIBLE
     if _is_ruled_out(found, signs, first, side, asked):
         return CERTAINLY_OUT
-    if asked.listed:
-        _list(found, signs, first, spare, side, work)
     if sooner:
         work[0, hand] = time
     if tangent:
@@ -199,21 +187,6 @@ def take(
     if later:
         work[0, LATEST] = found.latest
     return POSSIBLE
-
-
-@uncounted
-def _list(
-    found: Interval, signs: tuple[float, float, float], first: float, spare: float, side: Side,
-    work: FloatArray,
-) -> None:  # fmt: skip
-    """Put a word into the list. Arguments as `take`."""
-    work[WORDS_ROW, 0] += 1.0
-    n = int(work[WORDS_ROW, 0])
-    if n > MOST_WORDS:
-        return
-    row, turn = work[WORDS_ROW + n], found.turned - first
-    row[0], row[1], row[2], row[3] = side.hand, signs[1], turn - spare, turn + spare
-    row[4], row[5] = found.middle - found.middle_blur, found.middle + found.middle_blur
 
 
 @uncounted

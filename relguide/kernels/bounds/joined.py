@@ -28,11 +28,8 @@ from relguide.kernels.bounds.contact_tree import (
     spare_onward,
 )
 from relguide.kernels.bounds.junction import apart_by
-from relguide.kernels.bounds.next_contact import touches_again, touches_again_after_spare
-from relguide.kernels.bounds.rest import UNKNOWN, Rest
-from relguide.kernels.bounds.tangent_contacts import may_be_tangent
 
-_ONLY, _TURNED, _BEFORE, _APART, _NEXT = 0, 1, 2, 3, 10  # columns of what is known
+_ONLY, _TURNED, _BEFORE, _APART = 0, 1, 2, 3  # columns of what is known
 
 
 @njit(cache=True, nogil=True)
@@ -150,41 +147,3 @@ def apart(tree: Tree, problem: Problem, n: int, pace: float) -> float:
             took = max(took, spare_onward(tree, problem, n).contact)
         tree.joined[n, column] = took
     return float(tree.joined[n, column])
-
-
-@njit(cache=True, nogil=True)
-def asked_next(tree: Tree, n: int) -> int:
-    """Whether it has been asked if a path may touch again, and may: 1, or may not: 0; else −1."""
-    known = tree.joined[n, _NEXT]
-    return -1 if isnan(known) else int(known)
-
-
-@njit(cache=True, nogil=True)
-def may_touch_again(tree: Tree, problem: Problem, n: int) -> tuple[bool, int]:
-    """Whether a path in time may touch again after a first contact in a cell.
-
-    And how many pieces of paths were followed to find that out.
-    """
-    pieces = 0
-    if isnan(tree.joined[n, _NEXT]):
-        cell, may = cell_at(tree, n), True
-        if tree.spare[n]:
-            left = problem.beat - float(reach(tree, problem, n)[0])
-            contact = spare_onward(tree, problem, n).contact
-            may = contact < left
-            if may:
-                may, pieces = touches_again_after_spare(
-                    problem.scene, problem.goal, cell, problem.beat, contact
-                )
-        elif (
-            cell.end < inf
-            and not may_be_tangent(problem.tangents, cell)
-            and reached(tree, problem, n).looped >= problem.beat
-        ):
-            rest = Rest(tree.rests, int(tree.rest_of[n, 0]), UNKNOWN)
-            may, pieces = touches_again(
-                problem.start, problem.scene, problem.goal, cell, problem.beat,
-                apart(tree, problem, n, 1.0), rest,
-            )  # fmt: skip
-        tree.joined[n, _NEXT] = 1.0 if may else 0.0
-    return bool(tree.joined[n, _NEXT] > 0.0), pieces

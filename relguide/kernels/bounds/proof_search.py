@@ -13,9 +13,8 @@ from numba import njit
 from relguide.kernels.base.borrowed import borrowed
 from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.bounds.asking import goes_on, only_touches
+from relguide.kernels.bounds.around import is_last
 from relguide.kernels.bounds.bundles import (
-    ASKS,
     DEPTH,
     MAX_BUNDLES,
     TOGETHER,
@@ -67,6 +66,7 @@ _HOP_LEVEL, _DEEP = 5, 9  # from so many halvings of a radian on; and before tha
 _HOP_LEVELS = 2  # and whenever there are so many more
 _MOST_VAIN = 20  # but no longer when so much was in vain,
 _DEEPER, _DEEPEST = 13, 21  # or three times as much, or anything, after so many halvings
+_LATER = 1e-10  # a difference that counts between ways on from a contact [R/V_P]
 _ROOTS = 0.1  # size of the cells of last contacts that are left [rad]
 _MOST_ROOTS = 256  # if there are more, they are kept larger
 _NO_LAST = -1  # of a bundle whose last contact does not matter
@@ -91,10 +91,9 @@ def begin(problem: Problem, first: FloatArray, exact: int, last: FloatArray) -> 
     """
     search = Search(
         plant(first, MAX_BUNDLES), plant(last, MAX_BUNDLES), np.arange(len(last)),
-        np.empty(MAX_BUNDLES), np.empty((MAX_BUNDLES, 4), np.int64), np.zeros(4, np.int64),
+        np.empty(MAX_BUNDLES), np.empty((MAX_BUNDLES, 4), np.int64), np.zeros(3, np.int64),
         np.zeros(REASONS, np.int64), begin_fronts(), np.full(TOGETHER, -1), np.empty(TOGETHER),
-        begin_lasts(len(last)), np.zeros((2, ASKS, 3), np.int64),
-        np.zeros(len(_PROBED), np.int64),
+        begin_lasts(len(last)), np.zeros(len(_PROBED), np.int64),
     )  # fmt: skip
     search.first.spare[exact : len(first)] = True
     for n in range(len(first)):
@@ -137,13 +136,13 @@ def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[f
             _probe(search, problem, find, n, m)
         drop_least(search)
         if m == _NO_LAST:
-            only = len(lasts_of(search, n)) == 0 or only_touches(search, problem, n)
+            only = len(lasts_of(search, n)) == 0
             # elsewhere than on the final leg the cells of last contacts are very many
             small = (
                 search.first.cells[n, 0] == final
                 or size_of(search.first, n, problem.scene.d_min) < problem.paired
             )
-            paired = not only and small and goes_on(search, problem, n)
+            paired = not only and small and _goes_on(search, problem, n)
             if only or paired:
                 _add(search, problem, n, _ONLY, bound, 0)
             if only:
@@ -271,13 +270,20 @@ def _halve(
                 # cells of last contacts do not learn: cuts of times part pairs that no path
                 # connects anyway, which seems to gain much
                 gain += 0.5 * min((closer - bound) / (problem.beat - bound), 1.0)
-        elif not only_touches(search, problem, child):
+        else:
             _add_pairs(search, problem, find, child, m, bound, asked, until)
     if m < 0:
         learn_gain(search.first, n, gain)
     if of_last:
         learn(search.last, m)
     return True
+
+
+@njit(cache=True, nogil=True)
+def _goes_on(search: Search, problem: Problem, n: int) -> bool:
+    """Whether a path may have to touch again after a first contact in a cell."""
+    leaves = leave(search.first, problem, n) > reach(search.first, problem, n)[1] + _LATER
+    return leaves and not is_last(problem.around, problem.scene, cell_at(search.first, n))
 
 
 @njit(cache=True, nogil=True)

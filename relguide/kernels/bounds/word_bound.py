@@ -18,7 +18,6 @@ from numba import njit
 from relguide.kernels.base.angles import TWO_PI
 from relguide.kernels.base.borrowed import borrowed, uncounted
 from relguide.kernels.base.records import Pose, Velocity, Window
-from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.base.sine import sine_and_cosine
 from relguide.kernels.bounds.breach import ROUNDING, Sieve
 from relguide.kernels.bounds.first_order import (
@@ -36,7 +35,6 @@ from relguide.kernels.bounds.found_word import (
     NO_JUNCTION,
     POSSIBLE,
     TANGENT,
-    WORDS_ROW,
     Asked,
     ByTurn,
     Junction,
@@ -106,7 +104,7 @@ def _of_any(
     work = nothing_known(window.beat)
     lent = borrowed(work)
     junction = NO_JUNCTION
-    asked = Asked(window.earliest, window.beat, enough, sieve, junction, lent, rest, False, False)
+    asked = Asked(window.earliest, window.beat, enough, sieve, junction, lent, rest, False)
     _bound_all(pose, blur, target, asked)
     return float(work[0, 0]) if work[0, 0] < window.beat else inf, bool(work[0, FOUND] < inf)
 
@@ -131,7 +129,7 @@ def soonest_by_turn(
     """
     work = nothing_known(window.beat)
     lent = borrowed(work)
-    asked = Asked(window.earliest, window.beat, 0.0, sieve, junction, lent, rest, late, False)
+    asked = Asked(window.earliest, window.beat, 0.0, sieve, junction, lent, rest, late)
     _bound_all(pose, blur, target, asked)
     for k in range(LASTING):
         if work[0, k] >= window.beat:
@@ -139,22 +137,6 @@ def soonest_by_turn(
     any_word = bool(work[0, FOUND] < inf)
     latest = float(work[0, LATEST])
     return ByTurn(work[0, 0], work[0, 1], work[0, TANGENT], work[0, LASTING], any_word, latest)
-
-
-@njit(cache=True, nogil=True)
-def words_by_turn(
-    pose: Pose, blur: Blur, target: Velocity, window: Window, sieve: Sieve, junction: Junction,
-    rest: Rest,
-) -> FloatArray:  # fmt: skip
-    """The words that meet the target so, from any pose of the set: see `found_word.WORDS_ROW`.
-
-    Arguments as `soonest_by_turn`; nothing is kept in `rest`. shape (MOST_WORDS + 1, ·)
-    """
-    work = nothing_known(window.beat)
-    lent = borrowed(work)
-    asked = Asked(window.earliest, window.beat, 0.0, sieve, junction, lent, rest, True, True)
-    _bound_all(pose, blur, target, asked)
-    return work[WORDS_ROW:].copy()
 
 
 @uncounted
