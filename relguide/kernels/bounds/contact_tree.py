@@ -29,7 +29,6 @@ from relguide.kernels.bounds.junction import beyond_outward, can_touch
 from relguide.kernels.bounds.rest import COLUMNS, MOST, UNKNOWN, Rest
 from relguide.kernels.bounds.spare_bound import spare_bound
 from relguide.kernels.bounds.tangent_contacts import may_be_tangent
-from relguide.kernels.bounds.turn_lag import LEVELS
 
 IntArray = np.ndarray[tuple[int, ...], np.dtype[np.int64]]
 BoolArray = np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
@@ -38,11 +37,9 @@ _BY_TURN = 0.1  # how contacts are passed matters in cells smaller than this [ra
 _TO, _ON, _AWAY = 0, 1, 2  # words to a first contact, on from it, and on from a last one
 _RESTS = 5  # rows kept, for each cell: if there is no more room, those of larger cells serve
 _SOON, _ONWARD, _LEAVING = 0, 1, 2  # columns of what is known
-ROUND_FROM, ROUND_TO, TIGHT_TO, TIGHT_FROM, HOPS_FROM, LAG_FROM = 3, 5, 17, 20, 23, 29
+ROUND_FROM, ROUND_TO, TIGHT_TO, TIGHT_FROM, HOPS_FROM = 3, 5, 17, 20, 23
 """And those of `round_closely`."""
-_REACHED, _LEFT, _LEFT_END, _COLUMNS = 7, 12, 17, 31
-MOST_LAGS = 8_000
-"""Cells at most whose `lags_from` are kept."""
+_REACHED, _LEFT, _LEFT_END, _COLUMNS = 7, 12, 17, 29
 JOINED = 10
 """Columns of `Tree.joined`: those of `joined`, of `spare_onward` and of `last_contacts`."""
 _TO_GOAL, _TO_NEXT, _AGAIN = 5, 6, 7
@@ -64,8 +61,7 @@ class Tree(NamedTuple):
     of both with the time round, either way; the first and the last of these by how the contact
     is passed; what hops to a last contact, from a first one on its leg, and from one to the final
     leg, either way, take longer than round the disc, how much was asked for, and how long they may
-    be; and where in `lags` those from a first one are, either way. NaN while it is not known.
-    shape (n, 31)"""
+    be. NaN while it is not known. shape (n, 29)"""
     rests: FloatArray
     """Intervals of the words' unknown that were left, one cell's after another's: see `rest`.
     shape (·, 5)"""
@@ -78,9 +74,6 @@ class Tree(NamedTuple):
     shape (n + 1, 3)"""
     cuts: FloatArray
     """How they are cut in two: see `cutting`. shape (2, 3)"""
-    lags: FloatArray
-    """Of `turn_lag.lags_from`, of some cells; at first in the last one how many they are.
-    shape (MOST_LAGS + 1, LEVELS, 2)"""
 
 
 class Problem(NamedTuple):
@@ -113,12 +106,11 @@ def plant(cells: FloatArray, room: int) -> Tree:
         np.empty((room, 6)), np.empty((room + 1, 2), np.int64), np.empty((room, JOINED)),
         np.empty((room, _COLUMNS)), np.empty((_RESTS * room, COLUMNS)),
         np.empty(room, np.bool_), np.empty((room + 1, 3), np.int64), begin_cuts(),
-        np.empty((MOST_LAGS + 1, LEVELS, 2)),
     )  # fmt: skip
     tree.cells[:count] = cells
     tree.halves[:count], tree.known[:count], tree.joined[:count] = -1, np.nan, np.nan
     tree.halves[room, 0], tree.spare[:count] = count, False
-    tree.rest_of[:count], tree.rest_of[room], tree.lags[MOST_LAGS] = UNKNOWN, 0, 0.0
+    tree.rest_of[:count], tree.rest_of[room] = UNKNOWN, 0
     return tree
 
 

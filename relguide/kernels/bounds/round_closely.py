@@ -2,7 +2,7 @@
 
 The time round the disc is the difference of two times, one for each contact. So each may be looked
 at with its own, and much more closely than both together: that is what `round_from` and `round_to`
-do. Where nobody can slide a path takes longer (`excess`, `hop_excess`, `lags_of`). All of it is
+do. Where nobody can slide a path takes longer (`excess`, `hop_excess`). All of it is
 kept with the cells. Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
@@ -12,11 +12,8 @@ import numpy as np
 from numba import njit
 
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.bounds.cells import Cell
 from relguide.kernels.bounds.contact_tree import (
     HOPS_FROM,
-    LAG_FROM,
-    MOST_LAGS,
     ROUND_FROM,
     ROUND_TO,
     TIGHT_FROM,
@@ -35,12 +32,8 @@ from relguide.kernels.bounds.joined import apart
 from relguide.kernels.bounds.round_time import round_time
 from relguide.kernels.bounds.round_turning import UNKNOWN
 from relguide.kernels.bounds.tight_contact import LONGEST, tight_excess
-from relguide.kernels.bounds.turn_lag import SINCE, lags_from, no_lags
 
 _CLOSELY = 50  # times a cell is halved to find what is least in it
-_LATER, _PART = 20.0, 4.0
-"""Who turns at full bank at most may be so much later from a part of a cell, for half its width
-[R/V_P a radian]; that is asked of a part that is so much narrower."""
 _NARROW = 1e-6  # and how narrow its parts may become: what is left counts for some 1e-5 R/V_P [rad]
 _NARROW_ELSEWHERE = 5e-6  # on other legs than the final one, where each takes 0.1 ms [rad]
 _MORE, _LONGER = 1.1, 1.05  # than is asked for, is looked for at once
@@ -155,41 +148,6 @@ def hop_excess(
         )  # fmt: skip
         kept[0] = latest - slides
     return float(kept[0])
-
-
-@njit(cache=True, nogil=True)
-def lags_of(tree: Tree, problem: Problem, n: int, way: int, wanted: float) -> FloatArray:
-    """When who turns at full bank at most is on the final leg, as `turn_lag.lags_from` says.
-
-    What is known of a larger cell that holds it serves as well, if there is little hope for more.
-
-    Args:
-        tree: with the cell.
-        problem: what is asked.
-        n: number of the cell, of first contacts.
-        way: 0 counter-clockwise round the leader, 1 clockwise: as these contacts pass.
-        wanted: no later than this is asked for [R/V_P].
-    """
-    at = _where_known(tree, n, LAG_FROM + way)
-    if at >= 0:
-        kept: FloatArray = tree.lags[int(tree.known[at, LAG_FROM + way])]
-        half = tree.cells[at, 3]
-        latest = kept[0, SINCE]
-        vain = wanted <= latest or wanted > latest + _LATER * half
-        if at == n or vain or _PART * tree.cells[n, 3] > half:
-            return kept
-    cell, place = cell_at(tree, n), int(tree.lags[MOST_LAGS, 0, 0])
-    if place == MOST_LAGS:
-        return no_lags()
-    if cell.end == inf:
-        # on the final leg nothing depends on when they are
-        soon, _ = reach(tree, problem, n)
-        cell = Cell(cell.piece, cell.side, cell.bearing, cell.half, soon, soon)
-    holds = holds_of(problem.scene, cell, way, problem.beat)
-    lags = lags_from(problem.scene, problem.table, cell, way, problem.beat, holds)
-    tree.lags[place], tree.known[n, LAG_FROM + way] = lags, place
-    tree.lags[MOST_LAGS, 0, 0] = place + 1
-    return lags
 
 
 @njit(cache=True, nogil=True)

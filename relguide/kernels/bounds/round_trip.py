@@ -7,15 +7,13 @@ from math import inf
 
 from numba import njit
 
-from relguide.kernels.base.angles import TWO_PI
 from relguide.kernels.bounds.bundles import Search
 from relguide.kernels.bounds.contact_tree import Problem, cell_at, leave, reach
 from relguide.kernels.bounds.hop_to_final import never_round
-from relguide.kernels.bounds.round_closely import excess, hop_excess, lags_of, round_from, round_to
+from relguide.kernels.bounds.round_closely import excess, hop_excess, round_from, round_to
 from relguide.kernels.bounds.round_time import ROUND_SLACK
-from relguide.kernels.bounds.round_turning import UNKNOWN, whole_rounds
+from relguide.kernels.bounds.round_turning import whole_rounds
 from relguide.kernels.bounds.tight_contact import LONGEST
-from relguide.kernels.bounds.turn_lag import lag_at
 
 _HOPS = 1.2e-2  # cells narrower than this are looked at by hops to and from them [rad]
 _HOPS_ELSEWHERE = 1e-3  # and by those from other legs to the final one [rad]
@@ -34,37 +32,10 @@ def round_trip(search: Search, problem: Problem, n: int, m: int) -> float:
         if first[0] < last[0]:
             rounds = whole_rounds(problem.scene, cell, other, way)
         whole = problem.table[way, -1] * (rounds - 2.0 * ROUND_SLACK)
-        onward = round_to(search.last, problem, m, way) + whole
-        trip = round_from(search.first, problem, n, way) + onward
-        if UNKNOWN < trip < min(problem.beat, closest):
-            later = _turning(search, problem, n, m, way, rounds, problem.beat - onward)
-            trip = max(trip, later + onward)
+        trip = round_from(search.first, problem, n, way) + whole
+        trip += round_to(search.last, problem, m, way)
         closest = min(closest, _with_hops(search, problem, n, m, way, trip))
     return closest
-
-
-@njit(cache=True, nogil=True)
-def _turning(
-    search: Search, problem: Problem, n: int, m: int, way: int, rounds: float, wanted: float
-) -> float:  # fmt: skip
-    """As `round_from`, for what turns at full bank at most; −∞ if no more is known.
-
-    Args:
-        search: with both cells.
-        problem: what is asked.
-        n: number of the first cell.
-        m: number of the last one.
-        way: 0 counter-clockwise round the leader, 1 clockwise.
-        rounds: whole rounds by which the last contact is further than its bearing says.
-        wanted: as in `lags_of` [R/V_P].
-    """
-    first, last, sense = search.first.cells[n], search.last.cells[m], 1.0 - 2.0 * way
-    if first[1] != sense or last[1] != sense:
-        return -inf
-    if first[3] > _HOPS_ELSEWHERE or search.size[1] < _OPEN:
-        return -inf
-    lags = lags_of(search.first, problem, n, way, wanted)
-    return lag_at(lags, last[2] + sense * (TWO_PI * rounds - last[3]), sense)
 
 
 @njit(cache=True, nogil=True)
