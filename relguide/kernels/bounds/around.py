@@ -156,7 +156,7 @@ def _mark(
     step, course, t, angle = step_of(scene), bearing, begun, 0.0
     there = leader_then(scene, pace * t)
     while t < horizon and left > 0:
-        front = front_from(scene, pace * t, there, bearing, course, sense, pace, step, inf)
+        front = front_from(scene, pace * t, there, bearing, course, sense, pace, step)
         there = leader_then(scene, pace * (t + step))
         reached = reached_by(scene, front, there, step)
         swept = swept_by(front, reached)

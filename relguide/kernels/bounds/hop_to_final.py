@@ -1,7 +1,7 @@
 """How soon something is round the leader that hops onto the final leg from where it cannot slide.
 
 While the leader turns, let F be a contact with k > 1 (see `junction`). Nobody can slide from there,
-which fronts that go round the disc from it do not know (see `held_front`). For a while there is no
+which fronts that go round the disc from it do not know (see `to_final_leg`). For a while there is no
 other contact (`apart_by`). If the leader has ended its last turn by then, the next contact, N, lies
 on the final leg, and from there on it takes no less than round the disc. So nobody who goes round
 counter-clockwise is at a bearing y sooner than
@@ -71,7 +71,7 @@ def hops_from(
     scene: Scene, table: FloatArray, cell: Cell, way: int, slides: float, apart: float,
     enough: float, longest: float,
 ) -> float:  # fmt: skip
-    """As `held_front.slides_from`, for what turns at full bank at most: see above.
+    """As `to_final_leg.slides_from`, for what turns at full bank at most: see above.
 
     Args:
         scene: the leader and d_min.

@@ -27,7 +27,6 @@ from relguide.kernels.bounds.round_turning import (
     FREE,
     GOING,
     LATE,
-    NO_HOLD,
     ROUNDING,
     SLIDES,
     Headings,
@@ -140,7 +139,7 @@ def _arrives_freely(
     sense, step = 1.0 - 2.0 * way, step_of(scene) / _PARTS[number % _KINDS]
     at = _go_on(fronts, number, scene, since, sense, step, angle, latest, FREE)
     place = _last_before(fronts, at, angle)
-    place, fate = follow(scene, place, sense, step, ANY, angle, latest, FREE, True, NO_HOLD)
+    place, fate = follow(scene, place, sense, step, ANY, angle, latest, FREE, True)
     t, left = place.t, angle - place.swept
     if fate == SLIDES and t < latest:
         edge = wrap_signed(place.bearing - scene.leader[-1, 3])
@@ -163,7 +162,7 @@ def _arrives(
     )  # fmt: skip
     at = _go_on(fronts, number, scene, since, sense, step, angle, latest, alone)
     place = _last_unaware(fronts, at, angle, headings)
-    place, fate = follow(scene, place, sense, step, ANY, angle, latest, headings, False, NO_HOLD)
+    place, fate = follow(scene, place, sense, step, ANY, angle, latest, headings, False)
     return place.t - ROUNDING if fate != LATE and place.t < latest else inf
 
 
@@ -202,7 +201,7 @@ def _go_on(
     ):
         place, fate = follow(
             scene, _place(places, last), sense, step, _STRIDES[kind], inf, inf, headings,
-            kind != _TURNS, NO_HOLD,
+            kind != _TURNS,
         )  # fmt: skip
         last += 1
         _put(places, last, place)

@@ -25,13 +25,13 @@ from relguide.kernels.bounds.contact_tree import (
     leave,
     reach,
 )
-from relguide.kernels.bounds.held_front import holds_of, slides_from
 from relguide.kernels.bounds.hop import final_leg, on_final_leg
 from relguide.kernels.bounds.hop_to_final import hops_from, never_round
 from relguide.kernels.bounds.joined import apart
 from relguide.kernels.bounds.round_time import round_time
 from relguide.kernels.bounds.round_turning import UNKNOWN
 from relguide.kernels.bounds.tight_contact import LONGEST, tight_excess
+from relguide.kernels.bounds.to_final_leg import slides_from
 
 _CLOSELY = 50  # times a cell is halved to find what is least in it
 _NARROW = 1e-6  # and how narrow its parts may become: what is left counts for some 1e-5 R/V_P [rad]
@@ -168,9 +168,7 @@ def _is_known(kept: FloatArray, enough: float, longest: float, most: float) -> b
 
 
 @njit(cache=True, nogil=True)
-def _with_round(
-    tree: Tree, problem: Problem, n: int, way: int, last: bool, holds: FloatArray
-) -> float:
+def _with_round(tree: Tree, problem: Problem, n: int, way: int, last: bool) -> float:
     sense, bearing, half = 1.0 - 2.0 * way, tree.cells[n, 2], tree.cells[n, 3]
     if last:
         edge = bearing - sense * half
@@ -180,7 +178,7 @@ def _with_round(
         cell = cell_at(tree, n)
         if soon == inf or not soon <= cell.end:
             return inf
-        return slides_from(problem.scene, problem.table, cell, way, problem.beat, holds)
+        return slides_from(problem.scene, problem.table, cell, way, problem.beat)
     return soon - sense * round_time(problem.table, way, bearing + sense * half)
 
 
@@ -192,10 +190,7 @@ def _least(tree: Tree, problem: Problem, n: int, way: int, last: bool) -> float:
         return float(tree.known[n, column])
     numbers, bounds = np.empty(_CLOSELY + 2, np.int64), np.empty(_CLOSELY + 2)
     elsewhere = not last and tree.cells[n, 0] + 1 < len(problem.scene.leader)
-    holds: FloatArray = np.empty((0, 2))
-    if elsewhere:
-        holds = holds_of(problem.scene, cell_at(tree, n), way, problem.beat)
-    numbers[0], bounds[0] = n, _with_round(tree, problem, n, way, last, holds)
+    numbers[0], bounds[0] = n, _with_round(tree, problem, n, way, last)
     count, at = 1, 0
     narrow = _NARROW_ELSEWHERE if elsewhere else _NARROW
     for _ in range(_CLOSELY):
@@ -208,7 +203,7 @@ def _least(tree: Tree, problem: Problem, n: int, way: int, last: bool) -> float:
         for k in range(2):
             place = at if k == 0 else count
             numbers[place] = first + k
-            bounds[place] = max(parent, _with_round(tree, problem, first + k, way, last, holds))
+            bounds[place] = max(parent, _with_round(tree, problem, first + k, way, last))
         count += 1
         at = int(np.argmin(bounds[:count]))
     tree.known[n, column] = bounds[at]

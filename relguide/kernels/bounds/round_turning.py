@@ -35,7 +35,6 @@ from relguide.kernels.separation.clearance import leader_at, piece_at, piece_end
 
 _STEP = 0.1  # for which a front keeps its direction, in d_min and at V_P
 _WIDEST = 3.1  # e is no further than this from the bearing of P, so that the disc is beside it
-_NARROWEST = 0.05  # nor is it held back nearer than this
 _TRIES = 8  # to say when P arrives within a step, to a tenth of `ROUNDING`
 ROUNDING = 1e-5  # 0.5 ms for an airliner: more than what rounding makes of all of this [R/V_P]
 UNKNOWN = -1e9
@@ -94,17 +93,6 @@ class Headings(NamedTuple):
     """It does not end after [R/V_P]."""
 
 
-class Hold(NamedTuple):
-    """Where a front is not turned, since it pays later on: see `held_front`."""
-
-    course: float
-    """e, counted the way it is turned, is not turned beyond this [rad] …"""
-    until: float
-    """… before then [R/V_P]."""
-
-
-NO_HOLD = Hold(inf, -inf)
-"""It is turned wherever it is slower for that at once."""
 FREE = Headings(0.0, inf, 0.0, 0.0, inf, inf)
 """It heads wherever it likes."""
 GOING, LATE, SLIDES, ARRIVED = 0, 1, 2, 3
@@ -147,7 +135,7 @@ def begins(t: float, edge: float) -> Place:
 @njit(cache=True, nogil=True)
 def follow(
     scene: Scene, place: Place, sense: float, step: float, steps: int, angle: float, latest: float,
-    headings: Headings, free: bool, hold: Hold,
+    headings: Headings, free: bool,
 ) -> tuple[Place, int]:  # fmt: skip
     """Follow a front until it has swept an angle.
 
@@ -162,7 +150,6 @@ def follow(
         headings: how something heads that goes with it.
         free: whether that needs no time to turn. On the final leg it is followed until e may be
             turned to where someone sliding heads: what comes then `round_time` says.
-        hold: where it is not turned.
 
     Returns:
         where it is then, and why it is not followed further.
@@ -179,8 +166,7 @@ def follow(
             if piece == final and ahead <= acos(scene.alpha * cos(bearing - there.h)):
                 return Place(t, bearing, course, swept, most), SLIDES
             took = min(step, piece_end(scene.leader, piece) - t + EDGE)
-        cap = hold.course if t < hold.until else inf
-        front = front_from(scene, t, there, bearing, course, sense, 1.0, took, cap)
+        front = front_from(scene, t, there, bearing, course, sense, 1.0, took)
         if not free:
             front = _slowed(front, t, took, headings)
         there = leader_then(scene, t + took)
@@ -263,7 +249,7 @@ def step_of(scene: Scene) -> float:
 @njit(cache=True, nogil=True)
 def front_from(
     scene: Scene, t: float, there: Pose, bearing: float, course: float, sense: float, pace: float,
-    step: float, cap: float,
+    step: float,
 ) -> Front:  # fmt: skip
     """A front for the next step.
 
@@ -276,7 +262,6 @@ def front_from(
         sense: as in `Front`.
         pace: +1 on in time, −1 back, where the leader flies backward.
         step: how long it is [R/V_P].
-        cap: e is not turned beyond this, of `Hold.course` [rad].
     """
     alpha, later = pace * scene.alpha, 0.5 * step
     # where someone heads who slides along the edge, in the middle of the step
@@ -286,7 +271,6 @@ def front_from(
     on, soon = bearing + sense * rate * later, t + pace * later
     heading = _heading_at(scene, piece_at(scene.leader, soon), soon)
     wanted = sense * (on - bearing) + acos(alpha * cos(on - heading))
-    wanted = min(wanted, max(cap - sense * bearing, _NARROWEST))
     from_course = max(sense * (course - bearing), min(wanted, _WIDEST))
     course = bearing + sense * from_course
     y, x = sine_and_cosine(course)

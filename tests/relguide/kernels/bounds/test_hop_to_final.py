@@ -11,10 +11,10 @@ from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.base.records import Pose, Scene, Velocity
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.cells import Cell
-from relguide.kernels.bounds.held_front import holds_of, slides_from
 from relguide.kernels.bounds.hop_to_final import hops_from, never_round
 from relguide.kernels.bounds.junction import apart_by, slide_turns
 from relguide.kernels.bounds.round_time import ROUND_SLACK, round_anywhere, times_round
+from relguide.kernels.bounds.to_final_leg import slides_from
 from relguide.kernels.contact.contact import contact_at, to_frame_of
 from relguide.kernels.separation.clearance import leader_at, piece_at
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, fly_piece, solve_toward
@@ -54,7 +54,7 @@ def tight_cells(rng: np.random.Generator, wide: bool) -> Iterator[Left]:
         if slide_turns(scene, cell)[0] <= 1.0 or cell.start + apart < ends:
             continue
         table = times_round(scene.alpha, scene.d_min)
-        slides = slides_from(scene, table, cell, way, inf, holds_of(scene, cell, way, inf))
+        slides = slides_from(scene, table, cell, way, inf)
         if slides < 0.0 - 1e6:
             continue
         hops = hops_from(scene, table, cell, way, slides, apart, slides + ENOUGH, inf)

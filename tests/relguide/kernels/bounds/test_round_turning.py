@@ -19,12 +19,12 @@ from relguide.kernels.bounds.around import (
     unknown_around,
 )
 from relguide.kernels.bounds.cells import Cell
-from relguide.kernels.bounds.held_front import holds_of, slides_from
 from relguide.kernels.bounds.kept_fronts import begin_fronts, round_arrival
 from relguide.kernels.bounds.round_time import round_bound, round_time, times_round
 from relguide.kernels.bounds.round_turning import whole_rounds
 from relguide.kernels.contact.clear_words import word_clears
 from relguide.kernels.contact.contact import contact_heading, to_frame_of
+from relguide.kernels.bounds.to_final_leg import slides_from
 from relguide.kernels.separation.clearance import leader_at, piece_at
 from relguide.kernels.words.extremals import MAX_ROWS, solve
 
@@ -268,8 +268,7 @@ def by_slide(scene: Scene, start: Cell, end: Cell) -> float:
         edge = end.bearing - (1.0 - 2.0 * way) * end.half
         took = (1.0 - 2.0 * way) * round_time(table, way, edge)
         took += whole_rounds(scene, start, end, way) * float(table[way, -1])
-        holds = holds_of(scene, start, way, inf)
-        soonest = min(soonest, slides_from(scene, table, start, way, inf, holds) + took)
+        soonest = min(soonest, slides_from(scene, table, start, way, inf) + took)
     return soonest
 
 
