@@ -37,9 +37,9 @@ _BY_TURN = 0.1  # how contacts are passed matters in cells smaller than this [ra
 _TO, _ON, _AWAY = 0, 1, 2  # words to a first contact, on from it, and on from a last one
 _RESTS = 5  # rows kept, for each cell: if there is no more room, those of larger cells serve
 _SOON, _ONWARD, _LEAVING = 0, 1, 2  # columns of what is known
-ROUND_FROM, ROUND_TO, TIGHT_TO, TIGHT_FROM, HOPS_FROM = 3, 5, 17, 20, 23
+ROUND_FROM, ROUND_TO, TIGHT_TO, TIGHT_FROM = 3, 5, 17, 20
 """And those of `round_closely`."""
-_REACHED, _LEFT, _LEFT_END, _COLUMNS = 7, 12, 17, 29
+_REACHED, _LEFT, _LEFT_END, _COLUMNS = 7, 12, 17, 23
 JOINED = 10
 """Columns of `Tree.joined`: those of `joined`, of `spare_onward` and of `last_contacts`."""
 _TO_GOAL, _TO_NEXT, _AGAIN = 5, 6, 7
@@ -59,9 +59,9 @@ class Tree(NamedTuple):
     known: FloatArray
     """How soon a first contact can be there, the goal from it, and the goal from a last one; bounds
     of both with the time round, either way; the first and the last of these by how the contact
-    is passed; what hops to a last contact, from a first one on its leg, and from one to the final
-    leg, either way, take longer than round the disc, how much was asked for, and how long they may
-    be. NaN while it is not known. shape (n, 29)"""
+    is passed; and how much longer than round the disc hops take to a last contact, and from a first
+    one, how much was asked for, and how long they may be. NaN while it is not known.
+    shape (n, 23)"""
     rests: FloatArray
     """Intervals of the words' unknown that were left, one cell's after another's: see `rest`.
     shape (·, 5)"""

@@ -2,8 +2,7 @@
 
 The time round the disc is the difference of two times, one for each contact. So each may be looked
 at with its own, and much more closely than both together: that is what `round_from` and `round_to`
-do. Where nobody can slide a path takes longer (`excess`, `hop_excess`). All of it is
-kept with the cells. Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
+do. Where nobody can slide a path takes longer (`excess`). All of it is kept with the cells. Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
 from math import inf, isnan
@@ -13,7 +12,6 @@ from numba import njit
 
 from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.bounds.contact_tree import (
-    HOPS_FROM,
     ROUND_FROM,
     ROUND_TO,
     TIGHT_FROM,
@@ -26,10 +24,7 @@ from relguide.kernels.bounds.contact_tree import (
     reach,
 )
 from relguide.kernels.bounds.hop import final_leg, on_final_leg
-from relguide.kernels.bounds.hop_to_final import hops_from, never_round
-from relguide.kernels.bounds.joined import apart
 from relguide.kernels.bounds.round_time import round_time
-from relguide.kernels.bounds.round_turning import UNKNOWN
 from relguide.kernels.bounds.tight_contact import LONGEST, tight_excess
 from relguide.kernels.bounds.to_final_leg import slides_from
 
@@ -82,7 +77,7 @@ def excess(
         known = _far_from_enough(tree, n, column, enough, longest)
         if known > 0.0:
             return known
-    if not _is_known(kept, enough, longest, LONGEST):
+    if not _is_known(kept, enough, longest):
         kept[1], kept[2] = _MORE * enough, _LONGER * longest
         scene, cell = final_leg(problem.scene), on_final_leg(cell_at(tree, n))
         kept[0] = tight_excess(scene, problem.table, cell, last, kept[1], kept[2])
@@ -103,7 +98,9 @@ def _far_from_enough(tree: Tree, n: int, column: int, enough: float, longest: fl
     Returns:
         0 if it must be asked for in the cell itself [R/V_P].
     """
-    above = _where_known(tree, n, column)
+    above = n
+    while above >= 0 and isnan(tree.known[above, column]):
+        above = int(tree.halves[above, 1])
     if above < 0:
         return 0.0
     kept = tree.known[above, column : column + 3]
@@ -114,56 +111,18 @@ def _far_from_enough(tree: Tree, n: int, column: int, enough: float, longest: fl
 
 
 @njit(cache=True, nogil=True)
-def _where_known(tree: Tree, n: int, column: int) -> int:
-    """The smallest cell that holds a cell, or is it, of which something is known; −1 if none."""
-    while n >= 0 and isnan(tree.known[n, column]):
-        n = int(tree.halves[n, 1])
-    return n
-
-
-@njit(cache=True, nogil=True)
-def hop_excess(
-    tree: Tree, problem: Problem, n: int, way: int, enough: float, longest: float
-) -> float:
-    """How much later than `round_from` says who hops from a contact of a cell to the final leg is.
-
-    Args:
-        tree: with the cell.
-        problem: what is asked.
-        n: number of the cell, on another leg.
-        way: 0 counter-clockwise round the leader, 1 clockwise.
-        enough: no more than this matters [R/V_P].
-        longest: as in `hops_from`.
-    """
-    slides = round_from(tree, problem, n, way)
-    if slides <= UNKNOWN or slides == inf:
-        return 0.0
-    kept = tree.known[n, HOPS_FROM + 3 * way : HOPS_FROM + 3 * way + 3]
-    if not _is_known(kept, enough, longest, never_round(problem.scene)):
-        kept[1], kept[2] = _MORE * enough, _LONGER * longest
-        alone = apart(tree, problem, n, 1.0)
-        latest = hops_from(
-            problem.scene, problem.table, cell_at(tree, n), way, slides, alone, slides + kept[1],
-            kept[2],
-        )  # fmt: skip
-        kept[0] = latest - slides
-    return float(kept[0])
-
-
-@njit(cache=True, nogil=True)
-def _is_known(kept: FloatArray, enough: float, longest: float, most: float) -> bool:
+def _is_known(kept: FloatArray, enough: float, longest: float) -> bool:
     """Whether what is kept of hops says as much as they would if they were asked about now.
 
     Args:
         kept: how much longer they take, how much was asked for, and how long they may be.
         enough: no more than this matters.
         longest: how long they may be now.
-        most: what takes longer is never asked about.
     """
     if isnan(kept[0]) or longest > kept[2]:
         return False
     return bool(
-        kept[0] >= enough or (kept[0] < kept[1] and _SHORTER * longest >= min(kept[2], most))
+        kept[0] >= enough or (kept[0] < kept[1] and _SHORTER * longest >= min(kept[2], LONGEST))
     )
 
 

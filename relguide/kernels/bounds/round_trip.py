@@ -9,14 +9,12 @@ from numba import njit
 
 from relguide.kernels.bounds.bundles import Search
 from relguide.kernels.bounds.contact_tree import Problem, cell_at, leave, reach
-from relguide.kernels.bounds.hop_to_final import never_round
-from relguide.kernels.bounds.round_closely import excess, hop_excess, round_from, round_to
+from relguide.kernels.bounds.round_closely import excess, round_from, round_to
 from relguide.kernels.bounds.round_time import ROUND_SLACK
 from relguide.kernels.bounds.round_turning import whole_rounds
 from relguide.kernels.bounds.tight_contact import LONGEST
 
 _HOPS = 1.2e-2  # cells narrower than this are looked at by hops to and from them [rad]
-_HOPS_ELSEWHERE = 1e-3  # and by those from other legs to the final one [rad]
 _OPEN = 2_000  # but only in searches that have looked at so many bundles
 
 
@@ -47,20 +45,17 @@ def is_final(search: Search, problem: Problem, n: int, m: int) -> bool:
 
 @njit(cache=True, nogil=True)
 def _with_hops(search: Search, problem: Problem, n: int, m: int, way: int, trip: float) -> float:
-    """A bound for who goes round from one cell to another, where no bank is enough to slide."""
+    """A bound of paths that go round from one cell to another, where no bank is enough to slide."""
     first, last, enough = search.first.cells[n], search.last.cells[m], problem.beat - trip
-    final, sense, more = is_final(search, problem, n, m), 1.0 - 2.0 * way, 0.0
-    narrow = max(first[3], last[3]) < _HOPS and (final or first[3] < _HOPS_ELSEWHERE)
-    if enough <= 0.0 or not narrow or search.size[1] < _OPEN:
+    closely = max(first[3], last[3]) < _HOPS and is_final(search, problem, n, m)
+    if enough <= 0.0 or not closely or search.size[1] < _OPEN:
         return trip
+    sense, more = 1.0 - 2.0 * way, 0.0
     others = reach(search.first, problem, n)[0] + leave(search.last, problem, m)
     room = problem.beat - others
-    longest = min(room, LONGEST if final else never_round(problem.scene))
-    if final and last[1] == sense:
+    if last[1] == sense:
         more = excess(search.last, problem, m, True, enough, room)
-    if final and first[1] == sense and more < enough:
+    if first[1] == sense and more < enough:
         # by only one of them, since both may be the same hop
         more = max(more, excess(search.first, problem, n, False, enough, room))
-    if not final and first[1] == sense:
-        more = hop_excess(search.first, problem, n, way, enough, room)
-    return min(trip + more, max(trip, others + longest))
+    return min(trip + more, max(trip, others + min(room, LONGEST)))

@@ -22,9 +22,9 @@ from relguide.kernels.bounds.cells import Cell
 from relguide.kernels.bounds.kept_fronts import begin_fronts, round_arrival
 from relguide.kernels.bounds.round_time import round_bound, round_time, times_round
 from relguide.kernels.bounds.round_turning import whole_rounds
+from relguide.kernels.bounds.to_final_leg import slides_from
 from relguide.kernels.contact.clear_words import word_clears
 from relguide.kernels.contact.contact import contact_heading, to_frame_of
-from relguide.kernels.bounds.to_final_leg import slides_from
 from relguide.kernels.separation.clearance import leader_at, piece_at
 from relguide.kernels.words.extremals import MAX_ROWS, solve
 
