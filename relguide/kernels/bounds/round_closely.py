@@ -1,8 +1,9 @@
 """How much later than round the disc paths are that go from one contact to another: each closely.
 
-The time round the disc is the difference of two times, one for each contact. So each may be looked
-at with its own, and much more closely than both together: that is what `round_from` and `round_to`
-do. Where nobody can slide a path takes longer (`excess`). All of it is kept with the cells. Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
+The time round the disc is the difference of two times, one for each contact. So `round_from` and
+`round_to` look at each contact alone, much more closely than both could be looked at together.
+Where bank is not enough to slide a path takes longer (`excess`). The cells keep all of it. Slot
+frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
 
 from math import inf, isnan
