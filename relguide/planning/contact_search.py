@@ -5,8 +5,8 @@ keeps it, or it has a first contact, and a last one. So none arrives before the 
 extremal and the least, over all contacts, of the soonest arrival at the contact and the soonest way
 on from there. If that way on breaks the limit, there is another contact, and the last of them
 counts too. Contacts are put into cells, of bearing and time, for which all this is bounded at once
-(`kernels/bounds/contact_bound.py`). The paths with the least bound are halved again and again: that
-bound is proved, at any moment (`kernels/bounds/proof_search.py`).
+(`kernels/bounds/words/contact_bound.py`). The node of paths with the least bound is halved again
+and again: that bound is proved, at any moment (`kernels/bounds/search/branch_and_bound.py`).
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
@@ -34,7 +34,7 @@ _QUADRANT_CELLS = 2
 """Cells a quadrant is cut into at first; none may reach into two."""
 _LOOKS = {24: 0.02, 36: 5e-3}
 """Before which rounds it is looked around a leader that turns, and how closely [rad]. Elsewhere
-than at d_min > R words say more: see `kernels/bounds/narrowing.py`."""
+than at d_min > R words say more: see `kernels/bounds/search/narrowing.py`."""
 _ROUND = 5e-3
 """Time from one report to the next [s]."""
 
@@ -50,7 +50,7 @@ class Question:
     horizon: float
     """Contacts after this time do not matter [R/V_P]."""
     paired: float = 2e-5
-    """As in `contact_tree.Problem` [rad]: at once where paths that arrive as the slot opens are to
+    """As in `cell_tree.Problem` [rad]: at once where paths that arrive as the slot opens are to
     be ruled out, and else late, since there are many cells of last contacts."""
 
     def first_contacts(self) -> Iterator[Cell]:
@@ -81,7 +81,7 @@ class Question:
                 yield from _all_cells(i, start, end)
 
     def bounds(self, incumbent: float) -> Iterator[float]:
-        """Ever better bounds of the time of all paths, up to `beat`, where they end."""
+        """Ever better bounds of the time of all paths, up to `incumbent`, where they end."""
         return self.search(incumbent, begin_find(self.start, self.scene, -inf, 0.0, False), 0.0)
 
     def load(self) -> None:

@@ -166,7 +166,7 @@ def soonest_in(around: Around, scene: Scene, cell: Cell) -> float:
 
 @njit(cache=True, nogil=True)
 def is_last(around: Around, scene: Scene, cell: Cell) -> bool:
-    """Whether who touches in the cell has no other contact to come."""
+    """Whether a path that touches in the cell has no other contact to come."""
     first, count = _parts_of(scene, cell)
     for k in range(count):
         if around.latest[(first + k) % _PARTS] >= cell.start:

@@ -112,7 +112,7 @@ def round_arrival(
 
 @njit(cache=True, nogil=True)
 def _may_slide(scene: Scene, cell: Cell, sense: float) -> bool:
-    """Whether who touches in a cell may slide along the edge that way round, for all that is known.
+    """Whether a path that touches in a cell may slide along the edge that way, for all we know.
 
     Then it does not matter how it heads.
     """

@@ -199,13 +199,13 @@ def inside_share(scene: Scene) -> float:
 def whole_rounds(scene: Scene, cell: Cell, other: Cell, way: int) -> float:
     """How many whole rounds lie between a cell and one on the final leg, as bearings are counted.
 
-    The bearing of the other one lies in [−π, π], and this one's wherever `bearings_of` has it; who
-    goes round from here to there, one way, may pass ±π.
+    The bearing of the other one lies in [−π, π], and this one's wherever `bearings_of` has it. A
+    path round from here to there may pass ±π.
 
     Args:
         scene: the leader and d_min.
-        cell: from which somebody goes.
-        other: to which.
+        cell: from which a path goes.
+        other: to which it goes.
         way: 0 counter-clockwise round the leader, 1 clockwise.
 
     Returns:
@@ -222,7 +222,7 @@ def whole_rounds(scene: Scene, cell: Cell, other: Cell, way: int) -> float:
 
 @njit(cache=True, nogil=True)
 def _slowed(front: Front, t: float, step: float, headings: Headings) -> Front:
-    """The front, no faster along e than somebody can be in the step who heads as he must."""
+    """The front, no faster along e than a path can be in the step that heads as it must."""
     turned = abs(wrap_signed(front.course - headings.first)) - headings.first_differs
     turns = abs(wrap_signed(front.course - headings.last)) - headings.last_differs
     apart = max(turned - (t + step - headings.since), turns - (headings.until - t))
@@ -266,7 +266,7 @@ def front_from(
         step: how long it is [R/V_P].
     """
     alpha, later = pace * scene.alpha, 0.5 * step
-    # where someone heads who slides along the edge, in the middle of the step
+    # where a path heads that slides along the edge, in the middle of the step
     s, c = sine_and_cosine(bearing - there.h)
     along = alpha * c
     rate = (sqrt(1.0 - along * along) + sense * alpha * s) / scene.d_min

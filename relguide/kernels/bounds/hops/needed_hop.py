@@ -47,7 +47,7 @@ from relguide.kernels.contact.nodes import IntArray
 from relguide.kernels.separation.clearance import leader_at
 
 BESIDE = 0.5 * pi
-"""The bearing where who passes counter-clockwise must bank most to slide [rad]."""
+"""The bearing where a path that passes counter-clockwise must bank most to slide [rad]."""
 _CELLS = 8  # of each side, at first
 _MOST = 3_000  # pairs of cells are looked at
 _STACK = 256
@@ -61,13 +61,13 @@ _STACK_OF_POSES = 128
 _SMALLEST_POSES = 3e-5  # of a cell [R or rad]
 REASONS = 3
 """How many reasons there are."""
-_CHANGE, _TURN_BACK, _PASS = 0, 1, 2  # sides; to go the other way; beside, where nobody can slide
+_CHANGE, _TURN_BACK, _PASS = 0, 1, 2  # sides; to go the other way; beside, where no path can slide
 _VAIN = 2  # what a look in vain counts, where one that helps makes up for 1
 
 
 @njit(cache=True, nogil=True)
 def needs_hop(scene: Scene, cell: Cell, other: Cell, way: int) -> bool:
-    """Whether nobody can slide all the way from any contact of a cell to any of another one.
+    """Whether no path can slide all the way from any contact of a cell to any of another one.
 
     Args:
         scene: a leader that keeps straight, and d_min.
@@ -194,7 +194,7 @@ def _may_pass(
 def passes_late(
     scene: Scene, cell: Cell, other: Cell, way: int, bearing: float, slack: float
 ) -> bool:
-    """Whether certainly nobody who goes past a bearing comes from one cell to another in time.
+    """Whether certainly no path that goes past a bearing comes from one cell to another in time.
 
     Args:
         scene: a leader that keeps straight, and d_min.
@@ -209,7 +209,7 @@ def passes_late(
     if begin.differs == inf or end.differs == inf:
         return False
     there, (s, c) = leader_at(scene, cell.piece, 0.0), sine_and_cosine(bearing)
-    # who is further away is late for coming there, or for going on
+    # a path that is further away comes there late, or goes on late
     reach = 0.25 * (1.0 + scene.alpha) * slack
     stack = np.empty((_STACK_OF_POSES, 4))
     count, half = 0, pi / _HEADINGS

@@ -60,7 +60,7 @@ class _Tight(NamedTuple):
     cell: Cell
     """Of them."""
     end: Poses
-    """Where all who turn left through one of them are on the heading of the cell's last one."""
+    """Where all paths that turn left through one of them are on the heading of the last one."""
     longer: float
     """How much longer than round the disc it may take to turn there [R/V_P]."""
     apart: float
@@ -89,7 +89,7 @@ def tight_excess(
             [R/V_P].
 
     Returns:
-        [R/V_P], for what takes less than that to the next contact; 0 where somebody might slide.
+        [R/V_P], for what takes less than that to the next contact; 0 where a path might slide.
     """
     # mirrored, so that it passes counter-clockwise; and turned round, so that it is come to
     asked = standing(cell.piece, 1.0, cell.side * cell.bearing, cell.half)
@@ -162,7 +162,7 @@ def _excess(scene: Scene, table: FloatArray, other: Cell, tight: _Tight, enough:
     took = max(tight.apart, soonest)
     if took < min(latest + least, tight.until):
         window = Window(soonest * (1.0 - _ROUNDING), min(latest + least, tight.until))
-        # who turns on flies no word to there, but lies that near one
+        # a path that turns on flies no word to there, but lies that near one
         astray = (tight.until - tight.longest) * (2.0 + window.beat)
         took = max(took, hop_toward(scene, other, tight.end, window, astray))
     if took >= tight.until:
@@ -176,7 +176,7 @@ def _excess(scene: Scene, table: FloatArray, other: Cell, tight: _Tight, enough:
 
 @njit(cache=True, nogil=True)
 def _turned_on(scene: Scene, cell: Cell, most: float) -> Poses:
-    """Where all who turn left through a contact of the cell are on the heading of its last one."""
+    """Where paths that turn left through a contact of the cell are on its last one's heading."""
     last = poses_of(scene, standing(cell.piece, 1.0, cell.bearing + cell.half, 0.0))
     apart = 2.0 * scene.d_min * cell.half * (most - 1.0)
     return Poses(

@@ -59,14 +59,14 @@ from relguide.kernels.bounds.search.round_trip import hops_late_between, round_t
 from relguide.kernels.bounds.words.contact_bound import otherwise
 
 SEARCHING, CLOSED, STUCK = 0, 1, 2
-"""What a round ends with: there is more to do; no bundle is left; nothing more can be done."""
+"""What a round ends with: there is more to do; no node is left; nothing more can be done."""
 _SMALLEST = 1e-10  # a cell no wider than this is not halved: rounding counts for more [rad]
 _EASED = 0.03  # cells narrower than this are looked at closely [rad]
-_LATER = 1e-10  # a difference that counts between ways on from a contact [R/V_P]
+_LATER = 1e-10  # less does not tell two times apart [R/V_P]
 _ROOTS = 0.1  # size of the cells of last contacts that are left [rad]
 _MOST_ROOTS = 256  # if there are more, they are kept larger
-_NO_LAST = -1  # of a bundle whose last contact does not matter
-_ONLY = -2  # of a bundle whose first contact is the last one
+_NO_LAST = -1  # of a node whose last contact does not matter
+_ONLY = -2  # of a node whose first contact is the last one
 _BY_TURN = 0.1  # cells smaller than this are looked at by how contacts are passed [rad]
 
 
@@ -95,16 +95,16 @@ def begin(problem: Problem, first: FloatArray, exact: int, last: FloatArray) -> 
 
 @njit(cache=True, nogil=True)
 def go_on(search: Search, problem: Problem, find: Find, until: float) -> tuple[float, int]:
-    """Halve the bundles with the least bounds, and look for paths in small ones.
+    """Halve the nodes with the least bounds, and look for paths in small ones.
 
     Args:
         search: goes on.
-        problem: as it began with, or with an earlier `beat`.
+        problem: as it began with, or with an earlier `incumbent`.
         find: the fastest path known; takes a faster one.
         until: when to end, by `clock.now` [s].
 
     Returns:
-        the least bound, or `beat`, and what it ended with.
+        the least bound, or `incumbent`, and what it ended with.
     """
     final = len(problem.scene.leader) - 1
     search, problem, find = borrowed(search), borrowed(problem), borrowed(find)

@@ -264,7 +264,7 @@ def spare_between(
 def may_go_on_to(tree: Tree, problem: Problem, n: int, other: Cell) -> bool:
     """Whether any path from a first contact in a cell is at one of another just when it is there.
 
-    See `as_long`.
+    See `cell_words`.
     """
     scene, cell = problem.scene, cell_at(tree, n)
     if cell.end == inf:

@@ -28,10 +28,10 @@ TO, ON, AWAY = 0, 1, 2  # words to a first contact, on from it, and on from a la
 _OPEN_ROWS = 5  # rows kept, for each cell: if there is no more room, those of larger cells serve
 SOON, ONWARD, LEAVING = 0, 1, 2  # columns of what is known
 ROUND_FROM, ROUND_TO, TIGHT_TO, TIGHT_FROM = 3, 5, 17, 20
-"""And those of `round_closely`."""
+"""And those of `round_trip`."""
 REACHED, LEFT, LEFT_END, _COLUMNS = 7, 12, 17, 23
 FACTS = 10
-"""Columns of `Tree.joined`: those of `joined`, of `spare_onward` and of `last_contacts`."""
+"""Columns of `Tree.facts`: those of `cell_facts` and of `narrowing`."""
 _WEIGHT, _OF_BEARINGS, _OF_TIMES = 0, 1, 2
 _FIRST = ((0.5, 0.25, 1.0), (1.0, 0.125, 8.0))
 """The weight to begin with, the least one and the largest: where a word leads to the contact, and
@@ -50,7 +50,7 @@ class Tree(NamedTuple):
     cell of which it is one, −1 if of none. In the last row how many cells there are.
     shape (n + 1, 2)"""
     facts: FloatArray
-    """What is known of it as one of several contacts: see `joined`. shape (n, JOINED)"""
+    """What is known of it as one of several contacts: see `cell_facts`. shape (n, FACTS)"""
     known: FloatArray
     """How soon a first contact can be there, the goal from it, and the goal from a last one; bounds
     of both with the time round, either way; the first and the last of these by how the contact
@@ -58,7 +58,7 @@ class Tree(NamedTuple):
     one, how much was asked for, and how long they may be. NaN while it is not known.
     shape (n, 23)"""
     open_rows: FloatArray
-    """Intervals of the words' unknown that were left, one cell's after another's: see `rest`.
+    """Open intervals of the words' unknown, one cell's after another's: see `found_word`.
     shape (·, 5)"""
     spare: BoolArray
     """Whether its contacts are those that are come to with time to spare: see `junction`.
@@ -68,7 +68,7 @@ class Tree(NamedTuple):
     on from it, and on from a last one; in the last place how many rows there are.
     shape (n + 1, 3)"""
     cuts: FloatArray
-    """How they are cut in two: see `cutting`. shape (2, 3)"""
+    """What the branching rule has learned, of `begin_cuts`. shape (2, 3)"""
 
 
 class Problem(NamedTuple):
@@ -120,7 +120,7 @@ def cell_at(tree: Tree, n: int) -> Cell:
 def halve(tree: Tree, n: int, d_min: float) -> int:
     """The number of the first half of a cell, the other's being one more; −1 if there is no room.
 
-    It is cut across its bearings or its times, see `cutting`.
+    The branching rule cuts it across its bearings or its times.
     """
     room = len(tree.cells)
     if tree.halves[n, 0] >= 0:
@@ -159,7 +159,7 @@ def size_of(tree: Tree, n: int, d_min: float) -> float:
 
 @njit(cache=True, nogil=True)
 def learn_gain(tree: Tree, n: int, gain: float) -> None:
-    """Put down what it has gained to halve a cell, see `cutting.learn_cut`."""
+    """Put down what it has gained to halve a cell, see `learn_cut`."""
     if tree.cells[n, 5] < inf:  # else there was no choice
         times = bool(tree.cells[tree.halves[n, 0], 3] == tree.cells[n, 3])
         learn_cut(tree.cuts, tree.spare[n], times, gain)

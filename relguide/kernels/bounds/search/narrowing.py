@@ -48,7 +48,7 @@ from relguide.kernels.contact.nodes import IntArray
 _BESIDE = 2.0  # than a cell of first contacts, so much larger those of last ones may remain
 _SIZES = 4.0  # after a cell it is asked of one so much larger that holds it
 _LARGEST = 0.2  # but of none larger than this [rad]
-_BEGIN, _COUNT = 8, 9  # of `Tree.joined`: which of `Lasts.cells` are a first contact's
+_BEGIN, _COUNT = 8, 9  # of `Tree.facts`: which of `Lasts.cells` are a first contact's
 _SMALL_LASTS, _MOST_LASTS = (
     0.02,
     4_000,

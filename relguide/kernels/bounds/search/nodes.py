@@ -32,7 +32,7 @@ from relguide.kernels.bounds.words.sets import is_track
 from relguide.kernels.contact.nodes import IntArray
 
 MAX_NODES = 400_000
-"""Most bundles of paths kept, and cells; the search ends there."""
+"""Most nodes kept, and cells; the search ends there."""
 TOGETHER = 131_071
 """So many pairs of cells are remembered."""
 DEPTH = 128
@@ -45,7 +45,7 @@ BESIDE = 0.5
 
 
 class Lasts(NamedTuple):
-    """Which contacts may be last ones after first ones, see `last_contacts`."""
+    """Which contacts may be last ones after first ones, see `narrowing`."""
 
     cells: IntArray
     """Numbers of cells of last contacts, those of one cell of first contacts after another's …
@@ -55,7 +55,7 @@ class Lasts(NamedTuple):
 
 
 class Search(NamedTuple):
-    """The bundles of paths that may arrive before what is to be beaten."""
+    """Nodes with paths that may arrive before the incumbent."""
 
     first: Tree
     """Of first contacts."""
@@ -64,15 +64,15 @@ class Search(NamedTuple):
     roots: IntArray
     """Numbers of cells that hold all last contacts. shape (·,)"""
     bounds: FloatArray
-    """A heap: no path of a bundle arrives before this [R/V_P]. shape (MAX_BUNDLES,)"""
+    """A heap: no path of a node arrives before this [R/V_P]. shape (MAX_NODES,)"""
     nodes: IntArray
     """Numbers of both cells, 1 where the time round was looked at closely, and the level at which
     it was last asked whether paths hop too late. shape (·, 4)"""
     size: IntArray
-    """How many bundles there are, and have been looked at; and whether last contacts have been
+    """How many nodes there are, and have been looked at; and whether last contacts have been
     looked at alone. shape (3,)"""
     vain: IntArray
-    """Of `hopping.hops_late`. shape (REASONS,)"""
+    """Of `needed_hop.hops_late`. shape (REASONS,)"""
     fronts: Fronts
     """From cells of first contacts."""
     pairs: IntArray
@@ -82,7 +82,7 @@ class Search(NamedTuple):
     lasts: Lasts
     """Which contacts may be last ones after first ones."""
     probes: IntArray
-    """How many bundles have been probed, by their size. shape (·,)"""
+    """How many nodes have been probed, by their size. shape (·,)"""
 
 
 @njit(cache=True, nogil=True)
@@ -95,13 +95,13 @@ def begin_lasts(roots: int) -> Lasts:
 
 @njit(cache=True, nogil=True, forceinline=True)
 def has_room(search: Search) -> bool:
-    """Whether so many bundles may be added as one look adds."""
+    """Whether so many nodes may be added as one look adds."""
     return bool(search.size[0] + 2 * search.lasts.size[1] + DEPTH < MAX_NODES)
 
 
 @njit(cache=True, nogil=True, forceinline=True)
 def push(search: Search, bound: float, n: int, m: int, eased: int, asked: int) -> None:
-    """Put a bundle into the heap."""
+    """Put a node into the heap."""
     at = int(search.size[0])
     search.size[0] += 1
     while at > 0:
@@ -118,7 +118,7 @@ def push(search: Search, bound: float, n: int, m: int, eased: int, asked: int) -
 
 @njit(cache=True, nogil=True, forceinline=True)
 def drop_least(search: Search) -> None:
-    """Take the least bundle from the heap."""
+    """Take the least node from the heap."""
     bounds, nodes = search.bounds, search.nodes
     search.size[0] -= 1
     count, at = int(search.size[0]), 0

@@ -48,7 +48,7 @@ PROBED = (0.06, 8e-3, 1e-3)
 """Cells are probed when their bearings differ by this, or down to half as much [rad]."""
 _PROBES, _DELAYS, _EVERY = 64, 160, 512
 """So many of each size are made at once, and of those that look for a path that arrives just as the
-slot opens; and one more for so many bundles looked at."""
+slot opens; and one more for so many nodes looked at."""
 
 
 class Find(NamedTuple):
@@ -172,7 +172,7 @@ def probe_between(start: Pose, find: Find, cell: Cell, other: Cell) -> None:
     _probe_links(start, find, cell, other, cell.bearing, WORD)
     if len(find.scene.leader) == 1 or find.at_release:
         return
-    # who is later at the first contact may be ahead; a word may end anywhere in the cell
+    # a path that is later at the first contact may be ahead; a word may end anywhere in the cell
     rows = find.room.rows
     for k in range(-1, 2):
         contact = Contact(cell.piece, cell.bearing + k * cell.half, cell.side)
@@ -256,7 +256,7 @@ def _probe_delay(start: Pose, find: Find, contacts: FloatArray) -> None:
 
 @njit(cache=True, nogil=True)
 def probe_node(search: Search, problem: Problem, find: Find, n: int, m: int) -> None:
-    """Look for a path in a bundle that has become small."""
+    """Look for a path in a node that has become small."""
     half = max(search.first.cells[n, 3], search.last.cells[m, 3] if m >= 0 else 0.0)
     for k in range(len(PROBED)):
         if 0.5 * PROBED[k] < half <= PROBED[k]:

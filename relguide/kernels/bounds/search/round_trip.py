@@ -41,7 +41,7 @@ _TIMES, _STEEP = 1.5, 200.0
 """A part of a cell is hoped to have so many times its excess, and so much more for half its width
 [R/V_P a radian]."""
 _HOPS = 1.2e-2  # cells narrower than this are looked at by hops to and from them [rad]
-_OPEN = 2_000  # but only in searches that have looked at so many bundles
+_OPEN = 2_000  # but only in searches that have looked at so many nodes
 _HOPS_AFTER = 1_000  # looks it is asked whether paths that hop between two cells are late,
 _HOP_LEVEL, _DEEP = 5, 9  # from so many halvings of a radian on; and before that from so many on,
 _HOP_LEVELS = 2  # and whenever there are so many more
@@ -227,7 +227,7 @@ def _with_hops(search: Search, problem: Problem, n: int, m: int, way: int, trip:
 def hops_late_between(
     search: Search, problem: Problem, n: int, m: int, asked: int
 ) -> tuple[bool, int]:
-    """Whether who hops between two cells is late, if it is time to ask, and when it was asked."""
+    """Whether paths that hop between two cells are late, and when that was last asked."""
     level = _level(max(search.first.cells[n, 3], search.last.cells[m, 3]))
     least = _HOP_LEVEL if search.size[1] >= _HOPS_AFTER else _DEEP
     if level < max(asked + _HOP_LEVELS, least) or not is_final(search, problem, n, m):

@@ -221,7 +221,7 @@ def _followed(
             little, slowly = parted_by(scene, cell, span, rate, alike, 1.0, took)
             astray, tilts = min(astray, little), min(tilts, slowly)
             bends = slowly / took if took > 0.0 else inf
-            # nobody touches where d″ < 0
+            # no path touches where d″ < 0
             falling = min(falling_for(scene, cell, span, took, seen.bends), first - took)
         room, opens, bent = seen.gap - astray, seen.opens - tilts, seen.bends - bends
         if seen.gap < -astray - EDGE:
@@ -233,7 +233,7 @@ def _followed(
                 step = max(step, min(3.0 * bent / jerk, alike - took))
         step = max(step, falling)
         if step < finest:
-            # who touches has d′ = 0
+            # a path that touches has d′ = 0
             step = max((abs(seen.opens) - tilts) / sways, finest)
             if abs(seen.opens) <= tilts + sways * finest and contact == inf:
                 # from here on only where the limit is surely broken matters

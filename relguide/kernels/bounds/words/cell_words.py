@@ -83,7 +83,7 @@ def onward_bound(
     left = scene.t_release - cell.start
     if not goal.holds or left <= 0.0 or left >= beat or onward <= opens:
         return onward
-    # who is there as the slot opens has met this point by then; when does not matter before that
+    # a path that is there as the slot opens has met this point by then, no matter when
     track = track_of(goal, scene.t_release)
     early = soonest_beyond(
         seen_from(track, poses), blur_toward(scene, track, cell, poses),
@@ -254,7 +254,7 @@ def moved_with(end: Poses, begin: Poses, drifts: bool) -> Poses:
 def blur_between(begin: Poses, end: Poses) -> Blur:
     """How far some poses may lie from their middle, as others see them that may lie so far."""
     moved, (s, c) = max(end.left, end.right), sine_and_cosine(end.middle.h)
-    # who begins earlier or later finds the others elsewhere
+    # a path that begins earlier or later finds the others elsewhere
     x, y = begin.span * (begin.vx - end.vx), begin.span * (begin.vy - end.vy)
     return Blur(
         begin.left + moved, begin.right + moved, begin.differs + end.differs, end.differs,

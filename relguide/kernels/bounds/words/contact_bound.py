@@ -102,7 +102,7 @@ def cell_bound(
         beat: arrivals from here on do not matter, and all times come back as infinite [R/V_P].
         closely: whether it matters how the contact is passed.
         switch: whether λ_ψ may vanish at a contact of the cell, see `tangent_contacts`.
-        to: what is left of the words that lead to the contact, see `rest`.
+        to: open intervals of the words that lead to the contact.
         on: and of those that lead on.
     """
     poses = poses_of(scene, cell)
@@ -306,7 +306,7 @@ def _breaks_with_loop(start: Pose, row: FloatArray, scene: Scene) -> bool:
         inside = _least_breach(start, row, last_breach, scene)
         if inside < _LOOP_STRIDE:
             return False
-        # who begins the loop later by so much is no further from there than by twice as much
+        # a path that begins the loop so much later is no further from there than twice as much
         last_breach += 0.5 * inside
     return bool(last_breach >= soonest_breach)
 
@@ -348,6 +348,6 @@ def _along(start: Pose, row: FloatArray, flown: float) -> tuple[Pose, float]:
 
 @njit(cache=True, nogil=True)
 def _gap(at: Pose, scene: Scene, t: float) -> float:
-    """How far outside the limit somebody is [R]."""
+    """How far outside the limit a pose is [R]."""
     there = leader_at(scene, piece_at(scene.leader, t), t)
     return norm(at.x - there.x, at.y - there.y) - scene.d_min

@@ -1,6 +1,6 @@
 """When words of an interval meet the target: by how their length changes with the poses of the set.
 
-A word is known to within an interval of its unknown and a set of poses (see `word_intervals`). To
+A word is known to within an interval of its unknown and a set of poses (see `intervals`). To
 first order its length depends only on how the centre of its first circle lies from that of its last
 one along the straight, or from the one to the other, and on how much its outer turns make. So with
 u₀ the course in the middle of the interval, Δ that from there, l the straight, D the way from the
@@ -14,7 +14,7 @@ middle arc and m₀ its middle,
 
     (τ − τ₀) (a·w₀ − cos ½m₀) = 4 sin ½m₀ − gap + η cos ½m₀ + D′·w₀ + …,    |…| ≤ ½ w² + ½ gap Δ².
 
-D and η are linear in what fixes the poses, but for terms of second order: see `ways`. Lengths in R,
+D and η are linear in what fixes the poses, but for terms of second order: see `sets`. Lengths in R,
 times in R/V_P, angles counter-clockwise.
 """
 
@@ -41,7 +41,7 @@ _WIDE = 0.5  # directions are known to within this, or nothing is said
 
 @uncounted
 def put_sensitivity(blur: Blur, side: Side, rows: FloatArray) -> None:
-    """Put down the ways of a set, as the words of a side see them.
+    """Put down how the poses of a set change, as the words of a side see them.
 
     Args:
         blur: of the set.

@@ -47,7 +47,7 @@ _ANYTHING = 1e9  # beyond every turn rate [V_P/R]
 _PART = 2.9  # of parts/jerk, for which the separation grows: 3 but for rounding
 _STRIDE = 1e-5  # least step of the look for another contact [R/V_P]
 _LOOKS = 1_000  # it ends after so many
-_BESIDE = 0.1  # it ends before the leader is ahead: who flies on may come closer then [R]
+_BESIDE = 0.1  # it ends before the leader is ahead: a path that flies on may come closer then [R]
 
 
 @njit(cache=True, nogil=True)
@@ -122,10 +122,10 @@ def beyond_outward(scene: Scene, cell: Cell, pace: float) -> float:
 def apart_by(scene: Scene, cell: Cell, pace: float) -> float:
     """For how long no path that touches in a cell does so again, however it turns [R/V_P].
 
-    Who turns toward the leader as fast as it can goes furthest in any direction to that side, as
-    long as that is no more than π from its first heading and it has not turned so far itself. So it
-    comes closest, as long as the leader lies in such a direction: until the leader is ahead, or so
-    far behind.
+    Of all paths the one that turns toward the leader as fast as it can goes furthest in any
+    direction to that side, as long as the direction is no more than π from its first heading and it
+    has not turned so far itself. So it comes closest, as long as the leader lies in such a
+    direction: until the leader is ahead, or so far behind.
 
     Args:
         scene: the leader and d_min.
@@ -156,8 +156,8 @@ def apart_by(scene: Scene, cell: Cell, pace: float) -> float:
         behind = pi - atan2(toward, seen[0]) - took - poses.differs - blur / d_min
         if min(beside, behind) <= 0.0:
             break
-        # whoever is outside is so for this long, and whoever turns toward the leader for that, and
-        # others longer as long as the leader lies so
+        # any path that is outside stays so for this long, and one that turns toward the leader for
+        # that, and others longer as long as the leader lies so
         step = (far - d_min - parting * took) / fast
         lies = min(beside / (3.0 + far + parting), behind / (2.0 + (fast + parting) / d_min), 0.5)
         if step < lies:

@@ -130,10 +130,10 @@ class Goal(NamedTuple):
 def track_of(goal: Goal, t_release: float) -> Goal:
     """A point that moves along the slot's track at V_P, and is where the slot opens as it opens.
 
-    Who is there at that moment, on heading 0, has met this point: then, if not sooner. Who meets it
-    sooner can follow it, and is there, if that keeps the limit. So there is a path of just that
-    length only if there is one that meets the point by then, and the soonest of those is an
-    extremal; without the limit, if and only if.
+    A path that is there at that moment, on heading 0, has met this point: then, if not sooner. A
+    path that meets it sooner can follow it, and is there, if that keeps the limit. So a path of
+    just that length exists only if some path meets the point by then, and the soonest of those is
+    an extremal. Without the limit the converse holds too.
     """
     return Goal(goal.x + (goal.speed - 1.0) * t_release, 1.0, False)
 

@@ -343,9 +343,9 @@ def arrives_at_release(x: float, y: float, h: float, alpha: float, t_release: fl
         t_release: when the slot opens [R/V_P].
     """
     track = track_of(Goal(0.0, alpha, True), t_release)
-    nobody = Scene(np.zeros((1, 5)), 0.0, 0.0, 0.0, inf)
+    no_leader = Scene(np.zeros((1, 5)), 0.0, 0.0, 0.0, inf)
     meets = soonest(
         Pose(x - track.x, y, h), Blur(0.0, 0.0, 0.0, 0.0, fixed(), fixed()), Velocity(1.0, 0.0),
-        Window(0.0, t_release + EDGE), no_sieve(nobody),
+        Window(0.0, t_release + EDGE), no_sieve(no_leader),
     )  # fmt: skip
     return bool(meets < inf)
