@@ -47,7 +47,8 @@ HERE = Path(__file__).parent
 SHIPPED = HERE / "compiled"
 """Kernels that came with the wheel, if it brought any."""
 IMPORT = re.compile(
-    rb"^from relguide\.(?:(kernels\.\w+\.\w+|units) import|(kernels\.\w+) import (\w+) as )",
+    rb"^from relguide\.(?:(kernels(?:\.\w+){2,}|units) import"
+    rb"|(kernels(?:\.\w+)+) import (\w+) as )",
     re.MULTILINE,
 )
 """How our files name what they are made of."""

@@ -302,11 +302,13 @@ def test_a_stamp_changes_with_what_is_imported(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     kernels = tmp_path / "kernels"
-    (kernels / "words").mkdir(parents=True)
+    (kernels / "words" / "room").mkdir(parents=True)
     (kernels / "base").mkdir()
     (tmp_path / "units.py").write_text("G0 = 9.8\n")
-    (kernels / "words" / "top.py").write_text("from relguide.kernels.words.middle import f\n")
-    (kernels / "words" / "middle.py").write_text("from relguide.kernels.base.turn import g\n")
+    (kernels / "words" / "top.py").write_text("from relguide.kernels.words.room.middle import f\n")
+    (kernels / "words" / "room" / "middle.py").write_text(
+        "from relguide.kernels.base.turn import g\n"
+    )
     (kernels / "base" / "turn.py").write_text("from relguide.units import G0\n")
     (kernels / "base" / "apart.py").write_text("")
     monkeypatch.setattr(cache, "HERE", kernels)
@@ -323,7 +325,7 @@ def test_a_stamp_changes_with_what_is_imported(
 
 
 def test_whatever_a_kernel_imports_of_ours_is_seen() -> None:
-    for file in (cache.HERE / "__init__.py").parent.glob("*/*.py"):
+    for file in (cache.HERE / "__init__.py").parent.glob("*/**/*.py"):
         found = set[Path]()
         for node in ast.walk(ast.parse(file.read_bytes())):
             if isinstance(node, ast.ImportFrom) and str(node.module).startswith("relguide."):
