@@ -117,7 +117,10 @@ def run(chosen: argparse.Namespace) -> int:
     )
     if flight.broken:
         raise ValueError(flight.broken)
-    result = figures(flight.ended[0]) | {"wall_s": perf_counter() - started}
+    result = figures(flight.ended[0]) | {
+        "plans_by": flight.plans_by,
+        "wall_s": perf_counter() - started,
+    }
     if chosen.json:
         write_json(result)
     else:

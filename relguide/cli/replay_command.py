@@ -1,6 +1,7 @@
 """`relguide replay`: what a recording holds."""
 
 import argparse
+from typing import Any
 
 from relguide.cli.output import DONE, FAILED, say, write_json
 from relguide.planning.extras import need
@@ -29,7 +30,9 @@ def run(chosen: argparse.Namespace) -> int:
         show_progress(replay(chosen.file), title="reading", total=0.0, done=lambda _: 0.0)
     )
     whole = bool(flight.ended) and not flight.broken
-    result = figures(flight.ended[0]) if flight.ended else {"simulated_s": flight.last_time}
+    result: dict[str, Any] = {"simulated_s": flight.last_time}
+    if flight.ended:
+        result = figures(flight.ended[0]) | {"plans_by": flight.plans_by}
     if chosen.json:
         about = {
             "scenario": "".join(started.scenario for started in flight.started),

@@ -24,6 +24,7 @@ FIGURES = {
     "replans",
     "replans_announced",
     "fallbacks",
+    "plans_by",
     "track_nm",
     "simulated_s",
     "losses",
@@ -39,6 +40,21 @@ def test_fly_prints_the_contracts_figures(run: Run) -> None:
     assert (code, figures["joined"]) == (0, True)
     assert figures["simulated_s"] >= figures["join_time_s"] > 0.0
     assert figures["track_nm"] * 1852.0 == pytest.approx(figures["join_time_s"] * 240.0, rel=0.05)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("planner", ["regular_dp", "network", "exact"])
+def test_each_plan_is_counted_under_its_planner(run: Run, planner: str) -> None:
+    """Behind a leader that turns, exact plans keep the branch that is flown."""
+    code, out, _ = run("fly", "fig_6a", "--planner", planner, "--json")
+    figures = json.loads(out)
+    assert code == 0
+    assert sum(figures["plans_by"].values()) == 1 + figures["replans"]
+    assert set(figures["plans_by"]) <= {planner, "exact"}
+    assert figures["plans_by"][planner] > 0
+    by_exact = 0 if planner == "exact" else figures["plans_by"].get("exact", 0)
+    assert figures["fallbacks"] >= by_exact
+    assert (by_exact > 0) == (planner == "regular_dp")
 
 
 @pytest.fixture(scope="module")
@@ -66,11 +82,12 @@ def test_a_recording_replays_to_the_same_figures(
     assert isinstance(documents[0], FlightStarted)
     assert documents[0].seed == 7
     assert told["losses"] == figures["losses"]
-    for name in FIGURES - {"wall_s", "losses"}:
+    assert told["plans_by"] == figures["plans_by"]
+    for name in FIGURES - {"wall_s", "losses", "plans_by"}:
         assert told[name] == pytest.approx(figures[name], rel=1e-9)
     code, out, _ = run("replay", str(file))
     assert code == 0
-    for word in ("engaged", "least separation", "fallbacks"):
+    for word in ("plan by exact: engaged", "least separation", "planned by", "fallbacks"):
         assert word in out
 
 
