@@ -2,6 +2,7 @@
 
 import gzip
 import json
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -85,7 +86,7 @@ def test_a_recording_replays_to_the_same_figures(
     assert told["plans_by"] == figures["plans_by"]
     for name in FIGURES - {"wall_s", "losses", "plans_by"}:
         assert told[name] == pytest.approx(figures[name], rel=1e-9)
-    code, out, _ = run("replay", str(file))
+    code, out, _ = run("replay", str(file), "--table")
     assert code == 0
     for word in ("plan by exact: engaged", "least separation", "planned by", "fallbacks"):
         assert word in out
@@ -118,7 +119,7 @@ def test_the_good_part_of_a_damaged_recording_is_printed(
     assert err.startswith("relguide: near.jsonl, line")
     assert err.endswith("the file is cut short here; what comes before is good.\n")
     Path("near.jsonl").write_bytes(b"".join(whole.splitlines(keepends=True)[:-1]))
-    code, out, err = run("replay", "near.jsonl")
+    code, out, err = run("replay", "near.jsonl", "--table")
     assert code == 1
     assert "engaged" in out
     assert "ends before its flight does" in err
@@ -160,7 +161,7 @@ def test_a_time_is_kept_and_guidance_flies_by_the_settings_given(run: Run) -> No
     last = [d for d in documents if isinstance(d, Sample)][-1]
     (guidance,), leader = last.guidance, last.aircraft[1]
     assert guidance.separation == pytest.approx(60.0 * leader.ground_speed, abs=200.0)
-    _, out, _ = run("replay", "s.jsonl.gz")
+    _, out, _ = run("replay", "s.jsonl.gz", "--table")
     assert "once joined 60 s behind" in out
     assert "Joined, and followed for 120 s." in out
 
@@ -188,6 +189,41 @@ def test_an_hour_of_following_makes_the_flight_longer_than_an_hour(run: Run) -> 
     figures = json.loads(out)
     assert code == 0
     assert figures["simulated_s"] == pytest.approx(figures["join_time_s"] + 3600.0, abs=1.0)
+
+
+@pytest.mark.slow
+def test_a_recording_has_the_samples_asked_for(run: Run) -> None:
+    for options, period in (((), 1.0), (("--sample-rate", "5"), 0.2)):
+        assert run("fly", write(NEAR), "--record", "a.jsonl", *options)[0] == 0
+        times = [d.t for d in replay("a.jsonl") if isinstance(d, Sample)]
+        steps = {round(later - t, 6) for t, later in pairwise(times)}
+        assert (times[0], steps) == (0.0, {period})
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        (("--sample-rate", "3", "--record", "a.jsonl"), "must be 20 or a whole part of it, as 1, "),
+        (("--sample-rate", "0", "--record", "a.jsonl"), "must be 20 or a whole part of it, as 1, "),
+        (("--sample-rate", "x", "--record", "a.jsonl"), "must be 20 or a whole part of it, as 1, "),
+        (("--sample-rate", "5"), "--sample-rate is for a recording: add --record FILE."),
+    ],
+)
+def test_a_rate_without_whole_steps_or_a_recording_is_misuse(
+    run: Run, options: tuple[str, ...], sentence: str
+) -> None:
+    code, out, err = run("fly", "fig_6b", *options)
+    assert (code, out) == (2, "")
+    assert sentence in err
+
+
+@pytest.mark.parametrize(
+    ("name", "said"), [("fig6b", "fig_6b"), ("fig-6a", "fig_6a"), ("randon", "random")]
+)
+def test_a_mistyped_scenario_is_guessed_and_all_are_listed(run: Run, name: str, said: str) -> None:
+    code, out, err = run("fly", name)
+    assert (code, out) == (2, "")
+    assert f"did you mean {said}? There are fig_6a, fig_6b, recorded_leader, random." in err
 
 
 @pytest.mark.parametrize(
