@@ -66,7 +66,7 @@ endif
 # The service compiles its kernels at its first start, while the page already flies.
 .make/installed: .make/venv pyproject.toml hatch_build.py $(PAGE_INPUTS)
 	@echo "== Installing relguide and building its web page (the first time: half a minute)"
-	@$(PIP) install --editable '.[serve]'
+	@$(PIP) install --editable '.[serve,client]'
 	@touch $@
 
 # What is compiled is kept beside the sources, so this happens once.
