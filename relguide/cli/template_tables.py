@@ -1,4 +1,4 @@
-"""Tables of `relguide audit --method templates` and `turns`: networks for where d_min binds."""
+"""Tables of `relguide audit --method templates`: the network for where d_min binds."""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
@@ -46,12 +46,9 @@ def print_template_audit(audit: TemplateAudit, latency: Mapping[str, Latency]) -
     """
     _print_naming(audit)
     _print_late(audit)
-    if audit.everywhere:
-        _print_everywhere(audit)
+    _print_everywhere(audit)
     write("One query where d_min binds.\n")
     print_latency(latency)
-    if "together" in latency:
-        write("Together: the network, and the search for what it passes on.\n")
     _print_gaps(audit)
 
 
