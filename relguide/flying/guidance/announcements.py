@@ -5,7 +5,7 @@ from typing import Literal
 
 from relguide.flying.belief import Belief
 from relguide.flying.engagement import Engagement
-from relguide.flying.guidance.committed import Committed
+from relguide.flying.guidance.commit.committed import Committed
 from relguide.flying.modes import Mode
 from relguide.kernels.base.angles import wrap_signed
 from relguide.planning.acceptance import Refusal

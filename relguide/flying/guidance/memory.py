@@ -14,7 +14,7 @@ from relguide.flying.guidance.announcements import (
     UnableReason,
     expectation,
 )
-from relguide.flying.guidance.committed import Committed
+from relguide.flying.guidance.commit.committed import Committed
 from relguide.flying.guidance.forecast import Forecast
 from relguide.flying.modes import NUMBERS, Mode, change
 from relguide.kernels.flight.flight_records import Control
