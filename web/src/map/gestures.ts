@@ -18,7 +18,7 @@ interface Held {
 }
 
 /** Lets hands work on the map's glass; answers with what undoes that. */
-export function takeInHand(glass: SVGSVGElement, map: Editor, view: View): () => void {
+export function followGestures(glass: SVGSVGElement, map: Editor, view: View): () => void {
   const fingers = new Map<number, Point>();
   let held: Held | null = null;
   let apart = 0;

@@ -9,7 +9,7 @@ interface Place {
 const LINES = 7;
 
 /** Polygons are outlines followed by their holes, closed; null where there is no inside. */
-export function widest(
+export function labelPlace(
   polygons: readonly (readonly (readonly Place[])[])[],
 ): (Place & { readonly width: number }) | null {
   let best: (Place & { width: number }) | null = null;

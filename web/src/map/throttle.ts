@@ -5,14 +5,14 @@ import { effect, type ReadonlySignal, signal } from "@preact/signals";
 /** Between two changes [ms]. */
 const PERIOD = 200;
 
-export function calmed<T>(quick: ReadonlySignal<T>): ReadonlySignal<T> {
-  const calm = signal(quick.peek());
+export function throttled<T>(quick: ReadonlySignal<T>): ReadonlySignal<T> {
+  const slow = signal(quick.peek());
   let timer: ReturnType<typeof setTimeout> | undefined;
   let last = Number.NEGATIVE_INFINITY;
   const take = () => {
     timer = undefined;
     last = performance.now();
-    calm.value = quick.peek();
+    slow.value = quick.peek();
   };
   effect(() => {
     void quick.value;
@@ -21,5 +21,5 @@ export function calmed<T>(quick: ReadonlySignal<T>): ReadonlySignal<T> {
     if (left <= 0) take();
     else timer = setTimeout(take, left);
   });
-  return calm;
+  return slow;
 }

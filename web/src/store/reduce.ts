@@ -9,10 +9,10 @@ import type {
   PlanChanged,
   Unable,
 } from "../wire";
-import type { Flight, Message } from "./flight";
 import { moveAircraft } from "./motion";
 import { isAbout, type PairSample, pairCard, pairResult, pairSample } from "./pair";
 import { appendTrail } from "./trail";
+import type { Flight, Message } from "./types";
 
 /** The previous plan stays visible this long [ms]. */
 const SUPERSEDED_SHOWN = 3000;
@@ -29,7 +29,7 @@ export interface Arrival {
 }
 
 /** Takes in one document. */
-export function take(flight: Flight, document: Document, arrival: Arrival): void {
+export function reduce(flight: Flight, document: Document, arrival: Arrival): void {
   if (document.kind === "flight_started") {
     begin(flight, document);
     return;
@@ -45,7 +45,7 @@ export function take(flight: Flight, document: Document, arrival: Arrival): void
       log(flight, { t, kind: "leader", text: document.message });
       return;
     case "plan_changed":
-      takePlan(flight, document, arrival);
+      reducePlan(flight, document, arrival);
       return;
     case "plan_unavailable":
       flight.unavailable.value = document;
@@ -58,7 +58,7 @@ export function take(flight: Flight, document: Document, arrival: Arrival): void
       flight.unable.value = null;
       return;
     case "engagement_changed":
-      takeEngagement(flight, document);
+      reduceEngagement(flight, document);
       return;
     case "plan_refused":
       log(flight, { t, kind: "refused", text: document.message });
@@ -69,7 +69,7 @@ export function take(flight: Flight, document: Document, arrival: Arrival): void
       log(flight, { t, kind: "mode", text: document.message });
       return;
     case "alert":
-      takeAlert(flight, document);
+      reduceAlert(flight, document);
       return;
     case "unable":
       flight.unable.value = document;
@@ -85,7 +85,7 @@ export function take(flight: Flight, document: Document, arrival: Arrival): void
       return;
     case "sample": {
       const sample = pairSample(document, pair);
-      if (sample !== null) takeSample(flight, sample, arrival);
+      if (sample !== null) reduceSample(flight, sample, arrival);
       return;
     }
     case "flight_ended": {
@@ -108,7 +108,7 @@ function begin(flight: Flight, started: FlightStarted): void {
   flight.ended.value = null;
 }
 
-function takePlan(flight: Flight, changed: PlanChanged, { joining, wall, since }: Arrival): void {
+function reducePlan(flight: Flight, changed: PlanChanged, { joining, wall, since }: Arrival): void {
   const previous = flight.plan.value;
   const isNews = changed.announced && !joining;
   if (previous !== null && isNews && flight.unavailable.value === null) {
@@ -121,7 +121,7 @@ function takePlan(flight: Flight, changed: PlanChanged, { joining, wall, since }
   if (changed.announced) log(flight, { t: changed.t_s, kind: "plan", text: changed.message });
 }
 
-function takeEngagement(flight: Flight, changed: EngagementChanged): void {
+function reduceEngagement(flight: Flight, changed: EngagementChanged): void {
   flight.engagement.value = changed;
   flight.isSent.value = false;
   const isRefused = changed.engagement === changed.previous;
@@ -139,7 +139,7 @@ function takeEngagement(flight: Flight, changed: EngagementChanged): void {
   if (flight.unable.value?.reason !== "data") flight.unable.value = null;
 }
 
-function takeAlert(flight: Flight, alert: Alert): void {
+function reduceAlert(flight: Flight, alert: Alert): void {
   const others = flight.alerts.value.filter(
     (each) => each.subject !== alert.subject || each.other !== alert.other,
   );
@@ -148,7 +148,7 @@ function takeAlert(flight: Flight, alert: Alert): void {
   log(flight, { t: alert.t_s, kind, text: alert.message });
 }
 
-function takeSample(flight: Flight, sample: PairSample, { since }: Arrival): void {
+function reduceSample(flight: Flight, sample: PairSample, { since }: Arrival): void {
   const { pursuer, leader } = flight.trail;
   if (sample.joined && flight.sample.value?.joined !== true) flight.joinedSince.value = since;
   if (sample.leader_age_s === 0) flight.heard.value = sample;

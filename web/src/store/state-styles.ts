@@ -4,7 +4,7 @@ import type { Colour } from "./colours";
 import type { Age, Guidance } from "./states";
 
 /** What the picture shows of guidance. */
-export interface GuidanceLook {
+export interface GuidanceStyle {
   /** The path own ship flies, the one that is proposed or armed, or the plan it can no longer fly. */
   readonly path: "none" | "proposed" | "armed" | "committed" | "old_plan";
   /** Turn points, final track and time ticks belong to a plan that is shown. */
@@ -37,16 +37,16 @@ const NOTHING = {
   spacing: true,
   lateral: { now: "HDG", next: "" },
   speed: { now: "SPD", next: "" },
-} as const satisfies GuidanceLook;
+} as const satisfies GuidanceStyle;
 
 const FLOWN = {
   ...NOTHING,
   path: "committed",
   trackLine: false,
   slotColour: "plan",
-} as const satisfies GuidanceLook;
+} as const satisfies GuidanceStyle;
 
-export const GUIDANCE: Record<Guidance, GuidanceLook> = {
+export const GUIDANCE: Record<Guidance, GuidanceStyle> = {
   off: { ...NOTHING, designated: false, slot: "none", spacing: false },
   designated: NOTHING,
   proposed: { ...NOTHING, path: "proposed", points: true, pathColour: "proposed" },
@@ -93,7 +93,7 @@ export const GUIDANCE: Record<Guidance, GuidanceLook> = {
 };
 
 /** What the age of the data leaves of the picture. */
-export interface AgeLook {
+export interface AgeStyle {
   /** Own ship, leader and all that stands on the map. */
   readonly map: boolean;
   /** The plan, the slot and the numbers that go with them. */
@@ -106,7 +106,7 @@ export interface AgeLook {
   readonly flag: "" | "LDR DATA" | "LDR DATA LOST" | "MAP NOT AVAIL";
 }
 
-export const AGE: Record<Age, AgeLook> = {
+export const AGE: Record<Age, AgeStyle> = {
   fresh: {
     map: true,
     guidance: true,
