@@ -9,7 +9,7 @@ from rich.table import Table
 from rich.text import Text
 
 from relguide.cli.shared_tables import clock, miles
-from relguide.contract.story import Event, Story
+from relguide.contract.flight_summary import Event, FlightSummary
 from relguide.flying.documents import (
     Alert,
     EngagementChanged,
@@ -23,7 +23,7 @@ from relguide.flying.documents import (
 )
 
 
-def print_flight(flight: Story, figures: Mapping[str, Any]) -> None:
+def print_flight(flight: FlightSummary, figures: Mapping[str, Any]) -> None:
     """Print what happened in a flight, then its figures as `fly --json` names them."""
     console = Console(highlight=False)
     for started in flight.started:

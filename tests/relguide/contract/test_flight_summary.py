@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from relguide.contract.story import failures, figures, story_of
+from relguide.contract.flight_summary import failures, figures, summarize
 from relguide.flying.aircraft_documents import (
     AircraftCard,
     LinkCard,
@@ -66,7 +66,7 @@ def end_of_flight(*results: LinkResult) -> FlightEnded:
 
 
 def test_a_good_flight_has_no_failures() -> None:
-    flight = story_of([STARTED, SAMPLE, ENDED])
+    flight = summarize([STARTED, SAMPLE, ENDED])
     assert (flight.documents, flight.last_time, flight.broken) == (3, 720.0, "")
     assert failures(flight) == ()
     assert figures(ENDED)["heading_swing_deg"] == pytest.approx(400.0)
@@ -74,7 +74,7 @@ def test_a_good_flight_has_no_failures() -> None:
 
 
 def test_a_lost_separation_is_a_failure() -> None:
-    lost = story_of([STARTED, end_of_flight(replace(RESULT, least_separation=4.0 * NM))])
+    lost = summarize([STARTED, end_of_flight(replace(RESULT, least_separation=4.0 * NM))])
     assert failures(lost) == ("The separation fell below 5.00 NM: they came within 4.00 NM.",)
 
 
@@ -84,7 +84,7 @@ def test_not_joining_is_a_failure() -> None:
         reason="recording_over",
         message="The leader's recording ends after 720 s.",
     )
-    assert failures(story_of([STARTED, last])) == (
+    assert failures(summarize([STARTED, last])) == (
         "It did not join. The leader's recording ends after 720 s.",
     )
 
@@ -94,7 +94,7 @@ def test_of_several_links_each_is_judged_by_its_own_limit() -> None:
     started = replace(STARTED, links=(LINK, wide))
     close = replace(RESULT, least_separation=5.5 * NM)
     second = replace(close, ident="C", leader="A", joined=False)
-    assert failures(story_of([started, end_of_flight(close, second)])) == (
+    assert failures(summarize([started, end_of_flight(close, second)])) == (
         f"C did not join. {ENDED.message}",
         "The separation fell below 6.00 NM: they came within 5.50 NM.",
     )
@@ -102,13 +102,13 @@ def test_of_several_links_each_is_judged_by_its_own_limit() -> None:
 
 def test_a_plan_that_is_no_news_is_not_in_the_story() -> None:
     plan = next(d for d in ideal_flight() if isinstance(d, PlanChanged))
-    flight = story_of([STARTED, plan, replace(plan, announced=False), ENDED])
+    flight = summarize([STARTED, plan, replace(plan, announced=False), ENDED])
     assert (flight.events, flight.documents) == ((plan,), 4)
 
 
 def test_alerts_and_losses_are_in_the_story_and_forecasts_are_not() -> None:
     rare = rare_documents(5.0, "A", "B")
-    assert story_of([STARTED, *rare, ENDED]).events == rare[:-1]
+    assert summarize([STARTED, *rare, ENDED]).events == rare[:-1]
 
 
 def test_losses_are_given_with_when_they_were_announced() -> None:

@@ -41,7 +41,7 @@ Event = (
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Story:
+class FlightSummary:
     """A flight without its samples and routes."""
 
     started: tuple[FlightStarted, ...] = ()
@@ -57,8 +57,8 @@ class Story:
     """Why the documents broke off, if that is known."""
 
 
-def story_of(documents: Iterable[Document]) -> Story:
-    """The story of a flight's documents, up to the `ValueError` if one ends them."""
+def summarize(documents: Iterable[Document]) -> FlightSummary:
+    """The summary of a flight's documents, up to the `ValueError` if one ends them."""
     started: list[FlightStarted] = []
     events: list[Event] = []
     ended: list[FlightEnded] = []
@@ -97,7 +97,7 @@ def story_of(documents: Iterable[Document]) -> Story:
         if not count:
             raise
         broken = str(error)
-    return Story(
+    return FlightSummary(
         started=tuple(started[:1]),
         events=tuple(events),
         ended=tuple(ended[:1]),
@@ -135,7 +135,7 @@ def figures(ended: FlightEnded) -> dict[str, Any]:
     }
 
 
-def failures(flight: Story) -> tuple[str, ...]:
+def failures(flight: FlightSummary) -> tuple[str, ...]:
     """What went wrong in a flight that ended, a sentence each."""
     sentences = []
     for ended in flight.ended:
@@ -152,7 +152,7 @@ def failures(flight: Story) -> tuple[str, ...]:
     return tuple(sentences)
 
 
-def _limits(flight: Story, result: LinkResult) -> tuple[Metre, ...]:
+def _limits(flight: FlightSummary, result: LinkResult) -> tuple[Metre, ...]:
     """d_min of a link; empty if its beginning is not known."""
     links = (link for started in flight.started for link in started.links)
     return tuple(

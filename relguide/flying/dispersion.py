@@ -1,4 +1,4 @@
-"""What chance draws: an aircraft that is not quite its type, and flights at random."""
+"""Dispersion: an aircraft that is not quite its type, and flights at random."""
 
 from dataclasses import replace
 from math import hypot, pi
@@ -18,7 +18,7 @@ from relguide.planning.situation import (
 from relguide.planning.trajectory import LEFT, RIGHT
 from relguide.units import DEG, NM
 
-SCATTERED = (
+DISPERSED = (
     "max_roll_rate",
     "roll_time_constant",
     "speed_time_constant",
@@ -31,7 +31,7 @@ SHARE = 0.1
 """By how much of themselves they do at most."""
 
 
-def scatter(airframe: Airframe, seed: int, share: float = SHARE) -> Airframe:
+def disperse(airframe: Airframe, seed: int, share: float = SHARE) -> Airframe:
     """An aircraft whose constants differ from its type's by chance.
 
     Args:
@@ -43,7 +43,7 @@ def scatter(airframe: Airframe, seed: int, share: float = SHARE) -> Airframe:
         return airframe
     rng = Random(seed)
     drawn = {
-        name: getattr(airframe, name) * rng.uniform(1.0 - share, 1.0 + share) for name in SCATTERED
+        name: getattr(airframe, name) * rng.uniform(1.0 - share, 1.0 + share) for name in DISPERSED
     }
     drawn["idle_deceleration"] = min(drawn["idle_deceleration"], drawn["max_deceleration"])
     return replace(airframe, **drawn)
