@@ -9,7 +9,7 @@ from relguide.cli.shared_options import add_workers, count
 from relguide.planning.extras import need
 
 if TYPE_CHECKING:
-    from relguide.learn.audits.side_by_side import Ground, Method
+    from relguide.learn.audits.side_by_side import Ground, MethodResult
     from relguide.learn.words.branch_network import BranchNetwork
 
 PURPOSE = "say how good a network is, against exact answers"
@@ -134,7 +134,7 @@ def _audit_branches(chosen: argparse.Namespace) -> None:
 
 def _judge_side_by_side(
     network: "BranchNetwork", size: int, seed: int
-) -> "tuple[Ground, list[Method]]":
+) -> "tuple[Ground, list[MethodResult]]":
     """Draw common situations, grow the paper's tree, and judge all methods there."""
     from relguide.cli.tree_growth import grow_tree
     from relguide.learn.audits.side_by_side import draw_ground, side_by_side

@@ -9,7 +9,7 @@ from rich.table import Table
 from rich.text import Text
 
 from relguide.cli.shared_tables import clock, miles
-from relguide.contract.flight_summary import Event, FlightSummary
+from relguide.contract.flight_summary import FlightSummary, SummaryEvent
 from relguide.flying.documents import (
     Alert,
     EngagementChanged,
@@ -50,7 +50,7 @@ def print_flight(flight: FlightSummary, figures: Mapping[str, Any]) -> None:
     console.print(summary)
 
 
-def _event(event: Event) -> tuple[str, str, str]:
+def _event(event: SummaryEvent) -> tuple[str, str, str]:
     match event:
         case PlanChanged(reason=reason):
             what = f"plan: {reason.replace('_', ' ')}"

@@ -16,8 +16,8 @@ from relguide.learn.audits.latency import Latency
 from relguide.learn.audits.planner_judging import UNIT
 from relguide.learn.audits.template_audit import (
     WORTH,
+    GapReason,
     Late,
-    Reason,
     TemplateAudit,
     TemplateGroup,
     TemplateMiss,
@@ -30,7 +30,7 @@ LARGEST = 10
 """Gaps printed."""
 _LATE = ("answered", "99 %", "99.9 %", "largest", "> 0.1 s, %")
 _SHORT = ("99.9 %", "largest", "> 0.1 s", "no path")
-_SAID: dict[Reason, str] = {
+_SAID: dict[GapReason, str] = {
     "left out": "the right template is left out of the set",
     "not solved": "in the set, but not solved next to its guess",
     "of no template": "the path is of no template",

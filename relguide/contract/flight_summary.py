@@ -27,7 +27,7 @@ from relguide.flying.documents import (
 from relguide.planning.phrases import distance, too_close
 from relguide.units import NM, Metre
 
-Event = (
+SummaryEvent = (
     LeaderChanged
     | PlanChanged
     | EngagementChanged
@@ -46,7 +46,7 @@ class FlightSummary:
 
     started: tuple[FlightStarted, ...] = ()
     """One, or empty if the documents began later."""
-    events: tuple[Event, ...] = ()
+    events: tuple[SummaryEvent, ...] = ()
     ended: tuple[FlightEnded, ...] = ()
     """One, or empty if the documents broke off."""
     documents: int = 0
@@ -60,7 +60,7 @@ class FlightSummary:
 def summarize(documents: Iterable[Document]) -> FlightSummary:
     """The summary of a flight's documents, up to the `ValueError` if one ends them."""
     started: list[FlightStarted] = []
-    events: list[Event] = []
+    events: list[SummaryEvent] = []
     ended: list[FlightEnded] = []
     count, last_time, broken = 0, 0.0, ""
     try:

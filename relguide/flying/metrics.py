@@ -14,8 +14,8 @@ from relguide.flying.documents import (
     Unable,
 )
 from relguide.flying.fleet import Fleet
-from relguide.flying.logbook import Names
-from relguide.flying.pursuit import Metrics, Pursuit
+from relguide.flying.logbook import PairNames
+from relguide.flying.pursuit import FlightMetrics, Pursuit
 from relguide.kernels.flight.second import REVERSALS, SWING, TRACK
 from relguide.units import Metre, Second
 
@@ -23,7 +23,7 @@ RECENT: Second = 120.0
 """A loss so soon after something new of the leader is put down to it [s]."""
 
 
-def count_event(metrics: Metrics, document: Document) -> Metrics:
+def count_event(metrics: FlightMetrics, document: Document) -> FlightMetrics:
     """The figures after what guidance announced."""
     match document:
         case PlanChanged(t=0.0, reason="engaged", plan=card, promised=promised):
@@ -56,7 +56,7 @@ def count_event(metrics: Metrics, document: Document) -> Metrics:
             return metrics
 
 
-def count_loss(metrics: Metrics, least: Metre) -> Metrics:
+def count_loss(metrics: FlightMetrics, least: Metre) -> FlightMetrics:
     """The last loss went on, and came to this [m]."""
     *before, last = metrics.losses
     last = replace(last, separation=min(last.separation, least))
@@ -103,7 +103,7 @@ def _loss(one: Pursuit, fleet: Fleet, t: Second) -> SeparationLost:
     )
 
 
-def _announced(metrics: Metrics) -> tuple[Second, ...]:
+def _announced(metrics: FlightMetrics) -> tuple[Second, ...]:
     """When what stands was said first, alert or `Unable`; empty if nothing stands."""
     said = (*metrics.alerted, *metrics.unable)
     return (min(said),) if said else ()
@@ -126,7 +126,7 @@ def _cause(one: Pursuit, t: Second) -> str:
     return "What was flown is not what was forecast."
 
 
-def link_result(t: Second, names: Names, metrics: Metrics, fallbacks: int) -> LinkResult:
+def link_result(t: Second, names: PairNames, metrics: FlightMetrics, fallbacks: int) -> LinkResult:
     """How the flight of one pursuer went.
 
     Args:

@@ -10,7 +10,7 @@ from relguide.flying.fleet import Fleet
 from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.forecast import Forecast
 from relguide.flying.guidance.memory import LONG_AGO, Advice, Memory, begin
-from relguide.flying.logbook import Names
+from relguide.flying.logbook import PairNames
 from relguide.flying.world import Link, World
 from relguide.units import Metre, MetrePerSecond, Radian, Second
 
@@ -32,7 +32,7 @@ class LeaderView(NamedTuple):
     """When, flight time [s]."""
 
 
-class Metrics(NamedTuple):
+class FlightMetrics(NamedTuple):
     """Figures of a flight so far: what guidance has reached, and how it was flown."""
 
     least_separation: Metre
@@ -65,7 +65,7 @@ class Pursuit:
     """One pursuer and its leader in flight."""
 
     link: Link
-    names: Names
+    names: PairNames
     pursuer: int
     """Which of the fleet."""
     leader: int
@@ -78,7 +78,7 @@ class Pursuit:
     """The leader as it declared to fly; `None` if it flies what it declared, or is found not to."""
     view: LeaderView
     memory: Memory
-    metrics: Metrics
+    metrics: FlightMetrics
     tas: MetrePerSecond
     """The pursuer's a second ago [m/s]."""
     advice: Advice | None = None
@@ -110,7 +110,7 @@ def begin_pursuit(
     belief = fleet.belief(i, j, track, 0.0, link.intent_known, declared)
     return Pursuit(
         link=link,
-        names=Names(link.pursuer, link.leader),
+        names=PairNames(link.pursuer, link.leader),
         pursuer=i,
         leader=j,
         assignment=assignment_of(world, link),
@@ -119,7 +119,7 @@ def begin_pursuit(
         declared=declared,
         view=LeaderView(belief),
         memory=begin(belief, engagement),
-        metrics=Metrics(fleet.apart(i, j)),
+        metrics=FlightMetrics(fleet.apart(i, j)),
         tas=belief.own.tas,
     )
 

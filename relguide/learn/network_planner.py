@@ -41,7 +41,7 @@ from relguide.units import Metre, Second
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Proposal:
+class NetworkPath:
     """What a network leads to, with its certificate."""
 
     candidate: Candidate
@@ -112,7 +112,7 @@ def network_planner(network: BranchNetwork, templates: TemplateNetwork | None = 
 
 def propose(
     network: BranchNetwork, situation: Situation, templates: TemplateNetwork | None = None
-) -> Proposal | None:
+) -> NetworkPath | None:
     """The fastest path that is known without the exact planner; `None` if there is none.
 
     Behind a leader who keeps straight that is the fastest extremal, and where it breaks the limit
@@ -135,7 +135,7 @@ def propose(
 
 def _propose_behind_turns(
     network: BranchNetwork, situation: Situation, radius: Metre
-) -> Proposal | None:
+) -> NetworkPath | None:
     """The fastest path of the words that the network holds possible, if no extremal is faster."""
     frame = slot_frame(situation, situation.leader.trajectory)
     x, y, h, alpha, t_release = frame.x, frame.y, frame.h, frame.alpha, frame.t_release
@@ -159,9 +159,9 @@ def _propose_behind_turns(
 
 def _with_certificate(
     candidate: Candidate, situation: Situation, radius: Metre, unlimited: Second
-) -> Proposal:
+) -> NetworkPath:
     """With its certificate; the fastest extremal arrives at `unlimited` [s]."""
-    return Proposal(
+    return NetworkPath(
         candidate=candidate,
         certificate=judge(candidate.trajectory, situation, radius, leader_path(situation)),
         lower_bound=unlimited,

@@ -77,7 +77,7 @@ class PlanMissing:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Refused:
+class PlannerRefused:
     """The planner's own plan may not be flown."""
 
     refusal: Refusal
@@ -118,7 +118,7 @@ Event = (
     | ProposedPlan
     | EngagementChange
     | PlanMissing
-    | Refused
+    | PlannerRefused
     | ModeChange
     | Alerted
     | UnableTo

@@ -7,8 +7,8 @@ from relguide.flying.guidance.announcements import (
     Event,
     NewPlan,
     PlanMissing,
+    PlannerRefused,
     PlanReason,
-    Refused,
     UnableReason,
     UnableTo,
     expectation,
@@ -138,7 +138,7 @@ def count_refusal(
     fault = None if found.refusal is None else found.refusal.fault
     news: list[Event] = []
     if found.refusal is not None and fault != memory.refused:
-        news.append(Refused(refusal=found.refusal))
+        news.append(PlannerRefused(refusal=found.refusal))
     if fault == memory.refused and not found.fell_back:
         return memory, news
     return memory._replace(fallbacks=memory.fallbacks + found.fell_back, refused=fault), news

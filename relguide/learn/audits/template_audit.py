@@ -31,8 +31,8 @@ LISTED = 100
 """Most gaps that are listed, the largest ones."""
 COMMONEST = 12
 """Templates with a line of their own."""
-Reason = Literal["left out", "not solved", "of no template"]
-REASONS: tuple[Reason, ...] = ("left out", "not solved", "of no template")
+GapReason = Literal["left out", "not solved", "of no template"]
+REASONS: tuple[GapReason, ...] = ("left out", "not solved", "of no template")
 """Why an answer is slow: the right template is left out of the set; it is held, but not solved next
 to its guess; the fastest path is of no template."""
 
@@ -94,7 +94,7 @@ class TemplateMiss:
     """That the network gives it."""
     answered: str
     """The template given."""
-    reason: Reason
+    reason: GapReason
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -111,7 +111,7 @@ class TemplateAudit:
     """Those in which the limit binds by how sure the network is, those it is surest of first."""
     misses: tuple[TemplateMiss, ...]
     """Gaps above `WORTH`, the largest first, `LISTED` at most."""
-    reasons: Mapping[Reason, int]
+    reasons: Mapping[GapReason, int]
     """How many there are of each reason, of all."""
     worth: Share
     """How many answers have such a gap."""

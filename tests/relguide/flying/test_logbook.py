@@ -9,10 +9,10 @@ from relguide.flying.documents import (
     ForecastChanged,
 )
 from relguide.flying.guidance.forecast import NEVER, Forecast
-from relguide.flying.logbook import BENT, STRAIGHT_FOR, Names, forecast_document
+from relguide.flying.logbook import BENT, STRAIGHT_FOR, PairNames, forecast_document
 from relguide.units import DEG
 
-NAMES = Names("A", "B")
+NAMES = PairNames("A", "B")
 
 
 def forecast_of(headings: list[float], *, t: float = 100.0) -> Forecast:

@@ -12,16 +12,16 @@ from relguide.flying.documents import (
     SeparationLost,
     Unable,
 )
-from relguide.flying.logbook import Names
+from relguide.flying.logbook import PairNames
 from relguide.flying.metrics import count_event, count_loss, link_result
-from relguide.flying.pursuit import Metrics
+from relguide.flying.pursuit import FlightMetrics
 from tests.server.flown import ideal_flight
 
-NAMES = Names("A", "B")
+NAMES = PairNames("A", "B")
 
 
-def count(*documents: Document) -> Metrics:
-    metrics = Metrics(inf)
+def count(*documents: Document) -> FlightMetrics:
+    metrics = FlightMetrics(inf)
     for document in documents:
         metrics = count_event(metrics, document)
     return metrics
@@ -92,7 +92,7 @@ def test_a_loss_keeps_its_least_separation() -> None:
 
 
 def test_the_result_of_a_pursuer_that_has_not_joined_ends_with_the_flight() -> None:
-    result = link_result(77.0, NAMES, Metrics(inf), fallbacks=2)
+    result = link_result(77.0, NAMES, FlightMetrics(inf), fallbacks=2)
     assert (result.joined, result.join_time, result.fallbacks) == (False, 77.0, 2)
-    joined = Metrics(inf, joined=True, join_time=55.0)
+    joined = FlightMetrics(inf, joined=True, join_time=55.0)
     assert link_result(77.0, NAMES, joined, 0).join_time == 55.0

@@ -9,7 +9,7 @@ from relguide.flying.guidance.commit.preference import begun_now, nearest, turns
 from relguide.flying.guidance.commit.proposal import NoProposal, Proposal
 from relguide.flying.guidance.commit.shown_plan import shown_plan
 from relguide.flying.guidance.situations import situation_now, situation_of
-from relguide.planning.acceptance import Answer, ask
+from relguide.planning.acceptance import FlyableAnswer, ask
 from relguide.planning.phrases import distance
 from relguide.planning.plan import NoPlan, Planner, Reason
 from relguide.planning.trajectory import Trajectory
@@ -77,7 +77,7 @@ def propose(
 
 
 def _propose_without_buffer(
-    belief: Belief, assignment: Assignment, planner: Planner, lead: LeadIn, wide: Answer
+    belief: Belief, assignment: Assignment, planner: Planner, lead: LeadIn, wide: FlyableAnswer
 ) -> Proposal | NoProposal:
     """With d_min alone, where nothing keeps the buffer as well."""
     limit = assignment.min_separation
