@@ -9,7 +9,7 @@ from rich.table import Table
 from rich.text import Text
 
 from relguide.cli.shared_tables import clock, miles
-from relguide.contract.story import Event, Story
+from relguide.contract.flight_summary import FlightSummary, SummaryEvent
 from relguide.flying.documents import (
     Alert,
     EngagementChanged,
@@ -23,7 +23,7 @@ from relguide.flying.documents import (
 )
 
 
-def print_flight(flight: Story, figures: Mapping[str, Any]) -> None:
+def print_flight(flight: FlightSummary, figures: Mapping[str, Any]) -> None:
     """Print what happened in a flight, then its figures as `fly --json` names them."""
     console = Console(highlight=False)
     for started in flight.started:
@@ -50,7 +50,7 @@ def print_flight(flight: Story, figures: Mapping[str, Any]) -> None:
     console.print(summary)
 
 
-def _event(event: Event) -> tuple[str, str, str]:
+def _event(event: SummaryEvent) -> tuple[str, str, str]:
     match event:
         case PlanChanged(reason=reason, plan=plan):
             what = f"plan by {plan.planner}: {reason.replace('_', ' ')}"

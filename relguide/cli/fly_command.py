@@ -91,9 +91,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(chosen: argparse.Namespace) -> int:
     """Fly, and print how it went: did it join, and keep d_min?"""
     table = for_people(chosen, "rich")
+    from relguide.contract.flight_summary import failures, figures, summarize
     from relguide.contract.orders import commands_of
     from relguide.contract.recorder import record
-    from relguide.contract.story import failures, figures, story_of
     from relguide.flying.flight import fly
     from relguide.flying.guidance.settings import DEFAULT, load_settings
     from relguide.planning.progress import show_progress
@@ -118,7 +118,7 @@ def run(chosen: argparse.Namespace) -> int:
     documents = flown(commands=commands, sample_period=1.0 / rate)
     if chosen.record is not None:
         documents = record(documents, chosen.record, sample_rate=rate)
-    flight = story_of(
+    flight = summarize(
         show_progress(
             documents,
             title=f"flying {scenario.name}",

@@ -100,7 +100,7 @@ def _no_collection() -> Iterator[None]:
 
 def _run(chosen: argparse.Namespace) -> int:
     planner = make_planner(chosen.planner)
-    asked = Asked(chosen.prove, chosen.include, chosen.deadline)
+    asked = AskedBeside(chosen.prove, chosen.include, chosen.deadline)
     if asked.prove:
         compile_proofs()
     if asked.deadline is not None:
@@ -112,14 +112,14 @@ def _run(chosen: argparse.Namespace) -> int:
             )
     if chosen.batch:
         order = order_of(chosen)
-        from relguide.cli.batch.run import Workers, answer_file
+        from relguide.cli.batch.run import BatchWorkers, answer_file
 
-        workers = Workers(cores_of(chosen), chosen.dask)
+        workers = BatchWorkers(cores_of(chosen), chosen.dask)
         return answer_file(chosen.file, chosen.out, order, workers, resume=chosen.resume)
     return _plan_one(chosen.file, planner, asked, table=for_people(chosen, "rich"))
 
 
-class Asked(NamedTuple):
+class AskedBeside(NamedTuple):
     """What is asked for beside the plan, and by when."""
 
     prove: float
@@ -129,7 +129,7 @@ class Asked(NamedTuple):
     """Of each answer [s]."""
 
 
-def _plan_one(file: str, planner: "Planner", asked: Asked, *, table: bool) -> int:
+def _plan_one(file: str, planner: "Planner", asked: AskedBeside, *, table: bool) -> int:
     from relguide.contract.answers import answer, check_optimality
     from relguide.flying.cards import no_plan_card, plan_card
     from relguide.planning.plan import NoPlan, Plan

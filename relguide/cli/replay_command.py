@@ -21,11 +21,11 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(chosen: argparse.Namespace) -> int:
     """Print what is good of a recording; done if that is all of it."""
     table = for_people(chosen, "rich")
+    from relguide.contract.flight_summary import figures, summarize
     from relguide.contract.recorder import replay
-    from relguide.contract.story import figures, story_of
     from relguide.planning.progress import show_progress
 
-    flight = story_of(
+    flight = summarize(
         show_progress(replay(chosen.file), title="reading", total=0.0, done=lambda _: 0.0)
     )
     whole = bool(flight.ended) and not flight.broken

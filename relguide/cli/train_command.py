@@ -19,10 +19,9 @@ EXAMPLES = """
     relguide train labels.npz weights.safetensors --resume      go on after a stop
     relguide train labels.npz small.safetensors --width 32 --epochs 10
     relguide train templates.npz w.safetensors --method templates    where d_min binds
-    relguide train turns.npz w.safetensors --method turns            behind leaders who turn
     relguide train tree.npz paper.safetensors --method paper    Fig. 5, from the paper's tree
     """
-METHODS = ("branches", "templates", "turns", "paper", "direct")
+METHODS = ("branches", "templates", "paper", "direct")
 """What a network learns."""
 
 
@@ -34,8 +33,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--method",
         choices=METHODS,
         default=METHODS[0],
-        help="branches, templates, turns: from LABELS.npz of dataset --method exact, templates, "
-        "turns; paper: "
+        help="branches, templates: from LABELS.npz of dataset --method exact, templates; paper: "
         "the tree's (ε, θ, l), from a TREE.npz in its place; direct: the exact ones from the "
         "tree's states; default: %(default)s",
     )
@@ -46,7 +44,7 @@ def run(chosen: argparse.Namespace) -> int:
     need("torch", extra="learn")
     if chosen.method == "branches":
         _train_branches(chosen)
-    elif chosen.method in ("templates", "turns"):
+    elif chosen.method == "templates":
         _train_templates(chosen)
     else:
         _train_regular(chosen)
@@ -67,14 +65,11 @@ def _train_branches(chosen: argparse.Namespace) -> None:
 
 
 def _train_templates(chosen: argparse.Namespace) -> None:
-    from relguide.learn.boundary.template_network import STRAIGHT
     from relguide.learn.boundary.train_templates import run
-    from relguide.learn.boundary.turn_network import TURNING
 
-    kind = TURNING if chosen.method == "turns" else STRAIGHT
     _train(
         chosen,
-        run(chosen, program_name(), kind),
+        run(chosen, program_name()),
         lambda right: f"{100.0 * right:.2f} % of the templates right in labels not trained on",
     )
 

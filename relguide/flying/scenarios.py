@@ -24,9 +24,9 @@ from math import cos, sin
 
 from relguide.flying.air import STANDARD_AIR, Air
 from relguide.flying.airframe import airframe
+from relguide.flying.dispersion import random_situation
 from relguide.flying.envelope import level_for
 from relguide.flying.flight import DEFAULT_TYPE, Scenario
-from relguide.flying.scatter import random_situation
 from relguide.flying.tracks import DEFAULT_LEADER, INSTALL, RecordedTrack, load_sample
 from relguide.planning.inputs import expect, number
 from relguide.planning.situation import CALM, FlyStraight, Leader, Pursuer, Situation, TurnTo

@@ -156,12 +156,6 @@ def _compile_learning() -> None:
     from relguide.learn.audits.branch_judging import branch_audit_request, judge_chunk, latencies
     from relguide.learn.audits.constrained_judging import template_latencies
     from relguide.learn.audits.template_judging import judge_template_chunk, template_audit_request
-    from relguide.learn.audits.turn_judging import (
-        judge_turn_chunk,
-        turn_audit_of,
-        turn_audit_request,
-        turn_latencies,
-    )
     from relguide.learn.boundary.template_labels import (
         TemplateLabelRequest,
         advance_paths,
@@ -169,8 +163,6 @@ def _compile_learning() -> None:
     )
     from relguide.learn.boundary.template_network import load_template_network, template_features_of
     from relguide.learn.boundary.train_templates import targets_of
-    from relguide.learn.boundary.turn_labels import TurnLabelRequest, advance_turning
-    from relguide.learn.boundary.turn_network import TURNING, load_turn_network
     from relguide.learn.words.branch_labels import LabelRequest, label_chunk
     from relguide.learn.words.branch_network import features_of, load_network
 
@@ -184,12 +176,6 @@ def _compile_learning() -> None:
     ways = load_template_network()
     judge_template_chunk(ways, network, template_audit_request(ways, 10, 1), 0)
     template_latencies(ways, limited.situations)
-    turning = TurnLabelRequest(count=10).make(0)
-    TURNING.targets_of(advance_turning(turning.paths, default_rng(0)), 1e-3)
-    TURNING.features_of(turning.situations)
-    turns = load_turn_network()
-    judged = judge_turn_chunk(turns, turn_audit_request(turns, 20, 1), 0)
-    turn_latencies(turns, turn_audit_of({0: judged}, TURNING.templates)[1])
 
 
 def _situation(

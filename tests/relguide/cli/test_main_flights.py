@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 
 from relguide.cli.flight_tables import print_flight
+from relguide.contract.flight_summary import summarize
 from relguide.contract.recorder import replay
-from relguide.contract.story import story_of
 from relguide.flying.documents import EngagementChanged, FlightStarted, LeaderChanged, Sample
 from tests.command_line import NEAR, UNREACHABLE, Run, process, write
 
@@ -100,7 +100,7 @@ def test_what_the_crew_engages_is_a_row_of_the_table(capsys: pytest.CaptureFixtu
         previous="off",
         message="LDR is designated.",
     )
-    print_flight(story_of([said]), {"simulated_s": 65.0})
+    print_flight(summarize([said]), {"simulated_s": 65.0})
     (row,) = [line for line in capsys.readouterr().out.splitlines() if "designated" in line]
     assert row.split() == ["1:05.0", "designated", "LDR", "is", "designated."]
 
