@@ -142,7 +142,7 @@ page: .make/dev
 bench: .make/dev .make/kernels .make/bench/ready
 	@$(BIN)/python -m benchmarks
 
-# The pictures and tables of docs/planner.md; some minutes.
+# The figures of docs/planner.md, kept in benchmarks/results; some minutes.
 .PHONY: planner-figures
 planner-figures: .make/dev .make/kernels .make/bench/ready
 	@$(BIN)/python -m benchmarks.figures
@@ -152,7 +152,7 @@ planner-figures: .make/dev .make/kernels .make/bench/ready
 campaign: .make/dev .make/kernels .make/traffic
 	@$(BIN)/python -m tools.campaign fly
 
-# The pictures and tables of docs/flight.md; the campaign's, of build/campaign.jsonl if that is there.
+# The figures of docs/flight.md, kept in benchmarks/results; those of the campaign, of build/campaign.jsonl if that is there.
 .PHONY: flight-figures
 flight-figures: .make/dev .make/kernels
 	@$(BIN)/python -m tools.campaign report $(wildcard build/campaign.jsonl)

@@ -7,14 +7,20 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 
-from benchmarks.drawings import BLUE, GREEN, INK, ORANGE, PALE, PURPLE, figure
+from benchmarks.drawings import BLUE, GREEN, ORANGE, PURPLE, figure
 from relguide.units import DEG
 from tests.aloft import A306
 from tools.campaign import responses
 from tools.campaign.row import FIGURES, Row
 from tools.campaign.tables import by_family
 
-COLOURS = (BLUE, ORANGE, GREEN, PURPLE, INK, PALE, "#e69f00", "#56b4e9")
+COLOURS = (BLUE, ORANGE, GREEN, PURPLE)
+DASHES = ("-", (0, (5, 2)))
+"""Each colour is used solid and dashed: eight lines, and …"""
+MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
+"""… each has a mark of its own, so that they are told apart in grey."""
+MARK_EVERY = 0.12
+"""Of the length of a line."""
 THIN = 10
 """One step in so many is drawn."""
 SLUGGISH = replace(
@@ -48,7 +54,8 @@ def draw_campaign(rows: Sequence[Row], file: Path) -> None:
     with figure(file) as (_, (left, right)):
         promised = any(row.join_over_promise is not None for row in rows)
         _shares(left, rows, "join_over_promise" if promised else "join_over_plan")
-        left.set_xlim(-5.0, 50.0)
+        left.set_xscale("symlog", linthresh=1.0)
+        left.set_xlim(-10.0, 3000.0)
         left.set_title("Joining")
         _shares(right, rows, "least_share")
         right.set_xlim(0.0, 2.0)
@@ -58,7 +65,7 @@ def draw_campaign(rows: Sequence[Row], file: Path) -> None:
 
 def _bank_steps(axes: Axes) -> None:
     axes.set_title("To a bank")
-    for before, colour in ((0.0, BLUE), (-25.0, ORANGE)):
+    for before, colour, dashes in ((0.0, BLUE, "-"), (-25.0, ORANGE, "--")):
         low, high, plain = (
             responses.bank_step(before * DEG, 25.0 * DEG, model=model)
             for model in (SLUGGISH, NIMBLE, A306)
@@ -71,24 +78,24 @@ def _bank_steps(axes: Axes) -> None:
             alpha=0.2,
             linewidth=0.0,
         )
-        axes.plot(
-            plain.t, plain.bank / DEG, color=colour, label=f"{before:.0f}° to 25°".replace("-", "−")
-        )
-    axes.set_xlabel("s")
-    axes.set_ylabel("bank, °")
+        name = f"{before:.0f}° to 25°".replace("-", "−")
+        axes.plot(plain.t, plain.bank / DEG, color=colour, ls=dashes, label=name)
+    axes.set_xlabel("time [s]")
+    axes.set_ylabel("bank [°]")
     axes.legend(frameon=False)
 
 
 def _heading_steps(axes: Axes) -> None:
     axes.set_title("To a heading")
-    for tas, colour in ((240.0, BLUE), (120.0, ORANGE)):
+    for tas, colour, dashes in ((240.0, BLUE, "-"), (120.0, ORANGE, "--")):
         for change in (5.0, 30.0, 90.0):
             response = responses.heading_step(change * DEG, tas=tas)
+            t, heading = response.t[::THIN], response.heading[::THIN] / DEG
             name = f"{tas:.0f} m/s" if change == 5.0 else None
-            axes.plot(response.t[::THIN], response.heading[::THIN] / DEG, color=colour, label=name)
+            axes.plot(t, heading, color=colour, ls=dashes, label=name)
     axes.set_xlim(0.0, 120.0)
-    axes.set_xlabel("s")
-    axes.set_ylabel("heading, °")
+    axes.set_xlabel("time [s]")
+    axes.set_ylabel("heading [°]")
     axes.legend(frameon=False)
 
 
@@ -97,7 +104,7 @@ def _path_steps(axes: Axes, in_hand: float, title: str) -> None:
     for tas, colour in ((240.0, BLUE), (120.0, ORANGE)):
         for across in (100.0, 300.0, 1000.0):
             response = responses.path_step(across, tas=tas, in_hand=in_hand)
-            name = f"{tas:.0f} m/s" if across == 100.0 else None
+            name = f"{tas:.0f} m/s (both coincide)" if across == 100.0 else None
             dashes = (None, None) if tas == 240.0 else (4.0, 3.0)
             axes.plot(
                 response.t[::THIN],
@@ -106,18 +113,29 @@ def _path_steps(axes: Axes, in_hand: float, title: str) -> None:
                 dashes=dashes,
                 label=name,
             )
-    axes.set_xlabel("s")
-    axes.set_ylabel("cross-track, m")
+    axes.set_xlabel("time [s]")
+    axes.set_ylabel("cross-track [m]")
     axes.legend(frameon=False)
 
 
 def _shares(axes: Axes, rows: Sequence[Row], name: str) -> None:
     """Share of flights with at most so much of a figure, a line a family."""
     (drawn,) = (one for one in FIGURES if one.name == name)
-    for (family, own), colour in zip(by_family(rows), COLOURS, strict=False):
+    for k, (family, own) in enumerate(by_family(rows)):
         values = np.sort([value for value, _ in drawn.values(own)])
         if len(values):
             share = np.arange(1, len(values) + 1) / len(values)
-            axes.plot(values, 100.0 * share, color=colour, label=family)
+            # marks of two lines do not fall on each other
+            first = MARK_EVERY * (k % len(MARKERS)) / len(MARKERS)
+            axes.plot(
+                values,
+                100.0 * share,
+                color=COLOURS[k % len(COLOURS)],
+                ls=DASHES[k // len(COLOURS) % len(DASHES)],
+                marker=MARKERS[k % len(MARKERS)],
+                markevery=(first, MARK_EVERY),
+                ms=4,
+                label=family,
+            )
     axes.set_xlabel(drawn.heading)
     axes.set_ylabel("flights, %")
