@@ -14,7 +14,7 @@ from benchmarks.exhaustive import least_time
 from benchmarks.limit import main, plan_twice
 from benchmarks.network_batch import as_row
 from benchmarks.network_rows import BY_NETWORK, answer_rows
-from benchmarks.page import COMMAND, FOLDER, PAGE, PICTURES, with_block
+from benchmarks.page import COMMAND, FOLDER, PAGE, PICTURES, RESULTS, with_block
 from benchmarks.starts import guesses
 from benchmarks.tables import read_table, write_table
 from relguide import NoPlan
@@ -168,3 +168,11 @@ def test_a_case_is_what_its_number_says() -> None:
     first, again = (plan_twice(5, seed=1, effort=1, intent=0.5) for _ in range(2))
     assert (first.situation, first.ours_s) == (again.situation, again.ours_s)
     assert first.loss == 0.0
+
+
+def test_every_table_that_is_kept_says_how_it_was_made() -> None:
+    told = (RESULTS / "README.md").read_text()
+    for file in RESULTS.glob("*.csv"):
+        assert f"`{file.name}`" in told, file.name
+        headings, cells = read_table(file.name)
+        assert all(len(line) == len(headings) for line in cells), file.name
