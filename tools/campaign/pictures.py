@@ -19,6 +19,8 @@ DASHES = ("-", (0, (5, 2)))
 """Each colour is used solid and dashed: eight lines, and …"""
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
 """… each has a mark of its own, so that they are told apart in grey."""
+TICKS = (-100, -10, -1, 0, 1, 10, 100, 1000)
+"""Of how much later than promised flights join [%]: a half is within 1, some ten times as late."""
 MARK_EVERY = 0.12
 """Of the length of a line."""
 THIN = 10
@@ -54,8 +56,9 @@ def draw_campaign(rows: Sequence[Row], file: Path) -> None:
     with figure(file) as (_, (left, right)):
         promised = any(row.join_over_promise is not None for row in rows)
         _shares(left, rows, "join_over_promise" if promised else "join_over_plan")
-        left.set_xscale("symlog", linthresh=1.0)
-        left.set_xlim(-10.0, 3000.0)
+        left.set_xscale("symlog", linthresh=1.0, linscale=0.5)
+        left.set_xlim(-100.0, 3000.0)
+        left.set_xticks(TICKS, [f"{tick:,}".replace("-", "−") for tick in TICKS])
         left.set_title("Joining")
         _shares(right, rows, "least_share")
         right.set_xlim(0.0, 2.0)
