@@ -127,8 +127,9 @@ def _gaps(audit: Audit, methods: Sequence[Method], least_share: float) -> "Figur
             )
             continue
         share = np.arange(len(worse), 0, -1) / of
-        look = {"color": COLOURS[k], "ls": DASHES[k], "label": method.name}
-        left.step(PERCENT * worse, PERCENT * share, **look)
+        left.step(
+            PERCENT * worse, PERCENT * share, color=COLOURS[k], ls=DASHES[k], label=method.name
+        )
     left.set_xlim(1e-3, 1e4)
     left.set_ylim(PERCENT * least, PERCENT)
     logarithmic(left, "gap to the fastest path [%]", "answers with a larger gap [%]")
@@ -136,8 +137,10 @@ def _gaps(audit: Audit, methods: Sequence[Method], least_share: float) -> "Figur
     for k, method in enumerate(methods):
         if method.places is not None:
             share = np.arange(1, len(method.places) + 1) / len(method.places)
-            look = {"color": COLOURS[k], "ls": DASHES[k], "label": method.name}
-            right.plot(method.places / KM, PERCENT * share, **look)
+            distances = method.places / KM
+            right.plot(
+                distances, PERCENT * share, color=COLOURS[k], ls=DASHES[k], label=method.name
+            )
     right.set_xscale("log")
     right.set_xlim(0.05, None)
     right.set_xlabel("distance of its end from the slot [km]", color=INK)
