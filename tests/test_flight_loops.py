@@ -1,5 +1,6 @@
 """The loops of docs/flight.md: margins that are margins, and the loops that are flown."""
 
+import re
 from dataclasses import fields
 from itertools import pairwise
 from math import inf
@@ -179,3 +180,12 @@ def test_the_file_of_settings_has_all_defaults() -> None:
     for field in fields(Settings):
         default = getattr(DEFAULT, field.name)
         assert getattr(loaded, field.name) == pytest.approx(default, rel=1e-12), field.name
+
+
+def test_the_picture_of_the_campaign_is_drawn_from_what_is_kept(tmp_path: Path) -> None:
+    again = tmp_path / CAMPAIGN
+    pictures.draw_campaign(read_table(report.FIGURES)[1], again)
+    drawn = [
+        re.findall(r"<path d=\"[^\"]*\"", file.read_text()) for file in (again, FOLDER / CAMPAIGN)
+    ]
+    assert drawn[0] == drawn[1]

@@ -33,6 +33,8 @@ PAGE = DOCS / "flight.md"
 AUTOPILOT, PATH, CAMPAIGN = "flight-autopilot.svg", "flight-path.svg", "flight-campaign.svg"
 SHOWN = {"margins": "loop_margins.csv", "campaign": "campaign.csv"}
 """Blocks of the page, and the files that they show."""
+FIGURES = "campaign_figures.csv"
+"""What the picture of the campaign is drawn from."""
 OTHER_GAINS = (
     PathGains(omega=0.07, damping=0.9, look_ahead=0.0),
     PathGains(omega=0.11, damping=0.9, look_ahead=0.0),
@@ -63,17 +65,17 @@ def write_campaign(
     rows: Sequence[Row], page: Path = PAGE, folder: Path = FOLDER, results: Path = RESULTS
 ) -> None:
     """Draw the campaign, keep its tables and show the overview."""
-    folder.mkdir(exist_ok=True)
-    pictures.draw_campaign(rows, folder / CAMPAIGN)
     write_table(SHOWN["campaign"], tables.OVERVIEW, tables.overview(rows), results)
     figures = [
         [family, *cells]
         for family, own in tables.by_family(rows)
         for cells in tables.distributions(own)
     ]
-    write_table("campaign_figures.csv", ("family", *tables.DISTRIBUTION), figures, results)
+    write_table(FIGURES, ("family", *tables.DISTRIBUTION), figures, results)
     write_table("campaign_losses.csv", tables.LOSSES, tables.losses(rows), results)
     show("campaign", page, results)
+    folder.mkdir(exist_ok=True)
+    pictures.draw_campaign(read_table(FIGURES, results)[1], folder / CAMPAIGN)
 
 
 def show(block: str, page: Path = PAGE, results: Path = RESULTS) -> None:
