@@ -48,8 +48,8 @@ IMPORT = re.compile(
     re.MULTILINE,
 )
 """How our files name what they are made of."""
-FORMAT = b"2"
-"""Of what is kept: kernels kept in another format are compiled anew. Since 2 names are distinct."""
+FORMAT = b"3"
+"""Of what is kept: kernels kept in another format are compiled anew. Since 3 each is apart."""
 RECORD = ".warm"
 """How the name of a record ends."""
 ADOPTED = "adopted"
@@ -78,7 +78,7 @@ class KernelLocator(InTreeCacheLocator):
 
     def get_source_stamp(self) -> str:
         """Changes with whatever the kernel is made of."""
-        return _stamp((Path(self._py_file),))
+        return stamp((Path(self._py_file),))
 
     def ensure_cache_path(self) -> None:
         """Nothing to do: `folder` has looked."""
@@ -193,7 +193,7 @@ def _adopt_function(index: Path, place: Path) -> None:
 @cache
 def _expected_record() -> list[str]:
     machine = cpu_target.target_context.codegen().magic_tuple()
-    sources = _stamp(tuple(sorted(HERE.rglob("*.py"))))
+    sources = stamp(tuple(sorted(HERE.rglob("*.py"))))
     return [sources, numba_version, str(sys.implementation.cache_tag), *map(str, machine)]
 
 
@@ -209,7 +209,7 @@ def _read_record(step: str, place: Path) -> object:
 
 
 @cache
-def _stamp(files: tuple[Path, ...]) -> str:
+def stamp(files: tuple[Path, ...]) -> str:
     """A digest of files and of all that they import, directly or not."""
     seen: set[Path] = set()
     pending = list(files)

@@ -275,8 +275,8 @@ def test_a_stamp_changes_with_what_is_imported(
 
     def stamps() -> dict[str, str]:
         cache._digest_and_imports.cache_clear()
-        cache._stamp.cache_clear()
-        return {file.stem: cache._stamp((file,)) for file in kernels.rglob("*.py")}
+        cache.stamp.cache_clear()
+        return {file.stem: cache.stamp((file,)) for file in kernels.rglob("*.py")}
 
     before = stamps()
     (tmp_path / "units.py").write_text("G0 = 9.80665\n")
