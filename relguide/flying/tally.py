@@ -99,7 +99,7 @@ def link_result(
         names: of both.
         milestones: what it reached.
         tally: its figures.
-        fallbacks: how often the exact plan took the place of a planner's.
+        fallbacks: how often an exact plan took the place of the planner's.
     """
     return LinkResult(
         ident=names.pursuer,

@@ -7,13 +7,15 @@ one of a file and all files of ours that it imports. Numba asks the class below 
 
 They are kept in `NUMBA_CACHE_DIR` if that is set, else beside the sources, else in the user's own
 cache: in the first that can be written, or that holds all kernels and can be read (another user's
-installation, a container with a read-only disk).
+installation, a container with a read-only disk). Where there is none, they are kept in a temporary
+folder until the process ends, and `kernels/compiling.py` says so.
 
 A folder also holds records: which steps of `relguide.warm_up` were compiled into it, and for what.
 A wheel may bring kernels compiled for any CPU of its kind (`SHIPPED`): `adopt` makes them this
 machine's own.
 """
 
+import atexit
 import json
 import os
 import pickle
@@ -25,6 +27,7 @@ from functools import cache
 from hashlib import sha256
 from itertools import count
 from pathlib import Path
+from shutil import rmtree
 from tempfile import TemporaryFile, mkdtemp
 from typing import Any, Self
 
@@ -44,7 +47,8 @@ HERE = Path(__file__).parent
 SHIPPED = HERE / "compiled"
 """Kernels that came with the wheel, if it brought any."""
 IMPORT = re.compile(
-    rb"^from relguide\.(?:(kernels\.\w+\.\w+|units) import|(kernels\.\w+) import (\w+) as )",
+    rb"^from relguide\.(?:(kernels(?:\.\w+){2,}|units) import"
+    rb"|(kernels(?:\.\w+)+) import (\w+) as )",
     re.MULTILINE,
 )
 """How our files name what they are made of."""
@@ -56,6 +60,8 @@ ADOPTED = "adopted"
 """The record of what has been taken over from a wheel."""
 EVERYTHING = "everything"
 """The record of a folder that holds all kernels."""
+SHARED = "RELGUIDE_TEMPORARY_KERNELS"
+"""The variable that names the temporary folder to the processes that this one starts."""
 ANY_CPU = ["generic", ""]
 """What numba calls a CPU with no more than all of its kind have: its name and features."""
 
@@ -131,14 +137,29 @@ class LockedIndex(caching.IndexDataCacheFile):  # type: ignore[misc]
 @cache
 def folder() -> Path:
     """Where kernels are kept."""
-    for place in _places():
+    for place in places():
         if _can_write(place) or is_full(place):
             return place
+    if SHARED in os.environ:
+        return Path(os.environ[SHARED])
     try:
-        return Path(mkdtemp(prefix="relguide-"))  # compiled for this process alone
+        place = Path(mkdtemp(prefix="relguide-"))
     except OSError:
         sentence = "Compiled kernels can be kept nowhere: set NUMBA_CACHE_DIR to a writable folder."
         raise OSError(sentence) from None
+    os.environ[SHARED] = str(place)
+    atexit.register(_remove, place, os.getpid())
+    return place
+
+
+def is_kept(place: Path) -> bool:
+    """Whether what is compiled into a folder is there at the next start."""
+    return str(place) != os.environ.get(SHARED)
+
+
+def _remove(place: Path, owner: int) -> None:
+    if os.getpid() == owner:  # not in a process forked from it
+        rmtree(place, ignore_errors=True)
 
 
 def is_full(place: Path) -> bool:
@@ -234,7 +255,8 @@ def _digest_and_imports(file: Path) -> tuple[bytes, tuple[Path, ...]]:
     return digest, tuple(HERE.parent / f"{name}.py" for name in sorted(names))
 
 
-def _places() -> list[Path]:
+def places() -> list[Path]:
+    """Where kernels may be kept, the best place first."""
     users: Any = UserWideCacheLocator
     beside = [HERE / "__pycache__", Path(users(_can_write, __file__).get_cache_path())]
     chosen = os.environ.get("NUMBA_CACHE_DIR")

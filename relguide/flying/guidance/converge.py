@@ -6,7 +6,7 @@ change it by a minute, and move it to the other side of the leader. So while the
 same branch is solved again from where the path leads, and left only for much.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from relguide.flying.belief import Belief
 from relguide.flying.guidance.assignment import Assignment
@@ -49,7 +49,8 @@ class Proposal:
     committed: Committed
     lead: LeadIn
     fell_back: bool
-    """Whether the planner's own answer may not be flown, and the exact plan took its place."""
+    """Whether an exact plan took the place of the planner's: its own may not be flown, or the
+    branch before is kept."""
     refusal: Refusal | None
     """Why the planner's own plan is not flown; `None` if it was not asked, or may be flown."""
 
@@ -106,7 +107,10 @@ def propose(
         fell_back, refusal = fell_back or answer.fell_back, refusal or answer.refusal
         plan = answer.plan
         if isinstance(plan, Plan) and before is not None and stay > 0.0:
-            plan = plan if _turns_like(plan, like) else _nearest(plan, before, stay)
+            kept = plan if _turns_like(plan, like) else _nearest(plan, before, stay)
+            if kept.planner != plan.planner:
+                kept, fell_back = replace(kept, fell_back=True), True
+            plan = kept
         if isinstance(plan, NoPlan):
             if limits and wanted > assignment.min_separation:
                 return _propose_without_buffer(belief, assignment, committed, planner, lead, answer)

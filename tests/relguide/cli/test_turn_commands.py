@@ -27,7 +27,9 @@ def test_labels_train_weights(run: Run) -> None:
         "relguide dataset --method turns --count 300 --seed 7 --out turns.npz"
     )
     size = ("--width", "16", "--depth", "1", "--epochs", "2", "--batch", "64", "--threads", "1")
-    code, out, err = run("train", "turns.npz", "w.safetensors", "--method", "turns", *size)
+    code, out, err = run(
+        "train", "turns.npz", "w.safetensors", "--method", "turns", *size, "--table"
+    )
     assert (code, err) == (0, "")
     assert "w.safetensors: the best of 2 epochs is the " in out
     made = load_turn_network(Path("w.safetensors"))
@@ -39,7 +41,7 @@ def test_labels_train_weights(run: Run) -> None:
 
 
 def test_people_get_tables(run: Run) -> None:
-    code, out, err = run(*AUDIT)
+    code, out, err = run(*AUDIT, "--table")
     assert (code, err) == (0, "")
     lines = out.splitlines()
     assert max(map(len, lines)) <= 100

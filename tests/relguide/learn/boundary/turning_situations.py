@@ -1,6 +1,6 @@
 """Situations of eleven numbers, as situations."""
 
-from math import atan2, cos, hypot, pi, sin, tan
+from math import atan2, cos, hypot, pi, sin, tan, tau
 
 import numpy as np
 
@@ -34,16 +34,16 @@ def situation_of(numbers: np.ndarray, *, final: float, mirrored: bool = False) -
     wind = world((ahead / hold - alpha) * tas / radius, left / hold * tas / radius)
     intent = (FlyStraight(duration=lead * radius / tas),) if lead > 0.0 else ()
     return Situation(
-        pursuer=Pursuer(x=px, y=py, heading=final - side * pose.h, tas=tas, max_bank=bank),
+        pursuer=Pursuer(x=px, y=py, heading=(final - side * pose.h) % tau, tas=tas, max_bank=bank),
         leader=Leader(
             x=lx,
             y=ly,
-            heading=final + side * turn,
+            heading=(final + side * turn) % tau,
             tas=leader_tas,
             intent=(
                 *intent,
                 TurnTo(
-                    heading=final,
+                    heading=final % tau,
                     turn=RIGHT if mirrored else LEFT,
                     bank=atan2(leader_tas * rate * tas / radius, GRAVITY),
                 ),
