@@ -331,6 +331,19 @@ def test_a_stamp_changes_with_what_is_imported(
     assert {name for name in before if before[name] != after[name]} == {"top", "middle", "turn"}
 
 
+def test_a_stamp_changes_with_the_room_of_a_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Machine code names the modules of its types."""
+    rooms = [tmp_path / "kernels" / room for room in ("words", "base")]
+    monkeypatch.setattr(cache, "HERE", tmp_path / "kernels")
+    for room in rooms:
+        room.mkdir(parents=True)
+        (room / "turn.py").write_text("")
+    first, second = (cache.stamp((room / "turn.py",)) for room in rooms)
+    assert first != second
+
+
 def test_whatever_a_kernel_imports_of_ours_is_seen() -> None:
     for file in (cache.HERE / "__init__.py").parent.glob("*/**/*.py"):
         found = set[Path]()
