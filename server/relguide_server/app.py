@@ -20,7 +20,7 @@ from relguide_server.flights import record_routes, routes, scene_relay, stream_d
 from relguide_server.flights.catalogue import FlightCatalogue, library_catalogue
 from relguide_server.flights.live_fleet import LiveFleet
 from relguide_server.http import logs, pages, problem_docs
-from relguide_server.http.access import Access, HostNames, read_tokens
+from relguide_server.http.access import Access, read_tokens
 from relguide_server.http.bodies import Bodies, json_answer
 from relguide_server.http.body_limit import BodyLimit
 from relguide_server.http.errors import install_handlers
@@ -35,8 +35,6 @@ from relguide_server.jobs.admission import Admission
 from relguide_server.jobs.worker_pool import WorkerPool
 from relguide_server.planning import areas, plans, simulations
 from relguide_server.planning.drift import DriftCheck
-from relguide_server.planning.fast_path import FastPath
-from relguide_server.planning.plan_lane import PlanLane
 from relguide_server.planning.plan_service import PlanService
 from relguide_server.planning.tasks import load
 from relguide_server.readiness import Preparation, PreparationOf, Readiness, steps_for
@@ -133,8 +131,8 @@ def create_app(
     app.state.records = records
     app.state.fleet, app.state.metrics, app.state.preparation = fleet, metrics, preparation
     for part in (
+        plans.router,  # most requests are for these
         router,
-        plans.router,
         areas.router,
         routes.router,
         simulations.router,
@@ -148,25 +146,16 @@ def create_app(
     install_handlers(app)
     describe(app)
     # The last one added is the first one passed.
-    app.add_middleware(PlanLane)
     app.add_middleware(Page)
     app.add_middleware(BodyLimit, max_body=settings.max_body)
     hosts = [name.strip() for name in settings.hosts.split(",") if name.strip()]
-    tokens = read_tokens(settings.tokens)
-    app.add_middleware(Access, hosts=hosts, tokens=tokens)
+    app.add_middleware(Access, hosts=hosts, tokens=read_tokens(settings.tokens))
     app.add_middleware(SecurityHeaders)
     app.add_middleware(RequestLog, metrics=metrics)
     app.add_middleware(HeadAsGet)
     app.add_middleware(Admission)
     app.add_middleware(ProxyHeadersMiddleware, trusted_hosts=settings.proxies)
     app.add_middleware(ProxyPath, root_path=settings.root_path, proxies=settings.proxies)
-    app.add_middleware(
-        FastPath,
-        names=None if tokens else HostNames(hosts),
-        plan_service=app.state.plan_service,
-        records=records,
-        metrics=metrics,
-    )
     return app
 
 

@@ -17,7 +17,7 @@ from relguide.planning.frames import LocalPlane
 from relguide_server.flights.live_fleet import FleetOf
 from relguide_server.flights.routes import status_of
 from relguide_server.http.access import owner_of
-from relguide_server.http.bodies import KNOWN_PARAMETERS_ONLY, json_answer, read_object
+from relguide_server.http.bodies import json_answer, read_object
 from relguide_server.http.errors import Refusal, refusal_of
 from relguide_server.http.openapi import (
     BODY,
@@ -28,6 +28,7 @@ from relguide_server.http.openapi import (
     schema_of,
 )
 from relguide_server.http.proxy import root_of
+from relguide_server.http.query import KNOWN_PARAMETERS_ONLY
 from relguide_server.records import exports
 from relguide_server.records.bodies import (
     RecordedDocuments,

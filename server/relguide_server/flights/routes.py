@@ -42,7 +42,6 @@ from relguide_server.flights.live_flight import LiveFlight
 from relguide_server.flights.stream import TOO_MANY, UNKNOWN_FLIGHT, WRONG_PROTOCOL
 from relguide_server.http.access import expect_owner, owner_of
 from relguide_server.http.bodies import (
-    KNOWN_PARAMETERS_ONLY,
     address_of,
     json_answer,
     read_object,
@@ -50,6 +49,7 @@ from relguide_server.http.bodies import (
 from relguide_server.http.errors import Refusal, refusal_of
 from relguide_server.http.openapi import BODY, problem_responses, request_body, response, schema_of
 from relguide_server.http.proxy import root_of
+from relguide_server.http.query import KNOWN_PARAMETERS_ONLY
 from relguide_server.http.security_headers import VERSION
 from relguide_server.readiness import PreparationOf
 from relguide_server.records.entries import FlightCard

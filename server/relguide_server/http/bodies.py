@@ -5,13 +5,11 @@ The contract reads the bytes itself, so REST, command line and files refuse with
 
 import asyncio
 from collections.abc import Awaitable
-from typing import TypeVar, get_origin
+from typing import TypeVar
 
 import orjson
-from fastapi import Depends, Request
-from fastapi.dependencies.models import Dependant
-from fastapi.routing import APIRoute, APIWebSocketRoute
-from starlette.requests import ClientDisconnect, HTTPConnection
+from fastapi import Request
+from starlette.requests import ClientDisconnect
 from starlette.responses import Response
 
 from relguide.contract.refusal import ContractError, loads
@@ -163,47 +161,6 @@ async def read_object(request: Request) -> dict[str, object]:
     if isinstance(content, dict):
         return content
     raise ContractError([("", "The body must be an object with fields.")])
-
-
-async def refuse_unknown_parameters(connection: HTTPConnection) -> None:
-    """Refuse query parameters that the route does not have, or that are given twice.
-
-    Raises:
-        Refusal: 422, for the first of them.
-    """
-    match connection.scope["route"]:
-        case (
-            APIRoute(path=path, dependant=dependant)
-            | APIWebSocketRoute(path=path, dependant=dependant)
-        ):
-            if not connection.scope["query_string"]:
-                return
-            known = _parameters(dependant)
-            given = [name for name, _ in connection.query_params.multi_items()]
-            for name in given:
-                if name not in known:
-                    has = f"It has {', '.join(sorted(known))}." if known else "It has none."
-                    wrong = f"{path} has no parameter {name[:100]!r}. {has}"
-                    raise Refusal(422, wrong, kind="unknown-parameter")
-                if given.count(name) > 1 and not known[name]:
-                    raise Refusal(422, f"{name} is given more than once: give it once.")
-        case _:
-            return
-
-
-def _parameters(dependant: Dependant) -> dict[str, bool]:
-    """The query parameters of a route, and whether each is a list."""
-    known = {
-        field.alias: get_origin(field.field_info.annotation) is list
-        for field in dependant.query_params
-    }
-    for part in dependant.dependencies:
-        known |= _parameters(part)
-    return known
-
-
-KNOWN_PARAMETERS_ONLY = Depends(refuse_unknown_parameters)
-"""What a router depends on."""
 
 
 def json_answer(

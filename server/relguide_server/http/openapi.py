@@ -18,9 +18,10 @@ from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
 
 from relguide_server.http.access import CALCULATIONS, OPEN, SAFE
-from relguide_server.http.bodies import JSON, refuse_unknown_parameters
+from relguide_server.http.bodies import JSON
 from relguide_server.http.errors import PROBLEM_JSON, Problem
 from relguide_server.http.problem_kinds import KINDS, PAGE
+from relguide_server.http.query import refuse_unknown_parameters
 
 EXAMPLES = "api_examples.json"
 """By operation, an answer to it."""

@@ -26,7 +26,6 @@ from relguide.planning.words import HORIZON
 from relguide_server.flights.live_fleet import FleetOf, LiveFleet
 from relguide_server.http.bodies import (
     JSON,
-    KNOWN_PARAMETERS_ONLY,
     address_of,
     json_answer,
     parse_json,
@@ -42,6 +41,7 @@ from relguide_server.http.openapi import (
     response,
     schema_of,
 )
+from relguide_server.http.query import KNOWN_PARAMETERS_ONLY
 from relguide_server.jobs.worker_pool import WorkerPool
 from relguide_server.planning.plans import EXAMPLE
 from relguide_server.planning.tasks import draw_area

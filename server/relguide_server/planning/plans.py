@@ -1,12 +1,11 @@
 """Routes that plan: a situation in, a plan with its proof out."""
 
 from collections.abc import AsyncIterator
-from dataclasses import replace
 from time import monotonic
-from typing import Annotated, Any, Literal, get_args
+from typing import Annotated, Any, Literal
 
 import orjson
-from fastapi import APIRouter, Depends, Query, Request
+from fastapi import APIRouter, Query, Request
 from pydantic import BaseModel, ConfigDict, Field, RootModel, create_model
 from starlette.responses import Response, StreamingResponse
 
@@ -18,7 +17,6 @@ from relguide.flying.plan_documents import NoPlanCard, PlanCard
 from relguide_server.http.bodies import (
     GEOJSON,
     JSON,
-    KNOWN_PARAMETERS_ONLY,
     address_of,
     content_type,
     json_answer,
@@ -34,8 +32,9 @@ from relguide_server.http.openapi import (
     request_body,
     schema_of,
 )
+from relguide_server.http.query import KNOWN_PARAMETERS_ONLY, QueryRoute
 from relguide_server.planning.plan_service import PlanService, Wish
-from relguide_server.planning.tasks import MAX_BATCH, PlanReply
+from relguide_server.planning.tasks import MAX_BATCH
 
 MAX_BODY = 64 * 1024
 """Longest body with one situation [bytes]."""
@@ -44,7 +43,6 @@ MAX_BATCH_BODY = 4 * 1024 * 1024
 NDJSON = "application/x-ndjson"
 """A batch as lines, answered as lines."""
 PlannerName = Literal["exact", "network"]
-PLANNERS = get_args(PlannerName)
 BUDGET_MS, LEAST_MS, MOST_MS = 250.0, 1.0, 10_000.0
 """How long planning a situation may take if the request does not say, and the range of what it may
 say."""
@@ -103,71 +101,66 @@ NamedNoPlan: type[BaseModel] = create_model(
 )
 
 
-async def _desk_of(request: Request) -> PlanService:
-    plan_service: PlanService = request.app.state.plan_service
-    return plan_service
+class BatchQuery(BaseModel):
+    """How situations are to be planned."""
+
+    include: str = Field(
+        default="",
+        max_length=100,
+        description="What to add to the plan, with commas between. `alternatives`: the other "
+        "paths to the slot, and why each is not flown. `paths`: the same as `others`, with the "
+        "segments that draw them. `optimality`: how the plan meets "
+        "Pontryagin's conditions, with H and the costates along it; where the path slides "
+        "along the minimum separation that takes seconds more than `max_ms`.",
+        examples=["alternatives,optimality"],
+        json_schema_extra={"pattern": INCLUDES},
+    )
+    max_ms: float = Field(
+        default=BUDGET_MS,
+        ge=LEAST_MS,
+        le=MOST_MS,
+        allow_inf_nan=False,
+        description="How long planning may take, each situation of a batch. Then the answer is "
+        "the best plan found, with its bound, or that none was found yet (`deadline`).",
+    )
+    planner: PlannerName | None = Field(
+        default=None,
+        description="Who plans; if left out, the one that the service was started with.",
+    )
+
+    def wish(self, form: Form = "json") -> Wish:
+        """The same as the plan service takes it.
+
+        Raises:
+            Refusal: 422, for a word that `include` does not have.
+        """
+        try:
+            included = read_include(self.include)
+        except ValueError as error:
+            wrong = [ProblemError(path="include", message=str(error))]
+            raise Refusal(422, str(error), errors=wrong) from None
+        return Wish(planner=self.planner, include=included, budget=self.max_ms * 1e-3, form=form)
 
 
-async def _read_wish(
-    include: Annotated[
-        str,
-        Query(
-            max_length=100,
-            description="What to add to the plan, with commas between. `alternatives`: the other "
-            "paths to the slot, and why each is not flown. `paths`: the same as `others`, with the "
-            "segments that draw them. `optimality`: how the plan meets "
-            "Pontryagin's conditions, with H and the costates along it; where the path slides "
-            "along the minimum separation that takes seconds more than `max_ms`.",
-            examples=["alternatives,optimality"],
-            json_schema_extra={"pattern": INCLUDES},
-        ),
-    ] = "",
-    max_ms: Annotated[
-        float,
-        Query(
-            ge=LEAST_MS,
-            le=MOST_MS,
-            allow_inf_nan=False,
-            description="How long planning may take, each situation of a batch. Then the answer is "
-            "the best plan found, with its bound, or that none was found yet (`deadline`).",
-        ),
-    ] = BUDGET_MS,
-    planner: Annotated[
-        PlannerName | None,
-        Query(description="Who plans; if left out, the one that the service was started with."),
-    ] = None,
-) -> Wish:
-    try:
-        included = read_include(include)
-    except ValueError as error:
-        said = str(error)
-        wrong = [ProblemError(path="include", message=said)]
-        raise Refusal(422, said, errors=wrong) from None
-    return Wish(planner=planner, include=included, budget=max_ms * 1e-3)
+class PlanQuery(BatchQuery):
+    """How a situation is to be planned, and the plan written."""
 
-
-FormAsked = Annotated[
-    Form,
-    Query(
+    form: Form = Field(
+        default="json",
         alias="format",
         description="`geojson`: a FeatureCollection with the path (`path`), that of the leader "
         "until it is joined (`leader`), where it is joined (`slot`) and, with `include=paths`, the "
         "other paths (`other-0` …), each point with its time (`t_s`), beside the members of the "
         "plan. For situations by latitude and longitude.",
-    ),
-]
-DeskOf = Annotated[PlanService, Depends(_desk_of)]
-WishOf = Annotated[Wish, Depends(_read_wish)]
+    )
 
 
-USUAL = Wish(planner=None, include=(), budget=BUDGET_MS * 1e-3)
-"""What is wished where the request says nothing."""
-router = APIRouter(prefix="/api/v1", tags=["plans"], dependencies=[KNOWN_PARAMETERS_ONLY])
-PATH = "/api/v1/plans"
-"""Where a situation is posted; `PlanLane` answers there, and `Express` without parameters."""
-LOOKED = "relguide.looked"
-"""In the scope of a request that has been looked at: why it is refused, or `None` if it takes a
-worker."""
+router = APIRouter(
+    prefix="/api/v1",
+    tags=["plans"],
+    dependencies=[KNOWN_PARAMETERS_ONLY],
+    route_class=QueryRoute,
+)
 
 
 @router.post(
@@ -185,31 +178,17 @@ worker."""
     },
     openapi_extra=request_body(schema_of(SituationBody), EXAMPLE),
 )
-async def make_plan(
-    request: Request, plan_service: DeskOf, wish: WishOf, form: FormAsked = "json"
-) -> Response:
+async def make_plan(request: Request, query: Annotated[PlanQuery, Query()]) -> Response:
     """The minimum-time plan with its proof, or the answer that there is no plan, and why.
 
     A plan depends on its situation alone: there is no seed.
     """
-    return await answer_situation(request, plan_service, replace(wish, form=form))
-
-
-async def answer_situation(request: Request, plan_service: PlanService, wish: Wish) -> Response:
-    """The answer to a situation in the body of a request.
-
-    Raises:
-        Refusal: if it is no situation, or too many wait.
-        ClientDisconnect: if the client leaves.
-    """
+    wish = query.wish(query.form)
     end = monotonic() + wish.budget
+    plan_service: PlanService = request.app.state.plan_service
     body = await read_body(request, JSON, most=MAX_BODY)
     client = address_of(request)
-    answered: PlanReply | None = None
-    if LOOKED not in request.scope:
-        answered = plan_service.answer_at_once(body, wish, client=client)
-    elif (refusal := request.scope[LOOKED]) is not None:
-        raise refusal
+    answered = plan_service.answer_at_once(body, wish, client=client)
     if answered is None:
         planning = plan_service.answer_by_worker(body, wish, end, client=client)
         answered = await unless_left(request, planning)
@@ -253,7 +232,7 @@ async def answer_situation(request: Request, plan_service: PlanService, wish: Wi
         }
     },
 )
-async def make_plans(request: Request, plan_service: DeskOf, wish: WishOf) -> Response:
+async def make_plans(request: Request, query: Annotated[BatchQuery, Query()]) -> Response:
     """Up to 1,000 situations; an answer for each, in order, with its `id` if it has one.
 
     A list is answered by a list, or refused as a whole if one situation is wrong. Lines
@@ -261,6 +240,8 @@ async def make_plans(request: Request, plan_service: DeskOf, wish: WishOf) -> Re
     with the status `invalid`; should the service stop meanwhile, or a worker end, the rest are
     answered by lines with the status `refused`.
     """
+    wish = query.wish()
+    plan_service: PlanService = request.app.state.plan_service
     body = await read_body(request, JSON, NDJSON, most=MAX_BATCH_BODY)
     if content_type(request) == NDJSON:
         lines = [line for line in body.splitlines() if line.strip()]

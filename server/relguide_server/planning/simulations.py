@@ -17,7 +17,6 @@ from relguide.contract.simulation_bodies import (
 from relguide_server.flights.flight_requests import scenario_of
 from relguide_server.http.bodies import (
     JSON,
-    KNOWN_PARAMETERS_ONLY,
     address_of,
     json_answer,
     parse_json,
@@ -34,6 +33,7 @@ from relguide_server.http.openapi import (
     response,
     schema_of,
 )
+from relguide_server.http.query import KNOWN_PARAMETERS_ONLY
 from relguide_server.jobs.worker_pool import WorkerPool
 from relguide_server.planning.plan_service import PlanService
 from relguide_server.planning.tasks import simulate
