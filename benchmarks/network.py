@@ -29,8 +29,8 @@ REPEATS = 5
 LATER = 0.1
 """Answers later than the search's by more than this are counted [s]."""
 SEED = 20
-ONCE, TURNING = "it binds, the leader turns once", "it binds, the leader turns"
-"""Two kinds of situations: with one turn, and with one or two."""
+TURNING = "it binds, the leader turns"
+"""A kind of situation."""
 HEADINGS = (
     "", "cases", "by network", "median µs", "99 % µs", "plan() µs", "99 % µs", "×", "× by sums",
     f"> {LATER} s later", "99 % s", "worst s",
@@ -55,14 +55,13 @@ class Pair:
 def draw_situations(count: int) -> dict[str, list[Situation]]:
     """So many situations each: where the limit does not bind, and where it does.
 
-    In the last two kinds the leader turns, in wind; no network knows the way round two turns.
+    In the last kind the leader turns, in wind: no network knows the way round it.
     """
     rng = np.random.default_rng(SEED)
     sources = {
         "it does not bind": _free(rng),
         "it binds, R > d_min": _active(rng, tight=False),
         "it binds, R < d_min": _active(rng, tight=True),
-        ONCE: (found for found in _active_behind_turns(rng) if len(found.leader.intent) == 2),
         TURNING: _active_behind_turns(rng),
     }
     return {

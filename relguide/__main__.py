@@ -30,7 +30,7 @@ from relguide.cli import (
 from relguide.cli.output import FAILED, MISUSE, STOPPED, command_for, say
 
 
-class Command(Protocol):
+class CommandFile(Protocol):
     """A file of `relguide/cli` that is a command."""
 
     PURPOSE: str
@@ -43,7 +43,7 @@ class Command(Protocol):
         """Do it; the exit status."""
 
 
-COMMANDS: dict[str, Command] = {
+COMMANDS: dict[str, CommandFile] = {
     "plan": plan_command,
     "check": check_command,
     "fly": fly_command,

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from math import cos, degrees, hypot, radians, sin
 from pathlib import Path
+from xml.sax.saxutils import escape
 
 from relguide import (
     LEFT,
@@ -238,7 +239,7 @@ class _Page:
         """Words that begin at a point."""
         x, y = self._at(point)
         self._parts.append(
-            f'<text x="{x + dx:.1f}" y="{y + dy:.1f}" fill="{colour}">{words}</text>'
+            f'<text x="{x + dx:.1f}" y="{y + dy:.1f}" fill="{colour}">{escape(words)}</text>'
         )
 
     def aircraft(self, point: Point, heading: float, colour: str) -> None:
@@ -273,7 +274,7 @@ class _Page:
         return (
             f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" '
             f'width="{width}" height="{height}" font-family="sans-serif" font-size="12">\n'
-            f'<title>{title}</title>\n<rect width="100%" height="100%" fill="white"/>\n'
+            f'<title>{escape(title)}</title>\n<rect width="100%" height="100%" fill="white"/>\n'
             f"{body}\n</svg>\n"
         )
 

@@ -4,13 +4,12 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from relguide.cli.output import DONE, write_json
+from relguide.cli.output import DONE, add_form, for_people, write_json
 from relguide.cli.shared_options import add_workers, count
 from relguide.planning.extras import need
 
 if TYPE_CHECKING:
-    from relguide.learn.audits.side_by_side import Ground, Method
-    from relguide.learn.boundary.template_network import TemplateNetwork
+    from relguide.learn.audits.side_by_side import Ground, MethodResult
     from relguide.learn.words.branch_network import BranchNetwork
 
 PURPOSE = "say how good a network is, against exact answers"
@@ -19,13 +18,12 @@ EXAMPLES = """
     relguide audit weights.safetensors --json    of your own; the figures as JSON
     relguide audit --count 1000000 --seed 2
     relguide audit --method templates            of the network for where d_min binds
-    relguide audit --method turns                of the same behind leaders who turn
     relguide audit --figures docs/figures        its pictures
     relguide audit --count 100000000 --dask tcp://host:8786     on many machines
     """
-METHODS = ("branches", "templates", "turns")
+METHODS = ("branches", "templates")
 """What the network has learnt."""
-BRANCHES, TEMPLATES, TURNS, BESIDE = 100_000, 20_000, 10_000, 20_000
+BRANCHES, TEMPLATES, BESIDE = 100_000, 20_000, 20_000
 """How many situations an audit looks at: half a minute, and one to two."""
 
 
@@ -49,8 +47,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         metavar="N",
         type=count,
         help="fresh situations to judge it in; default: "
-        f"{BRANCHES}; templates: {TEMPLATES}, and as many in which d_min may bind or not; turns: "
-        f"{TURNS}",
+        f"{BRANCHES}; templates: {TEMPLATES}, and as many in which d_min may bind or not",
     )
     parser.add_argument(
         "--seed",
@@ -70,13 +67,13 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--figures", metavar="FOLDER", type=Path, help="draw what is found, as .svg"
     )
     add_workers(parser)
-    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    add_form(parser)
 
 
 def run(chosen: argparse.Namespace) -> int:
     """Audit the network, draw and print what is found."""
-    need("torch", "orjson", "rich", extra="learn")
-    if chosen.method != "branches" and chosen.beside is not None:
+    need("torch", "rich", extra="learn")
+    if chosen.method == "templates" and chosen.beside is not None:
         raise ValueError(
             "Nothing else is known to learn templates: --beside is for --method branches."
         )
@@ -87,8 +84,6 @@ def run(chosen: argparse.Namespace) -> int:
         check_figure(chosen.figures / "audit.svg")
     if chosen.method == "templates":
         _audit_templates(chosen)
-    elif chosen.method == "turns":
-        _audit_turns(chosen)
     else:
         _audit_branches(chosen)
     return DONE
@@ -118,7 +113,7 @@ def _audit_branches(chosen: argparse.Namespace) -> None:
         from relguide.figures.branch_figure import draw_audit
 
         draw_audit(audit, methods, network.least_share, chosen.figures)
-    if not chosen.json:
+    if for_people(chosen):
         print_audit(audit, asked, ground, methods)
         return
     about = {
@@ -139,7 +134,7 @@ def _audit_branches(chosen: argparse.Namespace) -> None:
 
 def _judge_side_by_side(
     network: "BranchNetwork", size: int, seed: int
-) -> "tuple[Ground, list[Method]]":
+) -> "tuple[Ground, list[MethodResult]]":
     """Draw common situations, grow the paper's tree, and judge all methods there."""
     from relguide.cli.tree_growth import grow_tree
     from relguide.learn.audits.side_by_side import draw_ground, side_by_side
@@ -166,6 +161,7 @@ def _audit_templates(chosen: argparse.Namespace) -> None:
     from relguide.cli.workers import collect, start_workers
     from relguide.learn.audits.constrained_judging import template_latencies
     from relguide.learn.audits.latency import latency_as_json
+    from relguide.learn.audits.planner_judging import UNIT
     from relguide.learn.audits.template_audit import template_audit_as_json, template_audit_of
     from relguide.learn.audits.template_judging import (
         join_template_verdicts,
@@ -189,52 +185,16 @@ def _audit_templates(chosen: argparse.Namespace) -> None:
         from relguide.figures.template_figure import draw_template_audit
 
         draw_template_audit(audit, chosen.figures)
-    if not chosen.json:
+    if for_people(chosen):
         print_template_audit(audit, asked)
         return
-    about = _about(templates, chosen.seed) | {"situations": size}
-    write_json(about | template_audit_as_json(audit) | {"latency": latency_as_json(asked)})
-
-
-def _audit_turns(chosen: argparse.Namespace) -> None:
-    from relguide.cli.template_tables import print_template_audit
-    from relguide.cli.workers import collect, start_workers
-    from relguide.learn.audits.latency import latency_as_json
-    from relguide.learn.audits.template_audit import template_audit_as_json
-    from relguide.learn.audits.turn_judging import (
-        judge_turn_chunks,
-        turn_audit_of,
-        turn_audit_request,
-        turn_latencies,
-    )
-    from relguide.learn.boundary.turn_network import load_turn_network
-
-    if chosen.figures is not None:
-        raise ValueError("There is no figure of this network: --figures is for the other methods.")
-    weights = chosen.weights
-    network = load_turn_network() if weights is None else load_turn_network(weights)
-    size = TURNS if chosen.count is None else chosen.count
-    request = turn_audit_request(network, size, chosen.seed)
-    with start_workers(chosen.threads, chosen.dask) as pool:
-        chunks = collect(judge_turn_chunks(network, request, pool), "auditing", request.chunks)
-    audit, judged = turn_audit_of(chunks, network.kind.templates)
-    asked = turn_latencies(network, judged)
-    if not chosen.json:
-        print_template_audit(audit, asked)
-        return
-    about = _about(network, chosen.seed) | {"situations": size, "judged": len(judged)}
-    write_json(about | template_audit_as_json(audit) | {"latency": latency_as_json(asked)})
-
-
-def _about(network: "TemplateNetwork[Any]", seed: int) -> dict[str, Any]:
-    """What was audited, and how."""
-    from relguide.learn.audits.planner_judging import UNIT
-
-    return {
-        "seed": seed,
-        "least_share": network.least_share,
-        "most": network.most,
-        "doubt": network.doubt,
+    about = {
+        "situations": size,
+        "seed": chosen.seed,
+        "least_share": templates.least_share,
+        "most": templates.most,
+        "doubt": templates.doubt,
         "r_per_v_s": UNIT,
-        "network": network.about,
+        "network": templates.about,
     }
+    write_json(about | template_audit_as_json(audit) | {"latency": latency_as_json(asked)})

@@ -14,7 +14,7 @@ from relguide.cli.shared_tables import (
 )
 from relguide.learn.audits.branch_audit import Audit, Group, Miss
 from relguide.learn.audits.latency import Latency
-from relguide.learn.audits.side_by_side import Ground, Method, two
+from relguide.learn.audits.side_by_side import Ground, MethodResult, two
 from relguide.units import DEG
 
 LARGEST = 10
@@ -25,7 +25,7 @@ def print_audit(
     audit: Audit,
     latency: Mapping[str, Latency],
     ground: Ground | None,
-    methods: Sequence[Method],
+    methods: Sequence[MethodResult],
 ) -> None:
     """Print what an audit has found.
 
@@ -115,7 +115,7 @@ def _gap_row(miss: Miss) -> tuple[str, ...]:
     )
 
 
-def _print_methods(ground: Ground, methods: Sequence[Method]) -> None:
+def _print_methods(ground: Ground, methods: Sequence[MethodResult]) -> None:
     encounter = ground.parameters.encounter
     write(
         f"\nSide by side: {len(ground):,} situations within "
@@ -133,7 +133,7 @@ def _print_methods(ground: Ground, methods: Sequence[Method]) -> None:
     print_table(shown)
 
 
-def _column(method: Method) -> dict[str, str]:
+def _column(method: MethodResult) -> dict[str, str]:
     """The lines of a method, by their names."""
     low, high = method.right.interval
     gaps = [short(100.0 * gap) for gap in method.gaps]
@@ -150,7 +150,7 @@ def _column(method: Method) -> dict[str, str]:
     }
 
 
-def _endings(method: Method) -> dict[str, str]:
+def _endings(method: MethodResult) -> dict[str, str]:
     """How the paths that a method gives end, flown as given; our networks give none."""
     names = "as given: in the slot, %", "  off by km, 50 / 99 %", "  off by °, 50 / 99 %"
     if method.reached is None or method.places is None or method.headings is None:

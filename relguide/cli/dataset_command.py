@@ -3,11 +3,10 @@
 import argparse
 from pathlib import Path
 from time import perf_counter
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from relguide.cli.output import DONE, provenance, write, write_json
+from relguide.cli.output import DONE, add_form, for_people, provenance, write, write_json
 from relguide.cli.shared_options import add_tree, add_workers, count, tree_parameters
-from relguide.planning.extras import need
 
 if TYPE_CHECKING:
     from relguide.learn.tree.tree import Losses
@@ -21,13 +20,11 @@ EXAMPLES = """
     relguide dataset --method exact --out labels.npz --dask tcp://host:8786   many machines
     relguide dataset --method templates --count 400000 --out templates.npz
                                                        for relguide train --method templates
-    relguide dataset --method turns --out turns.npz    behind leaders who turn
     """
-METHODS = ("reverse-dp", "exact", "templates", "turns")
+METHODS = ("reverse-dp", "exact", "templates")
 """How a data set is made."""
 LABELS, PATH_LABELS = 1_200_000, 400_000
-"""How many labels are made: one to two minutes; half an hour to an hour, and twice as long for
-leaders who turn."""
+"""How many labels are made: one to two minutes, and half an hour to an hour."""
 WITHIN = (0.0, 0.001, 0.01, 0.05)
 """Losses that the audit of a tree counts the states within."""
 ROUNDING = 1e-9
@@ -41,8 +38,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         choices=METHODS,
         required=True,
         help="reverse-dp: the tree of Fig. 3; exact: situations with the exact time of each word; "
-        "templates: situations in which d_min binds, each with the fastest constrained path; "
-        "turns: the same behind leaders who turn",
+        "templates: situations in which d_min binds, each with the fastest constrained path",
     )
     parser.add_argument(
         "--out", metavar="FILE.npz", type=_npz, required=True, help="where to write it"
@@ -50,8 +46,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--resume",
         action="store_true",
-        help="reverse-dp, templates, turns: go on from FILE.npz.part, which a stopped run leaves; "
-        "the result is the same",
+        help="reverse-dp, templates: go on from FILE.npz.part, which a stopped run leaves; the "
+        "result is the same",
     )
     add_workers(parser)
     parser.add_argument(
@@ -66,14 +62,14 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--count",
         metavar="N",
         type=count,
-        help=f"exact: how many situations, default: {LABELS}; templates, turns: {PATH_LABELS}",
+        help=f"exact: how many situations, default: {LABELS}; templates: {PATH_LABELS}",
     )
     parser.add_argument(
         "--seed",
         metavar="N",
         type=count,
         default=7,
-        help="exact, templates, turns: of the situations; default: %(default)s",
+        help="exact, templates: of the situations; default: %(default)s",
     )
     parser.add_argument(
         "--loops",
@@ -83,16 +79,15 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="exact: this share more, of situations that closed loops meet, e.g. 0.02; "
         "default: none",
     )
-    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    add_form(parser)
     add_tree(parser)
 
 
 def run(chosen: argparse.Namespace) -> int:
     """Make the data set, write it and print what it is."""
-    need("orjson", extra="learn")
     if chosen.method == "exact":
         _make_labels(chosen)
-    elif chosen.method in ("templates", "turns"):
+    elif chosen.method == "templates":
         _make_path_labels(chosen)
     else:
         _make_tree(chosen)
@@ -110,7 +105,7 @@ def _make_tree(chosen: argparse.Namespace) -> None:
 
     if chosen.dask is not None:
         raise ValueError(
-            "A tree is grown on one machine: --dask is for --method exact, templates and turns."
+            "A tree is grown on one machine: --dask is for --method exact and templates."
         )
     parameters, file, threads = tree_parameters(chosen), chosen.out, chosen.threads or None
     part = file.with_name(f"{file.name}.part")
@@ -146,7 +141,7 @@ def _make_tree(chosen: argparse.Namespace) -> None:
             "worst_loss_percent": 100.0 * float(found.loss.max()),
             "missed_by_exact": int(np.sum(np.isinf(found.exact))),
         }
-    if chosen.json:
+    if not for_people(chosen):
         write_json(figures)
         return
     write(
@@ -206,7 +201,7 @@ def _make_labels(chosen: argparse.Namespace) -> None:
     save_labels(labels, request, provenance("exact", command=command), file)
     counts = np.bincount(labels.best, minlength=len(BRANCHES)).tolist()
     sources = np.bincount(labels.sources, minlength=len(SOURCES)).tolist()
-    if chosen.json:
+    if not for_people(chosen):
         apart = {
             name: int(inside.sum()) for name, inside in held_out_regions(labels.situations).items()
         }
@@ -234,24 +229,14 @@ def _make_path_labels(chosen: argparse.Namespace) -> None:
         grow_template_labels,
         save_template_labels,
     )
-    from relguide.learn.boundary.template_labels import (
-        LabelRequest,
-        TemplateLabelRequest,
-        join_labels,
-    )
-    from relguide.learn.boundary.template_network import NONE, STRAIGHT, TemplateKind
-    from relguide.learn.boundary.train_templates import WITHIN
-    from relguide.learn.boundary.turn_labels import TurnLabelRequest
-    from relguide.learn.boundary.turn_network import TURNING
+    from relguide.learn.boundary.template_labels import SOURCES, TemplateLabelRequest, join_labels
+    from relguide.learn.boundary.template_network import NONE, TEMPLATES
+    from relguide.learn.boundary.train_templates import targets_of
 
-    size = PATH_LABELS if chosen.count is None else chosen.count
-    file, method = chosen.out, chosen.method
-    request: LabelRequest = TemplateLabelRequest(count=size, seed=chosen.seed)
-    kind: TemplateKind[Any] = STRAIGHT
-    if method == "turns":
-        request, kind = TurnLabelRequest(count=size, seed=chosen.seed), TURNING
+    size, file = PATH_LABELS if chosen.count is None else chosen.count, chosen.out
+    request = TemplateLabelRequest(count=size, seed=chosen.seed)
     command = (
-        f"relguide dataset --method {method} --count {size} --seed {chosen.seed} --out {file.name}"
+        f"relguide dataset --method templates --count {size} --seed {chosen.seed} --out {file.name}"
     )
     file.parent.stat()  # nothing is made that could not be written
     part = file.with_name(f"{file.name}.part")
@@ -260,22 +245,20 @@ def _make_path_labels(chosen: argparse.Namespace) -> None:
         chunks = grow_template_labels(request, part, pool, resume=chosen.resume)
         labels = join_labels(collect(chunks, "labelling", request.chunks))
     seconds = perf_counter() - started
-    save_template_labels(labels, request, provenance(method, command=command), file)
+    save_template_labels(labels, request, provenance("templates", command=command), file)
     part.unlink()
-    templates, _ = kind.targets_of(labels.paths, WITHIN)
-    counts = np.bincount(templates, minlength=kind.size).tolist()
-    sources = np.bincount(labels.sources, minlength=len(request.sources)).tolist()
-    if chosen.json:
+    templates, _ = targets_of(labels.paths)
+    counts = np.bincount(templates, minlength=len(TEMPLATES)).tolist()
+    sources = np.bincount(labels.sources, minlength=len(SOURCES)).tolist()
+    if not for_people(chosen):
         _write_figures(
-            file, seconds, sources=dict(zip(request.sources, sources, strict=True)),
-            fastest=dict(zip(kind.templates, counts, strict=True)),
+            file, seconds, sources=dict(zip(SOURCES, sources, strict=True)),
+            fastest=dict(zip(TEMPLATES, counts, strict=True)),
         )  # fmt: skip
         return
     there = len(labels) - counts[NONE]
     commonest = [int(at) for at in np.argsort(counts)[::-1] if at != NONE][:6]
-    shares = ", ".join(
-        f"{kind.templates[at]} {100.0 * counts[at] / there:.1f} %" for at in commonest
-    )
+    shares = ", ".join(f"{TEMPLATES[at]} {100.0 * counts[at] / there:.1f} %" for at in commonest)
     write(
         f"{file}: {len(labels):,} situations in which d_min binds, {there:,} of them with a "
         f"path, made in {seconds:.0f} s; {file.stat().st_size / 1e6:.0f} MB.\n"

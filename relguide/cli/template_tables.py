@@ -1,4 +1,4 @@
-"""Tables of `relguide audit --method templates` and `turns`: networks for where d_min binds."""
+"""Tables of `relguide audit --method templates`: the network for where d_min binds."""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
@@ -16,8 +16,8 @@ from relguide.learn.audits.latency import Latency
 from relguide.learn.audits.planner_judging import UNIT
 from relguide.learn.audits.template_audit import (
     WORTH,
+    GapReason,
     Late,
-    Reason,
     TemplateAudit,
     TemplateGroup,
     TemplateMiss,
@@ -30,7 +30,7 @@ LARGEST = 10
 """Gaps printed."""
 _LATE = ("answered", "99 %", "99.9 %", "largest", "> 0.1 s, %")
 _SHORT = ("99.9 %", "largest", "> 0.1 s", "no path")
-_SAID: dict[Reason, str] = {
+_SAID: dict[GapReason, str] = {
     "left out": "the right template is left out of the set",
     "not solved": "in the set, but not solved next to its guess",
     "of no template": "the path is of no template",
@@ -46,12 +46,9 @@ def print_template_audit(audit: TemplateAudit, latency: Mapping[str, Latency]) -
     """
     _print_naming(audit)
     _print_late(audit)
-    if audit.everywhere:
-        _print_everywhere(audit)
+    _print_everywhere(audit)
     write("One query where d_min binds.\n")
     print_latency(latency)
-    if "together" in latency:
-        write("Together: the network, and the search for what it passes on.\n")
     _print_gaps(audit)
 
 

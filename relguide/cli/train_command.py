@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
-from relguide.cli.output import DONE, program_name, write
+from relguide.cli.output import DONE, add_form, for_people, program_name, write, write_json
 from relguide.learn.training.options import add_options as add_training
 from relguide.planning.extras import need
 
@@ -19,22 +19,21 @@ EXAMPLES = """
     relguide train labels.npz weights.safetensors --resume      go on after a stop
     relguide train labels.npz small.safetensors --width 32 --epochs 10
     relguide train templates.npz w.safetensors --method templates    where d_min binds
-    relguide train turns.npz w.safetensors --method turns            behind leaders who turn
     relguide train tree.npz paper.safetensors --method paper    Fig. 5, from the paper's tree
     """
-METHODS = ("branches", "templates", "turns", "paper", "direct")
+METHODS = ("branches", "templates", "paper", "direct")
 """What a network learns."""
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """The options of `relguide train`."""
     add_training(parser)
+    add_form(parser)
     parser.add_argument(
         "--method",
         choices=METHODS,
         default=METHODS[0],
-        help="branches, templates, turns: from LABELS.npz of dataset --method exact, templates, "
-        "turns; paper: "
+        help="branches, templates: from LABELS.npz of dataset --method exact, templates; paper: "
         "the tree's (ε, θ, l), from a TREE.npz in its place; direct: the exact ones from the "
         "tree's states; default: %(default)s",
     )
@@ -45,7 +44,7 @@ def run(chosen: argparse.Namespace) -> int:
     need("torch", extra="learn")
     if chosen.method == "branches":
         _train_branches(chosen)
-    elif chosen.method in ("templates", "turns"):
+    elif chosen.method == "templates":
         _train_templates(chosen)
     else:
         _train_regular(chosen)
@@ -66,14 +65,11 @@ def _train_branches(chosen: argparse.Namespace) -> None:
 
 
 def _train_templates(chosen: argparse.Namespace) -> None:
-    from relguide.learn.boundary.template_network import STRAIGHT
     from relguide.learn.boundary.train_templates import run
-    from relguide.learn.boundary.turn_network import TURNING
 
-    kind = TURNING if chosen.method == "turns" else STRAIGHT
     _train(
         chosen,
-        run(chosen, program_name(), kind),
+        run(chosen, program_name()),
         lambda right: f"{100.0 * right:.2f} % of the templates right in labels not trained on",
     )
 
@@ -94,10 +90,28 @@ def _train(
         state=summary_of,
     )
     last = deque(shown, maxlen=1)
+    table, file = for_people(chosen), {"file": str(chosen.weights)}
     if not last:  # resumed after its last epoch
-        write(f"{chosen.weights} is complete.\n")
+        if table:
+            write(f"{chosen.weights} is complete.\n")
+        else:
+            write_json(file | {"complete": True})
         return
     about = last[0].network.about
+    if not table:
+        write_json(
+            file
+            | {
+                "complete": True,
+                "epochs": last[0].number,
+                "best_epoch": last[0].best,
+                "validation_accuracy": about["validation_accuracy"],
+                "trained_s": perf_counter() - started,
+                "device": about["device"],
+                "file_bytes": chosen.weights.stat().st_size,
+            }
+        )
+        return
     write(
         f"{chosen.weights}: the best of {last[0].number} epochs is the {last[0].best}., with "
         f"{right(about['validation_accuracy'])}. {perf_counter() - started:.0f} s on "
@@ -133,6 +147,19 @@ def _train_regular(chosen: argparse.Namespace) -> None:
     )
     last = deque(epochs, maxlen=1)[0]
     save_regular(last.network, chosen.weights)
+    if not for_people(chosen):
+        write_json(
+            {
+                "file": str(chosen.weights),
+                "complete": True,
+                "epochs": last.number,
+                "missed_share_of_variance": last.loss,
+                "trained_s": perf_counter() - started,
+                "device": last.network.about["device"],
+                "file_bytes": chosen.weights.stat().st_size,
+            }
+        )
+        return
     write(
         f"{chosen.weights}: after {last.number} epochs it misses {100.0 * last.loss:.1f} % of the "
         f"variance of (ε, θ, l) in states not trained on.\n"

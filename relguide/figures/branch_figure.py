@@ -19,7 +19,7 @@ from relguide.figures.panels import (
     write_figures,
 )
 from relguide.learn.audits.branch_audit import Audit, Group
-from relguide.learn.audits.side_by_side import Method
+from relguide.learn.audits.side_by_side import MethodResult
 from relguide.learn.training.shares import Share
 from relguide.learn.words.branch_labels import BRANCHES
 
@@ -30,7 +30,7 @@ KM = 1000.0
 
 
 def draw_audit(
-    audit: Audit, methods: Sequence[Method], least_share: float, folder: Path
+    audit: Audit, methods: Sequence[MethodResult], least_share: float, folder: Path
 ) -> list[Path]:
     """Draw an audit.
 
@@ -51,7 +51,7 @@ def draw_audit(
     )
 
 
-def _accuracy(audit: Audit, methods: Sequence[Method], least_share: float) -> "Figure":
+def _accuracy(audit: Audit, methods: Sequence[MethodResult], least_share: float) -> "Figure":
     """How often the fastest branch is the first choice, by group and by branch."""
     del least_share
     figure, (left, right) = two_panels("How often the fastest branch is the first choice")
@@ -77,7 +77,7 @@ def _accuracy(audit: Audit, methods: Sequence[Method], least_share: float) -> "F
     return figure
 
 
-def _calibration(audit: Audit, methods: Sequence[Method], least_share: float) -> "Figure":
+def _calibration(audit: Audit, methods: Sequence[MethodResult], least_share: float) -> "Figure":
     """Whether it is as often wrong as it says, and what a larger set would give."""
     del methods
     figure, (left, right) = two_panels("How sure the network is, and what its set costs")
@@ -107,7 +107,7 @@ def _calibration(audit: Audit, methods: Sequence[Method], least_share: float) ->
     return figure
 
 
-def _gaps(audit: Audit, methods: Sequence[Method], least_share: float) -> "Figure":
+def _gaps(audit: Audit, methods: Sequence[MethodResult], least_share: float) -> "Figure":
     """How bad the bad answers are, and where a path flown as it is ends."""
     del audit, least_share
     figure, (left, right) = two_panels("Side by side, one encounter")

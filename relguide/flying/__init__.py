@@ -11,6 +11,6 @@ Read it in this order, from below:
 5. `world.py`: all aircraft, the air, and who is to join whom; `orders.py`: commands to a leader.
 6. `documents.py` and what it is made of, `cards.py`, `verdicts.py`, `regular_card.py`,
    `logbook.py`: what a flight says of itself.
-7. `simulation.py`: the closed loop; `flight.py`: of two aircraft; `scatter.py`, `scenarios.py`:
+7. `simulation.py`: the closed loop; `flight.py`: of two aircraft; `dispersion.py`, `scenarios.py`:
    what is flown; `present.py`: the situation at some instant of a flight, read from its documents.
 """

@@ -22,7 +22,7 @@ from relguide.flying.leaders.declared import (
     straight_heading,
     turn_program,
 )
-from relguide.flying.leaders.recorded import Recording, steps_of_track
+from relguide.flying.leaders.recorded import RecordedLeader, steps_of_track
 from relguide.flying.world import Aircraft, Declared, Guided, Link, Recorded, World
 from relguide.kernels.base.angles import wrap, wrap_signed
 from relguide.kernels.flight.flight_records import Body, Control, Drift, Limits, limits_at
@@ -77,7 +77,7 @@ class Fleet:
             for aircraft in world.aircraft
         ]
         self.declared: list[Program] = []
-        self.recordings: dict[int, Recording] = {}
+        self.recordings: dict[int, RecordedLeader] = {}
         wind = world.air.wind_at(0.0, 0.0, 0.0, 0.0)
         self.wind, self.drift = wind, Drift(wind.east, wind.north)
         for i, aircraft in enumerate(world.aircraft):

@@ -10,6 +10,7 @@ from typing import Literal, assert_never
 
 from relguide.flying.air import Air
 from relguide.flying.airframe import Airframe, airframe, known_airframes
+from relguide.flying.dispersion import disperse
 from relguide.flying.documents import Document
 from relguide.flying.engagement import Engagement
 from relguide.flying.envelope import envelope_fault
@@ -22,7 +23,6 @@ from relguide.flying.orders import LeaderSpeed as LeaderSpeed
 from relguide.flying.orders import PursuerHeading as PursuerHeading
 from relguide.flying.orders import SetEngagement as SetEngagement
 from relguide.flying.orders import no_commands as no_commands
-from relguide.flying.scatter import scatter
 from relguide.flying.simulation import simulate, whole_steps
 from relguide.flying.tracks import RecordedTrack
 from relguide.flying.world import ALTITUDES, Aircraft, Declared, Guided, Link, Recorded, World
@@ -220,7 +220,7 @@ def world_of(scenario: Scenario, settings: Settings = DEFAULT, seed: int = 0) ->
         aircraft=(
             Aircraft(
                 ident=scenario.pursuer_ident,
-                airframe=scatter(can, seed),
+                airframe=disperse(can, seed),
                 believed=can,
                 aircraft_type=can.designator,
                 x=pursuer.x,

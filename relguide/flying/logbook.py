@@ -43,8 +43,8 @@ from relguide.flying.guidance.announcements import (
     ModeChange,
     NewPlan,
     PlanMissing,
+    PlannerRefused,
     ProposedPlan,
-    Refused,
     UnableTo,
 )
 from relguide.flying.guidance.forecast import Forecast
@@ -69,7 +69,7 @@ STRAIGHT_FOR = 30
 """… nor than this in time [s]."""
 
 
-class Names(NamedTuple):
+class PairNames(NamedTuple):
     """Who flies, by ident."""
 
     pursuer: str
@@ -80,7 +80,7 @@ def sample(
     t: Second,
     aircraft: Sequence[tuple[str, AircraftState]],
     wind: Wind,
-    links: Sequence[tuple[Names, Advice, Metre]],
+    links: Sequence[tuple[PairNames, Advice, Metre]],
     since: Second,
 ) -> Sample:
     """The flight at one instant.
@@ -106,7 +106,7 @@ def sample(
 def _guidance_sample(
     t: Second,
     samples: tuple[AircraftSample, ...],
-    names: Names,
+    names: PairNames,
     advice: Advice,
     least: Metre,
     since: Second,
@@ -149,7 +149,7 @@ def _guidance_sample(
 
 
 def leader_route(
-    t: Second, names: Names, expected: Leader, *, intent_known: bool, wind: Wind
+    t: Second, names: PairNames, expected: Leader, *, intent_known: bool, wind: Wind
 ) -> LeaderRoute:
     """What the pursuer expects the leader to fly."""
     trajectory = expected.trajectory
@@ -164,7 +164,7 @@ def leader_route(
     )
 
 
-def event_document(t: Second, names: Names, event: Event) -> Document:
+def event_document(t: Second, names: PairNames, event: Event) -> Document:
     """What the guidance of a pursuer announces, as a document."""
     ident = names.pursuer
     match event:
@@ -211,7 +211,7 @@ def event_document(t: Second, names: Names, event: Event) -> Document:
             )
         case PlanMissing(answer=answer):
             return PlanUnavailable(t=t, ident=ident, answer=no_plan_card(answer))
-        case Refused(refusal=refusal):
+        case PlannerRefused(refusal=refusal):
             return PlanRefused(
                 t=t,
                 ident=ident,

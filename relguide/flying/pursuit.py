@@ -1,18 +1,18 @@
 """One pursuer and its leader in flight: what a closed loop keeps of them from second to second."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import NamedTuple
 
+from relguide.flying.aircraft_documents import Loss
 from relguide.flying.belief import Belief, FlownTrack, coasting
 from relguide.flying.engagement import Engagement
 from relguide.flying.fleet import Fleet
 from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.forecast import Forecast
 from relguide.flying.guidance.memory import LONG_AGO, Advice, Memory, begin
-from relguide.flying.logbook import Names
-from relguide.flying.tally import Milestones, Tally
+from relguide.flying.logbook import PairNames
 from relguide.flying.world import Link, World
-from relguide.units import MetrePerSecond, Second
+from relguide.units import Metre, MetrePerSecond, Radian, Second
 
 
 class LeaderView(NamedTuple):
@@ -32,12 +32,40 @@ class LeaderView(NamedTuple):
     """When, flight time [s]."""
 
 
+class FlightMetrics(NamedTuple):
+    """Figures of a flight so far: what guidance has reached, and how it was flown."""
+
+    least_separation: Metre
+    heading_swing: Radian = 0.0
+    """Total variation of the pursuer's heading until joined."""
+    track: Metre = 0.0
+    """Flown over the ground until joined."""
+    bank_reversals: int = 0
+    """From one side to the other, until joined."""
+    planned_time: Second = 0.0
+    """Time to converge of the plan at engagement; 0 if there was none [s]."""
+    promised: Second = 0.0
+    """Time until joined that it promised; 0 if there was none [s]."""
+    replans: int = 0
+    replans_announced: int = 0
+    joined: bool = False
+    join_time: Second = 0.0
+    """When it first joined, if it has [s]."""
+    following_since: Second = 0.0
+    """When it last began to follow, if it has [s]."""
+    alerted: tuple[Second, ...] = ()
+    """When the alert that stands was given first; empty if none stands."""
+    unable: tuple[Second, ...] = ()
+    """When `Unable` was said first since the last plan; empty if it was not."""
+    losses: tuple[Loss, ...] = ()
+
+
 @dataclass(slots=True)
 class Pursuit:
     """One pursuer and its leader in flight."""
 
     link: Link
-    names: Names
+    names: PairNames
     pursuer: int
     """Which of the fleet."""
     leader: int
@@ -50,11 +78,10 @@ class Pursuit:
     """The leader as it declared to fly; `None` if it flies what it declared, or is found not to."""
     view: LeaderView
     memory: Memory
-    tally: Tally
+    metrics: FlightMetrics
     tas: MetrePerSecond
     """The pursuer's a second ago [m/s]."""
     advice: Advice | None = None
-    milestones: Milestones = field(default_factory=Milestones)
     shown_forecast: Forecast | None = None
     lost: bool = False
     """Whether the separation is below d_min."""
@@ -83,7 +110,7 @@ def begin_pursuit(
     belief = fleet.belief(i, j, track, 0.0, link.intent_known, declared)
     return Pursuit(
         link=link,
-        names=Names(link.pursuer, link.leader),
+        names=PairNames(link.pursuer, link.leader),
         pursuer=i,
         leader=j,
         assignment=assignment_of(world, link),
@@ -92,7 +119,7 @@ def begin_pursuit(
         declared=declared,
         view=LeaderView(belief),
         memory=begin(belief, engagement),
-        tally=Tally(fleet.apart(i, j)),
+        metrics=FlightMetrics(fleet.apart(i, j)),
         tas=belief.own.tas,
     )
 

@@ -31,7 +31,7 @@ from relguide.flying.leader_watch import (
     watch_leader,
 )
 from relguide.flying.logbook import event_document, forecast_document, sample
-from relguide.flying.losses import count_second
+from relguide.flying.metrics import count_event, count_second, link_result
 from relguide.flying.orders import (
     Command,
     CrewCommand,
@@ -40,7 +40,6 @@ from relguide.flying.orders import (
     obey,
 )
 from relguide.flying.pursuit import Pursuit, begin_pursuit
-from relguide.flying.tally import count_event, link_result
 from relguide.flying.world import World
 from relguide.planning.inputs import expect, expect_function, expect_whole, number, text
 from relguide.planning.plan import Planner, plan
@@ -128,7 +127,7 @@ def _simulate(
         if end is not None:
             yield from _finish(pursuits, fleet, t, *end)
             return
-        least = [one.tally.least_separation for one in pursuits]
+        least = [one.metrics.least_separation for one in pursuits]
         fleet.fly_second(t)
         documents: list[Document] = []
         for one in pursuits:
@@ -212,13 +211,13 @@ def _guide(one: Pursuit, fleet: Fleet, planner: Planner, t: Second) -> Iterator[
     one.memory, advice = advise(one.memory, belief, one.assignment, planner)
     for event in advice.events:
         document = event_document(t, one.names, event)
-        one.milestones = count_event(one.milestones, document)
+        one.metrics = count_event(one.metrics, document)
         yield document
     if advice.forecast is not one.shown_forecast:
         one.shown_forecast = advice.forecast
         yield forecast_document(t, one.names.pursuer, advice.forecast)
-    if advice.joined and not one.milestones.joined:
-        one.milestones = one.milestones._replace(joined=True, join_time=t)
+    if advice.joined and not one.metrics.joined:
+        one.metrics = one.metrics._replace(joined=True, join_time=t)
     one.advice = advice
     fleet.control(one.pursuer, advice.control)
 
@@ -234,7 +233,7 @@ def _end(
             f"{edge} leaves the plane of this flight, and with it what can be planned.",
         )
     if pursuits and all(
-        one.memory.mode == "follow" and t - one.milestones.following_since >= after_joining
+        one.memory.mode == "follow" and t - one.metrics.following_since >= after_joining
         for one in pursuits
     ):
         return "joined", f"Joined, and followed for {after_joining:.0f} s."
@@ -252,11 +251,10 @@ def _finish(
     if reason == "plane_left":
         for one in pursuits:
             yield Unable(t=t, ident=one.names.pursuer, reason="geometry", message=message)
-    least = [one.tally.least_separation for one in pursuits]
+    least = [one.metrics.least_separation for one in pursuits]
     yield _sample(pursuits, least, fleet, t, 0.0, None)
     results = tuple(
-        link_result(t, one.names, one.milestones, one.tally, one.memory.fallbacks)
-        for one in pursuits
+        link_result(t, one.names, one.metrics, one.memory.fallbacks) for one in pursuits
     )
     yield FlightEnded(t=t, reason=reason, message=message, results=results)
 

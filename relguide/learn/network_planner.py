@@ -3,14 +3,12 @@
     leader keeps straight, limit does not bind → the fastest extremal, which is solved to see that
     leader keeps straight, limit binds → template network → templates, solved next to their guesses
     leader turns → branch network → calibrated set of branches → their words, solved exactly
-    leader turns once, limit binds → network of turning leaders → as the template network
     any of them → certificate
 
 Where the limit does not bind every answer is proved optimal: behind a leader that keeps straight
 the fastest extremal is at hand before a network could be asked, and behind one that turns a branch
-network is believed only if nothing is faster than what it leads to. Where the limit binds, a
-network of templates is asked for a constrained path (see `template_paths` and `turn_paths`). The
-exact planner answers
+network is believed only if nothing is faster than what it leads to. Where the limit binds, the
+template network is asked for a constrained path (see `template_paths`). The exact planner answers
 whenever the networks cannot: a situation outside of what was trained, too large a set, no path
 among those words or not the fastest, one that arrives before the slot opens, and above all a path
 that does not keep d_min. So every answer is certified, whoever gave it.
@@ -26,12 +24,8 @@ import numpy as np
 from relguide.kernels.contact.path_pieces import NO_TURN
 from relguide.kernels.networks.branch_scores import choose
 from relguide.kernels.words.extremals import MAX_ROWS, WORDS, solve_and_measure
-from relguide.learn.boundary.template_labels import TemplateBox
 from relguide.learn.boundary.template_network import TemplateNetwork, load_template_network
 from relguide.learn.boundary.template_paths import free_path, solve_constrained, view
-from relguide.learn.boundary.turn_labels import TurnBox
-from relguide.learn.boundary.turn_network import load_turn_network
-from relguide.learn.boundary.turn_paths import solve_behind_turn
 from relguide.learn.words.branch_network import BranchNetwork
 from relguide.planning.candidate import SIGN_ROWS, Candidate, candidate_of, segments_of
 from relguide.planning.certificate import Certificate, judge
@@ -47,7 +41,7 @@ from relguide.units import Metre, Second
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Proposal:
+class NetworkPath:
     """What a network leads to, with its certificate."""
 
     candidate: Candidate
@@ -66,22 +60,16 @@ class Proposal:
         )
 
 
-def network_planner(
-    network: BranchNetwork,
-    templates: TemplateNetwork[TemplateBox] | None = None,
-    turns: TemplateNetwork[TurnBox] | None = None,
-) -> Planner:
+def network_planner(network: BranchNetwork, templates: TemplateNetwork | None = None) -> Planner:
     """A planner that asks networks what to solve, and otherwise the exact planner.
 
     A leader who turns is met on the final leg: the branch network sees a leader who has been on it
-    all along, the certificate the real one. Where the limit binds then, the network of turning
-    leaders sees where that one really is.
+    all along, the certificate the real one. Where the limit binds then, the exact planner answers.
 
     Args:
         network: for the words to the slot behind a leader who turns.
         templates: for the constrained paths, where the limit binds; by default the network that
             comes with the program.
-        turns: the same behind a leader who turns.
 
     Returns:
         a `Planner` that takes a `deadline` as `plan` does; its plans say by `planner` who gave
@@ -90,8 +78,6 @@ def network_planner(
     expect("network", network, BranchNetwork)
     template_network = load_template_network() if templates is None else templates
     expect("templates", template_network, TemplateNetwork)
-    turn_network = load_turn_network() if turns is None else turns
-    expect("turns", turn_network, TemplateNetwork)
 
     @cache
     def load() -> None:
@@ -104,7 +90,7 @@ def network_planner(
             load()
         until = end_of(deadline)
         started = perf_counter_ns()
-        proposal = propose(network, situation, template_network, turn_network)
+        proposal = propose(network, situation, template_network)
         if proposal is None or not proposal.certificate.holds:
             exact = plan(situation, deadline=left_until(until))
             if isinstance(exact, NoPlan):
@@ -125,27 +111,17 @@ def network_planner(
 
 
 def propose(
-    network: BranchNetwork,
-    situation: Situation,
-    templates: TemplateNetwork[TemplateBox] | None = None,
-    turns: TemplateNetwork[TurnBox] | None = None,
-) -> Proposal | None:
+    network: BranchNetwork, situation: Situation, templates: TemplateNetwork | None = None
+) -> NetworkPath | None:
     """The fastest path that is known without the exact planner; `None` if there is none.
 
     Behind a leader who keeps straight that is the fastest extremal, and where it breaks the limit
     the constrained path of the template network, if there is one. Of a leader who turns, and in a
-    cross wind, only the certificate knows whether the limit binds: then the network of turning
-    leaders is asked.
+    cross wind, only the certificate knows whether the limit binds.
     """
     radius = situation.pursuer.turn_radius
     if situation.leader.intent:
-        known = _propose_behind_turns(network, situation, radius)
-        if turns is None or (known is not None and known.certificate.holds):
-            return known
-        behind = solve_behind_turn(turns, situation, radius)
-        if behind is None:
-            return known
-        return _with_certificate(behind.candidate, situation, radius, behind.lower_bound)
+        return _propose_behind_turns(network, situation, radius)
     binds, place, free = view(situation, radius)
     if binds:
         if templates is None:
@@ -159,7 +135,7 @@ def propose(
 
 def _propose_behind_turns(
     network: BranchNetwork, situation: Situation, radius: Metre
-) -> Proposal | None:
+) -> NetworkPath | None:
     """The fastest path of the words that the network holds possible, if no extremal is faster."""
     frame = slot_frame(situation, situation.leader.trajectory)
     x, y, h, alpha, t_release = frame.x, frame.y, frame.h, frame.alpha, frame.t_release
@@ -183,9 +159,9 @@ def _propose_behind_turns(
 
 def _with_certificate(
     candidate: Candidate, situation: Situation, radius: Metre, unlimited: Second
-) -> Proposal:
+) -> NetworkPath:
     """With its certificate; the fastest extremal arrives at `unlimited` [s]."""
-    return Proposal(
+    return NetworkPath(
         candidate=candidate,
         certificate=judge(candidate.trajectory, situation, radius, leader_path(situation)),
         lower_bound=unlimited,

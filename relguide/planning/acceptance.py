@@ -49,7 +49,7 @@ class Refusal:
     """A sentence for people."""
 
 
-class Answer(NamedTuple):
+class FlyableAnswer(NamedTuple):
     """What may be flown, and whose it is."""
 
     plan: Plan | NoPlan
@@ -59,7 +59,7 @@ class Answer(NamedTuple):
     """Why the planner's own answer is not flown; `None` if it is."""
 
 
-def ask(planner: Planner, situation: Situation, *, deadline: Second | None = None) -> Answer:
+def ask(planner: Planner, situation: Situation, *, deadline: Second | None = None) -> FlyableAnswer:
     """A planner's answer if it may be flown; if not, the exact plan and why.
 
     What a planner raises is not caught: that is its caller's to see.
@@ -77,7 +77,7 @@ def ask(planner: Planner, situation: Situation, *, deadline: Second | None = Non
         until = end_of(deadline)
         answer = with_deadline(planner, left_until(until))(situation)
     if planner is exact_plan:
-        return Answer(answer, fell_back=False, refusal=None)
+        return FlyableAnswer(answer, fell_back=False, refusal=None)
     return judge_answer(answer, situation, until)
 
 
@@ -103,11 +103,11 @@ def _names_deadline(planner: FunctionType) -> bool:
     return "deadline" in signature(planner).parameters
 
 
-def judge_answer(answer: object, situation: Situation, until: float = inf) -> Answer:
+def judge_answer(answer: object, situation: Situation, until: float = inf) -> FlyableAnswer:
     """As `ask`, of an answer that has been given; an exact plan is made by then, of `clock.now`."""
     match answer:
         case NoPlan():
-            return Answer(answer, fell_back=False, refusal=None)
+            return FlyableAnswer(answer, fell_back=False, refusal=None)
         case Plan():
             certificate = certify(answer.trajectory, situation)
             found = find_fault(answer.trajectory, situation)
@@ -117,7 +117,7 @@ def judge_answer(answer: object, situation: Situation, until: float = inf) -> An
             if found is None:
                 if answer.certificate != certificate or answer.situation is not situation:
                     answer = replace(answer, situation=situation, certificate=certificate)
-                return Answer(answer, fell_back=answer.fell_back, refusal=None)
+                return FlyableAnswer(answer, fell_back=answer.fell_back, refusal=None)
             fault, why = found
             message = f"The plan of {answer.planner} is not flown: {why}."
             refusal = Refusal(planner=answer.planner, fault=fault, message=message)
@@ -126,7 +126,9 @@ def judge_answer(answer: object, situation: Situation, until: float = inf) -> An
             message = f"The planner answered with neither a Plan nor a NoPlan, but with {kind}."
             refusal = Refusal(planner="", fault="no_answer", message=message)
     instead = exact_plan(situation, deadline=left_until(until))
-    return Answer(instead, fell_back=True, refusal=refusal)
+    if isinstance(instead, Plan):
+        instead = replace(instead, fell_back=True)
+    return FlyableAnswer(instead, fell_back=True, refusal=refusal)
 
 
 def find_fault(trajectory: Trajectory, situation: Situation) -> tuple[Fault, str] | None:

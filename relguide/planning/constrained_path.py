@@ -38,7 +38,7 @@ one as fast as the pursuer is met in windows narrower than 6°."""
 _LEFT_FOR_ANY = 0.25  # of the time to search, for `any_path` where nothing else was found
 
 
-class Around(NamedTuple):
+class FoundAround(NamedTuple):
     """What was found of paths that touch d_min."""
 
     path: Candidate | None
@@ -47,7 +47,7 @@ class Around(NamedTuple):
     """Whether the search ended before all was looked at, since its time was up."""
 
 
-def constrained_path(found: Candidates, *, beat: Second, until: float = inf) -> Around:
+def constrained_path(found: Candidates, *, beat: Second, until: float = inf) -> FoundAround:
     """The fastest path through contacts with d = d_min, if it arrives before `beat` [s].
 
     Up to the first contact, between contacts and from the last one on, the path is an extremal
@@ -62,7 +62,7 @@ def constrained_path(found: Candidates, *, beat: Second, until: float = inf) -> 
     """
     situation, frame = found.situation, found.frame
     if situation.min_separation <= 0.0:
-        return Around(None, cut_short=False)
+        return FoundAround(None, cut_short=False)
     start = frame.pose
     scene = ease_to_start(start, scene_of(situation, frame))
     all_ways = scene._replace(until=until)
@@ -73,7 +73,7 @@ def constrained_path(found: Candidates, *, beat: Second, until: float = inf) -> 
     around = _through_contacts(found, scene, beat)
     cut_short = bool(time_is_up(until))
     if beat < HORIZON or (around is not None and not cut_short):
-        return Around(around, cut_short)
+        return FoundAround(around, cut_short)
     if around is not None:
         beat = around.time_to_converge
     longest, row = beat * situation.pursuer.tas / frame.radius, np.zeros(5)
@@ -82,7 +82,7 @@ def constrained_path(found: Candidates, *, beat: Second, until: float = inf) -> 
         signs = [sign, 0.0, *SIGN_ROWS[int(row[1])]]
         amounts = [turned, straight, *row[2:].tolist()]
         around = assemble(situation, frame, signs, amounts, "")
-    return Around(around, cut_short)
+    return FoundAround(around, cut_short)
 
 
 def _through_contacts(found: Candidates, scene: Scene, beat: Second) -> Candidate | None:

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from relguide.kernels.base.roots import FloatArray
-from relguide.planning.legs import ROUNDING, Cut, Encounter, Leg, Touch, Vector
+from relguide.planning.legs import ROUNDING, CostateLeg, Cut, Instant, Touch, Vector
 from relguide.planning.linear_program import highest_corner
 
 RANK = 1e-8
@@ -60,7 +60,7 @@ def sliding_costate(kappa: float, course: Vector, leader_velocity: Vector) -> Ve
     return k * course[0], k * course[1]
 
 
-def multiplier(kappa: float, at: Encounter) -> float:
+def multiplier(kappa: float, at: Instant) -> float:
     """μ on a boundary arc: what it takes for λ_p to stay along the course, −λ_p′·e.
 
     d″ = 0 asks for û′ = r n̂, n̂ to the right of the course, with r n̂·e = |û − v̂_L|²/d; and from
@@ -73,7 +73,7 @@ def multiplier(kappa: float, at: Encounter) -> float:
     return -kappa / gain * rate * (dot(right, at.toward) + drawn)
 
 
-def find_costates(whole: Cut, legs: tuple[Leg, ...]) -> Costates:
+def find_costates(whole: Cut, legs: tuple[CostateLeg, ...]) -> Costates:
     """Solve for the costates of a trajectory with free t_f.
 
     Args:
@@ -114,7 +114,7 @@ def _wide_row(part: int, row: FloatArray, n: int) -> FloatArray:
     return wide
 
 
-def _place(legs: tuple[Leg, ...], t: float) -> Vector:
+def _place(legs: tuple[CostateLeg, ...], t: float) -> Vector:
     """Where the pursuer is at a joint."""
     for leg in legs:
         if leg.start + leg.duration > t + ROUNDING:
@@ -122,7 +122,7 @@ def _place(legs: tuple[Leg, ...], t: float) -> Vector:
     return 0.0, 0.0
 
 
-def _exact_rows(whole: Cut, legs: tuple[Leg, ...], n: int) -> FloatArray:
+def _exact_rows(whole: Cut, legs: tuple[CostateLeg, ...], n: int) -> FloatArray:
     parts, end = len(whole.touches), whole.end
     rows = [_wide_row(parts, np.array((*end.passing, legs[-1].rate)), n)]
     for i, touch in enumerate(whole.touches):
@@ -135,9 +135,9 @@ def _exact_rows(whole: Cut, legs: tuple[Leg, ...], n: int) -> FloatArray:
     return np.array(rows)
 
 
-def _vanishing_rows(whole: Cut, legs: tuple[Leg, ...], n: int) -> FloatArray:
+def _vanishing_rows(whole: Cut, legs: tuple[CostateLeg, ...], n: int) -> FloatArray:
     rows = []
-    last: Leg | None = None
+    last: CostateLeg | None = None
     for leg in legs:
         if leg.rate == 0.0:
             rows += [
@@ -153,7 +153,7 @@ def _vanishing_rows(whole: Cut, legs: tuple[Leg, ...], n: int) -> FloatArray:
     return np.array(rows).reshape(-1, n)
 
 
-def _switches(before: Leg, after: Leg) -> bool:
+def _switches(before: CostateLeg, after: CostateLeg) -> bool:
     """Whether one arc follows another at another rate, neither of them part of a boundary arc."""
     if before.sliding or after.sliding or before.rate == 0.0:
         return False
@@ -179,7 +179,7 @@ def _jump_rows(touches: tuple[Touch, ...], n: int) -> FloatArray:
     return rows
 
 
-def _sign_rows(legs: tuple[Leg, ...], n: int) -> tuple[FloatArray, FloatArray]:
+def _sign_rows(legs: tuple[CostateLeg, ...], n: int) -> tuple[FloatArray, FloatArray]:
     """−sign r · λ_ψ at points within each arc, and at its ends: eq. (16) asks that it be ≥ 0."""
     between: list[FloatArray] = []
     ends: list[FloatArray] = []

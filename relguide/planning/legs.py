@@ -12,8 +12,8 @@ from math import cos, hypot, sin
 
 import numpy as np
 
+from relguide.kernels.base.costate import contacts
 from relguide.kernels.base.motion import advance
-from relguide.kernels.bounds.costate import contacts
 from relguide.planning.situation import Situation
 from relguide.planning.tables import motion_of
 from relguide.planning.trajectory import Trajectory
@@ -34,7 +34,7 @@ Vector = tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Leg:
+class CostateLeg:
     """A piece of the trajectory between two changes."""
 
     start: float
@@ -59,7 +59,7 @@ class Leg:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Encounter:
+class Instant:
     """Both aircraft at an instant."""
 
     time: float
@@ -83,16 +83,16 @@ class Encounter:
 class Touch:
     """Where d = d_min: a contact or a boundary arc."""
 
-    nodes: tuple[Encounter, ...]
+    nodes: tuple[Instant, ...]
     """The contact; or the ends of a boundary arc's arcs, in the order flown."""
 
     @property
-    def entry(self) -> Encounter:
+    def entry(self) -> Instant:
         """Where it begins."""
         return self.nodes[0]
 
     @property
-    def exit(self) -> Encounter:
+    def exit(self) -> Instant:
         """Where it ends."""
         return self.nodes[-1]
 
@@ -102,7 +102,7 @@ class Touch:
         return len(self.nodes) > 1
 
     @property
-    def ends(self) -> tuple[Encounter, ...]:
+    def ends(self) -> tuple[Instant, ...]:
         """Entry and exit of a boundary arc; a contact itself."""
         return (self.entry, self.exit) if self.slides else self.nodes
 
@@ -111,11 +111,11 @@ class Touch:
 class Cut:
     """A trajectory in legs."""
 
-    legs: tuple[Leg, ...]
+    legs: tuple[CostateLeg, ...]
     """In the order flown, each longer than `ROUNDING`; empty if the trajectory has no length."""
     touches: tuple[Touch, ...]
     """In the order flown, without contacts at the trajectory's two ends: they add no condition."""
-    end: Encounter
+    end: Instant
     """At t_f."""
 
 
@@ -125,12 +125,12 @@ def cut(trajectory: Trajectory, situation: Situation) -> Cut:
     scale = radius / trajectory.tas
     pieces = list(_pieces(trajectory, scale))
 
-    def encounter(t: float) -> Encounter:
+    def encounter(t: float) -> Instant:
         ours, theirs = trajectory.pose_at(t * scale), leader.pose_at(t * scale)
         dx, dy = theirs.x - ours.x, theirs.y - ours.y
         d = max(hypot(dx, dy), 1e-9)  # where they meet there is no direction, and no limit
         alpha = leader.tas / trajectory.tas
-        return Encounter(
+        return Instant(
             time=t,
             course=(sin(ours.heading), cos(ours.heading)),
             leader_velocity=(alpha * sin(theirs.heading), alpha * cos(theirs.heading)),
@@ -208,7 +208,7 @@ def _contacts(trajectory: Trajectory, situation: Situation) -> list[float]:
 
 def _legs(
     pieces: list[tuple[float, float]], heading: float, spans: list[tuple[float, float]]
-) -> Iterator[Leg]:
+) -> Iterator[CostateLeg]:
     """The pieces, cut at contacts; `join_legs` gives them their places."""
     t, end, part = 0.0, 0.0, 0
     for duration, rate in pieces:
@@ -219,7 +219,7 @@ def _legs(
             low, high = spans[part] if part < len(spans) else (end, end)
             sliding = low - ROUNDING <= t
             stop = min(end, high if sliding else low)
-            yield Leg(
+            yield CostateLeg(
                 start=t, duration=stop - t, x=0.0, y=0.0, heading=heading, rate=rate, part=part,
                 sliding=sliding,
             )  # fmt: skip
@@ -227,9 +227,9 @@ def _legs(
             t = stop
 
 
-def join_legs(legs: Iterable[Leg]) -> tuple[Leg, ...]:
+def join_legs(legs: Iterable[CostateLeg]) -> tuple[CostateLeg, ...]:
     """The legs, moved so that each begins where the one before ends, and the last at the origin."""
-    chain: list[Leg] = []
+    chain: list[CostateLeg] = []
     x, y = 0.0, 0.0
     for leg in reversed(tuple(legs)):
         dx, dy, _ = advance(0.0, 0.0, leg.heading, 1.0, leg.rate, leg.duration)

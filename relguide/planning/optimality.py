@@ -13,11 +13,11 @@ from typing import Literal
 import numpy as np
 
 from relguide.kernels.base.angles import wrap_signed
-from relguide.kernels.bounds.costate import least_switching
+from relguide.kernels.base.costate import least_switching
 from relguide.planning.adjoint import AdjointHistory, adjoint_history
 from relguide.planning.costates import Costates, dot, find_costates, multiplier
 from relguide.planning.inputs import expect, expect_within
-from relguide.planning.legs import ROUNDING, Cut, Leg, cut, is_partial, join_legs
+from relguide.planning.legs import ROUNDING, CostateLeg, Cut, cut, is_partial, join_legs
 from relguide.planning.plan import Plan
 from relguide.planning.situation import Situation
 from relguide.planning.slot import slot_frame
@@ -46,7 +46,7 @@ A boundary arc is flown a millimetre outside, and a path may touch d_min just be
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Contact:
+class ContactPoint:
     """Where the trajectory touches d = d_min, or where a boundary arc along it begins or ends."""
 
     time: Second
@@ -88,7 +88,7 @@ class OptimalityReport:
     """Each arc turns at nominal bank to the side eq. (16) asks; λ_ψ vanishes where it should."""
     neglected: Second
     """Time in pieces too short to matter that were left out; 0 if the conditions hold on all."""
-    contacts: tuple[Contact, ...]
+    contacts: tuple[ContactPoint, ...]
     boundary_arcs: tuple[SlideReport, ...]
     history: AdjointHistory
 
@@ -97,7 +97,7 @@ class OptimalityReport:
 class _Judgement:
     """The verdict, in R and R/V_P."""
 
-    legs: tuple[Leg, ...]
+    legs: tuple[CostateLeg, ...]
     costates: Costates
     hamiltonian_residual: float
     switching_ok: bool
@@ -161,7 +161,9 @@ def check(
         switching_ok=judgement.switching_ok,
         neglected=(whole.end.time - sum(leg.duration for leg in judgement.legs)) * scale,
         contacts=tuple(
-            Contact(time=at.time * scale, bearing=atan2(*at.toward), jump=jump / trajectory.tas)
+            ContactPoint(
+                time=at.time * scale, bearing=atan2(*at.toward), jump=jump / trajectory.tas
+            )
             for touch, jumps in zip(touches, found.jumps.tolist(), strict=True)
             for at, jump in zip(touch.ends, jumps[: len(touch.ends)], strict=True)
         ),
@@ -200,7 +202,7 @@ def _arrival(trajectory: Trajectory, situation: Situation, arrives: float) -> Fi
     return "free" if trajectory.length > ROUNDING * frame.radius else "at_once"
 
 
-def _judge(arrival: FixedBy, whole: Cut, legs: tuple[Leg, ...]) -> _Judgement:
+def _judge(arrival: FixedBy, whole: Cut, legs: tuple[CostateLeg, ...]) -> _Judgement:
     n = len(whole.touches)
     if arrival != "free":
         rest = Costates(parts=np.zeros((n + 1, 3)), jumps=np.zeros((n, 2)), residual=0.0)

@@ -21,8 +21,8 @@ from relguide.planning.trajectory import LEFT, RIGHT
 SAMPLES = 400
 """Documents of a flight after which its every kernel has been called."""
 SETS = {
-    "plan": ("flying", "limited", "proofs"),
-    "serve": ("flying", "limited", "areas", "proofs", "bulk"),
+    "plan": ("flying", "limited"),
+    "serve": ("flying", "limited", "areas", "bulk"),
     "all": ("flying", "limited", "areas", "proofs", "bulk", "networks", "tree", "learning"),
 }
 """What `--for` may name, and its steps in the order they are begun."""
@@ -33,8 +33,8 @@ class Step:
     """Kernels that are compiled together."""
 
     title: str
-    seconds: float
-    """Of one core, about: what a share of the whole is reckoned by."""
+    kernels: int
+    """How many it compiles, about, after those it builds on: what its progress is told by."""
     run: Callable[[], None]
     """Calls the kernels."""
     after: tuple[str, ...] = ()
@@ -156,12 +156,6 @@ def _compile_learning() -> None:
     from relguide.learn.audits.branch_judging import branch_audit_request, judge_chunk, latencies
     from relguide.learn.audits.constrained_judging import template_latencies
     from relguide.learn.audits.template_judging import judge_template_chunk, template_audit_request
-    from relguide.learn.audits.turn_judging import (
-        judge_turn_chunk,
-        turn_audit_of,
-        turn_audit_request,
-        turn_latencies,
-    )
     from relguide.learn.boundary.template_labels import (
         TemplateLabelRequest,
         advance_paths,
@@ -169,8 +163,6 @@ def _compile_learning() -> None:
     )
     from relguide.learn.boundary.template_network import load_template_network, template_features_of
     from relguide.learn.boundary.train_templates import targets_of
-    from relguide.learn.boundary.turn_labels import TurnLabelRequest, advance_turning
-    from relguide.learn.boundary.turn_network import TURNING, load_turn_network
     from relguide.learn.words.branch_labels import LabelRequest, label_chunk
     from relguide.learn.words.branch_network import features_of, load_network
 
@@ -184,12 +176,6 @@ def _compile_learning() -> None:
     ways = load_template_network()
     judge_template_chunk(ways, network, template_audit_request(ways, 10, 1), 0)
     template_latencies(ways, limited.situations)
-    turning = TurnLabelRequest(count=10).make(0)
-    TURNING.targets_of(advance_turning(turning.paths, default_rng(0)), 1e-3)
-    TURNING.features_of(turning.situations)
-    turns = load_turn_network()
-    judged = judge_turn_chunk(turns, turn_audit_request(turns, 20, 1), 0)
-    turn_latencies(turns, turn_audit_of({0: judged}, TURNING.templates)[1])
 
 
 def _situation(
@@ -242,13 +228,13 @@ LIMITED = (
 opens.
 """
 STEPS = {
-    "flying": Step("flights and plans without the limit", 17.0, _compile_flying),
-    "limited": Step("the limited search", 53.0, _compile_limited, after=("flying",)),
-    "areas": Step("areas", 10.0, _compile_areas, after=("flying",), packages=("contourpy",)),
-    "proofs": Step("proofs of optimality", 7.0, _compile_proofs, after=("limited",)),
-    "bulk": Step("plans in bulk", 9.0, _compile_bulk, after=("limited",), packages=("contourpy",)),
-    "networks": Step("networks", 30.0, _compile_networks, after=("limited",)),
-    "tree": Step("the tree", 2.0, _compile_tree, after=("flying",)),
-    "learning": Step("learning", 20.0, _compile_learning, after=("networks",), packages=("torch",)),
+    "flying": Step("flights and plans without the limit", 100, _compile_flying),
+    "limited": Step("the limited search", 100, _compile_limited, after=("flying",)),
+    "areas": Step("areas", 100, _compile_areas, after=("flying",), packages=("contourpy",)),
+    "proofs": Step("proofs of optimality", 100, _compile_proofs, after=("limited",)),
+    "bulk": Step("plans in bulk", 100, _compile_bulk, after=("limited",), packages=("contourpy",)),
+    "networks": Step("networks", 100, _compile_networks, after=("limited",)),
+    "tree": Step("the tree", 100, _compile_tree, after=("flying",)),
+    "learning": Step("learning", 100, _compile_learning, after=("networks",), packages=("torch",)),
 }
 """All of them, by name."""

@@ -3,8 +3,8 @@
 import { type Signal, signal } from "@preact/signals";
 import type { Readiness } from "./api";
 import { createEditor, type Editor } from "./map/editor";
-import type { Flight } from "./store/flight";
 import { createShown, type Shown } from "./store/picture";
+import type { Flight } from "./store/types";
 import type { Direction, Engagement, FlightStatus, ScenarioInfo } from "./wire";
 
 /** PLAN is the map, where a situation is laid out before it is flown. */

@@ -1,6 +1,6 @@
 /** The stream of ticks: one WebSocket, opened again with growing patience when it breaks. */
 
-import type { Link } from "./store/flight";
+import type { Link } from "./store/types";
 import type { Tick } from "./wire";
 
 /** Close code of a server that speaks another version of the wire. */

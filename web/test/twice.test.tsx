@@ -10,9 +10,10 @@ import { PlanNumbers } from "../src/panels/plan";
 import type { Camera } from "../src/scene/camera";
 import { textsOf } from "../src/scene/texts";
 import { createSession } from "../src/session";
-import { createFlightStore, type Flight } from "../src/store/flight";
+import { createFlightStore } from "../src/store/flight";
 import type { Shown } from "../src/store/picture";
 import { GUIDANCES } from "../src/store/states";
+import type { Flight } from "../src/store/types";
 import { forecastOf } from "./nd/fixture";
 import { flightIn } from "./nd/in-state";
 import {

@@ -5,7 +5,7 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from relguide.cli.batch.order import FORMS, Order, form_of
+from relguide.cli.batch.order import FORMS, BatchOrder, form_of
 from relguide.cli.shared_options import add_workers
 from relguide.planning.extras import need
 
@@ -69,7 +69,7 @@ def refuse_batch_options(chosen: argparse.Namespace) -> None:
             raise ValueError(f"{option} is for a file of situations: add --batch.")
 
 
-def order_of(chosen: argparse.Namespace) -> Order:
+def order_of(chosen: argparse.Namespace) -> BatchOrder:
     """What is asked of a batch.
 
     Raises:
@@ -93,7 +93,7 @@ def order_of(chosen: argparse.Namespace) -> Order:
         raise ValueError("The answers would take the place of the situations: change --out.")
     if fields == "times" and (chosen.include or chosen.prove):
         raise ValueError("Times have nothing that --include or --prove adds: leave these out.")
-    return Order(
+    return BatchOrder(
         source=source,
         to=to,
         fields=fields,

@@ -18,7 +18,7 @@ AT_ONCE = {"times": 2000, "plan": 200, "full": 20}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Order:
+class BatchOrder:
     """What is asked of each line, and how lines and answers are written."""
 
     source: Form

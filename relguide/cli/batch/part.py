@@ -15,9 +15,9 @@ from pathlib import Path
 from time import monotonic
 from typing import IO, Any
 
-from relguide.cli.batch.order import Order
-from relguide.cli.batch.source import Chunk
-from relguide.cli.batch.work import Answered, beginning
+from relguide.cli.batch.order import BatchOrder
+from relguide.cli.batch.source import LineChunk
+from relguide.cli.batch.work import AnsweredChunk, beginning
 from relguide.learn.training.files import expect_part, write_whole
 from relguide.units import Second
 
@@ -50,7 +50,7 @@ class Reached:
     first_invalid: int = 0
     """The number of the first line that is no situation; 0 if there is none."""
 
-    def after(self, chunk: Chunk, answered: Answered) -> "Reached":
+    def after(self, chunk: LineChunk, answered: AnsweredChunk) -> "Reached":
         """Once a chunk is answered, and its answers are written."""
         return replace(
             self,
@@ -66,7 +66,9 @@ class Reached:
 class Part:
     """The part of a run: where its answers go, in order."""
 
-    def __init__(self, stream: IO[bytes], record: Path, order: Order, reached: Reached) -> None:
+    def __init__(
+        self, stream: IO[bytes], record: Path, order: BatchOrder, reached: Reached
+    ) -> None:
         self._stream, self._record, self._order = stream, record, order
         # one name for both: Ctrl-C may come between any two steps
         self._state = reached, blake2b()
@@ -94,7 +96,7 @@ class Part:
                 "one begins."
             )
 
-    def add(self, chunk: Chunk, answered: Answered) -> None:
+    def add(self, chunk: LineChunk, answered: AnsweredChunk) -> None:
         """Append the answers to a chunk."""
         self._stream.write(answered.content)
         digest = self._state[1].copy()
@@ -115,7 +117,7 @@ class Part:
 
 
 @contextmanager
-def open_part(file: Path, order: Order, *, resume: bool) -> Iterator[Part]:
+def open_part(file: Path, order: BatchOrder, *, resume: bool) -> Iterator[Part]:
     """The part of a run that begins, or of one that goes on; its record is kept to the end.
 
     Args:
@@ -149,7 +151,7 @@ def open_part(file: Path, order: Order, *, resume: bool) -> Iterator[Part]:
                 found.keep()
 
 
-def finish_part(file: Path, order: Order) -> None:
+def finish_part(file: Path, order: BatchOrder) -> None:
     """Make a part that has all answers the file."""
     part = part_of(file)
     if order.to == "parquet":
@@ -187,11 +189,11 @@ def _write_parquet(part: Path, file: Path) -> None:
                 writer.write_table(pa.Table.from_batches(some))
 
 
-def _about(order: Order) -> dict[str, Any]:
+def _about(order: BatchOrder) -> dict[str, Any]:
     return {"format": FORMAT, "order": json.loads(json.dumps(asdict(order)))}
 
 
-def _load(record: Path, order: Order) -> Reached:
+def _load(record: Path, order: BatchOrder) -> Reached:
     """How far a stopped run had come.
 
     Raises:

@@ -12,25 +12,25 @@ from multiprocessing import active_children, get_context, parent_process
 from threading import Thread
 from typing import NamedTuple
 
-from relguide.cli.batch.order import Order
-from relguide.cli.batch.source import Chunk
-from relguide.cli.batch.work import Answered, answer_chunk
+from relguide.cli.batch.order import BatchOrder
+from relguide.cli.batch.source import LineChunk
+from relguide.cli.batch.work import AnsweredChunk, answer_chunk
 from relguide.learn.training.chunks import AHEAD, ATTEMPTS, LOOK, LOST, Cluster
 
 
 class Sent(NamedTuple):
     """A chunk under way."""
 
-    chunk: Chunk
-    answered: Future[Answered]
+    chunk: LineChunk
+    answered: Future[AnsweredChunk]
 
 
 def in_order(
-    order: Order,
-    chunks: Iterable[Chunk | None],
+    order: BatchOrder,
+    chunks: Iterable[LineChunk | None],
     executor: Executor,
     cores: int,
-) -> Iterator[tuple[Chunk, Answered]]:
+) -> Iterator[tuple[LineChunk, AnsweredChunk]]:
     """Have chunks answered, and give the answers in the order of the file.
 
     What is under way is a few chunks for each core, so that memory does not grow with the file.
@@ -49,7 +49,7 @@ def in_order(
     cluster = executor if isinstance(executor, Cluster) else None
     waiting: deque[Sent] = deque()
 
-    def send(chunk: Chunk) -> Future[Answered]:
+    def send(chunk: LineChunk) -> Future[AnsweredChunk]:
         return executor.submit(answer_chunk, order, chunk)
 
     try:
@@ -70,8 +70,10 @@ def in_order(
 
 
 def _first(
-    waiting: deque[Sent], send: Callable[[Chunk], Future[Answered]], cluster: Cluster | None
-) -> tuple[Chunk, Answered]:
+    waiting: deque[Sent],
+    send: Callable[[LineChunk], Future[AnsweredChunk]],
+    cluster: Cluster | None,
+) -> tuple[LineChunk, AnsweredChunk]:
     """The first chunk under way with its answers; it is sent again if its worker is lost."""
     chunk, answered = waiting.popleft()
     lost = LOST + cluster.losses if cluster else LOST

@@ -9,18 +9,18 @@ from pathlib import Path
 from time import monotonic
 from typing import IO, NamedTuple
 
-from relguide.cli.batch.order import Order
+from relguide.cli.batch.order import BatchOrder
 from relguide.cli.batch.part import Part, Reached, finish_part, open_part, part_of
 from relguide.cli.batch.pool import in_order, start_processes
 from relguide.cli.batch.source import (
     BLOCK,
-    Chunk,
+    LineChunk,
     flat_names,
     parquet_chunks,
     read_header,
     text_chunks,
 )
-from relguide.cli.batch.work import Answered, answer_chunk, beginning
+from relguide.cli.batch.work import AnsweredChunk, answer_chunk, beginning
 from relguide.cli.output import DONE, FAILED, say, write
 from relguide.cli.situation_file import open_input
 from relguide.cli.workers import start_workers
@@ -31,20 +31,20 @@ from relguide.planning.progress import progress_bar
 STANDARD_INPUT = "-"
 
 
-class Source(NamedTuple):
+class OpenSource(NamedTuple):
     """A file of situations that is open."""
 
-    order: Order
+    order: BatchOrder
     """With what the file says of itself."""
     size: int
     """Bytes, or rows of Parquet; 0 if that is not known."""
     skip: Callable[[Part], None]
     """Pass over what is answered in a part."""
-    chunks: Callable[[Reached], Iterator[Chunk | None]]
+    chunks: Callable[[Reached], Iterator[LineChunk | None]]
     """What comes after that."""
 
 
-class Workers(NamedTuple):
+class BatchWorkers(NamedTuple):
     """Where chunks are answered."""
 
     processes: int
@@ -54,7 +54,7 @@ class Workers(NamedTuple):
 
 
 def answer_file(
-    file: str, out: Path | None, order: Order, workers: Workers, *, resume: bool
+    file: str, out: Path | None, order: BatchOrder, workers: BatchWorkers, *, resume: bool
 ) -> int:
     """Answer every line of a file.
 
@@ -98,8 +98,8 @@ def answer_file(
 
 
 def _answers(
-    source: Source, reached: Reached, workers: Workers
-) -> Iterator[tuple[Chunk, Answered]]:
+    source: OpenSource, reached: Reached, workers: BatchWorkers
+) -> Iterator[tuple[LineChunk, AnsweredChunk]]:
     """The answers to all chunks from there on, in order, with a bar."""
     order, chunks = source.order, source.chunks(reached)
     with progress_bar("planning", total=source.size) as advance, ExitStack() as stack:
@@ -115,8 +115,8 @@ def _answers(
 
 
 def _answer_here(
-    order: Order, chunks: Iterator[Chunk | None], processes: int, stack: ExitStack
-) -> Iterator[tuple[Chunk, Answered]]:
+    order: BatchOrder, chunks: Iterator[LineChunk | None], processes: int, stack: ExitStack
+) -> Iterator[tuple[LineChunk, AnsweredChunk]]:
     """The first chunk in this process, which loads the kernels; the others in copies of it."""
     loaded = False
     for chunk in chunks:
@@ -131,7 +131,7 @@ def _answer_here(
 
 
 @contextmanager
-def _open_source(file: str, order: Order) -> Iterator[Source]:
+def _open_source(file: str, order: BatchOrder) -> Iterator[OpenSource]:
     """A file of situations, and the order with what the file says of itself."""
     if order.source == "parquet":
         with _open_parquet(file, order) as source:
@@ -147,22 +147,22 @@ def _open_source(file: str, order: Order) -> Iterator[Source]:
         yield _text_source(stream, order, size, head)
 
 
-def _text_source(stream: IO[bytes], order: Order, size: int, head: bytes) -> Source:
+def _text_source(stream: IO[bytes], order: BatchOrder, size: int, head: bytes) -> OpenSource:
     def skip(part: Part) -> None:
         left = part.reached.read
         while left > 0 and (block := stream.read(min(left, BLOCK))):
             part.pass_over(block)
             left -= len(block)
 
-    def chunks(reached: Reached) -> Iterator[Chunk | None]:
+    def chunks(reached: Reached) -> Iterator[LineChunk | None]:
         first = (1 if head else 0) + reached.lines + 1
         return text_chunks(stream, first, order.at_once)
 
-    return Source(order, max(size - len(head), 0), skip, chunks)
+    return OpenSource(order, max(size - len(head), 0), skip, chunks)
 
 
 @contextmanager
-def _open_parquet(file: str, order: Order) -> Iterator[Source]:
+def _open_parquet(file: str, order: BatchOrder) -> Iterator[OpenSource]:
     need("pyarrow")
     import pyarrow as pa
     import pyarrow.parquet as pq
@@ -186,4 +186,4 @@ def _open_parquet(file: str, order: Order) -> Iterator[Source]:
                 part.pass_over(chunk.content)
                 left -= chunk.size
 
-        yield Source(order, opened.metadata.num_rows, skip, lambda reached: rows)
+        yield OpenSource(order, opened.metadata.num_rows, skip, lambda reached: rows)

@@ -17,7 +17,7 @@ SIGNATURE = b"\xef\xbb\xbf"
 """What spreadsheets put before UTF-8."""
 
 
-class Chunk(NamedTuple):
+class LineChunk(NamedTuple):
     """Lines that are answered together."""
 
     first: int
@@ -28,7 +28,7 @@ class Chunk(NamedTuple):
     """How much of the file it is: bytes, or rows of Parquet."""
 
 
-def text_chunks(stream: IO[bytes], first: int, at_once: int) -> Iterator[Chunk | None]:
+def text_chunks(stream: IO[bytes], first: int, at_once: int) -> Iterator[LineChunk | None]:
     """The lines from here on, in chunks; `None` where the next would have to be waited for.
 
     Args:
@@ -53,10 +53,10 @@ def text_chunks(stream: IO[bytes], first: int, at_once: int) -> Iterator[Chunk |
         for at in range(0, len(lines), at_once):
             some = lines[at : at + at_once]
             content = b"\n".join(some) + b"\n"
-            yield Chunk(first, len(some), content, len(content))
+            yield LineChunk(first, len(some), content, len(content))
             first += len(some)
     if rest:
-        yield Chunk(first, 1, rest, len(rest))
+        yield LineChunk(first, 1, rest, len(rest))
 
 
 def _blocks(stream: IO[bytes]) -> Iterator[bytes | None]:
@@ -99,7 +99,7 @@ def read_header(stream: IO[bytes], file: str) -> tuple[tuple[str, ...], bytes]:
     return tuple(name.strip() for name in names), line
 
 
-def parquet_chunks(file: "pyarrow.parquet.ParquetFile", at_once: int) -> Iterator[Chunk]:
+def parquet_chunks(file: "pyarrow.parquet.ParquetFile", at_once: int) -> Iterator[LineChunk]:
     """The rows of a Parquet file, each chunk as Arrow's stream of one batch."""
     import pyarrow as pa
 
@@ -108,7 +108,7 @@ def parquet_chunks(file: "pyarrow.parquet.ParquetFile", at_once: int) -> Iterato
         sink = pa.BufferOutputStream()
         with pa.ipc.new_stream(sink, batch.schema) as writer:
             writer.write_batch(batch)
-        yield Chunk(first, batch.num_rows, sink.getvalue().to_pybytes(), batch.num_rows)
+        yield LineChunk(first, batch.num_rows, sink.getvalue().to_pybytes(), batch.num_rows)
         first += batch.num_rows
 
 

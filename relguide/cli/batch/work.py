@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import orjson
 
-from relguide.cli.batch.order import Order
-from relguide.cli.batch.source import Chunk
+from relguide.cli.batch.order import BatchOrder
+from relguide.cli.batch.source import LineChunk
 from relguide.cli.proving import prove_after
 from relguide.contract.bulk import Record, Wanted, answer_all
 from relguide.contract.flat import Kind, answer_columns, cells_of_answers, situation_of_row
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     import pyarrow
 
 
-class Answered(NamedTuple):
+class AnsweredChunk(NamedTuple):
     """The answers to a chunk."""
 
     content: bytes
@@ -33,16 +33,16 @@ class Answered(NamedTuple):
     """The number of the first of those; 0 if there is none."""
 
 
-def answer_chunk(order: Order, chunk: Chunk) -> Answered:
+def answer_chunk(order: BatchOrder, chunk: LineChunk) -> AnsweredChunk:
     """Answer each line of a chunk, in order."""
     answers = answer_all(_records(order, chunk), _wanted(order))
     wrong = [answer["line"] for answer in answers if answer["status"] == "invalid"]
     content = encode(order, answers)
-    return Answered(content, len(answers), len(wrong), wrong[0] if wrong else 0)
+    return AnsweredChunk(content, len(answers), len(wrong), wrong[0] if wrong else 0)
 
 
 @cache
-def _wanted(order: Order) -> Wanted:
+def _wanted(order: BatchOrder) -> Wanted:
     # no bar of its own: that of the batch goes on
     planner = prove_after(make_planner(order.planner), order.prove, shown=False)
     return Wanted(
@@ -53,7 +53,7 @@ def _wanted(order: Order) -> Wanted:
 # --- lines --------------------------------------------------------------------------------------
 
 
-def _records(order: Order, chunk: Chunk) -> Iterator[Record]:
+def _records(order: BatchOrder, chunk: LineChunk) -> Iterator[Record]:
     """What each line holds; blank ones are passed over."""
     if order.source == "parquet":
         yield from enumerate(_parquet_rows(chunk), start=chunk.first)
@@ -77,7 +77,7 @@ def _csv_row(line: bytes, header: Sequence[str]) -> dict[str, Any] | ContractErr
     return ContractError([("", message)])
 
 
-def _parquet_rows(chunk: Chunk) -> Iterator[object]:
+def _parquet_rows(chunk: LineChunk) -> Iterator[object]:
     import pyarrow as pa
 
     with pa.ipc.open_stream(chunk.content) as stream:
@@ -98,7 +98,7 @@ def _parquet_rows(chunk: Chunk) -> Iterator[object]:
 # --- answers ------------------------------------------------------------------------------------
 
 
-def encode(order: Order, answers: Sequence[Mapping[str, Any]]) -> bytes:
+def encode(order: BatchOrder, answers: Sequence[Mapping[str, Any]]) -> bytes:
     """Answers as they are written into the file."""
     if order.to == "jsonl":
         return b"".join(
@@ -111,7 +111,7 @@ def encode(order: Order, answers: Sequence[Mapping[str, Any]]) -> bytes:
     return bytes(_batch(cells, columns, whole_ids=order.whole_ids).serialize())
 
 
-def beginning(order: Order) -> bytes:
+def beginning(order: BatchOrder) -> bytes:
     """What a file of answers begins with."""
     if order.to == "jsonl":
         return b""

@@ -9,7 +9,6 @@ from dataclasses import replace
 from math import cos, hypot, sin
 
 from relguide.flying.belief import Belief
-from relguide.flying.guidance import converge
 from relguide.flying.guidance.announcements import (
     Event,
     PlanReason,
@@ -17,14 +16,15 @@ from relguide.flying.guidance.announcements import (
     leader_change,
 )
 from relguide.flying.guidance.assignment import Assignment
-from relguide.flying.guidance.committed import (
+from relguide.flying.guidance.commit.better import better, may_be_improved
+from relguide.flying.guidance.commit.committed import (
+    BRAKES_FOR,
     Committed,
-    begun_now,
     place_on,
-    situation_now,
     slot_mismatch,
 )
-from relguide.flying.guidance.converge import NoProposal, NotBetter, Proposal
+from relguide.flying.guidance.commit.proposal import NoProposal, NotBetter, Proposal
+from relguide.flying.guidance.commit.propose import propose
 from relguide.flying.guidance.forecast import NO_COURSE
 from relguide.flying.guidance.leader_news import (
     is_steady,
@@ -53,6 +53,7 @@ from relguide.flying.guidance.plan_news import (
     retry_pause,
     say_no_plan,
 )
+from relguide.flying.guidance.situations import situation_now
 from relguide.flying.guidance.stand_by import give_up_old_data, stand_by
 from relguide.flying.modes import NAMES, NUMBERS
 from relguide.kernels.base.angles import wrap, wrap_signed
@@ -123,9 +124,8 @@ def _try_to_plan(
         if not rested or belief.separation < clear:
             return memory, []
     # Of two ways round that are as fast, the one that the crew accepted is flown.
-    accepted = memory.proposed
-    like = None if accepted is None else begun_now(accepted.path, belief)
-    found = converge.propose(belief, assignment, None, planner, like=like, stay=settings.shown_time)
+    like = None if memory.proposed is None else memory.proposed.path
+    found = propose(belief, assignment, None, planner, like=like, stay=settings.shown_time)
     memory = memory._replace(asked=t, proposed=None)
     memory, events = count_refusal(memory, found)
     if isinstance(found, NoProposal):
@@ -164,7 +164,7 @@ def _stay_or_change(
     if not as_forecast or not _asks_now(memory, committed, t, assignment):
         return memory, events
     memory = memory._replace(asked=t)
-    found = converge.better(belief, assignment, committed, planner)
+    found = better(belief, assignment, committed, planner)
     memory, refused = count_refusal(memory, found)
     events = [*events, *refused]
     if isinstance(found, NotBetter):
@@ -186,7 +186,7 @@ def _asks_now(memory: Memory, committed: Committed, t: Second, assignment: Assig
     settings = assignment.settings
     if settings.always_ask:
         return True
-    if not converge.may_be_improved(committed, t, assignment):
+    if not may_be_improved(committed, t, assignment):
         return False
     return committed.plan.planner != "exact" or t - memory.asked >= settings.ask_every
 
@@ -202,7 +202,7 @@ def _plan_again(
 ) -> tuple[Memory, list[Event]]:
     """A new path; if there is none, hold a heading or turn away."""
     committed = None if reason == "deviation" else memory.committed
-    found = converge.propose(belief, assignment, committed, planner, stay=stay)
+    found = propose(belief, assignment, committed, planner, stay=stay)
     memory = memory._replace(asked=belief.t)
     memory, events = count_refusal(memory, found)
     if isinstance(found, Proposal):
@@ -245,7 +245,7 @@ def _outlook(memory: Memory, belief: Belief, assignment: Assignment) -> Outlook:
     trusted = ahead if ahead is not None and is_as_forecast(ahead, belief, assignment) else None
     committed, until = memory.committed, belief.t + assignment.settings.watch
     if committed is not None:  # all of its path, which is drawn
-        until = max(committed.due, belief.t) + converge.BRAKES_FOR
+        until = max(committed.due, belief.t) + BRAKES_FOR
     return look_out(
         belief,
         assignment,
@@ -269,7 +269,7 @@ def _replan_or_escape(
     turns_on = turns_unannounced(belief, assignment)
     events: list[Event] = []
     if not turns_on:
-        found = converge.propose(belief, assignment, memory.committed, planner)
+        found = propose(belief, assignment, memory.committed, planner)
         memory, events = count_refusal(memory, found)
         if isinstance(found, Proposal):
             memory, news = fly_proposal(memory, belief, assignment, found, "separation", events)

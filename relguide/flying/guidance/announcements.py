@@ -5,7 +5,7 @@ from typing import Literal
 
 from relguide.flying.belief import Belief
 from relguide.flying.engagement import Engagement
-from relguide.flying.guidance.committed import Committed
+from relguide.flying.guidance.commit.committed import Committed
 from relguide.flying.modes import Mode
 from relguide.kernels.base.angles import wrap_signed
 from relguide.planning.acceptance import Refusal
@@ -77,7 +77,7 @@ class PlanMissing:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Refused:
+class PlannerRefused:
     """The planner's own plan may not be flown."""
 
     refusal: Refusal
@@ -118,7 +118,7 @@ Event = (
     | ProposedPlan
     | EngagementChange
     | PlanMissing
-    | Refused
+    | PlannerRefused
     | ModeChange
     | Alerted
     | UnableTo

@@ -5,11 +5,11 @@ from math import cos, hypot, inf, sin, sqrt
 from relguide.flying.belief import Belief
 from relguide.flying.guidance.announcements import Event, UnableTo
 from relguide.flying.guidance.assignment import Assignment
-from relguide.flying.guidance.committed import situation_now
 from relguide.flying.guidance.escape import escape, separation_on_heading
 from relguide.flying.guidance.leader_news import turns_unannounced
 from relguide.flying.guidance.memory import Memory, enter
 from relguide.flying.guidance.monitor import Outlook
+from relguide.flying.guidance.situations import situation_now
 from relguide.flying.modes import NUMBERS
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.flight.guide import Progress

@@ -14,7 +14,7 @@ from relguide.flying.guidance.announcements import (
     UnableReason,
     expectation,
 )
-from relguide.flying.guidance.committed import Committed
+from relguide.flying.guidance.commit.committed import Committed
 from relguide.flying.guidance.forecast import Forecast
 from relguide.flying.modes import NUMBERS, Mode, change
 from relguide.kernels.flight.flight_records import Control
@@ -55,7 +55,7 @@ class Announced(NamedTuple):
     """What follows a change of the leader waits until then, flight time [s]."""
 
 
-class Alert(NamedTuple):
+class StandingAlert(NamedTuple):
     """The alert that stands."""
 
     level: AlertState = "none"
@@ -98,9 +98,9 @@ class Memory(NamedTuple):
     """Why there was no plan then; `None` if there was one."""
     unable: UnableReason | None
     """Why guidance cannot go on, as was said; `None` if it can."""
-    alert: Alert
+    alert: StandingAlert
     fallbacks: int
-    """How often a planner's plan could not be flown and the exact plan took its place."""
+    """How often an exact plan took the place of the planner's, for whatever reason."""
     refused: Fault | None
     """What was wrong with the planner's last plan; `None` if it could be flown."""
 
@@ -150,7 +150,7 @@ def begin(belief: Belief, engagement: Engagement = "engaged") -> Memory:
         asked=LONG_AGO,
         missing=None,
         unable=None,
-        alert=Alert(),
+        alert=StandingAlert(),
         fallbacks=0,
         refused=None,
     )

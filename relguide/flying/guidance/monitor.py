@@ -13,7 +13,7 @@ from relguide.flying.belief import Belief
 from relguide.flying.guidance.announcements import Alerted, AlertLevel, AlertState, Event
 from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.forecast import Forecast, forecast
-from relguide.flying.guidance.memory import Alert
+from relguide.flying.guidance.memory import StandingAlert
 from relguide.kernels.flight.guide import Course, Progress
 from relguide.planning.phrases import distance
 from relguide.units import Metre, MetrePerSecond, Second
@@ -99,8 +99,8 @@ def look_out(
 
 
 def judge_separation(
-    alert: Alert, outlook: Outlook, belief: Belief, assignment: Assignment
-) -> tuple[Alert, tuple[Event, ...]]:
+    alert: StandingAlert, outlook: Outlook, belief: Belief, assignment: Assignment
+) -> tuple[StandingAlert, tuple[Event, ...]]:
     """The alert that stands now, and what is said of it.
 
     Args:
@@ -126,10 +126,10 @@ def judge_separation(
             predicted_at=outlook.at,
             cleared=True,
         )
-        return Alert(), (said,)
+        return StandingAlert(), (said,)
     if URGENCY[level] < URGENCY[alert.level] and t - alert.seen < settings.clears_after:
         return alert, ()
-    seen = Alert(level, t)
+    seen = StandingAlert(level, t)
     if level == alert.level:
         return seen, ()
     return seen, (

@@ -1,6 +1,5 @@
 """Which plans a crew is shown: those that are news, once the leader has settled; never all."""
 
-from dataclasses import replace
 from math import hypot
 
 from relguide.flying.belief import Belief
@@ -8,8 +7,8 @@ from relguide.flying.guidance.announcements import (
     Event,
     NewPlan,
     PlanMissing,
+    PlannerRefused,
     PlanReason,
-    Refused,
     UnableReason,
     UnableTo,
     expectation,
@@ -17,19 +16,14 @@ from relguide.flying.guidance.announcements import (
     summary,
 )
 from relguide.flying.guidance.assignment import Assignment
-from relguide.flying.guidance.committed import (
-    Committed,
-    lead_in,
-    shown_plan,
-    situation_now,
-)
-from relguide.flying.guidance.converge import NoProposal, NotBetter, Proposal
+from relguide.flying.guidance.commit.committed import Committed
+from relguide.flying.guidance.commit.proposal import NoProposal, NotBetter, Proposal
+from relguide.flying.guidance.commit.shown_plan import shown_rest
 from relguide.flying.guidance.leader_news import is_steady
 from relguide.flying.guidance.memory import Announced, Memory, enter
 from relguide.flying.guidance.settings import Settings
 from relguide.flying.modes import NUMBERS
 from relguide.kernels.flight.guide import Progress
-from relguide.planning.certificate import certify
 from relguide.planning.plan import NoPlan, Plan, Reason
 from relguide.planning.trajectory import Trajectory
 from relguide.units import Second
@@ -56,7 +50,7 @@ def fly_proposal(
         progress=Progress(NUMBERS["converge"], committed.s, 0.0, 0.0),
         missing=None,
     )
-    shown = shown_plan(committed.plan, found.lead, belief, assignment)
+    shown = found.shown
     fresh = is_news(memory, belief, assignment, committed, shown.trajectory, reason)
     announced = fresh and (
         memory.announced is None
@@ -129,27 +123,12 @@ def announce_pending(
     committed, reason = memory.committed, memory.pending
     if committed is None or reason is None or not may_speak(memory, belief, assignment):
         return memory, []
-    lead = lead_in(belief, assignment, committed)
-    left = committed.remaining(belief.t, assignment.tas)
-    now = situation_now(belief, assignment)
-    now = replace(now, pursuer=replace(now.pursuer, x=left.x, y=left.y, heading=left.heading))
-    plan = committed.plan
-    shown = replace(
-        plan,
-        situation=now,
-        trajectory=left,
-        word=left.letters,
-        certificate=certify(left, now),
-        optimality=replace(
-            plan.optimality,
-            lower_bound=min(plan.optimality.lower_bound + lead.seconds, left.duration),
-            proof="none",
-        ),
-    )
+    shown = shown_rest(committed, belief, assignment)
     joins = committed.joins_at(memory.forecast or committed.forecast)
     text = f"{reason_sentence(reason, belief)}: {summary(shown, joins - belief.t)}."
     said = NewPlan(committed=committed, shown=shown, reason=reason, message=text, announced=True)
     pause = assignment.settings.announce_after
+    memory = memory._replace(fallbacks=memory.fallbacks + committed.plan.fell_back)
     return _announce(memory, belief, shown, joins, pause), [said]
 
 
@@ -160,7 +139,7 @@ def count_refusal(
     fault = None if found.refusal is None else found.refusal.fault
     news: list[Event] = []
     if found.refusal is not None and fault != memory.refused:
-        news.append(Refused(refusal=found.refusal))
+        news.append(PlannerRefused(refusal=found.refusal))
     if fault == memory.refused and not found.fell_back:
         return memory, news
     return memory._replace(fallbacks=memory.fallbacks + found.fell_back, refused=fault), news

@@ -10,8 +10,9 @@ from relguide.flying.guidance.announcements import (
     summary,
 )
 from relguide.flying.guidance.assignment import Assignment
-from relguide.flying.guidance.committed import begun_now, shown_plan
-from relguide.flying.guidance.converge import NoProposal, Proposal, propose
+from relguide.flying.guidance.commit.preference import begun_now
+from relguide.flying.guidance.commit.proposal import NoProposal, Proposal
+from relguide.flying.guidance.commit.propose import propose
 from relguide.flying.guidance.memory import LONG_AGO, Announced, Memory, enter
 from relguide.flying.guidance.plan_news import (
     count_refusal,
@@ -108,7 +109,7 @@ def stand_by(
     if belief.t - memory.asked < wait:
         return memory, []
     accepted = memory.proposed if memory.engagement == "armed" else None
-    like = None if accepted is None else begun_now(accepted.path, belief)
+    like = None if accepted is None else accepted.path
     # Two paths may be as fast: a crew that has accepted one of them is not offered them in turn.
     stay = assignment.settings.shown_time
     found = propose(belief, assignment, None, planner, like=like, stay=stay)
@@ -130,9 +131,8 @@ def _say_proposal(
     before: many small steps away from it are a large one. It leads to the same places at the same
     times or, for as long as a crew takes to engage, it may be the same path begun later.
     """
-    committed = found.committed
+    committed, shown = found.committed, found.shown
     accepted = memory.proposed if memory.engagement == "armed" else None
-    shown = shown_plan(committed.plan, found.lead, belief, assignment)
     joins = committed.joins_at(committed.forecast)
     said = ProposedPlan(
         committed=committed,

@@ -10,7 +10,7 @@ from relguide.planning.situation import Wind
 from relguide.units import G0, Second
 
 
-class Recording(NamedTuple):
+class RecordedLeader(NamedTuple):
     """A recorded leader at each step."""
 
     rows: FloatArray
@@ -19,7 +19,7 @@ class Recording(NamedTuple):
     """[m]. shape (n,)"""
 
 
-def steps_of_track(track: RecordedTrack, wind: Wind, step: Second) -> Recording:
+def steps_of_track(track: RecordedTrack, wind: Wind, step: Second) -> RecordedLeader:
     """Where a recorded leader is at each step, from its start to its end.
 
     Heading and airspeed follow from the wind, the bank from how fast the heading changes.
@@ -38,4 +38,4 @@ def steps_of_track(track: RecordedTrack, wind: Wind, step: Second) -> Recording:
     later = np.append(heading[second:], np.full(min(second, count), heading[-1]))[:count]
     bank = np.arctan(tas * (later - heading) / G0)
     zero = np.zeros(count)
-    return Recording(np.column_stack([x, y, heading, bank, zero, tas, zero]), altitude)
+    return RecordedLeader(np.column_stack([x, y, heading, bank, zero, tas, zero]), altitude)

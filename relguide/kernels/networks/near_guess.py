@@ -2,51 +2,44 @@
 
 The search of `constrained_search` looks at all bearings and all words. Where it is known which word
 leads to the contact, on which side, and what follows it, one unknown is left, the bearing b of the
-contact. So with the time t₁(b) to the contact, and t₂(b) on from there,
+contact; and behind a leader that keeps straight nothing depends on time. So with the time t₁(b) to
+the contact, and t₂(b) on from there,
 
     t₁(b) + t₂(b)
 
-is minimised near the guess. Behind a leader that keeps straight t₁(b) is the soonest root of an
-equation; behind one that turns, the root next to a guess of it. Where simple pieces touch the disc
-by themselves, b is no unknown either (see `touch_points`). A branch is a word, those of three turns
-by their middle arc: one of `branches`.
+is minimised near the guess. Where simple pieces touch the disc by themselves, b is no unknown
+either (see `touch_points`). A branch is a word, those of three turns by their middle arc: one of
+`branches`.
 
-Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; a leader that keeps straight is
-at (D/R, 0) at t = 0 and keeps heading 0.
+Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader is at (D/R, 0) at
+t = 0 and keeps heading 0.
 """
 
-from math import cos, inf, isnan, pi, sin
+from math import cos, inf, pi, sin
 from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
 from relguide.kernels.base.angles import wrap
-from relguide.kernels.base.records import Disc, Pose, Scene, Velocity, Window, start_at
+from relguide.kernels.base.records import Disc, Pose, Scene, Velocity, Window
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.contact.clear_words import to_slot_frame
-from relguide.kernels.contact.contact import contact_heading, to_frame_of
+from relguide.kernels.contact.contact import contact_heading
 from relguide.kernels.contact.touch_points import mirror_disc, next_contact, slide_between
-from relguide.kernels.separation.clearance import leader_at, piece_at
 from relguide.kernels.words.branches import WORD_OF
 from relguide.kernels.words.extremals import MAX_ROWS, solve_word
-from relguide.kernels.words.to_point import word_from
 
 LS, RS, LR, RL = 8, 9, 10, 11
 """Entries that touch the disc by themselves; before them come the branches, as `branches`."""
-ON_B, ON_LR, ON_RL, ON_TOUCH_B, ON_B_TOUCH, ON_DELAY = 8, 9, 10, 11, 12, 13
+ON_B, ON_LR, ON_RL, ON_TOUCH_B, ON_B_TOUCH = 8, 9, 10, 11, 12
 """How a path goes on: along the disc; by two turns that touch it; by a turn and a straight to a
-boundary arc; by a boundary arc, a straight and a turn to one more contact; by a path of just the
-right length to the slot as it opens. Before them come the branches."""
+boundary arc; by a boundary arc, a straight and a turn to one more contact. Before them come the
+branches."""
 _STRIDE = 0.03  # of the first look beside a guess: 2°, about as good as guesses are [rad]
 _PROBES = np.array((0.02, 0.04, 0.06, 0.09, 0.18, 0.27))  # where it is looked again, either way
 _MOST = 60  # evaluations of t₁ + t₂ at one go
 _FINEST = 1e-6  # bearing steps end here: 1 cm at R = 12 km
 _GAIN = 1e-9  # or where a parabola promises less [R/V_P]
-_SOONER = 0.01  # beside the guess, to begin there anew [R/V_P]
-_SECANTS = 12  # to a contact of a leader that turns; four are enough next to the guess
-_MET = 1e-10  # there: 1 µm at R = 12 km
-_FARTHEST = 0.6  # one of them leads [R/V_P]
 
 
 class Task(NamedTuple):
@@ -55,10 +48,9 @@ class Task(NamedTuple):
     start: Pose
     """Slot frame, its heading in [0, 2π)."""
     scene: Scene
-    """The leader, and how far from it words must stay: d_min less a graze."""
+    """A leader that keeps straight, and how far from it words must stay: d_min less a graze."""
     disc: Disc
-    """Where contacts and boundary arcs are, on its final leg, and the side on which it is passed.
-    """
+    """Where contacts and boundary arcs are, and the side on which the leader is passed."""
     entry: int
     """How the disc is reached: a branch, or one of `LS` … `RL`."""
     on: int
@@ -77,34 +69,30 @@ class Room(NamedTuple):
     link: FloatArray
     """What lies between them: bearing, turn and straight of the boundary arc's end on the solved
     contact's side, the bearing of its other end, unwrapped, and how long it takes. shape (5,)"""
-    about: FloatArray
-    """When the contact is reached, about, if the leader turns [R/V_P]. shape (1,)"""
 
 
 @njit(cache=True, nogil=True)
 def empty_room() -> Room:
     """Room without a path."""
-    found, rows = np.empty((MAX_ROWS, 4)), np.empty((MAX_ROWS, 5))
-    return Room(found, rows, np.zeros((2, 5)), np.zeros(5), np.zeros(1))
+    return Room(np.empty((MAX_ROWS, 4)), np.empty((MAX_ROWS, 5)), np.zeros((2, 5)), np.zeros(5))
 
 
 @njit(cache=True, nogil=True)
 def room_beside(room: Room) -> Room:
     """Room for another path, with the same scratch."""
-    return Room(room.found, room.rows, np.zeros((2, 5)), np.zeros(5), room.about.copy())
+    return Room(room.found, room.rows, np.zeros((2, 5)), np.zeros(5))
 
 
 @njit(cache=True, nogil=True)
 def keep_path(trial: Room, room: Room) -> None:
     """Copy the path of one room into another."""
-    room.path[:], room.link[:], room.about[:] = trial.path, trial.link, trial.about
+    room.path[:], room.link[:] = trial.path, trial.link
 
 
 @njit(cache=True, nogil=True)
 def slot_of(scene: Scene) -> float:
-    """How far ahead of the slot the leader is, or would be on its final leg, at t = 0 [R]."""
-    final = scene.leader[len(scene.leader) - 1]
-    return float(final[1] - scene.alpha * final[0])
+    """How far ahead of the slot the leader is [R]."""
+    return float(scene.leader[0, 1])
 
 
 @njit(cache=True, nogil=True)
@@ -114,23 +102,10 @@ def from_leader(pose: Pose, scene: Scene) -> Pose:
 
 
 @njit(cache=True, nogil=True)
-def contact_of(task: Task, bearing: float, t: float) -> Pose:
-    """The pursuer's pose at a contact at time t, wherever the leader is by then."""
-    at, disc = leader_at(task.scene, piece_at(task.scene.leader, t), t), task.disc
-    return Pose(
-        at.x + disc.distance * cos(at.h + bearing),
-        at.y + disc.distance * sin(at.h + bearing),
-        at.h + contact_heading(bearing, disc.side, disc.alpha),
-    )
-
-
-@njit(cache=True, nogil=True)
-def _soonest_row(
-    pose: Pose, target: Velocity, branch: int, room: Room, earliest: float = 0.0
-) -> int:
+def _soonest_row(pose: Pose, target: Velocity, branch: int, room: Room) -> int:
     """The soonest path of a branch to a moving target, as its row number; −1 if there is none."""
     word = WORD_OF[branch]
-    n = solve_word(pose, target, Window(earliest, inf), word, room.found, room.rows, 0)
+    n = solve_word(pose, target, Window(0.0, inf), word, room.found, room.rows, 0)
     for i in range(n):
         if branch < 4 or (room.rows[i, 3] > pi) == (branch % 2 == 1):
             return i
@@ -140,8 +115,6 @@ def _soonest_row(
 @njit(cache=True, nogil=True)
 def enter(task: Task, bearing: float, room: Room) -> bool:
     """Put the soonest path of the entry's branch to a contact first in `room.path`, if any."""
-    if len(task.scene.leader) > 1:
-        return _enter_while_turning(task, bearing, room)
     disc, start = task.disc, from_leader(task.start, task.scene)
     course = contact_heading(bearing, disc.side, disc.alpha)
     c, s = cos(course), sin(course)
@@ -155,46 +128,9 @@ def enter(task: Task, bearing: float, room: Room) -> bool:
 
 
 @njit(cache=True, nogil=True)
-def _enter_while_turning(task: Task, bearing: float, room: Room) -> bool:
-    """As `enter`, by the path that arrives next to when `room` says, which takes when that is.
-
-    Its length to where the contact is at t, less t, is 0: by secants from the guess.
-    """
-    t, row = room.about[0], room.path[0]
-    last_t, last = t, np.nan
-    for _ in range(_SECANTS):
-        there = contact_of(task, bearing, t)
-        seen = to_frame_of(task.start, there)
-        value = word_from(start_at(seen), 0.0, task.entry, row[2:5])
-        if value < 0.0:
-            return False
-        value -= t
-        if abs(value) < _MET:
-            row[0], row[1], room.about[0] = t, WORD_OF[task.entry], t
-            return True
-        slope = (value - last) / (t - last_t) if not isnan(last) else -1.0
-        last_t, last = t, value
-        # where a turn jumps a secant says nothing
-        if not 0.02 < abs(slope) < 5.0:
-            slope = -1.0
-        t = max(t - max(-_FARTHEST, min(value / slope, _FARTHEST)), 0.0)
-        if t == last_t:
-            return False
-    return False
-
-
-@njit(cache=True, nogil=True)
 def leave(task: Task, bearing: float, branch: int, room: Room) -> bool:
     """Put the soonest path of a branch from a contact to the slot last in `room.path`, if any."""
     disc = task.disc
-    if len(task.scene.leader) > 1:
-        t, alpha = room.path[0, 0], task.scene.alpha
-        there = to_slot_frame(contact_of(task, bearing, t), t, alpha)
-        earliest = max(task.scene.t_release - t, 0.0)
-        i = _soonest_row(there, Velocity(alpha, 0.0), branch, room, earliest)
-        if i >= 0:
-            room.path[1] = room.rows[i]
-        return i >= 0
     course = wrap(contact_heading(bearing, disc.side, disc.alpha))
     x, y = slot_of(task.scene) + disc.distance * cos(bearing), disc.distance * sin(bearing)
     i = _soonest_row(Pose(x, y, course), Velocity(disc.alpha, 0.0), branch, room)
@@ -262,8 +198,6 @@ def descend(bearing: float, task: Task, fixed: FloatArray, room: Room) -> tuple[
     if settled:
         return time, least_at
     least = inf
-    if len(task.scene.leader) > 1:
-        return _least_at_end(time, least_at, bearing, task, fixed, room)
     for probe in _PROBES:
         for direction in range(2):
             there = bearing + probe * (2.0 * direction - 1.0)
@@ -274,28 +208,6 @@ def descend(bearing: float, task: Task, fixed: FloatArray, room: Room) -> tuple[
         return inf, bearing
     time, least_at, settled = _descend_from(least_at, task, fixed, room)
     return (time, least_at) if settled else (inf, bearing)
-
-
-@njit(cache=True, nogil=True)
-def _least_at_end(
-    time: float, least_at: float, guess: float, task: Task, fixed: FloatArray, room: Room
-) -> tuple[float, float]:
-    """As `descend` round a leader that turns, where it does not end in a valley.
-
-    There the least time often is where a word begins or ends: that is found from both sides of the
-    guess.
-    """
-    about, other = room.about[0], room_beside(room)
-    for probe in _PROBES:
-        for direction in range(2):
-            other.about[0] = about
-            there = guess + probe * (2.0 * direction - 1.0)
-            if time_through(there, task, fixed, other) < time - _SOONER:
-                value, at, _ = _descend_from(there, task, fixed, other)
-                if value < time:
-                    time, least_at = value, at
-                    keep_path(other, room)
-    return time, least_at
 
 
 @njit(cache=True, nogil=True)

@@ -1,7 +1,7 @@
-"""The template networks, held against exact answers in bulk.
+"""The template network, held against exact answers in bulk.
 
-Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; a leader that keeps straight is
-at (D/R, 0) at t = 0 and keeps heading 0.
+Slot frame: lengths in R, times in R/V_P, angles counter-clockwise; the leader is at (D/R, 0) at
+t = 0 and keeps heading 0.
 """
 
 from math import inf
@@ -14,21 +14,13 @@ from relguide.kernels.base.roots import FloatArray
 from relguide.kernels.networks.branch_scores import Layers
 from relguide.kernels.networks.template_scores import (
     LEGS,
-    Choice,
     Decision,
     choose_template,
-    choose_turn_template,
     guess_of,
     template_shares,
-    turn_template_shares,
 )
 from relguide.kernels.networks.template_solutions import solve_template
 from relguide.kernels.networks.templates import NONE, SEVERAL, SIZE
-from relguide.kernels.networks.turn_solutions import solve_turn_template
-from relguide.kernels.networks.turn_templates import GUESS as TURN_GUESS
-from relguide.kernels.networks.turn_templates import SIZE as TURN_TEMPLATES
-from relguide.kernels.networks.turning_leader import bound_without_limit, turning_scene
-from relguide.kernels.words.extremals import MAX_ROWS
 from relguide.kernels.words.fastest import fastest
 from relguide.kernels.words.sooner import make_scratch
 
@@ -65,37 +57,11 @@ def judge_templates(
         if first != SEVERAL and first != NONE:
             guess_of(hidden, layers, first, guess)
             time, _ = solve_template(pose, scene, first, guess, inf, legs)
-        own = share[int(right[n])]
+        verdicts[n, 0] = first
+        verdicts[n, 1] = share[first]
+        verdicts[n, 2] = time
+        verdicts[n, 3] = share[int(right[n])]
         chosen = choose_template(pose, scene, free, layers, decision, legs)
-        _write_verdict(first, share[first], time, own, chosen, verdicts[n])
-
-
-@njit(cache=True, nogil=True)
-def judge_turn_templates(
-    situations: FloatArray, right: FloatArray, layers: Layers, decision: Decision,
-    verdicts: FloatArray,
-) -> None:  # fmt: skip
-    """As `judge_templates`, behind leaders that turn; situations as in `turning_leader`."""
-    guess, share = np.zeros(TURN_GUESS), np.empty(TURN_TEMPLATES)
-    rows, legs = np.empty((MAX_ROWS, 5)), np.zeros((LEGS, 6))
-    for n in range(len(situations)):
-        numbers = situations[n]
-        pose, scene = turning_scene(numbers)
-        bound = bound_without_limit(pose, scene, rows)
-        hidden = turn_template_shares(pose, scene, numbers, bound, layers, share)
-        first, time = int(np.argmax(share)), inf
-        if first != SEVERAL and first != NONE:
-            guess_of(hidden, layers, first, guess)
-            time, _ = solve_turn_template(pose, scene, first, guess, inf, True, legs)
-        own = share[int(right[n])]
-        chosen = choose_turn_template(pose, scene, numbers, bound, layers, decision, legs)
-        _write_verdict(first, share[first], time, own, chosen, verdicts[n])
-
-
-@njit(cache=True, nogil=True)
-def _write_verdict(
-    first: int, share: float, time: float, own: float, chosen: Choice, verdict: FloatArray
-) -> None:
-    """Put down what is found of one situation."""
-    verdict[0], verdict[1], verdict[2], verdict[3] = first, share, time, own
-    verdict[4], verdict[5], verdict[6] = chosen.held, chosen.template, chosen.time
+        verdicts[n, 4] = chosen.held
+        verdicts[n, 5] = chosen.template
+        verdicts[n, 6] = chosen.time

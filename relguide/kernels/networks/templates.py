@@ -21,8 +21,6 @@ from numba import njit
 from relguide.kernels.words.branches import BRANCHES
 
 FREE, SEVERAL, NONE = 0, 1, 2
-GUESS = 2
-"""How many numbers a guess is."""
 ENTRIES = (*BRANCHES, "LS", "RS", "LR", "RL")
 """How a path may reach the disc, by number."""
 ONWARD = (*BRANCHES, "B", "LR", "RL", "touch, B", "B, touch")

@@ -6,27 +6,21 @@ What it names, what it holds possible, and what it leads to, beside what the sea
 from dataclasses import dataclass
 from math import inf
 from time import thread_time_ns
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from relguide.kernels.base.records import Pose, straight_scene
 from relguide.kernels.contact.constrained_rows import solve_constrained_rows
-from relguide.kernels.networks.template_rows import (
-    VERDICTS,
-    judge_templates,
-    judge_turn_templates,
-)
+from relguide.kernels.networks.template_rows import VERDICTS, judge_templates
 from relguide.kernels.networks.template_scores import LEGS, choose_template
 from relguide.kernels.networks.templates import NONE, SEVERAL
 from relguide.kernels.words.fastest import fastest
 from relguide.kernels.words.sooner import make_scratch
 from relguide.learn.audits.latency import Latency, latency_of
-from relguide.learn.boundary.template_labels import LONGEST, ConstrainedPaths, Floats, TemplateBox
+from relguide.learn.boundary.template_labels import LONGEST, ConstrainedPaths, Floats
 from relguide.learn.boundary.template_network import TemplateNetwork
-from relguide.learn.boundary.train_templates import WITHIN
-from relguide.learn.boundary.turn_network import TURNING
+from relguide.learn.boundary.train_templates import WITHIN, targets_of
 from relguide.planning.constrained_path import BEARINGS
 
 QUERIES, SEARCHES = 2000, 200
@@ -38,10 +32,9 @@ class ConstrainedVerdicts:
     """What is found of situations in which the limit binds, as columns."""
 
     situations: Floats
-    """As the network's kind has them: x, y ≥ 0 [R], h in [0, 2π) [rad], α, D/R, d_min/R behind
-    leaders who keep straight. shape (n, ·)"""
+    """x, y ≥ 0 [R], h in [0, 2π) [rad], α, D/R, d_min/R. shape (n, 6)"""
     sources: NDArray[np.int8]
-    """Numbers of the labels' `SOURCES`."""
+    """Numbers of `template_labels.SOURCES`."""
     templates: NDArray[np.int8]
     """Of the fastest paths."""
     named: NDArray[np.bool_]
@@ -67,7 +60,7 @@ class ConstrainedVerdicts:
 
 
 def judge_constrained(
-    network: TemplateNetwork[Any], exact: ConstrainedPaths, sources: NDArray[np.int8]
+    network: TemplateNetwork, exact: ConstrainedPaths, sources: NDArray[np.int8]
 ) -> ConstrainedVerdicts:
     """Hold a network against exact answers.
 
@@ -76,10 +69,11 @@ def judge_constrained(
         exact: situations in which the limit binds, and their answers.
         sources: of the situations.
     """
-    templates, _ = network.kind.targets_of(exact, WITHIN)
+    templates, _ = targets_of(exact)
     verdicts = np.empty((len(templates), VERDICTS))
-    judge = judge_turn_templates if network.kind is TURNING else judge_templates
-    judge(exact.situations, templates.astype(float), network.layers, network.decision, verdicts)
+    judge_templates(
+        exact.situations, templates.astype(float), network.layers, network.decision, verdicts
+    )
     first, highest, time, own, held, answered, given = verdicts.T
     there = np.isfinite(exact.times)
     # of no template, or none: then it is right to say so, in either word
@@ -101,9 +95,7 @@ def judge_constrained(
     )
 
 
-def template_latencies(
-    network: TemplateNetwork[TemplateBox], situations: Floats
-) -> dict[str, Latency]:
+def template_latencies(network: TemplateNetwork, situations: Floats) -> dict[str, Latency]:
     """How long one query takes: the network's, whether it answers or not, and the search's.
 
     Args:

@@ -61,7 +61,7 @@ class PlannerVerdicts:
 
 
 def judge_planner(
-    templates: TemplateNetwork[TemplateBox],
+    templates: TemplateNetwork,
     network: BranchNetwork,
     request: TemplateLabelRequest,
     rng: np.random.Generator,
@@ -114,9 +114,7 @@ def _judge_first_choice(
     return first <= times.min(axis=1) * (1.0 + NEAR), times.min(axis=1)
 
 
-def _planned_time(
-    templates: TemplateNetwork[TemplateBox], network: BranchNetwork, row: Floats
-) -> float:
+def _planned_time(templates: TemplateNetwork, network: BranchNetwork, row: Floats) -> float:
     """When the path arrives that the networks lead to, if it is certified [R/V_P]."""
     proposal = propose(network, situation_of(row), templates)
     if proposal is None or not proposal.certificate.holds:

@@ -27,7 +27,7 @@ from relguide.learn.audits.branch_judging import ROUNDING
 from relguide.learn.training.shares import Share, share_as_json
 from relguide.learn.tree.nearest import Lookup, neighbours
 from relguide.learn.tree.regular_network import RegularNetwork, regress_pairs
-from relguide.learn.tree.regular_words import Piece, pieces_of, words_like
+from relguide.learn.tree.regular_words import RegularPiece, pieces_of, words_like
 from relguide.learn.tree.tree import TreeParameters, pairs_of
 from relguide.learn.words.branch_labels import Floats, times_of
 from relguide.learn.words.branch_network import BranchNetwork
@@ -81,7 +81,7 @@ class Given:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Method:
+class MethodResult:
     """How good one of them is."""
 
     name: str
@@ -156,7 +156,7 @@ def side_by_side(
     network: BranchNetwork,
     lookup: Lookup,
     regressions: Sequence[RegularNetwork],
-) -> Iterator[Method]:
+) -> Iterator[MethodResult]:
     """Judge our network, the nearest path of the tree, and networks that regress.
 
     Args:
@@ -203,14 +203,14 @@ def look_up_pairs(lookup: Lookup, x: Floats, y: Floats, h: Floats) -> Floats:
     return pairs
 
 
-def clear_pieces(pairs: Floats, parameters: TreeParameters) -> list[list[Piece]]:
+def clear_pieces(pairs: Floats, parameters: TreeParameters) -> list[list[RegularPiece]]:
     """The pieces of each row of pairs; those shorter than half a step of the tree are left out."""
     steps = parameters.delta_theta, parameters.delta_l / parameters.encounter.turn_radius
     clear = np.where(pairs[:, :, 1:] >= 0.5 * np.array(steps), pairs[:, :, 1:], 0.0)
     return [pieces_of(row) for row in np.concatenate((pairs[:, :, :1], clear), axis=2).tolist()]
 
 
-def branches_like(pieces: Sequence[Piece]) -> list[bool]:
+def branches_like(pieces: Sequence[RegularPiece]) -> list[bool]:
     """Which branches pieces name: of a word of three turns both branches unless they say."""
     words = words_like(pieces)
     named = [word in words for word in WORDS_OF]
@@ -268,7 +268,7 @@ def _both_branches(held: Flags) -> Flags:
 
 def _method(
     name: str, ground: Ground, given: Given, ask: Callable[[float, float, float], object]
-) -> Method:
+) -> MethodResult:
     least = ground.times.min(axis=1)
     fastest = ground.times <= least[:, None] * (1.0 + NEAR)
     right = (given.named & fastest).any(axis=1)
@@ -280,7 +280,7 @@ def _method(
     if given.ends is not None:
         places, headings = np.sort(given.ends, axis=0).T
         reached = Share(hits=int((given.ends <= REACHED).all(axis=1).sum()), of=len(ground))
-    return Method(
+    return MethodResult(
         name=name,
         right=Share(hits=int(right.sum()), of=len(ground)),
         classes=tuple(
@@ -312,7 +312,7 @@ def two(values: Floats) -> tuple[float, float]:
     return middle, late
 
 
-def method_as_json(method: Method) -> dict[str, Any]:
+def method_as_json(method: MethodResult) -> dict[str, Any]:
     """What is found of a method, as it is printed."""
     found: dict[str, Any] = {
         "branch_right": share_as_json(method.right),

@@ -31,15 +31,8 @@ LISTED = 100
 """Most gaps that are listed, the largest ones."""
 COMMONEST = 12
 """Templates with a line of their own."""
-STRAIGHT_NUMBERS = ("x_r", "y_r", "h_rad", "speed_ratio", "slot_r", "limit_r")
-"""What a situation is behind a leader who keeps straight."""
-TURN_NUMBERS = (
-    "x_r", "y_r", "h_rad", "speed_ratio", "limit_r", "ahead_r", "left_r", "lead_r_per_v",
-    "turn_rad", "rate_v_per_r", "hold_r_per_v",
-)  # fmt: skip
-"""And behind one who turns once: see `kernels.networks.turning_leader`."""
-Reason = Literal["left out", "not solved", "of no template"]
-REASONS: tuple[Reason, ...] = ("left out", "not solved", "of no template")
+GapReason = Literal["left out", "not solved", "of no template"]
+REASONS: tuple[GapReason, ...] = ("left out", "not solved", "of no template")
 """Why an answer is slow: the right template is left out of the set; it is held, but not solved next
 to its guess; the fastest path is of no template."""
 
@@ -94,14 +87,14 @@ class TemplateMiss:
     late: float
     """[R/V_P]"""
     situation: tuple[float, ...]
-    """As `STRAIGHT_NUMBERS` or `TURN_NUMBERS` name it."""
+    """x, y [R], h [rad], α, D/R, d_min/R."""
     fastest: str
     """The template missed."""
     share: float
     """That the network gives it."""
     answered: str
     """The template given."""
-    reason: Reason
+    reason: GapReason
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -118,7 +111,7 @@ class TemplateAudit:
     """Those in which the limit binds by how sure the network is, those it is surest of first."""
     misses: tuple[TemplateMiss, ...]
     """Gaps above `WORTH`, the largest first, `LISTED` at most."""
-    reasons: Mapping[Reason, int]
+    reasons: Mapping[GapReason, int]
     """How many there are of each reason, of all."""
     worth: Share
     """How many answers have such a gap."""
@@ -127,43 +120,16 @@ class TemplateAudit:
 def template_audit_of(chunks: Mapping[int, TemplateVerdicts]) -> TemplateAudit:
     """Sum up an audit's chunks, by their number."""
     whole = join_template_verdicts(chunks)
-    everywhere = whole.everywhere
-    return audit_of_bound(
-        whole.bound,
-        TEMPLATES,
-        SOURCES,
-        tuple(
-            _planner_group(name, everywhere, chosen)
-            for name, chosen in (
-                ("it does not bind", ~everywhere.binds),
-                ("it binds", everywhere.binds),
-                ("all situations", np.ones(len(everywhere), dtype=bool)),
-            )
-        ),
-    )
-
-
-def audit_of_bound(
-    bound: ConstrainedVerdicts,
-    names: tuple[str, ...],
-    sources: tuple[str, ...],
-    everywhere: tuple[PlannerGroup, ...],
-) -> TemplateAudit:
-    """Sum up what is found where the limit binds.
-
-    Args:
-        bound: all of it.
-        names: of the templates.
-        sources: names of the sources.
-        everywhere: what is found whether it binds or not.
-    """
+    bound, everywhere = whole.bound, whole.everywhere
     every = np.ones(len(bound), dtype=bool)
-    groups = [_group(name, bound, bound.sources == n) for n, name in enumerate(sources)]
-    counts = np.bincount(bound.templates, minlength=len(names))
+    groups = [_group(name, bound, bound.sources == n) for n, name in enumerate(SOURCES)]
+    counts = np.bincount(bound.templates, minlength=len(TEMPLATES))
     order = np.argsort(-counts, kind="stable")
     common = [int(template) for template in order[:COMMONEST] if counts[template] > 0]
     rest = ~np.isin(bound.templates, common)
-    templates = [_group(names[at], bound, bound.templates == at) for at in common]
+    templates = [
+        _group(TEMPLATES[template], bound, bound.templates == template) for template in common
+    ]
     if rest.any():
         others = len(np.unique(bound.templates[rest]))
         templates.append(_group(f"{others} others", bound, rest))
@@ -174,9 +140,16 @@ def audit_of_bound(
     return TemplateAudit(
         groups=(*groups, _group("all", bound, every)),
         templates=tuple(templates),
-        everywhere=everywhere,
+        everywhere=tuple(
+            _planner_group(name, everywhere, chosen)
+            for name, chosen in (
+                ("it does not bind", ~everywhere.binds),
+                ("it binds", everywhere.binds),
+                ("all situations", np.ones(len(everywhere), dtype=bool)),
+            )
+        ),
         doubts=doubts_of(bound.doubt, bound.named),
-        misses=_misses(bound, names, gap, slow, reasons),
+        misses=_misses(bound, gap, slow, reasons),
         reasons={reason: int((reasons == n).sum()) for n, reason in enumerate(REASONS)},
         worth=Share(hits=len(slow), of=int((gap < inf).sum())),
     )
@@ -242,18 +215,17 @@ def _reasons(bound: ConstrainedVerdicts, slow: NDArray[np.intp]) -> NDArray[np.i
 
 
 def _misses(
-    bound: ConstrainedVerdicts, names: tuple[str, ...], gap: Floats, slow: NDArray[np.intp],
-    reasons: NDArray[np.int8],
-) -> tuple[TemplateMiss, ...]:  # fmt: skip
+    bound: ConstrainedVerdicts, gap: Floats, slow: NDArray[np.intp], reasons: NDArray[np.int8]
+) -> tuple[TemplateMiss, ...]:
     largest = np.argsort(-gap[slow], kind="stable")[:LISTED]
     return tuple(
         TemplateMiss(
             gap=float(gap[row]),
             late=float(bound.given[row] - bound.exact[row]),
             situation=tuple(bound.situations[row].tolist()),
-            fastest=names[bound.templates[row]],
+            fastest=TEMPLATES[bound.templates[row]],
             share=float(bound.own[row]),
-            answered=names[bound.answered[row]],
+            answered=TEMPLATES[bound.answered[row]],
             reason=REASONS[reasons[at]],
         )
         for at, row in zip(largest.tolist(), slow[largest].tolist(), strict=True)
@@ -306,7 +278,7 @@ def _late_as_json(late: Late) -> dict[str, Any]:
 
 
 def _miss_as_json(miss: TemplateMiss) -> dict[str, Any]:
-    names = STRAIGHT_NUMBERS if len(miss.situation) == len(STRAIGHT_NUMBERS) else TURN_NUMBERS
+    names = ("x_r", "y_r", "h_rad", "speed_ratio", "slot_r", "limit_r")
     return {
         "gap_percent": 100.0 * miss.gap,
         "late_r_per_v": miss.late,

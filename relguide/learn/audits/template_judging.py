@@ -15,11 +15,7 @@ from numpy.typing import NDArray
 
 from relguide.learn.audits.constrained_judging import ConstrainedVerdicts, judge_constrained
 from relguide.learn.audits.planner_judging import PlannerVerdicts, judge_planner
-from relguide.learn.boundary.template_labels import (
-    TemplateBox,
-    TemplateLabelRequest,
-    template_label_chunk,
-)
+from relguide.learn.boundary.template_labels import TemplateLabelRequest, template_label_chunk
 from relguide.learn.boundary.template_network import TemplateNetwork
 from relguide.learn.training.chunks import gather
 from relguide.learn.words.branch_network import BranchNetwork
@@ -34,7 +30,7 @@ class TemplateVerdicts:
 
 
 def template_audit_request(
-    templates: TemplateNetwork[TemplateBox], count: int, seed: int
+    templates: TemplateNetwork, count: int, seed: int
 ) -> TemplateLabelRequest:
     """What situations to audit with, of each sort.
 
@@ -47,7 +43,7 @@ def template_audit_request(
 
 
 def judge_template_chunks(
-    templates: TemplateNetwork[TemplateBox],
+    templates: TemplateNetwork,
     network: BranchNetwork,
     request: TemplateLabelRequest,
     executor: Executor,
@@ -58,10 +54,7 @@ def judge_template_chunks(
 
 
 def judge_template_chunk(
-    templates: TemplateNetwork[TemplateBox],
-    network: BranchNetwork,
-    request: TemplateLabelRequest,
-    number: int,
+    templates: TemplateNetwork, network: BranchNetwork, request: TemplateLabelRequest, number: int
 ) -> TemplateVerdicts:
     """Answer a chunk exactly and hold the networks against it; a function of its arguments."""
     labels = template_label_chunk(request, number)
@@ -76,12 +69,12 @@ def join_template_verdicts(chunks: Mapping[int, TemplateVerdicts]) -> TemplateVe
     """Chunks in order of their numbers."""
     parts = [chunks[number] for number in sorted(chunks)]
     return TemplateVerdicts(
-        bound=ConstrainedVerdicts(**columns_of([part.bound for part in parts])),
-        everywhere=PlannerVerdicts(**columns_of([part.everywhere for part in parts])),
+        bound=ConstrainedVerdicts(**_columns([part.bound for part in parts])),
+        everywhere=PlannerVerdicts(**_columns([part.everywhere for part in parts])),
     )
 
 
-def columns_of(
+def _columns(
     parts: Sequence[ConstrainedVerdicts] | Sequence[PlannerVerdicts],
 ) -> dict[str, NDArray[Any]]:
     """Their columns, one part below the other."""

@@ -14,53 +14,51 @@ from typing import IO, Any
 import numpy as np
 
 from relguide.learn.boundary.template_labels import (
-    LabelRequest,
+    SOURCES,
+    TemplateLabelRequest,
     TemplateLabels,
     from_columns,
     make_template_labels,
 )
 from relguide.learn.training.files import expect_part, load_columns, save_columns
 
-FILES = {"templates": ("relguide limit labels 1", 6), "turns": ("relguide turn labels 1", 11)}
-"""What a file of each method says it is, with the version of its columns, and how many numbers a
-situation is there."""
+FILE = "relguide limit labels 1"
+"""What a file says it is, with the version of its columns."""
 COLUMNS = ("situations", "times_r_per_v", "counts", "legs", "sources")
+NONE = "holds no labels of relguide dataset --method templates, or is cut short."
+"""What is said of a file that is not one."""
 
 
 def save_template_labels(
-    labels: TemplateLabels, request: LabelRequest, provenance: dict[str, str], file: Path
+    labels: TemplateLabels, request: TemplateLabelRequest, provenance: dict[str, str], file: Path
 ) -> None:
     """Write labels, and how they were made."""
     about = {
-        "file": FILES[request.method][0],
+        "file": FILE,
         "request": asdict(request),
-        "sources": request.sources,
+        "sources": SOURCES,
         "provenance": provenance,
     }
     save_columns(file, about, dict(zip(COLUMNS, labels.columns(), strict=True)))
 
 
-def load_template_labels(
-    file: Path, *, kind: str = "templates"
-) -> tuple[TemplateLabels, dict[str, Any]]:
-    """Read labels of a method, and what the file says of itself.
+def load_template_labels(file: Path) -> tuple[TemplateLabels, dict[str, Any]]:
+    """Read labels, and what the file says of itself.
 
     Raises:
         ValueError: if the file does not hold labels.
     """
-    says, numbers = FILES[kind]
-    none = f"holds no labels of relguide dataset --method {kind}, or is cut short."
-    about, columns = load_columns(file, says, COLUMNS, none)
+    about, columns = load_columns(file, FILE, COLUMNS, NONE)
     labels = from_columns(*(columns[name] for name in COLUMNS))
     n = len(labels)
-    shapes = ((n, numbers), (n, 3), (n,), (n, *labels.legs.shape[1:2], 6), (n,))
+    shapes = ((n, 6), (n, 3), (n,), (n, *labels.legs.shape[1:2], 6), (n,))
     if n == 0 or tuple(column.shape for column in labels.columns()) != shapes:
         raise ValueError(f"{file}: its columns do not fit together; make the labels again.")
     return labels, about
 
 
 def grow_template_labels(
-    request: LabelRequest, part: Path, executor: Executor, *, resume: bool
+    request: TemplateLabelRequest, part: Path, executor: Executor, *, resume: bool
 ) -> Iterator[tuple[int, TemplateLabels]]:
     """Make labels, and write every chunk down as it is ready.
 
@@ -92,7 +90,7 @@ def grow_template_labels(
 
 
 def _whole_chunks(
-    stream: IO[bytes], request: LabelRequest, part: Path
+    stream: IO[bytes], request: TemplateLabelRequest, part: Path
 ) -> dict[int, TemplateLabels]:
     """The chunks a stopped run left; the stream then stands behind the last whole one."""
     chunks: dict[int, TemplateLabels] = {}

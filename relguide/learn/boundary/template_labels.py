@@ -16,8 +16,8 @@ from collections.abc import Iterator
 from concurrent.futures import Executor
 from dataclasses import dataclass, field
 from functools import partial
-from math import hypot, inf, isfinite, log, pi
-from typing import Any, ClassVar, NamedTuple, Protocol
+from math import inf, isfinite, log, pi
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -78,22 +78,11 @@ class TemplateBox:
                 f"{self.max_range:g}."
             )
 
-    def holds(self, x: float, y: float, alpha: float, slot: float, limit: float) -> bool:
-        """Whether a situation lies in it: x, y, D and d_min in R."""
-        return (
-            self.min_ratio <= alpha <= self.max_ratio
-            and self.min_limit <= limit <= self.max_limit
-            and limit <= slot <= self.max_slot * limit
-            and hypot(x - slot, y) - limit <= self.max_range
-        )
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TemplateLabelRequest:
     """What labels to make. The same request gives the same labels."""
 
-    method: ClassVar[str] = "templates"
-    sources: ClassVar[tuple[str, ...]] = SOURCES
     count: int
     seed: int = 0
     box: TemplateBox = field(default_factory=TemplateBox)
@@ -110,27 +99,6 @@ class TemplateLabelRequest:
     def chunks(self) -> int:
         """How many chunks there are."""
         return chunks_of(self)
-
-    def make(self, number: int) -> "TemplateLabels":
-        """One chunk; a function of the request and its number alone."""
-        return template_label_chunk(self, number)
-
-
-class LabelRequest(Protocol):
-    """What labels of one kind or another to make: a frozen dataclass."""
-
-    __dataclass_fields__: ClassVar[dict[str, Any]]
-    method: ClassVar[str]
-    """Of `relguide dataset`."""
-    sources: ClassVar[tuple[str, ...]]
-    """Where a situation may come from, by number."""
-
-    @property
-    def chunks(self) -> int:
-        """How many chunks there are."""
-
-    def make(self, number: int) -> "TemplateLabels":
-        """One chunk; a function of the request and its number alone."""
 
 
 class ConstrainedPaths(NamedTuple):
@@ -174,7 +142,7 @@ class TemplateLabels:
 
 
 def make_template_labels(
-    request: LabelRequest, executor: Executor, *, made: frozenset[int] = frozenset()
+    request: TemplateLabelRequest, executor: Executor, *, made: frozenset[int] = frozenset()
 ) -> Iterator[tuple[int, TemplateLabels]]:
     """Make labels, chunk by chunk, as they are ready.
 
@@ -221,8 +189,10 @@ def advance_paths(paths: ConstrainedPaths, rng: np.random.Generator) -> Constrai
     return rest
 
 
-def _missing_chunk(request: LabelRequest, missing: tuple[int, ...], n: int) -> TemplateLabels:
-    return request.make(missing[n])
+def _missing_chunk(
+    request: TemplateLabelRequest, missing: tuple[int, ...], n: int
+) -> TemplateLabels:
+    return template_label_chunk(request, missing[n])
 
 
 def join_labels(chunks: dict[int, TemplateLabels]) -> TemplateLabels:

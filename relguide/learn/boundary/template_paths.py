@@ -19,7 +19,6 @@ from relguide.kernels.networks.network_view import Where
 from relguide.kernels.networks.template_scores import constrained_pieces
 from relguide.kernels.words.branches import needs_mirror
 from relguide.kernels.words.extremals import WORDS
-from relguide.learn.boundary.template_labels import TemplateBox
 from relguide.learn.boundary.template_network import TemplateNetwork
 from relguide.planning.candidate import (
     SIGN_ROWS,
@@ -75,11 +74,7 @@ def free_path(
 
 
 def solve_constrained(
-    templates: TemplateNetwork[TemplateBox],
-    situation: Situation,
-    radius: Metre,
-    where: Where,
-    free: FloatArray,
+    templates: TemplateNetwork, situation: Situation, radius: Metre, where: Where, free: FloatArray
 ) -> Candidate | None:
     """The fastest constrained path that the network leads to, not certified yet.
 
@@ -92,7 +87,7 @@ def solve_constrained(
     """
     x, y, _, slot, alpha, limit = where
     pursuer = situation.pursuer
-    if not templates.box.holds(x, y, alpha, slot, limit) or hypot(x - slot, y) < limit:
+    if not templates.holds(x, y, alpha, slot, limit) or hypot(x - slot, y) < limit:
         return None
     longest = HORIZON * pursuer.tas / radius
     weights = tuple(templates.layers)

@@ -8,25 +8,27 @@ labels, options and number of threads give the same weights on the same CPU.
 
 import argparse
 from collections.abc import Iterator, Mapping
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from relguide.kernels.networks.templates import NONE, SEVERAL
+from relguide.kernels.networks.template_features import FEATURES
+from relguide.kernels.networks.template_scores import OUTPUTS
+from relguide.kernels.networks.template_solutions import label_templates
+from relguide.kernels.networks.templates import NONE, SEVERAL, SIZE
 from relguide.learn.boundary.template_label_file import load_template_labels
 from relguide.learn.boundary.template_labels import (
     ConstrainedPaths,
+    TemplateBox,
     TemplateLabels,
+    advance_paths,
     pick_paths,
 )
 from relguide.learn.boundary.template_network import (
-    STRAIGHT,
-    Box,
-    TemplateKind,
     TemplateNetwork,
     save_template_network,
+    template_features_of,
 )
 from relguide.learn.training.fitting import (
     Epoch,
@@ -58,20 +60,26 @@ LATER = 2
 """So often each path is learnt from once more, at some moment of its first turn."""
 DECAY = 1e-3
 """Of the weights, each step, over the learning rate."""
-EVENED = np.arange(1.0, 6.0, 0.05)
-"""By one of these logarithms of shares are divided where they are evened out."""
+COVERAGE = 0.999
+"""How often the fastest template shall be among those solved, in labels not learnt from."""
+LEAST_SHARE = 0.001
+"""Templates with a smaller share are left out; with one smaller still if calibration asks so."""
+MOST = 8
+"""With more templates than this, all solved, the search would hardly take longer."""
+DOUBT = 0.4
+"""Paths of no template, no path, and templates without a path next to their guess may together be
+this likely. With 0.8 instead 0.6 % more are answered, and a third of those late."""
 
 
 def train_templates(
     labels: TemplateLabels,
     options: TrainingOptions,
     *,
-    box: Box,
+    box: TemplateBox,
     about: Mapping[str, Any],
-    kind: TemplateKind[Any] = STRAIGHT,
     checkpoint: Path | None = None,
     resume: bool = False,
-) -> Iterator[Epoch[TemplateNetwork[Box]]]:
+) -> Iterator[Epoch[TemplateNetwork]]:
     """Train a network; yields after every epoch, the last is the end.
 
     Args:
@@ -79,7 +87,6 @@ def train_templates(
         options: how.
         box: of the labels.
         about: what is to be said of the weights' origin.
-        kind: what the labels are about.
         checkpoint: a file written after every epoch, to go on from.
         resume: go on from it; the result is the same.
     """
@@ -92,23 +99,24 @@ def train_templates(
     rows, kept = split(np.arange(len(labels)), options, of="labels")
     paths = [pick_paths(labels.paths, rows)]
     rng = np.random.default_rng(options.seed)
-    paths += [kind.advance(pick_paths(labels.paths, rows[kept:]), rng) for _ in range(LATER)]
-    targets = [kind.targets_of(part, WITHIN) for part in paths]
-    templates, guesses = (np.concatenate(column) for column in zip(*targets, strict=True))
+    paths += [advance_paths(pick_paths(labels.paths, rows[kept:]), rng) for _ in range(LATER)]
+    templates, guesses = (
+        np.concatenate(column) for column in zip(*map(targets_of, paths), strict=True)
+    )
     situations = np.concatenate([part.situations for part in paths])
-    inputs, mean, deviation = scale(kind.features_of(situations), kept)
+    inputs, mean, deviation = scale(template_features_of(situations), kept)
     given = torch.from_numpy(inputs).to(device)
     right = torch.from_numpy(templates).to(device)
     guess = torch.from_numpy(guesses.astype(np.float32)).to(device)
     guessed = (guess != 0.0).any(dim=1).float()
     there = (templates[:kept] != NONE) & (templates[:kept] != SEVERAL)
 
-    model = torch_model(options.shape, features=kind.features, outputs=kind.outputs).to(device)
+    model = torch_model(options.shape, features=FEATURES, outputs=OUTPUTS).to(device)
 
     def loss(chosen: "torch.Tensor") -> "torch.Tensor":
         """What the template is off, and its guess, of some rows."""
-        score, told = model(given[chosen]).split((kind.size, kind.guess * kind.size), dim=1)
-        own = told.view(-1, kind.size, kind.guess)[torch.arange(len(chosen)), right[chosen]]
+        score, pairs = model(given[chosen]).split((SIZE, 2 * SIZE), dim=1)
+        own = pairs.view(-1, SIZE, 2)[torch.arange(len(chosen)), right[chosen]]
         off = functional.smooth_l1_loss(own, guess[chosen], reduction="none", beta=BEND)
         summed: torch.Tensor = GUESSED * (
             off.sum(dim=1) * guessed[chosen]
@@ -117,32 +125,22 @@ def train_templates(
 
     def shares() -> np.ndarray:
         """Of the templates, in the rows kept."""
-        return shares_of(model, given[:kept], kind.size)
+        return shares_of(model, given[:kept], SIZE)
 
     def accuracy() -> float:
         """How often the right template has the highest share, where a template is right."""
         first = shares().argmax(axis=1)
         return float((first == templates[:kept])[there].mean()) if there.any() else 0.0
 
-    def network(origin: Mapping[str, Any]) -> TemplateNetwork[Box]:
+    def network(origin: Mapping[str, Any]) -> TemplateNetwork:
         """What the weights become, with its set calibrated."""
-        rules, told = kind.rules, shares()
-        layers = layers_of(arrays_of(model), mean, deviation)
-        if rules.evened > 0.0:
-            told, by = even_out(told, templates[:kept], rules.evened)
-            last, last_bias = layers.last.copy(), layers.last_bias.copy()
-            last[:, : kind.size] /= by
-            last_bias[: kind.size] /= by
-            layers = layers._replace(last=last, last_bias=last_bias)
-        right = told[np.arange(kept), templates[:kept]][there]
-        least = covering_share(right, rules.coverage) if there.any() else 0.0
+        right = shares()[np.arange(kept), templates[:kept]][there]
         return TemplateNetwork(
-            layers=layers,
-            kind=kind,
+            layers=layers_of(arrays_of(model), mean, deviation),
             box=box,
-            least_share=min(rules.least_share, least),
-            most=rules.most,
-            doubt=rules.doubt,
+            least_share=min(LEAST_SHARE, covering_share(right, COVERAGE)) if there.any() else 0.0,
+            most=MOST,
+            doubt=DOUBT,
             about={**about, **origin, "labels": len(labels)},
         )
 
@@ -154,49 +152,37 @@ def train_templates(
     )  # fmt: skip
 
 
-def even_out(shares: np.ndarray, right: np.ndarray, beyond: float) -> tuple[np.ndarray, np.float32]:
-    """Shares that are less sure, and by what their logarithms are divided.
-
-    Args:
-        shares: of the templates, in some rows. shape (n, templates)
-        right: the template of each. shape (n,)
-        beyond: with 1 they become as sure as they are right; as in `Rules`.
-    """
-    scores, rows = np.log(np.maximum(shares, 1e-30)), np.arange(len(right))
-
-    def evened(divisor: float) -> np.ndarray:
-        less_sure: np.ndarray = np.exp(scores / divisor)
-        less_sure /= less_sure.sum(axis=1, keepdims=True)
-        return less_sure
-
-    missed = [-np.log(evened(divisor)[rows, right]).mean() for divisor in EVENED]
-    by = beyond * float(EVENED[int(np.argmin(missed))])
-    return evened(by), np.float32(by)
-
-
 def targets_of(paths: ConstrainedPaths) -> tuple[np.ndarray, np.ndarray]:
-    """What is to be learnt behind leaders who keep straight: templates, and guesses."""
-    return STRAIGHT.targets_of(paths, WITHIN)
+    """What is to be learnt: templates, shape (n,), and guesses, shape (n, 2)."""
+    n = len(paths.times)
+    templates, guesses = np.empty(n), np.empty((n, 2))
+    label_templates(
+        paths.situations,
+        paths.times,
+        paths.counts.astype(float),
+        paths.legs,
+        WITHIN,
+        templates,
+        guesses,
+    )
+    return templates.astype(np.int64), guesses
 
 
-def run(
-    chosen: argparse.Namespace, program: str, kind: TemplateKind[Any] = STRAIGHT
-) -> Iterator[Epoch[TemplateNetwork[Any]]]:
+def run(chosen: argparse.Namespace, program: str) -> Iterator[Epoch[TemplateNetwork]]:
     """Do the training that was asked for; the weights are written at each better epoch.
 
     Args:
         chosen: the options of `options.add_options`.
         program: what trains, for the weights' provenance.
-        kind: what the labels are about.
     """
     return run_training(
         chosen,
         program,
-        load=partial(load_template_labels, kind=kind.method),
-        box=kind.box,
-        train=partial(train_templates, kind=kind),
+        load=load_template_labels,
+        box=TemplateBox,
+        train=train_templates,
         save=save_template_network,
-        method=f" --method {kind.method}",
+        method=" --method templates",
     )
 
 

@@ -27,7 +27,7 @@ from relguide.kernels.base.records import Pose, Velocity, Window
 from relguide.kernels.words.branches import direct_time
 from relguide.kernels.words.extremals import MAX_ROWS, WORDS, fly_piece, solve_word
 from relguide.learn.tree.nearest import Lookup, lookup_in, neighbours
-from relguide.learn.tree.regular_words import SIGN, Piece, pieces_of, words_like
+from relguide.learn.tree.regular_words import SIGN, RegularPiece, pieces_of, words_like
 from relguide.learn.tree.reverse_dp import reverse_tree
 from relguide.learn.tree.tree import TreeParameters, pairs_of
 from relguide.maps.area import Encounter
@@ -121,7 +121,7 @@ def _propose(situation: Situation, frame: SlotFrame) -> Iterator[Candidate]:
 
 
 def _close(
-    situation: Situation, frame: SlotFrame, flown: list[Piece], rest: list[Piece]
+    situation: Situation, frame: SlotFrame, flown: list[RegularPiece], rest: list[RegularPiece]
 ) -> Candidate | None:
     """Pieces flown as they are, and from their end the fastest path of the words of the rest."""
     x, y, h = frame.x, frame.y, frame.h

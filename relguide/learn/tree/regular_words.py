@@ -13,7 +13,7 @@ from typing import NamedTuple
 from relguide.kernels.words.extremals import WORDS
 
 
-class Piece(NamedTuple):
+class RegularPiece(NamedTuple):
     """A turn or a straight of the slot frame."""
 
     letter: str
@@ -26,28 +26,28 @@ SIGN = {"L": 1.0, "S": 0.0, "R": -1.0}
 """ε of each letter, 0 of a straight."""
 
 
-def pieces_of(pairs: Sequence[Sequence[float]]) -> list[Piece]:
+def pieces_of(pairs: Sequence[Sequence[float]]) -> list[RegularPiece]:
     """Pairs (ε, θ [rad], l [R]), forward, as pieces; what has no length is left out."""
     pieces = []
     for turn, angle, length in pairs:
         if angle > 0.0:
-            pieces.append(Piece("L" if turn > 0.0 else "R", angle))
+            pieces.append(RegularPiece("L" if turn > 0.0 else "R", angle))
         if length > 0.0:
-            pieces.append(Piece("S", length))
+            pieces.append(RegularPiece("S", length))
     return merge(pieces)
 
 
-def merge(pieces: Sequence[Piece]) -> list[Piece]:
+def merge(pieces: Sequence[RegularPiece]) -> list[RegularPiece]:
     """Like after like as one."""
-    found: list[Piece] = []
+    found: list[RegularPiece] = []
     for piece in pieces:
         if found and found[-1].letter == piece.letter:
-            piece = Piece(piece.letter, found.pop().amount + piece.amount)
+            piece = RegularPiece(piece.letter, found.pop().amount + piece.amount)
         found.append(piece)
     return found
 
 
-def words_like(pieces: Sequence[Piece]) -> tuple[int, ...]:
+def words_like(pieces: Sequence[RegularPiece]) -> tuple[int, ...]:
     """Numbers of the words that pieces are like; more than one where pieces are too few to say.
 
     Pieces that are like no word lose their shortest ones until they are.

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Epoch:
+class RegularEpoch:
     """How the training stands after an epoch."""
 
     number: int
@@ -34,7 +34,7 @@ class Epoch:
 
 def train_regular(
     tree: Tree, options: TrainingOptions, *, method: Method, about: Mapping[str, Any]
-) -> Iterator[Epoch]:
+) -> Iterator[RegularEpoch]:
     """Train on the states of a tree; yields after every epoch, the last is the end.
 
     Args:
@@ -80,7 +80,7 @@ def train_regular(
         with torch.no_grad():
             missed = float((model(numbers[:kept]) - wanted[:kept]).square().mean())
         weights, biases = _layers(arrays_of(model), from_inputs, from_targets)
-        yield Epoch(
+        yield RegularEpoch(
             number=epoch + 1,
             loss=missed,
             network=RegularNetwork(

@@ -21,10 +21,10 @@ from relguide.contract.bodies import (
     situation_from_body,
 )
 from relguide.contract.bulk import answer_line
+from relguide.contract.flight_summary import figures, summarize
 from relguide.contract.messages import FlightRequest
 from relguide.contract.plain import plain_row, quick_loads, situation_of
 from relguide.contract.refusal import ContractError, parse
-from relguide.contract.story import figures, story_of
 from relguide.flying.flight import fly
 from relguide.learn.planners import make_planner
 from relguide.learn.words.area_words import area_words
@@ -242,7 +242,7 @@ def simulate(wanted: FlightRequest, planner: str | Planner) -> bytes:
         sample_period=1.0,
         planner_name=planner if isinstance(planner, str) else None,
     )
-    (ended,) = story_of(documents).ended
+    (ended,) = summarize(documents).ended
     about = {
         "scenario": name,
         "seed": wanted.seed,

@@ -17,10 +17,10 @@ from typing import Any
 import pyarrow.parquet as pq
 import pytest
 
-from relguide.cli.batch.order import Order
+from relguide.cli.batch.order import BatchOrder
 from relguide.cli.batch.pool import in_order
-from relguide.cli.batch.source import Chunk
-from relguide.cli.batch.work import Answered
+from relguide.cli.batch.source import LineChunk
+from relguide.cli.batch.work import AnsweredChunk
 from relguide.learn.training.chunks import ATTEMPTS
 from tests.bodies import BODY, change
 from tests.command_line import NEAR, UNREACHABLE, Run
@@ -235,18 +235,18 @@ class Losing(Executor):
         self.sent: list[int] = []
 
     def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
-        chunk: Chunk = args[1]
+        chunk: LineChunk = args[1]
         self.sent.append(chunk.first)
         future: Future[Any] = Future()
         if self.sent.count(chunk.first) <= self.times:
             future.set_exception(self.error)
         else:
-            future.set_result(Answered(chunk.content, 1, 0, 0))
+            future.set_result(AnsweredChunk(chunk.content, 1, 0, 0))
         return future
 
 
-CHUNKS = [Chunk(n, 1, b"%d\n" % n, 2) for n in range(1, 5)]
-ORDER = Order(source="jsonl", to="jsonl")
+CHUNKS = [LineChunk(n, 1, b"%d\n" % n, 2) for n in range(1, 5)]
+ORDER = BatchOrder(source="jsonl", to="jsonl")
 
 
 def test_what_a_lost_worker_had_is_sent_again() -> None:

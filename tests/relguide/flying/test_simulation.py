@@ -29,7 +29,7 @@ from relguide.flying.flight import (
     world_of,
 )
 from relguide.flying.guidance.settings import DEFAULT
-from relguide.flying.losses import RECENT
+from relguide.flying.metrics import RECENT
 from relguide.flying.scenarios import fig_6, own_scenario
 from relguide.flying.simulation import simulate, whole_steps
 from relguide.flying.world import Aircraft, Declared, Guided, Link, World

@@ -9,9 +9,9 @@ from relguide_server.http.errors import Refusal
 from relguide_server.planning.simulations import AT_A_TIME, EXAMPLE
 
 from relguide import plan
+from relguide.contract.flight_summary import figures, summarize
 from relguide.contract.messages import ScenarioFlightRequest
 from relguide.contract.simulation_bodies import MAX_SIMULATIONS, SimulationAnswer
-from relguide.contract.story import figures, story_of
 from relguide.flying.flight import fly
 from relguide.flying.scenarios import scenario
 from tests.bodies import BODY
@@ -31,7 +31,7 @@ def test_flights_are_flown_to_their_end_as_by_the_command(client: TestClient) ->
     answer = client.post(PATH, json=EXAMPLE)
     assert answer.status_code == 200
     first, other = answer.json()
-    (ended,) = story_of(fly(scenario("fig_6b"), plan, seed=0, sample_period=1.0)).ended
+    (ended,) = summarize(fly(scenario("fig_6b"), plan, seed=0, sample_period=1.0)).ended
     expected = figures(ended)
     assert {name: first[name] for name in expected} == expected
     assert first["version"] == version("relguide")

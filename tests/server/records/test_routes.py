@@ -18,9 +18,9 @@ from relguide_server.planning.plans import EXAMPLE
 from relguide_server.records.service import records_service
 from relguide_server.settings import ServiceSettings
 
+from relguide.contract.flight_summary import summarize
 from relguide.contract.protocol import PROTOCOL
 from relguide.contract.recorder import VERSION, replay
-from relguide.contract.story import story_of
 from relguide.contract.wire import dumps
 from relguide.flying.documents import FlightEnded, Sample
 from tests.server.flown import ideal_flight
@@ -145,7 +145,7 @@ def test_a_recording_is_what_was_flown_and_flies_again(client: TestClient, tmp_p
     file = tmp_path / "flight.jsonl"
     file.write_bytes(client.get(f"/api/v1/records/flights/{flight_id}/export").content)
     kept = list(replay(file))
-    assert story_of(kept).broken == ""
+    assert summarize(kept).broken == ""
     assert isinstance(kept[-1], FlightEnded)
     path = f"/api/v1/records/flights/{flight_id}"
     answer = client.post(f"{path}/replay", json={"rate": 60.0, "paused": True})

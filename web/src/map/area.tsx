@@ -6,7 +6,7 @@ import { LINE_HEIGHT } from "../nd/labels";
 import { type Layout, onMap, type Point, project, round, toMap, type View } from "../nd/view";
 import type { AreaAnswer, AreaRegion } from "../wire";
 import type { Editor } from "./editor";
-import { widest } from "./widest";
+import { labelPlace } from "./label-place";
 
 type Ring = readonly (readonly number[])[];
 
@@ -65,7 +65,7 @@ export function areaLabels(map: Editor, view: View): More {
   if (!map.hasArea.value || answer === undefined || pose === null)
     return { labels: [], points: [] };
   const labels = answer.regions.flatMap((region, i) => {
-    const largest = widest(region.polygons.map((polygon) => polygon.map(ringOf)));
+    const largest = labelPlace(region.polygons.map((polygon) => polygon.map(ringOf)));
     if (largest === null || largest.width * layout.scale < NAMED_FROM) return [];
     const at = project(layout, pose, largest);
     if (!onMap(layout, at)) return [];

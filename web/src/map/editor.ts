@@ -1,12 +1,13 @@
 /** The map's state: the situation that is edited, what was answered to it, and what of it is in sight. */
 
 import { batch, computed, effect, type ReadonlySignal, type Signal, signal } from "@preact/signals";
-import { emptyFlight, type Flight } from "../store/flight";
+import { emptyFlight } from "../store/flight";
 import { createShown, type Shown } from "../store/picture";
+import type { Flight } from "../store/types";
 import { NM } from "../units";
 import type { AreaAnswer } from "../wire";
-import { calmed } from "./calm";
 import { FIRST, type Situation, settle } from "./situation";
+import { throttled } from "./throttle";
 import { createThumbs, type Thumb } from "./thumbs";
 import { type Answered, showWhatIf } from "./what-if";
 
@@ -64,7 +65,9 @@ export function createEditor(): Editor {
   const [flight, read] = [emptyFlight(), emptyFlight()];
   const situation = signal(FIRST);
   const answered = signal<Answered | null>(null);
-  const calm = calmed(computed(() => ({ situation: situation.value, answered: answered.value })));
+  const slow = throttled(
+    computed(() => ({ situation: situation.value, answered: answered.value })),
+  );
   const editor: Editor = {
     situation,
     answered,
@@ -80,13 +83,13 @@ export function createEditor(): Editor {
     flight,
     shown: createShown(flight),
     reading: {
-      situation: computed(() => calm.value.situation),
+      situation: computed(() => slow.value.situation),
       flight: read,
       shown: createShown(read),
     },
   };
   effect(() => showWhatIf(flight, editor.situation.value, editor.answered.value));
-  effect(() => showWhatIf(read, calm.value.situation, calm.value.answered));
+  effect(() => showWhatIf(read, slow.value.situation, slow.value.answered));
   return editor;
 }
 

@@ -1,7 +1,7 @@
 /** The situation of a flight at this instant: what the map begins with. */
 
 import { cutPath, windVector } from "../geometry";
-import type { Flight } from "../store/flight";
+import type { Flight } from "../store/types";
 import type { IntentPiece, PathSegment } from "../wire";
 import { type Situation, settle } from "./situation";
 

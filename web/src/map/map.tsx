@@ -8,8 +8,8 @@ import { createView, type DisplayMode, type Place, type Pose, SIZE, type View } 
 import { AreaLayer, areaLabels } from "./area";
 import { Compass } from "./compass";
 import type { Editor } from "./editor";
+import { followGestures } from "./gestures";
 import { Grips } from "./grips";
-import { takeInHand } from "./hands";
 import { MapMessage, OwnShipThere, WindDial } from "./symbols";
 import "./map.css";
 
@@ -43,7 +43,7 @@ export function PlanMap({ map }: { map: Editor }) {
   const glass = useRef<SVGSVGElement>(null);
   useEffect(() => {
     const { current } = glass;
-    if (current !== null) return takeInHand(current, map, view);
+    if (current !== null) return followGestures(current, map, view);
   }, [map, view]);
   return (
     <div class="plan-glass">

@@ -5,8 +5,8 @@
 
 import { batch } from "@preact/signals";
 import { pathPointAt, windVector } from "../geometry";
-import type { Flight } from "../store/flight";
 import type { PairCard, PairSample } from "../store/pair";
+import type { Flight } from "../store/types";
 import { wrap360 } from "../units";
 import type {
   AircraftSample,

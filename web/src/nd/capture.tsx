@@ -6,7 +6,7 @@ import { offNose, onMap, placeAt, project, toMap } from "./view";
 
 /** Where and when own ship reaches the slot. */
 export function CapturePoint({ shown, view }: LayerProps) {
-  const colour = usePart(shown, ({ look }) => ink(look?.pathColour ?? "plan"));
+  const colour = usePart(shown, ({ style }) => ink(style?.pathColour ?? "plan"));
   const join = usePart(shown, (picture) => picture.join);
   const isShown = useComputed(() => join.value !== null);
   const place = useComputed(() =>
@@ -24,7 +24,7 @@ export function CapturePoint({ shown, view }: LayerProps) {
 
 /** "CNV mm:ss", the time still to fly. */
 export function captureLabel({ shown, view }: LayerProps): Label | null {
-  const [{ join, closestAtJoin, look }, { toJoin, least }] = [
+  const [{ join, closestAtJoin, style }, { toJoin, least }] = [
     shown.picture.value,
     shown.numbers.value,
   ];
@@ -37,7 +37,7 @@ export function captureLabel({ shown, view }: LayerProps): Label | null {
     id: "capture",
     at,
     lines: [
-      { text: `CNV ${toJoin}`, colour: look?.pathColour ?? "plan" },
+      { text: `CNV ${toJoin}`, colour: style?.pathColour ?? "plan" },
       ...(isClosest ? [{ text: `${least.miles} NM`, colour: "label" as const }] : []),
     ],
     side: offNose(pose, join.heading_deg + 90),

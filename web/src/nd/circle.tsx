@@ -17,9 +17,9 @@ export function SeparationCircle({ shown, view }: LayerProps) {
   });
   const radius = useComputed(() => picture.value.keepOut * view.layout.value.scale);
   const isShown = useComputed(() => place.value !== "" && radius.value > 0);
-  const look = usePart(shown, ({ separation }) => SEPARATION[separation.state]);
+  const style = usePart(shown, ({ separation }) => SEPARATION[separation.state]);
   if (!isShown.value) return null;
-  const { colour, width, dash } = look.value;
+  const { colour, width, dash } = style.value;
   return (
     <g class={`nd-circle${colour === "alert" ? " nd-flash" : ""}`} transform={place}>
       <circle class="nd-halo" r={radius} stroke-width={width + 3} stroke-dasharray={dash} />

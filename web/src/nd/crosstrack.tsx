@@ -7,7 +7,7 @@ import { placeAt } from "./view";
 export function CrossTrack({ shown, view }: LayerProps) {
   const { picture, numbers } = shown;
   const text = useComputed(() =>
-    picture.value.look?.crossTrack === true ? numbers.value.crossTrack : "",
+    picture.value.style?.crossTrack === true ? numbers.value.crossTrack : "",
   );
   const place = useComputed(() => {
     const { x, y } = view.layout.value.centre;

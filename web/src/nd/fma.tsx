@@ -9,7 +9,7 @@ const ROW = { now: 23, next: 48 } as const;
 /** The mode strip: what is engaged (upper row, green) and what comes next (lower row, cyan). */
 export function ModeStrip({ shown }: LayerProps) {
   const { numbers } = shown;
-  const modes = usePart(shown, (picture) => picture.look);
+  const modes = usePart(shown, (picture) => picture.style);
   const lateral = useComputed(() => modes.value?.lateral.now ?? "");
   const lateralNext = useComputed(() => modes.value?.lateral.next ?? "");
   const speed = useComputed(() =>

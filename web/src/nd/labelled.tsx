@@ -256,14 +256,14 @@ function choose(
 
 /** The symbols that no label may cover. */
 function symbols({ shown, view }: LayerProps): Box[] {
-  const [{ now, look, closest, closestAtJoin, join }, pose] = [
+  const [{ now, style, closest, closestAtJoin, join }, pose] = [
     shown.picture.value,
     view.pose.value,
   ];
   const layout = view.layout.value;
   if (now === null || pose === null) return [];
   const boxes = [square(project(layout, pose, now.pursuer), 28)];
-  if (look !== null && look.slot !== "none")
+  if (style !== null && style.slot !== "none")
     boxes.push(square(project(layout, pose, now.slot), 22));
   if (leaderOnMap({ shown, view }) !== null)
     boxes.push(square(project(layout, pose, now.leader), 24));

@@ -20,12 +20,12 @@ export function Leader({ shown, view }: LayerProps) {
   });
   const isShown = useComputed(() => place.value !== null);
   const at = useComputed(() => place.value ?? "");
-  const look = usePart(shown, (picture) => picture.leaderAge);
+  const style = usePart(shown, (picture) => picture.leaderAge);
   const designated = usePart(shown, (picture) => picture.designated);
   const isLost = usePart(shown, ({ separation }) => separation.state === "lost");
-  const fill = useComputed(() => ink(isLost.value ? "alert" : look.value.colour));
+  const fill = useComputed(() => ink(isLost.value ? "alert" : style.value.colour));
   if (!isShown.value) return null;
-  const broken = look.value.ring === "broken";
+  const broken = style.value.ring === "broken";
   return (
     <g class="nd-leader" transform={at}>
       {(designated.value ? RINGS : []).map((radius) => (
@@ -33,7 +33,7 @@ export function Leader({ shown, view }: LayerProps) {
           key={radius}
           class="nd-stroke"
           r={radius}
-          stroke={ink(look.value.colour === "leader" ? "leader-ring" : look.value.colour)}
+          stroke={ink(style.value.colour === "leader" ? "leader-ring" : style.value.colour)}
           stroke-width={2}
           stroke-dasharray={broken ? BROKEN : ""}
         />

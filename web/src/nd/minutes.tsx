@@ -19,7 +19,7 @@ export function TimeTicks({ shown, view }: LayerProps) {
   const isWide = useComputed(() => view.layout.value.range > TICKS_TO);
   const own = useComputed(() => ticks(view.layout.value, shown.picture.value.minutes, "own"));
   const leader = useComputed(() => ticks(view.layout.value, shown.picture.value.minutes, "leader"));
-  const colour = usePart(shown, ({ look }) => look?.pathColour ?? "plan");
+  const colour = usePart(shown, ({ style }) => style?.pathColour ?? "plan");
   if (!isPlanned.value || isWide.value) return null;
   return (
     <g class="nd-minutes">
@@ -57,7 +57,7 @@ export function minuteLabels({ shown, view }: LayerProps): Label[] {
   const pose = view.pose.value;
   const layout = view.layout.value;
   if (pose === null || layout.range > TICKS_TO) return [];
-  const path = shown.picture.value.look?.pathColour ?? "plan";
+  const path = shown.picture.value.style?.pathColour ?? "plan";
   const labels: Label[] = [];
   for (const each of shown.picture.value.minutes.filter(({ minute }) => minute % 5 === 0)) {
     for (const who of ["own", "leader"] as const) {

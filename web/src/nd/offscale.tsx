@@ -14,9 +14,9 @@ export function OffScaleLeader({ shown, view }: LayerProps) {
   });
   const isShown = useComputed(() => place.value !== null);
   const at = useComputed(() => place.value ?? "");
-  const look = usePart(shown, (picture) => picture.leaderAge);
+  const style = usePart(shown, (picture) => picture.leaderAge);
   if (!isShown.value) return null;
-  const colour = ink(look.value.colour === "leader" ? "leader-ring" : look.value.colour);
+  const colour = ink(style.value.colour === "leader" ? "leader-ring" : style.value.colour);
   return (
     <g class="nd-offscale" transform={at}>
       {RINGS.map((radius) => (
@@ -26,10 +26,10 @@ export function OffScaleLeader({ shown, view }: LayerProps) {
           d={`M${-radius} 8A${radius} ${radius} 0 0 1 ${radius} 8`}
           stroke={colour}
           stroke-width={2}
-          stroke-dasharray={look.value.ring === "broken" ? BROKEN : ""}
+          stroke-dasharray={style.value.ring === "broken" ? BROKEN : ""}
         />
       ))}
-      <path class="nd-solid" d="M0 -8L11 8H-11Z" fill={ink(look.value.colour)} />
+      <path class="nd-solid" d="M0 -8L11 8H-11Z" fill={ink(style.value.colour)} />
     </g>
   );
 }

@@ -13,7 +13,7 @@ import { onwards } from "./view";
  * Before the first forecast: what is left of the plan, or the leader's route once behind it.
  */
 export function ActivePath({ shown, view }: LayerProps) {
-  const kind = usePart(shown, ({ look }) => look?.path ?? "none");
+  const kind = usePart(shown, ({ style }) => style?.path ?? "none");
   const plan = usePart(shown, (picture) => picture.plan);
   const path = useComputed(() => timedPath(plan.value));
   const route = useComputed(() => {

@@ -10,7 +10,7 @@ import { offNose, onMap, type Point, project } from "./view";
 
 /** The path that could be flown, dashed: yellow while it is proposed, cyan once accepted. */
 export function ProposedPath({ shown, view }: LayerProps) {
-  const kind = usePart(shown, ({ look }) => look?.path ?? "none");
+  const kind = usePart(shown, ({ style }) => style?.path ?? "none");
   const proposed = usePart(shown, (picture) => picture.proposed);
   const path = useComputed(() => {
     const { value } = proposed;
@@ -26,7 +26,7 @@ export function ProposedPath({ shown, view }: LayerProps) {
 
 /** The other paths to the slot, thin, under what is proposed. */
 export function OtherPaths({ shown, view }: LayerProps) {
-  const isProposed = usePart(shown, ({ look }) => look?.path === "proposed");
+  const isProposed = usePart(shown, ({ style }) => style?.path === "proposed");
   const proposed = usePart(shown, (picture) => picture.proposed);
   const wind = usePart(shown, (picture) => picture.wind);
   const d = useComputed(() =>
@@ -49,8 +49,8 @@ const CLEAR = 90;
 
 /** "PROPOSED" or "ARMED", beside the path: where no turn is named, if there is such a place. */
 export function proposalLabel({ shown, view }: LayerProps): Label | null {
-  const [{ look, proposed, turns, wind }, pose] = [shown.picture.value, view.pose.value];
-  if (proposed === null || pose === null || look === null) return null;
+  const [{ style, proposed, turns, wind }, pose] = [shown.picture.value, view.pose.value];
+  if (proposed === null || pose === null || style === null) return null;
   const { segments, time_to_converge_s: duration } = proposed.plan;
   const layout = view.layout.value;
   const named = turns.map(({ from }) => project(layout, pose, from));
@@ -63,8 +63,8 @@ export function proposalLabel({ shown, view }: LayerProps): Label | null {
     named.every(({ x, y }) => Math.hypot(at.x - x, at.y - y) > CLEAR);
   const place = places.find(isClear) ?? places[0];
   if (place === undefined) return null;
-  const text = look.path === "armed" ? "ARMED" : "PROPOSED";
-  const lines = [{ text, colour: look.pathColour }];
+  const text = style.path === "armed" ? "ARMED" : "PROPOSED";
+  const lines = [{ text, colour: style.pathColour }];
   const side = offNose(pose, place.point.heading_deg + 90);
   return { id: "proposal", at: place.at, lines, side, gap: 12, size: 20, optional: false };
 }

@@ -19,17 +19,17 @@ export function Slot({ shown, view }: LayerProps) {
     const slot = guided.value?.slot;
     return slot === undefined ? "" : placeAt(toMap(view.layout.value, slot), slot.heading_deg);
   });
-  const look = usePart(shown, (picture) => picture.look);
+  const style = usePart(shown, (picture) => picture.style);
   const joined = useComputed(() => guided.value?.joined ?? false);
   const open = useComputed(() => guided.value?.slot_open ?? false);
   const half = useComputed(() => {
     const { scale } = view.layout.value;
     return { across: gate.value.across * scale, along: gate.value.along * scale };
   });
-  if (look.value === null || look.value.slot === "none") return null;
+  if (style.value === null || style.value.slot === "none") return null;
   const { across, along } = half.value;
   const isSmall = 2 * along < SMALLEST;
-  const colour = look.value.slotColour;
+  const colour = style.value.slotColour;
   // Until the leader is on its final leg the slot is only a place in the making: broken lines.
   const strokeLine = { colour, width: 2.5, dash: open.value ? "" : "5 4" };
   const fill = joined.value ? ink(colour) : "none";
@@ -44,7 +44,7 @@ export function Slot({ shown, view }: LayerProps) {
         <Stroke d={PENNANT} line={{ ...strokeLine, dash: "" }} />
         <path d={`${PENNANT}Z`} fill={fill} />
       </g>
-      {look.value.slot === "crossed" && <Stroke d={CROSS} line={strokeLine} />}
+      {style.value.slot === "crossed" && <Stroke d={CROSS} line={strokeLine} />}
     </g>
   );
 }

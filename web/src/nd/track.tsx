@@ -25,9 +25,9 @@ export function TrackDiamond({ shown, view }: LayerProps) {
 /** From the own ship to the tape along its track, while no path says where it goes. */
 export function TrackLine({ shown, view }: LayerProps) {
   const d = useComputed(() => {
-    const { now, look } = shown.picture.value;
+    const { now, style } = shown.picture.value;
     const own = now?.pursuer;
-    if (own === undefined || look?.trackLine === false) return "";
+    if (own === undefined || style?.trackLine === false) return "";
     const { centre, tape } = view.layout.value;
     const end = polar(view.layout.value, offNose(own, own.track_deg), tape);
     return `M${centre.x} ${centre.y}L${round(end.x)} ${round(end.y)}`;

@@ -26,7 +26,7 @@ export function TurnPoints({ shown, view }: LayerProps) {
 
 function Turn({ shown, view, name }: LayerProps & { name: string }) {
   const turn = usePart(shown, ({ turns }) => turns.find((each) => each.name === name) ?? null);
-  const colour = usePart(shown, ({ look }) => look?.pathColour ?? "plan");
+  const colour = usePart(shown, ({ style }) => style?.pathColour ?? "plan");
   const from = useComputed(() => turn.value?.from ?? null);
   const to = useComputed(() => turn.value?.to ?? null);
   const hasBegun = useComputed(() => turn.value?.hasBegun ?? true);
@@ -75,7 +75,7 @@ export function turnLabels({ shown, view }: LayerProps): Label[] {
   const pose = view.pose.value;
   const layout = view.layout.value;
   if (pose === null || layout.range > NAMES_TO) return [];
-  const { look, turns } = shown.picture.value;
+  const { style, turns } = shown.picture.value;
   return turns
     .filter(({ hasBegun }) => !hasBegun)
     .slice(0, 6)
@@ -85,7 +85,7 @@ export function turnLabels({ shown, view }: LayerProps): Label[] {
       lines: [
         {
           text: layout.range <= SIZES_TO ? `${name} ${size}` : name,
-          colour: look?.pathColour ?? "plan",
+          colour: style?.pathColour ?? "plan",
         },
       ],
       side: offNose(pose, from.heading_deg + (size[0] === "R" ? -90 : 90)),

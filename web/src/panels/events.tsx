@@ -2,8 +2,8 @@
 
 import { Panel } from "../parts";
 import type { Session } from "../session";
-import type { Message } from "../store/flight";
 import { MODE_NAMES, STATE_NAMES } from "../store/reading";
+import type { Message } from "../store/types";
 import { formatClock } from "../units";
 
 const KIND_NAMES: Record<Message["kind"], string> = {

@@ -3,7 +3,7 @@
 import type { ComponentChildren } from "preact";
 import { Icon } from "../parts";
 import type { Session } from "../session";
-import type { Connection } from "../store/flight";
+import type { Connection } from "../store/types";
 
 const CONNECTION_TEXT: Record<Connection, string> = {
   connecting: "Connecting",

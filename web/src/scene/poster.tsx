@@ -66,7 +66,7 @@ export function Poster({ shown, camera, size }: Props) {
 
 /** All lines of the picture, bottom to top. */
 export function strokesOf(picture: Picture, camera: Camera, size: Size): Stroke[] {
-  const { now, look, route, wind, t, proposed, forecast, until, keepOut, designated } = picture;
+  const { now, style, route, wind, t, proposed, forecast, until, keepOut, designated } = picture;
   if (now === null) return [];
   const middle = middleOf(now);
   const line = (points: readonly High[]) => lineOf(points.map((each) => at(each)));
@@ -93,9 +93,9 @@ export function strokesOf(picture: Picture, camera: Camera, size: Size): Stroke[
     add("route", line(high(samplePath(route.segments, wind, t), other)), LINES.declared);
   if (proposed !== null) {
     const { segments } = proposed.plan;
-    const dashed = look?.pathColour === "armed" ? LINES.armed : LINES.proposed;
+    const dashed = style?.pathColour === "armed" ? LINES.armed : LINES.proposed;
     add("path", line(high(samplePath(segments, wind, t - proposed.t_s), own)), dashed);
-  } else if (forecast !== null && look?.path === "committed") {
+  } else if (forecast !== null && style?.path === "committed") {
     const ahead = pointsAfter(forecast, forecastIndex(forecast, t), until);
     add("path", line(high([now.pursuer, ...ahead], own)), LINES.active);
   }
@@ -103,14 +103,14 @@ export function strokesOf(picture: Picture, camera: Camera, size: Size): Stroke[
     const circle = Array.from({ length: 73 }, (_, k) => onwards(now.leader, unit(5 * k), keepOut));
     add("min", line(high(circle, other)), SEPARATION[picture.separation.state]);
   }
-  if (look !== null && look.slot !== "none") {
+  if (style !== null && style.slot !== "none") {
     const side = unit(now.slot.heading_deg + 90);
     const corner = (across: number, up: number) => ({
       ...onwards(now.slot, side, across * GATE.across),
       altitude_m: other + up * GATE.up,
     });
     const frame = [corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1), corner(-1, -1)];
-    add("slot", line(frame), { colour: look.slotColour, width: 2.5, dash: "" });
+    add("slot", line(frame), { colour: style.slotColour, width: 2.5, dash: "" });
   }
   add("leader", `${line(shape(now.leader))}Z`, { colour: "leader", width: 1.5, dash: "" });
   add("own", `${line(shape(now.pursuer))}Z`, { colour: "ownship", width: 1.5, dash: "" });

@@ -29,7 +29,7 @@ export function middleOf({ pursuer, leader }: PairSample): Place {
 /** The texts of this moment, the most important first. */
 export function textsOf(shown: Shown, camera: Camera, size: Size): Label[] {
   const [picture, numbers] = [shown.picture.peek(), shown.numbers.peek()];
-  const { now, look, leader } = picture;
+  const { now, style, leader } = picture;
   if (now === null) return [];
   const at = seenFrom(camera, middleOf(now), size);
   const own = now.pursuer.altitude_m;
@@ -58,7 +58,7 @@ export function textsOf(shown: Shown, camera: Camera, size: Size): Label[] {
   };
   const { pursuer } = now;
   const { join, closest, started, ident } = picture;
-  const slotted = look !== null && look.slot !== "none";
+  const slotted = style !== null && style.slot !== "none";
   return [
     ...text(
       "own",
@@ -80,14 +80,14 @@ export function textsOf(shown: Shown, camera: Camera, size: Size): Label[] {
       "join",
       join === null ? null : { ...join, altitude_m: own },
       [numbers.toJoin === "" ? "" : `CNV ${numbers.toJoin}`],
-      look?.pathColour ?? "plan",
+      style?.pathColour ?? "plan",
       90,
     ),
     ...text(
       "slot",
       slotted ? { ...now.slot, altitude_m: other } : null,
       [now.joined ? "SLOT · JOINED" : "SLOT"],
-      look?.slotColour ?? "selected",
+      style?.slotColour ?? "selected",
       180,
     ),
     ...text(

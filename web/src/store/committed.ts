@@ -5,9 +5,9 @@
 
 import { pathPointAt, windVector } from "../geometry";
 import type { ForecastChanged, PathPoint, PlanChanged, PlanProposed, TurnSegment } from "../wire";
-import type { Flight } from "./flight";
 import { forecastPoint } from "./forecast";
 import { GRAZE, guidance } from "./states";
+import type { Flight } from "./types";
 
 /** A plan that is flown, or that could be, and when it was made. */
 export type Planned = Pick<

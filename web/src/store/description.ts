@@ -1,10 +1,10 @@
 /** The picture in words, for those who do not see it: as often as numbers are read. */
 
 import { formatHeading } from "../units";
-import type { Flight } from "./flight";
-import { AGE } from "./looks";
 import type { Numbers } from "./numbers";
+import { AGE } from "./state-styles";
 import { age, type Guidance, guidance, separation } from "./states";
+import type { Flight } from "./types";
 
 const STATE_WORDS: Partial<Record<Guidance, string>> = {
   designated: "Leader designated, a path is looked for.",

@@ -3,9 +3,9 @@
 import { formatMiles } from "../units";
 import type { Alert, AlertSubject, Mode, PlanReason, Reason, UnableReason } from "../wire";
 import type { Colour } from "./colours";
-import type { Flight } from "./flight";
-import { AGE, GUIDANCE } from "./looks";
+import { AGE, GUIDANCE } from "./state-styles";
 import { age, type Guidance, guidance, hasLapsed, leaderAge, separation } from "./states";
+import type { Flight } from "./types";
 
 export interface Notice {
   readonly level: "warning" | "caution" | "prompt" | "advice";

@@ -24,11 +24,11 @@ import {
   shownPlan,
   timeToJoin,
 } from "./committed";
-import type { Flight } from "./flight";
-import { AGE, GUIDANCE } from "./looks";
 import type { PairSample } from "./pair";
 import { closureText, crossTrackText, spacingText } from "./reading";
+import { AGE, GUIDANCE } from "./state-styles";
 import { age, ageOf, type Guidance, guidance, hasLapsed, leaderAge } from "./states";
+import type { Flight } from "./types";
 
 /** The next turn, or the join: bearing, distance and how long until then. */
 export interface NextPoint {
@@ -143,7 +143,7 @@ export function numbersOf(flight: Flight): Numbers {
   const seen = AGE[age(flight)];
   const sample = seen.numbers ? flight.reading.value : null;
   const guided = seen.guidance ? sample : null;
-  const look = GUIDANCE[guidance(flight)];
+  const style = GUIDANCE[guidance(flight)];
   const leader = AGE[ageOf(leaderAge(flight))].numbers;
   const left = guided === null ? null : timeToJoin(flight);
   const started = flight.started.value;
@@ -152,7 +152,7 @@ export function numbersOf(flight: Flight): Numbers {
     readAt: flight.reading.value?.t_s ?? null,
     sample,
     guided,
-    isSpacing: guided !== null && look.spacing,
+    isSpacing: guided !== null && style.spacing,
     ...airTexts(flight, guided),
     slotDistance: started === null ? NOTHING : formatMiles(started.slot_distance_m),
     minSeparation: started === null ? NOTHING : formatMiles(started.min_separation_m),
@@ -241,10 +241,10 @@ function formatSide(offset: number): string {
 }
 
 function nextPoint(flight: Flight, reading: PairSample): NextPoint | null {
-  const look = GUIDANCE[guidance(flight)];
-  const plan = look.points ? shownPlan(flight) : null;
+  const style = GUIDANCE[guidance(flight)];
+  const plan = style.points ? shownPlan(flight) : null;
   if (plan === null) {
-    if (!look.crossTrack) return null;
+    if (!style.crossTrack) return null;
     const name = flight.started.value?.leader.ident ?? "LEADER";
     return { name, ...toward(reading, reading.leader), left: "", isUrgent: false };
   }

@@ -29,14 +29,15 @@ import {
   turnsOf,
 } from "./committed";
 import { describe } from "./description";
-import { type Flight, STALE_AGE } from "./flight";
-import { AGE, type AgeLook, GUIDANCE, type GuidanceLook } from "./looks";
+import { STALE_AGE } from "./flight";
 import { type Moved, moveAircraft, movedBy, STILL } from "./motion";
 import { type Notice, noticesOf } from "./notices";
 import { type Numbers, numbersOf, ROLL_IN } from "./numbers";
 import type { PairCard, PairSample } from "./pair";
+import { AGE, type AgeStyle, GUIDANCE, type GuidanceStyle } from "./state-styles";
 import { age, ageOf, type Guidance, guidance, leaderAge, type Outlook, separation } from "./states";
 import type { TrailPoint } from "./trail";
+import type { Flight } from "./types";
 
 export type { Moved } from "./motion";
 
@@ -74,13 +75,13 @@ export interface TrendPoint {
 export interface Picture {
   /** Flight time [s]. */
   readonly t: number;
-  readonly look: GuidanceLook | null;
-  readonly age: AgeLook;
+  readonly style: GuidanceStyle | null;
+  readonly age: AgeStyle;
   /** The same for what is known of the leader, and how old that is in whole seconds. */
-  readonly leaderAge: AgeLook;
+  readonly leaderAge: AgeStyle;
   readonly ageSeconds: number;
   /** What is missing, in large letters. */
-  readonly flag: AgeLook["flag"];
+  readonly flag: AgeStyle["flag"];
   readonly state: Guidance;
   /** The leader, while it may be shown. */
   readonly leader: AircraftSample | null;
@@ -168,16 +169,16 @@ export function pictureOf(flight: Flight): Picture {
   const now = seen.map ? flight.now.value : null;
   const guided = seen.guidance ? flight.now.value : null;
   const state = guidance(flight);
-  const look = guided === null ? null : GUIDANCE[state];
+  const style = guided === null ? null : GUIDANCE[state];
   const designated = GUIDANCE[state].designated;
-  const flown = look?.points === true ? shownPlan(flight) : null;
-  const isAhead = look !== null && AHEAD.includes(look.path);
+  const flown = style?.points === true ? shownPlan(flight) : null;
+  const isAhead = style !== null && AHEAD.includes(style.path);
   const pair = isAhead ? closestApproach(flight) : null;
   const isAtJoin = pair !== null && isClosestAtJoin(flight, pair);
   const t = flight.simTime.value;
   return {
     t,
-    look,
+    style,
     age: seen,
     leaderAge: known,
     ageSeconds: Math.floor(seconds),
@@ -208,10 +209,10 @@ export function pictureOf(flight: Flight): Picture {
     closest: pair !== null && !isAtJoin && t < pair.at ? pair : null,
     closestAtJoin: isAtJoin ? pair : null,
     gate: GATE,
-    places: placesOf(flight, now, look),
+    places: placesOf(flight, now, style),
     slotTrack: slotTrack(flight),
     order: guided === null ? "" : orderOf(flight, state),
-    boxed: look !== null && flight.wall.value - flight.modeSince.value < BOXED,
+    boxed: style !== null && flight.wall.value - flight.modeSince.value < BOXED,
     notices: noticesOf(flight),
     ended: flight.clock.value.ended,
   };
@@ -235,11 +236,11 @@ const SEEN_EVERY = 30;
 
 type Place = Pick<PathPoint, "x_m" | "y_m">;
 
-function placesOf(flight: Flight, now: PairSample | null, look: GuidanceLook | null): Place[] {
+function placesOf(flight: Flight, now: PairSample | null, style: GuidanceStyle | null): Place[] {
   if (now === null) return [];
   const places: Place[] = [now.leader];
-  if (look === null || !look.designated) return places;
-  if (!AHEAD.includes(look.path)) return look.slot === "none" ? places : [...places, now.slot];
+  if (style === null || !style.designated) return places;
+  if (!AHEAD.includes(style.path)) return style.slot === "none" ? places : [...places, now.slot];
   const join = joinTime(flight);
   if (join === null) return [...places, now.slot];
   const count = Math.max(1, Math.ceil((join - now.t_s) / SEEN_EVERY));
@@ -251,7 +252,7 @@ function placesOf(flight: Flight, now: PairSample | null, look: GuidanceLook | n
 }
 
 /** What is missing; the message line says by itself that guidance has lost its leader. */
-function flagOf(seen: AgeLook, known: AgeLook, state: Guidance): AgeLook["flag"] {
+function flagOf(seen: AgeStyle, known: AgeStyle, state: Guidance): AgeStyle["flag"] {
   if (!seen.map) return seen.flag;
   if (state === "data_lost") return "";
   return known.map ? known.flag : "LDR DATA LOST";
@@ -266,7 +267,7 @@ function keepOut(flight: Flight, seconds: number): number {
 }
 
 /** The paths that lead somewhere. */
-const AHEAD: readonly GuidanceLook["path"][] = ["proposed", "armed", "committed"];
+const AHEAD: readonly GuidanceStyle["path"][] = ["proposed", "armed", "committed"];
 const NO_TRAIL: readonly TrailPoint[] = [];
 
 function windOver(flight: Flight): Vector {

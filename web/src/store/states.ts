@@ -1,6 +1,6 @@
 /** The states of the picture: how far guidance is engaged, how old the data are, whether the separation holds. */
 
-import type { Flight } from "./flight";
+import type { Flight } from "./types";
 
 /**
  * off: nobody is to be joined; designated: a path is looked for; proposed, armed: there is one, accepted

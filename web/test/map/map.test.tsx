@@ -6,9 +6,9 @@ import { MapBench } from "../../src/map/bench";
 import { createEditor, edit, halfExtent, putSituation, zoom } from "../../src/map/editor";
 import { situationOf } from "../../src/map/from-flight";
 import { dragHandle, HANDLES, handlePoint, keyHandle, sayHandle } from "../../src/map/handles";
+import { labelPlace } from "../../src/map/label-place";
 import { mapView, PlanMap } from "../../src/map/map";
 import { FIRST, settle } from "../../src/map/situation";
-import { widest } from "../../src/map/widest";
 import { chooseLabels } from "../../src/nd/labelled";
 import { ringLabelPoints } from "../../src/nd/rings";
 import { layoutOf, overlap, project } from "../../src/nd/view";
@@ -175,8 +175,8 @@ test("a region is named where it is widest", () => {
     [5, 8],
     [0, 0],
   ]);
-  expect(widest([[triangle]])).toMatchObject({ x_m: 5, y_m: 1 });
-  expect(widest([])).toBeNull();
+  expect(labelPlace([[triangle]])).toMatchObject({ x_m: 5, y_m: 1 });
+  expect(labelPlace([])).toBeNull();
 });
 
 test("the name of a region keeps clear of the rings' numbers and of the flight's labels", () => {

@@ -5,8 +5,8 @@ import { type ComponentType, h, render } from "preact";
 import type { LayerProps } from "../../src/nd/layer";
 import { NavigationDisplay } from "../../src/nd/nd";
 import { createView, type DisplayMode, type View } from "../../src/nd/view";
-import type { Flight } from "../../src/store/flight";
 import { createShown, type Shown } from "../../src/store/picture";
+import type { Flight } from "../../src/store/types";
 
 export interface Screen {
   readonly shown: Shown;

@@ -1,8 +1,9 @@
 /** Flights as the display gets them: documents made by the exact planner, samples where both would be. */
 
 import { cutPath, pathPointAt, samplePath, velocity, windVector } from "../../src/geometry";
-import { emptyFlight, type Flight } from "../../src/store/flight";
+import { emptyFlight } from "../../src/store/flight";
 import { type PairCard, type PairSample, pairCard } from "../../src/store/pair";
+import type { Flight } from "../../src/store/types";
 import { wrap360 } from "../../src/units";
 import type {
   AircraftSample,

@@ -1,8 +1,8 @@
 /** A flight in each state of guidance, as the display gets it. */
 
-import type { Flight } from "../../src/store/flight";
 import type { PairSample } from "../../src/store/pair";
 import type { Guidance } from "../../src/store/states";
+import type { Flight } from "../../src/store/types";
 import type { PlanProposed } from "../../src/wire";
 import { noPlan, unable } from "../samples";
 import { documentsOf, flightAt } from "./fixture";

@@ -2,9 +2,9 @@
 
 import { signal } from "@preact/signals";
 import { expect, test } from "vitest";
-import type { Flight } from "../../src/store/flight";
 import type { PairSample } from "../../src/store/pair";
 import { createShown } from "../../src/store/picture";
+import type { Flight } from "../../src/store/types";
 import { noPlan, unable } from "../samples";
 import { mountDisplay } from "./draw";
 import { flightAt } from "./fixture";

@@ -1,10 +1,10 @@
 import { signal } from "@preact/signals";
 import { act } from "preact/test-utils";
 import { expect, test } from "vitest";
-import type { Flight } from "../../src/store/flight";
 import { emptyFlight } from "../../src/store/flight";
 import type { PairSample } from "../../src/store/pair";
 import { createShown } from "../../src/store/picture";
+import type { Flight } from "../../src/store/types";
 import { alert, separationLost, unable } from "../samples";
 import { mountDisplay } from "./draw";
 import { documentsOf, flightAt, setTime } from "./fixture";

@@ -2,7 +2,7 @@ import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { expect, test } from "vitest";
 import { LINES, SEPARATION } from "../../src/nd/style";
-import { AGE, GUIDANCE } from "../../src/store/looks";
+import { AGE, GUIDANCE } from "../../src/store/state-styles";
 import { AGES, GUIDANCES, SEPARATIONS } from "../../src/store/states";
 
 const SOURCE = join(import.meta.dirname, "../../src");
@@ -15,7 +15,7 @@ test("every state has a look for every element", () => {
     [SEPARATIONS, SEPARATION],
   ] as const) {
     expect(Object.keys(table).sort()).toEqual([...states].sort());
-    const columns = Object.values(table).map((look) => Object.keys(look).sort().join());
+    const columns = Object.values(table).map((style) => Object.keys(style).sort().join());
     expect(new Set(columns).size).toBe(1);
   }
 });
@@ -52,9 +52,9 @@ test("amber and red mean caution and warning only", () => {
 
 test("every colour is one of the tokens", () => {
   const used = new Set<string>(Object.values(LINES).map(({ colour }) => colour));
-  for (const look of Object.values(AGE)) used.add(look.colour);
-  for (const look of Object.values(GUIDANCE)) used.add(look.slotColour);
-  for (const look of Object.values(SEPARATION)) used.add(look.colour);
+  for (const style of Object.values(AGE)) used.add(style.colour);
+  for (const style of Object.values(GUIDANCE)) used.add(style.slotColour);
+  for (const style of Object.values(SEPARATION)) used.add(style.colour);
   for (const colour of used) expect(tokens).toContain(`--${colour}:`);
 });
 
@@ -74,7 +74,7 @@ const STORE = [
   "forecast",
   "colours",
   "states",
-  "looks",
+  "state-styles",
   "reading",
 ];
 
@@ -91,7 +91,7 @@ test("the display knows nothing of streams, requests and panels, and reads only 
 test("panels work nothing out of the facts of a flight", () => {
   for (const { file, path } of importsOf("panels").filter(({ path }) => path.includes("store/")))
     expect(
-      [...STORE, "flight"].map((name) => `../store/${name}`),
+      [...STORE, "types"].map((name) => `../store/${name}`),
       file,
     ).toContain(path);
 });

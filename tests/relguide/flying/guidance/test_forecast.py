@@ -8,7 +8,8 @@ import pytest
 
 from relguide.flying.documents import ForecastChanged, PlanChanged
 from relguide.flying.flight import Scenario
-from relguide.flying.guidance.converge import Proposal, propose
+from relguide.flying.guidance.commit.proposal import Proposal
+from relguide.flying.guidance.commit.propose import propose
 from relguide.flying.guidance.forecast import NO_COURSE, Forecast, forecast
 from relguide.flying.scenarios import own_scenario
 from relguide.kernels.flight.ahead import AT, LEAST, NEVER, RIGHT

@@ -10,8 +10,9 @@ from relguide.flying.belief import Belief
 from relguide.flying.documents import Alert, ModeChanged, PlanUnavailable, SeparationLost, Unable
 from relguide.flying.flight import LeaderHeading, LeaderSpeed, Scenario
 from relguide.flying.guidance.assignment import Assignment
-from relguide.flying.guidance.committed import Committed
-from relguide.flying.guidance.converge import Proposal, propose
+from relguide.flying.guidance.commit.committed import Committed
+from relguide.flying.guidance.commit.proposal import Proposal
+from relguide.flying.guidance.commit.propose import propose
 from relguide.flying.guidance.leaving import must_leave
 from relguide.flying.guidance.memory import begin
 from relguide.flying.guidance.monitor import Outlook

@@ -6,7 +6,7 @@ import pytest
 
 from relguide.flying.guidance.announcements import Alerted
 from relguide.flying.guidance.forecast import NO_COURSE, Forecast
-from relguide.flying.guidance.memory import Alert
+from relguide.flying.guidance.memory import StandingAlert
 from relguide.flying.guidance.monitor import (
     Outlook,
     is_as_forecast,
@@ -27,7 +27,7 @@ NOTHING_AHEAD = make_forecast([])
 
 def judge_seconds(*seconds: tuple[float, float, float]) -> list[tuple[float, Alerted]]:
     """What is said, second by second: separation now, least separation ahead, and in what time."""
-    alert, said = Alert(), list[tuple[float, Alerted]]()
+    alert, said = StandingAlert(), list[tuple[float, Alerted]]()
     for t, (apart, least, in_seconds) in enumerate(seconds):
         own = BELIEF.leader._replace(y=BELIEF.leader.y - apart)
         belief = replace(BELIEF, t=float(t), own=own)

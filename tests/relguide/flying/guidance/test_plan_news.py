@@ -13,7 +13,8 @@ from relguide.flying.guidance.announcements import (
     reason_sentence,
     summary,
 )
-from relguide.flying.guidance.converge import Proposal, propose
+from relguide.flying.guidance.commit.proposal import Proposal
+from relguide.flying.guidance.commit.propose import propose
 from relguide.flying.guidance.settings import DEFAULT
 from relguide.flying.scenarios import fig_6, own_scenario
 from relguide.planning.plan import plan

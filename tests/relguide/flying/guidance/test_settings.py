@@ -7,7 +7,9 @@ import pytest
 
 from relguide.flying.documents import PlanChanged
 from relguide.flying.flight import fly
-from relguide.flying.guidance.converge import Proposal, may_be_improved, propose
+from relguide.flying.guidance.commit.better import may_be_improved
+from relguide.flying.guidance.commit.proposal import Proposal
+from relguide.flying.guidance.commit.propose import propose
 from relguide.flying.guidance.settings import DEFAULT, FLAGS, Settings, load_settings
 from relguide.flying.plan_documents import TurnSegment
 from relguide.flying.scenarios import fig_6

@@ -9,7 +9,8 @@ import pytest
 from relguide.flying.belief import FlownTrack
 from relguide.flying.fleet import Fleet
 from relguide.flying.flight import Scenario, world_of
-from relguide.flying.guidance.converge import Proposal, propose
+from relguide.flying.guidance.commit.proposal import Proposal
+from relguide.flying.guidance.commit.propose import propose
 from relguide.flying.guidance.forecast import NO_COURSE
 from relguide.flying.guidance.settings import DEFAULT
 from relguide.flying.pursuit import assignment_of

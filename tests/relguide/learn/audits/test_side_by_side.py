@@ -9,7 +9,7 @@ import pytest
 from relguide.kernels.words.branches import BRANCHES
 from relguide.learn.audits.side_by_side import (
     Ground,
-    Method,
+    MethodResult,
     branches_like,
     draw_ground,
     ends_of,
@@ -19,7 +19,7 @@ from relguide.learn.audits.side_by_side import (
 )
 from relguide.learn.training.options import NetworkShape, TrainingOptions
 from relguide.learn.tree.nearest import lookup_in
-from relguide.learn.tree.regular_words import Piece
+from relguide.learn.tree.regular_words import RegularPiece
 from relguide.learn.tree.train_regular import train_regular
 from relguide.learn.tree.tree import regular_from_pairs
 from relguide.learn.words.branch_labels import times_of
@@ -40,7 +40,7 @@ def ground() -> Ground:
 
 
 @cache
-def methods() -> tuple[Method, ...]:
+def methods() -> tuple[MethodResult, ...]:
     regressions = []
     for method in ("paper", "direct"):
         *_, last = train_regular(tree(), TINY, method=method, about={})  # type: ignore[arg-type]
@@ -81,7 +81,7 @@ def test_ends_are_those_of_what_is_flown() -> None:
 
 def test_pieces_name_strategies() -> None:
     def named(*pieces: tuple[str, float]) -> list[str]:
-        flags = branches_like([Piece(*piece) for piece in pieces])
+        flags = branches_like([RegularPiece(*piece) for piece in pieces])
         return [name for name, flag in zip(BRANCHES, flags, strict=True) if flag]
 
     assert named(("L", 1.0), ("S", 2.0), ("R", 1.0)) == ["LSR"]

@@ -27,7 +27,7 @@ def labels() -> TemplateLabels:
 
 
 @cache
-def ways() -> TemplateNetwork[TemplateBox]:
+def ways() -> TemplateNetwork:
     """Trained from scratch; right in more than half of the labels it has not seen."""
     *_, last = train_templates(labels(), OPTIONS, box=TemplateBox(), about={"seed": REQUEST.seed})
     return last.network

@@ -14,7 +14,7 @@ from relguide.flying.scenarios import scenario
 from relguide.kernels.words.extremals import WORDS
 from relguide.learn.tree import regular_planner as module
 from relguide.learn.tree.regular_planner import ratios_of, regular_planner, tree_for
-from relguide.learn.tree.regular_words import Piece, merge, pieces_of, words_like
+from relguide.learn.tree.regular_words import RegularPiece, merge, pieces_of, words_like
 from relguide.planning.slot import slot_frame
 from relguide.units import DEG
 from tests.situations import situations
@@ -40,7 +40,9 @@ def draw(count: int) -> list[Situation]:
 
 
 def likely(letters: str) -> set[str]:
-    return {WORDS[number] for number in words_like([Piece(letter, 1.0) for letter in letters])}
+    return {
+        WORDS[number] for number in words_like([RegularPiece(letter, 1.0) for letter in letters])
+    }
 
 
 def test_letters_spell_words() -> None:
@@ -53,13 +55,22 @@ def test_letters_spell_words() -> None:
 
 
 def test_what_is_like_no_word_loses_its_shortest_pieces() -> None:
-    pieces = [Piece("L", 1.0), Piece("S", 3.0), Piece("R", 0.2), Piece("S", 0.5), Piece("R", 0.3)]
+    pieces = [
+        RegularPiece("L", 1.0),
+        RegularPiece("S", 3.0),
+        RegularPiece("R", 0.2),
+        RegularPiece("S", 0.5),
+        RegularPiece("R", 0.3),
+    ]
     # L S R S R: without the short turn the straights are one
     assert [WORDS[number] for number in words_like(pieces)] == ["LSR"]
-    assert merge([Piece("S", 1.0), Piece("S", 2.0)]) == [Piece("S", 3.0)]
+    assert merge([RegularPiece("S", 1.0), RegularPiece("S", 2.0)]) == [RegularPiece("S", 3.0)]
     assert pieces_of([[1.0, 0.5, 0.0], [-1.0, 0.0, 2.0], [1.0, 0.1, 3.0], [0.0, 0.0, 0.0]]) == [
-        Piece("L", 0.5), Piece("S", 2.0), Piece("L", 0.1), Piece("S", 3.0),
-    ]  # fmt: skip
+        RegularPiece("L", 0.5),
+        RegularPiece("S", 2.0),
+        RegularPiece("L", 0.1),
+        RegularPiece("S", 3.0),
+    ]
 
 
 @settings(max_examples=20, deadline=None)  # a tree may have to be grown first

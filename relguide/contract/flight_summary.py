@@ -1,0 +1,176 @@
+"""A flight in short: its events and its figures."""
+
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from math import degrees
+from typing import Any, assert_never
+
+from relguide.flying.aircraft_documents import LinkResult
+from relguide.flying.documents import (
+    Alert,
+    Document,
+    EngagementChanged,
+    FlightEnded,
+    FlightStarted,
+    ForecastChanged,
+    LeaderChanged,
+    LeaderRoute,
+    ModeChanged,
+    PlanChanged,
+    PlanProposed,
+    PlanRefused,
+    PlanUnavailable,
+    Sample,
+    SeparationLost,
+    Unable,
+)
+from relguide.planning.phrases import distance, too_close
+from relguide.units import NM, Metre
+
+SummaryEvent = (
+    LeaderChanged
+    | PlanChanged
+    | EngagementChanged
+    | PlanUnavailable
+    | PlanRefused
+    | ModeChanged
+    | Alert
+    | Unable
+    | SeparationLost
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FlightSummary:
+    """A flight without its samples and routes."""
+
+    started: tuple[FlightStarted, ...] = ()
+    """One, or empty if the documents began later."""
+    events: tuple[SummaryEvent, ...] = ()
+    ended: tuple[FlightEnded, ...] = ()
+    """One, or empty if the documents broke off."""
+    plans_by: Mapping[str, int] = field(default_factory=dict)
+    """How many plans of the first link, announced or not, each planner made, by its name."""
+    documents: int = 0
+    """How many there were."""
+    last_time: float = 0.0
+    """Flight time of the last document [s]."""
+    broken: str = ""
+    """Why the documents broke off, if that is known."""
+
+
+def summarize(documents: Iterable[Document]) -> FlightSummary:
+    """The summary of a flight's documents, up to the `ValueError` if one ends them."""
+    started: list[FlightStarted] = []
+    events: list[SummaryEvent] = []
+    planners: Counter[str] = Counter()
+    ended: list[FlightEnded] = []
+    count, last_time, broken = 0, 0.0, ""
+    try:
+        for document in documents:
+            count, last_time = count + 1, document.t
+            if isinstance(document, PlanChanged) and _is_of_first(document, started):
+                planners[document.plan.planner] += 1
+            match document:
+                case FlightStarted():
+                    started.append(document)
+                case (
+                    PlanChanged(announced=False)
+                    | PlanProposed()
+                    | LeaderRoute()
+                    | ForecastChanged()
+                    | Sample()
+                ):
+                    pass  # nothing that is said to anybody
+                case (
+                    LeaderChanged()
+                    | PlanChanged()
+                    | EngagementChanged()
+                    | PlanUnavailable()
+                    | PlanRefused()
+                    | ModeChanged()
+                    | Alert()
+                    | Unable()
+                    | SeparationLost()
+                ):
+                    events.append(document)
+                case FlightEnded():
+                    ended.append(document)
+                case _:
+                    assert_never(document)
+    except ValueError as error:
+        if not count:
+            raise
+        broken = str(error)
+    return FlightSummary(
+        started=tuple(started[:1]),
+        events=tuple(events),
+        ended=tuple(ended[:1]),
+        plans_by=dict(planners.most_common()),
+        documents=count,
+        last_time=last_time,
+        broken=broken,
+    )
+
+
+def _is_of_first(document: PlanChanged, started: list[FlightStarted]) -> bool:
+    """Whether a plan is for the pursuer of the first link; of any, where no link is known."""
+    if not started:
+        return True
+    return any(document.ident == link.pursuer for link in started[0].links[:1])
+
+
+def figures(ended: FlightEnded) -> dict[str, Any]:
+    """How the flight of the first link went, under the names of the contract."""
+    result = ended.results[0]
+    return {
+        "joined": result.joined,
+        "join_time_s": result.join_time,
+        "planned_time_s": result.planned_time,
+        "promised_s": result.promised,
+        "least_separation_m": result.least_separation,
+        "heading_swing_deg": degrees(result.heading_swing),
+        "bank_reversals": result.bank_reversals,
+        "replans": result.replans,
+        "replans_announced": result.replans_announced,
+        "fallbacks": result.fallbacks,
+        "track_nm": result.track / NM,
+        "simulated_s": ended.t,
+        "losses": [
+            {
+                "t_s": loss.t,
+                "separation_m": loss.separation,
+                "cause": loss.cause,
+                "announced_s": loss.announced[0] if loss.announced else None,
+            }
+            for loss in result.losses
+        ],
+    }
+
+
+def failures(flight: FlightSummary) -> tuple[str, ...]:
+    """What went wrong in a flight that ended, a sentence each."""
+    sentences = []
+    for ended in flight.ended:
+        for result in ended.results:
+            who = result.ident if len(ended.results) > 1 else "It"
+            if not result.joined:
+                sentences.append(f"{who} did not join. {ended.message}")
+            for limit in _limits(flight, result):
+                if result.least_separation < limit:
+                    sentences.append(
+                        f"The separation fell below {distance(limit)}: they came "
+                        f"{too_close(result.least_separation, limit)}."
+                    )
+    return tuple(sentences)
+
+
+def _limits(flight: FlightSummary, result: LinkResult) -> tuple[Metre, ...]:
+    """d_min of a link; empty if its beginning is not known."""
+    links = (link for started in flight.started for link in started.links)
+    return tuple(
+        link.min_separation
+        for link in links
+        if (link.pursuer, link.leader) == (result.ident, result.leader)
+    )

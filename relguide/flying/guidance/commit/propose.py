@@ -1,0 +1,124 @@
+"""propose(belief, …) → Proposal: a path to fly from now on, whatever was flown before."""
+
+from dataclasses import replace
+
+from relguide.flying.belief import Belief
+from relguide.flying.guidance.assignment import Assignment
+from relguide.flying.guidance.commit.committed import Committed
+from relguide.flying.guidance.commit.course import commit
+from relguide.flying.guidance.commit.lead_in import LeadIn, lead_in
+from relguide.flying.guidance.commit.preference import begun_now, nearest, turns_like
+from relguide.flying.guidance.commit.proposal import NoProposal, Proposal
+from relguide.flying.guidance.commit.shown_plan import shown_plan
+from relguide.flying.guidance.situations import situation_now, situation_of
+from relguide.planning.acceptance import FlyableAnswer, ask
+from relguide.planning.phrases import distance
+from relguide.planning.plan import NoPlan, Planner, Reason
+from relguide.planning.trajectory import Trajectory
+from relguide.units import Metre, Second
+
+BUFFERS = 3
+"""How often a wider berth is tried where the flight would come closer than the plan."""
+WIDER: Metre = 100.0
+"""… by how much more than it lacked [m]."""
+
+
+def propose(
+    belief: Belief,
+    assignment: Assignment,
+    committed: Committed | None,
+    planner: Planner,
+    *,
+    like: Trajectory | None = None,
+    stay: Second = 0.0,
+) -> Proposal | NoProposal:
+    """A path to fly from now on, whatever was flown before.
+
+    Args:
+        belief: what is known now.
+        assignment: what was asked.
+        committed: what is tracked now, which the lead-in goes on with; `None` if nothing is.
+        planner: makes plans; they are judged before they are flown, whoever made them.
+        like: a path that a crew has accepted and that is not flown yet: another way round is none
+            of it; `None` if there is no such path.
+        stay: the path nearest to the committed one, or else to `like`, is preferred unless the
+            planner's is faster by more than this [s].
+    """
+    lead = lead_in(belief, assignment, committed)
+    apart = lead.separation
+    limit = assignment.buffered_separation
+    limits = [limit] if apart >= limit else []
+    before = lead.left if like is None or committed is not None else begun_now(like, belief)
+    fell_back, refusal = False, None
+    closest: Metre = 0.0
+    while len(limits) <= BUFFERS:
+        wanted = limits[-1] if limits else assignment.min_separation
+        situation = situation_of(assignment, lead.pursuer, lead.leader, belief, wanted)
+        answer = ask(planner, situation)
+        fell_back, refusal = fell_back or answer.fell_back, refusal or answer.refusal
+        plan = answer.plan
+        if isinstance(plan, NoPlan):
+            if limits and wanted > assignment.min_separation:
+                return _propose_without_buffer(belief, assignment, planner, lead, answer)
+            if plan.reason == Reason.SEPARATION_ALREADY_LOST:
+                plan = _refuse_lost(plan, belief, assignment, planner, lead)
+            return NoProposal(answer=plan, fell_back=fell_back, refusal=refusal)
+        as_accepted = like is not None and turns_like(plan, like)
+        if before is not None and stay > 0.0 and not as_accepted:
+            kept = nearest(plan, before, stay)
+            if kept.planner != plan.planner:
+                kept, fell_back = replace(kept, fell_back=True), True
+            plan = kept
+        found = commit(plan, lead, belief, assignment)
+        least, _ = found.forecast.least(belief.t)
+        if least >= assignment.min_separation:
+            shown = shown_plan(plan, lead, belief, assignment)
+            return Proposal(committed=found, shown=shown, fell_back=fell_back, refusal=refusal)
+        closest = max(closest, least)
+        limits.append(min(wanted + assignment.min_separation - least + WIDER, assignment.aim))
+        if apart < limits[-1] or wanted >= assignment.aim:
+            break
+    return NoProposal(answer=_too_close(closest, assignment), fell_back=fell_back, refusal=refusal)
+
+
+def _propose_without_buffer(
+    belief: Belief, assignment: Assignment, planner: Planner, lead: LeadIn, wide: FlyableAnswer
+) -> Proposal | NoProposal:
+    """With d_min alone, where nothing keeps the buffer as well."""
+    limit = assignment.min_separation
+    answer = ask(planner, situation_of(assignment, lead.pursuer, lead.leader, belief, limit))
+    fell_back = wide.fell_back or answer.fell_back
+    refusal = answer.refusal or wide.refusal
+    if isinstance(answer.plan, NoPlan):
+        return NoProposal(answer=answer.plan, fell_back=fell_back, refusal=refusal)
+    found = commit(answer.plan, lead, belief, assignment)
+    least, _ = found.forecast.least(belief.t)
+    if least < limit:
+        too_close = _too_close(least, assignment)
+        return NoProposal(answer=too_close, fell_back=fell_back, refusal=refusal)
+    shown = shown_plan(answer.plan, lead, belief, assignment)
+    return Proposal(committed=found, shown=shown, fell_back=fell_back, refusal=refusal)
+
+
+def _refuse_lost(
+    later: NoPlan, belief: Belief, assignment: Assignment, planner: Planner, lead: LeadIn
+) -> NoPlan:
+    """Why no plan can begin where the lead-in ends, in figures of now."""
+    if belief.separation < assignment.min_separation:
+        now = ask(planner, situation_now(belief, assignment)).plan
+        return now if isinstance(now, NoPlan) else later
+    return NoPlan(
+        reason=Reason.SEPARATION_UNAVOIDABLE,
+        message=f"In {lead.seconds:.0f} s, before another path can begin, the aircraft are "
+        f"{distance(lead.separation)} apart, closer than {distance(assignment.min_separation)}.",
+    )
+
+
+def _too_close(least: Metre, assignment: Assignment) -> NoPlan:
+    """Why a plan that exists is not flown."""
+    limit = assignment.min_separation
+    return NoPlan(
+        reason=Reason.SEPARATION_UNAVOIDABLE,
+        message=f"A path exists, but an aircraft that has to roll and brake would come within "
+        f"{distance(least)} of the leader on it, closer than {distance(limit)}.",
+    )

@@ -1,0 +1,38 @@
+"""What plans are asked for: both aircraft, and what the assignment asks."""
+
+from relguide.flying.belief import Belief
+from relguide.flying.guidance.assignment import Assignment
+from relguide.kernels.base.angles import wrap
+from relguide.planning.situation import Leader, Pursuer, Situation
+from relguide.units import Metre
+
+
+def situation_now(belief: Belief, assignment: Assignment) -> Situation:
+    """The situation as it is, with V_P and the bank of the plans."""
+    own = belief.own
+    pursuer = Pursuer(
+        x=own.x,
+        y=own.y,
+        heading=wrap(own.heading),
+        tas=assignment.tas,
+        max_bank=assignment.planned_bank,
+    )
+    leader = belief.leader_after(0.0)
+    return situation_of(assignment, pursuer, leader, belief, assignment.min_separation)
+
+
+def situation_of(
+    assignment: Assignment,
+    pursuer: Pursuer,
+    leader: Leader,
+    belief: Belief,
+    min_separation: Metre,
+) -> Situation:
+    """Both aircraft with what the assignment asks, aimed at the place in the gate."""
+    return Situation(
+        pursuer=pursuer,
+        leader=leader,
+        slot_distance=assignment.aim,
+        min_separation=min_separation,
+        wind=belief.wind,
+    )
