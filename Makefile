@@ -90,7 +90,7 @@ define static_stages
 $(call stage,ruff,$(BIN)/ruff check . && $(BIN)/ruff format --check .)
 $(call stage,mypy,$(BIN)/mypy)
 $(call stage,import-linter,$(BIN)/lint-imports)
-$(call stage,wire.ts is fresh,$(BIN)/python -m relguide_server.emit_types --check)
+$(call stage,wire.ts is fresh,$(BIN)/python -m tools.emit_types --check)
 $(call stage,tsc,$(NODE) node_modules/typescript/bin/tsc --noEmit)
 $(call stage,biome,$(NODE) node_modules/@biomejs/biome/bin/biome check .)
 $(call stage,vitest,$(NODE) node_modules/vitest/vitest.mjs run)
