@@ -66,12 +66,12 @@ endif
 # The service compiles its kernels at its first start, while the page already flies.
 .make/installed: .make/venv pyproject.toml hatch_build.py $(PAGE_INPUTS)
 	@echo "== Installing relguide and building its web page (the first time: half a minute)"
-	@$(PIP) install --editable '.[serve]'
+	@$(PIP) install --editable '.[serve,client]'
 	@touch $@
 
 # What is compiled is kept beside the sources, so this happens once.
 .make/kernels: .make/dev $(KERNELS)
-	@echo "== Compiling the kernels (the first time: two minutes)"
+	@echo "== Compiling the kernels (the first time: a minute or two)"
 	@$(BIN)/python -m relguide.warm_up
 	@touch $@
 
@@ -175,7 +175,7 @@ picture: .make/dev page .make/kernels .make/browser .make/traffic
 # Kernels compiled for any CPU of this kind; relguide files them under the name of the CPU it runs on.
 .PHONY: wheel
 wheel: .make/dev
-	@echo "== Compiling the kernels for any CPU of this kind (the first time: two minutes)"
+	@echo "== Compiling the kernels for any CPU of this kind (the first time: a minute or two)"
 	@NUMBA_CACHE_DIR=$(CURDIR)/build/kernels NUMBA_CPU_NAME=generic $(BIN)/python -m relguide.warm_up
 	@RELGUIDE_KERNELS=$(CURDIR)/build/kernels/relguide $(PIP) wheel --no-deps --wheel-dir dist .
 

@@ -5,10 +5,9 @@ from math import atan2, cos, hypot, sin
 
 from relguide.kernels.base.angles import wrap_signed
 from relguide.kernels.base.records import Contact, Pose
-from relguide.kernels.bounds.around import unknown_around
-from relguide.kernels.bounds.contact_tree import Problem
-from relguide.kernels.bounds.round_time import times_round
-from relguide.kernels.bounds.tangent_contacts import tangent_contacts
+from relguide.kernels.bounds.fronts.around import times_round, unknown_around
+from relguide.kernels.bounds.search.cell_tree import Problem
+from relguide.kernels.bounds.words.tangent_contacts import tangent_contacts
 from relguide.kernels.contact.contact import contact_heading
 from relguide.kernels.separation.clearance import leader_at, piece_at
 from relguide.planning.contact_search import Question
@@ -73,10 +72,10 @@ def flown(planned: Plan) -> Flown:
     )
 
 
-def problem_of(asked: Question, beat: float) -> Problem:
+def problem_of(asked: Question, incumbent: float) -> Problem:
     """What is asked, of paths that arrive before a time [R/V_P]."""
     scene = asked.scene
     return Problem(
-        asked.start, scene, asked.goal, times_round(scene.alpha, scene.d_min), beat, asked.paired,
-        unknown_around(), tangent_contacts(asked.start, scene, beat),
+        asked.start, scene, asked.goal, times_round(scene.alpha, scene.d_min), incumbent,
+        asked.paired, unknown_around(), tangent_contacts(asked.start, scene, incumbent),
     )  # fmt: skip

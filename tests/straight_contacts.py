@@ -9,8 +9,8 @@ from numba import njit
 from relguide.kernels.base.angles import wrap
 from relguide.kernels.base.records import Pose, Scene, Velocity
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.bounds.cells import Cell
-from relguide.kernels.bounds.hop import standing
+from relguide.kernels.bounds.hops.hop import standing
+from relguide.kernels.bounds.words.cells import Cell
 from relguide.kernels.contact.contact import contact_heading, to_frame_of
 from relguide.kernels.words.extremals import MAX_ROWS, SIGNS, fly_piece, solve_toward
 from tests.costates import with_costate

@@ -69,7 +69,11 @@ def test_from_a_scenario_to_a_replay(tmp_path: Path) -> None:
 
     recording = tmp_path / "flight.jsonl"
     flown: list[Document] = list(
-        record(fly(scenario("fig_6b"), plan, commands=commands, sample_period=1.0), recording)
+        record(
+            fly(scenario("fig_6b"), plan, commands=commands, sample_period=1.0),
+            recording,
+            sample_rate=None,
+        )
     )
 
     assert isinstance(flown[0], FlightStarted)

@@ -6,7 +6,7 @@ from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from relguide.cli.output import DONE, write
+from relguide.cli.output import DONE, add_form, for_people, write, write_json
 from relguide.cli.shared_options import add_tree, tree_parameters
 
 if TYPE_CHECKING:
@@ -40,6 +40,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         default=[0.0, 60.0, 120.0, 180.0],
         help="left of the leader's, whole numbers of Δθ; default: 0 60 120 180",
     )
+    add_form(parser)
     add_tree(parser)
 
 
@@ -61,7 +62,10 @@ def run(chosen: argparse.Namespace) -> int:
         tree = grow_tree(parameters)
     columns = [column_of(tree, number) for number in numbers]
     draw_areas(columns, tree, chosen.figure)
-    write(f"{chosen.figure}: the convergence area on {len(columns)} headings.\n")
+    if for_people(chosen):
+        write(f"{chosen.figure}: the convergence area on {len(columns)} headings.\n")
+    else:
+        write_json({"file": str(chosen.figure), "headings_deg": chosen.headings_deg})
     return DONE
 
 

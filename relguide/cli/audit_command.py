@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from relguide.cli.output import DONE, write_json
+from relguide.cli.output import DONE, add_form, for_people, write_json
 from relguide.cli.shared_options import add_workers, count
 from relguide.planning.extras import need
 
@@ -67,12 +67,12 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--figures", metavar="FOLDER", type=Path, help="draw what is found, as .svg"
     )
     add_workers(parser)
-    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    add_form(parser)
 
 
 def run(chosen: argparse.Namespace) -> int:
     """Audit the network, draw and print what is found."""
-    need("torch", "orjson", "rich", extra="learn")
+    need("torch", "rich", extra="learn")
     if chosen.method == "templates" and chosen.beside is not None:
         raise ValueError(
             "Nothing else is known to learn templates: --beside is for --method branches."
@@ -113,7 +113,7 @@ def _audit_branches(chosen: argparse.Namespace) -> None:
         from relguide.figures.branch_figure import draw_audit
 
         draw_audit(audit, methods, network.least_share, chosen.figures)
-    if not chosen.json:
+    if for_people(chosen):
         print_audit(audit, asked, ground, methods)
         return
     about = {
@@ -185,7 +185,7 @@ def _audit_templates(chosen: argparse.Namespace) -> None:
         from relguide.figures.template_figure import draw_template_audit
 
         draw_template_audit(audit, chosen.figures)
-    if not chosen.json:
+    if for_people(chosen):
         print_template_audit(audit, asked)
         return
     about = {

@@ -2,15 +2,18 @@
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from relguide.cli.output import DONE, FAILED, say, write_json
+from relguide.cli.output import DONE, FAILED, add_form, for_people, say, write_json
 from relguide.cli.situation_file import open_input, read_situation
-from relguide.planning.extras import need
+
+if TYPE_CHECKING:
+    from relguide.flying.verdicts import RegularCheck
 
 PURPOSE = "judge a regular trajectory, given as the paper's triplets (ε, θ, l)"
 EXAMPLES = """
-    relguide check situation.json triplets.json          what holds of it, as JSON
-    relguide check situation.json triplets.json --table  the same for people
+    relguide check situation.json triplets.json          what holds of it; JSON off a terminal
+    relguide check situation.json triplets.json --json   JSON wherever it goes
     relguide check situation.json --figure plan.svg      the fastest plan's own, drawn
 
     Triplets are numbered backward from the slot, the one flown last comes first:
@@ -32,13 +35,13 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         default="",
         help="triplets in JSON; left out: those of the fastest plan",
     )
-    parser.add_argument("--table", action="store_true", help="print tables for people")
+    add_form(parser)
     parser.add_argument("--figure", metavar="FILE.svg", default="", help="draw both tracks")
 
 
 def run(chosen: argparse.Namespace) -> int:
     """Judge the trajectory: does it reach the slot, keep d_min, and is it stationary?"""
-    need("pydantic", "orjson", "rich")
+    table = for_people(chosen, "rich")
     if chosen.situation == chosen.triplets == "-":
         raise ValueError("Only one of the two files can come from standard input.")
     from relguide.contract.triplets import regular_from_json
@@ -59,6 +62,7 @@ def run(chosen: argparse.Namespace) -> int:
         radius = situation.pursuer.turn_radius
         regular = regular_from_trajectory(planned.trajectory, turn_radius=radius)
     found = regular_check(regular, situation)
+    wrong = " and ".join(_failures(found))
     if chosen.figure:
         from relguide.figures.tracks_figure import draw
         from relguide.units import NM
@@ -69,13 +73,28 @@ def run(chosen: argparse.Namespace) -> int:
             nodes=found.nodes,
             closest_at=found.separation.at,
             title=f"Regular trajectory of order {found.order}: {found.duration:,.0f} s, "
-            f"least separation {found.separation.least / NM:.2f} NM",
+            f"least separation {found.separation.least / NM:.2f} NM"
+            + (f"; failed: it {wrong}" if wrong else ""),
         )
         Path(chosen.figure).write_text(picture, "utf-8")
-    if chosen.table:
+        if wrong:
+            say(f"{chosen.figure} shows a trajectory that {wrong}.")
+    if table:
         from relguide.cli.plan_tables import print_regular
 
         print_regular(found, min_separation=situation.min_separation)
     else:
         write_json(to_wire(found))
     return DONE if found.passed else FAILED
+
+
+def _failures(found: "RegularCheck") -> list[str]:
+    """What a trajectory does wrong; empty if it passed."""
+    if found.passed:
+        return []
+    wrong = []
+    if not found.reaches_slot:
+        wrong.append("misses the slot")
+    if not found.keeps_separation:
+        wrong.append("comes too close")
+    return wrong or ["is not stationary"]

@@ -5,9 +5,8 @@ from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from relguide.cli.output import DONE, provenance, write, write_json
+from relguide.cli.output import DONE, add_form, for_people, provenance, write, write_json
 from relguide.cli.shared_options import add_tree, add_workers, count, tree_parameters
-from relguide.planning.extras import need
 
 if TYPE_CHECKING:
     from relguide.learn.tree.tree import Losses
@@ -80,13 +79,12 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="exact: this share more, of situations that closed loops meet, e.g. 0.02; "
         "default: none",
     )
-    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    add_form(parser)
     add_tree(parser)
 
 
 def run(chosen: argparse.Namespace) -> int:
     """Make the data set, write it and print what it is."""
-    need("orjson", extra="learn")
     if chosen.method == "exact":
         _make_labels(chosen)
     elif chosen.method == "templates":
@@ -143,7 +141,7 @@ def _make_tree(chosen: argparse.Namespace) -> None:
             "worst_loss_percent": 100.0 * float(found.loss.max()),
             "missed_by_exact": int(np.sum(np.isinf(found.exact))),
         }
-    if chosen.json:
+    if not for_people(chosen):
         write_json(figures)
         return
     write(
@@ -203,7 +201,7 @@ def _make_labels(chosen: argparse.Namespace) -> None:
     save_labels(labels, request, provenance("exact", command=command), file)
     counts = np.bincount(labels.best, minlength=len(BRANCHES)).tolist()
     sources = np.bincount(labels.sources, minlength=len(SOURCES)).tolist()
-    if chosen.json:
+    if not for_people(chosen):
         apart = {
             name: int(inside.sum()) for name, inside in held_out_regions(labels.situations).items()
         }
@@ -252,7 +250,7 @@ def _make_path_labels(chosen: argparse.Namespace) -> None:
     templates, _ = targets_of(labels.paths)
     counts = np.bincount(templates, minlength=len(TEMPLATES)).tolist()
     sources = np.bincount(labels.sources, minlength=len(SOURCES)).tolist()
-    if chosen.json:
+    if not for_people(chosen):
         _write_figures(
             file, seconds, sources=dict(zip(SOURCES, sources, strict=True)),
             fastest=dict(zip(TEMPLATES, counts, strict=True)),

@@ -52,8 +52,8 @@ def print_flight(flight: FlightSummary, figures: Mapping[str, Any]) -> None:
 
 def _event(event: SummaryEvent) -> tuple[str, str, str]:
     match event:
-        case PlanChanged(reason=reason):
-            what = f"plan: {reason.replace('_', ' ')}"
+        case PlanChanged(reason=reason, plan=plan):
+            what = f"plan by {plan.planner}: {reason.replace('_', ' ')}"
         case PlanUnavailable(answer=answer):
             return clock(event.t), "no plan", answer.message
         case EngagementChanged(engagement=engagement):
@@ -87,6 +87,7 @@ def _figure_rows(figures: Mapping[str, Any]) -> dict[str, str]:
             "heading swing": f"{figures['heading_swing_deg']:.0f}°",
             "bank reversals": f"{figures['bank_reversals']}",
             "new plans": f"{figures['replans']}, {figures['replans_announced']} announced",
+            "planned by": _planners(figures["plans_by"]),
             "fallbacks": f"{figures['fallbacks']}",
             "flown": f"{figures['track_nm']:.1f} NM over the ground",
         }
@@ -94,6 +95,10 @@ def _figure_rows(figures: Mapping[str, Any]) -> dict[str, str]:
         speed = figures["simulated_s"] / max(figures["wall_s"], 1e-9)
         rows["computed in"] = f"{figures['wall_s']:.2f} s, {speed:,.0f} times as fast as it flies"
     return rows
+
+
+def _planners(plans_by: Mapping[str, int]) -> str:
+    return ", ".join(f"{planner} {plans}" for planner, plans in plans_by.items()) or "none"
 
 
 def _losses(losses: Sequence[Mapping[str, Any]]) -> str:

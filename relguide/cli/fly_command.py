@@ -4,15 +4,15 @@ import argparse
 from dataclasses import replace
 from functools import partial
 from itertools import islice
+from math import nan
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from relguide.cli.output import DONE, FAILED, say, write_json
+from relguide.cli.output import DONE, FAILED, add_form, for_people, say, write_json
 from relguide.cli.shared_options import add_planner, seconds
 from relguide.cli.situation_file import open_input, read_situation
 from relguide.learn.planners import make_planner
-from relguide.planning.extras import need
 from relguide.planning.limits import SPACING
 
 if TYPE_CHECKING:
@@ -23,7 +23,8 @@ PURPOSE = "fly a scenario, a situation or behind a recorded track"
 EXAMPLES = """
     relguide fly fig_6b                          the paper's figure with intent
     relguide fly fig_6a --json                   without; the figures as JSON
-    relguide fly situation.json --record a.jsonl your own situation, recorded
+    relguide fly situation.json --record a.jsonl your own situation, recorded each second
+    relguide fly fig_6b --record a.jsonl --sample-rate 20
     relguide fly track.csv                       behind a recorded ADS-B track
     relguide fly random --seed 7                 a flight drawn from that number
     relguide fly fig_6b --spacing 60             once joined, a minute behind
@@ -34,6 +35,8 @@ EXAMPLES = """
     """
 MAX_FOLLOWING = 36_000.0
 """Longest time to follow [s]."""
+MOST_SAMPLES = 20.0
+"""A second: one each step of the simulation [Hz]."""
 LOADING = 40
 """Documents of a flight flown beforehand, so that the compiled kernels are loaded: that takes
 seconds and is no part of what is measured."""
@@ -46,6 +49,12 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--record", metavar="FILE", type=_recording, help="write a .jsonl or .jsonl.gz recording"
+    )
+    parser.add_argument(
+        "--sample-rate",
+        metavar="HZ",
+        type=_sample_rate,
+        help="samples a second in the recording: 20 or a whole part of it; default: 1",
     )
     parser.add_argument(
         "--seed",
@@ -75,13 +84,13 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--settings", metavar="FILE", help="constants of guidance, a TOML table [guidance]"
     )
-    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    add_form(parser)
     add_planner(parser)
 
 
 def run(chosen: argparse.Namespace) -> int:
     """Fly, and print how it went: did it join, and keep d_min?"""
-    need("pydantic", "orjson", "rich")
+    table = for_people(chosen, "rich")
     from relguide.contract.flight_summary import failures, figures, summarize
     from relguide.contract.orders import commands_of
     from relguide.contract.recorder import record
@@ -89,6 +98,8 @@ def run(chosen: argparse.Namespace) -> int:
     from relguide.flying.guidance.settings import DEFAULT, load_settings
     from relguide.planning.progress import show_progress
 
+    if chosen.sample_rate is not None and chosen.record is None:
+        raise ValueError("--sample-rate is for a recording: add --record FILE.")
     orders = _orders(chosen)
     scenario = _following_for(_scenario(chosen.scenario, chosen.seed), chosen.after_joining)
     if chosen.spacing is not None:
@@ -102,11 +113,11 @@ def run(chosen: argparse.Namespace) -> int:
         pass
     commands = commands_of(orders)
     started = perf_counter()
-    if chosen.record is None:
-        # nobody looks at the samples: one a second is enough for the progress bar
-        documents = flown(commands=commands, sample_period=1.0)
-    else:
-        documents = record(flown(commands=commands), chosen.record)
+    # unrecorded, one a second is enough for the progress bar
+    rate = chosen.sample_rate or 1.0
+    documents = flown(commands=commands, sample_period=1.0 / rate)
+    if chosen.record is not None:
+        documents = record(documents, chosen.record, sample_rate=rate)
     flight = summarize(
         show_progress(
             documents,
@@ -117,13 +128,16 @@ def run(chosen: argparse.Namespace) -> int:
     )
     if flight.broken:
         raise ValueError(flight.broken)
-    result = figures(flight.ended[0]) | {"wall_s": perf_counter() - started}
-    if chosen.json:
-        write_json(result)
-    else:
+    result = figures(flight.ended[0]) | {
+        "plans_by": flight.plans_by,
+        "wall_s": perf_counter() - started,
+    }
+    if table:
         from relguide.cli.flight_tables import print_flight
 
         print_flight(flight, result)
+    else:
+        write_json(result)
     late = sum(order.t > flight.last_time for order in orders)
     if late:
         say(f"The flight ended at {flight.last_time:.0f} s, before {late} of {len(orders)} orders.")
@@ -154,6 +168,8 @@ def _following_for(scenario: "Scenario", after_joining: float) -> "Scenario":
 
 def _scenario(name: str, seed: int) -> "Scenario":
     from relguide.flying.scenarios import (
+        SCENARIOS,
+        no_scenario,
         own_scenario,
         random_scenario,
         scenario,
@@ -171,13 +187,29 @@ def _scenario(name: str, seed: int) -> "Scenario":
             "The situation of standard input" if name == "-" else f"The situation of {path.name}"
         )
         return replace(own_scenario(situation), title=title)
-    return random_scenario(seed) if name == "random" else scenario(name)
+    if name == "random":
+        return random_scenario(seed)
+    if name not in SCENARIOS:
+        raise ValueError(no_scenario(name, [*SCENARIOS, "random"]))
+    return scenario(name)
 
 
 def _seed(text: str) -> int:
     if not (text.isascii() and text.isdigit() and int(text[:12]) < 2**32):
         raise argparse.ArgumentTypeError(f"must be a whole number from 0 to 2³² − 1, not {text}")
     return int(text)
+
+
+def _sample_rate(text: str) -> float:
+    try:
+        steps = MOST_SAMPLES / float(text)
+    except (ValueError, ZeroDivisionError):
+        steps = nan
+    if not (1.0 <= steps <= 3600.0 and abs(steps - round(steps)) < 1e-9):
+        raise argparse.ArgumentTypeError(
+            f"must be {MOST_SAMPLES:g} or a whole part of it, as 1, 2 and 5 are, not {text}"
+        )
+    return float(text)
 
 
 def _following(text: str) -> float:

@@ -1,15 +1,41 @@
 """What commands print, their exit statuses, and what the files they make say of their origin."""
 
+import argparse
 import sys
 from collections.abc import Mapping
 from datetime import UTC, datetime
 from typing import Any
 
-from relguide.planning.extras import MissingExtra, add_command
+from relguide.planning.extras import MissingExtra, add_command, is_installed, need
 
 DONE, FAILED, MISUSE, STOPPED = 0, 1, 2, 130
 """Exit statuses: done; no plan or a failed check; misuse; stopped by Ctrl-C, as shells number it.
 """
+
+
+def add_form(parser: argparse.ArgumentParser) -> None:
+    """Let it be chosen how the result is printed: `for_people` takes what is chosen."""
+    form = parser.add_mutually_exclusive_group()
+    form.add_argument(
+        "--json", action="store_true", help="print one JSON object, as off a terminal"
+    )
+    form.add_argument("--table", action="store_true", help="print it for people, as on a terminal")
+
+
+def for_people(chosen: argparse.Namespace, *packages: str) -> bool:
+    """Whether to print for people: as asked, else on a terminal, where it can be.
+
+    Args:
+        chosen: what was chosen of the options of `add_form`.
+        packages: that the tables are drawn with.
+
+    Raises:
+        MissingExtra: if tables are asked for and one of the packages is not installed.
+    """
+    if chosen.table:
+        need(*packages)
+        return True
+    return not chosen.json and sys.stdout.isatty() and all(map(is_installed, packages))
 
 
 def write(text: str) -> None:
@@ -20,9 +46,9 @@ def write(text: str) -> None:
 
 def write_json(content: Mapping[str, Any]) -> None:
     """Write an object, indented, to standard output."""
-    import orjson
+    from pydantic_core import to_json
 
-    write(orjson.dumps(content, option=orjson.OPT_INDENT_2).decode() + "\n")
+    write(to_json(content, indent=2, inf_nan_mode="null").decode() + "\n")
 
 
 def say(sentence: str) -> None:

@@ -12,8 +12,8 @@ from relguide.cli.batch.options import (
     order_of,
     refuse_batch_options,
 )
-from relguide.cli.output import DONE, FAILED, write_json
-from relguide.cli.proving import prove_after
+from relguide.cli.output import DONE, FAILED, add_form, for_people, write_json
+from relguide.cli.proving import compile_proofs, prove_after
 from relguide.cli.shared_options import add_planner, seconds
 from relguide.cli.situation_file import read_situation
 from relguide.learn.planners import make_planner
@@ -25,8 +25,8 @@ if TYPE_CHECKING:
 
 PURPOSE = "plan a situation, or a file of them"
 EXAMPLES = """
-    relguide plan situation.json              the plan as JSON
-    relguide plan situation.json --table      the same for people
+    relguide plan situation.json              a table; JSON off a terminal
+    relguide plan situation.json --json       JSON wherever it goes
     cat situation.json | relguide plan -      from standard input
     relguide plan --batch situations.jsonl    one plan a line, in order
     relguide plan --batch all.csv --out answers.parquet --fields times
@@ -49,7 +49,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="FILE has one situation a line: JSON lines, CSV or Parquet",
     )
-    parser.add_argument("--table", action="store_true", help="print tables for people")
+    add_form(parser)
     parser.add_argument(
         "--prove",
         metavar="SECONDS",
@@ -80,9 +80,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(chosen: argparse.Namespace) -> int:
     """Plan, and print the answers."""
-    need("pydantic", "orjson", "rich")
     if chosen.batch:
-        need("msgspec")
+        need("msgspec", "orjson")
         return _run(chosen)
     refuse_batch_options(chosen)
     with _no_collection():
@@ -102,6 +101,8 @@ def _no_collection() -> Iterator[None]:
 def _run(chosen: argparse.Namespace) -> int:
     planner = make_planner(chosen.planner)
     asked = AskedBeside(chosen.prove, chosen.include, chosen.deadline)
+    if asked.prove:
+        compile_proofs()
     if asked.deadline is not None:
         from relguide.planning.acceptance import takes_deadline
 
@@ -115,7 +116,7 @@ def _run(chosen: argparse.Namespace) -> int:
 
         workers = BatchWorkers(cores_of(chosen), chosen.dask)
         return answer_file(chosen.file, chosen.out, order, workers, resume=chosen.resume)
-    return _plan_one(chosen.file, planner, asked, table=chosen.table)
+    return _plan_one(chosen.file, planner, asked, table=for_people(chosen, "rich"))
 
 
 class AskedBeside(NamedTuple):

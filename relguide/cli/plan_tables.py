@@ -61,9 +61,11 @@ def print_plan(card: PlanCard, *, min_separation: float) -> None:
         f"Least separation {miles(card.separation.least)} after {clock(card.separation.at)}: "
         f"{miles(keeps)} more than d_min; proved above {miles(card.separation.proved_above)}."
     )
+    bound = card.optimality.lower_bound
+    closed = card.optimality.proof in ("relaxation", "certified")
+    gap = "closed" if closed else f"of {card.time_to_converge - bound:.1f} s is open"
     console.print(
-        f"{PROOFS[card.optimality.proof].capitalize()}"
-        f" (lower bound {clock(card.optimality.lower_bound)}). "
+        f"{PROOFS[card.optimality.proof].capitalize()} (lower bound {clock(bound)}, gap {gap}). "
         f"Planner {card.planner}, {card.compute:.2f} ms."
     )
     if not card.alternatives:

@@ -1,5 +1,6 @@
 """prove_after(planner): a planner that then looks for a better lower bound of the plan's time."""
 
+import sys
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -7,6 +8,21 @@ if TYPE_CHECKING:
     from relguide.planning.plan import NoPlan, Plan, Planner
     from relguide.planning.prove import Bound
     from relguide.planning.situation import Situation
+
+NEEDED = ("flying", "limited", "proofs")
+"""The steps of `relguide.warm_up` that a proof needs."""
+
+
+def compile_proofs() -> None:
+    """Compile what proofs need, if that is still to be done, with a bar."""
+    from relguide.warm_up import missing, usual_jobs, warm_up
+
+    left = missing(NEEDED)
+    if left:
+        sys.stderr.write(
+            "The first proof compiles its kernels, once, about a minute of CPU time.\n"
+        )
+        warm_up(left, jobs=usual_jobs())
 
 
 def prove_after(planner: "Planner", longest: float, *, shown: bool = True) -> "Planner":

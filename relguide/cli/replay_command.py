@@ -1,9 +1,9 @@
 """`relguide replay`: what a recording holds."""
 
 import argparse
+from typing import Any
 
-from relguide.cli.output import DONE, FAILED, say, write_json
-from relguide.planning.extras import need
+from relguide.cli.output import DONE, FAILED, add_form, for_people, say, write_json
 
 PURPOSE = "show what a recording holds"
 EXAMPLES = """
@@ -15,12 +15,12 @@ EXAMPLES = """
 def add_options(parser: argparse.ArgumentParser) -> None:
     """The options of `relguide replay`."""
     parser.add_argument("file", metavar="FILE", help="made by relguide fly --record")
-    parser.add_argument("--json", action="store_true", help="print one JSON object")
+    add_form(parser)
 
 
 def run(chosen: argparse.Namespace) -> int:
     """Print what is good of a recording; done if that is all of it."""
-    need("pydantic", "orjson", "rich")
+    table = for_people(chosen, "rich")
     from relguide.contract.flight_summary import figures, summarize
     from relguide.contract.recorder import replay
     from relguide.planning.progress import show_progress
@@ -29,8 +29,14 @@ def run(chosen: argparse.Namespace) -> int:
         show_progress(replay(chosen.file), title="reading", total=0.0, done=lambda _: 0.0)
     )
     whole = bool(flight.ended) and not flight.broken
-    result = figures(flight.ended[0]) if flight.ended else {"simulated_s": flight.last_time}
-    if chosen.json:
+    result: dict[str, Any] = {"simulated_s": flight.last_time}
+    if flight.ended:
+        result = figures(flight.ended[0]) | {"plans_by": flight.plans_by}
+    if table:
+        from relguide.cli.flight_tables import print_flight
+
+        print_flight(flight, result)
+    else:
         about = {
             "scenario": "".join(started.scenario for started in flight.started),
             "title": "".join(started.title for started in flight.started),
@@ -38,10 +44,6 @@ def run(chosen: argparse.Namespace) -> int:
             "complete": whole,
         }
         write_json(about | result)
-    else:
-        from relguide.cli.flight_tables import print_flight
-
-        print_flight(flight, result)
     if not whole:
         say(
             flight.broken

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
-from relguide.cli.output import DONE, program_name, write
+from relguide.cli.output import DONE, add_form, for_people, program_name, write, write_json
 from relguide.learn.training.options import add_options as add_training
 from relguide.planning.extras import need
 
@@ -28,6 +28,7 @@ METHODS = ("branches", "templates", "paper", "direct")
 def add_options(parser: argparse.ArgumentParser) -> None:
     """The options of `relguide train`."""
     add_training(parser)
+    add_form(parser)
     parser.add_argument(
         "--method",
         choices=METHODS,
@@ -89,10 +90,28 @@ def _train(
         state=summary_of,
     )
     last = deque(shown, maxlen=1)
+    table, file = for_people(chosen), {"file": str(chosen.weights)}
     if not last:  # resumed after its last epoch
-        write(f"{chosen.weights} is complete.\n")
+        if table:
+            write(f"{chosen.weights} is complete.\n")
+        else:
+            write_json(file | {"complete": True})
         return
     about = last[0].network.about
+    if not table:
+        write_json(
+            file
+            | {
+                "complete": True,
+                "epochs": last[0].number,
+                "best_epoch": last[0].best,
+                "validation_accuracy": about["validation_accuracy"],
+                "trained_s": perf_counter() - started,
+                "device": about["device"],
+                "file_bytes": chosen.weights.stat().st_size,
+            }
+        )
+        return
     write(
         f"{chosen.weights}: the best of {last[0].number} epochs is the {last[0].best}., with "
         f"{right(about['validation_accuracy'])}. {perf_counter() - started:.0f} s on "
@@ -128,6 +147,19 @@ def _train_regular(chosen: argparse.Namespace) -> None:
     )
     last = deque(epochs, maxlen=1)[0]
     save_regular(last.network, chosen.weights)
+    if not for_people(chosen):
+        write_json(
+            {
+                "file": str(chosen.weights),
+                "complete": True,
+                "epochs": last.number,
+                "missed_share_of_variance": last.loss,
+                "trained_s": perf_counter() - started,
+                "device": last.network.about["device"],
+                "file_bytes": chosen.weights.stat().st_size,
+            }
+        )
+        return
     write(
         f"{chosen.weights}: after {last.number} epochs it misses {100.0 * last.loss:.1f} % of the "
         f"variance of (ε, θ, l) in states not trained on.\n"

@@ -17,7 +17,11 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """The options of `relguide warm-up`."""
     parser.add_argument("--for", dest="wanted", choices=FOR, default="all", help="default: all")
     parser.add_argument(
-        "--jobs", metavar="N", type=count, default=0, help="processes; default: one a core"
+        "--jobs",
+        metavar="N",
+        type=count,
+        default=0,
+        help="processes; default: as many as cores and memory allow",
     )
 
 

@@ -1,7 +1,8 @@
 """A flight in short: its events and its figures."""
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
 from math import degrees
 from typing import Any, assert_never
 
@@ -49,6 +50,8 @@ class FlightSummary:
     events: tuple[SummaryEvent, ...] = ()
     ended: tuple[FlightEnded, ...] = ()
     """One, or empty if the documents broke off."""
+    plans_by: Mapping[str, int] = field(default_factory=dict)
+    """How many plans of the first link, announced or not, each planner made, by its name."""
     documents: int = 0
     """How many there were."""
     last_time: float = 0.0
@@ -61,11 +64,14 @@ def summarize(documents: Iterable[Document]) -> FlightSummary:
     """The summary of a flight's documents, up to the `ValueError` if one ends them."""
     started: list[FlightStarted] = []
     events: list[SummaryEvent] = []
+    planners: Counter[str] = Counter()
     ended: list[FlightEnded] = []
     count, last_time, broken = 0, 0.0, ""
     try:
         for document in documents:
             count, last_time = count + 1, document.t
+            if isinstance(document, PlanChanged) and _is_of_first(document, started):
+                planners[document.plan.planner] += 1
             match document:
                 case FlightStarted():
                     started.append(document)
@@ -101,10 +107,18 @@ def summarize(documents: Iterable[Document]) -> FlightSummary:
         started=tuple(started[:1]),
         events=tuple(events),
         ended=tuple(ended[:1]),
+        plans_by=dict(planners.most_common()),
         documents=count,
         last_time=last_time,
         broken=broken,
     )
+
+
+def _is_of_first(document: PlanChanged, started: list[FlightStarted]) -> bool:
+    """Whether a plan is for the pursuer of the first link; of any, where no link is known."""
+    if not started:
+        return True
+    return any(document.ident == link.pursuer for link in started[0].links[:1])
 
 
 def figures(ended: FlightEnded) -> dict[str, Any]:

@@ -22,7 +22,7 @@ from typing import (
     get_type_hints,
 )
 
-import orjson
+from pydantic_core import to_json
 
 from relguide.contract.compass import compass
 from relguide.contract.docs import field_docs
@@ -123,7 +123,7 @@ def to_wire(document: "Document | Card") -> dict[str, Any]:
 
 def dumps(document: "Document | Card") -> bytes:
     """A document, or a card of one, as JSON text."""
-    return orjson.dumps(to_wire(document))
+    return to_json(to_wire(document))
 
 
 def tick(
@@ -150,7 +150,7 @@ def tick(
     written = [to_wire(document) for document in documents]
     if place is not None:
         _add_places(written, place)
-    return orjson.dumps(
+    return to_json(
         {
             "kind": "tick",
             "flight_id": flight_id,

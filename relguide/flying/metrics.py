@@ -133,7 +133,7 @@ def link_result(t: Second, names: PairNames, metrics: FlightMetrics, fallbacks: 
         t: flight time at its end [s].
         names: of both.
         metrics: its figures.
-        fallbacks: how often the exact plan took the place of a planner's.
+        fallbacks: how often an exact plan took the place of the planner's.
     """
     return LinkResult(
         ident=names.pursuer,

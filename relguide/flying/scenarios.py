@@ -16,8 +16,9 @@ Only the second is section 5's "very swaying trajectory", so `LEADER_TURNS_AT` i
 46°.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
+from difflib import get_close_matches
 from importlib.util import find_spec
 from math import cos, sin
 
@@ -141,8 +142,15 @@ def scenario(name: str) -> Scenario:
     """
     expect("name", name, str)
     if name not in SCENARIOS:
-        raise ValueError(f"There is no scenario {name!r}; there are {', '.join(SCENARIOS)}.")
+        raise ValueError(no_scenario(name, SCENARIOS))
     return SCENARIOS[name].build()
+
+
+def no_scenario(name: str, known: Collection[str]) -> str:
+    """What is wrong with a name that no scenario has, and which it may be meant for."""
+    meant = get_close_matches(name, known, n=1, cutoff=0.8)
+    asked = f": did you mean {meant[0]}?" if meant else "."
+    return f"There is no scenario {name!r}{asked} There are {', '.join(known)}."
 
 
 def own_scenario(situation: Situation, *, intent_known: bool = True) -> Scenario:

@@ -11,14 +11,13 @@ from relguide.flying.tracks import RecordedTrack
 from relguide.planning.inputs import Range, expect, expect_within, text, truth
 from relguide.planning.limits import (
     CLEARANCE,
-    DISTANCE,
     HEADING,
     POSITION,
     SPACING,
     TAS,
     too_close_a_slot,
 )
-from relguide.planning.situation import IntentPiece, expect_bank, expect_intent
+from relguide.planning.situation import IntentPiece, expect_bank, expect_distance, expect_intent
 from relguide.units import Metre, MetrePerSecond, Radian, Second
 
 ALTITUDES = Range(-500.0, 20_000.0, "m")
@@ -130,8 +129,7 @@ class Link:
         text("pursuer", self.pursuer)
         text("leader", self.leader)
         for name in ("slot_distance", "min_separation"):
-            value = expect_within(name, getattr(self, name), *DISTANCE)
-            object.__setattr__(self, name, value)
+            object.__setattr__(self, name, expect_distance(name, getattr(self, name)))
         if not CLEARANCE.admits(self.slot_distance - self.min_separation):
             wrong = too_close_a_slot(self.slot_distance, self.min_separation)
             raise ValueError(f"slot_distance {wrong}")

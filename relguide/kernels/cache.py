@@ -7,13 +7,15 @@ one of a file and all files of ours that it imports. Numba asks the class below 
 
 They are kept in `NUMBA_CACHE_DIR` if that is set, else beside the sources, else in the user's own
 cache: in the first that can be written, or that holds all kernels and can be read (another user's
-installation, a container with a read-only disk).
+installation, a container with a read-only disk). Where there is none, they are kept in a temporary
+folder until the process ends, and `kernels/compiling.py` says so.
 
 A folder also holds records: which steps of `relguide.warm_up` were compiled into it, and for what.
 A wheel may bring kernels compiled for any CPU of its kind (`SHIPPED`): `adopt` makes them this
 machine's own.
 """
 
+import atexit
 import json
 import os
 import pickle
@@ -25,6 +27,7 @@ from functools import cache
 from hashlib import sha256
 from itertools import count
 from pathlib import Path
+from shutil import rmtree
 from tempfile import TemporaryFile, mkdtemp
 from typing import Any, Self
 
@@ -44,18 +47,21 @@ HERE = Path(__file__).parent
 SHIPPED = HERE / "compiled"
 """Kernels that came with the wheel, if it brought any."""
 IMPORT = re.compile(
-    rb"^from relguide\.(?:(kernels\.\w+\.\w+|units) import|(kernels\.\w+) import (\w+) as )",
+    rb"^from relguide\.(?:(kernels(?:\.\w+){2,}|units) import"
+    rb"|(kernels(?:\.\w+)+) import (\w+) as )",
     re.MULTILINE,
 )
 """How our files name what they are made of."""
-FORMAT = b"2"
-"""Of what is kept: kernels kept in another format are compiled anew. Since 2 names are distinct."""
+FORMAT = b"3"
+"""Of what is kept: kernels kept in another format are compiled anew. Since 3 each is apart."""
 RECORD = ".warm"
 """How the name of a record ends."""
 ADOPTED = "adopted"
 """The record of what has been taken over from a wheel."""
 EVERYTHING = "everything"
 """The record of a folder that holds all kernels."""
+SHARED = "RELGUIDE_TEMPORARY_KERNELS"
+"""The variable that names the temporary folder to the processes that this one starts."""
 ANY_CPU = ["generic", ""]
 """What numba calls a CPU with no more than all of its kind have: its name and features."""
 
@@ -78,7 +84,7 @@ class KernelLocator(InTreeCacheLocator):
 
     def get_source_stamp(self) -> str:
         """Changes with whatever the kernel is made of."""
-        return _stamp((Path(self._py_file),))
+        return stamp((Path(self._py_file),))
 
     def ensure_cache_path(self) -> None:
         """Nothing to do: `folder` has looked."""
@@ -131,14 +137,29 @@ class LockedIndex(caching.IndexDataCacheFile):  # type: ignore[misc]
 @cache
 def folder() -> Path:
     """Where kernels are kept."""
-    for place in _places():
+    for place in places():
         if _can_write(place) or is_full(place):
             return place
+    if SHARED in os.environ:
+        return Path(os.environ[SHARED])
     try:
-        return Path(mkdtemp(prefix="relguide-"))  # compiled for this process alone
+        place = Path(mkdtemp(prefix="relguide-"))
     except OSError:
         sentence = "Compiled kernels can be kept nowhere: set NUMBA_CACHE_DIR to a writable folder."
         raise OSError(sentence) from None
+    os.environ[SHARED] = str(place)
+    atexit.register(_remove, place, os.getpid())
+    return place
+
+
+def is_kept(place: Path) -> bool:
+    """Whether what is compiled into a folder is there at the next start."""
+    return str(place) != os.environ.get(SHARED)
+
+
+def _remove(place: Path, owner: int) -> None:
+    if os.getpid() == owner:  # not in a process forked from it
+        rmtree(place, ignore_errors=True)
 
 
 def is_full(place: Path) -> bool:
@@ -193,7 +214,7 @@ def _adopt_function(index: Path, place: Path) -> None:
 @cache
 def _expected_record() -> list[str]:
     machine = cpu_target.target_context.codegen().magic_tuple()
-    sources = _stamp(tuple(sorted(HERE.rglob("*.py"))))
+    sources = stamp(tuple(sorted(HERE.rglob("*.py"))))
     return [sources, numba_version, str(sys.implementation.cache_tag), *map(str, machine)]
 
 
@@ -209,7 +230,7 @@ def _read_record(step: str, place: Path) -> object:
 
 
 @cache
-def _stamp(files: tuple[Path, ...]) -> str:
+def stamp(files: tuple[Path, ...]) -> str:
     """A digest of files and of all that they import, directly or not."""
     seen: set[Path] = set()
     pending = list(files)
@@ -234,7 +255,8 @@ def _digest_and_imports(file: Path) -> tuple[bytes, tuple[Path, ...]]:
     return digest, tuple(HERE.parent / f"{name}.py" for name in sorted(names))
 
 
-def _places() -> list[Path]:
+def places() -> list[Path]:
+    """Where kernels may be kept, the best place first."""
     users: Any = UserWideCacheLocator
     beside = [HERE / "__pycache__", Path(users(_can_write, __file__).get_cache_path())]
     chosen = os.environ.get("NUMBA_CACHE_DIR")

@@ -16,7 +16,12 @@ COMPILE = "numba:compile"
 """Numba's name of the event; one that is read from disk causes none."""
 PATIENCE, PATIENCE_OF_A_READER = 2.0, 0.3
 """How long compiling takes before it is announced, the second at a terminal [s]."""
-SENTENCE = "Compiling the planner for this machine (once, up to a minute) …\n"
+ONCE = "Compiling kernels for this machine, each once: they are kept in {folder} …\n"
+AT_EACH_START = (
+    "Compiling kernels at this start, and at each one: they can be kept in none of {folders}. "
+    "Let somebody who may write to one of them run `relguide warm-up`, or set NUMBA_CACHE_DIR to a "
+    "folder that you may write to.\n"
+)
 
 
 class _Compiled(Listener):
@@ -67,7 +72,14 @@ class FirstUse:
         at_terminal = sys.stderr is not None and sys.stderr.isatty()
         if self._spent > (PATIENCE_OF_A_READER if at_terminal else PATIENCE):
             self.announced = True
-            sys.stderr.write(SENTENCE)
+            sys.stderr.write(sentence())
+
+
+def sentence() -> str:
+    """What compiling is announced with."""
+    if cache.is_kept(cache.folder()):
+        return ONCE.format(folder=cache.folder())
+    return AT_EACH_START.format(folders=", ".join(map(str, cache.places())))
 
 
 first_use = FirstUse()

@@ -21,6 +21,7 @@ from numba.core import caching as numba_caching
 from numba.core import environment as numba_environment
 from numba.core import runtime as numba_runtime
 
+from relguide.kernels.apart import StaleCalleeError
 from relguide.kernels.cache import KernelLocator, LockedIndex, folder
 
 caching: Any = numba_caching
@@ -66,8 +67,11 @@ def _load_ours(self: Any, signature: Any, target: Any) -> Any:
     if not isinstance(self._impl.locator, KernelLocator):
         return _load_any(self, signature, target)
     runtime.rtsys.initialize(target)  # who counts the references to arrays
-    with self._guard_against_spurious_io_errors():
-        return self._load_overload(signature, target)
+    try:
+        with self._guard_against_spurious_io_errors():
+            return self._load_overload(signature, target)
+    except StaleCalleeError:
+        return None  # so it is compiled anew
 
 
 caching.IndexDataCacheFile = KernelIndex

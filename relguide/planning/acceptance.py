@@ -126,6 +126,8 @@ def judge_answer(answer: object, situation: Situation, until: float = inf) -> Fl
             message = f"The planner answered with neither a Plan nor a NoPlan, but with {kind}."
             refusal = Refusal(planner="", fault="no_answer", message=message)
     instead = exact_plan(situation, deadline=left_until(until))
+    if isinstance(instead, Plan):
+        instead = replace(instead, fell_back=True)
     return FlyableAnswer(instead, fell_back=True, refusal=refusal)
 
 

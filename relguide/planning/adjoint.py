@@ -5,7 +5,7 @@ from math import atan2, ceil, cos, hypot, sin
 
 import numpy as np
 
-from relguide.kernels.bounds.costate import hamiltonian, polar_costate
+from relguide.kernels.base.costate import hamiltonian, polar_costate
 from relguide.planning.costates import Costates, sliding_costate
 from relguide.planning.legs import Cut
 from relguide.planning.situation import Situation

@@ -5,8 +5,8 @@ keeps it, or it has a first contact, and a last one. So none arrives before the 
 extremal and the least, over all contacts, of the soonest arrival at the contact and the soonest way
 on from there. If that way on breaks the limit, there is another contact, and the last of them
 counts too. Contacts are put into cells, of bearing and time, for which all this is bounded at once
-(`kernels/bounds/contact_bound.py`). The paths with the least bound are halved again and again: that
-bound is proved, at any moment (`kernels/bounds/proof_search.py`).
+(`kernels/bounds/words/contact_bound.py`). The node of paths with the least bound is halved again
+and again: that bound is proved, at any moment (`kernels/bounds/search/branch_and_bound.py`).
 
 Slot frame: lengths in R, times in R/V_P, angles counter-clockwise.
 """
@@ -20,22 +20,21 @@ import numpy as np
 
 from relguide.kernels.base.clock import now
 from relguide.kernels.base.records import Pose, Scene
-from relguide.kernels.bounds.around import unknown_around
-from relguide.kernels.bounds.bundles import Search
-from relguide.kernels.bounds.cells import Cell
-from relguide.kernels.bounds.contact_tree import Problem
-from relguide.kernels.bounds.goal import Goal
-from relguide.kernels.bounds.probe import Find, begin_find
-from relguide.kernels.bounds.proof_search import SEARCHING, begin, go_on, look_around
-from relguide.kernels.bounds.round_time import times_round
-from relguide.kernels.bounds.tangent_contacts import tangent_contacts
-from relguide.kernels.bounds.untouched import untouched_bound
+from relguide.kernels.bounds.fronts.around import times_round, unknown_around
+from relguide.kernels.bounds.search.branch_and_bound import SEARCHING, begin, go_on, look_around
+from relguide.kernels.bounds.search.cell_tree import Problem
+from relguide.kernels.bounds.search.nodes import Search
+from relguide.kernels.bounds.search.probe import Find, begin_find
+from relguide.kernels.bounds.words.cells import Cell
+from relguide.kernels.bounds.words.contact_bound import untouched_bound
+from relguide.kernels.bounds.words.sets import Goal
+from relguide.kernels.bounds.words.tangent_contacts import tangent_contacts
 
 _QUADRANT_CELLS = 2
 """Cells a quadrant is cut into at first; none may reach into two."""
 _LOOKS = {24: 0.02, 36: 5e-3}
 """Before which rounds it is looked around a leader that turns, and how closely [rad]. Elsewhere
-than at d_min > R words say more: see `kernels/bounds/narrowing.py`."""
+than at d_min > R words say more: see `kernels/bounds/search/narrowing.py`."""
 _ROUND = 5e-3
 """Time from one report to the next [s]."""
 
@@ -51,7 +50,7 @@ class Question:
     horizon: float
     """Contacts after this time do not matter [R/V_P]."""
     paired: float = 2e-5
-    """As in `contact_tree.Problem` [rad]: at once where paths that arrive as the slot opens are to
+    """As in `cell_tree.Problem` [rad]: at once where paths that arrive as the slot opens are to
     be ruled out, and else late, since there are many cells of last contacts."""
 
     def first_contacts(self) -> Iterator[Cell]:
@@ -81,9 +80,9 @@ class Question:
             if start < end or start == 0.0:
                 yield from _all_cells(i, start, end)
 
-    def bounds(self, beat: float) -> Iterator[float]:
-        """Ever better bounds of the time of all paths, up to `beat`, where they end."""
-        return self.search(beat, begin_find(self.start, self.scene, -inf, 0.0, False), 0.0)
+    def bounds(self, incumbent: float) -> Iterator[float]:
+        """Ever better bounds of the time of all paths, up to `incumbent`, where they end."""
+        return self.search(incumbent, begin_find(self.start, self.scene, -inf, 0.0, False), 0.0)
 
     def load(self) -> None:
         """Load the kernels."""
@@ -92,17 +91,19 @@ class Question:
         search, problem, firsts = self._begin(0.0)
         look_around(search, problem, firsts, 1.0, inf)
 
-    def search(self, beat: float, find: Find, gap: float, until: float = inf) -> Iterator[float]:
-        """The same; paths that are found on the way lower `beat`.
+    def search(
+        self, incumbent: float, find: Find, gap: float, until: float = inf
+    ) -> Iterator[float]:
+        """The same; paths that are found on the way lower `incumbent`.
 
         Args:
-            beat: arrivals from here on do not matter at first [R/V_P].
+            incumbent: arrivals from here on do not matter at first [R/V_P].
             find: takes the fastest path found.
             gap: nor do those from so much before its arrival on [R/V_P].
             until: when no more is wanted, by `clock.now` [s].
         """
-        search, problem, firsts = self._begin(beat)
-        beat, state, rounds = problem.beat, SEARCHING, 0
+        search, problem, firsts = self._begin(incumbent)
+        incumbent, state, rounds = problem.incumbent, SEARCHING, 0
         looks = self._looks()
         while state == SEARCHING:
             rounds += 1
@@ -111,17 +112,17 @@ class Question:
                 search, problem = look_around(search, problem, firsts, size, until)
             bound, state = go_on(search, problem, find, now() + _ROUND)
             if find.best[1] > 0.0:
-                problem = problem._replace(beat=min(beat, float(find.best[0]) - gap))
+                problem = problem._replace(incumbent=min(incumbent, float(find.best[0]) - gap))
             yield bound
 
-    def _begin(self, beat: float) -> tuple[Search, Problem, int]:
+    def _begin(self, incumbent: float) -> tuple[Search, Problem, int]:
         """A search that has only begun, and how many cells of first contacts it has."""
         # no path that nowhere touches d_min arrives sooner than the first of these
-        beat = untouched_bound(self.start, self.scene, self.goal, beat)
+        incumbent = untouched_bound(self.start, self.scene, self.goal, incumbent)
         table, nothing = times_round(self.scene.alpha, self.scene.d_min), unknown_around()
-        tangents = tangent_contacts(self.start, self.scene, beat)
+        tangents = tangent_contacts(self.start, self.scene, incumbent)
         problem = Problem(
-            self.start, self.scene, self.goal, table, beat, self.paired, nothing, tangents
+            self.start, self.scene, self.goal, table, incumbent, self.paired, nothing, tangents
         )
         first, spare = [*self.first_contacts()], [*self.spare_contacts()]
         last = np.array([*self.last_contacts()])

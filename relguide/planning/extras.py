@@ -1,7 +1,7 @@
 """Packages that only some tasks need, and the extra of `pip install` that brings each.
 
-The library itself needs numpy and numba. Where a task needs more and it is missing, a sentence
-gives the command.
+The library itself needs numpy, numba and pydantic. Where a task needs more and it is missing, a
+sentence gives the command.
 """
 
 from importlib.util import find_spec
@@ -14,7 +14,6 @@ EXTRAS = {
     "msgspec": "serve",
     "orjson": "serve",
     "prometheus_client": "serve",
-    "pydantic": "serve",
     "pydantic_settings": "serve",
     "pyproj": "serve",
     "platformdirs": "serve",
@@ -56,7 +55,7 @@ def need(*packages: str, extra: str = "") -> None:
         MissingExtra: naming the first package that is not installed.
     """
     for package in packages:
-        if not _is_installed(package):
+        if not is_installed(package):
             raise MissingExtra(package, extra or EXTRAS[package])
 
 
@@ -68,7 +67,8 @@ def add_command(error: ModuleNotFoundError) -> ModuleNotFoundError:
     return MissingExtra(package, EXTRAS[package])
 
 
-def _is_installed(package: str) -> bool:
+def is_installed(package: str) -> bool:
+    """Whether a package can be imported."""
     try:
         return find_spec(package) is not None
     except ModuleNotFoundError:

@@ -22,6 +22,8 @@ class Range(NamedTuple):
     low: float
     high: float
     unit: str
+    meant: str = ""
+    """What was probably meant by a value outside, as a question."""
 
     @property
     def ends(self) -> tuple[float, float]:
@@ -42,7 +44,8 @@ class Range(NamedTuple):
         if not isfinite(value):
             return f"must be a finite number, not {value}."
         unit = f" {self.unit}" if self.unit else ""
-        return f"must lie in {self.low:g} … {self.high:g}{unit}, not {value:.9g}{unit}."
+        meant = f" {self.meant}" if self.meant else ""
+        return f"must lie in {self.low:g} … {self.high:g}{unit}, not {value:.9g}{unit}.{meant}"
 
 
 def number(name: str, value: object) -> float:
@@ -64,7 +67,9 @@ def number(name: str, value: object) -> float:
     return value + 0.0
 
 
-def expect_within(name: str, value: object, low: float, high: float, unit: str) -> float:
+def expect_within(
+    name: str, value: object, low: float, high: float, unit: str, meant: str = ""
+) -> float:
     """A float in [low, high], to rounding.
 
     Raises:
@@ -73,7 +78,7 @@ def expect_within(name: str, value: object, low: float, high: float, unit: str) 
     value = number(name, value)
     if low <= value <= high:
         return value
-    accepted = Range(low, high, unit)
+    accepted = Range(low, high, unit, meant)
     if not accepted.admits(value):
         raise ValueError(f"{name} {accepted.refusal(value)}")
     return value

@@ -12,8 +12,8 @@ from math import cos, hypot, sin
 
 import numpy as np
 
+from relguide.kernels.base.costate import contacts
 from relguide.kernels.base.motion import advance
-from relguide.kernels.bounds.costate import contacts
 from relguide.planning.situation import Situation
 from relguide.planning.tables import motion_of
 from relguide.planning.trajectory import Trajectory

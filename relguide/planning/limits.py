@@ -4,7 +4,7 @@
 all of them by these ranges and rules, and in these sentences.
 """
 
-from math import inf
+from math import inf, tau
 
 from relguide.planning.inputs import Range
 
@@ -14,10 +14,14 @@ BANK = Range(1.0, 60.0, "°")
 """Bank angles."""
 POSITION = Range(-1_000_000.0, 1_000_000.0, "m")
 """x and y."""
-HEADING = Range(-1e6, 1e6, "rad")
-"""Headings: beyond, the last digit of a float is worth more than 1e-10."""
+HEADING = Range(
+    -2.0 * tau, 2.0 * tau, "rad", "Did you mean degrees? Then use from_display, or math.radians."
+)
+"""Headings: twice round, which the sum of two may be; beyond, degrees were given as radians."""
 DISTANCE = Range(0.0, 200_000.0, "m")
 """D and d_min."""
+MOST_MILES = 60
+"""A distance up to this, given as a whole number of metres, was meant in nautical miles."""
 WIND = Range(0.0, 150.0, "m/s")
 """Wind speeds: the strongest jet streams on record are slower."""
 PIECE = Range(0.0, 86_400.0, "s")
@@ -37,6 +41,14 @@ def too_close_a_slot(slot_distance: float, min_separation: float) -> str:
     return (
         f"must be at least min_separation ({min_separation:g} m), not {slot_distance:g} m: "
         "the slot itself would be too close."
+    )
+
+
+def in_miles(distance: int) -> str:
+    """What is wrong with a distance that was meant in nautical miles; its name goes before it."""
+    return (
+        f"is in metres, and {distance} m is no distance for aircraft. Did you mean {distance} NM? "
+        f"Then use from_display; else give it as {distance}.0."
     )
 
 

@@ -13,7 +13,7 @@ from typing import Literal
 import numpy as np
 
 from relguide.kernels.base.angles import wrap_signed
-from relguide.kernels.bounds.costate import least_switching
+from relguide.kernels.base.costate import least_switching
 from relguide.planning.adjoint import AdjointHistory, adjoint_history
 from relguide.planning.costates import Costates, dot, find_costates, multiplier
 from relguide.planning.inputs import expect, expect_within

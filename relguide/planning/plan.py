@@ -76,8 +76,8 @@ class Plan:
     """Who made it: `exact`, `network`, `regular_dp`, or the name of a planner of one's own."""
     compute_time: Millisecond = field(default=0.0, compare=False)
     """Wall time it took to find [ms]."""
-    fell_back: bool = False
-    """Whether another planner was asked first, and could not answer."""
+    fell_back: bool = field(default=False, compare=False)
+    """Whether it took the place of another planner's, which was asked first."""
     status: Literal["planned"] = "planned"
 
     def __post_init__(self) -> None:

@@ -13,8 +13,8 @@ from math import inf
 from time import perf_counter
 
 from relguide.kernels.base.clock import now
-from relguide.kernels.bounds.goal import Goal, track_of
-from relguide.kernels.bounds.probe import Find, begin_find
+from relguide.kernels.bounds.search.probe import Find, begin_find
+from relguide.kernels.bounds.words.sets import Goal, track_of
 from relguide.planning.certificate import certify
 from relguide.planning.constrained_path import candidate_of_legs
 from relguide.planning.contact_search import Question
@@ -173,8 +173,8 @@ class _Search:
         """Bounds of the time of paths that arrive later than just as the slot opens [R/V_P]."""
         slot, left_out = self._slot, _SHARE * gap / self.scale
         aimed = replace(slot, paired=max(slot.paired * (gap / CERTIFIED) ** 3, _FINEST_PAIRED))
-        beat = self.plan.time_to_converge / self.scale - left_out
-        for bound in aimed.search(beat, self._find, left_out, self.until):
+        incumbent = self.plan.time_to_converge / self.scale - left_out
+        for bound in aimed.search(incumbent, self._find, left_out, self.until):
             self._take_faster(self._find)
             yield bound
 

@@ -7,7 +7,7 @@ of the world frame (x east, y north, heading clockwise from north), at t = 0, ov
 """
 
 from dataclasses import dataclass, field
-from math import cos, hypot, sin
+from math import cos, fmod, hypot, sin
 from typing import Literal
 
 from relguide.kernels.base.angles import turn_to
@@ -20,9 +20,11 @@ from relguide.planning.limits import (
     HEADING,
     HEADWAY,
     MAX_PIECES,
+    MOST_MILES,
     PIECE,
     POSITION,
     TAS,
+    in_miles,
     no_headway,
     too_close_a_slot,
 )
@@ -57,6 +59,11 @@ def _settle_aircraft(name: str, aircraft: "Pursuer | Leader") -> None:
     _settle(aircraft, "tas", expect_within(f"{name}.tas", aircraft.tas, *TAS))
 
 
+def _heading(degrees: float) -> Radian:
+    """A direction given in degrees, as often round as may be [rad]."""
+    return fmod(degrees, 360.0) * DEG
+
+
 def expect_bank(name: str, value: object) -> Radian:
     """A bank angle in `BANK` [rad].
 
@@ -66,6 +73,17 @@ def expect_bank(name: str, value: object) -> Radian:
     bank = number(name, value)
     expect_within(name, bank / DEG, *BANK)
     return bank
+
+
+def expect_distance(name: str, value: object) -> Metre:
+    """A distance between aircraft in `DISTANCE` [m].
+
+    Raises:
+        ValueError: for what is no number, lies outside, or was meant in nautical miles.
+    """
+    if type(value) is int and 0 < value <= MOST_MILES:  # what programs compute is a float
+        raise ValueError(f"{name} {in_miles(value)}")
+    return expect_within(name, value, *DISTANCE)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
@@ -98,7 +116,7 @@ class Pursuer:
         return cls(
             x=x_nm * NM,
             y=y_nm * NM,
-            heading=heading_deg * DEG,
+            heading=_heading(heading_deg),
             tas=tas_kt * KT,
             max_bank=max_bank_deg * DEG,
         )
@@ -160,7 +178,7 @@ class TurnTo:
         if direction not in ("left", "right"):
             raise ValueError(f"direction must be 'left' or 'right', not {direction!r}.")
         turn = LEFT if direction == "left" else RIGHT
-        return cls(heading=heading_deg * DEG, turn=turn, bank=bank_deg * DEG)
+        return cls(heading=_heading(heading_deg), turn=turn, bank=bank_deg * DEG)
 
 
 IntentPiece = FlyStraight | TurnTo
@@ -224,7 +242,7 @@ class Leader:
     ) -> "Leader":
         """In the units of aviation: nautical miles east and north, degrees, knots."""
         return cls(
-            x=x_nm * NM, y=y_nm * NM, heading=heading_deg * DEG, tas=tas_kt * KT, intent=intent
+            x=x_nm * NM, y=y_nm * NM, heading=_heading(heading_deg), tas=tas_kt * KT, intent=intent
         )
 
     @property
@@ -281,7 +299,7 @@ class Situation:
         expect("leader", self.leader, Leader)
         expect("wind", self.wind, Wind)
         for name in ("slot_distance", "min_separation"):
-            _settle(self, name, expect_within(name, getattr(self, name), *DISTANCE))
+            _settle(self, name, expect_distance(name, getattr(self, name)))
         if not CLEARANCE.admits(self.slot_distance - self.min_separation):
             wrong = too_close_a_slot(self.slot_distance, self.min_separation)
             raise ValueError(f"slot_distance {wrong}")
@@ -310,5 +328,5 @@ class Situation:
             leader=leader,
             slot_distance=slot_distance_nm * NM,
             min_separation=min_separation_nm * NM,
-            wind=wind_from(wind_from_deg * DEG, wind_kt * KT) if wind_kt else CALM,
+            wind=wind_from(_heading(wind_from_deg), wind_kt * KT) if wind_kt else CALM,
         )

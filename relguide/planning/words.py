@@ -7,7 +7,7 @@ from math import hypot
 import numpy as np
 
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.bounds.goal import arrives_at_release
+from relguide.kernels.bounds.words.word_bound import arrives_at_release
 from relguide.kernels.contact.path_pieces import NO_TURN
 from relguide.kernels.words.delay import (
     DELAY_PIECES,

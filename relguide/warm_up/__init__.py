@@ -10,10 +10,12 @@ process. A step begins once those it builds on are done, and reads from disk wha
 
 import argparse
 import os
+import re
 import subprocess
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from importlib.util import find_spec
+from pathlib import Path
 from queue import Empty, Queue
 from threading import Thread
 from typing import NamedTuple, TextIO
@@ -27,6 +29,10 @@ from relguide.warm_up.steps import Step as Step
 
 POLL = 0.2
 """How often it is looked whether to stop [s]."""
+COMPILED = "A kernel is compiled.\n"
+"""What the process of a step writes."""
+MEMORY = 1 << 30
+"""What the process of a step may need [bytes]."""
 
 
 class Preparing(NamedTuple):
@@ -36,15 +42,16 @@ class Preparing(NamedTuple):
     """What is being compiled."""
     share: float
     """Of that, 0 to 1."""
-    seconds: float
-    """Of all steps, reckoned as in `Step.seconds`."""
+    kernels: int
+    """How many are compiled, of all steps that are wanted."""
     done: tuple[str, ...]
     """Steps that are compiled, by name."""
 
 
 class _News(NamedTuple):
+    """What a step's process tells: that a kernel is compiled, or that it has ended."""
+
     step: str
-    seconds: float
     ended: bool = False
     complaint: str = ""
 
@@ -64,7 +71,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--for", dest="wanted", choices=SETS, default="all", help="what for (default: all)"
     )
     parser.add_argument(
-        "--jobs", type=int, default=os.cpu_count() or 1, help="processes (default: one a core)"
+        "--jobs", type=int, default=0, help="processes (default: as many as cores and memory allow)"
     )
     parser.add_argument("--step", choices=STEPS, help=argparse.SUPPRESS)
     chosen = parser.parse_args(arguments)
@@ -77,7 +84,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             sys.stderr.write(f"Left out, since packages are missing: {STEPS[name].title}.\n")
     left = missing(wanted)
     if left:
-        warm_up(left, jobs=chosen.jobs)
+        warm_up(left, jobs=chosen.jobs or usual_jobs())
     kept = f"kept in {cache.folder()}" if left else "in place"
     sys.stdout.write(f"The kernels are compiled and {kept}.\n")
     return 0
@@ -89,16 +96,44 @@ def missing(wanted: Iterable[str]) -> tuple[str, ...]:
     return tuple(name for name in wanted if _available(name) and not cache.is_warm(name, place))
 
 
+def usual_jobs() -> int:
+    """As many processes as there are cores for this one, but no more than memory has room for."""
+    try:
+        cores = len(os.sched_getaffinity(0))
+    except AttributeError:  # macOS, Windows
+        cores = os.cpu_count() or 1
+    return max(1, min(cores, _available_memory() // MEMORY))
+
+
+def _available_memory() -> int:
+    """What processes may still take [bytes]; without bound where the system does not tell."""
+    unbounded = sys.maxsize
+    try:
+        found = re.search(r"^MemAvailable: *(\d+) kB", Path("/proc/meminfo").read_text(), re.M)
+    except OSError:  # macOS, Windows
+        return unbounded
+    return min(int(found[1]) << 10 if found else unbounded, _left_to_container())
+
+
+def _left_to_container(group: Path = Path("/sys/fs/cgroup")) -> int:
+    """What a container's limit leaves [bytes]."""
+    try:
+        limit, used = ((group / f"memory.{name}").read_text() for name in ("max", "current"))
+        return int(limit) - int(used)
+    except (OSError, ValueError):  # no container, or "max": no limit
+        return sys.maxsize
+
+
 def warm_up(wanted: Sequence[str], *, jobs: int) -> None:
     """Compile the kernels of some steps, with a progress bar if that takes long."""
-    total = sum(STEPS[name].seconds for name in wanted)
+    total = sum(STEPS[name].kernels for name in wanted)
     shown = ""
     for state in show_progress(
         prepare(wanted, jobs=jobs),
         title="compiling",
         total=total,
-        done=lambda state: state.seconds,
-        state=lambda state: state.title,
+        done=lambda state: state.kernels,
+        state=lambda state: f"{state.title}, {state.kernels} of {total} kernels",
     ):
         if state.title not in (shown, "") and not sys.stderr.isatty():
             sys.stderr.write(f"compiling {state.title} …\n")
@@ -119,7 +154,7 @@ def prepare(
         WarmUpError: if a step breaks off, with what it wrote.
     """
     pending, done = list(wanted), tuple[str, ...]()
-    spent = dict.fromkeys(wanted, 0.0)
+    compiled = dict.fromkeys(wanted, 0)
     running: dict[str, subprocess.Popen[str]] = {}
     news: Queue[_News] = Queue()
     try:
@@ -127,22 +162,21 @@ def prepare(
             for name in _ready(pending, running)[: max(1, jobs) - len(running)]:
                 pending.remove(name)
                 running[name] = _begin(name, news)
-            yield _state(running, spent, done)
+            yield _state(running, compiled, done)
             heard = _next(news, stopped)
             if heard is None:
                 return
             name = heard.step
-            spent[name] += heard.seconds
             if not heard.ended:
+                compiled[name] += 1
                 continue
             if running.pop(name).wait() != 0:
                 raise WarmUpError(f"Compiling {STEPS[name].title} broke off.\n{heard.complaint}")
-            spent[name] = STEPS[name].seconds
             done += (name,)
             cache.record([name], cache.folder())
         if done and not missing(STEPS):  # else nothing is new, and the disk may be read-only
             cache.record([cache.EVERYTHING], cache.folder())
-        yield _state(running, spent, done)
+        yield _state(running, compiled, done)
     finally:
         for process in running.values():
             process.terminate()
@@ -168,15 +202,15 @@ def _begin(name: str, news: "Queue[_News]") -> "subprocess.Popen[str]":
 
 
 def _listen(name: str, lines: TextIO, news: "Queue[_News]") -> None:
-    """Pass on what a process writes: a number is the seconds of a kernel, all else a complaint."""
+    """Pass on what a process writes: that a kernel is compiled, or a complaint."""
     complaint = ""
     with lines:
         for line in lines:
-            try:
-                news.put(_News(name, float(line)))
-            except ValueError:
+            if line == COMPILED:
+                news.put(_News(name))
+            else:
                 complaint += line
-    news.put(_News(name, 0.0, ended=True, complaint=complaint))
+    news.put(_News(name, ended=True, complaint=complaint))
 
 
 def _next(news: "Queue[_News]", stopped: Callable[[], bool]) -> "_News | None":
@@ -188,23 +222,23 @@ def _next(news: "Queue[_News]", stopped: Callable[[], bool]) -> "_News | None":
     return None
 
 
-def _state(running: Iterable[str], spent: dict[str, float], done: tuple[str, ...]) -> Preparing:
-    # a slower machine than the one the seconds were measured on: not at 100 % before it is done
-    reached = {name: min(spent[name], 0.99 * STEPS[name].seconds) for name in running}
-    total = sum(reached.values()) + sum(STEPS[name].seconds for name in done)
+def _state(running: Iterable[str], compiled: dict[str, int], done: tuple[str, ...]) -> Preparing:
+    # what other steps compile meanwhile is not compiled here, or more is: never all before the end
+    reached = {name: min(compiled[name], STEPS[name].kernels - 1) for name in running}
+    total = sum(reached.values()) + sum(STEPS[name].kernels for name in done)
     for name in reached:  # the first one begun
-        return Preparing(STEPS[name].title, reached[name] / STEPS[name].seconds, total, done)
+        return Preparing(STEPS[name].title, reached[name] / STEPS[name].kernels, total, done)
     return Preparing("", 1.0, total, done)
 
 
 def _work(name: str) -> None:
-    """A step in this process, which is started for it; writes the seconds each kernel took."""
+    """A step in this process, which is started for it; writes a line for each kernel compiled."""
     if STEPS[name].after and hasattr(os, "nice"):
         os.nice(5)  # who flies or plans meanwhile comes first
     first_use.announced = True
 
-    def say(seconds: float) -> None:
-        sys.stdout.write(f"{seconds:.3f}\n")
+    def say(_: float) -> None:
+        sys.stdout.write(COMPILED)
         sys.stdout.flush()
 
     with each_kernel(say):

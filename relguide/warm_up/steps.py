@@ -21,8 +21,8 @@ from relguide.planning.trajectory import LEFT, RIGHT
 SAMPLES = 400
 """Documents of a flight after which its every kernel has been called."""
 SETS = {
-    "plan": ("flying", "limited", "proofs"),
-    "serve": ("flying", "limited", "areas", "proofs", "bulk"),
+    "plan": ("flying", "limited"),
+    "serve": ("flying", "limited", "areas", "bulk"),
     "all": ("flying", "limited", "areas", "proofs", "bulk", "networks", "tree", "learning"),
 }
 """What `--for` may name, and its steps in the order they are begun."""
@@ -33,8 +33,8 @@ class Step:
     """Kernels that are compiled together."""
 
     title: str
-    seconds: float
-    """Of one core, about: what a share of the whole is reckoned by."""
+    kernels: int
+    """How many it compiles, about, after those it builds on: what its progress is told by."""
     run: Callable[[], None]
     """Calls the kernels."""
     after: tuple[str, ...] = ()
@@ -228,13 +228,13 @@ LIMITED = (
 opens.
 """
 STEPS = {
-    "flying": Step("flights and plans without the limit", 17.0, _compile_flying),
-    "limited": Step("the limited search", 53.0, _compile_limited, after=("flying",)),
-    "areas": Step("areas", 10.0, _compile_areas, after=("flying",), packages=("contourpy",)),
-    "proofs": Step("proofs of optimality", 7.0, _compile_proofs, after=("limited",)),
-    "bulk": Step("plans in bulk", 9.0, _compile_bulk, after=("limited",), packages=("contourpy",)),
-    "networks": Step("networks", 30.0, _compile_networks, after=("limited",)),
-    "tree": Step("the tree", 2.0, _compile_tree, after=("flying",)),
-    "learning": Step("learning", 20.0, _compile_learning, after=("networks",), packages=("torch",)),
+    "flying": Step("flights and plans without the limit", 100, _compile_flying),
+    "limited": Step("the limited search", 100, _compile_limited, after=("flying",)),
+    "areas": Step("areas", 100, _compile_areas, after=("flying",), packages=("contourpy",)),
+    "proofs": Step("proofs of optimality", 100, _compile_proofs, after=("limited",)),
+    "bulk": Step("plans in bulk", 100, _compile_bulk, after=("limited",), packages=("contourpy",)),
+    "networks": Step("networks", 100, _compile_networks, after=("limited",)),
+    "tree": Step("the tree", 100, _compile_tree, after=("flying",)),
+    "learning": Step("learning", 100, _compile_learning, after=("networks",), packages=("torch",)),
 }
 """All of them, by name."""

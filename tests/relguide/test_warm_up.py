@@ -151,15 +151,15 @@ def test_steps_run_in_processes_and_are_recorded(
 ) -> None:
     monkeypatch.setattr(cache, "folder", lambda: tmp_path)
     monkeypatch.setattr(warm_up, "STEPS", {
-        "first": warm_up.Step("one", 1.0, lambda: None),
-        "second": warm_up.Step("two", 1.0, lambda: None, after=("first",)),
+        "first": warm_up.Step("one", 4, lambda: None),
+        "second": warm_up.Step("two", 4, lambda: None, after=("first",)),
     })  # fmt: skip
-    _workers(monkeypatch, "print(0.25); print(5.0)")
+    _workers(monkeypatch, f"print({warm_up.COMPILED!r} * 6, end='')")
     states = list(warm_up.prepare(["first", "second"], jobs=2))
-    assert states[0] == ("one", 0.0, 0.0, ())
-    assert ("one", 0.25, 0.25, ()) in states
-    assert ("two", 0.99, 1.99, ("first",)) in states  # slow, and not done for that
-    assert states[-1] == ("", 1.0, 2.0, ("first", "second"))
+    assert states[0] == ("one", 0.0, 0, ())
+    assert ("one", 0.25, 1, ()) in states
+    assert ("two", 0.75, 7, ("first",)) in states  # more than said, and not done for that
+    assert states[-1] == ("", 1.0, 8, ("first", "second"))
     assert cache.is_warm("first", tmp_path)
     assert cache.is_full(tmp_path)
     assert warm_up.missing(["first", "second"]) == ()
@@ -179,7 +179,7 @@ def test_steps_are_ended_when_stopped(tmp_path: Path, monkeypatch: pytest.Monkey
     monkeypatch.setattr(cache, "folder", lambda: tmp_path)
     _workers(monkeypatch, "import time; time.sleep(60)")
     states = list(warm_up.prepare(["flying"], jobs=1, stopped=lambda: True))
-    assert states == [(warm_up.STEPS["flying"].title, 0.0, 0.0, ())]
+    assert states == [(warm_up.STEPS["flying"].title, 0.0, 0, ())]
     assert not cache.is_warm("flying", tmp_path)
 
 
@@ -257,26 +257,66 @@ def test_the_first_use_is_announced_once(
     assert capsys.readouterr().err == ""
     first._count(0.5 * spent)
     first._count(spent)
-    assert capsys.readouterr().err == compiling.SENTENCE
+    said = capsys.readouterr().err
+    assert said == f"{compiling.ONCE.format(folder=cache.folder())}"
+
+
+NOWHERE = """
+import sys
+from pathlib import Path
+from relguide.kernels import cache, compiling
+cache._can_write = lambda place: False
+cache.folder.cache_clear()
+compiling.first_use._count(5.0)
+print(cache.folder())
+assert cache.folder().is_dir()
+"""
+
+
+def test_where_nothing_can_be_kept_it_says_so_with_the_cure_and_cleans_up() -> None:
+    done = _run("-c", NOWHERE)
+    assert done.returncode == 0, done.stderr
+    assert "they can be kept in none of" in done.stderr
+    assert "NUMBA_CACHE_DIR" in done.stderr
+    assert not Path(done.stdout.strip()).exists()
+    with_child = _run("-c", NOWHERE + "import subprocess\nsubprocess.run([sys.executable, '-c', "
+        "'from relguide.kernels import cache; cache._can_write = lambda place: False; "
+        "cache.folder.cache_clear(); print(cache.folder())'])")  # fmt: skip
+    assert len({*with_child.stdout.split()}) == 1
+
+
+def test_memory_limits_the_processes(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(warm_up.os, "sched_getaffinity", lambda _: range(8), raising=False)
+    for gigabytes, jobs in ((0.5, 1), (3.5, 3), (64.0, 8)):
+        monkeypatch.setattr(warm_up, "_available_memory", lambda g=gigabytes: int(g * 2**30))
+        assert warm_up.usual_jobs() == jobs
+    assert warm_up._left_to_container(tmp_path) == sys.maxsize
+    (tmp_path / "memory.current").write_text("1000\n")
+    (tmp_path / "memory.max").write_text("max\n")
+    assert warm_up._left_to_container(tmp_path) == sys.maxsize
+    (tmp_path / "memory.max").write_text("5000\n")
+    assert warm_up._left_to_container(tmp_path) == 4000
 
 
 def test_a_stamp_changes_with_what_is_imported(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     kernels = tmp_path / "kernels"
-    (kernels / "words").mkdir(parents=True)
+    (kernels / "words" / "room").mkdir(parents=True)
     (kernels / "base").mkdir()
     (tmp_path / "units.py").write_text("G0 = 9.8\n")
-    (kernels / "words" / "top.py").write_text("from relguide.kernels.words.middle import f\n")
-    (kernels / "words" / "middle.py").write_text("from relguide.kernels.base.turn import g\n")
+    (kernels / "words" / "top.py").write_text("from relguide.kernels.words.room.middle import f\n")
+    (kernels / "words" / "room" / "middle.py").write_text(
+        "from relguide.kernels.base.turn import g\n"
+    )
     (kernels / "base" / "turn.py").write_text("from relguide.units import G0\n")
     (kernels / "base" / "apart.py").write_text("")
     monkeypatch.setattr(cache, "HERE", kernels)
 
     def stamps() -> dict[str, str]:
         cache._digest_and_imports.cache_clear()
-        cache._stamp.cache_clear()
-        return {file.stem: cache._stamp((file,)) for file in kernels.rglob("*.py")}
+        cache.stamp.cache_clear()
+        return {file.stem: cache.stamp((file,)) for file in kernels.rglob("*.py")}
 
     before = stamps()
     (tmp_path / "units.py").write_text("G0 = 9.80665\n")
@@ -285,7 +325,7 @@ def test_a_stamp_changes_with_what_is_imported(
 
 
 def test_whatever_a_kernel_imports_of_ours_is_seen() -> None:
-    for file in (cache.HERE / "__init__.py").parent.glob("*/*.py"):
+    for file in (cache.HERE / "__init__.py").parent.glob("*/**/*.py"):
         found = set[Path]()
         for node in ast.walk(ast.parse(file.read_bytes())):
             if isinstance(node, ast.ImportFrom) and str(node.module).startswith("relguide."):
@@ -304,7 +344,7 @@ def test_a_folder_that_can_only_be_read_serves_if_it_was_filled(
 ) -> None:
     read_only, empty = tmp_path / "read_only", tmp_path / "empty"
     read_only.mkdir()
-    monkeypatch.setattr(cache, "_places", lambda: [empty, read_only])
+    monkeypatch.setattr(cache, "places", lambda: [empty, read_only])
     monkeypatch.setattr(cache, "_can_write", lambda place: False)
     assert not cache.is_full(read_only)
     assert cache.folder.__wrapped__().name.startswith("relguide-")

@@ -31,7 +31,7 @@ class Named:
 NAMED = (
     Named(
         name="the contact of a turning leader strays",
-        file="relguide/kernels/bounds/cells.py",
+        file="relguide/kernels/bounds/words/cells.py",
         before="return swing, swing + 0.5",
         after="return swing, 0.0 * swing + 0.0",
     ),

@@ -100,7 +100,7 @@ class Memory(NamedTuple):
     """Why guidance cannot go on, as was said; `None` if it can."""
     alert: StandingAlert
     fallbacks: int
-    """How often a planner's plan could not be flown and the exact plan took its place."""
+    """How often an exact plan took the place of the planner's, for whatever reason."""
     refused: Fault | None
     """What was wrong with the planner's last plan; `None` if it could be flown."""
 

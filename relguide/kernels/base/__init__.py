@@ -1,1 +1,1 @@
-"""What every kernel stands on: angles, turns, motion, roots, the slot frame."""
+"""What every kernel stands on: angles, turns, motion, costates, roots, the slot frame."""

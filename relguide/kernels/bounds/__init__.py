@@ -1,1 +1,1 @@
-"""What is proved of a time: lower bounds by cells of contacts, and the costates."""
+"""What is proved of a time: lower bounds by cells of contacts."""

@@ -11,7 +11,6 @@ from numba import njit
 from relguide.kernels.base.clock import time_is_up
 from relguide.kernels.base.records import Pose, Scene, with_time
 from relguide.kernels.base.roots import FloatArray
-from relguide.kernels.contact.added_arcs import add_boundary_arcs
 from relguide.kernels.contact.chain import MAX_LEGS, chain_of
 from relguide.kernels.contact.chain_refinement import (
     GAIN,
@@ -20,10 +19,14 @@ from relguide.kernels.contact.chain_refinement import (
     refine_chain,
     simplify_chain,
 )
-from relguide.kernels.contact.nearby_chains import search_nearby
-from relguide.kernels.contact.other_words import take_other_words
-from relguide.kernels.contact.slide_from_touch import slide_from_touches
-from relguide.kernels.contact.spare_chains import keep_chain
+from relguide.kernels.contact.neighbourhoods import (
+    Task,
+    add_boundary_arcs,
+    keep_chain,
+    search_nearby,
+    slide_from_touches,
+    take_other_words,
+)
 
 AGAIN = 2
 """So often a chain that has become faster is begun again from nearby."""
@@ -54,7 +57,7 @@ def refine_chains(
         arcs: whether boundary arcs are put into the best one.
         best: an arrival already known [R/V_P].
         legs: takes those of the best chain. shape (MAX_LEGS, 6)
-        spare: takes some of the others, of `spare_chains`.
+        spare: takes some of the others, of `neighbourhoods.no_chains`.
 
     Returns:
         the least arrival [R/V_P] and the number of its legs; `best` and 0 if none is earlier.
@@ -97,8 +100,8 @@ def begin_again(
 ) -> tuple[float, int]:  # fmt: skip
     """Look for a faster chain near the best one, or near another.
 
-    By other words to its contacts, by straights that touch, and as in `nearby_chains`. Several
-    chains often come to the same one by that: from there it is looked nearby once only.
+    By other words to its contacts, by straights that touch, and by `search_nearby`. Several chains
+    often come to the same one by that: only the first of them is searched from there.
 
     Args:
         start: where it begins, at t = 0.
@@ -115,14 +118,14 @@ def begin_again(
     Returns:
         the least arrival [R/V_P] and the number of its legs; `best` and 0 if none is earlier.
     """
-    room, given = np.zeros((MAX_LEGS, 6)), best
+    task, given = Task(start, scene, stride, np.zeros((MAX_LEGS, 6))), best
     for _ in range(AGAIN):
         before = best
-        best, count = take_other_words(start, scene, contacts, count, best, stride, room)
-        best, count = slide_from_touches(start, scene, contacts, count, best, stride, room)
+        best, count = take_other_words(task, contacts, count, best)
+        best, count = slide_from_touches(task, contacts, count, best)
         if count == 0 or _was_begun(begun, best):
             break
-        best, count = search_nearby(start, scene, contacts, count, best, stride, room, effort)
+        best, count = search_nearby(task, contacts, count, best, effort)
         if best > before - _WORTH_AGAIN:
             break
         best, count = _finished(start, scene, contacts, count, best, stride, True)
@@ -155,7 +158,7 @@ def _finished(
         best, count = simplify_chain(start, scene, chain_of(contacts[:count], room), best, stride)
     if arcs:
         before = best
-        best, count = add_boundary_arcs(start, scene, contacts, count, best, stride, room)
+        best, count = add_boundary_arcs(Task(start, scene, stride, room), contacts, count, best)
         if best < before and count > 2:
             chain = chain_of(contacts[:count], room)
             best, count = simplify_chain(start, scene, chain, best, stride)

@@ -28,7 +28,7 @@ def test_labels_train_weights_and_audit(run: Run) -> None:
         "relguide dataset --method exact --count 3000 --seed 7 --out labels.npz"
     )
     size = ("--width", "16", "--depth", "1", "--epochs", "3", "--batch", "128", "--threads", "1")
-    code, out, err = run("train", "labels.npz", "w.safetensors", *size)
+    code, out, err = run("train", "labels.npz", "w.safetensors", *size, "--table")
     assert (code, err) == (0, "")
     assert "w.safetensors: the best of 3 epochs is the " in out
     assert load_network(Path("w.safetensors")).about["program"].startswith("relguide ")
@@ -48,14 +48,16 @@ def test_what_was_stopped_at_its_end_is_only_said_to_be_complete(run: Run) -> No
     list(islice(training(options(*arguments), "a test"), 2))  # all its epochs, but not its end
     written, part = Path("w.safetensors").read_bytes(), Path("w.safetensors.part")
     assert part.exists()
-    assert run("train", *arguments, "--resume") == (0, "w.safetensors is complete.\n", "")
+    assert run("train", *arguments, "--resume", "--table") == (
+        0, "w.safetensors is complete.\n", "",
+    )  # fmt: skip
     assert (Path("w.safetensors").read_bytes(), part.exists()) == (written, False)
 
 
 def test_people_get_sentences_and_a_table(run: Run) -> None:
-    code, out, _ = run(*EXACT, "--threads", "1")
+    code, out, _ = run(*EXACT, "--threads", "1", "--table")
     assert (code, "Fastest: LSL " in out) == (0, True)
-    code, out, err = run("audit", "--count", "1000", "--beside", "0")
+    code, out, err = run("audit", "--count", "1000", "--beside", "0", "--table")
     assert (code, err) == (0, "")
     lines = out.splitlines()
     assert max(map(len, lines)) <= 100
@@ -76,7 +78,7 @@ def test_people_get_sentences_and_a_table(run: Run) -> None:
 @pytest.mark.slow
 def test_four_are_audited_side_by_side_and_drawn(run: Run) -> None:
     asked = ("audit", "--count", "1000", "--beside", "200", "--figures", "docs/figures")
-    code, out, err = run(*asked)
+    code, out, err = run(*asked, "--table")
     assert (code, err) == (0, "")
     lines = out.splitlines()
     assert max(map(len, lines)) <= 100

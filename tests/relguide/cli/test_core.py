@@ -1,4 +1,4 @@
-"""numpy and numba are enough for the library; a command that needs more says what brings it."""
+"""numpy, numba and pydantic are enough to plan, fly and record; what needs more says so."""
 
 import json
 import subprocess
@@ -9,6 +9,7 @@ import pytest
 
 from relguide.planning.extras import EXTRAS
 from tests.bodies import BODY
+from tests.command_line import NEAR
 
 BLOCK = f"""
 import sys
@@ -18,7 +19,7 @@ class Blocker:
             raise ModuleNotFoundError(f"No module named {{name!r}}", name=name)
 sys.meta_path.insert(0, Blocker)
 """
-"""Python in which numpy and numba are all there is."""
+"""Python in which numpy, numba and pydantic are all there is."""
 FLOWN = """
 from math import radians
 import relguide
@@ -58,14 +59,12 @@ def test_all_public_names_can_be_imported() -> None:
 @pytest.mark.parametrize(
     ("arguments", "package", "extra"),
     [
-        (["plan", "situation.json"], "pydantic", "serve"),
-        (["plan", "situation.json", "--include", "optimality"], "pydantic", "serve"),
-        (["check", "situation.json"], "pydantic", "serve"),
-        (["fly", "fig_6b"], "pydantic", "serve"),
-        (["fly", "fig_6b", "--record", "a.jsonl"], "pydantic", "serve"),
-        (["replay", "a.jsonl"], "pydantic", "serve"),
+        (["plan", "situation.json", "--table"], "rich", "serve"),
+        (["plan", "--batch", "situation.json"], "msgspec", "serve"),
+        (["check", "situation.json", "--table"], "rich", "serve"),
+        (["fly", "fig_6b", "--table"], "rich", "serve"),
+        (["replay", "a.jsonl", "--table"], "rich", "serve"),
         (["serve"], "fastapi", "serve"),
-        (["dataset", "--method", "exact", "--out", "labels.npz"], "orjson", "learn"),
         (["train", "labels.npz", "weights.safetensors"], "torch", "learn"),
         (["audit"], "torch", "learn"),
         (["audit", "--method", "templates"], "torch", "learn"),
@@ -91,6 +90,31 @@ def test_a_command_says_what_brings_what_it_needs(
 
 
 @pytest.mark.slow
+def test_a_file_is_planned_flown_recorded_replayed_and_checked(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("near.json").write_text(json.dumps(NEAR))
+    for arguments, field, expected in (
+        (["plan", "near.json", "--include", "alternatives,optimality"], "status", "planned"),
+        (["check", "near.json", "--figure", "a.svg"], "passed", True),
+        (["fly", "near.json", "--record", "a.jsonl.gz"], "joined", True),
+        (["replay", "a.jsonl.gz"], "complete", True),
+    ):
+        done = core(f"import relguide.__main__ as m; sys.exit(m.main({arguments}))")
+        assert (done.returncode, done.stderr) == (0, "")
+        assert json.loads(done.stdout)[field] == expected
+
+
+@pytest.mark.slow
+def test_a_data_set_needs_no_more(tmp_path: Path) -> None:
+    arguments = ["dataset", "--method", "exact", "--count", "1000", "--out", f"{tmp_path}/a.npz"]
+    done = core(f"import relguide.__main__ as m; sys.exit(m.main({arguments}))")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert json.loads(done.stdout)["labels"] == 1000
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("program", "extra"),
     [
@@ -98,8 +122,6 @@ def test_a_command_says_what_brings_what_it_needs(
          "isochrones(found.situation, Grid(x=0.0, y=0.0, columns=9, rows=9))", "serve"),
         ("from relguide.planning.frames import LocalPlane\n"
          "LocalPlane(lat_deg=50.0, lon_deg=8.0).to_local(50.0, 8.0)", "serve"),
-        ("relguide.record((), 'flight.jsonl')", "serve"),
-        ("list(relguide.replay('flight.jsonl'))", "serve"),
         ("from relguide.client import Client", "client"),
     ],
 )  # fmt: skip

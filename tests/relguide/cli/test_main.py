@@ -10,6 +10,9 @@ import pytest
 from tests.bodies import BODY, change
 from tests.command_line import NEAR, UNREACHABLE, Run, process, write
 
+ROUND = str(Path(__file__).parents[3] / "examples" / "round.json")
+"""A situation in which d_min makes the plan longer."""
+
 # --- plan ---------------------------------------------------------------------------------------
 
 
@@ -45,6 +48,17 @@ def test_the_table_is_for_people(run: Run) -> None:
     assert "NM" in out
     assert "…" not in out
     assert max(map(len, out.splitlines())) <= 100
+
+
+def test_the_table_says_whether_the_gap_is_closed(run: Run) -> None:
+    for options in ((), ("--prove", "10")):
+        reply = json.loads(run("plan", ROUND, *options)[1])
+        _, out, _ = run("plan", ROUND, *options, "--table")
+        gap = reply["time_to_converge_s"] - reply["optimality"]["lower_bound_s"]
+        open_ = reply["optimality"]["proof"] not in ("relaxation", "certified")
+        said = f"gap of {gap:.1f} s is open" if open_ else "gap closed"
+        assert said in " ".join(out.split())
+        assert ("closed" in said) == bool(options)
 
 
 def test_the_table_says_why_each_other_way_lost(run: Run) -> None:
@@ -222,6 +236,11 @@ def test_check_judges_the_fastest_plan_and_what_is_entered(run: Run) -> None:
     assert Path("plan.svg").read_text("utf-8").startswith("<svg")
     found["triplets"][0]["theta_deg"] += 10.0
     off = write({"triplets": found["triplets"]}, "off.json")
+    code, out, err = run("check", situation, off, "--figure", "off.svg")
+    assert (code, json.loads(out)["passed"]) == (1, False)
+    assert err == "relguide: off.svg shows a trajectory that misses the slot.\n"
+    assert "; failed: it misses the slot" in Path("off.svg").read_text("utf-8")
+    assert "failed" not in Path("plan.svg").read_text("utf-8")
     code, out, _ = run("check", situation, off, "--table")
     assert code == 1
     assert "Misses the slot" in out

@@ -2,6 +2,7 @@
 
 import gzip
 import json
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +25,7 @@ FIGURES = {
     "replans",
     "replans_announced",
     "fallbacks",
+    "plans_by",
     "track_nm",
     "simulated_s",
     "losses",
@@ -39,6 +41,21 @@ def test_fly_prints_the_contracts_figures(run: Run) -> None:
     assert (code, figures["joined"]) == (0, True)
     assert figures["simulated_s"] >= figures["join_time_s"] > 0.0
     assert figures["track_nm"] * 1852.0 == pytest.approx(figures["join_time_s"] * 240.0, rel=0.05)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("planner", ["regular_dp", "network", "exact"])
+def test_each_plan_is_counted_under_its_planner(run: Run, planner: str) -> None:
+    """Behind a leader that turns, exact plans keep the branch that is flown."""
+    code, out, _ = run("fly", "fig_6a", "--planner", planner, "--json")
+    figures = json.loads(out)
+    assert code == 0
+    assert sum(figures["plans_by"].values()) == 1 + figures["replans"]
+    assert set(figures["plans_by"]) <= {planner, "exact"}
+    assert figures["plans_by"][planner] > 0
+    by_exact = 0 if planner == "exact" else figures["plans_by"].get("exact", 0)
+    assert figures["fallbacks"] >= by_exact
+    assert (by_exact > 0) == (planner == "regular_dp")
 
 
 @pytest.fixture(scope="module")
@@ -66,11 +83,12 @@ def test_a_recording_replays_to_the_same_figures(
     assert isinstance(documents[0], FlightStarted)
     assert documents[0].seed == 7
     assert told["losses"] == figures["losses"]
-    for name in FIGURES - {"wall_s", "losses"}:
+    assert told["plans_by"] == figures["plans_by"]
+    for name in FIGURES - {"wall_s", "losses", "plans_by"}:
         assert told[name] == pytest.approx(figures[name], rel=1e-9)
-    code, out, _ = run("replay", str(file))
+    code, out, _ = run("replay", str(file), "--table")
     assert code == 0
-    for word in ("engaged", "least separation", "fallbacks"):
+    for word in ("plan by exact: engaged", "least separation", "planned by", "fallbacks"):
         assert word in out
 
 
@@ -101,7 +119,7 @@ def test_the_good_part_of_a_damaged_recording_is_printed(
     assert err.startswith("relguide: near.jsonl, line")
     assert err.endswith("the file is cut short here; what comes before is good.\n")
     Path("near.jsonl").write_bytes(b"".join(whole.splitlines(keepends=True)[:-1]))
-    code, out, err = run("replay", "near.jsonl")
+    code, out, err = run("replay", "near.jsonl", "--table")
     assert code == 1
     assert "engaged" in out
     assert "ends before its flight does" in err
@@ -143,7 +161,7 @@ def test_a_time_is_kept_and_guidance_flies_by_the_settings_given(run: Run) -> No
     last = [d for d in documents if isinstance(d, Sample)][-1]
     (guidance,), leader = last.guidance, last.aircraft[1]
     assert guidance.separation == pytest.approx(60.0 * leader.ground_speed, abs=200.0)
-    _, out, _ = run("replay", "s.jsonl.gz")
+    _, out, _ = run("replay", "s.jsonl.gz", "--table")
     assert "once joined 60 s behind" in out
     assert "Joined, and followed for 120 s." in out
 
@@ -171,6 +189,41 @@ def test_an_hour_of_following_makes_the_flight_longer_than_an_hour(run: Run) -> 
     figures = json.loads(out)
     assert code == 0
     assert figures["simulated_s"] == pytest.approx(figures["join_time_s"] + 3600.0, abs=1.0)
+
+
+@pytest.mark.slow
+def test_a_recording_has_the_samples_asked_for(run: Run) -> None:
+    for options, period in (((), 1.0), (("--sample-rate", "5"), 0.2)):
+        assert run("fly", write(NEAR), "--record", "a.jsonl", *options)[0] == 0
+        times = [d.t for d in replay("a.jsonl") if isinstance(d, Sample)]
+        steps = {round(later - t, 6) for t, later in pairwise(times)}
+        assert (times[0], steps) == (0.0, {period})
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        (("--sample-rate", "3", "--record", "a.jsonl"), "must be 20 or a whole part of it, as 1, "),
+        (("--sample-rate", "0", "--record", "a.jsonl"), "must be 20 or a whole part of it, as 1, "),
+        (("--sample-rate", "x", "--record", "a.jsonl"), "must be 20 or a whole part of it, as 1, "),
+        (("--sample-rate", "5"), "--sample-rate is for a recording: add --record FILE."),
+    ],
+)
+def test_a_rate_without_whole_steps_or_a_recording_is_misuse(
+    run: Run, options: tuple[str, ...], sentence: str
+) -> None:
+    code, out, err = run("fly", "fig_6b", *options)
+    assert (code, out) == (2, "")
+    assert sentence in err
+
+
+@pytest.mark.parametrize(
+    ("name", "said"), [("fig6b", "fig_6b"), ("fig-6a", "fig_6a"), ("randon", "random")]
+)
+def test_a_mistyped_scenario_is_guessed_and_all_are_listed(run: Run, name: str, said: str) -> None:
+    code, out, err = run("fly", name)
+    assert (code, out) == (2, "")
+    assert f"did you mean {said}? There are fig_6a, fig_6b, recorded_leader, random." in err
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ AUDIT = ("audit", "--method", "templates", "--count", "60", "--threads", "1")
 
 
 def test_people_get_tables_and_a_figure(run: Run) -> None:
-    code, out, err = run(*AUDIT, "--figures", "docs/figures")
+    code, out, err = run(*AUDIT, "--figures", "docs/figures", "--table")
     assert (code, err) == (0, "")
     lines = out.splitlines()
     assert max(map(len, lines)) <= 100

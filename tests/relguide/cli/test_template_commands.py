@@ -26,7 +26,9 @@ def test_labels_train_weights(run: Run) -> None:
         "relguide dataset --method templates --count 500 --seed 7 --out templates.npz"
     )
     size = ("--width", "16", "--depth", "1", "--epochs", "2", "--batch", "64", "--threads", "1")
-    code, out, err = run("train", "templates.npz", "w.safetensors", "--method", "templates", *size)
+    code, out, err = run(
+        "train", "templates.npz", "w.safetensors", "--method", "templates", *size, "--table"
+    )
     assert (code, err) == (0, "")
     assert "w.safetensors: the best of 2 epochs is the " in out
     assert load_template_network(Path("w.safetensors")).about["program"].startswith("relguide ")
@@ -42,7 +44,7 @@ def test_labelling_goes_on_after_a_stop(run: Run) -> None:
     code, _, err = run(*LIMIT)
     assert code == 2
     assert "--resume goes on with it" in err
-    code, out, _ = run(*LIMIT, "--resume")
+    code, out, _ = run(*LIMIT, "--resume", "--table")
     assert code == 0
     assert out.startswith("templates.npz: 500 situations in which d_min binds, ")
     assert not Path("templates.npz.part").exists()

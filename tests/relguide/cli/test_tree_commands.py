@@ -45,11 +45,11 @@ def test_dataset_writes_the_tree_and_says_what_it_is(run: Run) -> None:
 
 
 def test_dataset_tells_people_in_sentences(run: Run) -> None:
-    code, out, _ = run(*DATASET, *SMALL, "--audit", "50", "--threads", "1")
+    code, out, _ = run(*DATASET, *SMALL, "--audit", "50", "--threads", "1", "--table")
     assert code == 0
     assert f"the best paths from {len(tree().minima):,} cells" in out
     assert "They are paths, not the fastest ones: of 50 of them" in out
-    code, out, _ = run(*DATASET, *SMALL, "--audit", "0")
+    code, out, _ = run(*DATASET, *SMALL, "--audit", "0", "--table")
     assert (code, "not the fastest ones" in out) == (0, False)
 
 
@@ -146,9 +146,11 @@ def test_planning_loads_neither_torch_nor_matplotlib() -> None:
 @pytest.mark.slow
 def test_area_draws_the_tree_beside_the_exact_area(run: Run) -> None:
     assert run(*DATASET, *SMALL, "--audit", "0")[0] == 0
-    code, out, err = run(
-        "area", "--figure", "area.svg", "--tree", "tree.npz", "--headings-deg", "0", "-60"
-    )
+    area = ("area", "--figure", "area.svg", "--tree", "tree.npz", "--headings-deg", "0", "-60")
+    code, out, err = run(*area)
+    assert (code, err) == (0, "")
+    assert json.loads(out) == {"file": "area.svg", "headings_deg": [0.0, -60.0]}
+    code, out, err = run(*area, "--table")
     assert (code, err) == (0, "")
     assert out == "area.svg: the convergence area on 2 headings.\n"
     drawn = Path("area.svg").read_text("utf-8")

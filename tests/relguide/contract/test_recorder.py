@@ -2,6 +2,8 @@
 
 import gzip
 import json
+from dataclasses import replace
+from math import nan, remainder, tau
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +12,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from relguide.contract.recorder import RecordingError, record, replay
-from relguide.flying.documents import Document, LeaderChanged
+from relguide.flying.documents import Document, FlightEnded, LeaderChanged, Sample
+from relguide.flying.flight import fly
+from relguide.flying.scenarios import scenario
+from relguide.planning.plan import plan
 from tests.documents import documents
 from tests.relguide.contract.test_wire import SAMPLE, assert_equal
 
@@ -22,7 +27,7 @@ SAID = LeaderChanged(
 @pytest.fixture
 def recording(tmp_path: Path) -> Path:
     file = tmp_path / "flight.jsonl"
-    assert len(list(record([SAMPLE, SAID, SAMPLE], file))) == 3
+    assert len(list(record([SAMPLE, SAID, SAMPLE], file, sample_rate=None))) == 3
     return file
 
 
@@ -42,11 +47,65 @@ def test_a_replay_gives_what_was_recorded(
     tmp_path_factory: pytest.TempPathFactory, flown: list[Any], ending: str
 ) -> None:
     file = tmp_path_factory.mktemp("flight") / f"a{ending}"
-    assert list(record(flown, file)) == flown
+    assert list(record(flown, file, sample_rate=None)) == flown
     read = list(replay(file))
     assert len(read) == len(flown)
     for one, other in zip(read, flown, strict=True):
         assert_equal(one, other)
+
+
+@given(flown=st.lists(documents(), max_size=5))
+@settings(max_examples=40)
+def test_of_the_samples_what_can_be_seen_is_recorded(
+    tmp_path_factory: pytest.TempPathFactory, flown: list[Any]
+) -> None:
+    """One each second, to 1 mm; all else is there with all its digits."""
+    file = tmp_path_factory.mktemp("flight") / "a.jsonl"
+    flown = [replace(d, t=float(i)) if isinstance(d, Sample) else d for i, d in enumerate(flown)]
+    assert list(record(flown, file)) == flown
+    for read, given_ in zip(replay(file), flown, strict=True):
+        if not isinstance(given_, Sample):
+            assert_equal(read, given_)
+            continue
+        assert isinstance(read, Sample)
+        assert (read.t, len(read.aircraft)) == (given_.t, len(given_.aircraft))
+        for one, other in zip(read.aircraft, given_.aircraft, strict=True):
+            assert (one.x, one.y) == pytest.approx((other.x, other.y), rel=1e-12, abs=6e-4)
+            assert abs(remainder(one.heading - other.heading, tau)) < 1e-8 + 1e-12 * abs(
+                other.heading
+            )
+            assert 0.0 <= one.heading < tau
+            assert one.bank == pytest.approx(other.bank, rel=1e-12, abs=1e-8)
+            assert one.tas == pytest.approx(other.tas, rel=1e-12, abs=6e-5)
+
+
+@pytest.mark.parametrize(("rate", "kept"), [(1.0, [0, 1, 2]), (2.0, [0, 0.5, 1, 1.5, 2])])
+def test_samples_are_as_frequent_as_asked_and_the_last_is_there(
+    tmp_path: Path, rate: float, kept: list[float]
+) -> None:
+    file = tmp_path / "a.jsonl"
+    end = FlightEnded(t=2.25, reason="time_over", message="It ends.", results=())
+    flown = [*(replace(SAMPLE, t=0.05 * k) for k in range(46)), end]
+    list(record(flown, file, sample_rate=rate))
+    *samples, last = replay(file)
+    assert last == end
+    assert [sample.t for sample in samples] == pytest.approx([*kept, 2.25], abs=1e-9)
+
+
+@pytest.mark.slow
+def test_a_flight_of_a_quarter_of_an_hour_has_less_than_a_megabyte(tmp_path: Path) -> None:
+    file = tmp_path / "a.jsonl"
+    *_, end = record(fly(scenario("fig_6b"), plan), file)
+    assert end.t > 17 * 60.0
+    assert file.stat().st_size < 1e6
+    (*_, last) = replay(file)
+    assert last == end
+
+
+@pytest.mark.parametrize("rate", [0.0, -1.0, nan, True, "often"])
+def test_a_rate_that_is_none_is_refused(tmp_path: Path, rate: Any) -> None:
+    with pytest.raises(ValueError, match="sample_rate"):
+        record([], tmp_path / "a.jsonl", sample_rate=rate)
 
 
 def test_the_first_line_says_what_the_file_is(recording: Path) -> None:
@@ -90,7 +149,7 @@ def test_of_a_file_cut_short_the_good_part_is_kept(recording: Path, cut: int) ->
 
 def test_of_a_compressed_file_cut_short_too(tmp_path: Path) -> None:
     file = tmp_path / "a.jsonl.gz"
-    list(record([SAMPLE] * 500, file))
+    list(record([SAMPLE] * 500, file, sample_rate=None))
     file.write_bytes(file.read_bytes()[:-600])
     good, said = read_until_bad(file)
     assert 0 < len(good) < 500

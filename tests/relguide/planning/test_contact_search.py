@@ -12,9 +12,9 @@ from benchmarks import draws
 from benchmarks.proofs import KINDS, draw
 from relguide import Plan, candidates, plan
 from relguide.kernels.base.records import Pose, Scene
-from relguide.kernels.bounds.cells import Cell
-from relguide.kernels.bounds.contact_tree import cell_at, halve, plant
-from relguide.kernels.bounds.goal import Goal
+from relguide.kernels.bounds.search.cell_tree import cell_at, halve, plant
+from relguide.kernels.bounds.words.cells import Cell
+from relguide.kernels.bounds.words.sets import Goal
 from relguide.planning.contact_search import Question
 from relguide.planning.prove import question_of
 
@@ -138,5 +138,5 @@ def test_hops_are_reckoned_with_on_the_final_leg_of_a_leader_who_has_turned() ->
     assert isinstance(planned, Plan)
     question = question_of(candidates(planned.situation))
     pursuer = planned.situation.pursuer
-    beat = (planned.time_to_converge - 0.1) * pursuer.tas / pursuer.turn_radius
-    assert max(islice(question.bounds(beat), 1_000)) == pytest.approx(beat, abs=1e-9)
+    incumbent = (planned.time_to_converge - 0.1) * pursuer.tas / pursuer.turn_radius
+    assert max(islice(question.bounds(incumbent), 1_000)) == pytest.approx(incumbent, abs=1e-9)

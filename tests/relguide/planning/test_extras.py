@@ -25,9 +25,16 @@ def test_each_package_brought_is_named() -> None:
     assert set.union(*(BROUGHT[extra] for extra in set(EXTRAS.values()))) == set(EXTRAS)
 
 
-def test_the_core_is_numpy_and_numba() -> None:
+def test_the_core_is_numpy_numba_and_pydantic() -> None:
     core = {re.split(r"[\[=><]", line)[0] for line in PROJECT["dependencies"]}
-    assert core == {"numba", "numpy"}
+    assert core == {"numba", "numpy", "pydantic"}
+
+
+def test_make_run_brings_the_service_and_its_client() -> None:
+    makefile = (Path(__file__).parents[3] / "Makefile").read_text()
+    rule = re.search(r"^\.make/installed:.*?--editable '\.\[([a-z,]+)\]'", makefile, re.M | re.S)
+    assert rule is not None
+    assert set(rule[1].split(",")) == {"serve", "client"}
 
 
 def test_what_is_there_is_no_matter() -> None:
@@ -53,7 +60,7 @@ def test_what_is_missing_is_named_with_its_command(monkeypatch: pytest.MonkeyPat
 
 
 def test_an_import_that_fails_is_given_the_command() -> None:
-    found = add_command(ModuleNotFoundError("No module named 'pydantic.v1'", name="pydantic.v1"))
+    found = add_command(ModuleNotFoundError("No module named 'pyproj.x'", name="pyproj.x"))
     assert isinstance(found, MissingExtra)
     assert "pip install 'relguide[serve]'" in str(found)
     other = ModuleNotFoundError("No module named 'nothing'", name="nothing")

@@ -15,8 +15,8 @@ from hypothesis import assume, given
 from benchmarks import draws, proofs
 from relguide import NoPlan, Plan, Situation, plan, prove
 from relguide.__main__ import main
-from relguide.kernels.bounds.cells import Cell
-from relguide.kernels.bounds.probe import begin_find, probe_between
+from relguide.kernels.bounds.search.probe import begin_find, probe_between
+from relguide.kernels.bounds.words.cells import Cell
 from relguide.kernels.words.extremals import MAX_ROWS, solve_and_measure
 from relguide.planning import constrained_path
 from relguide.planning.prove import (

@@ -1,5 +1,7 @@
 """Situations judge themselves: every refusal is a sentence that says what would be right."""
 
+import json
+import re
 from dataclasses import replace
 from math import cos, inf, nan, pi, sin
 
@@ -18,7 +20,11 @@ from relguide import (
     Wind,
     wind_from,
 )
+from relguide.contract.bodies import situation_from_json
+from relguide.flying.orders import LeaderHeading
+from relguide.flying.world import Link
 from relguide.units import DEG, KT, NM
+from tests.bodies import BODY
 from tests.situations import headings, numbers, situations
 
 PURSUER = Pursuer(x=0.0, y=0.0, heading=0.0, tas=200.0, max_bank=25 * DEG)
@@ -57,6 +63,49 @@ def test_a_pursuer_that_cannot_be(changes: dict[str, float], sentence: str) -> N
 def test_distances_that_contradict_each_other(changes: dict[str, float], sentence: str) -> None:
     with pytest.raises(ValueError, match=sentence):
         replace(SITUATION, **changes)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("degrees", [90, 90.0, -45.0, 359.0])
+def test_degrees_given_as_radians_are_asked_about(degrees: float) -> None:
+    meant = "Did you mean degrees? Then use from_display, or math.radians."
+    for make in (
+        lambda: replace(PURSUER, heading=degrees),
+        lambda: replace(LEADER, heading=degrees),
+        lambda: TurnTo(heading=degrees, turn=LEFT, bank=0.4),
+        lambda: wind_from(degrees, 10.0),
+        lambda: LeaderHeading(heading=degrees),
+    ):
+        with pytest.raises(ValueError, match=re.escape(meant)):
+            make()
+
+
+def test_the_sum_of_two_headings_is_a_heading_and_so_are_all_degrees() -> None:
+    assert replace(PURSUER, heading=3.9 * pi).heading == 3.9 * pi
+    display = {"x_nm": 0.0, "y_nm": 0.0, "tas_kt": 400.0}
+    for degrees, once in ((90.0, 90.0), (-90.0, -90.0), (360.0, 0.0), (3690.0, 90.0)):
+        made = Pursuer.from_display(heading_deg=degrees, max_bank_deg=25.0, **display)
+        assert made.heading == once * DEG
+        assert Leader.from_display(heading_deg=degrees, **display).heading == once * DEG
+
+
+def test_miles_given_as_metres_are_asked_about() -> None:
+    with pytest.raises(ValueError, match=r"slot_distance is in metres, .* Did you mean 6 NM\?"):
+        replace(SITUATION, slot_distance=6, min_separation=5)
+    with pytest.raises(ValueError, match=r"min_separation is in metres, .* else give it as 5\.0\."):
+        replace(SITUATION, min_separation=5)
+    with pytest.raises(ValueError, match=r"slot_distance is in metres, .* Did you mean 6 NM\?"):
+        Link(pursuer="P", leader="L", slot_distance=6, min_separation=5)
+
+
+def test_what_the_contract_allows_is_allowed() -> None:
+    """D and d_min of 0, and of a few metres as numbers that a program has read."""
+    assert replace(SITUATION, slot_distance=0, min_separation=0).slot_distance == 0.0
+    assert replace(SITUATION, slot_distance=6.0, min_separation=5.0).min_separation == 5.0
+    body = BODY | {"slot_distance_m": 6, "min_separation_m": 5}
+    body |= {"pursuer": BODY["pursuer"] | {"heading_deg": 4_000_000}}
+    read, _ = situation_from_json(json.dumps(body))
+    assert (read.slot_distance, read.min_separation) == (6.0, 5.0)
+    assert read.pursuer.heading == pytest.approx(4_000_000 % 360 * DEG)
 
 
 def test_bounds_in_degrees_survive_radians() -> None:

@@ -18,7 +18,8 @@ class Proposal:
     shown: Plan
     """As a crew sees it, from now on."""
     fell_back: bool
-    """Whether the planner's own answer may not be flown, and the exact plan took its place."""
+    """Whether an exact plan took the place of the planner's: its own may not be flown, or the
+    branch before is kept."""
     refusal: Refusal | None
     """Why the planner's own plan is not flown; `None` if it was not asked, or may be flown."""
 

@@ -1,5 +1,7 @@
 """propose(belief, …) → Proposal: a path to fly from now on, whatever was flown before."""
 
+from dataclasses import replace
+
 from relguide.flying.belief import Belief
 from relguide.flying.guidance.assignment import Assignment
 from relguide.flying.guidance.commit.committed import Committed
@@ -63,7 +65,10 @@ def propose(
             return NoProposal(answer=plan, fell_back=fell_back, refusal=refusal)
         as_accepted = like is not None and turns_like(plan, like)
         if before is not None and stay > 0.0 and not as_accepted:
-            plan = nearest(plan, before, stay)
+            kept = nearest(plan, before, stay)
+            if kept.planner != plan.planner:
+                kept, fell_back = replace(kept, fell_back=True), True
+            plan = kept
         found = commit(plan, lead, belief, assignment)
         least, _ = found.forecast.least(belief.t)
         if least >= assignment.min_separation:

@@ -127,7 +127,9 @@ def test_the_command_trains_it_on_a_tree(run: Run) -> None:
     save_tree(tree(), Path("tree.npz"))
     small = ("--width", "8", "--depth", "1", "--epochs", "2", "--threads", "1")
     for method in ("paper", "direct"):
-        code, out, err = run("train", "tree.npz", "w.safetensors", *small, "--method", method)
+        code, out, err = run(
+            "train", "tree.npz", "w.safetensors", *small, "--method", method, "--table"
+        )
         assert (code, err) == (0, "")
         assert out.startswith("w.safetensors: after 2 epochs it misses ")
         about = load_regular(Path("w.safetensors")).about
