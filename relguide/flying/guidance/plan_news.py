@@ -128,7 +128,7 @@ def announce_pending(
     text = f"{reason_sentence(reason, belief)}: {summary(shown, joins - belief.t)}."
     said = NewPlan(committed=committed, shown=shown, reason=reason, message=text, announced=True)
     pause = assignment.settings.announce_after
-    memory = memory._replace(fallbacks=memory.fallbacks + shown.fell_back)
+    memory = memory._replace(fallbacks=memory.fallbacks + committed.plan.fell_back)
     return _announce(memory, belief, shown, joins, pause), [said]
 
 
