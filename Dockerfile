@@ -43,6 +43,6 @@ WORKDIR /home/relguide
 EXPOSE 8000
 STOPSIGNAL SIGTERM
 # Healthy while it plans.
-HEALTHCHECK --interval=10s --timeout=5s --start-period=20s CMD ["python", "-m", "relguide_server.health"]
+HEALTHCHECK --interval=10s --timeout=5s --start-period=20s CMD ["python", "-m", "relguide_server.http.health"]
 ENTRYPOINT ["relguide"]
 CMD ["serve", "--host", "0.0.0.0", "--port", "8000"]

@@ -20,9 +20,9 @@ import pytest
 import yaml
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
-from relguide_server import health
 from relguide_server.app import create_app
-from relguide_server.settings import Settings
+from relguide_server.http import health
+from relguide_server.settings import ServiceSettings
 
 from tests.server.serving import ideal_app, serve
 from tools.container.composition import composition
@@ -151,7 +151,7 @@ def test_who_cannot_plan_is_not_healthy() -> None:
     def broken(situation: object) -> None:
         raise RuntimeError("on purpose")
 
-    with serve(create_app(Settings(workers=0), planner=broken)) as address:
+    with serve(create_app(ServiceSettings(workers=0), planner=broken)) as address:
         assert health.main([f"http://{address}"]) == 1
 
 
@@ -202,7 +202,7 @@ def test_compose_names_settings_that_exist_and_writes_nowhere() -> None:
     services = COMPOSE["services"]
     assert set(services) == {"database", "flights", "planner", "proxy"}
     assert services["planner"]["deploy"]["replicas"] == 2
-    known = {f"RELGUIDE_{name.upper()}" for name in Settings.model_fields}
+    known = {f"RELGUIDE_{name.upper()}" for name in ServiceSettings.model_fields}
     for name in ("flights", "planner"):
         assert services[name]["read_only"] is True
         assert set(services[name]["environment"]) <= known

@@ -2,8 +2,8 @@
 
     python -m tools.api_examples
 
-writes them to `server/relguide_server/api_examples.json`; what differs from run to run is written
-the same each time.
+writes them to `server/relguide_server/http/api_examples.json`; what differs from run to run is
+written the same each time.
 """
 
 import re
@@ -15,16 +15,15 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 import orjson
-import relguide_server
 from relguide_server.app import create_app
-from relguide_server.openapi import EXAMPLES
-from relguide_server.plans import EXAMPLE
-from relguide_server.records.keeper import keep
-from relguide_server.settings import Settings
+from relguide_server.http import openapi
+from relguide_server.planning.plans import EXAMPLE
+from relguide_server.records.service import records_service
+from relguide_server.settings import ServiceSettings
 
 from tests.server.serving import TestClient
 
-FILE = Path(relguide_server.__file__).with_name(EXAMPLES)
+FILE = Path(openapi.__file__).with_name(openapi.EXAMPLES)
 COMMAND = "python -m tools.api_examples"
 ID = "3f2a9c0d71be"
 """What every flight is called in the examples."""
@@ -78,10 +77,10 @@ def ask(client: TestClient) -> dict[str, Any]:
 def answers() -> dict[str, Any]:
     """What a service of its own answers."""
     with TemporaryDirectory() as data:
-        keeper = keep(
+        records = records_service(
             records="on", database_url="", data=data, record_plans=10, keep_days=1.0, keep_mb=10.0
         )
-        with TestClient(create_app(Settings(workers=1), keeper=keeper)) as client:
+        with TestClient(create_app(ServiceSettings(workers=1), records=records)) as client:
             return ask(client)
 
 

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from relguide_server.scene_ground import EARTH, STEP
+from relguide_server.scene.ground import EARTH, STEP
 
 Line = NDArray[np.float64]
 

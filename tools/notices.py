@@ -28,7 +28,7 @@ PAGE = """
 
 The page that the wheel and the container hold contains these packages, fonts included.
 """
-EARTH = ROOT / "server" / "relguide_server" / "earth.licence.txt"
+EARTH = ROOT / "server" / "relguide_server" / "scene" / "earth.licence.txt"
 GROUND = """
 ## On the ground of the 3D scene
 

@@ -11,7 +11,7 @@ import sys
 from time import perf_counter, thread_time
 
 from relguide_server.app import app_of
-from relguide_server.exchange import JSON, json_answer, read_body
+from relguide_server.http.bodies import JSON, json_answer, read_body
 from relguide_server.serving import serve
 from starlette.requests import Request
 from starlette.responses import Response

@@ -4,7 +4,7 @@ from math import degrees
 from typing import Any
 
 import numpy as np
-from relguide_server.plans import EXAMPLE
+from relguide_server.planning.plans import EXAMPLE
 
 from benchmarks.deadline import draw
 from relguide import LEFT, FlyStraight, Situation

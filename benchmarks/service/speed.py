@@ -19,7 +19,7 @@ from statistics import median
 from time import perf_counter
 
 import uvloop
-from relguide_server.plans import EXAMPLE
+from relguide_server.planning.plans import EXAMPLE
 from rich.console import Console
 from rich.table import Table
 from websockets.asyncio.client import connect

@@ -20,7 +20,7 @@ from statistics import median
 from tempfile import TemporaryDirectory
 from time import perf_counter
 
-from relguide_server.plans import EXAMPLE
+from relguide_server.planning.plans import EXAMPLE
 from rich.console import Console
 from rich.table import Table
 

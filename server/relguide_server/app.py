@@ -16,40 +16,31 @@ from uvicorn.middleware.proxy_headers import ProxyHeadersMiddleware
 from relguide.learn.planners import make_planner
 from relguide.planning.acceptance import takes_deadline, with_deadline
 from relguide.planning.plan import Planner
-from relguide_server import (
-    areas,
-    flights,
-    logs,
-    pages,
-    plans,
-    problem_docs,
-    record_routes,
-    scene_relay,
-    simulations,
-    stream_docs,
-)
-from relguide_server.access import Access, Names, read_tokens
-from relguide_server.accounts import Accounts
-from relguide_server.departures import Departures, library_departures
-from relguide_server.drift import DriftCheck
-from relguide_server.errors import install_handlers
-from relguide_server.exchange import Bodies, json_answer
-from relguide_server.express import Express
-from relguide_server.guards import BodyLimit, HeadAsGet, StrictHeaders
-from relguide_server.jobs import load
-from relguide_server.live_fleet import Fleet
-from relguide_server.metrics import Metrics
-from relguide_server.mount import Mount
-from relguide_server.openapi import describe, response, schema_of
-from relguide_server.pages import Page
-from relguide_server.passes import Passes
-from relguide_server.plan_desk import PlanDesk
-from relguide_server.plan_lane import PlanLane
-from relguide_server.preparation import Preparation, PreparationOf, Readiness, steps_for
+from relguide_server.flights import record_routes, routes, scene_relay, stream_docs
+from relguide_server.flights.catalogue import FlightCatalogue, library_catalogue
+from relguide_server.flights.live_fleet import LiveFleet
+from relguide_server.http import logs, pages, problem_docs
+from relguide_server.http.access import Access, read_tokens
+from relguide_server.http.bodies import Bodies, json_answer
+from relguide_server.http.body_limit import BodyLimit
+from relguide_server.http.errors import install_handlers
+from relguide_server.http.head_requests import HeadAsGet
+from relguide_server.http.metrics import Metrics
+from relguide_server.http.openapi import describe, response, schema_of
+from relguide_server.http.pages import Page
+from relguide_server.http.proxy import ProxyPath
+from relguide_server.http.request_log import RequestLog
+from relguide_server.http.security_headers import SecurityHeaders
+from relguide_server.jobs.admission import Admission
+from relguide_server.jobs.worker_pool import WorkerPool
+from relguide_server.planning import areas, plans, simulations
+from relguide_server.planning.drift import DriftCheck
+from relguide_server.planning.plan_service import PlanService
+from relguide_server.planning.tasks import load
+from relguide_server.readiness import Preparation, PreparationOf, Readiness, steps_for
 from relguide_server.records.clock import Clock
-from relguide_server.records.keeper import Keeper, KeeperOf, keep
-from relguide_server.settings import Settings, settings_from
-from relguide_server.workers import Workers
+from relguide_server.records.service import RecordsOf, RecordsService, records_service
+from relguide_server.settings import ServiceSettings, settings_from
 
 DESCRIPTION = """Minimum-time relative guidance: plans with a proof, and flights that fly them.
 
@@ -72,30 +63,30 @@ class Alive(BaseModel):
 
 
 def create_app(
-    settings: Settings | None = None,
+    settings: ServiceSettings | None = None,
     *,
     planner: Planner | None = None,
-    departures: Departures | None = None,
+    catalogue: FlightCatalogue | None = None,
     preparation: Preparation | None = None,
-    keeper: Keeper | None = None,
+    records: RecordsService | None = None,
 ) -> FastAPI:
     """The whole service.
 
     Args:
         settings: limits; from the environment if left out.
         planner: who plans, for REST and for flights; the settings' if left out.
-        departures: what can be flown; the library's scenarios if left out.
+        catalogue: what can be flown; the library's scenarios if left out.
         preparation: compiles ahead what is not compiled yet; if left out, nothing does.
-        keeper: records flights, commands and plans; if left out, nothing does.
+        records: keeps flights, commands and plans; if left out, nothing does.
     """
     settings = settings or settings_from()
     metrics = Metrics()
     drift = DriftCheck(metrics, every=settings.drift_check)
     preparation = preparation or Preparation()
-    keeper = keeper or Keeper(clock=Clock())
+    records = records or RecordsService(clock=Clock())
     # other processes cannot be given a planner that has no name: then threads do the work
     name = "" if planner else settings.planner
-    workers = Workers(settings.workers if name else 0, queue=settings.queue)
+    workers = WorkerPool(settings.workers if name else 0, queue=settings.queue)
     planner = planner or make_planner(settings.planner)
     quick = takes_deadline(planner)
     if name != "exact":
@@ -103,22 +94,22 @@ def create_app(
     patient = preparation.guard(planner, name, waiting=True)
     if quick:
         patient = with_deadline(patient, IN_FLIGHT)
-    departures = departures or library_departures(patient, name or None)
-    fleet = Fleet(settings, metrics)
+    catalogue = catalogue or library_catalogue(patient, name or None)
+    fleet = LiveFleet(settings, metrics)
     metrics.watch(partial(_measure, fleet, workers))
-    metrics.watch(keeper.measure)
+    metrics.watch(records.measure)
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        preparation.start(departures.rehearse)
-        keeper.start()
+        preparation.start(catalogue.rehearse)
+        records.start()
         drift.start()
         fleet.start()
         workers.start(partial(preparation.can_plan_by, name), partial(load, name))
         yield
         await workers.stop()
         await fleet.stop()
-        await asyncio.to_thread(keeper.stop)
+        await asyncio.to_thread(records.stop)
         await asyncio.to_thread(drift.stop)
         await asyncio.to_thread(preparation.stop)
 
@@ -133,17 +124,17 @@ def create_app(
         redoc_url=None,
     )
     app.state.workers, app.state.bodies = workers, Bodies()
-    app.state.desk = PlanDesk(
+    app.state.plan_service = PlanService(
         name, planner, quick=quick, preparation=preparation, workers=workers, metrics=metrics
     )
-    app.state.settings, app.state.departures = settings, departures
-    app.state.keeper = keeper
+    app.state.settings, app.state.catalogue = settings, catalogue
+    app.state.records = records
     app.state.fleet, app.state.metrics, app.state.preparation = fleet, metrics, preparation
     for part in (
+        plans.router,  # most requests are for these
         router,
-        plans.router,
         areas.router,
-        flights.router,
+        routes.router,
         simulations.router,
         record_routes.router,
         scene_relay.router,
@@ -155,25 +146,16 @@ def create_app(
     install_handlers(app)
     describe(app)
     # The last one added is the first one passed.
-    app.add_middleware(PlanLane)
     app.add_middleware(Page)
     app.add_middleware(BodyLimit, max_body=settings.max_body)
     hosts = [name.strip() for name in settings.hosts.split(",") if name.strip()]
-    tokens = read_tokens(settings.tokens)
-    app.add_middleware(Access, hosts=hosts, tokens=tokens)
-    app.add_middleware(StrictHeaders)
-    app.add_middleware(Accounts, metrics=metrics)
+    app.add_middleware(Access, hosts=hosts, tokens=read_tokens(settings.tokens))
+    app.add_middleware(SecurityHeaders)
+    app.add_middleware(RequestLog, metrics=metrics)
     app.add_middleware(HeadAsGet)
-    app.add_middleware(Passes)
+    app.add_middleware(Admission)
     app.add_middleware(ProxyHeadersMiddleware, trusted_hosts=settings.proxies)
-    app.add_middleware(Mount, root_path=settings.root_path, proxies=settings.proxies)
-    app.add_middleware(
-        Express,
-        names=None if tokens else Names(hosts),
-        desk=app.state.desk,
-        keeper=keeper,
-        metrics=metrics,
-    )
+    app.add_middleware(ProxyPath, root_path=settings.root_path, proxies=settings.proxies)
     return app
 
 
@@ -198,20 +180,20 @@ async def show_health() -> Response:
     },
 )
 async def show_readiness(
-    request: Request, preparation: PreparationOf, keeper: KeeperOf
+    request: Request, preparation: PreparationOf, records: RecordsOf
 ) -> Response:
     """Ready once all that it serves is compiled, a flight has been rehearsed and workers answer.
 
     Records do not count: a service whose database is gone plans and flies as ever.
     """
-    workers: Workers = request.app.state.workers
+    workers: WorkerPool = request.app.state.workers
     report = preparation.report() | {
         "planning": {
             "answers": workers.ready,
             "processes": len(workers.processes),
             "waiting": workers.waiting,
         },
-        "records": keeper.report().model_dump(),
+        "records": records.report().model_dump(),
     }
     if preparation.ready and workers.ready:
         return json_answer(report)
@@ -238,7 +220,7 @@ async def show_metrics(request: Request) -> Response:
     return Response(page, media_type=media_type)
 
 
-def app_of(settings: Settings | None = None) -> FastAPI:
+def app_of(settings: ServiceSettings | None = None) -> FastAPI:
     """The service as an operator starts it: prepared ahead, recording, its log written.
 
     Args:
@@ -249,7 +231,7 @@ def app_of(settings: Settings | None = None) -> FastAPI:
     app = create_app(
         settings,
         preparation=Preparation(steps_for(settings)),
-        keeper=keep(
+        records=records_service(
             records=settings.records,
             database_url=settings.database_url,
             data=settings.data,
@@ -262,7 +244,7 @@ def app_of(settings: Settings | None = None) -> FastAPI:
     return app
 
 
-def _measure(fleet: Fleet, workers: Workers) -> Iterator[Metric]:
+def _measure(fleet: LiveFleet, workers: WorkerPool) -> Iterator[Metric]:
     """What changes without being counted."""
     for name, text, value in (
         ("flights_running", "Flights in the air.", sum(not flight.over for flight in fleet)),

@@ -10,11 +10,11 @@ from typing import Any
 import uvicorn
 from fastapi import FastAPI
 
-from relguide_server.connections import Connection
-from relguide_server.live_fleet import Fleet
-from relguide_server.mount import believed
-from relguide_server.settings import Settings
-from relguide_server.workers import Workers
+from relguide_server.flights.live_fleet import LiveFleet
+from relguide_server.http.connections import Connection
+from relguide_server.http.proxy import believed
+from relguide_server.jobs.worker_pool import WorkerPool
+from relguide_server.settings import ServiceSettings
 
 TO_SAY_GOODBYE = 0.3
 """How long streams may take to be told why they end [s]."""
@@ -37,8 +37,8 @@ class Server(uvicorn.Server):
         app = self.config.loaded_app
         while not isinstance(app, FastAPI):
             app = app.app
-        fleet: Fleet = app.state.fleet
-        workers: Workers = app.state.workers
+        fleet: LiveFleet = app.state.fleet
+        workers: WorkerPool = app.state.workers
         fleet.dismiss()
         app.state.bodies.stop()
         await workers.stop()
@@ -50,7 +50,7 @@ def serve(app: FastAPI, *, host: str, port: int) -> None:
     """Serve until a signal says to stop; then end within three seconds."""
     sys.setswitchinterval(SWITCH)
     gc.set_threshold(*gc.get_threshold()[:2], FULL)
-    settings: Settings = app.state.settings
+    settings: ServiceSettings = app.state.settings
     options = uvicorn_options(
         host=host, port=port, most=settings.max_connections, proxies=settings.proxies
     )
@@ -80,6 +80,6 @@ def uvicorn_options(*, host: str, port: int, most: int, proxies: str) -> dict[st
         "log_config": None,  # ours holds: logs.py
         "log_level": "warning",
         "access_log": False,
-        "proxy_headers": False,  # app.py sees to them, after mount.py
+        "proxy_headers": False,  # app.py sees to them, after proxy.py
         "server_header": False,
     }

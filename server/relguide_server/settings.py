@@ -48,7 +48,7 @@ CountOrNone = Annotated[int, Field(ge=0)]
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
 
 
-class Settings(BaseSettings):
+class ServiceSettings(BaseSettings):
     """Limits of the service. Each can be set by an environment variable `RELGUIDE_<NAME>`."""
 
     model_config = SettingsConfigDict(
@@ -169,10 +169,10 @@ class Option:
 
 def options() -> list[Option]:
     """How `relguide serve` takes the settings, each with what `--help` says of it."""
-    return [_option(name, field) for name, field in Settings.model_fields.items()]
+    return [_option(name, field) for name, field in ServiceSettings.model_fields.items()]
 
 
-def settings_from(**given: str) -> Settings:
+def settings_from(**given: str) -> ServiceSettings:
     """The settings: what is given by name, else the environment, else the defaults.
 
     Raises:
@@ -181,7 +181,7 @@ def settings_from(**given: str) -> Settings:
     """
     _refuse_unknown(os.environ)
     try:
-        return Settings(**given)  # type: ignore[arg-type]  # texts, read by pydantic
+        return ServiceSettings(**given)  # type: ignore[arg-type]  # texts, read by pydantic
     except ValidationError as error:
         first = error.errors(include_url=False)[0]
         name = str(first["loc"][0])
@@ -191,7 +191,7 @@ def settings_from(**given: str) -> Settings:
 
 
 def _refuse_unknown(environment: Mapping[str, str]) -> None:
-    known = {name.upper() for name in Settings.model_fields}
+    known = {name.upper() for name in ServiceSettings.model_fields}
     for variable in environment:
         name = variable.upper().removeprefix(PREFIX)
         if name == variable.upper() or name in known or NOT_OURS.fullmatch(name):

@@ -10,9 +10,9 @@ import starlette.testclient
 import uvicorn
 from fastapi import FastAPI
 from relguide_server.app import create_app
-from relguide_server.departures import Departure, Departures
+from relguide_server.flights.catalogue import FlightCatalogue, RequestedFlight
 from relguide_server.serving import Server, uvicorn_options
-from relguide_server.settings import Settings
+from relguide_server.settings import ServiceSettings
 from starlette.testclient import WebSocketTestSession
 from starlette.types import ASGIApp
 
@@ -38,20 +38,20 @@ class TestClient(starlette.testclient.TestClient):
         return super().websocket_connect(f"ws://localhost{url}", *arguments, **options)
 
 
-def ideal_departures(
+def ideal_catalogue(
     source: Callable[..., Iterator[Document]] = ideal_flight, *, broken: bool = False
-) -> Departures:
+) -> FlightCatalogue:
     """One scenario, "ideal", flown by a source that the test gives."""
 
-    def find(wanted: FlightRequest) -> Departure:
+    def find(wanted: FlightRequest) -> RequestedFlight:
         if isinstance(wanted, ScenarioFlightRequest) and wanted.scenario != "ideal":
             raise ContractError([("scenario", 'must be "ideal".')])
-        return Departure(scenario="ideal", title="Exact trajectories", source=source)
+        return RequestedFlight(scenario="ideal", title="Exact trajectories", source=source)
 
     info = ScenarioInfo(
         name="ideal", title="Exact trajectories", description="", available=True, message=""
     )
-    return Departures(
+    return FlightCatalogue(
         scenarios=lambda: ScenarioList(scenarios=[info]),
         find=find,
         rehearse=lambda: plan(SITUATION) and None,
@@ -62,8 +62,8 @@ def ideal_app(
     source: Callable[..., Iterator[Document]] = ideal_flight, **settings: float | str
 ) -> FastAPI:
     """The service with ideal flights."""
-    limits = Settings(**{"workers": 0, **settings})  # type: ignore[arg-type]
-    return create_app(limits, departures=ideal_departures(source))
+    limits = ServiceSettings(**{"workers": 0, **settings})  # type: ignore[arg-type]
+    return create_app(limits, catalogue=ideal_catalogue(source))
 
 
 @contextmanager

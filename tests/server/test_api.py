@@ -9,15 +9,15 @@ from typing import Any
 
 import pytest
 from relguide_server.app import create_app
-from relguide_server.guards import VERSION
-from relguide_server.plans import EXAMPLE, MAX_BATCH
-from relguide_server.settings import Settings
-from relguide_server.workers import KINDS
+from relguide_server.http.security_headers import VERSION
+from relguide_server.jobs.worker_pool import KINDS
+from relguide_server.planning.plans import EXAMPLE, MAX_BATCH
+from relguide_server.settings import ServiceSettings
 
 from relguide.planning.plan import NoPlan, Plan, plan
 from relguide.planning.situation import Situation
 from tests.server.flown import ideal_flight
-from tests.server.serving import TestClient, ideal_app, ideal_departures
+from tests.server.serving import TestClient, ideal_app, ideal_catalogue
 
 HARD = {
     **EXAMPLE,
@@ -349,7 +349,7 @@ def test_a_mistake_of_ours_is_a_sentence_without_traceback() -> None:
     def broken(situation: Situation) -> Plan | NoPlan:
         raise ZeroDivisionError(f"secret of {situation.slot_distance}")
 
-    app = create_app(Settings(), planner=broken, departures=ideal_departures())
+    app = create_app(ServiceSettings(), planner=broken, catalogue=ideal_catalogue())
     with TestClient(app, raise_server_exceptions=False) as client:
         answer = client.post("/api/v1/plans", json=EXAMPLE)
         is_problem(answer, 500, "/api/v1/plans")
@@ -467,7 +467,7 @@ def test_a_plan_that_takes_long_keeps_nobody_waiting() -> None:
         assert go_on.wait(10.0)
         return plan(situation)
 
-    app = create_app(Settings(), planner=slow, departures=ideal_departures())
+    app = create_app(ServiceSettings(), planner=slow, catalogue=ideal_catalogue())
     with TestClient(app) as client, ThreadPoolExecutor(1) as other:
         planned = other.submit(client.post, "/api/v1/plans", json=EXAMPLE)
         assert asked.wait(10.0)

@@ -12,12 +12,12 @@ from time import monotonic, perf_counter, thread_time
 import httpx2 as httpx
 import pytest
 from relguide_server.app import create_app
-from relguide_server.jobs import load
-from relguide_server.settings import Settings
+from relguide_server.planning.tasks import load
+from relguide_server.settings import ServiceSettings
 
 from benchmarks.service.attackers import KINDS, attack
 from benchmarks.service.situations import STRAIGHT
-from tests.server.serving import ideal_departures, serve
+from tests.server.serving import ideal_catalogue, serve
 from tests.server.test_service_life import wait_until
 
 LOOK = 0.005
@@ -52,7 +52,7 @@ def attackers(port: int, kind: str) -> Iterator[None]:
 @pytest.mark.parametrize("kind", ["heavy_plans", "hang_ups"])
 def test_attackers_hold_up_nobody(kind: str) -> None:
     assert kind in KINDS
-    app = create_app(Settings(workers=2), departures=ideal_departures())
+    app = create_app(ServiceSettings(workers=2), catalogue=ideal_catalogue())
     held: list[float] = []
 
     async def watch() -> None:

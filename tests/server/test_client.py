@@ -9,8 +9,8 @@ import orjson
 import pytest
 from hypothesis import given, settings
 from relguide_server.app import create_app
-from relguide_server.records.keeper import keep
-from relguide_server.settings import Settings
+from relguide_server.records.service import records_service
+from relguide_server.settings import ServiceSettings
 
 from relguide.client import AsyncClient, Client, Invalid, Placed, Refused, calls
 from relguide.client.bodies import body_of
@@ -24,7 +24,7 @@ from relguide.planning.plan import plan
 from relguide.planning.situation import Situation
 from tests.bodies import BODY
 from tests.server.records.test_writer import wait_for
-from tests.server.serving import ideal_app, ideal_departures, serve
+from tests.server.serving import ideal_app, ideal_catalogue, serve
 from tests.situations import situations
 
 SITUATION, _ = situation_from_json(BODY)
@@ -36,12 +36,14 @@ AIRCRAFT = {
 
 @pytest.fixture(scope="module")
 def url(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    keeper = keep(
+    records = records_service(
         records="on", database_url="", data=str(tmp_path_factory.mktemp("records")),
         record_plans=0, keep_days=1.0, keep_mb=10.0,
     )  # fmt: skip
     app = create_app(
-        Settings(workers=0, root_path="/relguide"), departures=ideal_departures(), keeper=keeper
+        ServiceSettings(workers=0, root_path="/relguide"),
+        catalogue=ideal_catalogue(),
+        records=records,
     )
     with serve(app) as address:
         yield f"http://{address}/relguide"

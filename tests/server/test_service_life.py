@@ -18,14 +18,14 @@ import orjson
 import pytest
 import viser
 from relguide_server.app import create_app
-from relguide_server.settings import Settings
+from relguide_server.settings import ServiceSettings
 from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed
 from websockets.typing import Subprotocol
 
 from relguide.contract.protocol import PROTOCOL
 from tests.server.flown import ideal_flight
-from tests.server.serving import ideal_app, ideal_departures, serve
+from tests.server.serving import ideal_app, ideal_catalogue, serve
 from tests.server.test_api import HARD
 
 
@@ -95,7 +95,7 @@ def test_lines_that_are_left_as_their_answer_breaks_off_say_why(
 ) -> None:
     lines = [orjson.dumps({**HARD, "id": f"case {k}"}) for k in range(200)]
     headers = {"Content-Type": "application/x-ndjson"}
-    app = create_app(Settings(workers=1), departures=ideal_departures())
+    app = create_app(ServiceSettings(workers=1), catalogue=ideal_catalogue())
     answered: list[dict[str, Any]] = []
     with contextlib.ExitStack() as service:
         url = f"http://{service.enter_context(serve(app))}/api/v1/plans/batch?max_ms=1000"
@@ -117,7 +117,7 @@ def test_lines_that_are_left_as_their_answer_breaks_off_say_why(
 
 
 def test_processes_plan_what_takes_longer_and_leave_with_it() -> None:
-    app = create_app(Settings(workers=1), departures=ideal_departures())
+    app = create_app(ServiceSettings(workers=1), catalogue=ideal_catalogue())
     with serve(app) as address:
         wait_until(lambda: app.state.workers.ready)  # else an answer comes without it
         answer = httpx.post(f"http://{address}/api/v1/plans?max_ms=10000", json=HARD, timeout=60.0)

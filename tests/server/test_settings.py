@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from relguide_server.serving import uvicorn_options
-from relguide_server.settings import Settings, options, settings_from
+from relguide_server.settings import ServiceSettings, options, settings_from
 
 
 def test_the_environment_overrides_and_an_option_overrides_it(
@@ -17,8 +17,8 @@ def test_the_environment_overrides_and_an_option_overrides_it(
     monkeypatch.setenv("RELGUIDE_KEEP_UNSEEN", "1.5")
     monkeypatch.setenv("RELGUIDE_SERVICE_PORT_HTTP", "80")  # as Kubernetes does
     monkeypatch.setenv("RELGUIDE_PORT", "tcp://10.0.0.1:80")
-    assert settings_from() == Settings(max_flights=4, keep_unseen=1.5)
-    assert settings_from(max_flights="5") == Settings(max_flights=5, keep_unseen=1.5)
+    assert settings_from() == ServiceSettings(max_flights=4, keep_unseen=1.5)
+    assert settings_from(max_flights="5") == ServiceSettings(max_flights=5, keep_unseen=1.5)
 
 
 @pytest.mark.parametrize(
@@ -60,7 +60,7 @@ def test_help_lists_every_setting_with_its_default_and_unit() -> None:
     )
     said = " ".join(done.stdout.split())
     for option in options():
-        default = Settings.model_fields[option.name].get_default(
+        default = ServiceSettings.model_fields[option.name].get_default(
             call_default_factory=True, validated_data={}
         )
         shown = f"{default:g}" if isinstance(default, float) else str(default)
@@ -95,4 +95,4 @@ def test_every_setting_is_in_the_docs() -> None:
     docs = Path(__file__).parents[2] / "docs"
     text = (docs / "service.md").read_text() + (docs / "records.md").read_text()
     named = set(re.findall(r"^\| `RELGUIDE_([A-Z_]+)`", text, flags=re.MULTILINE))
-    assert named == {name.upper() for name in Settings.model_fields}
+    assert named == {name.upper() for name in ServiceSettings.model_fields}

@@ -15,7 +15,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
-from relguide_server.plans import EXAMPLE
+from relguide_server.planning.plans import EXAMPLE
 from websockets.asyncio.client import connect
 from websockets.typing import Subprotocol
 

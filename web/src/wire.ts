@@ -1,4 +1,4 @@
-// Made by `python -m relguide_server.emit_types` from relguide/contract: do not edit.
+// Made by `python -m tools.emit_types` from relguide/contract: do not edit.
 
 /** Sub-protocol of the stream: a server of another version refuses it. */
 export const PROTOCOL = "relguide-4f7a2ee3ec4d";

@@ -4,8 +4,8 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from relguide.flying.documents import Sample
-from relguide_server.records.entries import Began, Commanded, Ended, Entry, Flown, PlanAsked
-from relguide_server.records.reel import Reel, Rows
+from relguide_server.records.entries import Began, Commanded, Ended, Entry, FlownDocument, PlanAsked
+from relguide_server.records.recording import Recording, Rows
 
 HELD = 32 * 1024 * 1024
 """Most bytes of JSON that wait to be saved: samples are refused from half of it on."""
@@ -39,7 +39,7 @@ class Backlog:
         """
         self.counts = Counts()
         self._run_id, self._version = run, version
-        self._reels: dict[str, Reel] = {}
+        self._reels: dict[str, Recording] = {}
         self._plans: list[dict[str, Any]] = []
         self._planned = 0
 
@@ -51,8 +51,8 @@ class Backlog:
     def rows(self) -> Rows:
         """What is to be saved now."""
         rows = Rows(plans=[*self._plans])
-        for reel in self._reels.values():
-            rows.add(reel.rows(self._run_id, self._version))
+        for recording in self._reels.values():
+            rows.add(recording.rows(self._run_id, self._version))
         return rows
 
     def note_saved(self, rows: Rows) -> None:
@@ -60,15 +60,15 @@ class Backlog:
         self.counts.saved += bool(rows) or self.flying
         self.counts.documents += sum(row["count"] for row in rows.chunks)
         self._plans = []
-        for reel in list(self._reels.values()):
-            reel.note_saved()
-            if reel.over:
-                del self._reels[reel.card.id]
+        for recording in list(self._reels.values()):
+            recording.note_saved()
+            if recording.over:
+                del self._reels[recording.card.id]
 
     def note_replaced(self) -> None:
         """The database may be another one: all of the flights in the air is to be saved again."""
-        for reel in self._reels.values():
-            reel.note_replaced()
+        for recording in self._reels.values():
+            recording.note_replaced()
 
     def take(self, entry: Entry, *, trouble: bool) -> None:
         """Keep something until it is saved.
@@ -79,8 +79,8 @@ class Backlog:
         """
         match entry:
             case Began(card=card):
-                self._reels[card.id] = Reel(entry)
-            case Flown(flight_id=flight_id) if flight_id in self._reels:
+                self._reels[card.id] = Recording(entry)
+            case FlownDocument(flight_id=flight_id) if flight_id in self._reels:
                 self._add(self._reels[flight_id], entry, trouble)
             case Commanded(flight_id=flight_id) if flight_id in self._reels:
                 self._reels[flight_id].command(entry)
@@ -91,16 +91,16 @@ class Backlog:
             case _:
                 pass  # of a flight that is over
 
-    def _add(self, reel: Reel, flown: Flown, trouble: bool) -> None:
+    def _add(self, recording: Recording, flown: FlownDocument, trouble: bool) -> None:
         most = HELD // 2 if isinstance(flown.document, Sample) else HELD
         if trouble and sum(other.held for other in self._reels.values()) > most:
-            reel.skip(flown.number)
+            recording.skip(flown.number)
             self.counts.documents_lost += 1
             return
         try:
-            reel.add(flown)
+            recording.add(flown)
         except ValueError:  # a number in it is not finite: the stream says so as well
-            reel.skip(flown.number)
+            recording.skip(flown.number)
             self.counts.documents_lost += 1
 
     def _add_plan(self, asked: PlanAsked) -> None:
@@ -113,7 +113,7 @@ class Backlog:
     def count_lost(self, entry: Entry) -> None:
         """Count what is not even taken."""
         match entry:
-            case Flown():
+            case FlownDocument():
                 self.counts.documents_lost += 1
             case Commanded():
                 self.counts.commands_lost += 1

@@ -1,4 +1,4 @@
-"""What flights, routes and the plan desk tell the writer, as values."""
+"""What flights, routes and the plan service tell the writer, as values."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -46,7 +46,7 @@ class Began:
 
 
 @dataclass(frozen=True, slots=True)
-class Flown:
+class FlownDocument:
     """A document of a flight."""
 
     flight_id: str
@@ -100,11 +100,11 @@ class PlanAsked:
     """Address of the client."""
 
 
-Entry = Began | Flown | Commanded | Ended | PlanAsked
+Entry = Began | FlownDocument | Commanded | Ended | PlanAsked
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Search:
+class RecordSearch:
     """Which records are wanted, the newest first."""
 
     since: float | None = None

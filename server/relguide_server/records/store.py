@@ -12,7 +12,7 @@ from sqlalchemy.engine import URL, Connection, Engine
 
 from relguide_server.records import database
 from relguide_server.records.entries import Unavailable
-from relguide_server.records.reel import Row, Rows
+from relguide_server.records.recording import Row, Rows
 from relguide_server.records.schema import chunks, commands, flights, plans, runs
 
 AT_A_TIME = 20

@@ -15,10 +15,17 @@ from typing import TYPE_CHECKING
 
 from relguide.flying.documents import Sample
 from relguide.units import Second
-from relguide_server.errors import log, run_logged
+from relguide_server.http.errors import log, run_logged
 from relguide_server.records.backlog import Backlog
 from relguide_server.records.clock import Clock
-from relguide_server.records.entries import Began, Ended, Entry, Flown, PlanAsked, Unavailable
+from relguide_server.records.entries import (
+    Began,
+    Ended,
+    Entry,
+    FlownDocument,
+    PlanAsked,
+    Unavailable,
+)
 
 if TYPE_CHECKING:  # with SQLAlchemy: loaded when the database is opened
     from relguide_server.records.store import Store
@@ -38,7 +45,7 @@ SWEEP: Second = 60.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Limits:
+class RetentionLimits:
     """How much is kept."""
 
     age: Second
@@ -58,7 +65,7 @@ class Writer:
         *,
         run: str,
         version: str,
-        limits: Limits,
+        limits: RetentionLimits,
         clock: Clock,
     ) -> None:
         self._backlog = Backlog(run=run, version=version)
@@ -111,8 +118,8 @@ class Writer:
             False if too much waits already, so that it is lost.
         """
         with self._changed:
-            full = QUEUE // 2 if isinstance(entry, Flown | PlanAsked) else QUEUE
-            if isinstance(entry, Flown) and not isinstance(entry.document, Sample):
+            full = QUEUE // 2 if isinstance(entry, FlownDocument | PlanAsked) else QUEUE
+            if isinstance(entry, FlownDocument) and not isinstance(entry.document, Sample):
                 full = QUEUE
             if len(self._queue) >= full and not isinstance(entry, Began | Ended):
                 self._backlog.count_lost(entry)

@@ -16,8 +16,8 @@ from multiprocessing.connection import Connection
 
 from relguide_server.records.clock import Clock
 from relguide_server.records.entries import Began, Commanded
-from relguide_server.records.shelf import each_chunk, read_flight
-from relguide_server.records.tape import Tape
+from relguide_server.records.queries import each_chunk, read_flight
+from relguide_server.records.recorder import FlightRecorder
 
 from tests.server.flown import ideal_flight
 from tests.server.records.flown_cards import card
@@ -49,16 +49,16 @@ def record(url: str, run: str, said: Connection) -> None:
     documents = list(ideal_flight(duration=60.0))
     while True:
         names = [f"{run}-{time.monotonic_ns() % 10**10}-{k}" for k in range(TOGETHER)]
-        tapes = []
+        recorders = []
         for name in names:
             writer.put(Began(card(name), time.time()))
-            tapes.append(Tape(name, writer, Clock()))
+            recorders.append(FlightRecorder(name, writer, Clock()))
         if asyncio.run(writer.saved(10.0)):
             for name in names:
                 said.send((name, None))
         for k, document in enumerate(documents):
-            for tape in tapes:
-                tape.add(document)
+            for recorder in recorders:
+                recorder.add(document)
             if k % 100 == 99:
                 order = f'{{"command": "play", "k": {k}}}'
                 writer.put(
@@ -66,8 +66,8 @@ def record(url: str, run: str, said: Connection) -> None:
                 )
                 if asyncio.run(writer.saved(10.0)):
                     said.send((names[0], k))
-        for tape in tapes:
-            tape.end("removed")
+        for recorder in recorders:
+            recorder.end("removed")
 
 
 def kill_once(url: str, run: str, after: float) -> Lost:

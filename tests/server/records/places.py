@@ -15,7 +15,7 @@ import psycopg
 from relguide_server.records.clock import Clock
 from relguide_server.records.database import url_of
 from relguide_server.records.store import Store
-from relguide_server.records.writer import Limits, Writer
+from relguide_server.records.writer import RetentionLimits, Writer
 
 PROGRAMS = sorted(Path("/usr/lib/postgresql").glob("*/bin"))[-1:]
 """Where Debian's package puts PostgreSQL's programs."""
@@ -119,14 +119,14 @@ class Home:
         *,
         run: str = "this run",
         clock: Clock | None = None,
-        limits: Limits | None = None,
+        limits: RetentionLimits | None = None,
         opening: Callable[[], Store] | None = None,
     ) -> Writer:
         writer = Writer(
             opening or (lambda: self.store(run=run)),
             run=run,
             version="1.0",
-            limits=limits or Limits(age=1e12, size=1e12),
+            limits=limits or RetentionLimits(age=1e12, size=1e12),
             clock=clock or Clock(),
         )
         writer.start()

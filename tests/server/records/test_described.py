@@ -7,29 +7,29 @@ import pytest
 import schemathesis
 from hypothesis import HealthCheck, settings
 from relguide_server.app import create_app
-from relguide_server.records.keeper import keep
-from relguide_server.settings import Settings
+from relguide_server.records.service import records_service
+from relguide_server.settings import ServiceSettings
 
+from tests.server.http.test_openapi import CHECKS
 from tests.server.records.test_writer import wait_for
-from tests.server.serving import ideal_departures
-from tests.server.test_openapi import CHECKS
+from tests.server.serving import ideal_catalogue
 
 FOLDER = tempfile.TemporaryDirectory(prefix="relguide-records-")
-keeper = keep(
+records = records_service(
     records="on", database_url="", data=FOLDER.name, record_plans=5, keep_days=1.0, keep_mb=10.0
 )
-app = create_app(Settings(workers=0, hosts="testserver"), departures=ideal_departures())
+app = create_app(ServiceSettings(workers=0, hosts="testserver"), catalogue=ideal_catalogue())
 # each case starts and stops the service: the records are to stay open
-app.state.keeper = keeper
+app.state.records = records
 schema = schemathesis.openapi.from_asgi("/openapi.json", app)
 
 
 @pytest.fixture(scope="module")
 def _open() -> Iterator[None]:
-    keeper.start()
-    wait_for(keeper.opened)
+    records.start()
+    wait_for(records.opened)
     yield
-    keeper.stop()
+    records.stop()
     FOLDER.cleanup()
 
 

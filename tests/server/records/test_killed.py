@@ -13,9 +13,9 @@ from alembic.config import Config
 from relguide_server.records import database
 from relguide_server.records.clock import Clock
 from relguide_server.records.entries import Began, Unavailable
+from relguide_server.records.queries import each_chunk
+from relguide_server.records.recorder import FlightRecorder
 from relguide_server.records.schema import HEAD, flights, metadata
-from relguide_server.records.shelf import each_chunk
-from relguide_server.records.tape import Tape
 
 from tests.server.flown import ideal_flight
 from tests.server.records.flown_cards import card
@@ -61,13 +61,13 @@ FULL = """
 import resource, signal, sys, time
 from relguide_server.records.clock import Clock
 from relguide_server.records.entries import Began
-from relguide_server.records.tape import Tape
+from relguide_server.records.recorder import FlightRecorder
 from tests.server.flown import ideal_flight
 from tests.server.records.flown_cards import card
 from tests.server.records.places import Home
 writer = Home(sys.argv[1]).writer()
 writer.put(Began(card("one"), 1e9))
-tape = Tape("one", writer, Clock())
+recorder = FlightRecorder("one", writer, Clock())
 documents = list(ideal_flight(duration=900.0))
 half = len(documents) // 2
 def wait_for(condition):
@@ -76,18 +76,18 @@ def wait_for(condition):
         assert time.monotonic() < end
         time.sleep(0.02)
 for document in documents[:half]:
-    tape.add(document)
+    recorder.add(document)
 wait_for(lambda: writer.counts.documents)
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 limits = resource.getrlimit(resource.RLIMIT_FSIZE)
 resource.setrlimit(resource.RLIMIT_FSIZE, (4096, limits[1]))
 for document in documents[half:]:
-    tape.add(document)
+    recorder.add(document)
 wait_for(lambda: writer.trouble)
 print(writer.trouble, flush=True)
 resource.setrlimit(resource.RLIMIT_FSIZE, limits)
 wait_for(lambda: not writer.trouble)
-tape.end("removed")
+recorder.end("removed")
 writer.stop()
 print(writer.counts.documents_lost, flush=True)
 """
@@ -116,21 +116,21 @@ def test_a_server_that_stops_and_starts_again_is_caught_up_with(server: Postgres
     home = Home(server.empty_database())
     writer = home.writer()
     writer.put(Began(card("one"), 1e9))
-    tape = Tape("one", writer, Clock())
+    recorder = FlightRecorder("one", writer, Clock())
     documents = list(ideal_flight(duration=60.0))
     for document in documents[:400]:
-        tape.add(document)
+        recorder.add(document)
     assert asyncio.run(writer.saved(5.0))
     server.stop()
     for document in documents[400:]:
-        tape.add(document)
+        recorder.add(document)
     wait_for(lambda: writer.trouble)
     started = time.monotonic()
     assert asyncio.run(writer.saved(60.0)) is False
     assert time.monotonic() - started < 30.0
     server.start()
     wait_for(lambda: not writer.trouble, 20.0)
-    tape.end("removed")
+    recorder.end("removed")
     writer.stop()
     store = home.store()
     count = sum(len(lines) for lines in each_chunk(store, "one"))

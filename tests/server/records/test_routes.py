@@ -13,10 +13,10 @@ from pathlib import Path
 import pyarrow.parquet as pq
 import pytest
 from relguide_server.app import create_app
-from relguide_server.plans import EXAMPLE
-from relguide_server.record_routes import _parts
-from relguide_server.records.keeper import keep
-from relguide_server.settings import Settings
+from relguide_server.flights.record_routes import _parts
+from relguide_server.planning.plans import EXAMPLE
+from relguide_server.records.service import records_service
+from relguide_server.settings import ServiceSettings
 
 from relguide.contract.flight_summary import summarize
 from relguide.contract.protocol import PROTOCOL
@@ -24,22 +24,22 @@ from relguide.contract.recorder import VERSION, replay
 from relguide.contract.wire import dumps
 from relguide.flying.documents import FlightEnded, Sample
 from tests.server.flown import ideal_flight
-from tests.server.serving import TestClient, ideal_departures
+from tests.server.serving import TestClient, ideal_catalogue
 
 
 def make_client(url: str, folder: Path, source: Callable = ideal_flight) -> TestClient:
-    keeper = keep(
+    records = records_service(
         records="on", database_url=url, data=str(folder), record_plans=5, keep_days=30.0,
         keep_mb=100.0,
     )  # fmt: skip
-    app = create_app(Settings(workers=0), departures=ideal_departures(source), keeper=keeper)
+    app = create_app(ServiceSettings(workers=0), catalogue=ideal_catalogue(source), records=records)
     return TestClient(app)
 
 
 @pytest.fixture
 def client(url: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[TestClient]:
     # a busy machine may take longer than a second to save, and then the answer says "no"
-    monkeypatch.setattr("relguide_server.records.keeper.SOON", 10.0)
+    monkeypatch.setattr("relguide_server.records.service.SOON", 10.0)
     with make_client(url, tmp_path) as client:
         wait_for(lambda: client.get("/api/v1/records/flights").status_code == 200)
         yield client
@@ -196,7 +196,7 @@ def test_exports_hold_every_sample(client: TestClient, tmp_path: Path) -> None:
 
 
 def test_without_records_all_else_works_and_says_so() -> None:
-    with TestClient(create_app(Settings(workers=0), departures=ideal_departures())) as client:
+    with TestClient(create_app(ServiceSettings(workers=0), catalogue=ideal_catalogue())) as client:
         assert client.get("/readyz").json()["records"]["status"] == "off"
         answer = client.post("/api/v1/flights", json={"scenario": "ideal"})
         assert (answer.status_code, answer.headers["relguide-recorded"]) == (201, "no")
@@ -221,7 +221,7 @@ def test_a_folder_that_cannot_be_written_is_said_and_flights_fly(tmp_path: Path)
 def test_what_is_replayed_or_exported_is_whole_though_it_is_forgotten_meanwhile(
     client: TestClient, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("relguide_server.records.reel.CHUNK", 2000)  # of many chunks
+    monkeypatch.setattr("relguide_server.records.recording.CHUNK", 2000)  # of many chunks
     flight_id = fly_whole(client)
     kept = f"/api/v1/records/flights/{flight_id}"
     whole = client.get(f"{kept}/export").content
@@ -238,7 +238,7 @@ def test_what_is_replayed_or_exported_is_whole_though_it_is_forgotten_meanwhile(
 
 async def exported(client: TestClient, flight_id: str) -> bytes:
     """A recording that is removed once its first part has been exported."""
-    parts = _parts(client.app.state.keeper, flight_id, VERSION, "jsonl")
+    parts = _parts(client.app.state.records, flight_id, VERSION, "jsonl")
     first = await anext(parts)
     assert client.delete(f"/api/v1/records/flights/{flight_id}").status_code == 204
     return first + b"".join([part async for part in parts])
@@ -260,7 +260,7 @@ def test_a_replay_ends_where_the_recording_does(client: TestClient) -> None:
 def test_a_mistake_in_the_recording_ends_no_flight(
     client: TestClient, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.delattr("relguide_server.records.reel.Reel.add")
+    monkeypatch.delattr("relguide_server.records.recording.Recording.add")
     answer = client.post("/api/v1/flights", json={"scenario": "ideal"})
     assert (answer.status_code, answer.headers["relguide-recorded"]) == (201, "no")
     assert answer.elapsed.total_seconds() < 5.0  # it does not wait for what has ended

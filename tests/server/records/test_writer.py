@@ -16,11 +16,11 @@ from relguide_server.records.entries import (
     PlanAsked,
     Unavailable,
 )
-from relguide_server.records.reel import lines_of
+from relguide_server.records.recorder import FlightRecorder
+from relguide_server.records.recording import lines_of
 from relguide_server.records.schema import chunks, commands, flights, plans
 from relguide_server.records.store import Store
-from relguide_server.records.tape import Tape
-from relguide_server.records.writer import Limits, Writer
+from relguide_server.records.writer import RetentionLimits, Writer
 
 from relguide.contract.wire import dumps
 from relguide.flying.documents import Document, Sample
@@ -56,9 +56,9 @@ def row_of(store: Store, flight_id: str) -> sa.RowMapping:
         return found.mappings().one()
 
 
-def begin(writer: Writer, flight_id: str = "one") -> Tape:
+def begin(writer: Writer, flight_id: str = "one") -> FlightRecorder:
     writer.put(Began(card(flight_id), 1e9))
-    return Tape(flight_id, writer, Clock())
+    return FlightRecorder(flight_id, writer, Clock())
 
 
 def thinned(documents: list[Document]) -> list[Document]:
@@ -68,11 +68,11 @@ def thinned(documents: list[Document]) -> list[Document]:
 
 def test_a_flight_is_saved_as_it_was_flown(home: Home) -> None:
     writer = home.writer()
-    tape = begin(writer)
+    recorder = begin(writer)
     documents = list(ideal_flight(duration=300.0))
     for document in documents:
-        tape.add(document)
-    tape.end("removed")
+        recorder.add(document)
+    recorder.end("removed")
     writer.stop()
     store = home.store()
     kept = documents_of(store, "one")
@@ -90,7 +90,7 @@ def bodies(store: Store) -> list[bytes]:
 
 def test_it_is_saved_within_a_second_and_before_it_is_acknowledged(home: Home) -> None:
     writer = home.writer()
-    tape = begin(writer)
+    recorder = begin(writer)
     assert asyncio.run(writer.saved(5.0))
     store = home.store()
     assert row_of(store, "one")["outcome"] == "flying"
@@ -104,7 +104,7 @@ def test_it_is_saved_within_a_second_and_before_it_is_acknowledged(home: Home) -
         assert connection.execute(sa.select(plans.c.status)).all() == [("planned",)]
     documents = list(ideal_flight(duration=1.0))
     for document in documents[:10]:
-        tape.add(document)
+        recorder.add(document)
     wait_for(lambda: documents_of(store, "one"), 2.0)
     writer.stop()
 
@@ -118,12 +118,12 @@ def test_a_database_that_is_gone_lets_nobody_wait_and_catches_up(home: Home) -> 
         return home.store(run="this run")
 
     writer = home.writer(opening=opening)
-    tape = begin(writer)
+    recorder = begin(writer)
     wait_for(lambda: writer.trouble == "It is gone.")
     documents = list(ideal_flight(duration=60.0))
     started = time.monotonic()
     for document in documents:
-        tape.add(document)
+        recorder.add(document)
     assert asyncio.run(writer.saved(60.0)) is False
     assert time.monotonic() - started < 30.0
     gone = False
@@ -145,12 +145,12 @@ def test_what_does_not_fit_is_counted_samples_first(
 
     monkeypatch.setattr("relguide_server.records.backlog.HELD", 60_000)
     writer = home.writer(opening=opening)
-    tape = begin(writer)
+    recorder = begin(writer)
     wait_for(lambda: writer.trouble)
     documents = list(ideal_flight(duration=200.0))
     for document in documents:
-        tape.add(document)
-    tape.end("removed")
+        recorder.add(document)
+    recorder.end("removed")
     wait_for(lambda: writer.counts.documents_lost)
     gone = False
     wait_for(lambda: not writer.trouble)
@@ -188,9 +188,9 @@ def test_old_and_too_many_records_are_forgotten_but_none_in_the_air(home: Home) 
 
     writer = home.writer(clock=Clock(now=lambda: now))
     for name in ("old", "newer", "flying"):
-        tape = begin(writer, name)
+        recorder = begin(writer, name)
         for document in list(ideal_flight(duration=30.0))[:-1]:
-            tape.add(document)
+            recorder.add(document)
         if name != "flying":
             writer.put(Ended(flight_id=name, at=now, outcome="removed", lost=0))
         assert asyncio.run(writer.saved(5.0))
@@ -210,11 +210,13 @@ def test_a_clock_that_jumps_forgets_nothing(home: Home, monkeypatch: pytest.Monk
     monkeypatch.setattr("relguide_server.records.writer.WATCH", 0.0)
     monkeypatch.setattr("relguide_server.records.writer.SWEEP", 0.1)
     now = 1e9
-    writer = home.writer(clock=Clock(now=lambda: now), limits=Limits(age=3600.0, size=1e12))
-    tape = begin(writer)
+    writer = home.writer(
+        clock=Clock(now=lambda: now), limits=RetentionLimits(age=3600.0, size=1e12)
+    )
+    recorder = begin(writer)
     for document in ideal_flight(duration=5.0):
-        tape.add(document)
-    tape.end("removed")
+        recorder.add(document)
+    recorder.end("removed")
     assert asyncio.run(writer.saved(5.0))
     now += 100 * 365 * 86_400.0  # past the day of the test, at which the flight ended
     saved = writer.counts.saved
@@ -227,18 +229,18 @@ def test_a_clock_that_jumps_forgets_nothing(home: Home, monkeypatch: pytest.Monk
 def test_a_removed_file_is_made_again_and_flights_go_on_in_it(tmp_path: Path) -> None:
     home = Home(f"sqlite:///{tmp_path}/records.sqlite3")
     writer = home.writer()
-    tape = begin(writer)
+    recorder = begin(writer)
     documents = list(ideal_flight(duration=60.0))
     for document in documents[:200]:
-        tape.add(document)
+        recorder.add(document)
     assert asyncio.run(writer.saved(5.0))
     for file in tmp_path.iterdir():
         file.unlink()
     for document in documents[200:]:
-        tape.add(document)
+        recorder.add(document)
     wait_for(lambda: (tmp_path / "records.sqlite3").exists())
     wait_for(lambda: not writer.trouble)
-    tape.end("removed")
+    recorder.end("removed")
     writer.stop()
     kept = documents_of(home.store(), "one")
     home.close()

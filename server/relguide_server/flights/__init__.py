@@ -1,0 +1,1 @@
+"""Flights in the air: their routes, their streams, and replays."""

@@ -1,0 +1,245 @@
+"""One flight in the air: its worker thread, its documents so far, and its watchers."""
+
+import asyncio
+import threading
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+from relguide.contract.bodies import UNANCHORED, Anchor
+from relguide.contract.wire import tick
+from relguide.flying.documents import Document, Sample
+from relguide.flying.orders import Command
+from relguide.planning.frames import LocalPlane
+from relguide_server.flights.history import History
+from relguide_server.flights.pace import Pace
+from relguide_server.flights.stream import FLIGHT_BROKEN, FLIGHT_GONE, StreamClient
+from relguide_server.http.errors import run_logged
+from relguide_server.http.metrics import Metrics
+from relguide_server.records.entries import Outcome
+from relguide_server.records.recorder import Recorder
+from relguide_server.scene.inbox import Inbox
+from relguide_server.scene.stage import SceneStage
+
+LANDING = 1.0
+"""How long the thread of a flight may take to end [s]: it looks at each step, and when it plans it
+comes to its deadline."""
+Source = Callable[[Callable[[float], Iterable[Command]]], Iterator[Document]]
+"""A flight to be flown: takes a function that is polled for commands at each step, and gives the
+flight's documents in order."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FlightLabel:
+    """What identifies a flight from its start to its end."""
+
+    id: str
+    scenario: str
+    title: str
+    replay: bool = False
+    """Whether it is a recording, which takes no orders."""
+    anchor: Anchor = UNANCHORED
+    """How its world lies on the earth."""
+    owner: str = ""
+    """Who started it, as `access.owner_of` says it."""
+    seed: int = 0
+    """Of its random numbers."""
+
+    @property
+    def plane(self) -> LocalPlane | None:
+        """Where on the earth it is flown; `None` where nobody has said so."""
+        return self.anchor if isinstance(self.anchor, LocalPlane) else None
+
+
+class LiveFlight:
+    """A flight and all that belongs to it. Lives on the event loop; `_fly` is another thread."""
+
+    def __init__(
+        self,
+        label: FlightLabel,
+        source: Source,
+        *,
+        rate: float,
+        paused: bool,
+        metrics: Metrics,
+        recording: Recorder,
+    ) -> None:
+        self.label = label
+        self.pace = Pace(rate=rate, paused=paused)
+        self.history = History()
+        self.last_seen = asyncio.get_running_loop().time()
+        self.broken = False
+        self._flown = self._shown = False
+        self._recording = recording
+        self.scene_viewers = 0
+        self.clients: set[StreamClient] = set()
+        self._metrics = metrics
+        self._source = source
+        self._commands: deque[Command] = deque()
+        self._inbox = Inbox()
+        self._stage: SceneStage | None = None
+        self._flying = asyncio.Event()
+        self._measured: tuple[float, float, bool] | None = None
+        self._thread = threading.Thread(target=self._run, name=f"flight {label.id}", daemon=True)
+        self._loop = asyncio.get_running_loop()
+        self._thread.start()
+
+    # -- from outside -----------------------------------------------------------------------------
+
+    @property
+    def over(self) -> bool:
+        """Whether it has ended, or was stopped by a mistake of ours."""
+        return bool(self.history.ended) or self.broken or self._shown
+
+    @property
+    def watched(self) -> bool:
+        """Whether a stream or a scene is open on it."""
+        return bool(self.clients) or self.scene_viewers > 0
+
+    @property
+    def t(self) -> float:
+        """Flight time of the newest sample [s]."""
+        last = self.history.ended or self.history.newest
+        return last[0].t if last else 0.0
+
+    def progress(self, seconds: float) -> tuple[float, float]:
+        """How far it flew since it was asked this before, and how far its rate would have it fly.
+
+        Args:
+            seconds: how long ago that was [s].
+
+        Returns:
+            Both in flight time [s]; zeros where it paused, ended or changed its rate meanwhile.
+        """
+        now = (self.t, self.pace.rate, self.pace.paused)
+        before, self._measured = self._measured, now
+        if before is None or before[1:] != now[1:] or self.pace.paused or self.over:
+            return 0.0, 0.0
+        return now[0] - before[0], seconds * self.pace.rate
+
+    def note_seen(self) -> None:
+        """Note that somebody has just asked for it."""
+        self.last_seen = self._loop.time()
+
+    def command(self, command: Command) -> None:
+        """Pass a command to the flight, which polls for it at its next step."""
+        self._commands.append(command)
+
+    async def wait_for_first_sample(self) -> bool:
+        """Wait until it flies. False if it broke before its first sample."""
+        await self._flying.wait()
+        self.collect()
+        return bool(self.history.newest)
+
+    def collect(self) -> list[Document]:
+        """Take the worker's documents since the last time, and remember them."""
+        flown = self._flown  # before the last documents are taken: a flight is over after them
+        documents = self._inbox.drain()
+        self._shown = flown
+        for document in documents:
+            self.history.add(document)
+        return documents
+
+    def tick(self) -> None:
+        """Pass the new documents to all watchers; called `stream_rate` times a second."""
+        documents = self.collect()
+        if self.watched:
+            self.note_seen()
+        if self._stage is not None:
+            self._stage.offer(documents)
+        if self.clients:
+            text = self._text(documents)  # encoded once for all watchers
+            essential = any(not isinstance(d, Sample) for d in documents)
+            for client in self.clients:
+                client.offer(text, essential=essential)
+        if self.broken:
+            self.dismiss(FLIGHT_BROKEN, "This flight was stopped by a mistake of the server.")
+
+    def join(self) -> StreamClient:
+        """A new client of the stream."""
+        client = StreamClient(lambda: self._text(self.history.documents()), self._metrics)
+        self.clients.add(client)
+        return client
+
+    def leave(self, client: StreamClient) -> None:
+        """A client of the stream is gone."""
+        self.clients.discard(client)
+        self.note_seen()
+
+    async def enter_scene(self) -> str:
+        """Count one more viewer of the scene, which is set up for the first.
+
+        Returns:
+            Host and port of the scene's own server; empty if it could not be set up.
+        """
+        self.scene_viewers += 1
+        if self._stage is None:
+            self._stage = SceneStage(self.label.id, self.history.documents(), self.label.plane)
+        return await self._stage.address()
+
+    async def leave_scene(self) -> None:
+        """Count one viewer less; the scene is closed after the last."""
+        self.scene_viewers -= 1
+        self.note_seen()
+        if self.scene_viewers == 0 and self._stage is not None:
+            stage, self._stage = self._stage, None
+            await stage.close()
+
+    def dismiss(self, code: int, reason: str) -> None:
+        """End all streams with a sentence."""
+        for client in self.clients:
+            client.close(code, reason)
+
+    async def land(self, outcome: Outcome) -> None:
+        """End it now: close its streams and its scene, and wait for its thread.
+
+        Args:
+            outcome: what is recorded of it, if it has not ended by itself.
+        """
+        self.pace.stop()
+        self.dismiss(FLIGHT_GONE, "This flight is over and has been removed.")
+        if self._stage is not None:
+            stage, self._stage = self._stage, None
+            await stage.close()
+        await asyncio.to_thread(self._thread.join, LANDING)
+        self._recording.end(outcome)
+
+    # -- inside -----------------------------------------------------------------------------------
+
+    def _text(self, documents: Sequence[Document]) -> str:
+        plane = self.label.plane
+        return tick(
+            self.label.id,
+            t=self.t,
+            rate=self.pace.rate,
+            paused=self.pace.paused,
+            ended=self.over,
+            documents=documents,
+            place=None if plane is None else plane.to_geodetic,
+        ).decode()
+
+    def _run(self) -> None:
+        self.broken = not run_logged(f"Flight {self.label.id}", self._fly)
+        if self.broken:
+            self._recording.end("broken")
+        self._note_flying()
+
+    def _fly(self) -> None:
+        for document in self._source(self._take_commands):
+            if not self.pace.wait_until(document.t):
+                return
+            self._inbox.put(document)
+            self._recording.add(document)
+            if isinstance(document, Sample) and not self._flying.is_set():
+                self._note_flying()
+        self._flown = True
+        self._recording.end("stopped")
+
+    def _take_commands(self, t: float) -> Iterator[Command]:
+        del t
+        while self._commands:
+            yield self._commands.popleft()
+
+    def _note_flying(self) -> None:
+        if not self._loop.is_closed():
+            self._loop.call_soon_threadsafe(self._flying.set)

@@ -1,0 +1,376 @@
+"""Routes of what is on record: find flights, read, replay, export and remove them."""
+
+from collections.abc import AsyncIterator, Iterator
+from itertools import tee
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+from fastapi import APIRouter, Depends, Path, Query, Request
+from pydantic import AwareDatetime, BeforeValidator, RootModel
+from starlette.responses import Response, StreamingResponse
+
+from relguide.contract.bodies import UNANCHORED, Anchor, SituationBody, situation_from_body
+from relguide.contract.messages import FlightStatus, from_wire
+from relguide.contract.recorder import VERSION
+from relguide.contract.refusal import ContractError, parse
+from relguide.planning.extras import MissingExtra
+from relguide.planning.frames import LocalPlane
+from relguide_server.flights.live_fleet import FleetOf
+from relguide_server.flights.routes import status_of
+from relguide_server.http.access import owner_of
+from relguide_server.http.bodies import json_answer, read_object
+from relguide_server.http.errors import Refusal, refusal_of
+from relguide_server.http.openapi import (
+    BODY,
+    header_references,
+    problem_responses,
+    request_body,
+    response,
+    schema_of,
+)
+from relguide_server.http.proxy import root_of
+from relguide_server.http.query import KNOWN_PARAMETERS_ONLY
+from relguide_server.records import exports
+from relguide_server.records.bodies import (
+    RecordedDocuments,
+    RecordedFlightDetails,
+    RecordedFlightList,
+    RecordedPlanList,
+    ReplayRequest,
+)
+from relguide_server.records.entries import Outcome, RecordSearch
+from relguide_server.records.recorder import Recorder
+from relguide_server.records.service import RecordsOf, RecordsService
+
+if TYPE_CHECKING:  # with SQLAlchemy: a service that records nothing does not load it
+    from relguide_server.records.store import Store
+
+MOST = 500
+"""Most flights or plans in an answer."""
+MOST_DOCUMENTS = 1000
+"""Most documents in an answer."""
+MEDIA = {
+    "jsonl": "application/x-ndjson",
+    "csv": "text/csv",
+    "geojson": "application/geo+json",
+    "parquet": "application/vnd.apache.parquet",
+}
+"""Media types of the forms of an export."""
+
+
+class NewReplay(RootModel[ReplayRequest]):
+    """Fly a recording again."""
+
+
+READING = ("not-found", "records-unavailable")
+"""Problems of every route of records."""
+
+
+async def _expect_open(records: RecordsOf) -> None:
+    """Refuse first where nothing is recorded, or cannot be read: routes load what reads records."""
+    records.reading()
+
+
+router = APIRouter(
+    prefix="/api/v1/records",
+    tags=["records"],
+    dependencies=[KNOWN_PARAMETERS_ONLY, Depends(_expect_open)],
+)
+
+RecordedId = Annotated[
+    str, Path(description="As `GET /records/flights` lists it.", examples=["3f2a9c0d71be"])
+]
+
+
+def _expect_no_number(text: str) -> str:
+    """Pydantic takes numbers for seconds since 1970, which nobody who writes a year means."""
+    try:
+        float(text)
+    except ValueError:
+        return text
+    raise ValueError(f"must be a time, as 2026-11-23T06:30:00Z, not {text[:40]}.")
+
+
+Moment = Annotated[AwareDatetime, BeforeValidator(_expect_no_number)]
+Since = Annotated[Moment | None, Query(description="Begun at this time or later.")]
+Until = Annotated[Moment | None, Query(description="Begun before this time.")]
+Limit = Annotated[int, Query(ge=1, le=MOST, description="How many at most.")]
+Offset = Annotated[int, Query(ge=0, le=10**9, description="How many of the newest to pass over.")]
+
+
+@router.get(
+    "/flights",
+    summary="Flights on record",
+    responses={
+        **response(200, "The newest first.", schema_of(RecordedFlightList)),
+        **problem_responses(*READING, "invalid"),
+    },
+)
+async def list_recorded(
+    records: RecordsOf,
+    since: Since = None,
+    until: Until = None,
+    scenario: Annotated[
+        str | None, Query(max_length=100, description="Its name; empty: one's own situations.")
+    ] = None,
+    outcome: Annotated[Outcome | None, Query(description="What became of it.")] = None,
+    limit: Limit = 100,
+    offset: Offset = 0,
+) -> Response:
+    """Those in the air as well; what is new of them is here within a second."""
+    from relguide_server.records import queries
+
+    search = RecordSearch(
+        since=since.timestamp() if since else None,
+        until=until.timestamp() if until else None,
+        scenario=scenario,
+        outcome=outcome,
+        limit=limit,
+        offset=offset,
+    )
+    return json_answer({"flights": await records.read(lambda s: queries.find_flights(s, search))})
+
+
+@router.get(
+    "/plans",
+    summary="Plans on record",
+    responses={
+        **response(200, "The newest first.", schema_of(RecordedPlanList)),
+        **problem_responses(*READING, "invalid"),
+    },
+)
+async def list_plans(
+    records: RecordsOf,
+    since: Since = None,
+    until: Until = None,
+    status: Annotated[
+        Literal["planned", "no_plan"] | None, Query(description="Of the answer.")
+    ] = None,
+    limit: Limit = 100,
+    offset: Offset = 0,
+) -> Response:
+    """The situations of `POST /plans`, at most as many a second as the service is set to keep."""
+    from relguide_server.records import queries
+
+    search = RecordSearch(
+        since=since.timestamp() if since else None,
+        until=until.timestamp() if until else None,
+        outcome=status,
+        limit=limit,
+        offset=offset,
+    )
+    return json_answer({"plans": await records.read(lambda s: queries.find_plans(s, search))})
+
+
+@router.get(
+    "/flights/{flight_id}",
+    summary="One flight on record",
+    responses={
+        **response(200, "All but its documents.", schema_of(RecordedFlightDetails)),
+        **problem_responses(*READING),
+    },
+)
+async def show_recorded(flight_id: RecordedId, records: RecordsOf) -> Response:
+    """What was asked, by whom, with which settings; the commands given; and how it went."""
+    return json_answer(await _find(flight_id, records))
+
+
+@router.get(
+    "/flights/{flight_id}/documents",
+    summary="Documents of a flight",
+    responses={
+        **response(200, "In order.", schema_of(RecordedDocuments)),
+        **problem_responses(*READING, "invalid"),
+    },
+)
+async def list_documents(
+    flight_id: RecordedId,
+    records: RecordsOf,
+    first: Annotated[int, Query(ge=0, le=10**9, description="From this number on.")] = 0,
+    limit: Annotated[
+        int, Query(ge=1, le=MOST_DOCUMENTS, description="How many at most.")
+    ] = MOST_DOCUMENTS,
+) -> Response:
+    """As the stream sends them, each with its number; of samples one a second of flight."""
+    from relguide_server.records import queries
+
+    await _find(flight_id, records)
+    found = await records.read(lambda s: queries.read_documents(s, flight_id, first, limit))
+    following = found[-1][0] + 1 if found else first
+    listed = b",".join(b'{"number":%d,"document":%s}' % (n, line.strip()) for n, line in found)
+    return json_answer(b'{"documents":[%s],"next":%d}' % (listed, following))
+
+
+@router.post(
+    "/flights/{flight_id}/replay",
+    status_code=201,
+    summary="Fly a recording again",
+    responses={
+        **response(201, "It is in the air.", schema_of(FlightStatus), headers=("Location",)),
+        **problem_responses(*BODY, *READING, "conflict", "too-many-flights", "mistake"),
+    },
+    openapi_extra=request_body(schema_of(NewReplay), {"rate": 10.0}),
+)
+async def replay_flight(
+    flight_id: RecordedId, request: Request, records: RecordsOf, fleet: FleetOf
+) -> Response:
+    """A flight with a stream and a scene of its own, which takes `play`, `pause` and `set_rate`."""
+    from relguide_server.records import queries
+
+    try:
+        wanted = parse(NewReplay, await read_object(request)).root
+    except ContractError as error:
+        raise refusal_of(error) from None
+    about = await _find(flight_id, records)
+    if about["form"] != VERSION:
+        raise Refusal(409, f"It was recorded by relguide {about['version']}, in another form.")
+    read, kept = await records.read(lambda s: tee(queries.each_chunk(s, flight_id)))
+    if not any(line.startswith(b'{"kind":"sample"') for lines in read for line in lines):
+        raise Refusal(409, "Nothing of this flight was kept that could be shown.")
+    del read
+    flight = await fleet.launch(
+        about["scenario"],
+        about["title"],
+        lambda commands: (from_wire(line) for lines in kept for line in lines),
+        rate=wanted.rate,
+        paused=wanted.paused,
+        record=lambda _: Recorder(),
+        replay=True,
+        owner=owner_of(request),
+        anchor=_anchor(about["request"]),
+        seed=about["seed"],
+    )
+    headers = {"Location": f"{root_of(request.scope)}/api/v1/flights/{flight.label.id}"}
+    return json_answer(status_of(flight, request).model_dump(), 201, headers=headers)
+
+
+@router.get(
+    "/flights/{flight_id}/export",
+    summary="A flight as a file",
+    responses={
+        200: {
+            "description": "The file.",
+            "content": {media: {"schema": {"type": "string"}} for media in MEDIA.values()},
+            "headers": header_references(["Content-Disposition"]),
+        },
+        **problem_responses(*READING, "invalid", "not-installed"),
+    },
+)
+async def export_flight(
+    flight_id: RecordedId,
+    records: RecordsOf,
+    form: Annotated[
+        Literal["jsonl", "csv", "geojson", "parquet"],
+        Query(
+            alias="format",
+            description="`jsonl`: all documents, as `relguide replay` reads them. `csv`, "
+            "`parquet`: samples, a row for each aircraft and second. `geojson`: the tracks.",
+        ),
+    ] = "jsonl",
+    lat_deg: Annotated[
+        float | None,
+        Query(ge=-90.0, le=90.0, allow_inf_nan=False, description="Where x = y = 0 is, for "
+              "`geojson` of a flight whose situation had no latitudes."),
+    ] = None,
+    lon_deg: Annotated[
+        float | None,
+        Query(ge=-180.0, le=180.0, allow_inf_nan=False, description="Longitude of the same."),
+    ] = None,
+) -> Response:  # fmt: skip
+    """What is on record of it now."""
+    from relguide_server.records import queries
+
+    about = await _find(flight_id, records)
+    if form != "geojson" and (lat_deg, lon_deg) != (None, None):
+        raise Refusal(422, f"lat_deg and lon_deg have no meaning for {form}: leave them out.")
+    headers = {"Content-Disposition": f'attachment; filename="flight-{about["id"]}.{form}"'}
+    match form:
+        case "jsonl" | "csv":
+            lines = _parts(records, flight_id, about["form"], form)
+            return StreamingResponse(lines, media_type=MEDIA[form], headers=headers)
+        case "geojson":
+            plane = _plane(about["request"], lat_deg, lon_deg)
+            body = await records.read(
+                lambda s: exports.as_geojson(plane, queries.each_chunk(s, flight_id))
+            )
+        case "parquet":
+            try:
+                body = await records.read(
+                    lambda s: exports.as_parquet(queries.each_chunk(s, flight_id))
+                )
+            except MissingExtra as error:
+                raise Refusal(501, str(error)) from None
+    return Response(body, media_type=MEDIA[form], headers=headers)
+
+
+@router.delete(
+    "/flights/{flight_id}",
+    status_code=204,
+    summary="Remove a flight from the records",
+    responses={
+        204: {"description": "It is removed."},
+        **problem_responses(*READING, "conflict"),
+    },
+)
+async def remove_recorded(flight_id: RecordedId, records: RecordsOf) -> Response:
+    """With its documents and commands; one that flies must be ended first."""
+    from relguide_server.records import queries
+
+    match await records.read(lambda s: queries.remove_flight(s, flight_id)):
+        case None:
+            raise _unknown(flight_id)
+        case "flying":
+            raise Refusal(409, "It is in the air: end it first (DELETE /api/v1/flights/…).")
+    return Response(status_code=204)
+
+
+async def _find(flight_id: str, records: RecordsService) -> dict[str, Any]:
+    from relguide_server.records import queries
+
+    found = await records.read(lambda s: queries.read_flight(s, flight_id))
+    if found is None:
+        raise _unknown(flight_id)
+    return found
+
+
+def _unknown(flight_id: str) -> Refusal:
+    return Refusal(
+        404,
+        f"There is no flight {flight_id[:100]!r} on record. GET /api/v1/records/flights lists all.",
+    )
+
+
+async def _parts(
+    records: RecordsService, flight_id: str, form: int, kind: str
+) -> AsyncIterator[bytes]:
+    """A file, a chunk at a time."""
+    from relguide_server.records import queries
+
+    def begin(store: "Store") -> Iterator[bytes]:
+        chunks = queries.each_chunk(store, flight_id)
+        return exports.as_recording(form, chunks) if kind == "jsonl" else exports.as_csv(chunks)
+
+    parts = await records.read(begin)
+    while (part := await records.read(lambda _: next(parts, None))) is not None:
+        yield part
+
+
+def _anchor(request: dict[str, Any]) -> Anchor:
+    if "situation" not in request:
+        return UNANCHORED
+    return situation_from_body(SituationBody.model_validate(request["situation"]))[1]
+
+
+def _plane(request: dict[str, Any], lat_deg: float | None, lon_deg: float | None) -> LocalPlane:
+    """How a flight lies on the earth: as its situation says, or as is asked."""
+    anchor = _anchor(request)
+    if isinstance(anchor, LocalPlane):
+        if (lat_deg, lon_deg) != (None, None):
+            raise Refusal(
+                422, "This flight has latitudes of its own: leave lat_deg and lon_deg out."
+            )
+        return anchor
+    if lat_deg is None or lon_deg is None:
+        raise Refusal(
+            422, "This flight has no latitudes: say by lat_deg and lon_deg where its x = y = 0 is."
+        )
+    return LocalPlane(lat_deg=lat_deg, lon_deg=lon_deg)

@@ -1,0 +1,321 @@
+"""Routes of flights: start one, watch it, command it, end it."""
+
+import asyncio
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Path, Request, WebSocket
+from pydantic import RootModel
+from starlette.responses import Response
+
+from relguide.contract.compass import heading_of
+from relguide.contract.messages import (
+    Command,
+    FlightList,
+    FlightRequest,
+    FlightStatus,
+    IntentKnownCommand,
+    LeaderDataCommand,
+    LeaderHeadingCommand,
+    LeaderSpeedCommand,
+    PauseCommand,
+    PlayCommand,
+    PursuerHeadingCommand,
+    ScenarioList,
+    SetEngagementCommand,
+    SetRateCommand,
+)
+from relguide.contract.protocol import PROTOCOL, STREAM
+from relguide.contract.refusal import ContractError, parse
+from relguide.flying.aircraft_documents import GuidanceSample
+from relguide.flying.engagement import Engagement, refusal
+from relguide.flying.orders import (
+    IntentKnown,
+    LeaderData,
+    LeaderHeading,
+    LeaderSpeed,
+    PursuerHeading,
+    SetEngagement,
+)
+from relguide_server.flights.catalogue import CatalogueOf
+from relguide_server.flights.live_fleet import FleetOf
+from relguide_server.flights.live_flight import LiveFlight
+from relguide_server.flights.stream import TOO_MANY, UNKNOWN_FLIGHT, WRONG_PROTOCOL
+from relguide_server.http.access import expect_owner, owner_of
+from relguide_server.http.bodies import (
+    address_of,
+    json_answer,
+    read_object,
+)
+from relguide_server.http.errors import Refusal, refusal_of
+from relguide_server.http.openapi import BODY, problem_responses, request_body, response, schema_of
+from relguide_server.http.proxy import root_of
+from relguide_server.http.query import KNOWN_PARAMETERS_ONLY
+from relguide_server.http.security_headers import VERSION
+from relguide_server.readiness import PreparationOf
+from relguide_server.records.entries import FlightCard
+from relguide_server.records.recorder import Recorder
+from relguide_server.records.service import RecordsOf
+
+
+class NewFlight(RootModel[FlightRequest]):
+    """A request for a new flight: the name of a scenario, or a situation of your own."""
+
+
+class FlightCommand(RootModel[Command]):
+    """A command to a flight."""
+
+
+FlightId = Annotated[
+    str, Path(description="As `POST /flights` gave it.", examples=["3f2a9c0d71be"])
+]
+ENDED: dict[int | str, dict[str, Any]] = {204: {"description": "It is over."}}
+
+router = APIRouter(prefix="/api/v1", tags=["flights"], dependencies=[KNOWN_PARAMETERS_ONLY])
+
+
+@router.get(
+    "/scenarios",
+    summary="Scenarios that can be flown",
+    responses=response(200, "All scenarios.", schema_of(ScenarioList)),
+)
+async def list_scenarios(catalogue: CatalogueOf) -> Response:
+    """The paper's cases and ours; one whose data are missing says what to install."""
+    return json_answer((await asyncio.to_thread(catalogue.scenarios)).model_dump())
+
+
+@router.post(
+    "/flights",
+    status_code=201,
+    summary="Start a flight",
+    responses={
+        **response(
+            201,
+            "It is in the air.",
+            schema_of(FlightStatus),
+            headers=("Location", "Relguide-Recorded"),
+        ),
+        **problem_responses(*BODY, "too-many-flights", "mistake", "preparing"),
+    },
+    openapi_extra=request_body(schema_of(NewFlight), {"scenario": "fig_6b", "rate": 10.0}),
+)
+async def start_flight(
+    request: Request,
+    fleet: FleetOf,
+    catalogue: CatalogueOf,
+    preparation: PreparationOf,
+    records: RecordsOf,
+) -> Response:
+    """It flies at `rate` simulated seconds per second, until it is ended or no longer watched.
+
+    Guidance is engaged unless `engagement` says otherwise. The header `Relguide-Recorded` says
+    whether it is on record already (`yes`) or not, or not yet (`no`).
+    """
+    try:
+        wanted = parse(NewFlight, await read_object(request)).root
+        # A recorded leader is read from a file: not on the event loop.
+        departure = await asyncio.to_thread(catalogue.find, wanted)
+    except ContractError as error:
+        raise refusal_of(error) from None
+    if departure.first is not None:
+        await asyncio.to_thread(
+            preparation.admit, departure.first, request.app.state.settings.planner
+        )
+
+    def record(flight_id: str) -> Recorder:
+        card = FlightCard(
+            id=flight_id,
+            scenario=departure.scenario,
+            title=departure.title,
+            request=wanted.model_dump_json(exclude_unset=True),
+            settings=request.app.state.settings.text_for_records(),
+            seed=wanted.seed,
+            requested_by=address_of(request),
+        )
+        return records.begin(card)
+
+    flight = await fleet.launch(
+        departure.scenario,
+        departure.title,
+        departure.source,
+        rate=wanted.rate,
+        paused=wanted.paused,
+        record=record,
+        owner=owner_of(request),
+        anchor=departure.anchor,
+        seed=wanted.seed,
+    )
+    status = status_of(flight, request)
+    headers = {
+        "Location": f"{root_of(request.scope)}/api/v1/flights/{status.id}",
+        "Relguide-Recorded": "yes" if await records.saved() else "no",
+    }
+    return json_answer(status.model_dump(), 201, headers=headers)
+
+
+@router.get(
+    "/flights",
+    summary="All flights",
+    responses=response(200, "All flights.", schema_of(FlightList)),
+)
+async def list_flights(request: Request, fleet: FleetOf) -> Response:
+    """Those in the air, and those that ended a short while ago."""
+    statuses = [status_of(flight, request) for flight in fleet]
+    return json_answer(FlightList(flights=statuses).model_dump())
+
+
+@router.get(
+    "/flights/{flight_id}",
+    summary="One flight",
+    responses={
+        **response(200, "Where it stands.", schema_of(FlightStatus)),
+        **problem_responses("not-found"),
+    },
+)
+async def show_flight(flight_id: FlightId, request: Request, fleet: FleetOf) -> Response:
+    """Where it stands now."""
+    return json_answer(status_of(fleet.find(flight_id), request).model_dump())
+
+
+@router.delete(
+    "/flights/{flight_id}",
+    status_code=204,
+    summary="End a flight",
+    responses=ENDED | problem_responses("not-allowed", "not-found"),
+)
+async def end_flight(flight_id: FlightId, request: Request, fleet: FleetOf) -> Response:
+    """Its streams and its scene close with it."""
+    expect_owner(request, fleet.find(flight_id).label.owner)
+    await fleet.remove(flight_id)
+    return Response(status_code=204)
+
+
+@router.post(
+    "/flights/{flight_id}/commands",
+    status_code=202,
+    summary="Tell a flight something",
+    responses={
+        **response(
+            202,
+            "The command was passed on.",
+            schema_of(FlightStatus),
+            headers=("Relguide-Recorded",),
+        ),
+        **problem_responses(*BODY, "not-allowed", "not-found", "conflict"),
+    },
+    openapi_extra=request_body(
+        schema_of(FlightCommand), {"command": "leader_heading", "heading_deg": 135.0}
+    ),
+)
+async def command_flight(
+    flight_id: FlightId, request: Request, fleet: FleetOf, records: RecordsOf
+) -> Response:
+    """Pause, go on, another rate; what the leader flies and tells; and what the crew engages.
+
+    Commands to a paused flight take effect when it continues, within a second of flight. The
+    header `Relguide-Recorded` says whether the command is on record already.
+    """
+    flight = fleet.find(flight_id)
+    expect_owner(request, flight.label.owner)
+    try:
+        command = parse(FlightCommand, await read_object(request)).root
+    except ContractError as error:
+        raise refusal_of(error) from None
+    if flight.over:
+        raise Refusal(409, "This flight has ended and takes no commands: start another one.")
+    if flight.label.replay and not isinstance(command, PlayCommand | PauseCommand | SetRateCommand):
+        raise Refusal(409, "This is a recording: it takes play, pause and set_rate only.")
+    _command(flight, command)
+    records.note_command(
+        flight_id, t=flight.t, body=command.model_dump_json(), sent_by=address_of(request)
+    )
+    headers = {"Relguide-Recorded": "yes" if await records.saved() else "no"}
+    return json_answer(status_of(flight, request).model_dump(), 202, headers=headers)
+
+
+@router.websocket("/flights/{flight_id}/stream")
+async def stream(websocket: WebSocket, flight_id: str, fleet: FleetOf) -> None:
+    """Ticks of a flight; the sub-protocol says for which form of them the client was built."""
+    spoken = [name for name in websocket.scope["subprotocols"] if name in (PROTOCOL, STREAM)]
+    if not spoken:
+        await websocket.accept()
+        page = f"{PROTOCOL} with its own page: load that again."
+        await websocket.close(WRONG_PROTOCOL, f"This server speaks {STREAM}, and {page}")
+        return
+    await websocket.accept(spoken[0])
+    if not fleet.knows(flight_id):
+        await websocket.close(UNKNOWN_FLIGHT, "There is no such flight: it has been removed.")
+        return
+    flight = fleet.find(flight_id)
+    if len(flight.clients) >= websocket.app.state.settings.max_watchers:
+        await websocket.close(TOO_MANY, "As many watch this flight as may: try again later.")
+        return
+    client = flight.join()
+    try:
+        await client.pump(websocket)
+    finally:
+        flight.leave(client)
+
+
+def status_of(flight: LiveFlight, request: Request) -> FlightStatus:
+    """Where a flight stands, for who asks."""
+    guidance = _guidance(flight)
+    label, pace, root = flight.label, flight.pace, root_of(request.scope)
+    return FlightStatus(
+        id=label.id,
+        scenario=label.scenario,
+        title=label.title,
+        t_s=flight.t,
+        rate=pace.rate,
+        paused=pace.paused,
+        ended=flight.over,
+        mode=guidance.mode,
+        engagement=guidance.engagement,
+        joined=guidance.joined,
+        separation_m=guidance.separation,
+        stream_url=f"{root}/api/v1/flights/{label.id}/stream",
+        scene_url=f"{root}/scene/{label.id}/",
+        seed=label.seed,
+        version=VERSION,
+    )
+
+
+def _command(flight: LiveFlight, command: Command) -> None:
+    match command:
+        case PlayCommand():
+            flight.pace.play()
+        case PauseCommand():
+            flight.pace.pause()
+        case SetRateCommand(rate=rate):
+            flight.pace.set_rate(rate)
+        case LeaderHeadingCommand():
+            flight.command(_leader_heading(command))
+        case LeaderSpeedCommand(tas_mps=tas):
+            flight.command(LeaderSpeed(tas=tas))
+        case IntentKnownCommand(known=known):
+            flight.command(IntentKnown(known=known))
+        case LeaderDataCommand(received=received):
+            flight.command(LeaderData(received=received))
+        case PursuerHeadingCommand(heading_deg=heading):
+            if _guidance(flight).engagement == "engaged":
+                raise Refusal(409, "Relative guidance flies: disconnect it to select a heading.")
+            flight.command(PursuerHeading(heading=heading_of(heading)))
+        case SetEngagementCommand(engagement=engagement):
+            _refuse_engagement(flight, engagement)
+            flight.command(SetEngagement(engagement=engagement))
+
+
+def _guidance(flight: LiveFlight) -> GuidanceSample:
+    """What the guidance of the first link did last."""
+    return flight.history.newest[0].guidance[0]
+
+
+def _refuse_engagement(flight: LiveFlight, engagement: Engagement) -> None:
+    """Refuse what may not follow the present engagement; what is proposed, guidance knows."""
+    why = refusal(_guidance(flight).engagement, engagement, proposed=True)
+    if why:
+        raise Refusal(409, why)
+
+
+def _leader_heading(command: LeaderHeadingCommand) -> LeaderHeading:
+    direction = command.direction or "shorter"
+    return LeaderHeading(heading=heading_of(command.heading_deg), direction=direction)

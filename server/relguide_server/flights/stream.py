@@ -1,0 +1,102 @@
+"""One browser on a flight's stream: a queue of two that drops the oldest, and snapshots."""
+
+import asyncio
+from collections import deque
+from collections.abc import Callable
+
+from starlette.websockets import WebSocket, WebSocketDisconnect
+
+from relguide_server.http.metrics import Metrics
+
+QUEUE = 2
+"""Ticks that may wait for one client: a tenth of a second."""
+WRONG_PROTOCOL, UNKNOWN_FLIGHT, FLIGHT_GONE, FLIGHT_BROKEN = 4400, 4404, 4410, 4500
+TOO_MANY = 4429
+"""Close codes of a stream, each sent with a sentence."""
+RESTART = 1012
+"""The same, of the protocol itself: the page dials again."""
+CLOSE_CODES = {
+    WRONG_PROTOCOL: "the client offered no sub-protocol that this server speaks",
+    UNKNOWN_FLIGHT: "there is no such flight",
+    FLIGHT_GONE: "the flight was removed",
+    TOO_MANY: "as many watch the flight as may",
+    FLIGHT_BROKEN: "the flight was stopped by a mistake of the server",
+    RESTART: "the service stops: it may be back in a moment",
+}
+"""What each says."""
+
+
+class StreamClient:
+    """The queue of one client. Lives on the event loop."""
+
+    def __init__(self, snapshot: Callable[[], str], metrics: Metrics) -> None:
+        self._snapshot = snapshot
+        self._metrics = metrics
+        self._queue: deque[tuple[str, bool]] = deque()
+        self._behind = True  # a new client has missed everything so far
+        self._goodbye: tuple[int, str] | None = None
+        self._wake = asyncio.Event()
+
+    def offer(self, text: str, *, essential: bool) -> None:
+        """Put a tick in the queue; never waits.
+
+        Args:
+            text: the tick.
+            essential: whether it holds more than a sample. A client that misses such a tick gets a
+                snapshot next, so a slow client may be late but is never wrong.
+        """
+        if len(self._queue) == QUEUE:
+            _, lost = self._queue.popleft()
+            self._behind |= lost
+            self._metrics.ticks_dropped.inc()
+        self._queue.append((text, essential))
+        self._wake.set()
+
+    def close(self, code: int, reason: str) -> None:
+        """End the stream with a sentence."""
+        self._goodbye = (code, reason)
+        self._wake.set()
+
+    async def pump(self, websocket: WebSocket) -> None:
+        """Send to an accepted WebSocket until either side ends it."""
+        sender = asyncio.create_task(self._send_all(websocket))
+        watcher = asyncio.create_task(_wait_until_closed(websocket))
+        try:
+            done, _ = await asyncio.wait((sender, watcher), return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            sender.cancel()
+            watcher.cancel()
+        for task in done:
+            task.result()  # a mistake of ours in there is raised here
+
+    async def _send_all(self, websocket: WebSocket) -> None:
+        try:
+            while True:
+                match await self._next():
+                    case str() as text:
+                        await websocket.send_text(text)
+                        self._metrics.ticks_sent.inc()
+                    case code, reason:
+                        await websocket.close(code, reason)
+                        return
+        except WebSocketDisconnect:
+            pass  # it left while we were sending: as good as any other moment
+
+    async def _next(self) -> str | tuple[int, str]:
+        while True:
+            if self._behind:
+                self._behind = False
+                self._queue.clear()  # the snapshot holds all that
+                return self._snapshot()
+            if self._queue:
+                return self._queue.popleft()[0]
+            if self._goodbye is not None:
+                return self._goodbye
+            self._wake.clear()
+            await self._wake.wait()
+
+
+async def _wait_until_closed(websocket: WebSocket) -> None:
+    """Browsers only listen; what they send is read and ignored."""
+    while (await websocket.receive())["type"] != "websocket.disconnect":
+        pass

@@ -1,0 +1,1 @@
+"""HTTP: what every request and answer passes, and the pages that describe them."""

@@ -1,0 +1,225 @@
+"""Who may ask: the names this server answers to, the pages that may command it, and tokens.
+
+- A page of another site can make a browser send requests here. It cannot hide its `Origin`, which
+  is refused wherever something is changed or streamed. By rebinding a name of its own to this
+  machine it could hide that as well, so only names known here are answered; an address is no name.
+- Programs send no `Origin`. With tokens, they and browsers must show one (`Authorization: Bearer`,
+  or the cookie that `/?token=…` sets).
+"""
+
+import secrets
+from collections.abc import Mapping, Sequence
+from hashlib import sha256
+from http.cookies import CookieError, SimpleCookie
+from ipaddress import ip_address
+from typing import Literal, get_args
+from urllib.parse import parse_qs, urlsplit
+
+from starlette.datastructures import Headers
+from starlette.requests import HTTPConnection
+from starlette.responses import RedirectResponse, Response
+from starlette.types import ASGIApp, Receive, Scope, Send
+
+from relguide_server.http.errors import Refusal, problem
+from relguide_server.http.proxy import path_of, root_of
+
+Role = Literal["view", "fly", "control"]
+"""`view`: read, plan and watch; `fly`: start flights, and command and end one's own; `control`: all
+flights."""
+ROLES: tuple[Role, ...] = get_args(Role)
+SHORTEST = 16
+"""Characters of a token, at least."""
+COOKIE = "relguide_token"
+SAFE = ("GET", "HEAD", "OPTIONS")
+OPEN = ("/healthz", "/readyz")
+"""Answered without a token."""
+CALCULATIONS = ("/api/v1/plans", "/api/v1/areas", "/api/v1/simulations")
+"""What changes nothing, though it is posted."""
+RECORDS = "/api/v1/records"
+"""Nobody removes from there but who may command all flights."""
+UNKNOWN_HOST = (
+    "This server does not answer for the name {name!r}. If it is its name, start it with "
+    "RELGUIDE_HOSTS={name}."
+)
+FOREIGN = "A page of {origin} may not do this: only pages of this server may."
+NO_TOKEN = "This needs a token: send Authorization: Bearer …, or open /?token=… in a browser."
+UNKNOWN_TOKEN = "This token is not one of the service's: ask whoever runs it for one."
+TOO_LITTLE = "This token may {role}; this needs one that may {needed}."
+
+
+class HostNames:
+    """The names that this server answers for."""
+
+    def __init__(self, hosts: Sequence[str]) -> None:
+        """Take those of the settings; addresses and `localhost` are always among them."""
+        self._hosts = frozenset(name.lower() for name in hosts)
+
+    def include(self, host: str) -> bool:
+        """Whether a `Host` is one of them."""
+        name = _name(host)
+        if name == "localhost" or name.endswith(".localhost") or "*" in self._hosts:
+            return True
+        return name in self._hosts or _is_address(name)
+
+
+class Access:
+    """ASGI middleware: refuses unknown hosts, foreign pages and, if there are tokens, who has none.
+
+    Who asks is noted in the scope, for `owner_of`.
+    """
+
+    def __init__(self, app: ASGIApp, *, hosts: Sequence[str], tokens: Mapping[str, Role]) -> None:
+        self.app = app
+        self.names = HostNames(hosts)
+        self.tokens = tokens
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Serve one connection."""
+        if scope["type"] not in ("http", "websocket"):
+            await self.app(scope, receive, send)
+            return
+        answer = self._judge(scope, Headers(scope=scope))
+        if answer is None:
+            await self.app(scope, receive, send)
+        elif scope["type"] == "http":
+            await answer(scope, receive, send)
+        elif "websocket.http.response" in scope.get("extensions", {}):
+            await receive()  # what asks to be accepted
+            await answer(scope, receive, send)
+        else:
+            await receive()
+            await send({"type": "websocket.close", "code": 1008, "reason": ""})
+
+    def _judge(self, scope: Scope, headers: Headers) -> Response | None:
+        """The answer that refuses; `None` for what may pass."""
+        path, host = path_of(scope), headers.get("host", "")
+        if not self.names.include(host):
+            return _refuse(scope, 421, UNKNOWN_HOST.format(name=_name(host)[:100]))
+        origin = headers.get("origin")
+        changes = scope["type"] == "websocket" or scope["method"] not in SAFE
+        if changes and origin is not None and not self._is_own_page(origin, host):
+            return _refuse(scope, 403, FOREIGN.format(origin=origin[:100]), kind="foreign-page")
+        if not self.tokens or path in OPEN:
+            return None
+        return self._judge_token(scope, headers)
+
+    def _is_own_page(self, origin: str, host: str) -> bool:
+        try:
+            parts = urlsplit(origin)
+            return parts.scheme in ("http", "https") and parts.netloc.lower() == host.lower()
+        except ValueError:
+            return False
+
+    def _judge_token(self, scope: Scope, headers: Headers) -> Response | None:
+        path = path_of(scope)
+        if path == "/" and scope["type"] == "http":
+            shown = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])[0]
+            if self._role(shown) is not None:
+                return _remember(shown, root_of(scope))
+        token = _token(headers)
+        role = self._role(token)
+        if role is None:
+            why = UNKNOWN_TOKEN if token else NO_TOKEN
+            return _refuse(scope, 401, why, headers={"WWW-Authenticate": "Bearer"})
+        needed = _needed(scope)
+        if ROLES.index(role) < ROLES.index(needed):
+            return _refuse(scope, 403, TOO_LITTLE.format(role=role, needed=needed))
+        scope.setdefault("state", {})
+        scope["state"]["owner"] = "" if role == "control" else sha256(token.encode()).hexdigest()
+        return None
+
+    def _role(self, token: str) -> Role | None:
+        found: Role | None = None
+        for known, role in self.tokens.items():  # all of them, so that time tells nothing
+            if secrets.compare_digest(known.encode(), token.encode()):
+                found = role
+        return found
+
+
+def _refuse(
+    scope: Scope,
+    status: int,
+    detail: str,
+    *,
+    kind: str = "",
+    headers: dict[str, str] | None = None,
+) -> Response:
+    return problem(scope["path"], status, detail, kind=kind, root=root_of(scope), headers=headers)
+
+
+def owner_of(connection: HTTPConnection) -> str:
+    """Who asks, as flights note their owners; empty for who may command all of them."""
+    owner: str = getattr(connection.state, "owner", "")
+    return owner
+
+
+def expect_owner(connection: HTTPConnection, owner: str) -> None:
+    """Refuse who is not the owner of a flight.
+
+    Raises:
+        Refusal: 403.
+    """
+    asking = owner_of(connection)
+    if asking not in ("", owner):
+        raise Refusal(403, "This flight is another's: only who started it commands it.")
+
+
+def read_tokens(text: str) -> dict[str, Role]:
+    """Tokens from their setting, `view:abc,fly:def`.
+
+    Raises:
+        ValueError: if a part is no role and a token of 16 characters or more.
+    """
+    tokens: dict[str, Role] = {}
+    for part in filter(None, text.split(",")):
+        name, _, token = part.strip().partition(":")
+        role = next((role for role in ROLES if role == name), None)
+        if role is None or len(token) < SHORTEST:
+            raise ValueError(
+                "tokens must be a list such as view:TOKEN,fly:TOKEN,control:TOKEN, each TOKEN of "
+                f"{SHORTEST} characters or more."
+            )
+        tokens[token] = role
+    return tokens
+
+
+def _needed(scope: Scope) -> Role:
+    if scope["type"] == "websocket" or scope["method"] in SAFE:
+        return "view"
+    path = path_of(scope)
+    if path.startswith(RECORDS) and scope["method"] == "DELETE":
+        return "control"
+    return "view" if path.startswith(CALCULATIONS) else "fly"
+
+
+def _token(headers: Headers) -> str:
+    scheme, _, token = headers.get("authorization", "").partition(" ")
+    if scheme.lower() == "bearer":
+        return token.strip()
+    try:
+        cookie = SimpleCookie(headers.get("cookie", "")).get(COOKIE)
+    except CookieError:
+        return ""
+    return cookie.value if cookie else ""
+
+
+def _remember(token: str, root: str) -> Response:
+    """The page without the token in its address, which a browser's history would keep."""
+    answer = RedirectResponse(f"{root}/", 303)
+    answer.set_cookie(COOKIE, token, path=f"{root}/", httponly=True, samesite="strict")
+    return answer
+
+
+def _name(host: str) -> str:
+    """The name in a `Host`, without the port."""
+    if host.startswith("["):
+        return host[1:].partition("]")[0].lower()
+    return host.rpartition(":")[0].lower() if ":" in host else host.lower()
+
+
+def _is_address(name: str) -> bool:
+    try:
+        ip_address(name)
+    except ValueError:
+        return False
+    return True

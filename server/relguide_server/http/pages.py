@@ -1,0 +1,161 @@
+"""The built cockpit page and the API's page, both without any other machine."""
+
+import gzip
+import mimetypes
+import re
+from base64 import b64encode
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cache
+from hashlib import sha256
+from html import escape
+from importlib.resources import files
+from pathlib import Path
+
+from fastapi import APIRouter, Request
+from fastapi.openapi.docs import get_swagger_ui_html
+from starlette.datastructures import Headers
+from starlette.responses import HTMLResponse, Response
+from starlette.types import ASGIApp, Receive, Scope, Send
+
+from relguide_server.http.errors import Refusal
+from relguide_server.http.proxy import path_of, root_of
+
+PACKAGE = Path(__file__).parents[1]
+PAGE_FOLDERS = (PACKAGE / "page", PACKAGE.parents[1] / "web" / "dist")
+"""Where the built page is: in the package when installed, in the source tree otherwise."""
+FOR_EVER = "public, max-age=31536000, immutable"
+WORTH_PACKING = 1024
+"""Smaller files [bytes] are not compressed."""
+PACKED = ("text/", "application/json", "application/javascript", "image/svg+xml")
+
+SCRIPT = re.compile(rb"<script>(.*?)</script>", re.DOTALL)
+DOCS_CSP = (
+    "default-src 'self'; script-src 'self' 'sha256-{script}'; style-src 'self' 'unsafe-inline'; "
+    "img-src 'self' data:; frame-ancestors 'self'; base-uri 'self'; object-src 'none'"
+)
+NOT_BUILT = """<!doctype html><html lang="en"><title>relguide</title>
+<body style="background:#040405;color:#e5dfd6;font:18px/1.5 sans-serif;margin:3em">
+<h1>The cockpit has not been built</h1>
+<p>The service itself is running: its API is described at
+<a style="color:#17e9f2" href="docs">/docs</a>.
+<p>To build the page, run <code>python web/build_page.py</code> in the source tree, then reload
+this page.
+<p style="color:#888">Looked in: {folders}"""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _File:
+    body: bytes
+    packed: bytes
+    """The same, gzipped; empty if that is not worth it."""
+    media_type: str
+    tag: str
+    cache: str
+
+
+class Page:
+    """ASGI middleware: answers with files of the built page; everything else goes on to the app.
+
+    They are kept in memory, and read again when the page has been built again.
+    """
+
+    def __init__(self, app: ASGIApp, *, folders: Sequence[Path] = PAGE_FOLDERS) -> None:
+        self.app = app
+        self.folders = folders
+        self._files: dict[str, _File] = {}
+        self._read_from: tuple[Path, int] | None = None
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Serve one connection."""
+        if scope["type"] != "http" or scope["method"] not in ("GET", "HEAD"):
+            await self.app(scope, receive, send)
+            return
+        path = path_of(scope)
+        if path == "/" or self._read_from is None:
+            self._refresh()
+        found = self._files.get("/index.html" if path == "/" else path)
+        if found is not None:
+            await _answer(found, Headers(scope=scope))(scope, receive, send)
+        elif path == "/":
+            folders = escape(", ".join(map(str, self.folders)))
+            await HTMLResponse(NOT_BUILT.format(folders=folders), 503)(scope, receive, send)
+        else:
+            await self.app(scope, receive, send)
+
+    def _refresh(self) -> None:
+        for folder in self.folders:
+            index = folder / "index.html"
+            if not index.is_file():
+                continue
+            stamp = (folder, index.stat().st_mtime_ns)
+            if stamp != self._read_from:
+                self._files = {
+                    f"/{path.relative_to(folder).as_posix()}": _read(path)
+                    for path in sorted(folder.rglob("*"))
+                    if path.is_file() and not path.name.startswith(".")
+                }
+                self._read_from = stamp
+            return
+        self._files, self._read_from = {}, None
+
+
+def _read(path: Path) -> _File:
+    body = path.read_bytes()
+    media_type = mimetypes.guess_type(path.name)[0] or "application/octet-stream"
+    pack = len(body) > WORTH_PACKING and media_type.startswith(PACKED)
+    return _File(
+        body=body,
+        packed=gzip.compress(body, 9) if pack else b"",
+        media_type=media_type,
+        tag=f'"{sha256(body).hexdigest()[:20]}"',
+        # Vite writes the hash of the content into the names of what it puts into assets/.
+        cache=FOR_EVER if path.parent.name == "assets" else "no-cache",
+    )
+
+
+def _answer(file: _File, request: Headers) -> Response:
+    headers = {"ETag": file.tag, "Cache-Control": file.cache, "Vary": "Accept-Encoding"}
+    if file.tag in request.get("if-none-match", ""):
+        return Response(status_code=304, headers=headers)
+    if file.packed and "gzip" in request.get("accept-encoding", ""):
+        headers["Content-Encoding"] = "gzip"
+        return Response(file.packed, headers=headers, media_type=file.media_type)
+    return Response(file.body, headers=headers, media_type=file.media_type)
+
+
+router = APIRouter(include_in_schema=False)
+_SWAGGER = files("fastapi_swagger") / "resources"
+_SWAGGER_FILES = {"swagger-ui-bundle.js": "text/javascript", "swagger-ui.css": "text/css"}
+
+
+@router.get("/docs")
+async def docs(request: Request) -> HTMLResponse:
+    """The API, to read and to try."""
+    root = root_of(request.scope)
+    page = get_swagger_ui_html(
+        openapi_url=f"{root}/openapi.json",
+        title="relguide API",
+        swagger_js_url=f"{root}/docs/swagger-ui-bundle.js",
+        swagger_css_url=f"{root}/docs/swagger-ui.css",
+        swagger_favicon_url=f"{root}/favicon.svg",
+    )
+    # the page's own script is known by its hash; no other may be put into it
+    (script,) = SCRIPT.findall(bytes(page.body))
+    known = b64encode(sha256(script).digest()).decode()
+    page.headers["Content-Security-Policy"] = DOCS_CSP.format(script=known)
+    return page
+
+
+@router.get("/docs/{name}")
+async def docs_file(name: str) -> Response:
+    """Script and style of the API's page."""
+    if name not in _SWAGGER_FILES:
+        raise Refusal(404, f"There is nothing at /docs/{name}. The API is described at /docs.")
+    headers = {"Content-Encoding": "gzip", "Cache-Control": "public, max-age=86400"}
+    return Response(_pack_swagger(name), headers=headers, media_type=_SWAGGER_FILES[name])
+
+
+@cache
+def _pack_swagger(name: str) -> bytes:
+    return gzip.compress((_SWAGGER / name).read_bytes(), 6)

@@ -1,0 +1,1 @@
+"""Work that takes long: queues in which clients take turns, and the processes that do it."""

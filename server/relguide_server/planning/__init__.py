@@ -1,0 +1,1 @@
+"""What is calculated on request: plans, areas and simulations."""

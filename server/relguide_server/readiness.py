@@ -1,0 +1,250 @@
+"""Preparation: kernels that a first start has yet to compile, and what must wait for them.
+
+The first start of an installation compiles for a minute, in processes of its own. Meanwhile the
+page is shown, and flies as soon as what flights need is compiled. A request that needs more is
+refused with 503 and the time to try again; a flight under way that needs more waits.
+"""
+
+import gc
+import os
+import threading
+from collections.abc import Callable, Sequence
+from math import ceil
+from typing import Annotated, Literal
+
+from fastapi import Depends
+from pydantic import BaseModel, Field
+from starlette.requests import HTTPConnection
+
+from relguide.planning.acceptance import with_deadline
+from relguide.planning.plan import NoPlan, Plan, Planner, plan_at_once
+from relguide.planning.situation import Situation
+from relguide.units import Second
+from relguide.warm_up import SETS, STEPS, Preparing, WarmUpError, missing, prepare
+from relguide_server.http.errors import Refusal, log, run_logged
+from relguide_server.records.service import RecordsReport
+from relguide_server.settings import ServiceSettings
+
+PLANNED_WITH = {"exact": ("limited",), "network": ("limited", "networks")}
+"""Steps a planner needs for any situation; without the limit "flying" is enough."""
+
+
+def steps_for(settings: ServiceSettings) -> tuple[str, ...]:
+    """The steps of `relguide.warm_up` that a service with these settings needs."""
+    extra = (name for name in PLANNED_WITH[settings.planner] if name not in SETS["serve"])
+    return (*SETS["serve"], *extra)
+
+
+class NowPreparing(BaseModel):
+    """What is being compiled."""
+
+    name: str = Field(description="A few words, e.g. `the limited search`.")
+    share: float = Field(description="How much of it is done, from 0 to 1.")
+
+
+class PlanningReport(BaseModel):
+    """Whether what takes longer than a millisecond is answered."""
+
+    answers: bool = Field(description="Whether a worker is there.")
+    processes: int = Field(description="How many run.")
+    waiting: dict[str, int] = Field(description="Jobs that wait for one, by kind.")
+
+
+class Readiness(BaseModel):
+    """What a service can answer already."""
+
+    status: Literal["ready", "preparing"] = Field(description="Whether all of it can.")
+    warm: dict[str, bool] = Field(description="Parts of the planner, and whether each is compiled.")
+    preparing: NowPreparing | None = Field(description="What is compiled now; null if nothing is.")
+    planning: PlanningReport = Field(description="The workers.")
+    records: RecordsReport = Field(description="The database; what it says changes nothing here.")
+
+
+class Preparation:
+    """What is compiled of some steps; compiles the rest, from `start` to `stop`.
+
+    What is asked of no step needs no waiting: without steps every kernel is compiled when used.
+    """
+
+    def __init__(self, steps: Sequence[str] = ()) -> None:
+        self._steps = tuple(steps)
+        self._missing = missing(steps)
+        self._state: Preparing | None = None
+        self._usable: set[str] = set()
+        self._rehearsed = False
+        self._changed = threading.Condition()
+        self._stopped = threading.Event()
+        self._thread: threading.Thread | None = None
+
+    def start(self, rehearse: Callable[[], None]) -> None:
+        """Begin to compile, and rehearse a flight as soon as it can be flown."""
+        self._thread = threading.Thread(
+            target=run_logged, args=("Preparing", lambda: self._run(rehearse)), name="prepare",
+            daemon=True,
+        )  # fmt: skip
+        self._thread.start()
+
+    def stop(self) -> None:
+        """End it, with the processes that compile."""
+        self._stopped.set()
+        with self._changed:
+            self._changed.notify_all()
+        if self._thread is not None:
+            self._thread.join(1.0)
+
+    @property
+    def ready(self) -> bool:
+        """Whether all that is served is compiled, and a flight has been rehearsed."""
+        return self._rehearsed and not self._missing
+
+    def report(self) -> dict[str, object]:
+        """What is compiled and what is being compiled: a `Readiness`."""
+        state = self._state
+        now = {"name": state.title, "share": round(state.share, 2)} if state else None
+        return {
+            "status": "ready" if self.ready else "preparing",
+            "warm": {name: self.has(name) for name in self._steps},
+            "preparing": now,
+        }
+
+    def has(self, *steps: str) -> bool:
+        """Whether the kernels of some steps are compiled, or nobody compiles them ahead."""
+        return not any(step in self._missing for step in steps)
+
+    def require(self, *steps: str) -> None:
+        """Refuse what cannot be answered yet.
+
+        Raises:
+            Refusal: 503, with what is being prepared and when to try again.
+        """
+        if self.has(*steps):
+            return
+        raise Refusal(
+            503,
+            f"First start: {self._progress()}. What you ask for needs "
+            f"{next(STEPS[step].title for step in steps if not self.has(step))}: "
+            "try again in a moment.",
+            kind="preparing",
+            headers={"Retry-After": str(self.seconds_left(*steps))},
+        )
+
+    def seconds_left(self, *steps: str) -> int:
+        """About how long it takes until steps are compiled, or all; from 1 to 30 [s]."""
+        steps = steps or self._steps
+        left = sum(STEPS[step].seconds for step in steps if not self.has(step))
+        state = self._state
+        if state and any(STEPS[step].title == state.title for step in steps):
+            left *= 1.0 - state.share
+        return max(1, min(30, ceil(left)))
+
+    def wait(self, *steps: str) -> None:
+        """Wait, in a thread of one's own, until the kernels of some steps are compiled."""
+        with self._changed:
+            self._changed.wait_for(lambda: self.has(*steps) or self._stopped.is_set())
+
+    def can_plan_by(self, name: str) -> bool:
+        """Whether all that a planner needs is compiled."""
+        return not self._missing or self.has("flying", *PLANNED_WITH.get(name, ()))
+
+    def require_planner(self, name: str) -> None:
+        """Refuse a planner that is not compiled.
+
+        Args:
+            name: of the planner; empty for one that is not compiled ahead.
+
+        Raises:
+            Refusal: 503, as in `require`.
+        """
+        steps = PLANNED_WITH.get(name, ())
+        self.require("flying", *steps)
+        if not self._steps or name in self._usable or set(steps) <= set(self._steps):
+            return
+        if missing(steps):
+            raise Refusal(
+                503,
+                f"The planner {name} is not compiled here: `relguide warm-up` does that, or start "
+                f"the service with RELGUIDE_PLANNER={name}.",
+                kind="preparing",
+                headers={"Retry-After": "30"},
+            )
+        self._usable.add(name)
+
+    def admit(self, situation: Situation, name: str) -> None:
+        """Refuse a situation whose plan needs what is not compiled yet.
+
+        Args:
+            situation: what is to be planned.
+            name: of the planner.
+
+        Raises:
+            Refusal: 503, as in `require`.
+        """
+        self.require("flying")
+        steps = PLANNED_WITH.get(name, ())
+        if not self.has(*steps) and plan_at_once(situation) is None:
+            self.require(*steps)
+
+    def guard(self, planner: Planner, name: str, *, waiting: bool) -> Planner:
+        """The same planner; while kernels are missing, plans that need none of them.
+
+        Args:
+            planner: the planner.
+            name: its name; empty if it has none.
+            waiting: whether all other plans wait, as in a flight, or are refused.
+        """
+        steps = PLANNED_WITH.get(name, ())
+
+        def guarded(situation: Situation, *, deadline: Second | None = None) -> Plan | NoPlan:
+            if not self.has("flying", *steps):
+                if waiting:
+                    self.wait("flying")
+                self.require("flying")
+                found = plan_at_once(situation)
+                if found is not None:
+                    return found
+                if waiting:
+                    self.wait(*steps)
+                self.require(*steps)
+            return with_deadline(planner, deadline)(situation)
+
+        return guarded
+
+    def _progress(self) -> str:
+        state = self._state
+        return f"preparing {state.title}, {state.share:.0%}" if state else "preparing"
+
+    def _run(self, rehearse: Callable[[], None]) -> None:
+        first = self._missing
+        try:
+            if self.has("flying"):
+                self._rehearse(rehearse)
+            for state in prepare(first, jobs=os.cpu_count() or 1, stopped=self._stopped.is_set):
+                self._note(state, tuple(name for name in first if name not in state.done))
+                if not self._rehearsed and self.has("flying"):
+                    self._rehearse(rehearse)
+        except WarmUpError as error:
+            log.error("%s Kernels are compiled when they are first used instead.", error)
+            self._note(None, ())
+            self._rehearse(rehearse)
+        if not self._stopped.is_set():
+            self._note(None, ())
+
+    def _rehearse(self, rehearse: Callable[[], None]) -> None:
+        self._rehearsed = run_logged("The rehearsal of a flight", rehearse)
+        if self._steps:  # what is loaded by now stays: to look through it takes the loop 0.1 s
+            gc.freeze()
+
+    def _note(self, state: Preparing | None, left: tuple[str, ...]) -> None:
+        with self._changed:
+            self._state, self._missing = state, left
+            self._changed.notify_all()
+
+
+async def preparation_of(connection: HTTPConnection) -> Preparation:
+    """The preparation of the app that serves this connection."""
+    preparation: Preparation = connection.app.state.preparation
+    return preparation
+
+
+PreparationOf = Annotated[Preparation, Depends(preparation_of)]
+"""How a route asks for it."""

@@ -1,0 +1,1 @@
+"""A flight in 3D, drawn on a viser server."""

@@ -1,0 +1,78 @@
+"""One aircraft of the 3D scene: its shape, the line down to the ground, and where it has been."""
+
+from math import cos, sin
+
+import numpy as np
+from viser import SceneApi
+
+from relguide.flying.aircraft_documents import AircraftSample
+from relguide.units import Second
+from relguide_server.scene import shapes as shapes
+from relguide_server.scene.paint import Colour, dim, lines
+from relguide_server.scene.shapes import ALTITUDE_SCALE, KM, Points
+
+LENGTH = 54.0
+"""Length of an A300 [m]."""
+ENLARGED = 80.0
+"""How much aircraft are drawn larger than they are: 54 m would be less than a pixel here."""
+TRAIL_PERIOD = 10.0
+"""Flight time between two marks of where an aircraft has been [s], as on the navigation display."""
+TRAIL_MARKS = 480
+"""Most of them: 80 minutes."""
+MARK = 0.25
+"""Length of a mark [scene units]: the past is marks apart from each other, never a line."""
+FOOT = 0.9
+"""Half the cross where the line meets the ground [scene units]."""
+
+
+class AircraftFigure:
+    """What is drawn for one aircraft, under `/world/{name}`."""
+
+    def __init__(self, scene: SceneApi, name: str, colour: Colour, first: AircraftSample) -> None:
+        self._height = height_of(first)
+        self._marks: list[Points] = []
+        self._marked_t = -TRAIL_PERIOD
+        root = f"/world/{name}"
+        self._place = scene.add_frame(root, show_axes=False)
+        self._body = scene.add_frame(f"{root}/body", show_axes=False)
+        vertices, faces = shapes.airliner()
+        scene.add_mesh_simple(
+            f"{root}/body/mesh",
+            vertices,
+            faces,
+            color=colour,
+            flat_shading=True,
+            side="double",
+            scale=LENGTH / KM * ENLARGED,
+            cast_shadow=False,
+        )
+        self._drop = lines(scene, f"{root}/drop", shapes.drop(self._height, FOOT), colour, 1.2)
+        self._past = lines(scene, f"/world/{name}_past", np.zeros((1, 2, 3)), dim(colour, 0.7), 2.5)
+
+    def move(self, now: AircraftSample) -> None:
+        """Show the aircraft as it is."""
+        here, height = place_of(now), height_of(now)
+        self._place.position = here
+        self._body.wxyz = shapes.attitude(now.heading, now.bank)
+        if abs(height - self._height) > 0.02:  # 10 m of altitude: a new line is one small message
+            self._height = height
+            self._drop.points = shapes.drop(height, FOOT).astype(np.float32)
+
+    def mark(self, now: AircraftSample, t: Second) -> None:
+        """Leave a mark where it is at flight time t, if it is time for one."""
+        if t - self._marked_t < TRAIL_PERIOD:
+            return
+        self._marked_t = t
+        here, back = place_of(now), (-MARK * sin(now.track), -MARK * cos(now.track), 0.0)
+        self._marks = [*self._marks[1 - TRAIL_MARKS :], np.array([here, np.add(here, back)])]
+        self._past.points = np.array(self._marks, dtype=np.float32)
+
+
+def height_of(now: AircraftSample) -> float:
+    """Height in the scene [scene units]."""
+    return now.altitude / KM * ALTITUDE_SCALE
+
+
+def place_of(now: AircraftSample) -> tuple[float, float, float]:
+    """Position in the scene [scene units]."""
+    return now.x / KM, now.y / KM, height_of(now)

@@ -1,0 +1,116 @@
+"""What can be flown for real: the library's scenarios and situations of one's own."""
+
+import time
+
+import pytest
+from relguide_server.app import create_app
+from relguide_server.flights.catalogue import library_catalogue
+from relguide_server.flights.routes import NewFlight
+from relguide_server.planning.plans import EXAMPLE
+from relguide_server.settings import ServiceSettings
+
+from relguide.contract.messages import SituationFlightRequest
+from relguide.contract.protocol import PROTOCOL
+from relguide.contract.refusal import parse
+from relguide.flying.documents import FlightStarted, LeaderChanged
+from relguide.flying.orders import no_commands
+from relguide.planning.plan import plan
+from relguide.planning.situation import TurnTo
+from relguide.planning.trajectory import RIGHT
+from tests.server.serving import TestClient
+
+TURN = {"direction": "right", "bank_deg": 20.0}
+
+
+@pytest.mark.parametrize("asked", [{"scenario": "fig_6b"}, {"situation": EXAMPLE}])
+def test_a_flight_names_who_plans_it(asked: dict[str, object]) -> None:
+    wanted = parse(NewFlight, asked).root
+    departure = library_catalogue(plan, "exact").find(wanted)
+    started = next(iter(departure.source(no_commands)))
+    assert isinstance(started, FlightStarted)
+    assert started.planner == "exact"
+    assert departure.scenario == asked.get("scenario", "")
+
+
+@pytest.mark.slow
+def test_a_real_flight_obeys_its_commands() -> None:
+    with TestClient(create_app(ServiceSettings())) as client:
+        started = client.post("/api/v1/flights", json={"scenario": "fig_6b", "rate": 60.0})
+        assert started.status_code == 201, started.text
+        where = started.headers["location"]
+        with client.websocket_connect(
+            started.json()["stream_url"], subprotocols=[PROTOCOL]
+        ) as socket:
+            first = socket.receive_json()
+            assert first["documents"][0]["kind"] == "flight_started"
+            command = {"command": "leader_heading", "heading_deg": 20.0, "direction": "left"}
+            assert client.post(f"{where}/commands", json=command).status_code == 202
+            kinds: list[str] = []
+            until = time.monotonic() + 10.0
+            while "plan_changed" not in kinds and time.monotonic() < until:
+                kinds += [document["kind"] for document in socket.receive_json()["documents"]]
+            assert "leader_changed" in kinds
+            assert "plan_changed" in kinds[kinds.index("leader_changed") :]
+
+
+@pytest.mark.slow
+def test_a_situation_of_ones_own_flies() -> None:
+    with TestClient(create_app(ServiceSettings())) as client:
+        body = {"situation": EXAMPLE, "rate": 60.0, "intent_known": False}
+        started = client.post("/api/v1/flights", json=body)
+        assert started.status_code == 201, started.text
+        assert started.json()["scenario"] == ""
+        wrong = {"situation": {**EXAMPLE, "slot_distance_m": 1.0}}
+        refused = client.post("/api/v1/flights", json=wrong)
+        assert refused.status_code == 422
+        assert refused.json()["errors"][0]["path"] == "situation.slot_distance_m"
+
+
+def test_a_leader_breaks_its_word_whoever_watches() -> None:
+    declared = [{"straight_s": 400.0}, {**TURN, "turn_to_heading_deg": 150.0}]
+    leader = {**EXAMPLE["leader"], "intent": declared}
+    flown = [{"straight_s": 20.0}, {**TURN, "turn_to_heading_deg": 40.0, "direction": "left"}]
+    body = {"situation": {**EXAMPLE, "leader": leader}, "flown_intent": flown}
+    departure = library_catalogue(plan).find(SituationFlightRequest.model_validate(body))
+    assert departure.first is not None
+    _, promised = departure.first.leader.intent
+    assert isinstance(promised, TurnTo)
+    assert promised.turn == RIGHT
+    noticed = next(d for d in departure.source(no_commands) if isinstance(d, LeaderChanged))
+    assert "does not fly what it declared" in noticed.message
+    assert 20.0 < noticed.t < 60.0
+
+
+@pytest.mark.parametrize(("key", "value"), [("tas_mps", 300.0), ("max_bank_deg", 45.0)])
+def test_what_the_aircraft_cannot_fly_is_refused(key: str, value: float) -> None:
+    with TestClient(create_app(ServiceSettings())) as client:
+        body = {"situation": {**EXAMPLE, "pursuer": {**EXAMPLE["pursuer"], key: value}}}
+        refused = client.post("/api/v1/flights", json=body)
+        assert refused.status_code == 422
+        (error,) = refused.json()["errors"]
+        assert error["path"] == "situation.pursuer"
+        assert "A306" in error["message"]
+        assert "choose" in error["message"]
+
+
+def test_scenarios_say_whether_they_can_be_flown() -> None:
+    client = TestClient(create_app(ServiceSettings()))
+    scenarios = client.get("/api/v1/scenarios").json()["scenarios"]
+    assert {"fig_6a", "fig_6b", "recorded_leader"} <= {s["name"] for s in scenarios}
+    for scenario in scenarios:
+        assert scenario["available"] == (scenario["message"] == "")
+
+
+def test_a_time_to_keep_behind_the_leader_can_be_asked_for() -> None:
+    with TestClient(create_app(ServiceSettings())) as client:
+        body = {"scenario": "fig_6b", "paused": True, "spacing_time_s": 75.0}
+        started = client.post("/api/v1/flights", json=body)
+        assert started.status_code == 201, started.text
+        with client.websocket_connect(
+            started.json()["stream_url"], subprotocols=[PROTOCOL]
+        ) as socket:
+            (link,) = socket.receive_json()["documents"][0]["links"]
+        assert (link["spacing"], link["spacing_time_s"]) == ("time", 75.0)
+        refused = client.post("/api/v1/flights", json={**body, "spacing_time_s": 0.0})
+        assert refused.status_code == 422
+        assert refused.json()["errors"][0]["path"] == "spacing_time_s"

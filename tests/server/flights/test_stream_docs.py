@@ -1,0 +1,119 @@
+"""What is said of the streams is what they send, and what they sent before."""
+
+import asyncio
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import httpx2 as httpx
+import jsonschema_rs
+import pytest
+from relguide_server.app import create_app
+from relguide_server.flights.stream_docs import asyncapi_document
+from relguide_server.settings import ServiceSettings
+from websockets.asyncio.client import connect
+from websockets.typing import Subprotocol
+
+from relguide.contract.protocol import STREAM
+from relguide.planning.frames import LocalPlane
+from tests.server.serving import TestClient, ideal_app, serve
+
+GOLDEN = Path(__file__).parents[2] / "golden" / f"{STREAM}.json"
+PARIS = {
+    "pursuer": {"lat_deg": 49.36, "lon_deg": 1.8, "heading_deg": 90.0, "tas_mps": 240.0,
+                "max_bank_deg": 25.0},
+    "leader": {"lat_deg": 49.0, "lon_deg": 2.35, "heading_deg": 90.0, "tas_mps": 200.0},
+    "slot_distance_m": 10000.0,
+    "min_separation_m": 9260.0,
+}  # fmt: skip
+
+
+def fields(schema: dict[str, Any]) -> Iterator[tuple[str, str]]:
+    """Every field of every shape, and its type."""
+    for name, shape in sorted(schema.items()):
+        for field, about in shape.get("properties", {}).items():
+            kind = {k: v for k, v in about.items() if k not in ("description", "title", "default")}
+            needed = "" if field in shape.get("required", ()) else "?"
+            yield f"{name}.{field}{needed}", json.dumps(kind, sort_keys=True)
+
+
+def references(part: object) -> Iterator[str]:
+    if isinstance(part, dict):
+        for name, value in part.items():
+            if name == "$ref":
+                yield value
+            else:
+                yield from references(value)
+    elif isinstance(part, list):
+        for value in part:
+            yield from references(value)
+
+
+def test_what_the_version_promised_is_still_there() -> None:
+    """If this fails, the stream needs a new version: a program relies on what is no more."""
+    now = dict(fields(asyncapi_document()["components"]["schemas"]))
+    promised = json.loads(GOLDEN.read_text())
+    assert promised["version"] == STREAM
+    gone = {name: kind for name, kind in promised["fields"].items() if now.get(name) != kind}
+    assert gone == {}
+
+
+def test_its_references_lead_somewhere() -> None:
+    document = asyncapi_document()
+    found = list(references(document))
+    assert len(found) > 20
+    for reference in found:
+        part: Any = document
+        for step in reference.removeprefix("#/").split("/"):
+            part = part[step]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("situation", [PARIS, None])
+def test_a_flight_sends_what_is_described(situation: dict[str, Any] | None) -> None:
+    async def listen(address: str, path: str) -> list[Any]:
+        url = f"ws://{address}{path}"
+        async with connect(url, subprotocols=[Subprotocol(STREAM)], proxy=None) as stream:
+            assert stream.subprotocol == STREAM
+            return [json.loads(await stream.recv()) for _ in range(20)]
+
+    document = asyncapi_document()
+    tick = {**document["components"]["schemas"]["Tick"], "components": document["components"]}
+    wanted = {"situation": situation} if situation else {"scenario": "fig_6b"}
+    with serve(create_app(ServiceSettings(workers=0))) as address:
+        answer = httpx.post(f"http://{address}/api/v1/flights", json=wanted, timeout=120.0)
+        ticks = asyncio.run(listen(address, answer.json()["stream_url"]))
+    validator = jsonschema_rs.validator_for(tick)
+    for sent in ticks:
+        validator.validate(sent)
+        with pytest.raises(jsonschema_rs.ValidationError):
+            validator.validate({**sent, "t_s": "soon"})
+    kinds = {document["kind"] for sent in ticks for document in sent["documents"]}
+    assert {"flight_started", "sample"} <= kinds
+    aircraft = [
+        one
+        for sent in ticks
+        for document in sent["documents"]
+        if document["kind"] == "sample"
+        for one in document["aircraft"]
+    ]
+    assert aircraft
+    for one in aircraft:
+        assert ("lat_deg" in one) == (situation is not None)
+        if situation:
+            place = LocalPlane(49.0, 2.35).to_geodetic(one["x_m"], one["y_m"])
+            assert (one["lat_deg"], one["lon_deg"]) == pytest.approx(place, abs=1e-9)
+
+
+def test_it_can_be_read_and_fetched() -> None:
+    with TestClient(ideal_app(root_path="/relguide")) as client:
+        document = client.get("/asyncapi.json").json()
+        assert document["asyncapi"] == "3.0.0"
+        assert document["servers"]["this"] == {
+            "host": "localhost", "protocol": "ws", "pathname": "/relguide"
+        }  # fmt: skip
+        page = client.get("/docs/stream").text
+        assert '<h2 id="AircraftSample">' in page
+        assert STREAM in page
+        assert 'href="/relguide/asyncapi.json"' in page

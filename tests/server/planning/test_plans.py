@@ -1,0 +1,110 @@
+"""`POST /plans`: what is refused, what is counted, and bodies that come in pieces."""
+
+import json
+import logging
+import socket
+import time
+from typing import Any
+
+import pytest
+from relguide_server.planning.plan_service import PlanService
+from relguide_server.planning.plans import EXAMPLE
+
+from benchmarks.service.situations import HEAD_ON
+from tests.server.serving import TestClient, ideal_app, serve
+from tests.server.test_api import is_problem
+
+PATH = "/api/v1/plans"
+
+UNLIMITED = {**EXAMPLE, "min_separation_m": 0.0}
+"""Planned at once, however busy the machine is."""
+BODY = json.dumps(UNLIMITED).encode()
+KIND = {"Content-Type": "application/json"}
+HARMLESS: tuple[dict[str, str], ...] = (
+    {"X-Request-ID": "mine"},
+    {"Origin": "http://testserver"},
+    {"Cookie": "a=b"},
+    {"Authorization": "Bearer x"},
+    {"X-Forwarded-For": "10.0.0.1"},
+    {"X-Whatever": "1"},
+)
+WRONG: tuple[tuple[dict[str, Any], int], ...] = (
+    ({"content": b"{", "headers": KIND}, 400),
+    ({"content": b'{"a": 1}', "headers": KIND}, 422),
+    ({"content": b"", "headers": KIND}, 400),
+    ({"content": BODY, "headers": {"Content-Type": "text/plain"}}, 415),
+    ({"content": b" " * 70_000 + BODY, "headers": KIND}, 413),
+    ({"content": BODY, "headers": {**KIND, "Host": "evil.example"}}, 421),
+    ({"content": BODY, "headers": {**KIND, "Origin": "http://evil.example"}}, 403),
+)
+
+
+@pytest.mark.parametrize("sent", HARMLESS)
+def test_headers_that_say_nothing_of_plans_change_nothing(sent: dict[str, str]) -> None:
+    with TestClient(ideal_app()) as client:
+        plain, other = (
+            client.post(PATH, json=UNLIMITED),
+            client.post(PATH, json=UNLIMITED, headers=sent),
+        )
+    assert {**other.json(), "compute_ms": 0} == {**plain.json(), "compute_ms": 0}
+    assert set(other.headers) == set(plain.headers)
+
+
+@pytest.mark.parametrize(("sent", "status"), WRONG)
+def test_what_is_wrong_is_refused_with_a_problem(sent: dict[str, Any], status: int) -> None:
+    with TestClient(ideal_app()) as client:
+        is_problem(client.post(PATH, **sent), status)
+
+
+def test_each_request_is_counted_once() -> None:
+    app = ideal_app()
+    with TestClient(app) as client:
+        for body in (UNLIMITED, HEAD_ON, {}):
+            client.post(PATH, json=body)
+    route = {"route": PATH, "method": "POST"}
+    metrics = app.state.metrics
+    assert metrics.value("relguide_requests_total", **route, status="200") == 2.0
+    assert metrics.value("relguide_requests_total", **route, status="422") == 1.0
+    counted = [metrics.value("relguide_plans_total", status=s) for s in ("planned", "no_plan")]
+    assert sum(counted) == 2.0
+
+
+def test_a_mistake_is_counted_and_answered(monkeypatch: pytest.MonkeyPatch) -> None:
+    def break_off(*arguments: Any, **options: Any) -> Any:
+        raise ArithmeticError("a mistake")
+
+    monkeypatch.setattr(PlanService, "answer_at_once", break_off)
+    app = ideal_app()
+    with TestClient(app, raise_server_exceptions=False) as client:
+        answer = client.post(PATH, json=UNLIMITED)
+    assert answer.status_code == 500
+    assert answer.json()["type"] == "/docs/problems#mistake"
+    counted = {"route": PATH, "method": "POST", "status": "500"}
+    assert app.state.metrics.value("relguide_requests_total", **counted) == 1.0
+
+
+def test_a_log_of_every_request_has_these_as_well(caplog: pytest.LogCaptureFixture) -> None:
+    with (
+        caplog.at_level(logging.DEBUG, logger="relguide.server"),
+        TestClient(ideal_app()) as client,
+    ):
+        client.post(PATH, json=UNLIMITED)
+    assert f"POST {PATH}: 200" in caplog.text
+
+
+def test_a_body_that_comes_later_is_answered_all_the_same() -> None:
+    head = f"POST {PATH} HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
+    sized = f"{head}Content-Length: {len(BODY)}\r\nConnection: close\r\n\r\n".encode()
+    for pieces, pause in ((2, 0.02), (2, 0.2), (7, 0.01)):
+        with serve(ideal_app()) as address:
+            host, _, port = address.partition(":")
+            with socket.create_connection((host, int(port)), timeout=10.0) as sent:
+                sent.sendall(sized)
+                cut = len(BODY) // pieces + 1
+                for k in range(pieces):
+                    time.sleep(pause)
+                    sent.sendall(BODY[k * cut : (k + 1) * cut])
+                came = b""
+                while part := sent.recv(65536):
+                    came += part
+        assert came.startswith(b"HTTP/1.1 200"), (pieces, pause)

@@ -1,0 +1,83 @@
+"""Simulations: flown to their end by workers, with the figures of `relguide fly --json`."""
+
+import asyncio
+from collections.abc import Iterator
+from importlib.metadata import version
+
+import pytest
+from relguide_server.http.errors import Refusal
+from relguide_server.planning.simulations import AT_A_TIME, EXAMPLE
+
+from relguide import plan
+from relguide.contract.flight_summary import figures, summarize
+from relguide.contract.messages import ScenarioFlightRequest
+from relguide.contract.simulation_bodies import MAX_SIMULATIONS, SimulationAnswer
+from relguide.flying.flight import fly
+from relguide.flying.scenarios import scenario
+from tests.bodies import BODY
+from tests.server.serving import TestClient, ideal_app
+
+PATH = "/api/v1/simulations"
+
+
+@pytest.fixture(scope="module")
+def client() -> Iterator[TestClient]:
+    with TestClient(ideal_app()) as client:
+        yield client
+
+
+@pytest.mark.slow
+def test_flights_are_flown_to_their_end_as_by_the_command(client: TestClient) -> None:
+    answer = client.post(PATH, json=EXAMPLE)
+    assert answer.status_code == 200
+    first, other = answer.json()
+    (ended,) = summarize(fly(scenario("fig_6b"), plan, seed=0, sample_period=1.0)).ended
+    expected = figures(ended)
+    assert {name: first[name] for name in expected} == expected
+    assert first["version"] == version("relguide")
+    assert (first["scenario"], first["seed"], other["seed"]) == ("fig_6b", 0, 7)
+    assert first["joined"]
+    assert other["track_nm"] != first["track_nm"]
+    for one in (first, other):
+        SimulationAnswer.model_validate(one)
+
+
+@pytest.mark.parametrize(
+    ("body", "path"),
+    [
+        ({}, ""),
+        ([], ""),
+        ([{"scenario": "fig_6b"}] * (MAX_SIMULATIONS + 1), ""),
+        ([{"scenario": "fig_6b"}, {"scenario": "unknown"}], "[1].scenario"),
+        ([{"scenario": "fig_6b", "rate": 10.0}], "[0].rate"),
+        ([{"situation": {**BODY, "slot_distance_m": 1.0}}], "[0].situation.slot_distance_m"),
+    ],
+)
+def test_what_cannot_be_flown_is_refused_by_its_path(
+    client: TestClient, body: object, path: str
+) -> None:
+    answer = client.post(PATH, json=body)
+    assert answer.status_code == 422
+    assert answer.json()["errors"][0]["path"] == path
+
+
+def test_where_one_is_refused_the_others_are_not_flown(monkeypatch: pytest.MonkeyPatch) -> None:
+    begun: set[int] = set()
+    left: set[int] = set()
+
+    async def do(kind: str, work: object, wanted: ScenarioFlightRequest, *_: object, **__: object):
+        begun.add(wanted.seed)
+        if len(begun) == AT_A_TIME:
+            raise Refusal(503, "Too many wait: try again in a moment.")
+        try:
+            await asyncio.Event().wait()
+        finally:
+            left.add(wanted.seed)
+
+    app = ideal_app()
+    monkeypatch.setattr(app.state.workers, "do", do)
+    with TestClient(app) as client:
+        flights = [{"scenario": "fig_6b", "seed": seed} for seed in range(MAX_SIMULATIONS)]
+        assert client.post(PATH, json=flights).status_code == 503
+        assert client.get("/healthz").status_code == 200
+        assert left == begun - {AT_A_TIME - 1}

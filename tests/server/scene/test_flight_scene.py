@@ -1,0 +1,234 @@
+"""The picture in 3D: every kind of document is drawn, on a real viser server."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from relguide_server.scene import paint as paint
+from relguide_server.scene.flight_scene import FlightScene
+from relguide_server.scene.shapes import ALTITUDE_SCALE
+from viser import ViserServer
+
+from relguide.flying.documents import (
+    Document,
+    ForecastChanged,
+    ModeChanged,
+    PlanUnavailable,
+    Sample,
+)
+from relguide.flying.modes import Mode
+from relguide.flying.plan_documents import NoPlanCard, PathPoint
+from relguide.planning.plan import Reason
+from tests.documents import rare_documents
+from tests.server.flown import LEADER, OWN, ideal_flight
+
+
+@pytest.fixture
+def viser_server() -> Iterator[ViserServer]:
+    server = ViserServer(host="127.0.0.1", port=0, verbose=False)
+    yield server
+    server.stop()
+
+
+@pytest.fixture
+def documents() -> list[Document]:
+    return list(ideal_flight(duration=20.0, step=1.0))
+
+
+def nodes(server: ViserServer) -> dict:
+    return server.scene._handle_from_node_name
+
+
+def middle_of_both(known: dict) -> np.ndarray:
+    both = known["/world/pursuer"].position + known["/world/leader"].position
+    return both[:2] / 2.0
+
+
+def test_a_flight_is_drawn_whole(viser_server: ViserServer, documents: list[Document]) -> None:
+    FlightScene(viser_server).draw(documents)
+    for name in (
+        "pursuer/body/mesh",
+        "leader/min_separation",
+        "plan",
+        "route",
+        "slot/gate",
+        "grid",
+    ):
+        assert f"/world/{name}" in nodes(viser_server)
+    sample = next(d for d in reversed(documents) if isinstance(d, Sample))
+    place = nodes(viser_server)["/world/leader"].position
+    _, leader = sample.aircraft
+    altitude = leader.altitude / 1000.0 * ALTITUDE_SCALE
+    assert place == pytest.approx([leader.x / 1000, leader.y / 1000, altitude])
+
+
+def test_the_middle_of_the_two_stays_at_the_origin(
+    viser_server: ViserServer, documents: list[Document]
+) -> None:
+    scene = FlightScene(viser_server)
+    for document in documents:
+        scene.draw([document])
+    known = nodes(viser_server)
+    assert known["/world"].position[:2] == pytest.approx(-middle_of_both(known))
+
+
+def test_what_is_about_others_or_only_for_the_crew_changes_nothing(
+    viser_server: ViserServer, documents: list[Document]
+) -> None:
+    scene = FlightScene(viser_server)
+    scene.draw(documents)
+    before = set(nodes(viser_server))
+    answer = NoPlanCard(reason=Reason.SLOT_UNREACHABLE, message="Too fast a leader.")
+    rare = [d for d in rare_documents(20.0, OWN, LEADER) if not isinstance(d, ForecastChanged)]
+    others = [d for d in rare_documents(20.0, "OTHER", LEADER) if isinstance(d, ForecastChanged)]
+    scene.draw([*rare, *others, PlanUnavailable(t=20.0, ident="OTHER", answer=answer)])
+    assert set(nodes(viser_server)) == before
+
+
+def forecast(documents: list[Document], *, t: float, until: float) -> ForecastChanged:
+    """Straight east from where own ship is in the last sample, a point each ten seconds."""
+    own, leader = next(d for d in reversed(documents) if isinstance(d, Sample)).aircraft
+    times = np.arange(t, until + 1.0, 10.0)
+    return ForecastChanged(
+        t=t,
+        ident=OWN,
+        times=tuple(times),
+        x=tuple(own.x + 240.0 * (times - t)),
+        y=(own.y,) * len(times),
+        heading=(np.pi / 2.0,) * len(times),
+        least_separation=10_000.0,
+        pursuer_at_closest=PathPoint(t=until, x=own.x, y=own.y, heading=0.0),
+        leader_at_closest=PathPoint(t=until, x=leader.x, y=leader.y, heading=0.0),
+    )
+
+
+def test_the_path_that_will_be_flown_is_drawn_at_the_height_of_own_ship(
+    viser_server: ViserServer, documents: list[Document]
+) -> None:
+    scene = FlightScene(viser_server)
+    sample = next(d for d in reversed(documents) if isinstance(d, Sample))
+    own, leader = sample.aircraft
+    higher = replace(sample, aircraft=(replace(own, altitude=own.altitude + 1_000.0), leader))
+    ahead = forecast(documents, t=20.0, until=900.0)
+    scene.draw([*documents, higher, ahead])
+    points = np.asarray(nodes(viser_server)["/world/forecast"].points)
+    assert points[..., 2] == pytest.approx((own.altitude / 1000.0 + 1.0) * ALTITUDE_SCALE)
+    assert points[-1, 1, 0] == pytest.approx(ahead.x[-1] / 1000.0, abs=0.01)
+    assert nodes(viser_server)["/world/plan"].thickness < 1.5
+
+
+def test_the_flown_part_of_the_path_goes(
+    viser_server: ViserServer, documents: list[Document]
+) -> None:
+    scene = FlightScene(viser_server)
+    ahead = forecast(documents, t=20.0, until=900.0)
+    sample = next(d for d in reversed(documents) if isinstance(d, Sample))
+    scene.draw([*documents, ahead])
+    guidance = replace(sample.guidance[0], time_to_go=501.0)
+    scene.draw([replace(sample, t=120.0, guidance=(guidance,))])
+    points = np.asarray(nodes(viser_server)["/world/forecast"].points)
+    assert points[0, 0, 0] == pytest.approx((ahead.x[0] + 24_000.0) / 1000.0, abs=0.01)
+    joined = replace(guidance, time_to_go=0.0)
+    scene.draw([replace(sample, t=901.0, guidance=(joined,))])
+    assert "/world/forecast" not in nodes(viser_server)
+
+
+@pytest.mark.parametrize("mode", ["heading", "escape", "follow"])
+def test_the_ideal_path_goes_when_the_plan_is_flown_no_more(
+    viser_server: ViserServer, documents: list[Document], mode: Mode
+) -> None:
+    scene = FlightScene(viser_server)
+    scene.draw(documents)
+    scene.draw([ModeChanged(t=20.0, ident=OWN, mode=mode, previous="converge", message="Why.")])
+    assert "/world/plan" not in nodes(viser_server)
+
+
+def test_without_a_plan_none_is_shown(viser_server: ViserServer, documents: list[Document]) -> None:
+    scene = FlightScene(viser_server)
+    scene.draw(documents)
+    answer = NoPlanCard(reason=Reason.SLOT_UNREACHABLE, message="Too fast a leader.")
+    scene.draw([PlanUnavailable(t=20.0, ident=OWN, answer=answer)])
+    assert not [name for name in nodes(viser_server) if name.startswith("/world/plan")]
+
+
+def test_a_lost_limit_and_an_escape_change_colour(
+    viser_server: ViserServer, documents: list[Document]
+) -> None:
+    scene = FlightScene(viser_server)
+    scene.draw(documents)
+    sample = next(d for d in reversed(documents) if isinstance(d, Sample))
+    assert tuple(nodes(viser_server)["/world/leader/min_separation"].color) == paint.LEADER
+    gate = np.asarray(nodes(viser_server)["/world/slot/gate"].colors)
+    assert tuple(gate.reshape(-1, 3)[0]) == paint.PLAN
+    unable = replace(sample.guidance[0], mode="heading", engagement="engaged")
+    scene.draw([replace(sample, guidance=(unable,))])
+    gate = np.asarray(nodes(viser_server)["/world/slot/gate"].colors)
+    assert tuple(gate.reshape(-1, 3)[0]) == paint.CAUTION
+    close = replace(sample.guidance[0], separation=1000.0, mode="escape")
+    scene.draw([replace(sample, guidance=(close,))])
+    assert tuple(nodes(viser_server)["/world/leader/min_separation"].color) == paint.ALERT
+    gate = np.asarray(nodes(viser_server)["/world/slot/gate"].colors)
+    assert tuple(gate.reshape(-1, 3)[0]) == paint.CAUTION
+
+
+def test_the_first_picture_has_both_aircraft_in_it(
+    viser_server: ViserServer, documents: list[Document]
+) -> None:
+    FlightScene(viser_server).draw(documents)
+    sample = next(d for d in reversed(documents) if isinstance(d, Sample))
+    away = np.linalg.norm(viser_server.initial_camera.position)
+    assert away > sample.guidance[0].separation / 1000.0
+
+
+def test_it_glides_on_from_the_newest_sample(
+    viser_server: ViserServer, documents: list[Document]
+) -> None:
+    scene = FlightScene(viser_server)
+    scene.draw(documents)
+    sample = next(d for d in reversed(documents) if isinstance(d, Sample))
+    own, leader = sample.aircraft
+    scene.glide(0.5)
+    known = nodes(viser_server)
+    for aircraft, name in ((own, "pursuer"), (leader, "leader")):
+        x, y, _ = known[f"/world/{name}"].position
+        moved = np.hypot(x - aircraft.x / 1000.0, y - aircraft.y / 1000.0) * 1000.0
+        assert moved == pytest.approx(0.5 * aircraft.ground_speed, abs=0.1)
+    assert known["/world"].position[:2] == pytest.approx(-middle_of_both(known))
+
+
+def test_the_closest_approach_is_drawn_until_it_is_passed(
+    viser_server: ViserServer, documents: list[Document]
+) -> None:
+    scene = FlightScene(viser_server)
+    ahead = forecast(documents, t=20.0, until=900.0)
+    own, leader = ahead.pursuer_at_closest, ahead.leader_at_closest
+    soon = replace(
+        ahead, pursuer_at_closest=replace(own, t=100.0), leader_at_closest=replace(leader, t=100.0)
+    )
+    scene.draw([*documents, soon])
+    sample = next(d for d in reversed(documents) if isinstance(d, Sample))
+    guided = replace(sample.guidance[0], time_to_go=500.0)
+    scene.draw([replace(sample, t=50.0, guidance=(guided,))])
+    points = np.asarray(nodes(viser_server)["/world/closest"].points).reshape(-1, 3)
+    assert np.array((own.x / 1000.0, own.y / 1000.0)) == pytest.approx(points[-2, :2], abs=1e-3)
+    assert np.array((leader.x / 1000.0, leader.y / 1000.0)) == pytest.approx(
+        points[-1, :2], abs=1e-3
+    )
+    scene.draw([replace(sample, t=101.0, guidance=(guided,))])
+    assert "/world/closest" not in nodes(viser_server)
+
+
+def test_the_past_is_marks_and_the_slot_is_filled_when_joined(
+    viser_server: ViserServer, documents: list[Document]
+) -> None:
+    scene = FlightScene(viser_server)
+    scene.draw(documents)
+    marks = np.asarray(nodes(viser_server)["/world/leader_past"].points)
+    assert marks.shape == (3, 2, 3)  # at 0, 10 and 20 s
+    assert np.linalg.norm(marks[0, 1] - marks[0, 0]) < 0.2 * np.linalg.norm(marks[1] - marks[0])
+    hollow = np.asarray(nodes(viser_server)["/world/slot/gate"].points)
+    sample = next(d for d in reversed(documents) if isinstance(d, Sample))
+    scene.draw([replace(sample, guidance=(replace(sample.guidance[0], joined=True),))])
+    filled = np.asarray(nodes(viser_server)["/world/slot/gate"].points)
+    assert len(filled) > len(hollow)
