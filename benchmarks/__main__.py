@@ -17,8 +17,8 @@ from benchmarks import (
     unlimited,
 )
 from benchmarks.detours import Contest
+from benchmarks.measured import Counts, Results, measure
 from benchmarks.options import positive
-from benchmarks.results import Counts, Results, measure
 
 RATIO = 40.0
 """How many times slower than the kernel OMPL is at least: a ratio holds on any machine."""

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from math import cos, radians, sin
 from pathlib import Path
 from typing import Any
@@ -50,6 +51,17 @@ QUANTILES = np.linspace(0.0, 1.0, 201)
 """A distribution is drawn through these."""
 
 Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Spread:
+    """What answers of one kind take."""
+
+    name: str
+    ours: bool
+    median: float
+    late: float
+    """99 % take no longer; CPU time, as the median [s]."""
 
 
 @contextmanager
@@ -125,13 +137,13 @@ def arrival_by_bearing(axes: Axes, drawn: Sweep) -> None:
     axes.legend(loc="upper left", frameon=True, framealpha=0.9, edgecolor="none", fontsize=8)
 
 
-def cost_of_the_limit(axes: Axes, costs: dict[str, Floats]) -> None:
-    """How much later a plan arrives for keeping d_min."""
+def cost_of_the_limit(axes: Axes, shares: Floats, costs: dict[str, Floats]) -> None:
+    """How much later a plan arrives for keeping d_min: at most so much [s] in a share [%]."""
     axes.set_title("What the limit costs")
-    looks = (BLUE, (-7, 4), "right"), (ORANGE, (7, -10), "left")
-    for (name, cost), (colour, offset, side) in zip(costs.items(), looks, strict=True):
-        axes.plot(np.quantile(cost, QUANTILES), 100.0 * QUANTILES, color=colour, label=name)
-        middle = float(np.median(cost))
+    looks = (BLUE, "-", (-7, 4), "right"), (ORANGE, "--", (7, -10), "left")
+    for (name, cost), (colour, line, offset, side) in zip(costs.items(), looks, strict=True):
+        axes.plot(cost, shares, color=colour, ls=line, label=name)
+        middle = float(np.interp(50.0, shares, cost))
         axes.plot(middle, 50.0, "o", color=colour, ms=5)
         axes.annotate(
             f"{middle:.0f} s", (middle, 50.0), offset, textcoords="offset points", ha=side,
@@ -146,33 +158,31 @@ def cost_of_the_limit(axes: Axes, costs: dict[str, Floats]) -> None:
     axes.legend(loc="upper left", frameon=False, fontsize=8)
 
 
-def times(axes: Axes, ours: dict[str, Floats], theirs: dict[str, Floats]) -> None:
-    """CPU times of an answer, from the 1st to the 99th percentile with the median between."""
-    axes.set_title("What an answer takes, 1 % to 99 %")
-    everybody = sorted({**ours, **theirs}.items(), key=lambda one: float(np.median(one[1])))
-    for height, (name, cpu) in enumerate(reversed(everybody)):
-        low, middle, high = (float(np.quantile(cpu, share)) for share in (0.01, 0.5, 0.99))
-        colour = BLUE if name in ours else PALE
-        axes.plot((low, high), (height, height), color=colour, lw=2.5)
-        axes.plot(middle, height, "o", color=colour, ms=6, zorder=5)
+def times(axes: Axes, spreads: Sequence[Spread]) -> None:
+    """CPU times of an answer, from the median to the 99th percentile; ours are filled."""
+    axes.set_title("What an answer takes: median to 99 %")
+    ordered = sorted(spreads, key=lambda spread: -spread.median)
+    for height, spread in enumerate(ordered):
+        colour = BLUE if spread.ours else PALE
+        axes.plot((spread.median, spread.late), (height, height), color=colour, lw=2.5)
+        face = colour if spread.ours else "white"
+        axes.plot(spread.median, height, "o", color=colour, mfc=face, ms=6, zorder=5)
         axes.annotate(
-            _time_in_words(middle), (middle, height), (0, 7), textcoords="offset points",
-            ha="center", color=colour, fontsize=8,
+            time_in_words(spread.median), (spread.median, height), (-7, -3),
+            textcoords="offset points", ha="right", color=colour, fontsize=8,
         )  # fmt: skip
-    axes.set_yticks(range(len(everybody)), [name for name, _ in reversed(everybody)])
+    axes.set_yticks(range(len(ordered)), [spread.name for spread in ordered], fontsize=8)
     axes.tick_params(axis="y", length=0)
     axes.spines["left"].set_visible(False)
     axes.grid(visible=False, axis="y")
-    axes.set_ylim(-0.5, len(everybody) - 0.3)
+    axes.set_ylim(-0.5, len(ordered) - 0.3)
     axes.set_xscale("log")
-    axes.set_xlim(3e-6, 10.0)
-    _ticks(
-        axes, {1e-5: "10 µs", 1e-4: "100 µs", 1e-3: "1 ms", 1e-2: "10 ms", 0.1: "0.1 s", 1: "1 s"}
-    )
+    axes.set_xlim(2e-7, 40.0)
+    _ticks(axes, {1e-6: "1 µs", 1e-4: "100 µs", 1e-2: "10 ms", 1: "1 s"})
     axes.set_xlabel("CPU time")
 
 
-def _time_in_words(seconds: float) -> str:
+def time_in_words(seconds: float) -> str:
     """A time with its unit, to two digits or so."""
     size, unit = (1.0, "s") if seconds >= 1.0 else (1e-3, "ms") if seconds >= 1e-3 else (1e-6, "µs")
     value = seconds / size

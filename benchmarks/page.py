@@ -1,24 +1,24 @@
-"""The page that quotes what is measured: docs/planner.md, its pictures and its tables' place."""
+"""Where figures stand: in benchmarks/results as CSV, in a page between two markers, as pictures."""
 
 from pathlib import Path
 
 DOCS = Path(__file__).parents[1] / "docs"
+RESULTS = Path(__file__).parent / "results"
 PAGE, FOLDER = DOCS / "planner.md", DOCS / "figures"
 PICTURES = ("contact.svg", "distributions.svg")
 COMMAND = "make planner-figures"
-"""Makes all of it anew."""
-BEGIN, END = "<!-- measured: begin -->", "<!-- measured: end -->"
-"""The tables stand between these; the rest is written by hand."""
+"""Makes the tables and pictures of docs/planner.md anew."""
 
 
-def with_block(page: str, written: str) -> str:
-    """The page with what stands between its markers exchanged.
+def with_block(page: str, name: str, written: str) -> str:
+    """The page with what stands between a block's markers exchanged; the rest is written by hand.
 
     Raises:
         ValueError: if it does not have both markers, once each and in order.
     """
-    before, begin, rest = page.partition(BEGIN)
-    _, end, after = rest.partition(END)
-    if not begin or not end or BEGIN in rest or END in after:
-        raise ValueError(f"The page must hold {BEGIN} and then {END}, once each.")
-    return f"{before}{BEGIN}\n\n{written}\n\n{END}{after}"
+    begin, end = f"<!-- {name}: begin -->", f"<!-- {name}: end -->"
+    before, found, rest = page.partition(begin)
+    _, closed, after = rest.partition(end)
+    if not found or not closed or begin in rest or end in after:
+        raise ValueError(f"The page must hold {begin} and then {end}, once each.")
+    return f"{before}{begin}\n\n{written}\n\n{end}{after}"

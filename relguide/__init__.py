@@ -107,7 +107,7 @@ if typing.TYPE_CHECKING:
     from relguide.planning.trajectory import Trajectory as Trajectory
     from relguide.planning.words import candidates as candidates
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 _HOMES = {
     "record": "relguide.contract.recorder",

@@ -7,14 +7,16 @@ import numpy as np
 import pytest
 from hypothesis import given
 
-from benchmarks import draws, network
+from benchmarks import draws, kept, network
 from benchmarks.cases import turning_cases, unlimited_cases
+from benchmarks.drawings import time_in_words
 from benchmarks.exhaustive import least_time
 from benchmarks.limit import main, plan_twice
 from benchmarks.network_batch import as_row
 from benchmarks.network_rows import BY_NETWORK, answer_rows
-from benchmarks.page import BEGIN, COMMAND, END, FOLDER, PAGE, PICTURES, with_block
+from benchmarks.page import COMMAND, FOLDER, PAGE, PICTURES, RESULTS, with_block
 from benchmarks.starts import guesses
+from benchmarks.tables import read_table, write_table
 from relguide import NoPlan
 from relguide.kernels.base.angles import FULL_TURN_SLACK
 from relguide.kernels.base.records import Pose
@@ -28,6 +30,9 @@ from tests.situations import headings, numbers
 ROOT = Path(__file__).parents[1]
 
 
+BEGIN, END = "<!-- measured: begin -->", "<!-- measured: end -->"
+
+
 def test_the_page_shows_the_pictures_and_says_how_they_are_made() -> None:
     page = PAGE.read_text()
     assert COMMAND in page
@@ -37,15 +42,35 @@ def test_the_page_shows_the_pictures_and_says_how_they_are_made() -> None:
         assert f"]({FOLDER.name}/{name})" in page
         assert "</svg>" in picture.read_text()
     # what is measured again takes the place of what was measured before
-    again = with_block(with_block(page, "old"), "| new |")
+    again = with_block(with_block(page, "measured", "old"), "measured", "| new |")
     assert "| new |" in again
     assert "old" not in again[again.index(BEGIN) : again.index(END)]
+
+
+def test_page_and_picture_show_the_same_run() -> None:
+    page = PAGE.read_text()
+    assert with_block(page, "measured", kept.block()) == page
+    picture = (FOLDER / "distributions.svg").read_text()
+    for spread in kept.spreads():
+        # matplotlib draws letters as paths, and says in a comment what they spell
+        assert f"<!-- {time_in_words(spread.median)} -->" in picture, spread.name
+    _, cells = read_table(kept.COST)
+    (medians,) = [costs for share, *costs in cells if share == "50"]
+    assert all(f"<!-- {float(median):.0f} s -->" in picture for median in medians)
+
+
+def test_tables_are_kept_as_numbers(tmp_path: Path) -> None:
+    write_table("some.csv", ("name", "µs", "worst"), [["a, b", "1,024", "+1,773.3"]], tmp_path)
+    assert read_table("some.csv", tmp_path) == (
+        ["name", "µs", "worst"],
+        [["a, b", "1024", "+1773.3"]],
+    )
 
 
 @pytest.mark.parametrize("page", ["no markers", f"{END} {BEGIN}", f"{BEGIN}{END}{BEGIN}{END}"])
 def test_a_page_without_its_markers_is_left_alone(page: str) -> None:
     with pytest.raises(ValueError, match="once each"):
-        with_block(page, "tables")
+        with_block(page, "measured", "tables")
 
 
 def test_ipopt_is_set_the_leader_s_own_turns_and_begins_with_paths_to_the_slot() -> None:
@@ -143,3 +168,11 @@ def test_a_case_is_what_its_number_says() -> None:
     first, again = (plan_twice(5, seed=1, effort=1, intent=0.5) for _ in range(2))
     assert (first.situation, first.ours_s) == (again.situation, again.ours_s)
     assert first.loss == 0.0
+
+
+def test_every_table_that_is_kept_says_how_it_was_made() -> None:
+    told = (RESULTS / "README.md").read_text()
+    for file in RESULTS.glob("*.csv"):
+        assert f"`{file.name}`" in told, file.name
+        headings, cells = read_table(file.name)
+        assert all(len(line) == len(headings) for line in cells), file.name

@@ -1,5 +1,7 @@
 """The loops of docs/flight.md: margins that are margins, and the loops that are flown."""
 
+import re
+from dataclasses import fields
 from itertools import pairwise
 from math import inf
 from pathlib import Path
@@ -8,11 +10,14 @@ import numpy as np
 import pytest
 from control import StateSpace
 
+from benchmarks.page import with_block
+from benchmarks.tables import markdown, read_table
 from relguide.flying.airframe import Airframe
+from relguide.flying.guidance.settings import DEFAULT, Settings, load_settings
 from relguide.kernels.base.turn import turn_rate
 from relguide.units import DEG
 from tools.campaign import pictures, report, responses
-from tools.campaign.constants import constants_cells
+from tools.campaign.constants import FILE, constants_toml
 from tools.campaign.loops import (
     FOLLOW_GAINS,
     PATH_GAINS,
@@ -32,7 +37,7 @@ from tools.campaign.report import (
     LOOPS,
     PAGE,
     PATH,
-    with_named_block,
+    SHOWN,
 )
 
 ROOT = Path(__file__).parents[1]
@@ -158,15 +163,29 @@ def test_the_page_has_its_blocks_and_pictures() -> None:
     for name in (AUTOPILOT, PATH, CAMPAIGN):
         assert f"]({FOLDER.name}/{name})" in page
         assert "</svg>" in (FOLDER / name).read_text()
-    for name in ("margins", "gains", "responses", "tube", "constants", "campaign"):
-        again = with_named_block(with_named_block(page, name, "old"), name, "| new |")
-        assert "| new |" in again
-        assert len(again) < len(page)
+    for name, file in SHOWN.items():
+        assert with_block(page, name, markdown(*read_table(file))) == page
     with pytest.raises(ValueError, match="once each"):
-        with_named_block(page, "no such block", "")
+        with_block(page, "no such block", "")
 
 
-def test_the_page_shows_what_is_computed() -> None:
-    page = PAGE.read_text()
-    for cells in (*report.margins_cells(), *report.gains_cells(), *constants_cells()):
-        assert f"| {' | '.join(cells)} |" in page
+def test_what_is_kept_is_what_is_computed() -> None:
+    assert read_table(SHOWN["margins"])[1] == report.margins_cells()
+    assert read_table("loop_gains.csv")[1] == report.gains_cells()
+
+
+def test_the_file_of_settings_has_all_defaults() -> None:
+    assert FILE.read_text() == constants_toml(), "write it anew: python -m tools.campaign.constants"
+    loaded = load_settings(FILE)
+    for field in fields(Settings):
+        default = getattr(DEFAULT, field.name)
+        assert getattr(loaded, field.name) == pytest.approx(default, rel=1e-12), field.name
+
+
+def test_the_picture_of_the_campaign_is_drawn_from_what_is_kept(tmp_path: Path) -> None:
+    again = tmp_path / CAMPAIGN
+    pictures.draw_campaign(read_table(report.FIGURES)[1], again)
+    drawn = [
+        re.findall(r"<path d=\"[^\"]*\"", file.read_text()) for file in (again, FOLDER / CAMPAIGN)
+    ]
+    assert drawn[0] == drawn[1]

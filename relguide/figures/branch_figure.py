@@ -10,6 +10,7 @@ import numpy as np
 from relguide.figures.area_figure import FAINT, INK
 from relguide.figures.panels import (
     COLOURS,
+    DASHES,
     MARKS,
     PERCENT,
     logarithmic,
@@ -126,7 +127,9 @@ def _gaps(audit: Audit, methods: Sequence[MethodResult], least_share: float) -> 
             )
             continue
         share = np.arange(len(worse), 0, -1) / of
-        left.step(PERCENT * worse, PERCENT * share, color=COLOURS[k], label=method.name)
+        left.step(
+            PERCENT * worse, PERCENT * share, color=COLOURS[k], ls=DASHES[k], label=method.name
+        )
     left.set_xlim(1e-3, 1e4)
     left.set_ylim(PERCENT * least, PERCENT)
     logarithmic(left, "gap to the fastest path [%]", "answers with a larger gap [%]")
@@ -134,7 +137,10 @@ def _gaps(audit: Audit, methods: Sequence[MethodResult], least_share: float) -> 
     for k, method in enumerate(methods):
         if method.places is not None:
             share = np.arange(1, len(method.places) + 1) / len(method.places)
-            right.plot(method.places / KM, PERCENT * share, color=COLOURS[k], label=method.name)
+            distances = method.places / KM
+            right.plot(
+                distances, PERCENT * share, color=COLOURS[k], ls=DASHES[k], label=method.name
+            )
     right.set_xscale("log")
     right.set_xlim(0.05, None)
     right.set_xlabel("distance of its end from the slot [km]", color=INK)

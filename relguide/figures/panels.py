@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 COLOURS = ("#1a6fb4", "#8a6d3b", "#c2185b", "#5b8c2a")
 """Of the methods side by side, ours first."""
 MARKS = ("o", "s", "^", "D")
+DASHES = ("-", "--", "-.", ":")
+"""Lines told apart in grey as well."""
 PERCENT = 100.0
 
 

@@ -251,7 +251,8 @@ def _digest_and_imports(file: Path) -> tuple[bytes, tuple[Path, ...]]:
     text = file.read_bytes()
     found = (match[1] or b".".join(match.groups()[1:]) for match in IMPORT.finditer(text))
     names = {name.decode().replace(".", "/") for name in found}
-    digest = sha256(file.name.encode() + b"\0" + text).digest()
+    place = file.relative_to(HERE.parent).as_posix()  # machine code names its modules
+    digest = sha256(place.encode() + b"\0" + text).digest()
     return digest, tuple(HERE.parent / f"{name}.py" for name in sorted(names))
 
 

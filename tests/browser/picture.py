@@ -1,5 +1,9 @@
-"""Take the picture of the cockpit for the README: `python -m tests.browser.picture FILE`."""
+"""Take the pictures of the cockpit: `python -m tests.browser.picture STILL.png MOVING.webp`.
 
+The moving one is the README's: the paper's Fig. 6b from engagement until it is joined.
+"""
+
+import io
 import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -15,9 +19,19 @@ RANGE = "80"
 """The ND's range [NM]: the whole plan is on it."""
 SCENE_DRAWN = 15_000
 """Software WebGL takes this long to its first pictures [ms]."""
+FRAMES = 48
+"""Of the moving picture."""
+FRAME_APART = 20.0
+"""Flight time between two of them [s]."""
+FRAME_SHOWN = 160
+"""How long each is seen, and the last one ten times as long [ms]."""
+SMALL = (1008, 630)
+"""Size of the moving picture [px]."""
+QUALITY = 45
+"""Of its compression: numbers can still be read."""
 
 
-def main(file: Path) -> None:
+def main(still: Path, moving: Path) -> None:
     with TemporaryDirectory() as folder, running_service(Path(folder)) as service:
         with running_chromium() as browser:
             page = browser.new_page(viewport={"width": 1440, "height": 900})
@@ -27,7 +41,37 @@ def main(file: Path) -> None:
             fly_until(page, SIMULATED)
             hide_toasts(page)
             page.wait_for_timeout(SCENE_DRAWN)
-            take_picture(page, file)
+            take_picture(page, still)
+            take_film(page, service.url, moving)
+
+
+def take_film(page: Page, url: str, file: Path) -> None:
+    """A whole flight in some seconds, as animated WebP."""
+    page.goto(f"{url}/?engaged")
+    expect(page.locator(".connection")).to_have_text("Live", timeout=20_000)
+    page.get_by_role("button", name=RANGE, exact=True).click()
+    page.get_by_role("button", name="Pause").click()
+    expect(page.locator(".sim-state")).to_have_text("PAUSED")
+    hide_toasts(page)
+    page.wait_for_timeout(SCENE_DRAWN)
+    page.get_by_role("button", name="Play").click()
+    frames = []
+    for number in range(FRAMES):
+        page.wait_for_function(FLOWN, arg=number * FRAME_APART, timeout=120_000)
+        with Image.open(io.BytesIO(page.screenshot())) as taken:
+            frames.append(taken.convert("RGB").resize(SMALL, Image.Resampling.LANCZOS))
+    shown = [FRAME_SHOWN] * (FRAMES - 1) + [10 * FRAME_SHOWN]
+    first, *others = frames
+    first.save(
+        file, save_all=True, append_images=others, duration=shown, loop=0, quality=QUALITY, method=6
+    )
+
+
+FLOWN = """t => {
+  const [minutes, seconds] = document.querySelector(".sim-time").textContent.split(":").map(Number);
+  return 60 * minutes + seconds >= t;
+}"""
+"""Whether the simulated clock shows a time [s] or a later one."""
 
 
 def take_picture(page: Page, file: Path) -> None:
@@ -60,4 +104,4 @@ def hide_toasts(page: Page) -> None:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]))
+    main(Path(sys.argv[1]), Path(sys.argv[2]))

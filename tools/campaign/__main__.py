@@ -7,8 +7,8 @@
 
 A flight is drawn from its family and number alone. Flights that a file has already are not flown
 again, so a run that was stopped goes on where it was; a file of another version of the library is
-refused. `report` computes the margins and step responses of docs/flight.md anew and writes the
-tables of the files named into it; without files the tables of the campaign stay as they are.
+refused. `report` computes the margins and step responses of docs/flight.md anew, and keeps the
+tables of the files named in benchmarks/results; without files the campaign stays as it is.
 """
 
 import argparse
@@ -111,7 +111,7 @@ def _report(given: argparse.Namespace) -> int:
     report.write_loops()
     if rows:
         report.write_campaign(rows)
-    _print(f"Written into {report.PAGE}, with its pictures: look at them.")
+    _print(f"Shown in {report.PAGE}, with its pictures: look at them.")
     return 0
 
 
@@ -148,7 +148,7 @@ def _parser() -> argparse.ArgumentParser:
     show.add_argument("number", type=int)
     table = commands.add_parser("table", help="the tables of files flown")
     table.add_argument("files", type=Path, nargs="+", metavar="FILE")
-    report = commands.add_parser("report", help="make docs/flight.md anew")
+    report = commands.add_parser("report", help="keep, draw and show the figures of docs/flight.md")
     report.add_argument("files", type=Path, nargs="*", metavar="FILE")
     return parser
 

@@ -1,36 +1,48 @@
-"""The constants of guidance as docs/flight.md shows them: key of a file, value, reason."""
+"""The constants of guidance as a file to change: `python -m tools.campaign.constants`.
+
+It writes examples/settings.toml: each key with its default, and its reason above it.
+"""
 
 import ast
 import inspect
 from dataclasses import fields
+from pathlib import Path
 from typing import get_args
 
 from relguide.flying.guidance import settings
 from relguide.flying.guidance.settings import DEFAULT, FLAGS, UNITS, Settings
-from tools.campaign.tables import Cells
 
-CONSTANTS = "key", "value", "what it is for"
+FILE = Path(__file__).parents[2] / "examples" / "settings.toml"
+HEAD = """\
+# Every constant of guidance with its default. Change what you like, leave out the rest, and fly:
+# relguide fly fig_6a --settings examples/settings.toml
+
+[guidance]
+"""
 
 
-def constants_cells() -> Cells:
-    """A row each, in the order of the record."""
+def constants_toml() -> str:
+    """The file, in the order of the record."""
     reasons = _docstrings()
-    cells = []
-    for field in fields(Settings):
-        value, reason = getattr(DEFAULT, field.name), reasons[field.name]
-        if field.name in FLAGS:
-            cells.append([f"`{field.name}`", str(value).lower(), reason])
-            continue
-        key, factor = field.name, 1.0
-        if field.type is not float:
-            (unit,) = get_args(field.type)[1:]
-            # angles in degrees; but a bandwidth in rad/s, as the page's formulas have it
-            shown = {"rad": "deg", "radps": "degps"}.get(unit, unit)
-            if field.name.endswith("bandwidth"):
-                shown = unit
-            key, factor = f"{field.name}_{shown}", UNITS[unit][shown]
-        cells.append([f"`{key}`", f"{value / factor:.4g}", reason])
-    return cells
+    lines = [f"# {reasons[field.name]}\n{_assignment(field.name)}\n" for field in fields(Settings)]
+    return HEAD + "\n".join(lines)
+
+
+def _assignment(name: str) -> str:
+    value = getattr(DEFAULT, name)
+    if name in FLAGS:
+        return f"{name} = {str(value).lower()}"
+    (field,) = (field for field in fields(Settings) if field.name == name)
+    if field.type is float:
+        return f"{name} = {value:.4g}"
+    (unit,) = get_args(field.type)[1:]
+    # angles in degrees; a bandwidth in rad/s, as docs/flight.md has it
+    shown = unit if name.endswith("bandwidth") else {"rad": "deg", "radps": "degps"}.get(unit, unit)
+    for ending in (shown, *UNITS[unit]):
+        number = f"{value / UNITS[unit][ending]:.4g}"
+        if abs(float(number) * UNITS[unit][ending] - value) <= 1e-9 * abs(value):
+            return f"{name}_{ending} = {number}"
+    raise ValueError(f"{name} has no short number in any of its units.")
 
 
 def _docstrings() -> dict[str, str]:
@@ -47,3 +59,7 @@ def _docstrings() -> dict[str, str]:
             assert isinstance(after.value, ast.Constant)
             found[field.target.id] = " ".join(str(after.value.value).split())
     return found
+
+
+if __name__ == "__main__":
+    FILE.write_text(constants_toml())

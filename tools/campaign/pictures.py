@@ -1,20 +1,20 @@
-"""The pictures of docs/flight.md: step responses, and the distributions of the campaign."""
+"""The pictures of docs/flight.md: step responses, and what became of the campaign."""
 
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
 from matplotlib.axes import Axes
 
-from benchmarks.drawings import BLUE, GREEN, INK, ORANGE, PALE, PURPLE, figure
+from benchmarks.drawings import BLUE, INK, ORANGE, PALE, figure
 from relguide.units import DEG
 from tests.aloft import A306
 from tools.campaign import responses
-from tools.campaign.row import FIGURES, Row
-from tools.campaign.tables import by_family
 
-COLOURS = (BLUE, ORANGE, GREEN, PURPLE, INK, PALE, "#e69f00", "#56b4e9")
+MARKS = {"o": "median", "|": "95 %", "d": "99 %", "x": "worst"}
+"""So many flights are no worse; told apart in grey."""
+TICKS = (0, 1, 10, 100, 1000)
+"""Of how much later than promised flights join [%]."""
 THIN = 10
 """One step in so many is drawn."""
 SLUGGISH = replace(
@@ -43,22 +43,49 @@ def draw_path(file: Path) -> None:
         _path_steps(right, 2.5 * DEG, "2.5° in hand, in a turn")
 
 
-def draw_campaign(rows: Sequence[Row], file: Path) -> None:
-    """What joining takes, and what is kept of d_min."""
+def draw_campaign(figures: Sequence[Sequence[str]], file: Path) -> None:
+    """What joining takes, and what is kept of d_min: from the median to the worst flight.
+
+    Args:
+        figures: lines of a table of `tables.DISTRIBUTION`, with the family before.
+        file: where to.
+    """
+    families = list(dict.fromkeys(family for family, *_ in figures))
     with figure(file) as (_, (left, right)):
-        promised = any(row.join_over_promise is not None for row in rows)
-        _shares(left, rows, "join_over_promise" if promised else "join_over_plan")
-        left.set_xlim(-5.0, 50.0)
-        left.set_title("Joining")
-        _shares(right, rows, "least_share")
-        right.set_xlim(0.0, 2.0)
-        right.set_title("Separation")
-        right.legend(frameon=False)
+        _ranges(left, figures, families, "join over promise, %")
+        left.set_title("Joins later than promised")
+        left.set_xscale("symlog", linthresh=1.0, linscale=0.5)
+        left.set_xlim(-0.5, 4000.0)
+        left.set_xticks(TICKS, [f"{tick:,}" for tick in TICKS])
+        left.set_xlabel("time over the promise [%]")
+        _ranges(right, figures, families, "least separation, d_min")
+        right.set_title("Least separation")
+        right.axvline(1.0, ymax=0.9, color=INK, lw=0.8)
+        right.set_xlabel("of a flight [d_min]")
+        right.legend(loc="upper center", ncols=len(MARKS), frameon=False, fontsize=8)
+
+
+def _ranges(
+    axes: Axes, figures: Sequence[Sequence[str]], families: Sequence[str], name: str
+) -> None:
+    """A line a family, with a mark for each share of its flights."""
+    for family, told, *numbers in figures:
+        if told != name:
+            continue
+        height = -families.index(family)
+        shares = [float(number) for number in numbers[2:6]]
+        axes.plot((shares[0], shares[-1]), (height, height), color=PALE, lw=1.0)
+        for share, (mark, label) in zip(shares, MARKS.items(), strict=True):
+            named = label if height == 0 else None
+            axes.plot(share, height, mark, color=BLUE, mfc="white", ms=6, ls="none", label=named)
+    axes.set_yticks([-i for i in range(len(families))], families)
+    axes.set_ylim(-len(families) + 0.5, 1.2)  # the names of the marks stand on top
+    axes.grid(visible=False, axis="y")
 
 
 def _bank_steps(axes: Axes) -> None:
     axes.set_title("To a bank")
-    for before, colour in ((0.0, BLUE), (-25.0, ORANGE)):
+    for before, colour, dashes in ((0.0, BLUE, "-"), (-25.0, ORANGE, "--")):
         low, high, plain = (
             responses.bank_step(before * DEG, 25.0 * DEG, model=model)
             for model in (SLUGGISH, NIMBLE, A306)
@@ -71,24 +98,24 @@ def _bank_steps(axes: Axes) -> None:
             alpha=0.2,
             linewidth=0.0,
         )
-        axes.plot(
-            plain.t, plain.bank / DEG, color=colour, label=f"{before:.0f}° to 25°".replace("-", "−")
-        )
-    axes.set_xlabel("s")
-    axes.set_ylabel("bank, °")
+        name = f"{before:.0f}° to 25°".replace("-", "−")
+        axes.plot(plain.t, plain.bank / DEG, color=colour, ls=dashes, label=name)
+    axes.set_xlabel("time [s]")
+    axes.set_ylabel("bank [°]")
     axes.legend(frameon=False)
 
 
 def _heading_steps(axes: Axes) -> None:
     axes.set_title("To a heading")
-    for tas, colour in ((240.0, BLUE), (120.0, ORANGE)):
+    for tas, colour, dashes in ((240.0, BLUE, "-"), (120.0, ORANGE, "--")):
         for change in (5.0, 30.0, 90.0):
             response = responses.heading_step(change * DEG, tas=tas)
+            t, heading = response.t[::THIN], response.heading[::THIN] / DEG
             name = f"{tas:.0f} m/s" if change == 5.0 else None
-            axes.plot(response.t[::THIN], response.heading[::THIN] / DEG, color=colour, label=name)
+            axes.plot(t, heading, color=colour, ls=dashes, label=name)
     axes.set_xlim(0.0, 120.0)
-    axes.set_xlabel("s")
-    axes.set_ylabel("heading, °")
+    axes.set_xlabel("time [s]")
+    axes.set_ylabel("heading [°]")
     axes.legend(frameon=False)
 
 
@@ -97,7 +124,7 @@ def _path_steps(axes: Axes, in_hand: float, title: str) -> None:
     for tas, colour in ((240.0, BLUE), (120.0, ORANGE)):
         for across in (100.0, 300.0, 1000.0):
             response = responses.path_step(across, tas=tas, in_hand=in_hand)
-            name = f"{tas:.0f} m/s" if across == 100.0 else None
+            name = f"{tas:.0f} m/s (both coincide)" if across == 100.0 else None
             dashes = (None, None) if tas == 240.0 else (4.0, 3.0)
             axes.plot(
                 response.t[::THIN],
@@ -106,18 +133,6 @@ def _path_steps(axes: Axes, in_hand: float, title: str) -> None:
                 dashes=dashes,
                 label=name,
             )
-    axes.set_xlabel("s")
-    axes.set_ylabel("cross-track, m")
+    axes.set_xlabel("time [s]")
+    axes.set_ylabel("cross-track [m]")
     axes.legend(frameon=False)
-
-
-def _shares(axes: Axes, rows: Sequence[Row], name: str) -> None:
-    """Share of flights with at most so much of a figure, a line a family."""
-    (drawn,) = (one for one in FIGURES if one.name == name)
-    for (family, own), colour in zip(by_family(rows), COLOURS, strict=False):
-        values = np.sort([value for value, _ in drawn.values(own)])
-        if len(values):
-            share = np.arange(1, len(values) + 1) / len(values)
-            axes.plot(values, 100.0 * share, color=colour, label=family)
-    axes.set_xlabel(drawn.heading)
-    axes.set_ylabel("flights, %")

@@ -1,7 +1,7 @@
-"""The tables and pictures of docs/flight.md, between markers in the page.
+"""The figures of docs/flight.md: kept in benchmarks/results, drawn, and two tables in the page.
 
-What stands around them is written by hand. Margins, step responses and their pictures are computed
-in a minute; the campaign's tables are of files that were flown before.
+Margins, step responses and their pictures are computed in a minute; the campaign's tables are of
+files that were flown before.
 """
 
 from collections.abc import Callable, Sequence
@@ -11,12 +11,12 @@ from pathlib import Path
 
 from control import StateSpace
 
-from benchmarks.page import DOCS, FOLDER
+from benchmarks.page import DOCS, FOLDER, RESULTS, with_block
+from benchmarks.tables import Cells, markdown, read_table, write_table
 from relguide.flying.airframe import Airframe
 from relguide.units import DEG
 from tests.aloft import A306
 from tools.campaign import pictures, responses, tables
-from tools.campaign.constants import CONSTANTS, constants_cells
 from tools.campaign.loops import (
     FOLLOW_GAINS,
     PATH_GAINS,
@@ -28,10 +28,13 @@ from tools.campaign.loops import (
     straight_loop,
 )
 from tools.campaign.row import Row
-from tools.campaign.tables import Cells, markdown
 
 PAGE = DOCS / "flight.md"
 AUTOPILOT, PATH, CAMPAIGN = "flight-autopilot.svg", "flight-path.svg", "flight-campaign.svg"
+SHOWN = {"margins": "loop_margins.csv", "campaign": "campaign.csv"}
+"""Blocks of the page, and the files that they show."""
+FIGURES = "campaign_figures.csv"
+"""What the picture of the campaign is drawn from."""
 OTHER_GAINS = (
     PathGains(omega=0.07, damping=0.9, look_ahead=0.0),
     PathGains(omega=0.11, damping=0.9, look_ahead=0.0),
@@ -46,50 +49,39 @@ OTHER_GAINS = (
 """Of the path loop, side by side."""
 
 
-def write_loops(page: Path = PAGE, folder: Path = FOLDER) -> None:
-    """Compute the loops, draw them and write their tables."""
+def write_loops(page: Path = PAGE, folder: Path = FOLDER, results: Path = RESULTS) -> None:
+    """Compute the loops, draw them, keep their tables and show the margins."""
     folder.mkdir(exist_ok=True)
     pictures.draw_autopilot(folder / AUTOPILOT)
     pictures.draw_path(folder / PATH)
-    text = page.read_text()
-    text = with_named_block(text, "margins", markdown(MARGINS, margins_cells()))
-    text = with_named_block(text, "gains", markdown(GAINS, gains_cells()))
-    text = with_named_block(text, "responses", markdown(RESPONSES, responses_cells()))
-    text = with_named_block(text, "tube", markdown(TUBE, tube_cells()))
-    constants = markdown(CONSTANTS, constants_cells(), prose=True)
-    text = with_named_block(text, "constants", constants)
-    page.write_text(text)
+    write_table(SHOWN["margins"], MARGINS, margins_cells(), results)
+    write_table("loop_gains.csv", GAINS, gains_cells(), results)
+    write_table("step_responses.csv", RESPONSES, responses_cells(), results)
+    write_table("off_path.csv", OFF_PATH, off_path_cells(), results)
+    show("margins", page, results)
 
 
-def write_campaign(rows: Sequence[Row], page: Path = PAGE, folder: Path = FOLDER) -> None:
-    """Draw the campaign and write its tables."""
+def write_campaign(
+    rows: Sequence[Row], page: Path = PAGE, folder: Path = FOLDER, results: Path = RESULTS
+) -> None:
+    """Draw the campaign, keep its tables and show the overview."""
+    write_table(SHOWN["campaign"], tables.OVERVIEW, tables.overview(rows), results)
+    figures = [
+        [family, *cells]
+        for family, own in tables.by_family(rows)
+        for cells in tables.distributions(own)
+    ]
+    write_table(FIGURES, ("family", *tables.DISTRIBUTION), figures, results)
+    write_table("campaign_losses.csv", tables.LOSSES, tables.losses(rows), results)
+    show("campaign", page, results)
     folder.mkdir(exist_ok=True)
-    pictures.draw_campaign(rows, folder / CAMPAIGN)
-    page.write_text(with_named_block(page.read_text(), "campaign", campaign_block(rows)))
+    pictures.draw_campaign(read_table(FIGURES, results)[1], folder / CAMPAIGN)
 
 
-def campaign_block(rows: Sequence[Row]) -> str:
-    """The tables of a campaign: an overview, then each family's figures and its worst flights."""
-    parts = [markdown(tables.OVERVIEW, tables.overview(rows))]
-    for family, own in tables.by_family(rows):
-        parts += [f"### {family}", markdown(tables.DISTRIBUTION, tables.distributions(own))]
-        if any(row.losses for row in own):
-            parts.append(markdown(tables.LOSSES, tables.losses(own)[: tables.WORST]))
-    return "\n\n".join(parts)
-
-
-def with_named_block(page: str, name: str, written: str) -> str:
-    """The page with what stands between a block's markers exchanged.
-
-    Raises:
-        ValueError: if it does not have both markers, once each and in order.
-    """
-    begin, end = f"<!-- {name}: begin -->", f"<!-- {name}: end -->"
-    before, found, rest = page.partition(begin)
-    _, closed, after = rest.partition(end)
-    if not found or not closed or begin in rest or end in after:
-        raise ValueError(f"The page must hold {begin} and then {end}, once each.")
-    return f"{before}{begin}\n\n{written}\n\n{end}{after}"
+def show(block: str, page: Path = PAGE, results: Path = RESULTS) -> None:
+    """Write the table of a block into the page, as it was kept."""
+    table = markdown(*read_table(SHOWN[block], results))
+    page.write_text(with_block(page.read_text(), block, table))
 
 
 MARGINS = "loop", "crossover, rad/s", "bears a delay of", "gain margin", "phase margin"
@@ -132,7 +124,7 @@ LOOPS: dict[str, Callable[[Airframe], StateSpace]] = {
 
 GAINS = (
     "ω, rad/s", "ζ", "look-ahead, s", "gain margin", "phase margin",
-    "100 m to 5 m, s", "with 2.5° in hand, s",
+    "100 m to 5 m, s", "with 2.5° in hand, s", "in use",
 )  # fmt: skip
 
 
@@ -145,10 +137,9 @@ def gains_cells() -> Cells:
         for in_hand in (25.0, 2.5):
             response = responses.path_step(100.0, tas=240.0, gains=gains, in_hand=in_hand * DEG)
             times.append(f"{response.settled(response.across, 5.0):.0f}")
-        chosen = "**" if gains in (PATH_GAINS, FOLLOW_GAINS) else ""
         numbers = [f"{gains.omega:.2f}", f"{gains.damping:.1f}", f"{gains.look_ahead:.2f}"]
         numbers += [f"× {found.gain:.1f}", f"{found.phase:.0f}°", *times]
-        cells.append([f"{chosen}{number}{chosen}" for number in numbers])
+        cells.append([*numbers, "yes" if gains in (PATH_GAINS, FOLLOW_GAINS) else "no"])
     return cells
 
 
@@ -201,7 +192,7 @@ def _response_cells(name: str, model: Airframe) -> Cells:
     return cells
 
 
-TUBE = "turns", *(f"{name}, m" for name, _ in AIRCRAFT)
+OFF_PATH = "turns", *(f"{name}, m" for name, _ in AIRCRAFT)
 TURNS = {
     "70° right": (70.0,),
     "70° right, 70° left": (70.0, -70.0),
@@ -209,7 +200,7 @@ TURNS = {
 }
 
 
-def tube_cells() -> Cells:
+def off_path_cells() -> Cells:
     """How far aircraft come off the path of a plan at 240 m/s."""
     return [
         [

@@ -4,10 +4,10 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from benchmarks.tables import Cells
 from tools.campaign.row import FIGURES, Figure, Row
 
 WORST = 10
-Cells = list[list[str]]
 OVERVIEW = (
     "family", "flights", "planned", "joined", "losses, planned", "losses, not planned",
     "of these avoidable", "losses without a word", "circles", "errors", "simulated s per CPU s",
@@ -116,15 +116,6 @@ def text(headings: Sequence[str], cells: Cells) -> str:
         ).rstrip()
         for line in lines
     )
-
-
-def markdown(headings: Sequence[str], cells: Cells, *, prose: bool = False) -> str:
-    """A table for a page; its last column is of figures, or of prose."""
-    sides = ["---", *("---:" for _ in headings[1:])]
-    if prose:
-        sides[-1] = "---"
-    lines = [list(headings), sides, *cells]
-    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 
 def page(rows: Sequence[Row]) -> str:
