@@ -264,8 +264,9 @@ class Preparation:
         while not self._stopped.is_set():
             with self._changed:
                 self._changed.wait_for(lambda: self._asked or self._stopped.is_set())
-                asked, self._asked = self._asked, ()
-            self._compile(asked, rehearse)
+            self._compile(self._asked, rehearse)
+            with self._changed:
+                self._asked = tuple(name for name in self._asked if not self.has(name))
 
     def _compile(self, wanted: Sequence[str], rehearse: Callable[[], None]) -> None:
         self._began = monotonic()

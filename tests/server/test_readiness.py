@@ -141,7 +141,7 @@ def test_proofs_are_compiled_once_a_request_asks_for_one(compiled: Compiling) ->
         assert "proofs of optimality" in refused.json()["detail"]
         compiled(title=STEPS["proofs"].title)
         _until(lambda: client.get("/readyz").json()["preparing"] is not None)
-        assert client.get("/readyz").status_code == 200
+        _until(lambda: client.get("/readyz").status_code == 200)  # its workers are, too
         again = client.post(proof, json=EXAMPLE).json()["detail"]
         assert again.startswith(
             "Compiled at the first request: preparing proofs of optimality, 40%."
