@@ -81,7 +81,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(chosen: argparse.Namespace) -> int:
     """Plan, and print the answers."""
     if chosen.batch:
-        need("msgspec", "orjson")
+        need("orjson")
         return _run(chosen)
     refuse_batch_options(chosen)
     with _no_collection():

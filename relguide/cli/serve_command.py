@@ -15,7 +15,7 @@ EXAMPLES = """
     relguide serve --host 0.0.0.0 --port 80   for other machines too
     relguide serve --planner network --max-flights 4 --log-format json
     """
-NEEDED = ("fastapi", "uvicorn", "viser", "orjson", "msgspec", "websockets", "sqlalchemy", "alembic",
+NEEDED = ("fastapi", "uvicorn", "viser", "orjson", "websockets", "sqlalchemy", "alembic",
           "pydantic_settings", "prometheus_client")  # fmt: skip
 
 

@@ -4,8 +4,7 @@ from collections.abc import Collection, Iterable
 from math import inf
 from typing import TYPE_CHECKING, Any, Literal
 
-from relguide.contract.bodies import Anchor, Unanchored, path_to_wire, plan_to_wire
-from relguide.contract.plain_answer import plain_plan
+from relguide.contract.bodies import Anchor, path_to_wire, plan_to_wire
 from relguide.contract.refusal import ContractError
 from relguide.contract.wire import to_wire
 from relguide.flying.cards import no_plan_card, optimality_check, other_path_cards, plan_card
@@ -94,9 +93,6 @@ def answer_plan(
     """As `answer`, of what has been planned; alternatives end by then, of `end_of` [s]."""
     match planned:
         case Plan():
-            if not include and form == "json" and isinstance(anchor, Unanchored):
-                if (plain := plain_plan(planned)) is not None:
-                    return plain
             left = left_until(until)
             asked = not {"alternatives", "paths"}.isdisjoint(include)
             others = _alternatives(planned, left) if asked else ()

@@ -10,25 +10,15 @@ from relguide.contract.answers import Include, answer
 from relguide.contract.bodies import (
     MAX_ID,
     MAX_INTEGER,
-    Anchor,
     NamedSituationBody,
-    Unanchored,
     situation_from_body,
 )
-from relguide.contract.plain import (
-    Row,
-    columns_of,
-    plain_row,
-    quick_loads,
-    situation_of,
-    take,
-)
-from relguide.contract.refusal import ContractError, make_printable, parse
+from relguide.contract.columns import Row, columns_of, row_of, take
+from relguide.contract.refusal import ContractError, loads, make_printable, parse
 from relguide.planning.acceptance import ask
 from relguide.planning.batch import VERDICTS, Times, plan_arrays
 from relguide.planning.plan import AS_FAST, NoPlan, Plan, Planner, Proof, Reason
 from relguide.planning.plan import plan as exact_plan
-from relguide.planning.situation import Situation
 from relguide.planning.turning_batch import TurningTimes, turning_times
 from relguide.units import Second
 
@@ -57,13 +47,15 @@ class Wanted:
         return self.fields == "times" and self.planner is exact_plan and self.deadline is None
 
 
-class _Plain(NamedTuple):
-    """A record that may be planned with others, at once."""
+class _Read(NamedTuple):
+    """A record that holds a situation."""
 
     at: int
     """Which of the answers is its."""
-    record: Record
-    row: Row
+    line: int
+    named: dict[str, Any]
+    """Its `id` alone, if it has one."""
+    body: NamedSituationBody
 
 
 def answer_all(records: Iterable[Record], wanted: Wanted) -> list[dict[str, Any]]:
@@ -72,16 +64,25 @@ def answer_all(records: Iterable[Record], wanted: Wanted) -> list[dict[str, Any]
     What is no situation is answered by `{"status": "invalid", "line": …, "message": …}`.
     """
     answers: list[dict[str, Any]] = []
-    plain: list[_Plain] = []
-    for record in records:
-        row = plain_row(record[1])
-        if row is not None and wanted.in_columns:
-            plain.append(_Plain(len(answers), record, row))
-            answers.append({})
+    together: list[tuple[_Read, Row]] = []
+    for line, content in records:
+        named: dict[str, Any] = {}
+        try:
+            if isinstance(content, bytes):
+                content = loads(content)
+            named = _name(content)
+            read = _Read(len(answers), line, named, _read(content))
+        except ContractError as error:
+            answers.append(_invalid(line, named, error))
+            continue
+        row = row_of(read.body) if wanted.in_columns else None
+        if row is None:
+            answers.append(_answer_one(read, wanted))
         else:
-            answers.append(_answer_one(record, row, wanted))
-    for one, reply in zip(plain, _answer_plain(plain, wanted), strict=True):
-        answers[one.at] = one.row.named | reply
+            together.append((read, row))
+            answers.append({})
+    for at, reply in _answer_together(together, wanted):
+        answers[at] = reply
     return answers
 
 
@@ -114,40 +115,35 @@ def refused_line(line: bytes, message: str) -> bytes:
         message: why not, and when to ask again.
     """
     try:
-        content = quick_loads(line)
+        content = loads(line)
     except ContractError:
         content = None
     named = {"id": content["id"]} if isinstance(content, dict) and "id" in content else {}
     return orjson.dumps({**named, "status": "refused", "message": message})
 
 
-def _answer_one(record: Record, row: Row | None, wanted: Wanted) -> dict[str, Any]:
-    """The answer to a record, and to its row if it is plain."""
-    line, content = record
-    anchor: Anchor = Unanchored()
-    named: dict[str, Any] = {} if row is None else row.named
-    situation = None if row is None else situation_of(row)
-    if situation is None:
-        try:
-            if isinstance(content, bytes):
-                content = quick_loads(content)
-            named = _name(content)
-            situation, anchor = _read(content)
-        except ContractError as error:
-            return {**named, "status": "invalid", "line": line, "message": str(error)}
+def _answer_one(read: _Read, wanted: Wanted) -> dict[str, Any]:
+    try:
+        situation, anchor = situation_from_body(read.body)
+    except ContractError as error:
+        return _invalid(read.line, read.named, error)
     if wanted.fields == "times":
-        return named | _time_of(ask(wanted.planner, situation, deadline=wanted.deadline).plan)
-    return named | answer(
+        return read.named | _time_of(ask(wanted.planner, situation, deadline=wanted.deadline).plan)
+    return read.named | answer(
         situation, anchor, wanted.planner, include=wanted.include, deadline=wanted.deadline
     )
 
 
-def _read(content: object) -> tuple[Situation, Anchor]:
+def _invalid(line: int, named: dict[str, Any], error: ContractError) -> dict[str, Any]:
+    return {**named, "status": "invalid", "line": line, "message": str(error)}
+
+
+def _read(content: object) -> NamedSituationBody:
     if isinstance(content, ContractError):
         raise content
     if not isinstance(content, dict):
         raise ContractError([("", "A line must be an object with fields: a situation.")])
-    return situation_from_body(parse(NamedSituationBody, content))
+    return parse(NamedSituationBody, content)
 
 
 def _name(content: object) -> dict[str, Any]:
@@ -166,20 +162,22 @@ def _name(content: object) -> dict[str, Any]:
 # --- times alone --------------------------------------------------------------------------------
 
 
-def _answer_plain(plain: Sequence[_Plain], wanted: Wanted) -> Iterator[dict[str, Any]]:
-    """The times of plain situations, all at once."""
-    if not plain:
+def _answer_together(
+    together: Sequence[tuple[_Read, Row]], wanted: Wanted
+) -> Iterator[tuple[int, dict[str, Any]]]:
+    """The times of situations, all at once; each with the place of its answer."""
+    if not together:
         return
-    situations, intents, sound = columns_of([one.row for one in plain])
+    situations, intents, sound = columns_of([row for _, row in together])
     turning = intents.counts > 0
     straight = _times(plan_arrays(take(situations, sound & ~turning), threads=1))
     turned = _turning(turning_times(take(situations, sound & turning), intents[sound & turning]))
-    for one, fine, turns in zip(plain, sound.tolist(), turning.tolist(), strict=True):
+    for (read, _), fine, turns in zip(together, sound.tolist(), turning.tolist(), strict=True):
         reply = None
         if fine:
             reply = next(turned if turns else straight)
-        # the careful way says what is wrong, and searches where cheap tests do not decide
-        yield reply or _answer_one(one.record, one.row, wanted)
+        # one by one what is wrong is said, and searched where cheap tests do not decide
+        yield read.at, _answer_one(read, wanted) if reply is None else read.named | reply
 
 
 def _times(found: Times) -> Iterator[dict[str, Any]]:

@@ -93,9 +93,9 @@ def loads(text: bytes | str) -> object:
     try:
         if isinstance(text, bytes):
             text = decode(text)
-        parsed: object = json.loads(
-            text, object_pairs_hook=_unique_keys, parse_constant=_refuse_constant
-        )
+        if text.startswith("\ufeff"):
+            raise json.JSONDecodeError("Unexpected UTF-8 BOM (decode using utf-8-sig)", text, 0)
+        parsed: object = _DECODER.decode(text)
     except ContractError:
         raise
     except RecursionError:
@@ -160,6 +160,9 @@ def _unique_keys(pairs: list[tuple[str, object]]) -> dict[str, object]:
 
 def _refuse_constant(name: str) -> object:
     raise ContractError([("", f"{name} is not a number in JSON: give a finite one.")])
+
+
+_DECODER = json.JSONDecoder(object_pairs_hook=_unique_keys, parse_constant=_refuse_constant)
 
 
 def _path(error: Any, content: object) -> str:

@@ -11,7 +11,6 @@ EXTRAS = {
     "contourpy": "serve",
     "fastapi": "serve",
     "fastapi_swagger": "serve",
-    "msgspec": "serve",
     "orjson": "serve",
     "prometheus_client": "serve",
     "pydantic_settings": "serve",

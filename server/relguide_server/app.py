@@ -37,7 +37,13 @@ from relguide_server.planning import areas, plans, simulations
 from relguide_server.planning.drift import DriftCheck
 from relguide_server.planning.plan_service import PlanService
 from relguide_server.planning.tasks import load
-from relguide_server.readiness import Preparation, PreparationOf, Readiness, steps_for
+from relguide_server.readiness import (
+    Preparation,
+    PreparationOf,
+    Readiness,
+    needed_for,
+    steps_for,
+)
 from relguide_server.records.clock import Clock
 from relguide_server.records.service import RecordsOf, RecordsService, records_service
 from relguide_server.settings import ServiceSettings, settings_from
@@ -173,7 +179,7 @@ async def show_health() -> Response:
     "/readyz",
     summary="Is it ready?",
     responses={
-        **response(200, "All that it serves is compiled.", schema_of(Readiness)),
+        **response(200, "It flies and plans.", schema_of(Readiness)),
         **response(
             503, "The first start is not done yet, or no worker answers.", schema_of(Readiness)
         ),
@@ -182,7 +188,7 @@ async def show_health() -> Response:
 async def show_readiness(
     request: Request, preparation: PreparationOf, records: RecordsOf
 ) -> Response:
-    """Ready once all that it serves is compiled, a flight has been rehearsed and workers answer.
+    """Ready once it can fly and plan: that is compiled, a flight rehearsed, and workers answer.
 
     Records do not count: a service whose database is gone plans and flies as ever.
     """
@@ -230,7 +236,7 @@ def app_of(settings: ServiceSettings | None = None) -> FastAPI:
     logs.configure(settings.log_format, settings.log_level)
     app = create_app(
         settings,
-        preparation=Preparation(steps_for(settings)),
+        preparation=Preparation(steps_for(settings), needed=needed_for(settings)),
         records=records_service(
             records=settings.records,
             database_url=settings.database_url,

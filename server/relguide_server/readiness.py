@@ -1,15 +1,16 @@
-"""Preparation: kernels that a first start has yet to compile, and what must wait for them.
+"""Readiness: kernels that are yet to be compiled, and what must wait for them.
 
-The first start of an installation compiles for a minute, in processes of its own. Meanwhile the
-page is shown, and flies as soon as what flights need is compiled. A request that needs more is
-refused with 503 and the time to try again; a flight under way that needs more waits.
+The first start of an installation compiles in processes of its own. Meanwhile the page is shown,
+and flies as soon as what flights need is compiled; the service is ready once it can plan at the
+limit as well. Proofs are compiled when the first request asks for one. A request that needs more
+than there is is refused with 503 and the time to try again; a flight under way waits.
 """
 
 import gc
-import os
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from math import ceil
+from time import monotonic
 from typing import Annotated, Literal
 
 from fastapi import Depends
@@ -20,7 +21,15 @@ from relguide.planning.acceptance import with_deadline
 from relguide.planning.plan import NoPlan, Plan, Planner, plan_at_once
 from relguide.planning.situation import Situation
 from relguide.units import Second
-from relguide.warm_up import SETS, STEPS, Preparing, WarmUpError, missing, prepare
+from relguide.warm_up import (
+    SETS,
+    STEPS,
+    Preparing,
+    WarmUpError,
+    missing,
+    prepare,
+    usual_jobs,
+)
 from relguide_server.http.errors import Refusal, log, run_logged
 from relguide_server.records.service import RecordsReport
 from relguide_server.settings import ServiceSettings
@@ -28,11 +37,21 @@ from relguide_server.settings import ServiceSettings
 PLANNED_WITH = {"exact": ("limited",), "network": ("limited", "networks")}
 """Steps a planner needs for any situation; without the limit "flying" is enough."""
 
+ON_DEMAND = ("proofs",)
+"""Steps that are compiled when a request first needs them."""
+USUAL_WAIT = 10
+"""After so long a client may ask again while nothing is known of the pace [s]."""
+
 
 def steps_for(settings: ServiceSettings) -> tuple[str, ...]:
     """The steps of `relguide.warm_up` that a service with these settings needs."""
     extra = (name for name in PLANNED_WITH[settings.planner] if name not in SETS["serve"])
     return (*SETS["serve"], *extra)
+
+
+def needed_for(settings: ServiceSettings) -> tuple[str, ...]:
+    """Those of them without which it is not ready."""
+    return ("flying", *PLANNED_WITH[settings.planner])
 
 
 class NowPreparing(BaseModel):
@@ -53,7 +72,7 @@ class PlanningReport(BaseModel):
 class Readiness(BaseModel):
     """What a service can answer already."""
 
-    status: Literal["ready", "preparing"] = Field(description="Whether all of it can.")
+    status: Literal["ready", "preparing"] = Field(description="Whether it flies and plans.")
     warm: dict[str, bool] = Field(description="Parts of the planner, and whether each is compiled.")
     preparing: NowPreparing | None = Field(description="What is compiled now; null if nothing is.")
     planning: PlanningReport = Field(description="The workers.")
@@ -63,13 +82,25 @@ class Readiness(BaseModel):
 class Preparation:
     """What is compiled of some steps; compiles the rest, from `start` to `stop`.
 
-    What is asked of no step needs no waiting: without steps every kernel is compiled when used.
+    Without steps nothing waits: every kernel is compiled when it is used.
     """
 
-    def __init__(self, steps: Sequence[str] = ()) -> None:
+    def __init__(
+        self, steps: Sequence[str] = (), *, needed: Sequence[str] = ("flying", "limited")
+    ) -> None:
+        """Look at what is compiled.
+
+        Args:
+            steps: of `relguide.warm_up`, compiled from the start.
+            needed: those of them without which the service is not ready.
+        """
         self._steps = tuple(steps)
-        self._missing = missing(steps)
+        self._needed = tuple(needed)
+        self._missing = missing((*steps, *ON_DEMAND)) if steps else ()
+        self._asked: tuple[str, ...] = ()
+        """Steps to be compiled after those from the start."""
         self._state: Preparing | None = None
+        self._began = monotonic()
         self._usable: set[str] = set()
         self._rehearsed = False
         self._changed = threading.Condition()
@@ -94,16 +125,17 @@ class Preparation:
 
     @property
     def ready(self) -> bool:
-        """Whether all that is served is compiled, and a flight has been rehearsed."""
-        return self._rehearsed and not self._missing
+        """Whether it can fly and plan: a flight has been rehearsed."""
+        return self._rehearsed and self.has(*self._needed)
 
     def report(self) -> dict[str, object]:
         """What is compiled and what is being compiled: a `Readiness`."""
         state = self._state
         now = {"name": state.title, "share": round(state.share, 2)} if state else None
+        named = (*self._steps, *ON_DEMAND) if self._steps else ()
         return {
             "status": "ready" if self.ready else "preparing",
-            "warm": {name: self.has(name) for name in self._steps},
+            "warm": {name: self.has(name) for name in named},
             "preparing": now,
         }
 
@@ -112,30 +144,34 @@ class Preparation:
         return not any(step in self._missing for step in steps)
 
     def require(self, *steps: str) -> None:
-        """Refuse what cannot be answered yet.
+        """Refuse what cannot be answered yet; what is compiled on demand is compiled from now on.
 
         Raises:
             Refusal: 503, with what is being prepared and when to try again.
         """
         if self.has(*steps):
             return
+        first = next(step for step in steps if not self.has(step))
+        if first in ON_DEMAND:
+            self._ask_for(first)
+        occasion = "Compiled at the first request" if first in ON_DEMAND else "First start"
         raise Refusal(
             503,
-            f"First start: {self._progress()}. What you ask for needs "
-            f"{next(STEPS[step].title for step in steps if not self.has(step))}: "
+            f"{occasion}: {self._progress()}. What you ask for needs {STEPS[first].title}: "
             "try again in a moment.",
             kind="preparing",
             headers={"Retry-After": str(self.seconds_left(*steps))},
         )
 
     def seconds_left(self, *steps: str) -> int:
-        """About how long it takes until steps are compiled, or all; from 1 to 30 [s]."""
-        steps = steps or self._steps
-        left = sum(STEPS[step].seconds for step in steps if not self.has(step))
+        """About how long it takes until steps, or those needed, are compiled; 1 to 30 [s]."""
         state = self._state
-        if state and any(STEPS[step].title == state.title for step in steps):
-            left *= 1.0 - state.share
-        return max(1, min(30, ceil(left)))
+        if state is None or state.kernels == 0:
+            return USUAL_WAIT
+        left = 0.0
+        for step in (STEPS[name] for name in steps or self._needed if not self.has(name)):
+            left += step.kernels * (1.0 - state.share if step.title == state.title else 1.0)
+        return max(1, min(30, ceil(left * (monotonic() - self._began) / state.kernels)))
 
     def wait(self, *steps: str) -> None:
         """Wait, in a thread of one's own, until the kernels of some steps are compiled."""
@@ -213,30 +249,46 @@ class Preparation:
         state = self._state
         return f"preparing {state.title}, {state.share:.0%}" if state else "preparing"
 
+    def _ask_for(self, step: str) -> None:
+        with self._changed:
+            if step not in self._asked:
+                self._asked += (step,)
+            self._changed.notify_all()
+
     def _run(self, rehearse: Callable[[], None]) -> None:
-        first = self._missing
+        if self.has("flying"):
+            self._rehearse(rehearse)
+        self._compile([name for name in self._steps if not self.has(name)], rehearse)
+        if not self._rehearsed:
+            self._rehearse(rehearse)
+        while not self._stopped.is_set():
+            with self._changed:
+                self._changed.wait_for(lambda: self._asked or self._stopped.is_set())
+            self._compile(self._asked, rehearse)
+            with self._changed:
+                self._asked = tuple(name for name in self._asked if not self.has(name))
+
+    def _compile(self, wanted: Sequence[str], rehearse: Callable[[], None]) -> None:
+        self._began = monotonic()
         try:
-            if self.has("flying"):
-                self._rehearse(rehearse)
-            for state in prepare(first, jobs=os.cpu_count() or 1, stopped=self._stopped.is_set):
-                self._note(state, tuple(name for name in first if name not in state.done))
+            for state in prepare(wanted, jobs=usual_jobs(), stopped=self._stopped.is_set):
+                self._note(state, state.done)
                 if not self._rehearsed and self.has("flying"):
                     self._rehearse(rehearse)
         except WarmUpError as error:
             log.error("%s Kernels are compiled when they are first used instead.", error)
-            self._note(None, ())
-            self._rehearse(rehearse)
         if not self._stopped.is_set():
-            self._note(None, ())
+            self._note(None, wanted)
 
     def _rehearse(self, rehearse: Callable[[], None]) -> None:
         self._rehearsed = run_logged("The rehearsal of a flight", rehearse)
         if self._steps:  # what is loaded by now stays: to look through it takes the loop 0.1 s
             gc.freeze()
 
-    def _note(self, state: Preparing | None, left: tuple[str, ...]) -> None:
+    def _note(self, state: Preparing | None, done: Collection[str]) -> None:
         with self._changed:
-            self._state, self._missing = state, left
+            self._state = state
+            self._missing = tuple(name for name in self._missing if name not in done)
             self._changed.notify_all()
 
 

@@ -1,7 +1,7 @@
 """What a first start has yet to compile is refused or waited for, and said."""
 
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from queue import Queue
 
 import numpy as np
@@ -30,21 +30,34 @@ LIMITED = {
 """A head-on encounter: the limit binds."""
 
 
-@pytest.fixture
-def compiled(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., None]]:
+class Compiling:
     """Nothing is compiled; the test says what is, by the names of steps."""
-    said: Queue[Preparing | None] = Queue()
 
-    def prepare(wanted: object, **_: object) -> Iterator[Preparing]:
-        yield from iter(said.get, None)
+    def __init__(self) -> None:
+        self.asked: list[list[str]] = []
+        """Steps that were to be compiled together."""
+        self._said: Queue[Preparing | None] = Queue()
 
-    def done(*steps: str, title: str = STEPS["limited"].title, share: float = 0.4) -> None:
-        said.put(Preparing(title, share, 0.0, steps))
+    def __call__(
+        self, *steps: str, title: str = STEPS["limited"].title, share: float = 0.4
+    ) -> None:
+        self._said.put(Preparing(title, share, 10, steps))
 
+    def end(self) -> None:
+        self._said.put(None)
+
+    def prepare(self, wanted: Sequence[str], **_: object) -> Iterator[Preparing]:
+        self.asked.append([*wanted])
+        yield from iter(self._said.get, None)
+
+
+@pytest.fixture
+def compiled(monkeypatch: pytest.MonkeyPatch) -> Iterator[Compiling]:
+    compiling = Compiling()
     monkeypatch.setattr(module, "missing", tuple)
-    monkeypatch.setattr(module, "prepare", prepare)
-    yield done
-    said.put(None)
+    monkeypatch.setattr(module, "prepare", compiling.prepare)
+    yield compiling
+    compiling.end()
 
 
 def _until(happened: Callable[[], bool]) -> None:
@@ -79,7 +92,7 @@ def test_what_is_out_of_reach_is_said_at_once_in_the_words_of_the_plan() -> None
     assert reasons == {Reason.SLOT_UNREACHABLE, Reason.BEYOND_HORIZON}
 
 
-def test_a_first_start_answers_what_it_can(compiled: Callable[..., None]) -> None:
+def test_a_first_start_answers_what_it_can(compiled: Compiling) -> None:
     preparation = Preparation(STEPS_SERVED)
     with TestClient(create_app(ServiceSettings(workers=0), preparation=preparation)) as client:
         refused = client.post("/api/v1/plans", json=EXAMPLE)
@@ -103,16 +116,44 @@ def test_a_first_start_answers_what_it_can(compiled: Callable[..., None]) -> Non
         report = client.get("/readyz")
         assert report.status_code == 503
         assert report.json()["preparing"] == {"name": "the limited search", "share": 0.4}
-        assert report.json()["warm"] == {name: name == "flying" for name in STEPS_SERVED}
+        warm = {name: name == "flying" for name in (*STEPS_SERVED, "proofs")}
+        assert report.json()["warm"] == warm
 
-        compiled(*STEPS_SERVED)
+        compiled("flying", "limited", title=STEPS["areas"].title)
         _until(lambda: preparation.ready)
         _until(lambda: client.get("/readyz").json()["status"] == "ready")
+        assert client.get("/readyz").json()["preparing"]["name"] == "areas"
         patient = client.post("/api/v1/plans?max_ms=10000", json=LIMITED)
         assert patient.json()["status"] == "planned"
+        assert client.get("/api/v1/areas", params=flight).status_code == 503
 
 
-def test_a_flight_waits_and_a_request_does_not(compiled: Callable[..., None]) -> None:
+def test_proofs_are_compiled_once_a_request_asks_for_one(compiled: Compiling) -> None:
+    preparation = Preparation(STEPS_SERVED)
+    with TestClient(create_app(ServiceSettings(workers=0), preparation=preparation)) as client:
+        compiled(*STEPS_SERVED)
+        compiled.end()
+        _until(lambda: client.get("/readyz").json()["preparing"] is None)
+        assert compiled.asked == [[*STEPS_SERVED]]
+        proof = "/api/v1/plans?include=optimality&max_ms=10000"
+        refused = client.post(proof, json=EXAMPLE)
+        assert refused.status_code == 503
+        assert "proofs of optimality" in refused.json()["detail"]
+        compiled(title=STEPS["proofs"].title)
+        _until(lambda: client.get("/readyz").json()["preparing"] is not None)
+        _until(lambda: client.get("/readyz").status_code == 200)  # its workers are, too
+        again = client.post(proof, json=EXAMPLE).json()["detail"]
+        assert again.startswith(
+            "Compiled at the first request: preparing proofs of optimality, 40%."
+        )
+        compiled("proofs")
+        compiled.end()
+        _until(lambda: preparation.has("proofs"))
+        assert compiled.asked[1:] == [["proofs"]]
+        assert "hamiltonian_residual" in str(client.post(proof, json=EXAMPLE).json())
+
+
+def test_a_flight_waits_and_a_request_does_not(compiled: Compiling) -> None:
     preparation = Preparation(STEPS_SERVED)
     preparation.start(lambda: None)
     compiled("flying")

@@ -11,7 +11,8 @@ export function followFirstStart(): Signal<Readiness | null> {
   const readiness = signal<Readiness | null>(null);
   async function ask(): Promise<void> {
     const answer = await readReadiness();
-    readiness.value = answer?.status === "preparing" ? answer : null;
+    const busy = answer !== null && (answer.status === "preparing" || answer.preparing !== null);
+    readiness.value = busy ? answer : null;
     if (readiness.value !== null) setTimeout(() => void ask(), PERIOD);
   }
   void ask();

@@ -31,10 +31,12 @@ test("a first start says what it prepares and how far it is", () => {
 
 test("the server is asked until all is prepared, and no more", async () => {
   vi.useFakeTimers();
-  answers([503, preparing], [503, preparing], [200, ready]);
+  answers([503, preparing], [200, { ...ready, preparing: preparing.preparing }], [200, ready]);
   const readiness = followFirstStart();
   await vi.advanceTimersByTimeAsync(500);
   expect(readiness.value).toEqual(preparing);
+  await vi.advanceTimersByTimeAsync(1_000);
+  expect(readiness.value?.status).toBe("ready");
   await vi.advanceTimersByTimeAsync(10_000);
   expect(readiness.value).toBeNull();
   expect(fetch).toHaveBeenCalledTimes(3);

@@ -18,10 +18,9 @@ from relguide.planning.plan import Planner
 from relguide.units import Second
 from relguide_server.http.bodies import SMALL
 from relguide_server.http.metrics import Metrics
-from relguide_server.jobs.cpu_budget import CpuBudget
 from relguide_server.jobs.worker_pool import Kind, WorkerPool
 from relguide_server.planning import tasks as jobs
-from relguide_server.planning.client_class import SHORT, ClientClass, takes_long
+from relguide_server.planning.client_budgets import SHORT, ClientBudgets, takes_long
 from relguide_server.planning.tasks import PlanReply
 from relguide_server.readiness import Preparation
 
@@ -96,7 +95,7 @@ class PlanService:
         self._workers = workers
         self._metrics = metrics
         self._quick = quick
-        self._standing, self._looks = ClientClass(), CpuBudget()
+        self._budgets = ClientBudgets()
 
     def answer_at_once(self, body: bytes, wish: Wish, *, client: str) -> PlanReply | None:
         """The answer to a situation in JSON; `None` where that may take too long.
@@ -106,14 +105,14 @@ class PlanService:
         """
         if wish.include or wish.form != "json" or len(body) > SMALL:
             return None
-        if not self._looks.may(client):
+        if not self._budgets.may_look(client):
             return None
         began = thread_time()
         found: PlanReply | None = None
         try:
             found = self._look(body, wish)
         finally:
-            self._looks.note(client, thread_time() - began, vain=found is None)
+            self._budgets.note_look(client, thread_time() - began, vain=found is None)
         return found
 
     def _look(self, body: bytes, wish: Wish) -> PlanReply | None:
@@ -173,7 +172,7 @@ class PlanService:
         most = wish.budget
         if (wish.planner or self._quick) and "optimality" not in wish.include:
             most = FIRST
-            short, longer = self._standing.time_for(client), 1.0
+            short, longer = self._budgets.time_for(client), 1.0
             while short and longer <= STARVED:
                 kind: Kind = "plans" if short == SHORT else "trials"
                 quick = await self._try(kind, body, wish, end, longer * short, client, short)
@@ -188,7 +187,7 @@ class PlanService:
             try:
                 found = await self._try("long_plans", body, wish, end, most, client)
             except asyncio.CancelledError:
-                self._standing.note_impatient(client)
+                self._budgets.note_impatient(client)
                 raise
             if not found.cut or end - monotonic() < most:
                 return found
@@ -216,7 +215,7 @@ class PlanService:
             wish.form,
             patience=max(end - monotonic(), 0.0) + wish.patience,
             client=client,
-            heard=partial(self._standing.note, client, short),
+            heard=partial(self._budgets.note_plan, client, short),
         )
         return found
 

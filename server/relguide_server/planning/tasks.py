@@ -13,7 +13,6 @@ import orjson
 from relguide.contract.answers import Form, Include, answer, answer_plan
 from relguide.contract.area_bodies import area_to_wire
 from relguide.contract.bodies import (
-    UNANCHORED,
     Anchor,
     NamedSituationBody,
     SituationBody,
@@ -23,7 +22,6 @@ from relguide.contract.bodies import (
 from relguide.contract.bulk import answer_line
 from relguide.contract.flight_summary import figures, summarize
 from relguide.contract.messages import FlightRequest
-from relguide.contract.plain import plain_row, quick_loads, situation_of
 from relguide.contract.refusal import ContractError, parse
 from relguide.flying.flight import fly
 from relguide.learn.planners import make_planner
@@ -86,20 +84,10 @@ def planner_of(planner: str | Planner) -> Planner:
 def read_situation(body: bytes) -> tuple[Situation, Anchor]:
     """A situation from the body of a request.
 
-    One that is plain is read without models, in two thirds of the time.
-
     Raises:
         Refusal: naming each field that is wrong.
     """
-    row = plain_row(body)
-    situation = None if row is None or row.named else situation_of(row)
-    if situation is not None:
-        return situation, UNANCHORED
-    try:
-        content = quick_loads(body)
-    except ContractError as error:
-        raise refusal_of(error, 400) from None
-    return _read(content, SituationBody)
+    return _read(parse_json(body), SituationBody)
 
 
 def plan_body(

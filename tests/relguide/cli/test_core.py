@@ -60,7 +60,7 @@ def test_all_public_names_can_be_imported() -> None:
     ("arguments", "package", "extra"),
     [
         (["plan", "situation.json", "--table"], "rich", "serve"),
-        (["plan", "--batch", "situation.json"], "msgspec", "serve"),
+        (["plan", "--batch", "situation.json"], "orjson", "serve"),
         (["check", "situation.json", "--table"], "rich", "serve"),
         (["fly", "fig_6b", "--table"], "rich", "serve"),
         (["replay", "a.jsonl", "--table"], "rich", "serve"),

@@ -11,10 +11,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from relguide import FlyStraight, NoPlan, Plan, plan
-from relguide.contract.bodies import situation_from_json
+from relguide.contract.bodies import NamedSituationBody, situation_from_body, situation_from_json
 from relguide.contract.bulk import Wanted, answer_all, answer_line
-from relguide.contract.plain import columns_of, plain_row, quick_loads, situation_of
-from relguide.contract.refusal import ContractError, loads
+from relguide.contract.columns import columns_of, row_of
+from relguide.contract.refusal import ContractError, parse
 from tests.bodies import BODY, change, on_earth, put
 
 PLAIN = change("leader.intent", ...)
@@ -149,7 +149,7 @@ def test_times_are_a_plans_fields_without_its_path() -> None:
         assert alone["time_to_converge_s"] == pytest.approx(whole["time_to_converge_s"], abs=1e-6)
 
 
-# --- plain situations ---------------------------------------------------------------------------
+# --- columns ------------------------------------------------------------------------------------
 
 
 RANGES = {
@@ -172,24 +172,27 @@ values = st.one_of(
     turns=st.booleans(),
 )
 @settings(max_examples=300)
-def test_a_plain_row_is_what_the_models_read(
+def test_columns_hold_what_the_library_reads(
     changes: dict[str, float], whole: bool, turns: bool
 ) -> None:
-    body = deepcopy(BODY if turns else PLAIN)
+    content = deepcopy(BODY if turns else PLAIN)
     for path, share in changes.items():
         if turns or "intent" not in path:
-            put(body, path, round(share * RANGES[path]) if whole else share * RANGES[path])
-    row = plain_row(body)
+            put(content, path, round(share * RANGES[path]) if whole else share * RANGES[path])
+    try:
+        body = parse(NamedSituationBody, content)
+    except ContractError:
+        return
+    row = row_of(body)
     assert row is not None
     columns, intents, sound = columns_of([row])
     try:
-        situation = situation_from_json(body)[0]
+        situation = situation_from_body(body)[0]
     except ContractError:
         assert not sound[0]
-        assert situation_of(row) is None
         return
     p, l, wind = situation.pursuer, situation.leader, situation.wind
-    if sound[0]:  # what it does not take is left to the models
+    if sound[0]:  # what it does not take is planned alone
         assert [float(column[0]) for column in columns.full_columns()] == [
             p.x, p.y, p.heading, p.tas, p.max_bank, l.x, l.y, l.heading, l.tas,
             situation.slot_distance, situation.min_separation, wind.east, wind.north,
@@ -201,42 +204,26 @@ def test_a_plain_row_is_what_the_models_read(
             for piece in l.intent
         ]
         assert intents.final_headings(np.array([l.heading]))[0] == l.final_heading
-    assert situation_of(row) in (situation, None)
-    assert changes or (sound[0] and situation_of(row) == situation)
+    assert changes or sound[0]
 
 
-@given(
-    name=st.none() | st.integers(-9, 9) | st.text(max_size=9),
-    wind=st.booleans(),
-    pieces=st.none() | st.lists(st.sampled_from(["turn", "straight"]), max_size=3),
+def test_latitudes_have_no_row() -> None:
+    assert row_of(parse(NamedSituationBody, on_earth((48.0, 2.0), (48.3, 2.5)))) is None
+
+
+@pytest.mark.parametrize(
+    "again",
+    [b'{"slot_distance_m": 1, ', b'{"id": "a:b", "id": "c", ', b'{"\\u0069d": 1, "id": 2, '],
 )
-def test_a_plain_row_of_text_is_that_of_what_it_holds(
-    name: int | str | None, wind: bool, pieces: list[str] | None
-) -> None:
-    body = deepcopy(PLAIN)
-    if name is not None:
-        body["id"] = name
-    if not wind:
-        del body["wind"]
-    if pieces is not None:
-        body["leader"]["intent"] = [
-            TURN if kind == "turn" else {"straight_s": 9} for kind in pieces
-        ]
-    row = plain_row(body)
-    assert row is not None
-    assert row.named == ({} if name is None else {"id": name})
-    text = json.dumps(body).encode()
-    assert plain_row(text) == plain_row(json.dumps(body, ensure_ascii=False).encode()) == row
-    # a key that is given twice
-    for again in (b'{"slot_distance_m": 1, ', b'{"id": "a:b", "id": "c", '):
-        assert plain_row(again + text[1:]) is None
-    assert plain_row(text[:-1]) is None
-    assert plain_row(text + b"{}") is None
+@pytest.mark.parametrize("wanted", [TIMES, PLANS])
+def test_a_key_given_twice_makes_the_line_invalid(again: bytes, wanted: Wanted) -> None:
+    reply = one(again + json.dumps(PLAIN).encode()[1:], wanted)
+    assert (reply["status"], reply["line"]) == ("invalid", 1)
+    assert reply["message"].endswith("is given more than once: give it once.")
 
 
 @pytest.mark.parametrize("line", [b"", b"3", b"null", b"nonsense", b'"\xff"', b"[" * 2000])
-def test_text_that_is_no_situation_is_not_plain(line: bytes) -> None:
-    assert plain_row(line) is None
+def test_text_that_is_no_situation_is_invalid(line: bytes) -> None:
     reply = one(line)
     assert (reply["status"], reply["line"]) == ("invalid", 1)
 
@@ -251,7 +238,6 @@ TURN = {"turn_to_heading_deg": 90.0, "direction": "left", "bank_deg": 20.0}
 @pytest.mark.parametrize(
     "body",
     [
-        on_earth((48.0, 2.0), (48.3, 2.5)),
         change("pursuer.x_m", ...),
         change("pursuer.x_m", True),
         change("pursuer.x_m", "1"),
@@ -274,60 +260,10 @@ TURN = {"turn_to_heading_deg": 90.0, "direction": "left", "bank_deg": 20.0}
         with_intent({**TURN, "bank_deg": None}),
         with_intent({**TURN, "turn_to_heading_deg": 10**400}),
         with_intent({**TURN, "turn_to_heading_deg": -inf}),
+        with_intent(*[TURN] * 21),
     ],
 )
-def test_what_is_not_plain_is_left_to_the_models(body: dict[str, Any]) -> None:
-    assert plain_row(body) is None
-    assert plain_row(json.dumps(body).encode()) is None
-    assert plain_row(with_intent(TURN)) is not None
-
-
-def test_an_intent_of_too_many_pieces_is_left_to_the_models() -> None:
-    row = plain_row(with_intent(*[TURN] * 21))
-    assert row is not None
-    assert situation_of(row) is None
-    assert not columns_of([row])[2][0]
-
-
-@pytest.mark.parametrize(
-    "line",
-    [
-        b"",
-        b"{",
-        b"nonsense",
-        b"[1, 2] 3",
-        b'{"a": NaN}',
-        b'{"a": 1e999}',
-        b'{"a": 1, "a": 2}',
-        b'{"a": {"b": 1, "b": 1}}',
-        b'{"a": "\\u003a", "a": ":"}',
-        b'{"a:": "::", "a:": "::"}',
-        b'\xff{"a": 1}',
-        b'\xef\xbb\xbf{"a": 1}',
-        b'{"a": "x:y", "b": [1.5, -0.0, 12345678901234567890123]}',
-        b'{"a": "\\ud800"}',
-        ' {"é": "ü:", "b": true} '.encode(),
-        b"[" * 2000,
-        b"1" * 5000,
-    ],
-)
-def test_quick_loads_reads_and_refuses_as_loads(line: bytes) -> None:
-    assert outcome(quick_loads, line) == outcome(loads, line)
-
-
-@given(st.recursive(
-    st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False, allow_infinity=False)
-    | st.text(),
-    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=3), inner),
-))  # fmt: skip
-def test_quick_loads_reads_all_of_json_as_loads(content: object) -> None:
-    for plain in (True, False):
-        line = json.dumps(content, ensure_ascii=plain).encode("utf-8", "surrogatepass")
-        assert outcome(quick_loads, line) == outcome(loads, line)
-
-
-def outcome(read: Any, line: bytes) -> object:
-    try:
-        return repr(read(line))
-    except ContractError as error:
-        return str(error)
+def test_what_is_wrong_is_invalid_as_text_too(body: dict[str, Any]) -> None:
+    reply = one(body, TIMES)
+    assert (reply["status"], reply["line"]) == ("invalid", 1)
+    assert one(json.dumps(body).encode(), TIMES)["status"] == "invalid"

@@ -10,7 +10,7 @@ import pytest
 from relguide_server.http.errors import Refusal
 from relguide_server.http.metrics import Metrics
 from relguide_server.jobs.worker_pool import WorkerPool
-from relguide_server.planning.client_class import SHORT, TRIAL
+from relguide_server.planning.client_budgets import SHORT, TRIAL
 from relguide_server.planning.plan_service import PlanService, Wish
 from relguide_server.planning.plans import EXAMPLE
 from relguide_server.readiness import Preparation
@@ -105,7 +105,7 @@ def test_of_who_leaves_it_is_known_as_well_how_long_its_plan_took() -> None:
 def _patient(monkeypatch: pytest.MonkeyPatch) -> None:
     """Plans may take ten times as long, so that a busy machine changes nothing."""
     for name, time in (("TRIAL", TRIAL), ("SHORT", SHORT)):
-        monkeypatch.setattr(f"relguide_server.planning.client_class.{name}", 10.0 * time)
+        monkeypatch.setattr(f"relguide_server.planning.client_budgets.{name}", 10.0 * time)
 
 
 @pytest.mark.usefixtures("_patient")
