@@ -279,6 +279,16 @@ print(cache.folder())
 assert cache.folder().is_dir()
 """
 
+CHILD = """
+import subprocess
+subprocess.run([sys.executable, "-c", '''
+from relguide.kernels import cache
+cache._can_write = cache.is_full = lambda place: False
+cache.folder.cache_clear()
+print(cache.folder())
+'''])
+"""
+
 
 def test_where_nothing_can_be_kept_it_says_so_with_the_cure_and_cleans_up() -> None:
     done = _run("-c", NOWHERE)
@@ -286,9 +296,7 @@ def test_where_nothing_can_be_kept_it_says_so_with_the_cure_and_cleans_up() -> N
     assert "they can be kept in none of" in done.stderr
     assert "NUMBA_CACHE_DIR" in done.stderr
     assert not Path(done.stdout.strip()).exists()
-    with_child = _run("-c", NOWHERE + "import subprocess\nsubprocess.run([sys.executable, '-c', "
-        "'from relguide.kernels import cache; cache._can_write = cache.is_full = lambda place: False; "
-        "cache.folder.cache_clear(); print(cache.folder())'])")  # fmt: skip
+    with_child = _run("-c", NOWHERE + CHILD)
     assert len({*with_child.stdout.split()}) == 1
 
 
